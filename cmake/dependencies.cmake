@@ -1,0 +1,28 @@
+# Every library that is not ours. The Debian packages that bring them are in deploy/packages.txt.
+
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(PNG REQUIRED)
+find_package(glm REQUIRED)
+find_package(GTest REQUIRED)
+find_package(nlohmann_json REQUIRED)
+pkg_check_modules(fftw3f REQUIRED IMPORTED_TARGET fftw3f)
+pkg_check_modules(fftw3 REQUIRED IMPORTED_TARGET fftw3)
+pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
+pkg_check_modules(cli11 REQUIRED IMPORTED_TARGET CLI11)
+pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)
+pkg_check_modules(freetype REQUIRED IMPORTED_TARGET freetype2)
+pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
+pkg_check_modules(glesv2 REQUIRED IMPORTED_TARGET glesv2)
+pkg_check_modules(sdl2 REQUIRED IMPORTED_TARGET sdl2)
+
+# A parser of 15 k lines in headers: compiled once, in toml_library.cpp, instead of in every file.
+add_library(octascope_toml STATIC ${CMAKE_SOURCE_DIR}/cmake/toml_library.cpp)
+target_link_libraries(octascope_toml PUBLIC PkgConfig::tomlplusplus)
+target_compile_definitions(octascope_toml PUBLIC TOML_HEADER_ONLY=0 TOML_EXCEPTIONS=0)
+if(OCTASCOPE_SANITIZE)
+  target_compile_options(octascope_toml PRIVATE -fsanitize=${OCTASCOPE_SANITIZE} -O1)
+endif()

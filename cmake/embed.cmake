@@ -1,0 +1,14 @@
+# octascope_embed(TARGET NAMESPACE HEADER FILES...)
+#
+# Puts files into the program, so that it needs nothing beside it: HEADER (included as written)
+# declares one std::string_view per file, named after it (plane_stack.frag → plane_stack_frag).
+function(octascope_embed target namespace header)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded/${header})
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DNAMESPACE=${namespace} "-DFILES=${ARGN}"
+            -P ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake
+    DEPENDS ${ARGN} ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake
+    COMMENT "Embedding into ${header}" VERBATIM)
+  target_sources(${target} PRIVATE ${output})
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+endfunction()

@@ -1,0 +1,9 @@
+#pragma once
+
+#include <string_view>
+
+namespace octascope::firmware_host {
+
+std::string_view version();
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,53 @@
+// What the surgeon's hands and feet say: pedals, knobs, 6-axis pucks.
+//
+// The events are what the device did, free of meaning; ui/controls binds them to actions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "hal/clock.h"
+#include "hal/device.h"
+#include "hal/result.h"
+
+namespace octascope::hal {
+
+enum class ControlKind : std::uint8_t {
+  pedal_switch, // value 1 pressed, 0 released; index 0 left, 1 centre, 2 right, …
+  knob,         // value is the detents turned since the last event, right is positive
+  axis,         // value −1000…1000; index 0–2 translation x y z, 3–5 rotation x y z
+};
+
+struct ControlEvent {
+  TimePoint time;
+  ControlKind kind = ControlKind::pedal_switch;
+  std::uint8_t index = 0;
+  std::int32_t value = 0;
+  bool operator==(const ControlEvent&) const = default;
+};
+
+// Threads: one thread at a time (the control thread). state() is free.
+class ControlInput : public Device {
+public:
+  // absent → ready.
+  Result<> open() { return do_open(); }
+
+  // Waits at most `timeout` for events and writes up to events.size() of them, oldest first, with
+  // times that never decrease; returns their number, 0 when nothing happened. Contact bounce under
+  // 5 ms is already removed. A device that goes away in the middle of a press first reports the
+  // release of every pressed switch, then Fault::disconnected, and is `failed`; close() and open().
+  Result<std::size_t> read(std::span<ControlEvent> events, Duration timeout) {
+    return do_read(events, timeout);
+  }
+
+  // Any state → absent.
+  void close() { do_close(); }
+
+private:
+  virtual Result<> do_open() = 0;
+  virtual Result<std::size_t> do_read(std::span<ControlEvent> events, Duration timeout) = 0;
+  virtual void do_close() = 0;
+};
+
+} // namespace octascope::hal

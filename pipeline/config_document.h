@@ -1,0 +1,72 @@
+// Strict reading of a TOML file: every key is known, every value is in range, or the whole file is
+// refused with file, line, key, what was found and what was expected.
+//
+// A ConfigTable hands out values and remembers which keys were asked for. The first complaint
+// sticks to the document; values read after it are the defaults, so a reader needs no check after
+// each line, only finish() at the end.
+#pragma once
+
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/result.h"
+
+namespace octascope::pipeline {
+
+struct NumberRange {
+  double lowest;
+  double highest;
+};
+
+class ConfigTable {
+public:
+  // Each returns `fallback` when the key is not there.
+  int integer(std::string_view key, int fallback, NumberRange range);
+  double number(std::string_view key, double fallback, NumberRange range);
+  bool boolean(std::string_view key, bool fallback);
+  std::string text(std::string_view key, std::string_view fallback);
+  // One of `choices`; returns its index.
+  std::size_t choice(std::string_view key, std::size_t fallback,
+                     std::initializer_list<std::string_view> choices);
+  // Finite numbers; an empty vector when the key is not there.
+  std::vector<double> numbers(std::string_view key);
+  // A path, relative to the document's folder.
+  std::optional<std::filesystem::path> path(std::string_view key);
+
+  bool has(std::string_view key) const;
+  // An empty table when it is not there.
+  ConfigTable table(std::string_view key);
+  // Entries of an array of tables ([[key]]), empty when it is not there.
+  std::vector<ConfigTable> tables(std::string_view key);
+
+  // Complains about this table: "<file>:<line>: [<table>] <message>".
+  void complain(std::string_view message);
+
+private:
+  friend class ConfigDocument;
+  struct Node;
+  explicit ConfigTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
+  std::shared_ptr<Node> node_;
+};
+
+class ConfigDocument {
+public:
+  static hal::Result<ConfigDocument> load(const std::filesystem::path& file);
+  static hal::Result<ConfigDocument> parse(std::string_view text, const std::filesystem::path& name);
+
+  ConfigTable root() const { return root_; }
+
+  // The first complaint, or the first key that nobody asked for; call it when all was read.
+  hal::Result<> finish() const;
+
+private:
+  explicit ConfigDocument(ConfigTable root) : root_(std::move(root)) {}
+  ConfigTable root_;
+};
+
+} // namespace octascope::pipeline

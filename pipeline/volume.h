@@ -1,0 +1,69 @@
+// A volume of levels, its geometry and its history.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pipeline/ledger.h"
+
+namespace octascope::pipeline {
+
+// Counts and spacings of the three axes: depth z, A-scan a (fast axis), B-scan b (slow axis).
+struct VolumeGeometry {
+  int depths = 0;
+  int a_scans = 0;
+  int b_scans = 0;
+  double depth_spacing_um = 1; // of one depth bin, in the medium
+  double a_spacing_um = 1;
+  double b_spacing_um = 1;
+
+  std::size_t b_scan_voxels() const {
+    return static_cast<std::size_t>(depths) * static_cast<std::size_t>(a_scans);
+  }
+  std::size_t voxels() const { return b_scan_voxels() * static_cast<std::size_t>(b_scans); }
+
+  // Physical extents of the whole volume.
+  double depth_mm() const { return depths * depth_spacing_um * 1e-3; }
+  double a_mm() const { return a_scans * a_spacing_um * 1e-3; }
+  double b_mm() const { return b_scans * b_spacing_um * 1e-3; }
+
+  bool operator==(const VolumeGeometry&) const = default;
+};
+
+enum class BScanState : std::uint8_t {
+  missing,   // never came: its voxels are 0, the display hatches it
+  good,
+  saturated, // came with saturated lines: shown, and marked
+};
+
+// Levels are 8-bit counts (level_scale.h has the decibels), in the order [b][a][z], depth fastest.
+// Volumes come from a pool made at start-up; the vectors never change size afterwards.
+struct Volume {
+  Volume() = default;
+  explicit Volume(const VolumeGeometry& g)
+      : geometry(g), levels(g.voxels()),
+        b_scan_states(static_cast<std::size_t>(g.b_scans), BScanState::missing) {}
+
+  std::span<std::uint8_t> b_scan(int b) {
+    return std::span{levels}.subspan(geometry.b_scan_voxels() * static_cast<std::size_t>(b),
+                                     geometry.b_scan_voxels());
+  }
+  std::span<const std::uint8_t> b_scan(int b) const {
+    return std::span{levels}.subspan(geometry.b_scan_voxels() * static_cast<std::size_t>(b),
+                                     geometry.b_scan_voxels());
+  }
+  int missing_b_scans() const {
+    return static_cast<int>(
+        std::count(b_scan_states.begin(), b_scan_states.end(), BScanState::missing));
+  }
+
+  VolumeGeometry geometry;
+  std::vector<std::uint8_t> levels;
+  std::vector<BScanState> b_scan_states;
+  VolumeLedger ledger;
+};
+
+} // namespace octascope::pipeline
