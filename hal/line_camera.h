@@ -52,7 +52,7 @@ enum class FrameIntegrity : std::uint8_t {
 // Borrowed from the camera until release(buffer) is called. Copying it copies the loan's address,
 // not the loan: it is released once.
 struct LineFrame {
-  int buffer = -1;
+  int buffer = -1; // 0 ≤ buffer < LineCameraConfig::buffers
   std::span<const std::byte> bytes;
   std::uint64_t sequence = 0; // counts every frame the hardware made, delivered or not
   TimePoint first_line;       // exposure of the first and of the last line
@@ -73,7 +73,7 @@ public:
 
   // Waits for the next frame, at most `timeout`. Nothing in time (no trigger, no light, no cable):
   // an empty optional, the stream goes on. Fault::disconnected: the device is gone, the state is
-  // `failed`, every loan is void; close() and open() again.
+  // `failed`; loans stay readable until close(); then open() again.
   Result<std::optional<LineFrame>> wait_frame(Duration timeout) { return do_wait_frame(timeout); }
 
   // Gives a loan back; its bytes must not be read afterwards. Numbers that are not on loan (a

@@ -17,7 +17,6 @@ struct VolumeLedger {
 
   hal::Duration reconstruct{}; // work of all workers, summed
   hal::Duration assemble{};    // neighbour averaging and bookkeeping
-  hal::Duration publish{};
 
   std::int32_t lost_b_scans = 0; // never came, came too late, or came broken
   std::int32_t lost_lines = 0;   // kept lines of those B-scans

@@ -11,6 +11,8 @@ namespace octascope::pipeline {
 // Defaults are those of the source paper: 215 kHz, 300 kept A-scans and 79 fly-back lines a
 // B-scan, 80 B-scans: a volume every 141 ms.
 struct ScanPlan {
+  static constexpr int pause_divisor = 500; // the pause is 0.2 % of the sweeps
+
   int samples = 1024;      // per line; depths are half of it
   int a_scans = 300;       // kept lines per B-scan
   int fly_back_lines = 79; // at the end of each frame, recorded and not converted
@@ -27,6 +29,11 @@ struct ScanPlan {
   }
   hal::Duration sweep_duration() const {
     return hal::from_seconds(static_cast<double>(lines_per_frame()) * b_scans / line_rate_hz);
+  }
+  // From one trigger pulse to the next: a little more than the sweeps need, so that a scanner
+  // that started late once catches up.
+  hal::Duration tick_period() const {
+    return sweep_duration() + sweep_duration() / pause_divisor;
   }
   VolumeGeometry geometry() const {
     return {samples / 2, a_scans, b_scans, depth_spacing_um, a_spacing_um, b_spacing_um};

@@ -1,0 +1,56 @@
+// The program's allocation functions: the C library's, with one question before each: is this
+// thread on a hot path? The count goes into the report ("hot_path.allocations") and must be 0.
+//
+// The C functions are replaced, not operator new alone, so that libraries written in C count too.
+// A sanitizer brings allocation functions of its own; there the C++ ones are counted only.
+#include <cstdlib>
+#include <new>
+
+#include "pipeline/hot_path.h"
+
+using octascope::pipeline::HotPath;
+
+#ifndef OCTASCOPE_SANITIZED
+
+extern "C" {
+
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* old, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  HotPath::count_allocation();
+  return __libc_malloc(size);
+}
+
+void* calloc(std::size_t count, std::size_t size) {
+  HotPath::count_allocation();
+  return __libc_calloc(count, size);
+}
+
+void* realloc(void* old, std::size_t size) {
+  HotPath::count_allocation();
+  return __libc_realloc(old, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  HotPath::count_allocation();
+  return __libc_memalign(alignment, size);
+}
+
+} // extern "C"
+
+#else
+
+void* operator new(std::size_t size) {
+  HotPath::count_allocation();
+  if (void* memory = std::malloc(size == 0 ? 1 : size))
+    return memory;
+  throw std::bad_alloc{};
+}
+
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+#endif

@@ -1,0 +1,23 @@
+// Real-time scheduling and locked memory, where the system allows them.
+#pragma once
+
+#include <string_view>
+
+#include "hal/result.h"
+
+namespace octascope::hal::linux_backend {
+
+// Names the calling thread, as ps and gdb show it; longer names are cut to 15 characters.
+void name_this_thread(std::string_view name);
+
+// SCHED_FIFO for the calling thread. `priority` 1…49: below the kernel's threaded interrupts (50),
+// which feed us. Fault::denied with the mend in the message where the privilege is missing.
+Result<> make_this_thread_realtime(int priority);
+
+// SCHED_IDLE-like: nice 19, for background work that may take as long as it likes.
+void make_this_thread_background();
+
+// Keeps all memory of the process, now and later, out of the swap.
+Result<> lock_memory();
+
+} // namespace octascope::hal::linux_backend

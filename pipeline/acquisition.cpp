@@ -1,0 +1,152 @@
+#include "pipeline/acquisition.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "pipeline/hot_path.h"
+
+namespace octascope::pipeline {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* device_name = "line_camera";
+constexpr hal::Duration frame_timeout = 50ms; // also how soon a stop is noticed
+
+} // namespace
+
+Acquisition::Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& config,
+                         hal::Clock& clock, FaultLog& faults, Wakeup& arrived)
+    : camera_(camera), config_(config), clock_(clock), faults_(faults), arrived_(arrived),
+      frames_(static_cast<std::size_t>(config.buffers)),
+      queue_(static_cast<std::size_t>(config.buffers)) {}
+
+Acquisition::~Acquisition() { stop(); }
+
+hal::Result<> Acquisition::start(const ThreadSetup& setup) {
+  if (auto opened = camera_.open(config_); !opened) {
+    if (opened.error().fault == hal::Fault::invalid_argument)
+      return opened;
+    faults_.add(device_name, to_string(opened.error().fault), opened.error().message,
+                clock_.now());
+  }
+  thread_ = std::thread{[this, setup] {
+    if (setup)
+      setup("camera");
+    run();
+  }};
+  return {};
+}
+
+void Acquisition::stop() {
+  if (!thread_.joinable())
+    return;
+  stopping_.store(true, std::memory_order_release);
+  thread_.join();
+}
+
+std::optional<hal::LineFrame> Acquisition::take() {
+  const auto buffer = queue_.pop();
+  if (!buffer)
+    return std::nullopt;
+  return frames_[*buffer];
+}
+
+void Acquisition::release(int buffer) { give_back(buffer); }
+
+AcquisitionCounters Acquisition::counters() const {
+  return {good_.load(), unusable_.load(), gaps_.load(), overflowed_.load()};
+}
+
+void Acquisition::run() {
+  while (!stopping_.load(std::memory_order_acquire)) {
+    if (camera_.state() != hal::DeviceState::streaming && !open_and_start()) {
+      wait_before_retry();
+      continue;
+    }
+    const HotPath hot;
+    const auto frame = camera_.wait_frame(frame_timeout);
+    if (!frame) {
+      faults_.add(device_name, to_string(frame.error().fault), frame.error().message,
+                  clock_.now());
+      close_when_returned();
+    } else if (*frame) {
+      receive(**frame);
+    }
+  }
+  camera_.stop();
+  close_when_returned();
+}
+
+bool Acquisition::open_and_start() {
+  const auto result = camera_.state() == hal::DeviceState::ready
+                          ? camera_.start()
+                          : camera_.open(config_).and_then([&] { return camera_.start(); });
+  if (!result) {
+    faults_.add(device_name, to_string(result.error().fault), result.error().message,
+                clock_.now());
+    camera_.close();
+    return false;
+  }
+  last_sequence_.reset();
+  retry_.success();
+  return true;
+}
+
+// Closing unmaps the frames' memory, and a worker may still be reading one. Queued frames are
+// dropped here; those in work come back within a few milliseconds.
+void Acquisition::close_when_returned() {
+  while (on_loan_.load(std::memory_order_acquire) > 0) {
+    while (const auto buffer = queue_.pop())
+      give_back(static_cast<int>(*buffer));
+    if (on_loan_.load(std::memory_order_acquire) > 0)
+      clock_.sleep_for(1ms);
+  }
+  camera_.close();
+}
+
+void Acquisition::receive(const hal::LineFrame& frame) {
+  if (last_sequence_) {
+    if (frame.sequence > *last_sequence_ + 1)
+      gaps_.fetch_add(frame.sequence - *last_sequence_ - 1, std::memory_order_relaxed);
+    if (frame.sequence <= *last_sequence_)
+      faults_.add(device_name, "stuck_sequence",
+                  fmt::format("sequence number {} after {}", frame.sequence, *last_sequence_),
+                  clock_.now());
+  }
+  last_sequence_ = frame.sequence;
+  const bool sized = frame.bytes.size() == config_.format.frame_bytes();
+  if (frame.integrity != hal::FrameIntegrity::good || !sized) {
+    unusable_.fetch_add(1, std::memory_order_relaxed);
+    faults_.add(device_name, sized ? "corrupted_frame" : "wrong_size",
+                sized ? std::string{"the driver flagged a frame as corrupted"}
+                      : fmt::format("a frame has {} bytes, expected {}", frame.bytes.size(),
+                                    config_.format.frame_bytes()),
+                clock_.now());
+    camera_.release(frame.buffer);
+    return;
+  }
+  frames_[static_cast<std::size_t>(frame.buffer)] = frame;
+  on_loan_.fetch_add(1, std::memory_order_acq_rel);
+  good_.fetch_add(1, std::memory_order_relaxed);
+  if (const auto dropped = queue_.push_dropping_oldest(static_cast<std::uint32_t>(frame.buffer))) {
+    overflowed_.fetch_add(1, std::memory_order_relaxed);
+    give_back(static_cast<int>(*dropped));
+  }
+  arrived_.post();
+}
+
+void Acquisition::give_back(int buffer) {
+  camera_.release(buffer);
+  on_loan_.fetch_sub(1, std::memory_order_acq_rel);
+}
+
+void Acquisition::wait_before_retry() {
+  retry_.failure(clock_.now());
+  while (!retry_.due(clock_.now()) && !stopping_.load(std::memory_order_acquire))
+    clock_.sleep_until(std::min(retry_.next(), clock_.now() + frame_timeout));
+}
+
+} // namespace octascope::pipeline

@@ -1,0 +1,78 @@
+// The camera thread: fetches B-scans from the line camera and queues them for the pipeline.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/line_camera.h"
+#include "pipeline/fault_log.h"
+#include "pipeline/index_ring.h"
+#include "pipeline/retry_delay.h"
+#include "pipeline/wakeup.h"
+#include "pipeline/worker_pool.h"
+
+namespace octascope::pipeline {
+
+struct AcquisitionCounters {
+  std::uint64_t frames = 0;     // good ones, queued
+  std::uint64_t unusable = 0;   // flagged as corrupted, or of the wrong size
+  std::uint64_t gaps = 0;       // missing sequence numbers
+  std::uint64_t overflowed = 0; // pushed out of the full queue by newer ones
+};
+
+// Frames are borrowed from the camera and travel by number, without a copy. The queue is bounded
+// by the camera's buffers and drops the oldest, counted. The camera may vanish and come back at
+// any time: it is reopened with a back-off of 0.1 s to 2 s.
+class Acquisition {
+public:
+  // `camera`, `clock` and `faults` outlive this. `arrived` is posted after each queued frame.
+  Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& config, hal::Clock& clock,
+              FaultLog& faults, Wakeup& arrived);
+  ~Acquisition();
+
+  // Opens the camera (an Error if that fails for a reason that waiting cannot mend: a wrong
+  // configuration) and starts the thread.
+  hal::Result<> start(const ThreadSetup& setup);
+
+  // Ends the thread, waits for loans, closes the camera. No frame is handed out afterwards.
+  void stop();
+
+  // One consumer thread. The frame is on loan until release(frame.buffer).
+  std::optional<hal::LineFrame> take();
+
+  // Any thread.
+  void release(int buffer);
+
+  // Any thread.
+  AcquisitionCounters counters() const;
+
+private:
+  void run();
+  bool open_and_start();
+  void close_when_returned();
+  void receive(const hal::LineFrame& frame);
+  void give_back(int buffer);
+  void wait_before_retry();
+
+  hal::LineCamera& camera_;
+  hal::LineCameraConfig config_;
+  hal::Clock& clock_;
+  FaultLog& faults_;
+  Wakeup& arrived_;
+
+  std::vector<hal::LineFrame> frames_; // by buffer number; written before the number is queued
+  IndexRing queue_;
+  std::atomic<int> on_loan_{0}; // queued or with the pipeline
+  std::optional<std::uint64_t> last_sequence_;
+  RetryDelay retry_;
+
+  std::atomic<std::uint64_t> good_{0}, unusable_{0}, gaps_{0}, overflowed_{0};
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+} // namespace octascope::pipeline

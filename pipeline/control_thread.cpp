@@ -1,0 +1,72 @@
+#include "pipeline/control_thread.h"
+
+#include <array>
+#include <span>
+
+namespace octascope::pipeline {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* device_name = "control_input";
+constexpr hal::Duration read_timeout = 50ms; // also how soon a stop is noticed
+
+} // namespace
+
+ControlThread::ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults)
+    : input_(input), clock_(clock), faults_(faults) {}
+
+ControlThread::~ControlThread() { stop(); }
+
+void ControlThread::start(const ThreadSetup& setup) {
+  thread_ = std::thread{[this, setup] {
+    if (setup)
+      setup("controls");
+    run();
+  }};
+}
+
+void ControlThread::stop() {
+  if (!thread_.joinable())
+    return;
+  stopping_.store(true, std::memory_order_release);
+  thread_.join();
+}
+
+void ControlThread::run() {
+  std::array<hal::ControlEvent, 32> events;
+  while (!stopping_.load(std::memory_order_acquire)) {
+    if (input_.state() != hal::DeviceState::ready && !open()) {
+      clock_.sleep_for(read_timeout);
+      continue;
+    }
+    const auto count = input_.read(events, read_timeout);
+    if (!count) {
+      faults_.add(device_name, to_string(count.error().fault), count.error().message,
+                  clock_.now());
+      input_.close();
+      continue;
+    }
+    for (const hal::ControlEvent& event : std::span{events}.first(*count)) {
+      if (!queue_.push(event))
+        faults_.add(device_name, "overflow", "more events than the display could take", event.time);
+    }
+  }
+  input_.close();
+}
+
+bool ControlThread::open() {
+  if (!retry_.due(clock_.now()))
+    return false;
+  if (const auto opened = input_.open(); !opened) {
+    faults_.add(device_name, to_string(opened.error().fault), opened.error().message,
+                clock_.now());
+    retry_.failure(clock_.now());
+    return false;
+  }
+  retry_.success();
+  return true;
+}
+
+} // namespace octascope::pipeline

@@ -1,0 +1,43 @@
+// The control thread: fetches what pedals and knobs say and queues it for the render thread.
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include "hal/clock.h"
+#include "hal/control_input.h"
+#include "pipeline/event_queue.h"
+#include "pipeline/fault_log.h"
+#include "pipeline/retry_delay.h"
+#include "pipeline/worker_pool.h"
+
+namespace octascope::pipeline {
+
+// The device may vanish and return at any time; it is reopened with a back-off.
+class ControlThread {
+public:
+  // All references outlive this.
+  ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults);
+  ~ControlThread();
+
+  void start(const ThreadSetup& setup);
+  void stop();
+
+  // One consumer thread. Oldest first.
+  std::optional<hal::ControlEvent> take() { return queue_.pop(); }
+
+private:
+  void run();
+  bool open();
+
+  hal::ControlInput& input_;
+  hal::Clock& clock_;
+  FaultLog& faults_;
+  EventQueue<hal::ControlEvent, 256> queue_;
+  RetryDelay retry_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+} // namespace octascope::pipeline

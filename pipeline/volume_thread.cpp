@@ -1,0 +1,292 @@
+#include "pipeline/volume_thread.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "pipeline/hot_path.h"
+
+namespace octascope::pipeline {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* trigger_name = "galvo_trigger";
+
+// How long after its sweep's end a volume waits for late B-scans, as a divisor of the sweep.
+constexpr int grace_divisor = 6;
+
+constexpr std::uint32_t none = ~0U;
+
+} // namespace
+
+VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
+                           Acquisition& acquisition, hal::LineCamera& camera, hal::Clock& clock,
+                           FaultLog& faults, Wakeup& arrived)
+    : setup_(std::move(setup)), trigger_(trigger), acquisition_(acquisition), camera_(camera),
+      clock_(clock), faults_(faults), arrived_(arrived),
+      volumes_(pool_size, Volume{setup_.plan.geometry()}), sweeps_(setup_.plan),
+      average_(setup_.plan.geometry(), setup_.neighbour_weights),
+      jobs_(static_cast<std::size_t>(setup_.camera_buffers)) {
+  for (Construction& construction : constructions_)
+    construction.placed.resize(static_cast<std::size_t>(setup_.plan.b_scans));
+  free_.reserve(pool_size);
+  for (std::uint32_t index = 2; index < pool_size; ++index)
+    free_.push_back(index);
+}
+
+VolumeThread::~VolumeThread() { stop(); }
+
+void VolumeThread::start(const ThreadSetup& setup) {
+  workers_ = std::make_unique<WorkerPool>(
+      setup_.workers, jobs_.size(), setup,
+      [this](std::size_t worker, std::uint32_t job) { reconstruct(worker, job); });
+  thread_ = std::thread{[this, setup] {
+    if (setup)
+      setup("volumes");
+    run();
+  }};
+}
+
+void VolumeThread::stop() {
+  if (!thread_.joinable())
+    return;
+  stopping_.store(true, std::memory_order_release);
+  arrived_.post();
+  thread_.join();
+}
+
+const Volume* VolumeThread::take_newest() {
+  const auto index = triple_buffer_.take();
+  return index ? &volumes_[*index] : nullptr;
+}
+
+VolumeCounters VolumeThread::counters() const {
+  return {counts_.triggered,    counts_.acquired,     counts_.published,
+          counts_.skipped,      counts_.lost_lines,   counts_.lost_b_scans,
+          counts_.lost_volumes, counts_.saturated_lines};
+}
+
+void VolumeThread::run() {
+  next_tick_ = clock_.now();
+  while (!stopping_.load(std::memory_order_acquire)) {
+    {
+      const HotPath hot;
+      if (clock_.now() >= next_tick_)
+        tick();
+      while (const auto frame = acquisition_.take())
+        place(*frame);
+      finish_due_volumes();
+    }
+    arrived_.wait_until(next_deadline());
+  }
+  // The workers' last jobs hold loans of the camera; those not begun are given back here.
+  workers_.reset();
+  for (Job& job : jobs_) {
+    if (job.frame.buffer >= 0)
+      acquisition_.release(job.frame.buffer);
+  }
+  while (const auto frame = acquisition_.take())
+    acquisition_.release(frame->buffer);
+  trigger_.close();
+}
+
+void VolumeThread::tick() {
+  next_tick_ += setup_.plan.tick_period();
+  const hal::TimePoint now = clock_.now();
+  const bool was_running = last_number_ > 0;
+  // If the thread itself was held up, the ticks that it slept through are lost.
+  for (; next_tick_ <= now; next_tick_ += setup_.plan.tick_period())
+    count_lost_volume();
+
+  // Without a camera there is nothing to sweep for. Before its first frame nothing is lost either.
+  if (camera_.state() != hal::DeviceState::streaming || !trigger_ready()) {
+    if (was_running)
+      count_lost_volume();
+    return;
+  }
+  if (const auto armed = trigger_.arm()) {
+    open_volume(*armed);
+  } else {
+    faults_.add(trigger_name, to_string(armed.error().fault), armed.error().message, now);
+    if (trigger_.state() == hal::DeviceState::failed)
+      trigger_.close();
+    count_lost_volume();
+  }
+}
+
+bool VolumeThread::trigger_ready() {
+  if (trigger_.state() == hal::DeviceState::ready)
+    return true;
+  const hal::TimePoint now = clock_.now();
+  if (!trigger_retry_.due(now))
+    return false;
+  if (const auto opened = trigger_.open(setup_.trigger); !opened) {
+    faults_.add(trigger_name, to_string(opened.error().fault), opened.error().message, now);
+    trigger_retry_.failure(now);
+    return false;
+  }
+  trigger_retry_.success();
+  return true;
+}
+
+void VolumeThread::open_volume(hal::TimePoint armed) {
+  const hal::TimePoint end = sweeps_.armed(++last_number_, armed);
+  counts_.triggered.fetch_add(1, std::memory_order_relaxed);
+  if (free_.empty()) { // the workers are three volumes behind
+    faults_.add("pipeline", "overrun",
+                "reconstruction is slower than the camera: fewer lines or B-scans, or linear "
+                "interpolation, would help",
+                armed);
+    count_lost_volume();
+    return;
+  }
+  const std::uint32_t index = free_.back();
+  free_.pop_back();
+  Construction& c = constructions_[index];
+  c.open = true;
+  c.accept_until = end + setup_.plan.sweep_duration() / grace_divisor;
+  std::fill(c.placed.begin(), c.placed.end(), false);
+  c.placed_count = 0;
+  c.finished.store(0, std::memory_order_relaxed);
+  c.work_ns.store(0, std::memory_order_relaxed);
+  c.saturated_lines.store(0, std::memory_order_relaxed);
+  Volume& volume = volumes_[index];
+  std::fill(volume.b_scan_states.begin(), volume.b_scan_states.end(), BScanState::missing);
+  volume.ledger = {};
+  volume.ledger.index = last_number_;
+  volume.ledger.armed = armed;
+}
+
+void VolumeThread::count_lost_volume() {
+  const auto b_scans = static_cast<std::uint64_t>(setup_.plan.b_scans);
+  counts_.lost_volumes.fetch_add(1, std::memory_order_relaxed);
+  counts_.lost_b_scans.fetch_add(b_scans, std::memory_order_relaxed);
+  counts_.lost_lines.fetch_add(b_scans * static_cast<std::uint64_t>(setup_.plan.a_scans),
+                               std::memory_order_relaxed);
+}
+
+void VolumeThread::place(const hal::LineFrame& frame) {
+  const auto slot = sweeps_.place(frame.first_line);
+  const auto is_its = [&](std::uint32_t i) {
+    return constructions_[i].open && volumes_[i].ledger.index == slot->volume;
+  };
+  std::uint32_t index = 0;
+  while (slot && index < pool_size && !is_its(index))
+    ++index;
+  const auto b_scan = static_cast<std::size_t>(slot ? slot->b_scan : 0);
+  if (!slot || index == pool_size || constructions_[index].placed[b_scan]) {
+    // Too late, doubled, or nobody's. The B-scan that it should have been counts as lost when its
+    // volume is finished.
+    faults_.add("line_camera", "unplaced_frame",
+                fmt::format("frame {} came outside its volume's time", frame.sequence),
+                clock_.now());
+    acquisition_.release(frame.buffer);
+    return;
+  }
+  Construction& c = constructions_[index];
+  VolumeLedger& ledger = volumes_[index].ledger;
+  if (c.placed_count == 0)
+    ledger.first_line = frame.first_line;
+  ledger.last_line = std::max(ledger.last_line, frame.last_line);
+  c.placed[b_scan] = true;
+  ++c.placed_count;
+  const auto job = static_cast<std::uint32_t>(frame.buffer);
+  jobs_[job] = {frame, index, slot->b_scan};
+  workers_->submit(job); // never full: as many jobs fit as the camera has buffers
+}
+
+void VolumeThread::reconstruct(std::size_t worker, std::uint32_t index) {
+  Job& job = jobs_[index];
+  Construction& c = constructions_[job.volume];
+  Volume& volume = volumes_[job.volume];
+  const hal::TimePoint begin = clock_.now();
+  const int saturated =
+      setup_.reconstruct(worker, job.frame.bytes, volume.b_scan(job.b_scan));
+  volume.b_scan_states[static_cast<std::size_t>(job.b_scan)] =
+      saturated > 0 ? BScanState::saturated : BScanState::good;
+  const int buffer = job.frame.buffer;
+  job.frame.buffer = -1;
+  acquisition_.release(buffer);
+  c.saturated_lines.fetch_add(saturated, std::memory_order_relaxed);
+  c.work_ns.fetch_add((clock_.now() - begin).count(), std::memory_order_relaxed);
+  c.finished.fetch_add(1, std::memory_order_release);
+  arrived_.post();
+}
+
+std::uint32_t VolumeThread::oldest_open() const {
+  std::uint32_t oldest = none;
+  for (std::uint32_t i = 0; i < pool_size; ++i) {
+    if (constructions_[i].open &&
+        (oldest == none || volumes_[i].ledger.index < volumes_[oldest].ledger.index))
+      oldest = i;
+  }
+  return oldest;
+}
+
+void VolumeThread::finish_due_volumes() {
+  const hal::TimePoint now = clock_.now();
+  for (std::uint32_t i = oldest_open(); i != none; i = oldest_open()) {
+    const Construction& c = constructions_[i];
+    const bool whole = c.placed_count == setup_.plan.b_scans;
+    const bool worked_off = c.finished.load(std::memory_order_acquire) == c.placed_count;
+    if (!worked_off || (!whole && now < c.accept_until))
+      return;
+    finish(i);
+  }
+}
+
+void VolumeThread::finish(std::uint32_t index) {
+  Construction& c = constructions_[index];
+  Volume& volume = volumes_[index];
+  c.open = false;
+  if (c.placed_count == 0) {
+    count_lost_volume();
+    free_.push_back(index);
+    return;
+  }
+  const hal::TimePoint begin = clock_.now();
+  for (int b = 0; b < setup_.plan.b_scans; ++b) {
+    if (!c.placed[static_cast<std::size_t>(b)])
+      std::ranges::fill(volume.b_scan(b), std::uint8_t{0});
+  }
+  average_.apply(volume);
+  fill_ledger(volume, c);
+  const hal::TimePoint assembled = clock_.now();
+  volume.ledger.assemble = assembled - begin;
+  volume.ledger.published = assembled;
+
+  const auto [recycled, skipped] = triple_buffer_.publish(index);
+  free_.push_back(recycled);
+  statistics_.reconstruct.add(hal::Duration{c.work_ns.load(std::memory_order_relaxed)});
+  statistics_.assemble.add(assembled - begin);
+  statistics_.publish.add(clock_.now() - assembled);
+  counts_.acquired.fetch_add(1, std::memory_order_relaxed);
+  counts_.published.fetch_add(1, std::memory_order_relaxed);
+  if (skipped)
+    counts_.skipped.fetch_add(1, std::memory_order_relaxed);
+}
+
+void VolumeThread::fill_ledger(Volume& volume, const Construction& c) {
+  VolumeLedger& ledger = volume.ledger;
+  ledger.reconstruct = hal::Duration{c.work_ns.load(std::memory_order_relaxed)};
+  ledger.lost_b_scans = setup_.plan.b_scans - c.placed_count;
+  ledger.lost_lines = ledger.lost_b_scans * setup_.plan.a_scans;
+  ledger.saturated_lines = c.saturated_lines.load(std::memory_order_relaxed);
+  counts_.lost_b_scans.fetch_add(static_cast<std::uint64_t>(ledger.lost_b_scans),
+                                 std::memory_order_relaxed);
+  counts_.lost_lines.fetch_add(static_cast<std::uint64_t>(ledger.lost_lines),
+                               std::memory_order_relaxed);
+  counts_.saturated_lines.fetch_add(static_cast<std::uint64_t>(ledger.saturated_lines),
+                                    std::memory_order_relaxed);
+}
+
+hal::TimePoint VolumeThread::next_deadline() const {
+  hal::TimePoint deadline = next_tick_;
+  if (const std::uint32_t i = oldest_open(); i != none)
+    deadline = std::min(deadline, constructions_[i].accept_until);
+  return std::max(deadline, clock_.now() + 100us);
+}
+
+} // namespace octascope::pipeline

@@ -1,0 +1,146 @@
+// The fixed-rate thread: one tick, one trigger pulse, one volume.
+//
+// Each tick arms the galvo trigger. B-scans are handed to the workers as they come, not at the end
+// of the sweep, so that almost nothing is left to do when the last one arrives. A volume is
+// published when it is complete, or, with its missing B-scans marked, shortly after its sweep
+// should have ended: a late camera never delays the tick.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/galvo_trigger.h"
+#include "pipeline/acquisition.h"
+#include "pipeline/duration_statistics.h"
+#include "pipeline/fault_log.h"
+#include "pipeline/neighbour_average.h"
+#include "pipeline/retry_delay.h"
+#include "pipeline/scan_plan.h"
+#include "pipeline/sweep_tracker.h"
+#include "pipeline/triple_buffer.h"
+#include "pipeline/volume.h"
+#include "pipeline/wakeup.h"
+#include "pipeline/worker_pool.h"
+
+namespace octascope::pipeline {
+
+// Converts one frame's raw lines into one B-scan's levels; returns the number of saturated lines.
+// Called by several workers at once, each with its own number; must not throw or allocate.
+using ReconstructBScan = std::function<int(std::size_t worker, std::span<const std::byte> frame,
+                                           std::span<std::uint8_t> levels)>;
+
+struct VolumeThreadSetup {
+  ScanPlan plan;
+  hal::GalvoTriggerConfig trigger;
+  std::size_t workers = 1;
+  int camera_buffers = 96; // of the acquisition: as many B-scans can be in work at once
+  ReconstructBScan reconstruct;
+  NeighbourWeights neighbour_weights;
+};
+
+struct VolumeCounters {
+  std::uint64_t triggered = 0;
+  std::uint64_t acquired = 0;  // at least one B-scan came
+  std::uint64_t published = 0;
+  std::uint64_t skipped = 0;   // published, and replaced before the renderer took them
+  std::uint64_t lost_lines = 0;
+  std::uint64_t lost_b_scans = 0;
+  std::uint64_t lost_volumes = 0; // ticks of which nothing came
+  std::uint64_t saturated_lines = 0;
+};
+
+struct PipelineStatistics {
+  DurationStatistics reconstruct; // work of all workers for one volume
+  DurationStatistics assemble;
+  DurationStatistics publish;
+};
+
+class VolumeThread {
+public:
+  // All references outlive this; `arrived` is the one the acquisition posts.
+  VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger, Acquisition& acquisition,
+               hal::LineCamera& camera, hal::Clock& clock, FaultLog& faults, Wakeup& arrived);
+  ~VolumeThread();
+
+  void start(const ThreadSetup& setup);
+
+  // Ends thread and workers and closes the trigger; volumes under way are forgotten, not counted.
+  void stop();
+
+  // The renderer's side of the triple buffer (one thread): the newest volume if one came since the
+  // last call; valid and unchanged until the next call that returns one.
+  const Volume* take_newest();
+
+  // Any thread.
+  VolumeCounters counters() const;
+  const PipelineStatistics& statistics() const { return statistics_; }
+
+private:
+  // A volume under construction; one for each buffer of the pool.
+  struct Construction {
+    bool open = false;
+    hal::TimePoint accept_until;
+    std::vector<bool> placed; // by B-scan
+    int placed_count = 0;
+    std::atomic<int> finished{0}; // B-scans that the workers are done with
+    std::atomic<std::int64_t> work_ns{0};
+    std::atomic<int> saturated_lines{0};
+  };
+  struct Job {
+    hal::LineFrame frame;
+    std::uint32_t volume = 0; // in the pool
+    int b_scan = 0;
+  };
+  struct Counts {
+    std::atomic<std::uint64_t> triggered{0}, acquired{0}, published{0}, skipped{0}, lost_lines{0},
+        lost_b_scans{0}, lost_volumes{0}, saturated_lines{0};
+  };
+
+  static constexpr std::uint32_t pool_size = 5; // middle, renderer's, and three to build in
+
+  void run();
+  void tick();
+  bool trigger_ready();
+  void open_volume(hal::TimePoint armed);
+  void count_lost_volume();
+  void place(const hal::LineFrame& frame);
+  void reconstruct(std::size_t worker, std::uint32_t job);
+  void finish_due_volumes();
+  void finish(std::uint32_t index);
+  void fill_ledger(Volume& volume, const Construction& construction);
+  std::uint32_t oldest_open() const;
+  hal::TimePoint next_deadline() const;
+
+  VolumeThreadSetup setup_;
+  hal::GalvoTrigger& trigger_;
+  Acquisition& acquisition_;
+  hal::LineCamera& camera_;
+  hal::Clock& clock_;
+  FaultLog& faults_;
+  Wakeup& arrived_;
+
+  std::vector<Volume> volumes_;
+  std::array<Construction, pool_size> constructions_;
+  std::vector<std::uint32_t> free_; // buffers of the pool to build in
+  TripleBuffer triple_buffer_{0, 1};
+  SweepTracker sweeps_;
+  NeighbourAverage average_;
+  std::vector<Job> jobs_; // by camera buffer
+
+  std::uint64_t last_number_ = 0;
+  hal::TimePoint next_tick_;
+  RetryDelay trigger_retry_;
+  Counts counts_;
+  PipelineStatistics statistics_;
+  std::atomic<bool> stopping_{false};
+  std::unique_ptr<WorkerPool> workers_;
+  std::thread thread_;
+};
+
+} // namespace octascope::pipeline

@@ -1,0 +1,65 @@
+#include "pipeline/sweep_tracker.h"
+
+#include <gtest/gtest.h>
+
+namespace octascope::pipeline {
+namespace {
+
+using namespace std::chrono_literals;
+
+const hal::TimePoint start{1s};
+
+TEST(SweepTracker, places_frames_by_their_time) {
+  const ScanPlan plan;
+  SweepTracker tracker{plan};
+  EXPECT_EQ(tracker.armed(1, start), start + plan.sweep_duration());
+  for (const int b : {0, 5, 41, 79}) {
+    const auto slot = tracker.place(start + b * plan.b_scan_period() + 20us);
+    ASSERT_TRUE(slot);
+    EXPECT_EQ(slot->volume, 1U);
+    EXPECT_EQ(slot->b_scan, b);
+  }
+  EXPECT_FALSE(tracker.place(start + 81 * plan.b_scan_period()));
+  EXPECT_FALSE(tracker.place(start - plan.b_scan_period()));
+}
+
+TEST(SweepTracker, knows_that_a_pulse_during_a_sweep_is_latched) {
+  const ScanPlan plan;
+  SweepTracker tracker{plan};
+  const hal::TimePoint second = tracker.armed(1, start);
+  EXPECT_EQ(tracker.armed(2, second - 7ms), second + plan.sweep_duration());
+  const auto last = tracker.place(second - plan.b_scan_period());
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->volume, 1U);
+  EXPECT_EQ(last->b_scan, 79);
+  const auto first = tracker.place(second);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->volume, 2U);
+  EXPECT_EQ(first->b_scan, 0);
+}
+
+// A camera clock 0.5 % slow, and pulses latched for ever: without correction the second volume
+// would already be half a B-scan off, the tenth four.
+TEST(SweepTracker, follows_a_camera_whose_clock_drifts) {
+  const ScanPlan plan;
+  SweepTracker tracker{plan};
+  const hal::Duration true_period = plan.b_scan_period() * 1005 / 1000;
+  hal::TimePoint true_time = start;
+  for (std::uint64_t volume = 1; volume <= 20; ++volume) {
+    tracker.armed(volume, true_time - (volume == 1 ? 0ms : 1ms));
+    for (int b = 0; b < plan.b_scans; ++b, true_time += true_period) {
+      const auto slot = tracker.place(true_time);
+      ASSERT_TRUE(slot);
+      ASSERT_EQ(slot->volume, volume);
+      ASSERT_EQ(slot->b_scan, b);
+    }
+  }
+}
+
+TEST(SweepTracker, places_nothing_before_the_first_pulse) {
+  SweepTracker tracker{ScanPlan{}};
+  EXPECT_FALSE(tracker.place(start));
+}
+
+} // namespace
+} // namespace octascope::pipeline
