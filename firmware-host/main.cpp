@@ -1,8 +1,32 @@
-#include <cstdio>
+// octascope: the command line.
+#include <CLI/CLI.hpp>
 
+#include <string>
+
+#include "firmware-host/commands/command.h"
 #include "firmware-host/version.h"
 
-int main() {
-  std::puts(octascope::firmware_host::version().data());
-  return 0;
+int main(int argc, char** argv) {
+  namespace host = octascope::firmware_host;
+
+  CLI::App program{"octascope: OCT volumes through a surgical microscope, live.\n"
+                   "Not a medical device."};
+  program.set_version_flag("--version", std::string{host::version()});
+  program.require_subcommand(1);
+  program.footer("Example: octascope run --sim --duration 20\n"
+                 "Each command explains itself: octascope run --help");
+
+  int exit_status = host::exit_done;
+  host::add_run_command(program, exit_status);
+  host::add_devices_command(program, exit_status);
+  host::add_doctor_command(program, exit_status);
+  host::add_reconstruct_command(program, exit_status);
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // Asking for help is not an error; everything else is wrong use.
+    return program.exit(error) == 0 ? host::exit_done : host::exit_wrong_use;
+  }
+  return exit_status;
 }

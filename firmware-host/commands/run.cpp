@@ -1,0 +1,134 @@
+// octascope run: the appliance.
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "firmware-host/appliance.h"
+#include "firmware-host/commands/arguments.h"
+#include "firmware-host/commands/command.h"
+#include "firmware-host/run_options.h"
+#include "firmware-host/stop_signal.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+// As text, the way CLI11 collects it.
+struct RunArguments {
+  std::string configuration, display = "auto", size, spectra, shape, calibration, snapshot,
+      report, faults, controls, phantom;
+  bool simulate = false;
+  double duration_s = 0;
+  std::uint64_t volumes = 0;
+};
+
+hal::Result<RecordingOptions> recording_of(const RunArguments& a) {
+  if (a.shape.empty())
+    return hal::fail(hal::Fault::invalid_argument,
+                     "--spectra needs --shape B,A,N: B-scans, A-scans, samples");
+  return parse_shape(a.shape).map([&](const auto& shape) {
+    return RecordingOptions{a.spectra, shape};
+  });
+}
+
+std::optional<std::filesystem::path> path_of(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional<std::filesystem::path>{text};
+}
+
+hal::Result<RunOptions> options_of(const RunArguments& a) {
+  RunOptions o;
+  o.configuration = path_of(a.configuration);
+  o.calibration = path_of(a.calibration);
+  o.snapshot = path_of(a.snapshot);
+  o.report = path_of(a.report);
+  o.faults = path_of(a.faults);
+  o.controls = path_of(a.controls);
+  o.simulate = a.simulate;
+  if (a.display == "kms")
+    o.display = DisplayChoice::kms;
+  else if (a.display == "window")
+    o.display = DisplayChoice::window;
+  else if (a.display == "offscreen")
+    o.display = DisplayChoice::offscreen;
+  if (!a.phantom.empty())
+    o.phantom = a.phantom;
+  if (a.duration_s > 0)
+    o.duration_s = a.duration_s;
+  if (a.volumes > 0)
+    o.volumes = a.volumes;
+  if (!a.size.empty()) {
+    const auto size = parse_size(a.size);
+    if (!size)
+      return tl::make_unexpected(size.error());
+    o.size = *size;
+  }
+  if (!a.spectra.empty()) {
+    const auto recording = recording_of(a);
+    if (!recording)
+      return tl::make_unexpected(recording.error());
+    o.recording = *recording;
+  } else if (!a.shape.empty()) {
+    return hal::fail(hal::Fault::invalid_argument, "--shape needs --spectra FILE");
+  }
+  return o;
+}
+
+// Complaints about what was asked for are wrong use; what fails on the way is a failure.
+int complain(const hal::Error& error) {
+  fmt::print(stderr, "octascope run: {}\n", error.message);
+  return error.fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
+}
+
+int run(const RunArguments& arguments) {
+  const auto options = options_of(arguments);
+  if (!options)
+    return complain(options.error());
+  StopSignal stop_signal; // before the first thread
+  auto appliance = Appliance::assemble(*options);
+  if (!appliance)
+    return complain(appliance.error());
+  if (const auto ran = (*appliance)->run(stop_signal); !ran)
+    return complain(ran.error());
+  return exit_done;
+}
+
+} // namespace
+
+void add_run_command(CLI::App& program, int& exit_status) {
+  auto arguments = std::make_shared<RunArguments>();
+  RunArguments& a = *arguments;
+  CLI::App* command = program.add_subcommand("run", "Run the appliance: acquire, reconstruct, show");
+  command->footer("Examples:\n"
+                  "  octascope run --sim --duration 20\n"
+                  "  octascope run --spectra s.raw --shape 100,100,1024 --calibration c.toml "
+                  "--display offscreen --volumes 5 --snapshot t.png --report t.json\n"
+                  "Keys in a window: arrows turn, page up and down change the distance, o and s "
+                  "change the window, h shows all, q ends.");
+  command->add_option("--config", a.configuration, "Configuration (TOML)");
+  command->add_option("--display", a.display, "Where the picture goes")
+      ->check(CLI::IsMember({"auto", "kms", "window", "offscreen"}))
+      ->capture_default_str();
+  command->add_option("--size", a.size, "Size of the picture in pixels, as 1280x720");
+  command->add_flag("--sim", a.simulate, "Use the simulated devices, whatever is plugged in");
+  auto* duration = command->add_option("--duration", a.duration_s, "End after so many seconds")
+                       ->check(CLI::Range(0.1, 1e9));
+  command->add_option("--volumes", a.volumes, "End after so many volumes")
+      ->check(CLI::Range(1, 1000000000))
+      ->excludes(duration);
+  command->add_option("--spectra", a.spectra,
+                      "Play raw spectra (u16, little-endian, [B][A][N]) instead of a phantom");
+  command->add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024");
+  command->add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)");
+  command->add_option("--phantom", a.phantom, "What the simulated camera sees");
+  command->add_option("--faults", a.faults, "Faults that the simulated devices suffer (TOML)");
+  command->add_option("--controls", a.controls, "What the simulated pedal and knob do (TOML)");
+  command->add_option("--snapshot", a.snapshot, "Write the last picture here (PNG)");
+  command->add_option("--report", a.report, "Write the report here (JSON)");
+  command->callback([arguments, &exit_status] { exit_status = run(*arguments); });
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,84 @@
+#include "firmware-host/configuration.h"
+
+#include "pipeline/config_document.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using pipeline::ConfigTable;
+using pipeline::NumberRange;
+
+constexpr NumberRange level_range_db{-40, 88};
+
+void read_scan(ConfigTable root, Configuration& configuration) {
+  const bool present = root.has("scan");
+  ConfigTable scan = root.table("scan");
+  pipeline::ScanPlan plan;
+  const NumberRange counts{1, 65536};
+  const NumberRange spacings_um{1e-3, 1e6};
+  plan.samples = scan.integer("samples", plan.samples, {16, 65536});
+  plan.a_scans = scan.integer("a_scans", plan.a_scans, counts);
+  plan.fly_back_lines = scan.integer("fly_back_lines", plan.fly_back_lines, {0, 65536});
+  plan.b_scans = scan.integer("b_scans", plan.b_scans, counts);
+  plan.line_rate_hz = scan.number("line_rate_hz", plan.line_rate_hz, {1, 1e9});
+  plan.depth_spacing_um = scan.number("depth_spacing_um", plan.depth_spacing_um, spacings_um);
+  plan.a_spacing_um = scan.number("a_spacing_um", plan.a_spacing_um, spacings_um);
+  plan.b_spacing_um = scan.number("b_spacing_um", plan.b_spacing_um, spacings_um);
+  if (present)
+    configuration.plan = plan;
+}
+
+void read_pipeline(ConfigTable table, Configuration& configuration) {
+  configuration.workers = static_cast<std::size_t>(table.integer("workers", 0, {0, 256}));
+  const auto weights = table.numbers("neighbour_weights");
+  if (weights.empty())
+    return;
+  if (weights.size() != 3 || weights[1] <= 0 || weights[0] < 0 || weights[2] < 0) {
+    table.complain("neighbour_weights must be three numbers, before, own (> 0) and after, as in "
+                   "[0.25, 0.5, 0.25]");
+    return;
+  }
+  configuration.neighbour_weights = {static_cast<float>(weights[0]), static_cast<float>(weights[1]),
+                                     static_cast<float>(weights[2])};
+}
+
+void read_display(ConfigTable table, Configuration& configuration) {
+  configuration.width = table.integer("width", configuration.width, {320, 16384});
+  configuration.height = table.integer("height", configuration.height, {180, 16384});
+  configuration.fullscreen = table.boolean("fullscreen", configuration.fullscreen);
+  if (table.has("window_offset_db"))
+    configuration.window_offset_db =
+        static_cast<float>(table.number("window_offset_db", 0, level_range_db));
+  if (table.has("window_size_db"))
+    configuration.window_size_db = static_cast<float>(table.number("window_size_db", 1, {1, 128}));
+  configuration.veil_after = hal::from_seconds(
+      table.number("veil_after_s", hal::to_seconds(configuration.veil_after), {0.5, 3600}));
+}
+
+void read_sim(ConfigTable table, Configuration& configuration) {
+  configuration.phantom = table.text("phantom", configuration.phantom);
+  configuration.loop_volumes = table.integer("loop_volumes", configuration.loop_volumes, {1, 64});
+  configuration.faults = table.path("faults");
+  configuration.controls = table.path("controls");
+}
+
+} // namespace
+
+hal::Result<Configuration> load_configuration(const std::filesystem::path& file) {
+  const auto document = pipeline::ConfigDocument::load(file);
+  if (!document)
+    return tl::make_unexpected(document.error());
+  Configuration configuration;
+  ConfigTable root = document->root();
+  read_scan(root, configuration);
+  configuration.calibration = root.table("calibration").path("file");
+  read_pipeline(root.table("pipeline"), configuration);
+  read_display(root.table("display"), configuration);
+  read_sim(root.table("sim"), configuration);
+  if (const auto finished = document->finish(); !finished)
+    return tl::make_unexpected(finished.error());
+  return configuration;
+}
+
+} // namespace octascope::firmware_host

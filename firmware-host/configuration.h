@@ -1,0 +1,41 @@
+// The appliance's configuration file: one TOML, refused as a whole when anything in it is wrong.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "hal/clock.h"
+#include "hal/result.h"
+#include "pipeline/neighbour_average.h"
+#include "pipeline/scan_plan.h"
+
+namespace octascope::firmware_host {
+
+struct Configuration {
+  // [scan]; empty: the phantom's or the recording's own plan
+  std::optional<pipeline::ScanPlan> plan;
+  // [calibration]
+  std::optional<std::filesystem::path> calibration;
+  // [pipeline]
+  std::size_t workers = 0; // 0: one a core
+  pipeline::NeighbourWeights neighbour_weights;
+  // [display]
+  int width = 1280;
+  int height = 720;
+  bool fullscreen = false;
+  std::optional<float> window_offset_db;
+  std::optional<float> window_size_db;
+  hal::Duration veil_after = std::chrono::seconds{5};
+  // [sim]
+  std::string phantom = "anterior_eye";
+  int loop_volumes = 6;
+  std::optional<std::filesystem::path> faults;
+  std::optional<std::filesystem::path> controls;
+};
+
+// Paths in the file are relative to it.
+hal::Result<Configuration> load_configuration(const std::filesystem::path& file);
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,141 @@
+#include "firmware-host/health_check.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <thread>
+
+#include <sys/mman.h>
+
+#include <fmt/format.h>
+
+#include "firmware-host/device_choice.h"
+#include "hal/linux/realtime.h"
+#include "sim/offscreen_display.h"
+#include "ui/gl/context_info.h"
+
+namespace octascope::firmware_host {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr double gib = 1024.0 * 1024.0 * 1024.0;
+
+HealthCheck good(std::string_view subject, std::string found) {
+  return {std::string{subject}, Verdict::good, std::move(found), ""};
+}
+
+HealthCheck check_cores() {
+  const unsigned cores = std::thread::hardware_concurrency();
+  const std::string found = fmt::format("{} processor cores", cores);
+  if (cores >= 2)
+    return good("processor", found);
+  return {"processor", Verdict::limited, found,
+          "use a machine with two cores or more: acquisition and drawing share one here"};
+}
+
+HealthCheck check_realtime() {
+  hal::Result<> made;
+  std::thread{[&made] { made = hal::linux_backend::make_this_thread_realtime(1); }}.join();
+  if (made)
+    return good("real-time priority", "SCHED_FIFO is allowed");
+  return {"real-time priority", Verdict::limited, "not allowed", made.error().message};
+}
+
+HealthCheck check_locked_memory() {
+  const auto locked = hal::linux_backend::lock_memory();
+  munlockall();
+  if (locked)
+    return good("locked memory", "mlockall is allowed");
+  return {"locked memory", Verdict::limited, "not allowed", locked.error().message};
+}
+
+HealthCheck check_memory() {
+  constexpr double needed_gib = 1.5;
+  std::ifstream in{"/proc/meminfo"};
+  double available_gib = 0;
+  for (std::string line; std::getline(in, line);) {
+    constexpr std::string_view key = "MemAvailable:";
+    if (line.starts_with(key))
+      available_gib = std::stod(line.substr(key.size())) * 1024 / gib;
+  }
+  const std::string found = fmt::format("{:.1f} GiB available", available_gib);
+  if (available_gib >= needed_gib)
+    return good("memory", found);
+  return {"memory", Verdict::limited, found,
+          fmt::format("free some, {} GiB are needed for buffers and the simulated loop", needed_gib)};
+}
+
+// How late absolute sleeps of 1 ms wake: what every tick suffers.
+HealthCheck check_clock(hal::Clock& clock) {
+  constexpr std::size_t sleeps = 200;
+  std::array<hal::Duration, sleeps> late{};
+  std::thread{[&] {
+    static_cast<void>(hal::linux_backend::make_this_thread_realtime(1)); // as the ticks run
+    hal::TimePoint deadline = clock.now();
+    for (hal::Duration& l : late) {
+      deadline += 1ms;
+      clock.sleep_until(deadline);
+      l = clock.now() - deadline;
+    }
+  }}.join();
+  std::sort(late.begin(), late.end());
+  const double median_ms = hal::to_ms(late[sleeps / 2]);
+  const double p99_ms = hal::to_ms(late[sleeps * 99 / 100]);
+  const std::string found =
+      fmt::format("sleeps end {:.3f} ms late, 99 % within {:.3f} ms", median_ms, p99_ms);
+  constexpr double bearable_ms = 2;
+  if (p99_ms <= bearable_ms)
+    return good("clock", found);
+  return {"clock", Verdict::limited, found,
+          "ticks will jitter: allow real-time priority, and run nothing else on this machine"};
+}
+
+HealthCheck check_disk() {
+  std::error_code error;
+  const auto space = std::filesystem::space(".", error);
+  const double free_gib = error ? 0 : static_cast<double>(space.available) / gib;
+  const std::string found = fmt::format("{:.1f} GiB free in this folder", free_gib);
+  if (free_gib >= 1)
+    return good("disk", found);
+  return {"disk", Verdict::limited, found, "free some: snapshots and reports need room"};
+}
+
+HealthCheck check_graphics(hal::Clock& clock) {
+  sim::OffscreenDisplay display{clock};
+  if (const auto opened = display.open({.width = 64, .height = 64}); !opened)
+    return {"graphics", Verdict::fails, "no GLES 3 context", opened.error().message};
+  const ui::gl::ContextInfo info = ui::gl::describe_context();
+  display.close();
+  const std::string found = fmt::format("{}, {}", info.renderer, info.version);
+  if (!info.software)
+    return good("graphics", found);
+  return {"graphics", Verdict::limited, found,
+          "the processor draws: fine for trying out, fewer frames a second; with a GPU, install its "
+          "Mesa driver and add the user to the groups video and render"};
+}
+
+HealthCheck check_devices() {
+  const DeviceChoices choices = choose_devices(survey_hardware(), RunOptions{});
+  std::string twins;
+  for (const DeviceChoice& choice : choices.all()) {
+    if (choice.backend == "sim")
+      twins += (twins.empty() ? "" : ", ") + std::string{choice.device};
+  }
+  if (twins.empty())
+    return good("devices", "all real");
+  return {"devices", Verdict::limited, "simulated: " + twins,
+          "see octascope devices for what is plugged in and why it is not used"};
+}
+
+} // namespace
+
+std::vector<HealthCheck> check_health(hal::Clock& clock) {
+  return {check_cores(),       check_memory(), check_realtime(),      check_locked_memory(),
+          check_clock(clock),  check_disk(),   check_graphics(clock), check_devices()};
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,93 @@
+#include "firmware-host/report.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "firmware-host/version.h"
+#include "pipeline/whole_file.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Three digits after the point are a microsecond of a millisecond: more would be noise.
+double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
+
+Json to_json(const pipeline::DurationSummary& s) {
+  return {{"p50", rounded(s.p50_ms)}, {"p95", rounded(s.p95_ms)}, {"max", rounded(s.max_ms)}};
+}
+
+Json faults_to_json(const RunReport& report) {
+  Json faults = Json::array();
+  for (const pipeline::FaultRecord& f : report.faults) {
+    faults.push_back({{"device", f.device},
+                      {"kind", f.kind},
+                      {"message", f.message},
+                      {"count", f.count},
+                      {"first_s", rounded(hal::to_seconds(f.first - report.started))},
+                      {"last_s", rounded(hal::to_seconds(f.last - report.started))}});
+  }
+  return faults;
+}
+
+} // namespace
+
+std::string to_json(const RunReport& r) {
+  const Json json = {
+      {"version", version()},
+      {"simulated", r.simulated},
+      {"source", r.source},
+      {"duration_s", rounded(r.duration_s)},
+      {"devices",
+       {{"line_camera", r.line_camera},
+        {"galvo_trigger", r.galvo_trigger},
+        {"control_input", r.control_input},
+        {"scope_camera", r.scope_camera},
+        {"display", r.display}}},
+      {"volumes",
+       {{"acquired", r.acquired},
+        {"published", r.published},
+        {"displayed", r.displayed},
+        {"skipped", r.skipped}}},
+      {"lost", {{"lines", r.lost_lines}, {"b_scans", r.lost_b_scans}, {"volumes", r.lost_volumes}}},
+      {"saturated_lines", r.saturated_lines},
+      {"rates",
+       {{"lines_per_s", rounded(r.lines_per_s)},
+        {"volumes_per_s", rounded(r.volumes_per_s)},
+        {"frames_per_s", rounded(r.frames_per_s)}}},
+      {"stage_ms",
+       {{"reconstruct", to_json(r.reconstruct)},
+        {"assemble", to_json(r.assemble)},
+        {"publish", to_json(r.publish)},
+        {"upload", to_json(r.upload)},
+        {"draw", to_json(r.draw)}}},
+      {"latency_ms", to_json(r.latency)},
+      {"frames", {{"drawn", r.frames_drawn}, {"missed", r.frames_missed}}},
+      {"hot_path", {{"allocations", r.hot_path_allocations}}},
+      {"faults", faults_to_json(r)},
+  };
+  return json.dump(2) + "\n";
+}
+
+std::string to_text(const RunReport& r) {
+  std::string text = fmt::format(
+      "{:.1f} s, {} volumes displayed of {} acquired ({:.2f}/s, {:.0f} lines/s), {} frames "
+      "({:.1f}/s)\n"
+      "lost: {} lines, {} B-scans, {} volumes; latency {:.0f} ms median, {:.0f} ms p95\n",
+      r.duration_s, r.displayed, r.acquired, r.volumes_per_s, r.lines_per_s, r.frames_drawn,
+      r.frames_per_s, r.lost_lines, r.lost_b_scans, r.lost_volumes, r.latency.p50_ms,
+      r.latency.p95_ms);
+  for (const pipeline::FaultRecord& f : r.faults)
+    text += fmt::format("fault: {} {} ×{}: {}\n", f.device, f.kind, f.count, f.message);
+  return text;
+}
+
+hal::Result<> write_report(const RunReport& report, const std::filesystem::path& file) {
+  return pipeline::write_whole_file(file, to_json(report));
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,43 @@
+// The report of a run: its keys stay, tools read them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/result.h"
+#include "pipeline/duration_statistics.h"
+#include "pipeline/fault_log.h"
+
+namespace octascope::firmware_host {
+
+struct RunReport {
+  bool simulated = false;
+  std::string source; // what the spectra were
+  std::string line_camera, galvo_trigger, control_input, scope_camera, display; // backends
+
+  std::uint64_t acquired = 0, published = 0, displayed = 0, skipped = 0;
+  std::uint64_t lost_lines = 0, lost_b_scans = 0, lost_volumes = 0;
+  std::uint64_t saturated_lines = 0;
+  double duration_s = 0;
+  double lines_per_s = 0, volumes_per_s = 0, frames_per_s = 0;
+  pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, latency;
+  std::uint64_t frames_drawn = 0, frames_missed = 0;
+  std::uint64_t hot_path_allocations = 0;
+  std::vector<pipeline::FaultRecord> faults;
+  hal::TimePoint started; // fault times are relative to it
+};
+
+// One JSON object, indented.
+std::string to_json(const RunReport& report);
+
+// The same for a person: a few lines.
+std::string to_text(const RunReport& report);
+
+// Whole or not at all.
+hal::Result<> write_report(const RunReport& report, const std::filesystem::path& file);
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,35 @@
+// What a user asked `octascope run` for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace octascope::firmware_host {
+
+enum class DisplayChoice : std::uint8_t { automatic, kms, window, offscreen };
+
+struct RecordingOptions {
+  std::filesystem::path file;
+  std::array<int, 3> shape{}; // B-scans, A-scans, samples
+};
+
+struct RunOptions {
+  std::optional<std::filesystem::path> configuration;
+  DisplayChoice display = DisplayChoice::automatic;
+  std::optional<std::array<int, 2>> size; // width, height
+  bool simulate = false;                  // twins even where there is a real device
+  std::optional<double> duration_s;
+  std::optional<std::uint64_t> volumes;
+  std::optional<RecordingOptions> recording;
+  std::optional<std::filesystem::path> calibration;
+  std::optional<std::filesystem::path> snapshot;
+  std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> faults;   // fault script for the twins
+  std::optional<std::filesystem::path> controls; // what the pedal's twin does, and when
+  std::optional<std::string> phantom;
+};
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,27 @@
+# Fails with the file's name for an include that goes around the houses' include roots, and for GL
+# or device headers where they do not belong.
+set(failures "")
+
+function(refuse reason pattern)
+  foreach(glob IN LISTS ARGN)
+    file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/${glob}/*.h ${SOURCE}/${glob}/*.cpp)
+    if(NOT files)
+      message(FATAL_ERROR "no sources under ${glob}: this test looks in the wrong place")
+    endif()
+    foreach(file IN LISTS files)
+      file(STRINGS ${SOURCE}/${file} lines REGEX "${pattern}")
+      if(lines)
+        string(APPEND failures "${file}: ${reason}: ${lines}\n")
+      endif()
+    endforeach()
+  endforeach()
+  set(failures "${failures}" PARENT_SCOPE)
+endfunction()
+
+refuse("an include goes around the house's door" "#include \"\\.\\./" hal pipeline ui sim firmware-host)
+refuse("pipeline knows no GL" "#include <(GL|GLES|EGL|SDL)" pipeline)
+refuse("ui knows no device backend" "#include <(linux/|EGL|SDL|gpiod|hidapi|libcamera)" ui)
+refuse("sim knows no window system" "#include <SDL" sim)
+if(failures)
+  message(FATAL_ERROR "${failures}")
+endif()
