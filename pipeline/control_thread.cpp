@@ -14,8 +14,9 @@ constexpr hal::Duration read_timeout = 50ms; // also how soon a stop is noticed
 
 } // namespace
 
-ControlThread::ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults)
-    : input_(input), clock_(clock), faults_(faults) {}
+ControlThread::ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults,
+                             Wakeup& news)
+    : input_(input), clock_(clock), faults_(faults), news_(news) {}
 
 ControlThread::~ControlThread() { stop(); }
 
@@ -52,6 +53,8 @@ void ControlThread::run() {
       if (!queue_.push(event))
         faults_.add(device_name, "overflow", "more events than the display could take", event.time);
     }
+    if (*count > 0)
+      news_.post();
   }
   input_.close();
 }

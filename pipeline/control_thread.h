@@ -10,6 +10,7 @@
 #include "pipeline/event_queue.h"
 #include "pipeline/fault_log.h"
 #include "pipeline/retry_delay.h"
+#include "pipeline/wakeup.h"
 #include "pipeline/worker_pool.h"
 
 namespace octascope::pipeline {
@@ -17,8 +18,8 @@ namespace octascope::pipeline {
 // The device may vanish and return at any time; it is reopened with a back-off.
 class ControlThread {
 public:
-  // All references outlive this.
-  ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults);
+  // All references outlive this; `news` is posted after each event.
+  ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults, Wakeup& news);
   ~ControlThread();
 
   void start(const ThreadSetup& setup);
@@ -34,6 +35,7 @@ private:
   hal::ControlInput& input_;
   hal::Clock& clock_;
   FaultLog& faults_;
+  Wakeup& news_;
   EventQueue<hal::ControlEvent, 256> queue_;
   RetryDelay retry_;
   std::atomic<bool> stopping_{false};

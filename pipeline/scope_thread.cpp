@@ -1,10 +1,5 @@
 #include "pipeline/scope_thread.h"
 
-#include <algorithm>
-#include <cstring>
-
-#include <fmt/format.h>
-
 namespace octascope::pipeline {
 
 using namespace std::chrono_literals;
@@ -13,18 +8,11 @@ namespace {
 
 constexpr hal::Duration frame_timeout = 50ms; // also how soon a stop is noticed
 
-void copy_rows(const hal::ScopeFrame& frame, ScopePicture& picture) {
-  const auto row_bytes = static_cast<std::size_t>(frame.width) * 3;
-  const auto stride = static_cast<std::size_t>(frame.stride_bytes);
-  for (std::size_t row = 0; row < static_cast<std::size_t>(frame.height); ++row)
-    std::memcpy(&picture.rgb[row * row_bytes], &frame.pixels[row * stride], row_bytes);
-}
-
 } // namespace
 
 ScopeThread::ScopeThread(hal::ScopeCamera& camera, const hal::ScopeCameraConfig& config,
-                         hal::Clock& clock, FaultLog& faults)
-    : camera_(camera), config_(config), clock_(clock), faults_(faults) {}
+                         hal::Clock& clock, FaultLog& faults, Wakeup& news)
+    : camera_(camera), config_(config), clock_(clock), faults_(faults), news_(news) {}
 
 ScopeThread::~ScopeThread() { stop(); }
 
@@ -43,9 +31,9 @@ void ScopeThread::stop() {
   thread_.join();
 }
 
-const ScopePicture* ScopeThread::take_newest() {
+const hal::ScopeFrame* ScopeThread::take_newest() {
   const auto index = triple_buffer_.take();
-  return index ? &pictures_[*index] : nullptr;
+  return index ? &pictures_[*index].frame : nullptr;
 }
 
 void ScopeThread::run() {
@@ -59,8 +47,7 @@ void ScopeThread::run() {
       fault(frame.error());
       camera_.close();
     } else if (*frame) {
-      if (receive(**frame))
-        back_ = triple_buffer_.publish(back_).recycled;
+      receive(**frame);
       camera_.release((*frame)->buffer);
     }
   }
@@ -86,25 +73,13 @@ void ScopeThread::fault(const hal::Error& error) {
   faults_.add("scope_camera", to_string(error.fault), error.message, clock_.now());
 }
 
-bool ScopeThread::receive(const hal::ScopeFrame& frame) {
-  const auto row_bytes = static_cast<std::int64_t>(frame.width) * 3;
-  const auto needed = static_cast<std::int64_t>(frame.stride_bytes) * (frame.height - 1) + row_bytes;
-  if (frame.format != hal::PixelFormat::rgb8 || frame.stride_bytes < row_bytes ||
-      static_cast<std::int64_t>(frame.pixels.size()) < needed) {
-    fault({hal::Fault::bad_data,
-           fmt::format("a picture of {}×{} pixels in {} bytes cannot be shown, expected RGB with 3 "
-                       "bytes a pixel",
-                       frame.width, frame.height, frame.pixels.size())});
-    return false;
-  }
-  ScopePicture& picture = pictures_[back_];
-  picture.width = frame.width;
-  picture.height = frame.height;
-  picture.rgb.resize(static_cast<std::size_t>(row_bytes) * static_cast<std::size_t>(frame.height));
-  copy_rows(frame, picture);
-  picture.sequence = frame.sequence;
-  picture.time = frame.time;
-  return true;
+void ScopeThread::receive(const hal::ScopeFrame& frame) {
+  Picture& picture = pictures_[back_];
+  picture.bytes.assign(frame.pixels.begin(), frame.pixels.end());
+  picture.frame = frame;
+  picture.frame.pixels = picture.bytes;
+  back_ = triple_buffer_.publish(back_).recycled;
+  news_.post();
 }
 
 } // namespace octascope::pipeline

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <thread>
 #include <vector>
@@ -12,45 +13,44 @@
 #include "pipeline/fault_log.h"
 #include "pipeline/retry_delay.h"
 #include "pipeline/triple_buffer.h"
+#include "pipeline/wakeup.h"
 #include "pipeline/worker_pool.h"
 
 namespace octascope::pipeline {
 
-// 8-bit RGB, rows from the top, no padding.
-struct ScopePicture {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> rgb;
-  std::uint64_t sequence = 0;
-  hal::TimePoint time;
-};
-
 // The camera may vanish and return at any time; it is reopened with a back-off.
 class ScopeThread {
 public:
-  // All references outlive this.
+  // All references outlive this; `news` is posted after each picture.
   ScopeThread(hal::ScopeCamera& camera, const hal::ScopeCameraConfig& config, hal::Clock& clock,
-              FaultLog& faults);
+              FaultLog& faults, Wakeup& news);
   ~ScopeThread();
 
   void start(const ThreadSetup& setup);
   void stop();
 
-  // The renderer's side (one thread): the newest picture if one came since the last call; valid
-  // until the next call that returns one.
-  const ScopePicture* take_newest();
+  // The renderer's side (one thread): the newest picture, in the camera's own pixel format, if one
+  // came since the last call; valid until the next call that returns one. It is a copy: the camera
+  // may vanish meanwhile.
+  const hal::ScopeFrame* take_newest();
 
 private:
+  struct Picture {
+    hal::ScopeFrame frame; // its pixels are `bytes`
+    std::vector<std::byte> bytes;
+  };
+
   void run();
   bool open_and_start();
   void fault(const hal::Error& error);
-  bool receive(const hal::ScopeFrame& frame);
+  void receive(const hal::ScopeFrame& frame);
 
   hal::ScopeCamera& camera_;
   hal::ScopeCameraConfig config_;
   hal::Clock& clock_;
   FaultLog& faults_;
-  std::array<ScopePicture, 3> pictures_;
+  Wakeup& news_;
+  std::array<Picture, 3> pictures_;
   std::uint32_t back_ = 2;
   TripleBuffer triple_buffer_{0, 1};
   RetryDelay retry_;

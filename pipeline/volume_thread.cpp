@@ -23,9 +23,9 @@ constexpr std::uint32_t none = ~0U;
 
 VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
                            Acquisition& acquisition, hal::LineCamera& camera, hal::Clock& clock,
-                           FaultLog& faults, Wakeup& arrived)
+                           FaultLog& faults, Wakeup& arrived, Wakeup& news)
     : setup_(std::move(setup)), trigger_(trigger), acquisition_(acquisition), camera_(camera),
-      clock_(clock), faults_(faults), arrived_(arrived),
+      clock_(clock), faults_(faults), arrived_(arrived), news_(news),
       volumes_(pool_size, Volume{setup_.plan.geometry()}), sweeps_(setup_.plan),
       average_(setup_.plan.geometry(), setup_.neighbour_weights),
       jobs_(static_cast<std::size_t>(setup_.camera_buffers)) {
@@ -266,6 +266,7 @@ void VolumeThread::finish(std::uint32_t index) {
   counts_.published.fetch_add(1, std::memory_order_relaxed);
   if (skipped)
     counts_.skipped.fetch_add(1, std::memory_order_relaxed);
+  news_.post();
 }
 
 void VolumeThread::fill_ledger(Volume& volume, const Construction& c) {

@@ -63,9 +63,11 @@ struct PipelineStatistics {
 
 class VolumeThread {
 public:
-  // All references outlive this; `arrived` is the one the acquisition posts.
+  // All references outlive this; `arrived` is the one the acquisition posts, `news` is posted
+  // after each published volume.
   VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger, Acquisition& acquisition,
-               hal::LineCamera& camera, hal::Clock& clock, FaultLog& faults, Wakeup& arrived);
+               hal::LineCamera& camera, hal::Clock& clock, FaultLog& faults, Wakeup& arrived,
+               Wakeup& news);
   ~VolumeThread();
 
   void start(const ThreadSetup& setup);
@@ -124,6 +126,7 @@ private:
   hal::Clock& clock_;
   FaultLog& faults_;
   Wakeup& arrived_;
+  Wakeup& news_;
 
   std::vector<Volume> volumes_;
   std::array<Construction, pool_size> constructions_;

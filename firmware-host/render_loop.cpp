@@ -1,0 +1,184 @@
+#include "firmware-host/render_loop.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "ui/controls/simulated_control.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+constexpr const char* device_name = "display";
+
+} // namespace
+
+RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
+    : parts_(parts), setup_(std::move(setup)), controller_(setup_.view, setup_.b_scans) {}
+
+RenderLoop::~RenderLoop() {
+  renderer_.reset(); // before its context
+  parts_.display.close();
+}
+
+hal::Result<> RenderLoop::open() { return open_display(); }
+
+hal::Result<> RenderLoop::open_display() {
+  if (auto opened = parts_.display.open(setup_.display); !opened)
+    return opened;
+  auto renderer = ui::Renderer::create();
+  if (!renderer) {
+    parts_.display.close();
+    return tl::make_unexpected(renderer.error());
+  }
+  renderer_ = std::move(*renderer);
+  if (volume_ != nullptr) // a display that came back shows what the lost one did
+    return renderer_->show_volume(*volume_);
+  return {};
+}
+
+bool RenderLoop::turn() {
+  const hal::TimePoint next = parts_.clock.now() + parts_.display.refresh_period();
+  const bool go_on = handle_input();
+  take_volume();
+  take_scope_picture();
+  update_status();
+  if (display_ready())
+    draw_if_changed();
+  parts_.news.wait_until(next); // at once when something came meanwhile
+  return go_on;
+}
+
+bool RenderLoop::handle_input() {
+  bool quit = false;
+  const auto note = [&quit](const ui::ControlRequests& requests) { quit = quit || requests.quit; };
+  std::array<hal::DisplayEvent, 32> events;
+  if (renderer_) {
+    for (const hal::DisplayEvent& event :
+         std::span{events}.first(parts_.display.poll_events(events))) {
+      quit = quit || event.kind == hal::DisplayEventKind::close_requested;
+      note(controller_.handle(event));
+      if (const auto control = ui::simulated_control(event); control && parts_.simulated_control)
+        parts_.simulated_control(*control);
+    }
+  }
+  while (const auto event = parts_.controls.take())
+    note(controller_.handle(*event));
+  return !quit;
+}
+
+void RenderLoop::take_volume() {
+  if (controller_.state().frozen || !renderer_)
+    return;
+  const pipeline::Volume* newest = parts_.volumes.take_newest();
+  if (newest == nullptr)
+    return;
+  volume_ = newest;
+  const hal::TimePoint begin = parts_.clock.now();
+  if (const auto shown = renderer_->show_volume(*newest); !shown) {
+    parts_.faults.add(device_name, to_string(shown.error().fault), shown.error().message, begin);
+    return;
+  }
+  statistics_.upload.add(parts_.clock.now() - begin);
+  undisplayed_last_line_ = newest->ledger.last_line;
+  shown_ = ui::ShownVolume{newest->ledger.last_line, newest->ledger.published};
+  setup_.status.missing_b_scans = newest->missing_b_scans();
+  setup_.status.saturated_lines = newest->ledger.saturated_lines;
+}
+
+void RenderLoop::take_scope_picture() {
+  if (!renderer_)
+    return;
+  if (const hal::ScopeFrame* picture = parts_.scope.take_newest()) {
+    if (const auto shown = renderer_->show_scope_picture(*picture, setup_.scan_field); !shown)
+      parts_.faults.add("scope_camera", to_string(shown.error().fault), shown.error().message,
+                        parts_.clock.now());
+  }
+}
+
+void RenderLoop::update_status() {
+  ui::Status& s = setup_.status;
+  s.now = parts_.clock.now();
+  const pipeline::VolumeCounters counters = parts_.volumes.counters();
+  volume_rate_.update(counters.acquired, s.now);
+  frame_rate_.update(statistics_.frames_drawn, s.now);
+  s.volumes_per_s = volume_rate_.per_second();
+  s.frames_per_s = frame_rate_.per_second();
+  s.losses = {counters.lost_lines, counters.lost_b_scans, counters.lost_volumes};
+  if (const auto latency = statistics_.latency.summary(); latency.count > 0) {
+    s.latency_p50_ms = latency.p50_ms;
+    s.latency_p95_ms = latency.p95_ms;
+  }
+  const ui::ViewState& view = controller_.state();
+  s.freshness = ui::judge_freshness(
+      shown_, s.now, setup_.freshness,
+      view.frozen ? std::optional{view.frozen_since} : std::nullopt);
+}
+
+void RenderLoop::draw_if_changed() {
+  const ui::ViewState& view = controller_.state();
+  hal::Display& display = parts_.display;
+  if (!renderer_->needs_redraw(view, setup_.status, display.width(), display.height()))
+    return;
+  const hal::TimePoint begin = parts_.clock.now();
+  if (const auto drawn = renderer_->draw(view, setup_.status, display.width(), display.height());
+      !drawn) {
+    lose_display(drawn.error());
+    return;
+  }
+  const auto flip = display.present();
+  if (!flip)
+    lose_display(flip.error());
+  else
+    flip_done(*flip, begin);
+}
+
+void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
+  const hal::Duration took = flip.completed - begin;
+  ++statistics_.frames_drawn;
+  statistics_.draw.add(took);
+  statistics_.frames_missed +=
+      static_cast<std::uint64_t>(std::max<std::int64_t>(took / parts_.display.refresh_period(), 0));
+  if (undisplayed_last_line_) {
+    statistics_.latency.add(flip.completed - *undisplayed_last_line_);
+    undisplayed_last_line_.reset();
+    ++statistics_.volumes_displayed;
+  }
+}
+
+void RenderLoop::lose_display(const hal::Error& error) {
+  parts_.faults.add(device_name, to_string(error.fault), error.message, parts_.clock.now());
+  renderer_.reset();
+  parts_.display.close();
+  undisplayed_last_line_.reset();
+}
+
+bool RenderLoop::display_ready() {
+  if (renderer_)
+    return true;
+  const hal::TimePoint now = parts_.clock.now();
+  if (!retry_.due(now))
+    return false;
+  if (const auto opened = open_display(); !opened) {
+    parts_.faults.add(device_name, to_string(opened.error().fault), opened.error().message, now);
+    retry_.failure(now);
+    return false;
+  }
+  retry_.success();
+  return true;
+}
+
+std::optional<ui::Image> RenderLoop::picture() {
+  if (!renderer_)
+    return std::nullopt;
+  update_status();
+  const int width = parts_.display.width();
+  const int height = parts_.display.height();
+  if (!renderer_->draw(controller_.state(), setup_.status, width, height))
+    return std::nullopt;
+  return renderer_->read_back(width, height);
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,113 @@
+// The render thread's work: newest volume → texture → frame → flip, and what hands and feet did.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "firmware-host/rate_meter.h"
+#include "hal/clock.h"
+#include "hal/control_input.h"
+#include "hal/display.h"
+#include "hal/scope_camera.h"
+#include "pipeline/acquisition.h"
+#include "pipeline/control_thread.h"
+#include "pipeline/duration_statistics.h"
+#include "pipeline/fault_log.h"
+#include "pipeline/retry_delay.h"
+#include "pipeline/scope_thread.h"
+#include "pipeline/volume_thread.h"
+#include "pipeline/wakeup.h"
+#include "ui/controls/view_controller.h"
+#include "ui/freshness.h"
+#include "ui/image.h"
+#include "ui/renderer.h"
+#include "ui/scan_field.h"
+#include "ui/status.h"
+
+namespace octascope::firmware_host {
+
+// Everything is borrowed and outlives the loop.
+struct RenderLoopParts {
+  hal::Display& display;
+  hal::Clock& clock;
+  pipeline::VolumeThread& volumes;
+  pipeline::ScopeThread& scope;
+  hal::ScopeCamera& scope_camera;
+  pipeline::ControlThread& controls;
+  pipeline::FaultLog& faults;
+  pipeline::Wakeup& news; // posted by the three threads above
+  // Keys that stand for the simulated pedal; empty where the pedal is real.
+  std::function<void(const hal::ControlEvent&)> simulated_control;
+};
+
+struct RenderLoopSetup {
+  hal::DisplayConfig display;
+  ui::ViewState view;
+  ui::FreshnessLimits freshness;
+  int b_scans = 80;
+  std::optional<ui::ScanField> scan_field;
+  ui::Status status; // devices, source: what does not change; the loop fills in the rest
+};
+
+struct FrameStatistics {
+  pipeline::DurationStatistics upload;
+  pipeline::DurationStatistics draw;
+  pipeline::DurationStatistics latency;
+  std::uint64_t frames_drawn = 0;
+  std::uint64_t frames_missed = 0;
+  std::uint64_t volumes_displayed = 0;
+};
+
+// Bound to one thread, the render thread. The display may vanish and return at any time.
+class RenderLoop {
+public:
+  RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup);
+  ~RenderLoop();
+
+  // Opens the display; an Error here is final (there is nothing to show anything on).
+  hal::Result<> open();
+
+  // One round: input, newest volume, a frame if something changed. Waits at most one refresh.
+  // False once somebody asked to quit.
+  bool turn();
+
+  // The last picture drawn; draws it again. Empty when the display is gone.
+  std::optional<ui::Image> picture();
+
+  const FrameStatistics& statistics() const { return statistics_; }
+  const ui::Status& status() const { return setup_.status; }
+
+  // Set by the host from time to time: what the display shows as devices' states.
+  ui::Status& editable_status() { return setup_.status; }
+
+  // A notice for the surgeon; empty for none.
+  void set_notice(std::string notice) { setup_.status.notice = std::move(notice); }
+
+private:
+  bool handle_input();
+  void take_volume();
+  void take_scope_picture();
+  void update_status();
+  void draw_if_changed();
+  void flip_done(const hal::Flip& flip, hal::TimePoint begin);
+  void lose_display(const hal::Error& error);
+  hal::Result<> open_display();
+  bool display_ready();
+
+  RenderLoopParts parts_;
+  RenderLoopSetup setup_;
+  ui::ViewController controller_;
+  std::unique_ptr<ui::Renderer> renderer_; // null while the display is gone
+  const pipeline::Volume* volume_ = nullptr; // the newest taken, ours until the next take
+  std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
+  std::optional<ui::ShownVolume> shown_;
+  pipeline::RetryDelay retry_;
+  RateMeter volume_rate_, line_rate_, frame_rate_;
+  FrameStatistics statistics_;
+};
+
+} // namespace octascope::firmware_host
