@@ -1,0 +1,52 @@
+// What one spectrometer needs to turn its counts into depth: positions uniform in wavenumber,
+// dispersion phase, background, spectral window and the physical spacings.
+//
+// The file format is described in docs (a calibration is TOML; paths in it are relative to it).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "hal/result.h"
+#include "pipeline/k_linearisation.h"
+#include "pipeline/spectral_window.h"
+
+namespace octascope::pipeline {
+
+enum class BackgroundMode : std::uint8_t {
+  mean,    // of the kept lines of each B-scan
+  running, // mean over the last B-scans of one worker (background.h)
+  file,    // a recorded spectrum
+  none,
+};
+
+// The least and the most samples a line may have.
+inline constexpr int fewest_samples = 16;
+inline constexpr int most_samples = 65536;
+
+// A plain value. All curves are resolved to `samples` values in double precision.
+struct Calibration {
+  int samples = 1024;
+  std::vector<double> positions; // r[m], fractional pixels in [0, samples−1], uniform in k
+  Interpolation interpolation = Interpolation::sinc8;
+  std::vector<double> dispersion_rad; // θ[m] with its sign applied; empty: none
+  BackgroundMode background_mode = BackgroundMode::mean;
+  std::vector<float> background; // counts after the right shift; only for BackgroundMode::file
+  std::vector<double> window;    // w[m]
+  double depth_spacing_um = 3.5; // of one bin, in the medium
+  double a_spacing_um = 10;
+  double b_spacing_um = 37.5;
+
+  // The whole file, or an Error that names file, line or index, what was found and what was
+  // expected. `expected_samples` is what the spectra have.
+  static hal::Result<Calibration> load(const std::filesystem::path& file, int expected_samples);
+
+  // For when no calibration is given: no resampling, no dispersion, Hann window, mean background.
+  static Calibration identity(int samples);
+
+  // Every curve has `samples` finite values and every position lies on the line.
+  hal::Result<> validate() const;
+};
+
+} // namespace octascope::pipeline

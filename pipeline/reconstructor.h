@@ -1,0 +1,105 @@
+// Spectra → depth profiles: one B-scan of raw lines becomes one B-scan of levels.
+//
+// The chain for one line of N samples s[p]:
+//   shift, s − background[p]; x[m] = s(r[m]) (k-linearisation by taps);
+//   y[m] = x[m]·w[m]·exp(iθ[m])/N (one complex factor a sample; real without dispersion);
+//   Y = FFT(y), bins 0 … N/2−1; level = 10·log10(|Y|²) dB, which is 20·log10(|FFT|/N).
+// Single precision, FFTW in the middle.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "hal/line_camera.h"
+#include "hal/result.h"
+#include "pipeline/calibration.h"
+
+namespace octascope::pipeline {
+
+enum class SpectrumType : std::uint8_t { u8, u16, f32 };
+
+constexpr std::size_t bytes_per_sample(SpectrumType type) {
+  return type == SpectrumType::u8 ? 1 : type == SpectrumType::u16 ? 2 : 4;
+}
+
+// Little-endian samples, lines without gaps. Shift and full scale mean nothing to f32.
+struct SpectrumFormat {
+  int samples = 1024;
+  SpectrumType type = SpectrumType::u16;
+  int significant_bits = 16; // full scale is 2^significant_bits − 1 after the shift
+  int right_shift = 0;
+
+  SpectrumFormat() = default;
+  SpectrumFormat(int samples_per_line, SpectrumType sample_type);
+  explicit SpectrumFormat(const hal::LineFormat& line);
+
+  std::size_t line_bytes() const {
+    return static_cast<std::size_t>(samples) * bytes_per_sample(type);
+  }
+};
+
+struct ReconstructionSetup {
+  Calibration calibration;
+  SpectrumFormat format;
+  int a_scans = 300; // kept lines of a B-scan, the first of each frame
+};
+
+struct BScanOutcome {
+  int saturated_lines = 0; // with at least one sample at full scale
+};
+
+// Immutable once made: one Reconstructor serves any number of threads, each with a Workspace of its
+// own. It must outlive them.
+class Reconstructor {
+public:
+  // What one worker writes to: line buffers and the background. Use it from one thread at a time.
+  class Workspace {
+  public:
+    Workspace(Workspace&&) noexcept;
+    Workspace& operator=(Workspace&&) noexcept;
+    ~Workspace();
+
+    // Forgets the running background, as if no B-scan had been seen.
+    void reset_background();
+
+  private:
+    friend class Reconstructor;
+    struct Buffers;
+    explicit Workspace(std::unique_ptr<Buffers> buffers);
+    std::unique_ptr<Buffers> buffers_;
+  };
+
+  // Plans the transform, which takes some milliseconds. Fault::invalid_argument or bad_data with
+  // found and expected where calibration and format do not fit together.
+  static hal::Result<Reconstructor> create(const ReconstructionSetup& setup);
+
+  Reconstructor(Reconstructor&&) noexcept;
+  Reconstructor& operator=(Reconstructor&&) noexcept;
+  ~Reconstructor();
+
+  int samples() const;
+  int depths() const; // samples / 2, rounded down
+  int a_scans() const;
+  std::size_t kept_bytes() const; // of the kept lines of a frame: the least that a frame has
+  std::size_t levels() const;     // of a B-scan: a_scans × depths
+
+  Workspace make_workspace() const;
+
+  // `frame` begins with the kept lines, at least kept_bytes() and aligned for its sample type;
+  // fly-back lines behind them are not read. `levels` has levels() values [a][z], depth fastest.
+  // Neither allocates, locks nor logs.
+  BScanOutcome reconstruct_b_scan(Workspace& workspace, std::span<const std::byte> frame,
+                                  std::span<std::uint8_t> levels) const noexcept;
+  // The same in decibels, not quantised, for exports. Floats in `frame` must be finite.
+  BScanOutcome reconstruct_b_scan_db(Workspace& workspace, std::span<const std::byte> frame,
+                                     std::span<float> levels_db) const noexcept;
+
+private:
+  struct Plan;
+  explicit Reconstructor(std::unique_ptr<const Plan> plan);
+  std::unique_ptr<const Plan> plan_;
+};
+
+} // namespace octascope::pipeline

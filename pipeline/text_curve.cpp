@@ -1,0 +1,138 @@
+#include "pipeline/text_curve.h"
+
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace octascope::pipeline {
+
+namespace fs = std::filesystem;
+using hal::Fault;
+
+static_assert(std::endian::native == std::endian::little, "raw files are little-endian");
+
+namespace {
+
+// The whole file, when it is a regular one of 1 to `longest` bytes.
+hal::Result<std::string> read_bytes(const fs::path& file, std::uintmax_t longest,
+                                    std::string_view expected) {
+  const auto refuse = [&](Fault fault, std::string_view found) {
+    return hal::fail(fault, fmt::format("{}: {}, expected {}", file.string(), found, expected));
+  };
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found)
+    return refuse(Fault::absent, "there is no such file");
+  if (fs::is_directory(status))
+    return refuse(Fault::invalid_argument, "is a directory");
+  if (!fs::is_regular_file(status))
+    return refuse(Fault::invalid_argument, "is not a regular file");
+  const std::uintmax_t size = fs::file_size(file, error);
+  if (error)
+    return refuse(Fault::system, error.message());
+  if (size == 0)
+    return refuse(Fault::bad_data, "is empty");
+  if (size > longest)
+    return refuse(Fault::bad_data, fmt::format("has {} bytes, far too many", size));
+  std::ifstream in{file, std::ios::binary};
+  if (!in)
+    return refuse(Fault::denied,
+                  fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
+  std::string bytes(size, '\0');
+  if (!in.read(bytes.data(), static_cast<std::streamsize>(size)))
+    return refuse(Fault::system, "cannot be read to its end");
+  return bytes;
+}
+
+std::string_view trim(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\v\f";
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos)
+    return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::optional<double> finite_number(std::string_view text) {
+  if (text.size() > 1 && text.front() == '+' && text[1] != '-')
+    text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+std::string shortened(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  return text.size() <= longest ? std::string{text} : std::string{text.substr(0, longest)} + "…";
+}
+
+} // namespace
+
+hal::Result<std::vector<double>> read_text_curve(const fs::path& file, std::size_t expected) {
+  // Generous: a number seldom takes 30 bytes, and there may be comments.
+  const std::uintmax_t longest = 65536 + 256 * static_cast<std::uintmax_t>(expected);
+  const auto bytes =
+      read_bytes(file, longest, fmt::format("a text file of {} numbers, one a line", expected));
+  if (!bytes)
+    return tl::make_unexpected(bytes.error());
+
+  std::string_view rest{*bytes};
+  if (rest.starts_with("\xEF\xBB\xBF"))
+    rest.remove_prefix(3);
+  std::vector<double> values;
+  values.reserve(expected);
+  for (std::size_t line = 1; !rest.empty(); ++line) {
+    const std::size_t end = rest.find('\n');
+    std::string_view text = rest.substr(0, end);
+    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+    text = trim(text.substr(0, text.find('#')));
+    if (text.empty())
+      continue;
+    if (values.size() == expected)
+      return hal::fail(Fault::bad_data,
+                       fmt::format("{}:{}: found one number more (\"{}\"), expected exactly {}",
+                                   file.string(), line, shortened(text), expected));
+    const auto value = finite_number(text);
+    if (!value)
+      return hal::fail(Fault::bad_data,
+                       fmt::format("{}:{}: found \"{}\" as number {} of {}, expected one finite "
+                                   "number with a decimal point",
+                                   file.string(), line, shortened(text), values.size(), expected));
+    values.push_back(*value);
+  }
+  if (values.size() != expected)
+    return hal::fail(Fault::bad_data, fmt::format("{}: found {} numbers, expected {}",
+                                                  file.string(), values.size(), expected));
+  return values;
+}
+
+hal::Result<std::vector<float>> read_float_curve(const fs::path& file, std::size_t expected) {
+  const std::size_t expected_bytes = expected * sizeof(float);
+  const std::string words =
+      fmt::format("{} bytes ({} little-endian 32-bit floats)", expected_bytes, expected);
+  const auto bytes = read_bytes(file, 65536 + 4 * expected_bytes, words);
+  if (!bytes)
+    return tl::make_unexpected(bytes.error());
+  if (bytes->size() != expected_bytes)
+    return hal::fail(Fault::bad_data, fmt::format("{}: found {} bytes, expected {}", file.string(),
+                                                  bytes->size(), words));
+  std::vector<float> values(expected);
+  bytes->copy(reinterpret_cast<char*>(values.data()), expected_bytes);
+  for (std::size_t i = 0; i < expected; ++i) {
+    if (!std::isfinite(values[i]))
+      return hal::fail(Fault::bad_data, fmt::format("{}: value {} is {}, expected a finite number",
+                                                    file.string(), i, values[i]));
+  }
+  return values;
+}
+
+} // namespace octascope::pipeline
