@@ -13,6 +13,7 @@ ViewState ViewState::clamped() const {
   v.window_offset_db = std::clamp(v.window_offset_db, -40.0F, 87.0F);
   v.window_size_db = std::clamp(v.window_size_db, 1.0F, 128.0F);
   v.planes = std::clamp(v.planes, 16, 1024);
+  v.volume_resolution = std::clamp(v.volume_resolution, 0.25F, 1.0F);
   v.opacity = std::clamp(v.opacity, 0.01F, 1.0F);
   v.b_scan = std::max(v.b_scan, 0);
   return v;
