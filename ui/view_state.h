@@ -41,4 +41,14 @@ struct ViewState {
   bool operator==(const ViewState&) const = default;
 };
 
+struct ParameterRange {
+  float lowest;
+  float highest;
+  float detent; // what one click of the knob changes
+};
+
+// The ranges of clamped(); the last B-scan is b_scans − 1.
+ParameterRange parameter_range(Parameter parameter, int b_scans);
+float parameter_value(const ViewState& view, Parameter parameter);
+
 } // namespace octascope::ui
