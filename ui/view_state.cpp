@@ -6,16 +6,45 @@
 namespace octascope::ui {
 
 ViewState ViewState::clamped() const {
+  const auto within = [](float value, Parameter parameter) {
+    const ParameterRange range = parameter_range(parameter, 1);
+    return std::clamp(value, range.lowest, range.highest);
+  };
   ViewState v = *this;
   v.yaw_deg = std::remainder(v.yaw_deg, 360.0F);
-  v.tilt_deg = std::clamp(v.tilt_deg, -89.0F, 89.0F);
-  v.distance = std::clamp(v.distance, 0.6F, 8.0F);
-  v.window_offset_db = std::clamp(v.window_offset_db, -40.0F, 87.0F);
-  v.window_size_db = std::clamp(v.window_size_db, 1.0F, 128.0F);
+  v.tilt_deg = within(v.tilt_deg, Parameter::tilt);
+  v.distance = within(v.distance, Parameter::distance);
+  v.window_offset_db = within(v.window_offset_db, Parameter::window_offset);
+  v.window_size_db = within(v.window_size_db, Parameter::window_size);
   v.planes = std::clamp(v.planes, 16, 1024);
+  v.volume_resolution = std::clamp(v.volume_resolution, 0.25F, 1.0F);
   v.opacity = std::clamp(v.opacity, 0.01F, 1.0F);
   v.b_scan = std::max(v.b_scan, 0);
   return v;
+}
+
+ParameterRange parameter_range(Parameter parameter, int b_scans) {
+  switch (parameter) {
+  case Parameter::window_offset: return {-40, 87, 1};
+  case Parameter::window_size: return {1, 128, 1};
+  case Parameter::yaw: return {-180, 180, 3};
+  case Parameter::tilt: return {-89, 89, 3};
+  case Parameter::distance: return {0.6F, 8, 0.05F};
+  case Parameter::b_scan: return {0, static_cast<float>(std::max(b_scans - 1, 1)), 1};
+  }
+  return {0, 1, 1};
+}
+
+float parameter_value(const ViewState& view, Parameter parameter) {
+  switch (parameter) {
+  case Parameter::window_offset: return view.window_offset_db;
+  case Parameter::window_size: return view.window_size_db;
+  case Parameter::yaw: return view.yaw_deg;
+  case Parameter::tilt: return view.tilt_deg;
+  case Parameter::distance: return view.distance;
+  case Parameter::b_scan: return static_cast<float>(view.b_scan);
+  }
+  return 0;
 }
 
 } // namespace octascope::ui

@@ -1,0 +1,45 @@
+// How live the picture is: the rule that nothing old ever looks live.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hal/clock.h"
+
+namespace octascope::ui {
+
+enum class Liveness : std::uint8_t {
+  waiting, // no volume has come yet
+  live,
+  stale,   // no fresh volume for more than one and a half volume periods
+  veiled,  // none for longer than the limit: the picture is covered
+  frozen,  // by the surgeon
+};
+
+// What is on the screen, as times.
+struct ShownVolume {
+  hal::TimePoint last_line; // camera timestamp of the volume's last line: its age counts from here
+  hal::TimePoint arrived;   // when it could be shown: its successor is due one period later
+  bool operator==(const ShownVolume&) const = default;
+};
+
+struct FreshnessLimits {
+  hal::Duration volume_period = std::chrono::milliseconds{141};
+  hal::Duration veil_after = std::chrono::seconds{5};
+  bool operator==(const FreshnessLimits&) const = default;
+};
+
+struct Freshness {
+  Liveness liveness = Liveness::waiting;
+  hal::Duration age{};        // of the shown volume
+  hal::Duration frozen_for{}; // 0 unless frozen
+  bool operator==(const Freshness&) const = default;
+};
+
+// Pure. `frozen_since` is empty unless the surgeon has frozen the picture; freezing wins over
+// staleness, because a frozen picture says with its own badge that it does not move.
+Freshness judge_freshness(const std::optional<ShownVolume>& shown, hal::TimePoint now,
+                          const FreshnessLimits& limits,
+                          const std::optional<hal::TimePoint>& frozen_since);
+
+} // namespace octascope::ui

@@ -1,0 +1,22 @@
+#include "ui/gl/picture_pass.h"
+
+#include "embedded_shaders.h"
+
+namespace octascope::ui::gl {
+
+hal::Result<PicturePass> PicturePass::create(std::string_view name,
+                                             std::string_view fragment_source) {
+  auto program = Program::build(name, shaders::picture_vert, fragment_source);
+  if (!program)
+    return tl::make_unexpected(program.error());
+  return PicturePass{std::move(*program)};
+}
+
+void PicturePass::fill(const Rect& rect, int target_height) const {
+  glViewport(rect.x, target_height - rect.bottom(), rect.width, rect.height);
+  glBindVertexArray(vertex_array_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
+} // namespace octascope::ui::gl

@@ -1,0 +1,32 @@
+// Fills a rectangle of the bound framebuffer with a fragment shader.
+#pragma once
+
+#include <string_view>
+
+#include "hal/result.h"
+#include "ui/gl/objects.h"
+#include "ui/gl/program.h"
+#include "ui/layout.h"
+
+namespace octascope::ui::gl {
+
+// The fragment shader gets `v_unit`, 0…1 from the rectangle's top left corner.
+//
+// Threads: as gl/objects.h.
+class PicturePass {
+public:
+  static hal::Result<PicturePass> create(std::string_view name, std::string_view fragment_source);
+
+  // Makes the program current, for its uniforms to be set; fill() then draws.
+  void use() const { program_.use(); }
+  GLint uniform(const char* name) const { return program_.uniform(name); }
+  void fill(const Rect& rect, int target_height) const;
+
+private:
+  explicit PicturePass(Program program)
+      : program_{std::move(program)}, vertex_array_{VertexArray::make()} {}
+  Program program_;
+  VertexArray vertex_array_; // empty: the vertices come from their index
+};
+
+} // namespace octascope::ui::gl

@@ -1,0 +1,90 @@
+#include "ui/hud/canvas.h"
+
+#include <glm/common.hpp>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+namespace octascope::ui {
+
+namespace {
+
+ImU32 packed(Colour c) { return IM_COL32(c.r, c.g, c.b, c.a); }
+ImVec2 to_im(glm::vec2 p) { return {p.x, p.y}; }
+ImVec2 top_left(const Rect& r) { return {static_cast<float>(r.x), static_cast<float>(r.y)}; }
+ImVec2 bottom_right(const Rect& r) {
+  return {static_cast<float>(r.right()), static_cast<float>(r.bottom())};
+}
+
+} // namespace
+
+Canvas::Canvas()
+    : shared_{std::make_unique<ImDrawListSharedData>()},
+      list_{std::make_unique<ImDrawList>(shared_.get())} {
+  shared_->InitialFlags = ImDrawListFlags_AntiAliasedLines | ImDrawListFlags_AntiAliasedLinesUseTex |
+                          ImDrawListFlags_AntiAliasedFill;
+  shared_->SetCircleTessellationMaxError(0.25F);
+  shared_->CurveTessellationTol = 1.25F;
+}
+
+Canvas::~Canvas() = default;
+
+void Canvas::begin(const Fonts& fonts, int width, int height) {
+  fonts_ = &fonts;
+  shared_->TexUvWhitePixel = fonts.atlas().TexUvWhitePixel;
+  shared_->TexUvLines = fonts.atlas().TexUvLines;
+  shared_->ClipRectFullscreen = ImVec4{0, 0, static_cast<float>(width), static_cast<float>(height)};
+  list_->_ResetForNewFrame();
+  list_->PushTextureID(fonts.atlas().TexID);
+  list_->PushClipRectFullScreen();
+}
+
+float Canvas::text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words) {
+  const ImFont& font = fonts_->font(style);
+  list_->AddText(&font, font.FontSize, to_im(glm::round(position)), packed(colour), words.data(),
+                 words.data() + words.size());
+  return text_width(style, words);
+}
+
+float Canvas::text_width(TextStyle style, std::string_view words) const {
+  const ImFont& font = fonts_->font(style);
+  return font
+      .CalcTextSizeA(font.FontSize, FLT_MAX, 0, words.data(), words.data() + words.size())
+      .x;
+}
+
+float Canvas::text_height(TextStyle style) const { return fonts_->font(style).FontSize; }
+
+void Canvas::line(glm::vec2 from, glm::vec2 to, Colour colour, float width) {
+  list_->AddLine(to_im(from), to_im(to), packed(colour), width);
+}
+
+void Canvas::plate(const Rect& rect, Colour colour, float rounding) {
+  list_->AddRectFilled(top_left(rect), bottom_right(rect), packed(colour), rounding);
+}
+
+void Canvas::frame(const Rect& rect, Colour colour, float width, float rounding) {
+  const ImVec2 inset{width / 2, width / 2};
+  list_->AddRect({top_left(rect).x + inset.x, top_left(rect).y + inset.y},
+                 {bottom_right(rect).x - inset.x, bottom_right(rect).y - inset.y}, packed(colour),
+                 rounding, 0, width);
+}
+
+void Canvas::dot(glm::vec2 centre, float radius, Colour colour) {
+  list_->AddCircleFilled(to_im(centre), radius, packed(colour));
+}
+
+void Canvas::ring(glm::vec2 centre, float radius, Colour colour, float width) {
+  list_->AddCircle(to_im(centre), radius, packed(colour), 0, width);
+}
+
+void Canvas::stripes(const Rect& rect, Colour colour, float pitch, float width) {
+  list_->PushClipRect(top_left(rect), bottom_right(rect), true);
+  const auto height = static_cast<float>(rect.height);
+  const auto bottom = static_cast<float>(rect.bottom());
+  for (float x = static_cast<float>(rect.x) - height; x < static_cast<float>(rect.right());
+       x += pitch)
+    line({x, bottom}, {x + height, bottom - height}, colour, width);
+  list_->PopClipRect();
+}
+
+} // namespace octascope::ui

@@ -1,0 +1,52 @@
+// What the heads-up display draws with: text, lines and plates, gathered and then drawn at once.
+//
+// Dear ImGui's draw list and fonts without its context, so that nothing is global: the GL part is
+// ours. Positions are pixels from the top left corner of the target.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include <glm/vec2.hpp>
+
+#include "ui/hud/fonts.h"
+#include "ui/hud/palette.h"
+#include "ui/layout.h"
+
+struct ImDrawList;
+struct ImDrawListSharedData;
+
+namespace octascope::ui {
+
+// Threads: one at a time. Allocates only while a picture is richer than any before it.
+class Canvas {
+public:
+  Canvas();
+  ~Canvas();
+
+  // Forgets everything; what follows is for a target of that size. The fonts are borrowed until
+  // the next begin().
+  void begin(const Fonts& fonts, int width, int height);
+
+  // `position` is the left end of the base box: text is as high as its style. Returns its width.
+  float text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words);
+  float text_width(TextStyle style, std::string_view words) const;
+  float text_height(TextStyle style) const;
+
+  void line(glm::vec2 from, glm::vec2 to, Colour colour, float width);
+  void plate(const Rect& rect, Colour colour, float rounding = 0);
+  void frame(const Rect& rect, Colour colour, float width, float rounding = 0);
+  void dot(glm::vec2 centre, float radius, Colour colour);
+  void ring(glm::vec2 centre, float radius, Colour colour, float width);
+  // Diagonal stripes within the rectangle.
+  void stripes(const Rect& rect, Colour colour, float pitch, float width);
+
+  const ImDrawList& list() const { return *list_; }
+
+private:
+  const Fonts* fonts_ = nullptr;
+  std::unique_ptr<ImDrawListSharedData> shared_;
+  std::unique_ptr<ImDrawList> list_;
+};
+
+} // namespace octascope::ui

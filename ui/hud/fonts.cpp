@@ -1,0 +1,93 @@
+#include "ui/hud/fonts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <imgui.h>
+#include <imgui_freetype.h>
+
+#include "embedded_fonts.h"
+
+namespace octascope::ui {
+
+namespace {
+
+struct StyleFace {
+  const unsigned char* bytes;
+  std::size_t size;
+  float pixels; // on a picture 720 high
+};
+
+std::array<StyleFace, text_style_count> faces() {
+  constexpr std::size_t regular = sizeof(fonts::inter_medium_otf_bytes) - 1;
+  constexpr std::size_t semi_bold = sizeof(fonts::inter_semibold_otf_bytes) - 1;
+  return {{{fonts::inter_medium_otf_bytes, regular, 15},
+           {fonts::inter_medium_otf_bytes, regular, 18},
+           {fonts::inter_semibold_otf_bytes, semi_bold, 24},
+           {fonts::inter_semibold_otf_bytes, semi_bold, 23}}};
+}
+
+// Latin-1, dashes, ellipsis, minus.
+constexpr std::array<ImWchar, 7> glyph_ranges{0x20, 0xFF, 0x2010, 0x2026, 0x2212, 0x2212, 0};
+
+} // namespace
+
+Fonts::Fonts() : atlas_{IM_NEW(ImFontAtlas)()} {}
+
+Fonts::Fonts(Fonts&& other) noexcept
+    : atlas_{std::exchange(other.atlas_, nullptr)}, texture_{std::move(other.texture_)} {
+  std::copy(std::begin(other.fonts_), std::end(other.fonts_), std::begin(fonts_));
+}
+
+Fonts& Fonts::operator=(Fonts&& other) noexcept {
+  std::swap(atlas_, other.atlas_);
+  std::swap(fonts_, other.fonts_);
+  texture_ = std::move(other.texture_);
+  return *this;
+}
+
+Fonts::~Fonts() {
+  if (atlas_ != nullptr)
+    IM_DELETE(atlas_);
+}
+
+hal::Result<Fonts> Fonts::create(float unit) {
+  Fonts result;
+  ImFontAtlas& atlas = *result.atlas_;
+  atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
+  atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
+  atlas.TexDesiredWidth = 1024;
+  int next = 0;
+  for (const StyleFace& face : faces()) {
+    ImFontConfig config;
+    config.FontDataOwnedByAtlas = false;
+    config.GlyphRanges = glyph_ranges.data();
+    // Below ten pixels no hinting saves a letter.
+    const float pixels = std::max(10.0F, std::round(face.pixels * unit));
+    // ImGui takes a mutable pointer and does not write to data that it does not own.
+    result.fonts_[next++] = atlas.AddFontFromMemoryTTF(const_cast<unsigned char*>(face.bytes),
+                                                       static_cast<int>(face.size), pixels,
+                                                       &config);
+  }
+  unsigned char* coverage = nullptr;
+  int width = 0;
+  int height = 0;
+  atlas.GetTexDataAsAlpha8(&coverage, &width, &height);
+  if (coverage == nullptr)
+    return hal::fail(hal::Fault::system, "heads-up display: FreeType builds no glyphs from the "
+                                         "embedded fonts; the program is damaged, install it anew");
+  result.texture_ = gl::Texture::make();
+  glBindTexture(GL_TEXTURE_2D, result.texture_.name());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8, width, height);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_UNSIGNED_BYTE, coverage);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  atlas.SetTexID(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(result.texture_.name())));
+  atlas.ClearTexData();
+  return result;
+}
+
+} // namespace octascope::ui

@@ -1,0 +1,79 @@
+// What the heads-up display says, in words. Pure: two equal texts look the same, which is how the
+// renderer knows that nothing needs to be drawn.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "pipeline/volume.h"
+#include "ui/hud/fixed_text.h"
+#include "ui/status.h"
+#include "ui/view_state.h"
+
+namespace octascope::ui {
+
+enum class BadgeKind : std::uint8_t { simulated, waiting, stale, veiled, frozen, incomplete };
+
+struct Badge {
+  BadgeKind kind = BadgeKind::waiting;
+  FixedText<48> text;
+  bool operator==(const Badge&) const = default;
+};
+
+enum class Tone : std::uint8_t { normal, quiet, warning };
+
+struct StatusCell {
+  std::string_view label;
+  FixedText<48> value;
+  Tone tone = Tone::normal;
+  bool operator==(const StatusCell&) const = default;
+};
+
+struct Caption {
+  FixedText<32> title;
+  FixedText<32> note; // at the other end of the line
+  Tone note_tone = Tone::quiet;
+  bool operator==(const Caption&) const = default;
+};
+
+// What a control just did.
+struct ParameterEcho {
+  bool visible = false;
+  std::string_view name;
+  FixedText<24> value;
+  float share = 0; // of its range, 0…1
+  bool operator==(const ParameterEcho&) const = default;
+};
+
+// What the renderer shows.
+struct ShownPictures {
+  bool volume = false;
+  pipeline::VolumeGeometry geometry;
+  pipeline::BScanState b_scan = pipeline::BScanState::missing; // the one in the panel
+  bool scope = false;
+  std::optional<hal::TimePoint> scope_time;
+};
+
+struct HudText {
+  std::array<Badge, 6> badges;
+  std::size_t badge_count = 0;
+  std::array<StatusCell, 6> cells;
+  Caption b_scan;
+  Caption en_face;
+  Caption scope;
+  bool scope_stale = false;
+  Liveness liveness = Liveness::waiting;
+  ParameterEcho echo;
+  std::array<DeviceStatus, Status::most_devices> devices;
+  std::size_t device_count = 0;
+  FixedText<96> source;
+  FixedText<160> notice;
+  bool operator==(const HudText&) const = default;
+};
+
+HudText compose_hud_text(const ViewState& view, const Status& status, const ShownPictures& shown);
+
+} // namespace octascope::ui

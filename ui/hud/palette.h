@@ -1,0 +1,53 @@
+// The few colours of the display, and the rule that makes them legible.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace octascope::ui {
+
+struct Colour {
+  std::uint8_t r = 0;
+  std::uint8_t g = 0;
+  std::uint8_t b = 0;
+  std::uint8_t a = 255;
+
+  constexpr Colour faded(std::uint8_t alpha) const { return {r, g, b, alpha}; }
+  constexpr bool operator==(const Colour&) const = default;
+};
+
+namespace palette {
+
+inline constexpr Colour background{9, 12, 15};  // behind the volume
+inline constexpr Colour panel{18, 23, 28};      // under text
+inline constexpr Colour hairline{44, 53, 62};
+inline constexpr Colour text{233, 238, 242};
+inline constexpr Colour quiet_text{168, 179, 189};
+inline constexpr Colour box{104, 120, 134};     // the wire frame, before the volume
+inline constexpr Colour box_behind{58, 69, 79};
+inline constexpr Colour accent{102, 200, 255};  // positions and the knob's parameter
+inline constexpr Colour good{110, 214, 160};
+inline constexpr Colour warning{255, 186, 74};  // STALE, missing, saturated, lost
+inline constexpr Colour alarm{255, 142, 128};   // no live picture, failed
+inline constexpr Colour frozen{160, 222, 255};
+inline constexpr Colour simulated{205, 178, 255};
+inline constexpr Colour ink{8, 11, 14};         // text on a filled badge
+
+} // namespace palette
+
+// Relative luminance and contrast ratio as WCAG 2 defines them.
+inline double luminance(Colour colour) {
+  const auto linear = [](std::uint8_t value) {
+    const double s = value / 255.0;
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(colour.r) + 0.7152 * linear(colour.g) + 0.0722 * linear(colour.b);
+}
+
+inline double contrast(Colour a, Colour b) {
+  const double la = luminance(a) + 0.05;
+  const double lb = luminance(b) + 0.05;
+  return la > lb ? la / lb : lb / la;
+}
+
+} // namespace octascope::ui

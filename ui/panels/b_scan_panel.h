@@ -1,0 +1,31 @@
+// The B-scan at the chosen position: fast axis to the right, depth downwards, first A-scan at the
+// left, depth 0 at the top.
+#pragma once
+
+#include "hal/result.h"
+#include "pipeline/volume.h"
+#include "ui/gl/picture_pass.h"
+#include "ui/layout.h"
+#include "ui/view_state.h"
+#include "ui/volume/volume_texture.h"
+
+namespace octascope::ui {
+
+// Threads: as gl/objects.h. draw() allocates nothing.
+class BScanPanel {
+public:
+  static hal::Result<BScanPanel> create();
+
+  // Fills `rect` of the bound framebuffer; a missing B-scan is hatched.
+  void draw(const VolumeTexture& volume, pipeline::BScanState state, const ViewState& view,
+            const Rect& rect, int target_height) const;
+
+private:
+  explicit BScanPanel(gl::PicturePass pass);
+  gl::PicturePass pass_;
+  struct {
+    GLint levels, window, slow, missing, hatch_pitch;
+  } uniforms_;
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,44 @@
+// The en-face picture: the volume from above, its maximum along depth; fast axis to the right,
+// B-scans downwards, the first at the top.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hal/result.h"
+#include "pipeline/volume.h"
+#include "ui/gl/objects.h"
+#include "ui/gl/picture_pass.h"
+#include "ui/layout.h"
+#include "ui/view_state.h"
+
+namespace octascope::ui {
+
+// Threads: as gl/objects.h. Allocates only when the geometry changes.
+class EnFacePanel {
+public:
+  static hal::Result<EnFacePanel> create();
+
+  // Projects on the CPU, about a millisecond for 300 × 80 × 512, and uploads the projection.
+  void show(const pipeline::Volume& volume);
+
+  // Fills `rect` of the bound framebuffer; missing B-scans are hatched, saturated ones marked at
+  // the right border.
+  void draw(const ViewState& view, const Rect& rect, int target_height) const;
+
+private:
+  explicit EnFacePanel(gl::PicturePass pass);
+  void allocate(int a_scans, int b_scans);
+
+  gl::PicturePass pass_;
+  gl::Texture projection_;
+  gl::Texture states_;
+  std::vector<std::uint8_t> maxima_;
+  int a_scans_ = 0;
+  int b_scans_ = 0;
+  struct {
+    GLint projection, states, window, hatch_pitch, mark_width, mark;
+  } uniforms_;
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,55 @@
+// Draws the whole display: volume, panels and heads-up display, into the framebuffer that is bound.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hal/result.h"
+#include "hal/scope_camera.h"
+#include "pipeline/volume.h"
+#include "ui/image.h"
+#include "ui/scan_field.h"
+#include "ui/status.h"
+#include "ui/view_state.h"
+
+namespace octascope::ui {
+
+// Threads: bound to the thread and the GLES 3 context that were current in create(); destroyed there
+// too. When the context is lost (Display::present() says disconnected), destroy it, open the
+// display again and create a new one.
+//
+// A volume's picture is kept and drawn again only when the volume, the view or the window changes,
+// so a frame that changes nothing but the heads-up display costs little. After the first frame of a
+// size nothing of ours is allocated.
+class Renderer {
+public:
+  // Fault::unsupported: this GL cannot compile our shaders.
+  static hal::Result<std::unique_ptr<Renderer>> create();
+  ~Renderer();
+
+  // Copies the volume before it returns and shows it from the next draw() on. On an error the last
+  // volume stays: VolumeTexture::upload() lists them.
+  hal::Result<> show_volume(const pipeline::Volume& volume);
+
+  // Copies the frame before it returns. `field` outlines what the OCT scans. The picture is marked
+  // stale by its time.
+  hal::Result<> show_scope_picture(const hal::ScopeFrame& frame,
+                                   const std::optional<ScanField>& field);
+  void forget_scope_picture(); // the camera is gone
+
+  // Draws everything into the bound framebuffer of width × height pixels.
+  hal::Result<> draw(const ViewState& view, const Status& status, int width, int height);
+
+  // False when draw() would make the picture that it made last, to the pixel.
+  bool needs_redraw(const ViewState& view, const Status& status, int width, int height) const;
+
+  // What stands in the bound framebuffer; waits for the drawing. Allocates: for snapshots.
+  Image read_back(int width, int height) const;
+
+private:
+  struct Parts;
+  explicit Renderer(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,22 @@
+// One sample of the volume, windowed where it is sampled; grey equals opacity (formula 1 of the OCT
+// paper), and the opacity is corrected for the length of ray between two planes.
+precision highp float;
+precision highp sampler3D;
+
+in vec3 v_texture;
+in vec3 v_ray;
+
+uniform sampler3D u_levels;
+uniform vec2 u_window; // scale and offset of the ramp
+uniform float u_opacity;
+uniform float u_steps; // spacing of the planes in reference steps
+
+out vec4 o_colour; // premultiplied
+
+void main() {
+  float grey = clamp(texture(u_levels, v_texture).r * u_window.x + u_window.y, 0.0, 1.0);
+  // log2(0) is undefined: a fully opaque voxel keeps a transparency that no display can show.
+  float transparency = max(1.0 - grey * u_opacity, 1e-5);
+  float alpha = 1.0 - exp2(u_steps * length(v_ray) * log2(transparency));
+  o_colour = vec4(vec3(grey * alpha), alpha);
+}

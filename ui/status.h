@@ -1,0 +1,59 @@
+// What the heads-up display tells about the machine. Plain data, gathered by the host.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hal/clock.h"
+#include "hal/device.h"
+#include "ui/freshness.h"
+
+namespace octascope::ui {
+
+// Name and backend are literals or outlive the draw() that reads them.
+struct DeviceStatus {
+  std::string_view name;    // short, for people: "camera", "trigger", "pedal", "scope", "display"
+  std::string_view backend; // "v4l2", "sim", …
+  hal::DeviceState state = hal::DeviceState::absent;
+  bool operator==(const DeviceStatus&) const = default;
+};
+
+struct Losses {
+  std::uint64_t lines = 0;
+  std::uint64_t b_scans = 0;
+  std::uint64_t volumes = 0;
+  bool any() const { return lines != 0 || b_scans != 0 || volumes != 0; }
+  bool operator==(const Losses&) const = default;
+};
+
+struct Status {
+  static constexpr std::size_t most_devices = 8;
+
+  hal::TimePoint now; // of this frame; ages and echoes are judged against it
+
+  double volumes_per_s = 0;
+  double lines_per_s = 0;
+  double frames_per_s = 0;
+  // Camera timestamp of a volume's last line → first frame that shows it. Empty: none measured.
+  std::optional<double> latency_p50_ms;
+  std::optional<double> latency_p95_ms;
+  Losses losses;
+
+  std::array<DeviceStatus, most_devices> devices;
+  std::size_t device_count = 0; // how many of `devices` are used
+
+  bool simulated = false;         // any part of the picture is not the patient's
+  std::string source_description; // "phantom eye, loop of 2.3 s"; short
+
+  Freshness freshness;
+  int missing_b_scans = 0; // of the shown volume
+  int saturated_lines = 0;
+
+  std::string notice; // one line that the surgeon should read; empty: none
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,126 @@
+#include "ui/volume/volume_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "embedded_shaders.h"
+
+namespace octascope::ui {
+
+namespace {
+
+bool renders_half_floats() {
+  GLint count = 0;
+  glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+  for (GLint i = 0; i < count; ++i) {
+    const auto* name = reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
+    const std::string_view extension{name};
+    if (extension == "GL_EXT_color_buffer_float" || extension == "GL_EXT_color_buffer_half_float")
+      return true;
+  }
+  return false;
+}
+
+// Puts back the framebuffer that was bound.
+class KeptFramebuffer {
+public:
+  KeptFramebuffer() { glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name_); }
+  KeptFramebuffer(const KeptFramebuffer&) = delete;
+  KeptFramebuffer& operator=(const KeptFramebuffer&) = delete;
+  ~KeptFramebuffer() { glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(name_)); }
+
+private:
+  GLint name_ = 0;
+};
+
+} // namespace
+
+VolumePictureKey volume_picture_key(const ViewState& view, std::uint64_t upload, int width,
+                                    int height) {
+  return {upload,
+          view.yaw_deg,
+          view.tilt_deg,
+          view.distance,
+          view.window_offset_db,
+          view.window_size_db,
+          view.opacity,
+          view.planes,
+          width,
+          height};
+}
+
+hal::Result<VolumePicture> VolumePicture::create() {
+  auto stack = PlaneStack::create();
+  if (!stack)
+    return tl::make_unexpected(stack.error());
+  auto pass = gl::PicturePass::create("composite", shaders::composite_frag);
+  if (!pass)
+    return tl::make_unexpected(pass.error());
+  return VolumePicture{std::move(*stack), std::move(*pass)};
+}
+
+VolumePicture::VolumePicture(PlaneStack stack, gl::PicturePass pass)
+    : stack_{std::move(stack)}, pass_{std::move(pass)},
+      format_{static_cast<GLenum>(renders_half_floats() ? GL_RGBA16F : GL_RGBA8)} {}
+
+hal::Result<> VolumePicture::resize(int width, int height) {
+  colour_ = gl::Texture::make();
+  glBindTexture(GL_TEXTURE_2D, colour_.name());
+  glTexStorage2D(GL_TEXTURE_2D, 1, format_, width, height);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  framebuffer_ = gl::Framebuffer::make();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.name(), 0);
+  const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+  if (status != GL_FRAMEBUFFER_COMPLETE)
+    return hal::fail(hal::Fault::system,
+                     fmt::format("volume display: a picture of {}x{} is no complete framebuffer "
+                                 "(status 0x{:04x}); choose a smaller size",
+                                 width, height, status));
+  width_ = width;
+  height_ = height;
+  return {};
+}
+
+hal::Result<> VolumePicture::update(const VolumeTexture& volume, std::uint64_t upload,
+                                    const ViewState& view, const Rect& rect) {
+  const auto pixels = [&](int length) {
+    return std::max(1, static_cast<int>(std::lround(static_cast<float>(length) *
+                                                    view.volume_resolution)));
+  };
+  const VolumePictureKey key =
+      volume_picture_key(view, upload, pixels(rect.width), pixels(rect.height));
+  if (drawn_ == key)
+    return {};
+  const KeptFramebuffer kept;
+  if (key.width != width_ || key.height != height_)
+    if (auto ok = resize(key.width, key.height); !ok)
+      return ok;
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  glViewport(0, 0, width_, height_);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  const float aspect = static_cast<float>(rect.width) / static_cast<float>(rect.height);
+  stack_.draw(volume, make_camera(view, box_extents_mm(volume.geometry()), aspect), view);
+  drawn_ = key;
+  return {};
+}
+
+void VolumePicture::composite(const Rect& rect, int target_height) const {
+  pass_.use();
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, colour_.name());
+  glUniform1i(pass_.uniform("u_picture"), 0);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  pass_.fill(rect, target_height);
+  glDisable(GL_BLEND);
+}
+
+} // namespace octascope::ui

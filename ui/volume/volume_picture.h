@@ -1,0 +1,64 @@
+// The volume as the eye sees it, kept until something that it depends on changes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hal/result.h"
+#include "ui/gl/objects.h"
+#include "ui/gl/picture_pass.h"
+#include "ui/layout.h"
+#include "ui/view_state.h"
+#include "ui/volume/plane_stack.h"
+#include "ui/volume/volume_texture.h"
+
+namespace octascope::ui {
+
+// Everything that the volume's picture depends on.
+struct VolumePictureKey {
+  std::uint64_t upload = 0; // counts volumes
+  float yaw_deg = 0;
+  float tilt_deg = 0;
+  float distance = 0;
+  float window_offset_db = 0;
+  float window_size_db = 0;
+  float opacity = 0;
+  int planes = 0;
+  int width = 0;
+  int height = 0;
+  bool operator==(const VolumePictureKey&) const = default;
+};
+
+VolumePictureKey volume_picture_key(const ViewState& view, std::uint64_t upload, int width,
+                                    int height);
+
+// Drawn into a texture of its own, in 16-bit floating point where the GPU can, so that hundreds of
+// faint planes add up without rounding; composited from there, at any resolution.
+//
+// Threads: as gl/objects.h.
+class VolumePicture {
+public:
+  static hal::Result<VolumePicture> create();
+
+  // Draws into the texture if the key has changed; the bound framebuffer stays bound.
+  // Fault::system: this GL cannot render to a texture of that size.
+  hal::Result<> update(const VolumeTexture& volume, std::uint64_t upload, const ViewState& view,
+                       const Rect& rect);
+  // Blends the picture over the bound framebuffer.
+  void composite(const Rect& rect, int target_height) const;
+
+private:
+  VolumePicture(PlaneStack stack, gl::PicturePass pass);
+  hal::Result<> resize(int width, int height);
+
+  PlaneStack stack_;
+  gl::PicturePass pass_;
+  gl::Texture colour_;
+  gl::Framebuffer framebuffer_;
+  GLenum format_;
+  int width_ = 0;
+  int height_ = 0;
+  std::optional<VolumePictureKey> drawn_;
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,64 @@
+#include "ui/volume/volume_texture.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace octascope::ui {
+
+namespace {
+
+hal::Result<> check(const pipeline::Volume& volume) {
+  const pipeline::VolumeGeometry& g = volume.geometry;
+  if (g.depths < 1 || g.a_scans < 1 || g.b_scans < 1 || volume.levels.size() != g.voxels() ||
+      volume.b_scan_states.size() != static_cast<std::size_t>(g.b_scans))
+    return hal::fail(hal::Fault::bad_data,
+                     fmt::format("volume display: found {} levels and {} B-scan states, expected "
+                                 "those of {} depths x {} A-scans x {} B-scans",
+                                 volume.levels.size(), volume.b_scan_states.size(), g.depths,
+                                 g.a_scans, g.b_scans));
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
+  if (std::max({g.depths, g.a_scans, g.b_scans}) > largest)
+    return hal::fail(hal::Fault::unsupported,
+                     fmt::format("volume display: found {} depths x {} A-scans x {} B-scans, "
+                                 "expected at most {} along each axis on this GPU; scan fewer",
+                                 g.depths, g.a_scans, g.b_scans, largest));
+  return {};
+}
+
+} // namespace
+
+void VolumeTexture::allocate(const pipeline::VolumeGeometry& geometry) {
+  for (gl::Texture& texture : textures_) {
+    texture = gl::Texture::make();
+    glBindTexture(GL_TEXTURE_3D, texture.name());
+    glTexStorage3D(GL_TEXTURE_3D, 1, GL_R8, geometry.depths, geometry.a_scans, geometry.b_scans);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+  }
+  uploader_ = gl::PixelUploader::create(geometry.voxels());
+}
+
+hal::Result<> VolumeTexture::upload(const pipeline::Volume& volume) {
+  if (auto ok = check(volume); !ok)
+    return ok;
+  if (empty() || volume.geometry != geometry_)
+    allocate(volume.geometry);
+  geometry_ = volume.geometry;
+  if (auto ok = uploader_.stage(volume.levels); !ok)
+    return ok;
+  const std::size_t back = 1 - front_;
+  glBindTexture(GL_TEXTURE_3D, textures_[back].name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, geometry_.depths, geometry_.a_scans,
+                  geometry_.b_scans, GL_RED, GL_UNSIGNED_BYTE, nullptr);
+  gl::PixelUploader::unbind();
+  front_ = back;
+  return {};
+}
+
+} // namespace octascope::ui

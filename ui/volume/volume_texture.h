@@ -1,0 +1,37 @@
+// The shown volume as a 3D texture.
+#pragma once
+
+#include <array>
+
+#include "hal/result.h"
+#include "pipeline/volume.h"
+#include "ui/gl/objects.h"
+#include "ui/gl/pixel_uploader.h"
+
+namespace octascope::ui {
+
+// R8 texels in the volume's own order: s is depth, t the fast axis, r the slow axis; sample i of n
+// lies at (i + 0.5) / n. Two textures in turn: a volume is never written where the GPU may still
+// read the last one.
+//
+// Threads: as gl/objects.h. Allocates only when the geometry changes.
+class VolumeTexture {
+public:
+  // Copies the levels before it returns. Fault::unsupported: larger than this GL's 3D textures.
+  // Fault::bad_data: fewer voxels than the geometry says. The last volume then stays.
+  hal::Result<> upload(const pipeline::Volume& volume);
+
+  bool empty() const { return !textures_[front_]; }
+  GLuint name() const { return textures_[front_].name(); }
+  const pipeline::VolumeGeometry& geometry() const { return geometry_; }
+
+private:
+  void allocate(const pipeline::VolumeGeometry& geometry);
+
+  std::array<gl::Texture, 2> textures_;
+  gl::PixelUploader uploader_;
+  pipeline::VolumeGeometry geometry_;
+  std::size_t front_ = 0;
+};
+
+} // namespace octascope::ui
