@@ -39,8 +39,7 @@ void read_pipeline(ConfigTable table, Configuration& configuration) {
                    "[0.25, 0.5, 0.25]");
     return;
   }
-  configuration.neighbour_weights = {static_cast<float>(weights[0]), static_cast<float>(weights[1]),
-                                     static_cast<float>(weights[2])};
+  configuration.neighbour_weights = {weights[0], weights[1], weights[2]};
 }
 
 void read_display(ConfigTable table, Configuration& configuration) {

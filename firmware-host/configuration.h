@@ -20,7 +20,7 @@ struct Configuration {
   std::optional<std::filesystem::path> calibration;
   // [pipeline]
   std::size_t workers = 0; // 0: one a core
-  pipeline::NeighbourWeights neighbour_weights;
+  pipeline::NeighbourWeights neighbour_weights; // each B-scan's share in its picture
   // [display]
   int width = 1280;
   int height = 720;

@@ -1,7 +1,6 @@
 // The render thread's work: newest volume → texture → frame → flip, and what hands and feet did.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,8 +11,6 @@
 #include "hal/clock.h"
 #include "hal/control_input.h"
 #include "hal/display.h"
-#include "hal/scope_camera.h"
-#include "pipeline/acquisition.h"
 #include "pipeline/control_thread.h"
 #include "pipeline/duration_statistics.h"
 #include "pipeline/fault_log.h"
@@ -36,7 +33,6 @@ struct RenderLoopParts {
   hal::Clock& clock;
   pipeline::VolumeThread& volumes;
   pipeline::ScopeThread& scope;
-  hal::ScopeCamera& scope_camera;
   pipeline::ControlThread& controls;
   pipeline::FaultLog& faults;
   pipeline::Wakeup& news; // posted by the three threads above
@@ -75,6 +71,11 @@ public:
   // False once somebody asked to quit.
   bool turn();
 
+  // Has the newest volume that was published been in a frame?
+  bool shows_newest() const {
+    return volume_ != nullptr && !undisplayed_last_line_ && !parts_.volumes.has_newer();
+  }
+
   // The last picture drawn; draws it again. Empty when the display is gone.
   std::optional<ui::Image> picture();
 
@@ -106,7 +107,7 @@ private:
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
   std::optional<ui::ShownVolume> shown_;
   pipeline::RetryDelay retry_;
-  RateMeter volume_rate_, line_rate_, frame_rate_;
+  RateMeter volume_rate_, frame_rate_;
   FrameStatistics statistics_;
 };
 

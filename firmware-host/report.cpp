@@ -1,12 +1,13 @@
 #include "firmware-host/report.h"
 
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "firmware-host/version.h"
-#include "pipeline/whole_file.h"
+#include "pipeline/atomic_file.h"
 
 namespace octascope::firmware_host {
 
@@ -87,7 +88,11 @@ std::string to_text(const RunReport& r) {
 }
 
 hal::Result<> write_report(const RunReport& report, const std::filesystem::path& file) {
-  return pipeline::write_whole_file(file, to_json(report));
+  auto out = pipeline::AtomicFile::create(file);
+  if (!out)
+    return tl::make_unexpected(out.error());
+  const std::string json = to_json(report);
+  return out->write_at(0, std::as_bytes(std::span{json})).and_then([&] { return out->commit(); });
 }
 
 } // namespace octascope::firmware_host

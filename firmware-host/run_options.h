@@ -7,13 +7,15 @@
 #include <optional>
 #include <string>
 
+#include "pipeline/spectra_file.h"
+
 namespace octascope::firmware_host {
 
 enum class DisplayChoice : std::uint8_t { automatic, kms, window, offscreen };
 
 struct RecordingOptions {
   std::filesystem::path file;
-  std::array<int, 3> shape{}; // B-scans, A-scans, samples
+  pipeline::SpectraShape shape;
 };
 
 struct RunOptions {

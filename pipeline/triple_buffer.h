@@ -33,11 +33,14 @@ public:
   // Consumer. Takes the newest buffer, if one came since the last call; it stays the consumer's,
   // unchanged, until the next successful take.
   std::optional<std::uint32_t> take() {
-    if ((middle_.load(std::memory_order_relaxed) & fresh) == 0)
+    if (!has_newer())
       return std::nullopt;
     front_ = middle_.exchange(front_, std::memory_order_acq_rel) & ~fresh;
     return front_;
   }
+
+  // Consumer. Would take() succeed?
+  bool has_newer() const { return (middle_.load(std::memory_order_relaxed) & fresh) != 0; }
 
   // Consumer. What it holds.
   std::uint32_t front() const { return front_; }

@@ -27,7 +27,6 @@ VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
     : setup_(std::move(setup)), trigger_(trigger), acquisition_(acquisition), camera_(camera),
       clock_(clock), faults_(faults), arrived_(arrived), news_(news),
       volumes_(pool_size, Volume{setup_.plan.geometry()}), sweeps_(setup_.plan),
-      average_(setup_.plan.geometry(), setup_.neighbour_weights),
       jobs_(static_cast<std::size_t>(setup_.camera_buffers)) {
   for (Construction& construction : constructions_)
     construction.placed.resize(static_cast<std::size_t>(setup_.plan.b_scans));
@@ -100,6 +99,8 @@ void VolumeThread::tick() {
   for (; next_tick_ <= now; next_tick_ += setup_.plan.tick_period())
     count_lost_volume();
 
+  if (enough_triggered())
+    return;
   // Without a camera there is nothing to sweep for. Before its first frame nothing is lost either.
   if (camera_.state() != hal::DeviceState::streaming || !trigger_ready()) {
     if (was_running)
@@ -114,6 +115,14 @@ void VolumeThread::tick() {
       trigger_.close();
     count_lost_volume();
   }
+}
+
+bool VolumeThread::enough_triggered() const {
+  if (!setup_.most_volumes)
+    return false;
+  const auto under_way = static_cast<std::uint64_t>(std::ranges::count_if(
+      constructions_, [](const Construction& c) { return c.open; }));
+  return counts_.published.load(std::memory_order_relaxed) + under_way >= *setup_.most_volumes;
 }
 
 bool VolumeThread::trigger_ready() {
@@ -251,7 +260,7 @@ void VolumeThread::finish(std::uint32_t index) {
     if (!c.placed[static_cast<std::size_t>(b)])
       std::ranges::fill(volume.b_scan(b), std::uint8_t{0});
   }
-  average_.apply(volume);
+  setup_.average.apply(volume);
   fill_ledger(volume, c);
   const hal::TimePoint assembled = clock_.now();
   volume.ledger.assemble = assembled - begin;

@@ -10,6 +10,8 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <thread>
 #include <vector>
@@ -41,7 +43,8 @@ struct VolumeThreadSetup {
   std::size_t workers = 1;
   int camera_buffers = 96; // of the acquisition: as many B-scans can be in work at once
   ReconstructBScan reconstruct;
-  NeighbourWeights neighbour_weights;
+  NeighbourAverage average;
+  std::optional<std::uint64_t> most_volumes; // then no more are triggered
 };
 
 struct VolumeCounters {
@@ -78,6 +81,7 @@ public:
   // The renderer's side of the triple buffer (one thread): the newest volume if one came since the
   // last call; valid and unchanged until the next call that returns one.
   const Volume* take_newest();
+  bool has_newer() const { return triple_buffer_.has_newer(); }
 
   // Any thread.
   VolumeCounters counters() const;
@@ -108,6 +112,7 @@ private:
 
   void run();
   void tick();
+  bool enough_triggered() const;
   bool trigger_ready();
   void open_volume(hal::TimePoint armed);
   void count_lost_volume();
@@ -133,7 +138,6 @@ private:
   std::vector<std::uint32_t> free_; // buffers of the pool to build in
   TripleBuffer triple_buffer_{0, 1};
   SweepTracker sweeps_;
-  NeighbourAverage average_;
   std::vector<Job> jobs_; // by camera buffer
 
   std::uint64_t last_number_ = 0;

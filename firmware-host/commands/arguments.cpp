@@ -36,14 +36,4 @@ hal::Result<std::array<int, 2>> parse_size(std::string_view text) {
                                text));
 }
 
-hal::Result<std::array<int, 3>> parse_shape(std::string_view text) {
-  std::array<int, 3> shape{};
-  if (parse_counts(text, ',', 65536, shape))
-    return shape;
-  return hal::fail(hal::Fault::invalid_argument,
-                   fmt::format("--shape is \"{}\", expected B-scans,A-scans,samples, 1 to 65536 "
-                               "each, as in 100,100,1024",
-                               text));
-}
-
 } // namespace octascope::firmware_host

@@ -11,7 +11,4 @@ namespace octascope::firmware_host {
 // "1280x720": width and height, each 1 to 16384.
 hal::Result<std::array<int, 2>> parse_size(std::string_view text);
 
-// "100,100,1024": B-scans, A-scans per B-scan, samples per line, all positive.
-hal::Result<std::array<int, 3>> parse_shape(std::string_view text);
-
 } // namespace octascope::firmware_host

@@ -30,9 +30,8 @@ hal::Result<RecordingOptions> recording_of(const RunArguments& a) {
   if (a.shape.empty())
     return hal::fail(hal::Fault::invalid_argument,
                      "--spectra needs --shape B,A,N: B-scans, A-scans, samples");
-  return parse_shape(a.shape).map([&](const auto& shape) {
-    return RecordingOptions{a.spectra, shape};
-  });
+  return pipeline::SpectraShape::parse(a.shape).map(
+      [&](const pipeline::SpectraShape& shape) { return RecordingOptions{a.spectra, shape}; });
 }
 
 std::optional<std::filesystem::path> path_of(const std::string& text) {

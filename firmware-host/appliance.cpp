@@ -1,0 +1,324 @@
+#include "firmware-host/appliance.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "firmware-host/configuration.h"
+#include "firmware-host/device_choice.h"
+#include "firmware-host/render_loop.h"
+#include "firmware-host/report.h"
+#include "firmware-host/status_line.h"
+#include "firmware-host/stop_signal.h"
+#include "firmware-host/thread_roles.h"
+#include "firmware-host/twins.h"
+#include "hal/linux/monotonic_clock.h"
+#include "hal/linux/realtime.h"
+#include "hal/linux/window_display.h"
+#include "pipeline/hot_path.h"
+#include "pipeline/png_image.h"
+#include "pipeline/reconstructor.h"
+
+namespace octascope::firmware_host {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+// The line camera's buffers: what a worker may fall behind, and a sixth of a volume more.
+int camera_buffers(const pipeline::ScanPlan& plan) { return std::max(96, plan.b_scans * 7 / 6); }
+
+class AssembledAppliance final : public Appliance {
+public:
+  AssembledAppliance(RunOptions options, Configuration configuration)
+      : options_(std::move(options)), configuration_(std::move(configuration)) {}
+
+  hal::Result<> assemble() {
+    auto twins = make_twins(options_, configuration_, clock_);
+    if (!twins)
+      return tl::make_unexpected(twins.error());
+    twins_ = std::move(*twins);
+    return make_reconstruction()
+        .and_then([this] { return make_display(); })
+        .map([this] {
+          make_threads();
+          make_render_loop();
+        });
+  }
+
+  hal::Result<> run(StopSignal& stop_signal) override {
+    if (auto opened = loop_->open(); !opened)
+      return opened;
+    if (const auto locked = hal::linux_backend::lock_memory(); !locked)
+      faults_.add("host", "memory_not_locked", locked.error().message, clock_.now());
+    started_ = clock_.now();
+    if (auto started = start_threads(); !started)
+      return started;
+    show_until_done(stop_signal);
+    const std::optional<ui::Image> picture =
+        options_.snapshot ? loop_->picture() : std::optional<ui::Image>{};
+    ended_ = clock_.now();
+    stop_threads();
+    return leave_behind(picture);
+  }
+
+private:
+  hal::Result<> make_reconstruction();
+  hal::Result<> make_display();
+  void make_threads();
+  void make_render_loop();
+  hal::Result<> start_threads();
+  void stop_threads();
+  void show_until_done(StopSignal& stop_signal);
+  bool done() const;
+  void update_devices(ui::Status& status) const;
+  bool simulated() const;
+  RunReport report() const;
+  hal::Result<> leave_behind(const std::optional<ui::Image>& picture) const;
+
+  RunOptions options_;
+  Configuration configuration_;
+  hal::linux_backend::MonotonicClock clock_;
+  pipeline::FaultLog faults_;
+  Twins twins_;
+  std::unique_ptr<pipeline::Reconstructor> reconstructor_;
+  std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
+  std::optional<pipeline::NeighbourAverage> average_;
+  std::unique_ptr<sim::OffscreenDisplay> offscreen_;           // one of the two
+  std::unique_ptr<hal::Display> window_;
+  pipeline::Wakeup arrived_; // B-scans, for the fixed-rate thread
+  pipeline::Wakeup news_;    // anything new to show, for the render thread
+  std::unique_ptr<pipeline::Acquisition> acquisition_;
+  std::unique_ptr<pipeline::VolumeThread> volumes_;
+  std::unique_ptr<pipeline::ScopeThread> scope_;
+  std::unique_ptr<pipeline::ControlThread> controls_;
+  std::unique_ptr<RenderLoop> loop_;
+  hal::TimePoint started_;
+  hal::TimePoint ended_;
+
+  hal::Display& display() const { return offscreen_ ? *offscreen_ : *window_; }
+};
+
+hal::Result<> AssembledAppliance::make_reconstruction() {
+  auto made = pipeline::Reconstructor::create({.calibration = twins_.calibration,
+                                               .format = pipeline::SpectrumFormat{twins_.format},
+                                               .a_scans = twins_.plan.a_scans});
+  if (!made)
+    return tl::make_unexpected(made.error());
+  reconstructor_ = std::make_unique<pipeline::Reconstructor>(std::move(*made));
+  auto average = pipeline::NeighbourAverage::create(configuration_.neighbour_weights);
+  if (!average)
+    return tl::make_unexpected(average.error());
+  average_ = *average;
+  const std::size_t workers = configuration_.workers > 0
+                                  ? configuration_.workers
+                                  : std::max(1U, std::thread::hardware_concurrency());
+  for (std::size_t worker = 0; worker < workers; ++worker)
+    workspaces_.push_back(reconstructor_->make_workspace());
+  return {};
+}
+
+hal::Result<> AssembledAppliance::make_display() {
+  const DeviceChoice choice = choose_devices(survey_hardware(), options_).display;
+  if (choice.backend == "offscreen")
+    offscreen_ = std::make_unique<sim::OffscreenDisplay>(clock_);
+  else if (choice.backend == "window")
+    window_ = std::make_unique<hal::linux_backend::WindowDisplay>(clock_);
+  else
+    return hal::fail(hal::Fault::unsupported,
+                     "--display kms: this version cannot drive a console display yet; use "
+                     "--display window or --display offscreen");
+  if (window_ && twins_.faults && twins_.faults->concerns(sim::FaultDevice::display))
+    return hal::fail(hal::Fault::invalid_argument,
+                     "--faults: a window cannot be made to fail; display faults need --display "
+                     "offscreen");
+  return {};
+}
+
+void AssembledAppliance::make_threads() {
+  const hal::LineCameraConfig camera{.format = twins_.format,
+                                     .line_rate_hz = twins_.plan.line_rate_hz,
+                                     .buffers = camera_buffers(twins_.plan)};
+  acquisition_ = std::make_unique<pipeline::Acquisition>(*twins_.line_camera, camera, clock_,
+                                                         faults_, arrived_);
+  pipeline::VolumeThreadSetup setup{
+      .plan = twins_.plan,
+      .trigger = {},
+      .workers = workspaces_.size(),
+      .camera_buffers = camera.buffers,
+      .reconstruct =
+          [this](std::size_t worker, std::span<const std::byte> frame,
+                 std::span<std::uint8_t> levels) {
+            return reconstructor_->reconstruct_b_scan(workspaces_[worker], frame, levels)
+                .saturated_lines;
+          },
+      .average = *average_,
+      .most_volumes = options_.volumes,
+  };
+  volumes_ = std::make_unique<pipeline::VolumeThread>(
+      std::move(setup), *twins_.galvo_trigger, *acquisition_, *twins_.line_camera, clock_, faults_,
+      arrived_, news_);
+  scope_ = std::make_unique<pipeline::ScopeThread>(
+      *twins_.scope_camera, hal::ScopeCameraConfig{}, clock_, faults_, news_);
+  controls_ =
+      std::make_unique<pipeline::ControlThread>(*twins_.control_input, clock_, faults_, news_);
+}
+
+void AssembledAppliance::make_render_loop() {
+  RenderLoopSetup setup;
+  setup.display.width = options_.size ? (*options_.size)[0] : configuration_.width;
+  setup.display.height = options_.size ? (*options_.size)[1] : configuration_.height;
+  setup.display.fullscreen = configuration_.fullscreen;
+  if (configuration_.window_offset_db)
+    setup.view.window_offset_db = *configuration_.window_offset_db;
+  if (configuration_.window_size_db)
+    setup.view.window_size_db = *configuration_.window_size_db;
+  setup.view.b_scan = twins_.plan.b_scans / 2;
+  setup.freshness = {twins_.plan.tick_period(), configuration_.veil_after};
+  setup.b_scans = twins_.plan.b_scans;
+  setup.scan_field = twins_.scan_field;
+  setup.status.simulated = simulated();
+  setup.status.source_description = twins_.source;
+  loop_ = std::make_unique<RenderLoop>(
+      RenderLoopParts{.display = display(),
+                      .clock = clock_,
+                      .volumes = *volumes_,
+                      .scope = *scope_,
+                      .controls = *controls_,
+                      .faults = faults_,
+                      .news = news_,
+                      .simulated_control =
+                          [this](const hal::ControlEvent& event) {
+                            twins_.control_input->inject(event);
+                          }},
+      std::move(setup));
+}
+
+hal::Result<> AssembledAppliance::start_threads() {
+  if (twins_.faults)
+    twins_.faults->start(started_);
+  const pipeline::ThreadSetup setup = make_thread_setup(clock_, faults_);
+  if (auto started = acquisition_->start(setup); !started)
+    return started;
+  volumes_->start(setup);
+  scope_->start(setup);
+  controls_->start(setup);
+  return {};
+}
+
+// Consumers first: the acquisition waits for its loans.
+void AssembledAppliance::stop_threads() {
+  volumes_->stop();
+  acquisition_->stop();
+  scope_->stop();
+  controls_->stop();
+}
+
+void AssembledAppliance::show_until_done(StopSignal& stop_signal) {
+  StatusLine line{started_};
+  do {
+    twins_.apply_faults(clock_.now(), offscreen_.get());
+    update_devices(loop_->editable_status());
+    line.update(loop_->status());
+  } while (loop_->turn() && !done() && !stop_signal.requested());
+  line.finish();
+}
+
+bool AssembledAppliance::done() const {
+  if (options_.duration_s && clock_.now() - started_ >= hal::from_seconds(*options_.duration_s))
+    return true;
+  return options_.volumes && volumes_->counters().published >= *options_.volumes &&
+         loop_->shows_newest();
+}
+
+bool AssembledAppliance::simulated() const {
+  return twins_.line_camera->simulated() || twins_.scope_camera->simulated();
+}
+
+void AssembledAppliance::update_devices(ui::Status& status) const {
+  status.devices = {{{"camera", twins_.line_camera->backend(), twins_.line_camera->state()},
+                     {"trigger", twins_.galvo_trigger->backend(), twins_.galvo_trigger->state()},
+                     {"pedal", twins_.control_input->backend(), twins_.control_input->state()},
+                     {"scope", twins_.scope_camera->backend(), twins_.scope_camera->state()},
+                     {"display", display().backend(), display().state()}}};
+  status.device_count = 5;
+}
+
+RunReport AssembledAppliance::report() const {
+  RunReport r;
+  const pipeline::VolumeCounters counters = volumes_->counters();
+  const FrameStatistics& frames = loop_->statistics();
+  r.simulated = simulated();
+  r.source = twins_.source;
+  r.line_camera = twins_.line_camera->backend();
+  r.galvo_trigger = twins_.galvo_trigger->backend();
+  r.control_input = twins_.control_input->backend();
+  r.scope_camera = twins_.scope_camera->backend();
+  r.display = display().backend();
+  r.acquired = counters.acquired;
+  r.published = counters.published;
+  r.displayed = frames.volumes_displayed;
+  r.skipped = counters.skipped;
+  r.lost_lines = counters.lost_lines;
+  r.lost_b_scans = counters.lost_b_scans;
+  r.lost_volumes = counters.lost_volumes;
+  r.saturated_lines = counters.saturated_lines;
+  r.duration_s = hal::to_seconds(ended_ - started_);
+  r.volumes_per_s = static_cast<double>(counters.published) / r.duration_s;
+  r.lines_per_s = static_cast<double>(acquisition_->counters().frames) *
+                  twins_.plan.lines_per_frame() / r.duration_s;
+  r.frames_per_s = static_cast<double>(frames.frames_drawn) / r.duration_s;
+  r.reconstruct = volumes_->statistics().reconstruct.summary();
+  r.assemble = volumes_->statistics().assemble.summary();
+  r.publish = volumes_->statistics().publish.summary();
+  r.upload = frames.upload.summary();
+  r.draw = frames.draw.summary();
+  r.latency = frames.latency.summary();
+  r.frames_drawn = frames.frames_drawn;
+  r.frames_missed = frames.frames_missed;
+  r.hot_path_allocations = pipeline::HotPath::allocations();
+  r.faults = faults_.records();
+  r.started = started_;
+  return r;
+}
+
+hal::Result<> AssembledAppliance::leave_behind(const std::optional<ui::Image>& picture) const {
+  const RunReport finished = report();
+  fmt::print("{}", to_text(finished));
+  if (options_.report) {
+    if (auto written = write_report(finished, *options_.report); !written)
+      return written;
+    fmt::print("report:   {}\n", options_.report->string());
+  }
+  if (!options_.snapshot)
+    return {};
+  if (!picture)
+    return hal::fail(hal::Fault::absent,
+                     fmt::format("{}: not written: the display was gone at the end",
+                                 options_.snapshot->string()));
+  if (auto written = pipeline::write_png(*options_.snapshot, *picture); !written)
+    return written;
+  fmt::print("snapshot: {}\n", options_.snapshot->string());
+  return {};
+}
+
+} // namespace
+
+hal::Result<std::unique_ptr<Appliance>> Appliance::assemble(const RunOptions& options) {
+  Configuration configuration;
+  if (options.configuration) {
+    auto loaded = load_configuration(*options.configuration);
+    if (!loaded)
+      return tl::make_unexpected(loaded.error());
+    configuration = std::move(*loaded);
+  }
+  auto appliance = std::make_unique<AssembledAppliance>(options, std::move(configuration));
+  if (const auto assembled = appliance->assemble(); !assembled)
+    return tl::make_unexpected(assembled.error());
+  return appliance;
+}
+
+} // namespace octascope::firmware_host

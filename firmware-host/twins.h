@@ -1,0 +1,51 @@
+// The simulated devices of a run, and the faults that they suffer.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "firmware-host/configuration.h"
+#include "firmware-host/run_options.h"
+#include "hal/clock.h"
+#include "hal/result.h"
+#include "pipeline/calibration.h"
+#include "pipeline/scan_plan.h"
+#include "sim/fault_schedule.h"
+#include "sim/galvo_link.h"
+#include "sim/offscreen_display.h"
+#include "sim/sim_control_input.h"
+#include "sim/sim_galvo_trigger.h"
+#include "sim/sim_line_camera.h"
+#include "sim/sim_scope_camera.h"
+#include "sim/spectra_source.h"
+#include "ui/scan_field.h"
+
+namespace octascope::firmware_host {
+
+// Members are in the order in which they need each other.
+struct Twins {
+  pipeline::ScanPlan plan;
+  pipeline::Calibration calibration;
+  hal::LineFormat format;
+  std::string source; // for people: what is seen, and how long its loop is
+
+  std::unique_ptr<sim::FaultSchedule> faults;
+  std::unique_ptr<sim::SpectraSource> spectra;
+  std::unique_ptr<sim::GalvoLink> link;
+  std::unique_ptr<sim::SimLineCamera> line_camera;
+  std::unique_ptr<sim::SimGalvoTrigger> galvo_trigger;
+  std::unique_ptr<sim::SimControlInput> control_input;
+  std::unique_ptr<sim::SimScopeCamera> scope_camera;
+  std::optional<ui::ScanField> scan_field;
+
+  // Scope camera and display know only "unplugged" and "there": this tells them, at every turn of
+  // the render loop.
+  void apply_faults(hal::TimePoint now, sim::OffscreenDisplay* display);
+};
+
+// Reads the recording or makes the phantom, the calibration and the scripts that the options name.
+hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& configuration,
+                              hal::Clock& clock);
+
+} // namespace octascope::firmware_host
