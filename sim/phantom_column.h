@@ -1,0 +1,63 @@
+// What lies below one lateral position of a phantom, in millimetres of depth.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace octascope::sim {
+
+// How the scattering varies inside a layer.
+enum class Grain : std::uint8_t {
+  none,
+  lamellae, // thin sheets that follow the layer's top
+  granules, // lumps
+};
+
+struct Layer {
+  float top_mm = 0;
+  float bottom_mm = 0;
+  float backscatter_counts = 0; // rms fringe amplitude of one depth bin's scatterers
+  float attenuation_per_mm = 0; // of amplitude, there and back
+  Grain grain = Grain::none;
+  float grain_strength = 0; // 0 … 1: variation of the backscatter, relative
+  bool flowing = false;     // its scatterers have moved on when the beam comes back
+};
+
+// A smooth surface: reflects at an exact depth and lets a part of the light through.
+struct Surface {
+  float depth_mm = 0;
+  float amplitude_counts = 0;
+  float transmission = 1; // of amplitude, there and back; 0 casts a full shadow
+};
+
+// Fixed room, so that columns are refilled without an allocation; what does not fit is dropped.
+class Column {
+public:
+  static constexpr std::size_t most_layers = 32;
+  static constexpr std::size_t most_surfaces = 12;
+
+  void clear() { layers_ = surfaces_ = 0; }
+  // Later layers replace earlier ones where they overlap: a vessel goes on top of its tissue.
+  void add(const Layer& layer) {
+    if (layer.bottom_mm > layer.top_mm && layers_ < most_layers)
+      layer_room_[layers_++] = layer;
+  }
+  void add(const Surface& surface) {
+    if (surfaces_ < most_surfaces)
+      surface_room_[surfaces_++] = surface;
+  }
+
+  std::span<const Layer> layers() const { return std::span{layer_room_}.first(layers_); }
+  std::span<const Surface> surfaces() const { return std::span{surface_room_}.first(surfaces_); }
+
+private:
+  std::array<Layer, most_layers> layer_room_;
+  std::array<Surface, most_surfaces> surface_room_;
+  std::size_t layers_ = 0;
+  std::size_t surfaces_ = 0;
+};
+
+} // namespace octascope::sim

@@ -1,0 +1,202 @@
+#include "sim/volume_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sched.h>
+
+namespace octascope::sim {
+namespace {
+
+constexpr int most_volumes = 255; // a place of the ring fits in 8 bits
+
+struct BeamPlace {
+  float x_mm;
+  float y_mm;
+};
+
+BeamPlace beam_place(const pipeline::ScanPlan& plan, int b_scan, int line) {
+  const double last = plan.a_scans - 1;
+  double a = line;
+  if (line >= plan.a_scans) {
+    const double t = (line - plan.a_scans + 1.0) / (plan.fly_back_lines + 1.0);
+    a = last * (0.5 + 0.5 * std::cos(std::numbers::pi * t));
+  }
+  return {static_cast<float>((a - last / 2) * plan.a_spacing_um * 1e-3),
+          static_cast<float>((b_scan - (plan.b_scans - 1) / 2.0) * plan.b_spacing_um * 1e-3)};
+}
+
+// Only cycles that nobody else wants; the pipeline's threads come first. Where the system says
+// no, the work is merely less polite.
+void yield_to_everybody() {
+  const sched_param none{};
+  sched_setscheduler(0, SCHED_IDLE, &none);
+}
+
+} // namespace
+
+hal::Result<> VolumeLoopConfig::validate() const {
+  if (auto valid = plan.validate(); !valid)
+    return valid;
+  if (volumes < 1 || volumes > most_volumes)
+    return hal::fail(
+        hal::Fault::invalid_argument,
+        fmt::format("volume loop: volumes is {}, expected 1 to {}", volumes, most_volumes));
+  SpectrometerConfig with_plan = spectrometer;
+  with_plan.samples = plan.samples;
+  return with_plan.validate();
+}
+
+hal::Result<VolumeLoopConfig> suggested_loop(std::string_view phantom) {
+  return make_phantom(phantom, 1).map([&](const std::unique_ptr<Phantom>& made) {
+    VolumeLoopConfig config;
+    config.phantom = phantom;
+    config.plan = made->suggested_plan();
+    return config;
+  });
+}
+
+// One thread's tools for making lines.
+class VolumeLoop::LineMaker {
+public:
+  explicit LineMaker(const VolumeLoop& loop)
+      : loop_(loop), workspace_(loop.synthesis_.make_workspace()),
+        profile_(loop.profiles_.make_profile()),
+        mean_(static_cast<std::size_t>(loop.config_.plan.samples)) {}
+
+  void make(int volume, int b_scan, int line, std::span<std::uint16_t> counts) {
+    const pipeline::ScanPlan& plan = loop_.config_.plan;
+    const BeamPlace place = beam_place(plan, b_scan, line);
+    const double in_volume =
+        (b_scan + static_cast<double>(line) / plan.lines_per_frame()) / plan.b_scans;
+    const auto visit = static_cast<std::uint64_t>(volume * plan.b_scans + b_scan);
+    loop_.phantom_->fill(column_, (volume + in_volume) / loop_.config_.volumes, place.x_mm,
+                         place.y_mm);
+    loop_.profiles_.fill(profile_, column_, place.x_mm, place.y_mm, visit);
+    loop_.synthesis_.mean_counts(profile_.scatterers, profile_.surfaces, workspace_, mean_);
+    loop_.synthesis_.expose(
+        mean_, hash(loop_.config_.seed, visit, static_cast<std::uint64_t>(line)), counts);
+  }
+
+private:
+  const VolumeLoop& loop_;
+  Column column_;
+  SpectrumSynthesis::Workspace workspace_;
+  ProfileMaker::Profile profile_;
+  std::vector<float> mean_;
+};
+
+hal::Result<std::unique_ptr<VolumeLoop>> VolumeLoop::make(const VolumeLoopConfig& config) {
+  if (auto valid = config.validate(); !valid)
+    return tl::make_unexpected(valid.error());
+  auto phantom = make_phantom(config.phantom, config.seed);
+  if (!phantom)
+    return tl::make_unexpected(phantom.error());
+  VolumeLoopConfig complete = config;
+  complete.spectrometer.samples = config.plan.samples;
+  const auto spectrometer = Spectrometer::make(complete.spectrometer);
+  if (!spectrometer)
+    return tl::make_unexpected(spectrometer.error());
+  std::unique_ptr<VolumeLoop> loop(new VolumeLoop(complete, *spectrometer, std::move(*phantom)));
+  loop->make_first_volume();
+  if (config.volumes > 1)
+    loop->background_ = std::jthread(
+        [loop = loop.get()](const std::stop_token& stop) { loop->make_further_volumes(stop); });
+  return loop;
+}
+
+VolumeLoop::VolumeLoop(const VolumeLoopConfig& config, const Spectrometer& spectrometer,
+                       std::unique_ptr<Phantom> phantom)
+    : config_(config), spectrometer_(spectrometer), phantom_(std::move(phantom)),
+      synthesis_(spectrometer_), profiles_(config.plan.geometry(), hash(config.seed, 0x7155)),
+      ring_(static_cast<std::size_t>(config.volumes)) {
+  format_.samples_per_line = config.plan.samples;
+  format_.lines_per_frame = config.plan.lines_per_frame();
+  format_.significant_bits = config.spectrometer.significant_bits;
+}
+
+VolumeLoop::~VolumeLoop() = default;
+
+std::size_t VolumeLoop::samples_per_frame() const {
+  return static_cast<std::size_t>(format_.lines_per_frame) *
+         static_cast<std::size_t>(format_.samples_per_line);
+}
+
+void VolumeLoop::make_first_volume() {
+  const int b_scans = config_.plan.b_scans;
+  const auto samples = static_cast<std::size_t>(config_.plan.samples);
+  ring_[0] = std::make_unique_for_overwrite<std::uint16_t[]>(samples_per_frame() *
+                                                             static_cast<std::size_t>(b_scans));
+  std::atomic<int> next{0};
+  const auto work = [&] {
+    LineMaker maker(*this);
+    for (int b = next++; b < b_scans; b = next++) {
+      std::uint16_t* frame = ring_[0].get() + samples_per_frame() * static_cast<std::size_t>(b);
+      for (int line = 0; line < format_.lines_per_frame; ++line)
+        maker.make(0, b, line, {frame + samples * static_cast<std::size_t>(line), samples});
+    }
+  };
+  const int cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
+  {
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < std::min(cores, b_scans); ++i)
+      helpers.emplace_back(work);
+    work();
+  }
+  ready_.store(1, std::memory_order_release);
+}
+
+void VolumeLoop::make_further_volumes(const std::stop_token& stop) {
+  yield_to_everybody();
+  LineMaker maker(*this);
+  const auto samples = static_cast<std::size_t>(config_.plan.samples);
+  for (int volume = 1; volume < config_.volumes; ++volume) {
+    auto& counts = ring_[static_cast<std::size_t>(volume)];
+    counts = std::make_unique_for_overwrite<std::uint16_t[]>(
+        samples_per_frame() * static_cast<std::size_t>(config_.plan.b_scans));
+    std::uint16_t* at = counts.get();
+    for (int b = 0; b < config_.plan.b_scans; ++b) {
+      for (int line = 0; line < format_.lines_per_frame; ++line, at += samples) {
+        if (stop.stop_requested())
+          return;
+        maker.make(volume, b, line, {at, samples});
+      }
+    }
+    ready_.store(volume + 1, std::memory_order_release);
+  }
+}
+
+int VolumeLoop::place_of(std::uint64_t volume) const {
+  // While the ring grows, places shift from one volume to the next, but not inside of one.
+  std::uint64_t served = served_.load(std::memory_order_acquire);
+  if (served >> 8U == volume + 1)
+    return static_cast<int>(served & 255U);
+  const int ready = ready_volumes();
+  const std::uint64_t place = volume % static_cast<std::uint64_t>(ready);
+  if (ready < config_.volumes &&
+      !served_.compare_exchange_strong(served, ((volume + 1) << 8U) | place,
+                                       std::memory_order_acq_rel) &&
+      served >> 8U == volume + 1)
+    return static_cast<int>(served & 255U);
+  return static_cast<int>(place);
+}
+
+std::span<const std::byte> VolumeLoop::frame(std::uint64_t volume, int b_scan) const {
+  const std::uint16_t* counts = ring_[static_cast<std::size_t>(place_of(volume))].get();
+  return std::as_bytes(std::span{counts + samples_per_frame() * static_cast<std::size_t>(b_scan),
+                                 samples_per_frame()});
+}
+
+hal::Duration VolumeLoop::loop_duration() const {
+  return config_.plan.sweep_duration() * config_.volumes;
+}
+
+std::string VolumeLoop::description() const {
+  return fmt::format("{}, loop of {} volume{}, {:.2f} s", phantom_->title(), config_.volumes,
+                     config_.volumes == 1 ? "" : "s", hal::to_seconds(loop_duration()));
+}
+
+} // namespace octascope::sim
