@@ -4,6 +4,7 @@
 #include <string>
 
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/reconstruct.h"
 #include "firmware-host/version.h"
 
 int main(int argc, char** argv) {

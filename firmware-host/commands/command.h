@@ -13,6 +13,5 @@ inline constexpr int exit_wrong_use = 2;
 void add_run_command(CLI::App& program, int& exit_status);
 void add_devices_command(CLI::App& program, int& exit_status);
 void add_doctor_command(CLI::App& program, int& exit_status);
-void add_reconstruct_command(CLI::App& program, int& exit_status);
 
 } // namespace octascope::firmware_host

@@ -1,0 +1,34 @@
+// Pictures as PNG files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "hal/result.h"
+
+namespace octascope::pipeline {
+
+// 8 bits a channel, rows from the top, no gaps between them.
+struct Image {
+  int width = 0;
+  int height = 0;
+  int channels = 3; // 1 grey, 3 RGB
+  std::vector<std::uint8_t> pixels;
+
+  Image() = default;
+  Image(int w, int h, int c)
+      : width(w), height(h), channels(c),
+        pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) *
+               static_cast<std::size_t>(c)) {}
+  bool operator==(const Image&) const = default;
+};
+
+// The file appears complete or not at all.
+hal::Result<> write_png(const std::filesystem::path& file, const Image& image);
+
+// Grey files become grey, all others RGB; transparency is put on black.
+hal::Result<Image> read_png(const std::filesystem::path& file);
+
+} // namespace octascope::pipeline
