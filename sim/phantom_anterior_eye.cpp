@@ -25,8 +25,8 @@ float specular(float peak_counts, float radius_mm, float r_mm) {
 
 InstrumentPath forceps_path() {
   InstrumentPath path;
-  path.hinge = {4.9F, 1.9F, 2.0F};
-  path.tip = {0.2F, 0.25F, 2.45F};
+  path.hinge = {4.9F, 1.9F, 2.2F};
+  path.tip = {0.2F, 0.25F, 2.65F};
   path.reach = {0.55F, 0.35F, 0.12F};
   path.shaft_radius_mm = 0.26F;
   path.prong_radius_mm = 0.1F;
@@ -106,11 +106,14 @@ float AnteriorEye::iris_front_mm(float r_mm) {
 
 // Radial folds and crypts, and the collarette, a ring at a third of the way out.
 float AnteriorEye::iris_fold(float x_mm, float y_mm, float r_mm) const {
-  const float angle = std::atan2(y_mm, x_mm - axis_x_mm);
-  const float winding = angle + 0.08F * smooth_noise(seed_ + 4, r_mm * 2, angle * 2);
-  const float fibres = rough_noise(seed_ + 3, winding * 16, r_mm * 0.9F);
+  // The noise runs along a circle of its own, so that it closes.
+  const float winding = 0.08F * smooth_noise(seed_ + 4, x_mm * 0.8F, y_mm * 0.8F);
+  const float along_x = ((x_mm - axis_x_mm) - winding * y_mm) / r_mm;
+  const float along_y = (y_mm + winding * (x_mm - axis_x_mm)) / r_mm;
+  const float fibres = 0.65F * smooth_noise(seed_ + 3, 15 * along_x, 15 * along_y, 0.9F * r_mm) +
+                       0.35F * smooth_noise(seed_ + 5, 33 * along_x, 33 * along_y, 1.7F * r_mm);
   const float ring = (r_mm - pupil_mm - 1.05F) / 0.28F;
-  return 0.055F * fibres - 0.07F * std::exp(-ring * ring);
+  return 0.09F * fibres - 0.10F * std::exp(-ring * ring);
 }
 
 void AnteriorEye::fill(Column& column, double phase, float x_mm, float y_mm) const {
@@ -138,7 +141,7 @@ void AnteriorEye::fill_cornea(Column& column, float r_mm) const {
   column.add(Layer{front + 0.05F, front + 0.066F, 19, 0.25F}); // Bowman's layer
   column.add(Layer{front + 0.066F, back - 0.018F, 9.5F, 0.3F, Grain::lamellae, 0.45F});
   column.add(Layer{back - 0.018F, back, 15, 0.3F});
-  column.add(Surface{front, specular(420, 7.8F, r_mm) + 16, 1});
+  column.add(Surface{front, specular(280, 7.8F, r_mm) + 16, 1});
   column.add(Surface{back, specular(90, 6.9F, r_mm) + 5, 1});
 }
 
@@ -155,7 +158,7 @@ void AnteriorEye::fill_sclera(Column& column, float x_mm, float y_mm, float r_mm
   if (r_mm >= limbus_mm)
     column.add(Surface{front, 20, 1});
   limbal_vessels_.fill(column, x_mm, y_mm, front, deepest,
-                       Layer{.backscatter_counts = 34, .attenuation_per_mm = 3.5F});
+                       Layer{.backscatter_counts = 48, .attenuation_per_mm = 3.5F});
 }
 
 void AnteriorEye::fill_iris(Column& column, float x_mm, float y_mm, float r_mm) const {
@@ -165,11 +168,11 @@ void AnteriorEye::fill_iris(Column& column, float x_mm, float y_mm, float r_mm) 
   const float fold = iris_fold(x_mm, y_mm, r_mm);
   const float front = iris_front_mm(r_mm) + fold * edge + round;
   const float back = iris_front_mm(r_mm) + iris_thickness_mm - round;
-  const float anterior = 24 - 60 * std::max(fold, -0.1F);
+  const float anterior = 24 - 70 * std::clamp(fold, -0.2F, 0.2F);
   column.add(Layer{front, front + 0.05F, anterior, 1.2F});
   column.add(Layer{front + 0.05F, back - 0.06F, 17, 1.9F, Grain::granules, 0.6F});
   iris_vessels_.fill(column, x_mm, y_mm, front, back - 0.06F,
-                     Layer{.backscatter_counts = 27, .attenuation_per_mm = 3});
+                     Layer{.backscatter_counts = 40, .attenuation_per_mm = 3});
   column.add(Layer{back - 0.06F, back, 34, 14}); // pigment: little comes through
 }
 
@@ -195,7 +198,7 @@ Look AnteriorEye::look(float x_mm, float y_mm) const {
   const float fold = iris_fold(x_mm, y_mm, r_mm);
   const float inner = std::exp(-(r_mm - pupil_mm) / 0.7F);
   Rgb iris = mix(blue, amber, 0.75F * inner);
-  const float shade = std::clamp(0.78F - 4.2F * fold, 0.25F, 1.3F);
+  const float shade = std::clamp(0.78F - 3.0F * fold, 0.25F, 1.3F);
   iris = {iris.r * shade, iris.g * shade, iris.b * shade};
   const float dark_ring = std::exp(-std::pow((limbus_mm - r_mm) / 0.35F, 2.0F)) * 0.6F;
   const float pupil_edge = std::exp(-(r_mm - pupil_mm) / 0.07F);

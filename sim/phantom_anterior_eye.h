@@ -25,7 +25,7 @@ public:
   const Instrument* instrument() const override { return &forceps_; }
 
   // The geometry, in mm below the first depth bin; `r_mm` from the eye's axis.
-  static constexpr float apex_mm = 0.3F;
+  static constexpr float apex_mm = 0.5F;
   static constexpr float axis_x_mm = -1.2F;
   static constexpr float limbus_mm = 5.5F;
   static constexpr float pupil_mm = 2.0F; // radius

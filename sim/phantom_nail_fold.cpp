@@ -15,37 +15,44 @@ void append(std::vector<VesselSegment>& to, const std::vector<VesselSegment>& mo
   to.insert(to.end(), more.begin(), more.end());
 }
 
-// A hairpin: out to the fold's edge and back.
+// A hairpin: out to the fold's edge and back, wavering, the way back wider.
 void append_loop(std::vector<VesselSegment>& to, float x_mm, float tip_y_mm, std::uint64_t key) {
-  constexpr float radius_mm = 0.024F;
-  const float half_width = 0.04F + 0.02F * static_cast<float>(unit_interval(hash(key, 1)));
-  const float length = 0.5F + 0.25F * static_cast<float>(unit_interval(hash(key, 2)));
-  const VesselPoint arterial{x_mm - half_width, tip_y_mm - length, 0.34F};
-  const VesselPoint rising{x_mm - half_width, tip_y_mm - 0.06F, 0.17F};
-  const VesselPoint apex{x_mm, tip_y_mm, 0.15F};
-  const VesselPoint falling{x_mm + half_width, tip_y_mm - 0.06F, 0.17F};
-  const VesselPoint venous{x_mm + half_width, tip_y_mm - length, 0.34F};
-  append(to, {{arterial, rising, radius_mm},
-              {rising, apex, radius_mm},
-              {apex, falling, radius_mm},
-              {falling, venous, 1.4F * radius_mm}});
+  constexpr int steps = 14;
+  constexpr float radius_mm = 0.022F;
+  const auto part = [&](std::uint64_t which) {
+    return static_cast<float>(unit_interval(hash(key, which)));
+  };
+  const float half_width = 0.035F + 0.025F * part(1);
+  const float length = 0.38F + 0.35F * part(2);
+  const float lean = 0.3F * (part(3) - 0.5F);
+  const auto at = [&](int step) {
+    // −1 … 1 along the hairpin; 0 is its tip.
+    const float t = 2 * static_cast<float>(step) / steps - 1;
+    const float back = 1 - std::sqrt(1 - t * t); // from the tip, rounded
+    const float waver = 0.012F * std::sin(9 * back + 6 * part(4));
+    return VesselPoint{x_mm + half_width * std::sin(pi / 2 * std::clamp(2.2F * t, -1.0F, 1.0F)) +
+                           lean * length * back + waver,
+                       tip_y_mm - length * back, 0.15F + 0.2F * back};
+  };
+  for (int step = 0; step < steps; ++step)
+    to.push_back({at(step), at(step + 1), step < steps / 2 ? radius_mm : 1.4F * radius_mm});
 }
 
 } // namespace
 
 NailFold::NailFold(std::uint64_t seed) : seed_(hash(seed, 0x0a11)) {
   std::vector<VesselSegment> skin;
-  for (std::uint64_t i = 0; i < 15; ++i) {
-    const float x = -3.0F + 0.43F * (static_cast<float>(i) +
-                                     0.3F * static_cast<float>(unit_interval(hash(seed_, i))));
+  for (std::uint64_t i = 0; i < 16; ++i) {
+    const float x = -3.0F + 0.4F * (static_cast<float>(i) +
+                                    0.3F * static_cast<float>(unit_interval(hash(seed_, i))));
     append_loop(skin, x, fold_y_mm(x) - 0.28F, hash(seed_, i, 1));
   }
   append(skin, grow_vessels({-1.6F, -1.15F, 0.38F}, 0.1F, 0.06F, 1.2F, seed_ + 1));
   append(skin, grow_vessels({1.7F, -1.35F, 0.42F}, 3.0F, 0.07F, 1.3F, seed_ + 2));
   skin_vessels_ = VesselBed(std::move(skin));
   std::vector<VesselSegment> bed;
-  for (std::uint64_t i = 0; i < 7; ++i)
-    append(bed, grow_vessels({-1.7F + 0.55F * static_cast<float>(i), -0.5F, 0.16F}, pi / 2, 0.05F,
+  for (std::uint64_t i = 0; i < 5; ++i)
+    append(bed, grow_vessels({-1.6F + 0.8F * static_cast<float>(i), -0.5F, 0.18F}, pi / 2, 0.045F,
                              1.1F, hash(seed_, i, 2)));
   bed_vessels_ = VesselBed(std::move(bed));
 }
@@ -95,7 +102,7 @@ void NailFold::fill_skin(Column& column, float x_mm, float y_mm, float bottom_mm
   column.add(Layer{epidermis, bottom_mm, 22, 1.15F, Grain::granules, 0.55F});
   column.add(Surface{top, 75, 1});
   skin_vessels_.fill(column, x_mm, y_mm, top, bottom_mm,
-                     Layer{.backscatter_counts = 42, .attenuation_per_mm = 3});
+                     Layer{.backscatter_counts = 60, .attenuation_per_mm = 3});
 }
 
 void NailFold::fill_nail(Column& column, float x_mm, float y_mm, bool open) const {
@@ -109,7 +116,7 @@ void NailFold::fill_nail(Column& column, float x_mm, float y_mm, bool open) cons
   column.add(Layer{bottom, matrix, 10, 0.6F});
   column.add(Layer{matrix, 20, 24, 1.5F, Grain::granules, 0.5F});
   bed_vessels_.fill(column, x_mm, y_mm, bottom, 20,
-                    Layer{.backscatter_counts = 46, .attenuation_per_mm = 3});
+                    Layer{.backscatter_counts = 60, .attenuation_per_mm = 3});
 }
 
 Look NailFold::look(float x_mm, float y_mm) const {
@@ -123,7 +130,7 @@ Look NailFold::look(float x_mm, float y_mm) const {
     const float seam = std::exp(-(edge - y_mm) / 0.1F);
     const Rgb base = mix(mix(skin, red, 0.22F * blotch), Rgb{0.93F, 0.80F, 0.72F}, 0.6F * seam);
     return {mix(base, red, 0.9F * skin_vessels_.visibility(x_mm, y_mm, 0.35F)),
-            -skin_top_mm(x_mm, y_mm), 0.15F};
+            -skin_top_mm(x_mm, y_mm), 0.04F};
   }
   const float moon = 1 / (1 + std::exp((std::hypot(x_mm * 0.75F, y_mm + 0.7F) - 1.7F) / 0.06F));
   const float groove = 0.5F + 0.5F * smooth_noise(seed_ + 14, x_mm * 7, y_mm * 0.5F);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/spectrometer_simd.h"
 
@@ -25,6 +26,11 @@ void multiply_speckle(const float* amplitude, const float* first, float first_we
         amplitude[d] * (first_weight * first[2 * d + 1] + second_weight * second[2 * d + 1]);
   }
 }
+
+// A surface's phase follows its depth by half a wavelength (840 nm, in water): neighbouring A-scans
+// of a slope differ in it at random, as they do in nature, so that their mean does not keep a
+// ghost of the surface as background.
+constexpr double phase_rad_per_mm = 4 * std::numbers::pi * 1.35 / 0.84e-3;
 
 } // namespace
 
@@ -127,7 +133,8 @@ void ProfileMaker::attenuate(Profile& profile, std::span<const Surface> surfaces
     if (surface.depth_mm >= 0 && bin < profile.amplitude.size())
       profile.surfaces.push_back(
           {static_cast<double>(depth),
-           static_cast<double>(surface.amplitude_counts * profile.transmission[bin]), 0});
+           static_cast<double>(surface.amplitude_counts * profile.transmission[bin]),
+           phase_rad_per_mm * static_cast<double>(surface.depth_mm)});
   }
 }
 

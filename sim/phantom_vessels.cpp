@@ -92,17 +92,36 @@ VesselBed::VesselBed(std::vector<VesselSegment> segments) {
   }
   columns_ = static_cast<int>((x_max - x_min_mm_) / cell_mm) + 1;
   rows_ = static_cast<int>((y_max - y_min_mm_) / cell_mm) + 1;
-  for (int row = 0; row < rows_; ++row) {
-    for (int column = 0; column < columns_; ++column) {
-      first_of_cell_.push_back(static_cast<std::uint32_t>(of_cells_.size()));
-      const float x = x_min_mm_ + (static_cast<float>(column) + 0.5F) * cell_mm;
-      const float y = y_min_mm_ + (static_cast<float>(row) + 0.5F) * cell_mm;
-      for (const VesselSegment& s : segments)
-        if (nearest_on(s, x, y).distance_mm <= s.radius_mm + 0.7072F * cell_mm)
-          of_cells_.push_back(s);
-    }
+  std::vector<std::vector<VesselSegment>> cells(static_cast<std::size_t>(columns_) *
+                                                static_cast<std::size_t>(rows_));
+  for (const VesselSegment& s : segments)
+    for_each_cell_near(s, [&](std::size_t cell) { cells[cell].push_back(s); });
+  for (const std::vector<VesselSegment>& cell : cells) {
+    first_of_cell_.push_back(static_cast<std::uint32_t>(of_cells_.size()));
+    of_cells_.insert(of_cells_.end(), cell.begin(), cell.end());
   }
   first_of_cell_.push_back(static_cast<std::uint32_t>(of_cells_.size()));
+}
+
+template <class Visit>
+void VesselBed::for_each_cell_near(const VesselSegment& s, const Visit& visit) const {
+  const auto index = [](float position, float origin) {
+    return static_cast<int>((position - origin) / cell_mm);
+  };
+  const float reach = s.radius_mm;
+  const int first_column = index(std::min(s.from.x_mm, s.to.x_mm) - reach, x_min_mm_);
+  const int last_column = index(std::max(s.from.x_mm, s.to.x_mm) + reach, x_min_mm_);
+  const int first_row = index(std::min(s.from.y_mm, s.to.y_mm) - reach, y_min_mm_);
+  const int last_row = index(std::max(s.from.y_mm, s.to.y_mm) + reach, y_min_mm_);
+  for (int row = std::max(first_row, 0); row <= std::min(last_row, rows_ - 1); ++row) {
+    for (int column = std::max(first_column, 0); column <= std::min(last_column, columns_ - 1);
+         ++column) {
+      const float x = x_min_mm_ + (static_cast<float>(column) + 0.5F) * cell_mm;
+      const float y = y_min_mm_ + (static_cast<float>(row) + 0.5F) * cell_mm;
+      if (nearest_on(s, x, y).distance_mm <= reach + 0.7072F * cell_mm)
+        visit(static_cast<std::size_t>(row * columns_ + column));
+    }
+  }
 }
 
 std::span<const VesselSegment> VesselBed::segments_near(float x_mm, float y_mm) const {
@@ -119,8 +138,7 @@ std::span<const VesselSegment> VesselBed::segments_near(float x_mm, float y_mm) 
 
 void VesselBed::fill(Column& column, float x_mm, float y_mm, float surface_mm, float deepest_mm,
                      const Layer& blood) const {
-  // Segments of one vessel overlap at their joints: only the tallest lumen of those that touch
-  // is drawn, which the joints' round ends see to by themselves when each is drawn.
+  // Segments end in half balls, so that their joints close.
   for (const VesselSegment& s : segments_near(x_mm, y_mm)) {
     const Nearest nearest = nearest_on(s, x_mm, y_mm);
     if (nearest.distance_mm >= s.radius_mm)

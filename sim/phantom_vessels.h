@@ -43,11 +43,7 @@ public:
   float visibility(float x_mm, float y_mm, float sight_mm) const;
 
 private:
-  struct Crossing {
-    float depth_mm;
-    float half_height_mm;
-    float radius_mm;
-  };
+  template <class Visit> void for_each_cell_near(const VesselSegment& s, const Visit& visit) const;
   std::span<const VesselSegment> segments_near(float x_mm, float y_mm) const;
 
   float x_min_mm_ = 0;

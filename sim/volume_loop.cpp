@@ -6,7 +6,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace octascope::sim {
 namespace {
@@ -29,11 +30,11 @@ BeamPlace beam_place(const pipeline::ScanPlan& plan, int b_scan, int line) {
           static_cast<float>((b_scan - (plan.b_scans - 1) / 2.0) * plan.b_spacing_um * 1e-3)};
 }
 
-// Only cycles that nobody else wants; the pipeline's threads come first. Where the system says
-// no, the work is merely less polite.
+// Nearly only cycles that nobody else wants; the pipeline's threads come first. Not SCHED_IDLE: a
+// renderer in software can keep all cores busy, and the loop would never grow. Where the system
+// says no, the work is merely less polite.
 void yield_to_everybody() {
-  const sched_param none{};
-  sched_setscheduler(0, SCHED_IDLE, &none);
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 19);
 }
 
 } // namespace

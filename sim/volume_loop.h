@@ -40,7 +40,7 @@ hal::Result<VolumeLoopConfig> suggested_loop(std::string_view phantom);
 // fly-back lines the beam swings back over the same B-scan.
 //
 // The first volume is made by make(), on all cores. The others follow one by one in a background
-// thread that runs only when nothing else wants a core; until they are there, frame() loops over
+// thread at the lowest priority; until they are there, frame() loops over
 // those that are ready, and a volume's number keeps its place while its B-scans are read in turn.
 // The destructor ends the work within a line.
 class VolumeLoop final : public SpectraSource {
