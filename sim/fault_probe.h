@@ -23,9 +23,9 @@ public:
   bool pulled_since_last_look(hal::TimePoint now);
   void watch_plug(hal::TimePoint now) { looked_ = now; }
 
-  // Null when no such fault runs.
-  const ScriptedFault* active(FaultKind kind, hal::TimePoint t) const {
-    return schedule_ == nullptr ? nullptr : schedule_->find_active(device_, kind, t);
+  // Null when no such fault runs. switch_index as in FaultSchedule::find_active.
+  const ScriptedFault* active(FaultKind kind, hal::TimePoint t, int switch_index = -1) const {
+    return schedule_ == nullptr ? nullptr : schedule_->find_active(device_, kind, t, switch_index);
   }
 
   // The next beginning or end of such a fault.

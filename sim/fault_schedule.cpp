@@ -22,10 +22,11 @@ std::optional<FaultOccurrence> FaultSchedule::occurrence(const ScriptedFault& fa
   return FaultOccurrence{static_cast<std::uint64_t>(index), began};
 }
 
-const ScriptedFault* FaultSchedule::find_active(FaultDevice device, FaultKind kind,
-                                                TimePoint t) const {
+const ScriptedFault* FaultSchedule::find_active(FaultDevice device, FaultKind kind, TimePoint t,
+                                                int switch_index) const {
   const auto found = std::find_if(faults().begin(), faults().end(), [&](const ScriptedFault& f) {
-    return f.device == device && f.kind == kind && occurrence(f, t).has_value();
+    const bool concerned = switch_index < 0 || f.switch_index < 0 || f.switch_index == switch_index;
+    return f.device == device && f.kind == kind && concerned && occurrence(f, t).has_value();
   });
   return found == faults().end() ? nullptr : &*found;
 }

@@ -48,8 +48,10 @@ public:
   bool active(FaultDevice device, FaultKind kind, hal::TimePoint t) const {
     return find_active(device, kind, t) != nullptr;
   }
-  // The first in the script that is, or null.
-  const ScriptedFault* find_active(FaultDevice device, FaultKind kind, hal::TimePoint t) const;
+  // The first in the script that is, or null. With a switch_index from 0: only faults of that
+  // switch and of all switches.
+  const ScriptedFault* find_active(FaultDevice device, FaultKind kind, hal::TimePoint t,
+                                   int switch_index = -1) const;
 
   // The first beginning or end of such a fault later than `after`.
   std::optional<hal::TimePoint> next_edge(FaultDevice device, FaultKind kind,

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "sim/deadline.h"
 #include "sim/fault_random.h"
 #include "sim/fault_spectra.h"
 
@@ -117,7 +118,7 @@ hal::Result<> SimLineCamera::do_start() {
   const std::uint64_t sweeps = link_.sweeps();
   next_sweep_ = sweeps >= 2 ? sweeps - 2 : 0;
   for (auto next = next_exposure(); next && next->begin < started_; next = next_exposure())
-    skip_exposure();
+    step_exposure();
   set_state(DeviceState::streaming);
   return {};
 }
@@ -128,7 +129,7 @@ hal::Result<std::optional<hal::LineFrame>> SimLineCamera::do_wait_frame(Duration
   if (state() != DeviceState::streaming)
     return tl::make_unexpected(wrong_state("wait_frame", "streaming").error());
   TimePoint now = clock_.now();
-  const TimePoint deadline = now + timeout;
+  const TimePoint deadline = deadline_after(now, timeout);
   while (true) {
     if (probe_.pulled_since_last_look(now))
       return tl::make_unexpected(disconnect());
@@ -186,7 +187,7 @@ std::optional<SimLineCamera::Exposure> SimLineCamera::next_exposure() {
   return std::nullopt;
 }
 
-void SimLineCamera::skip_exposure() {
+void SimLineCamera::step_exposure() {
   if (++next_b_scan_ < source_.b_scans())
     return;
   next_b_scan_ = 0;
@@ -196,7 +197,7 @@ void SimLineCamera::skip_exposure() {
 void SimLineCamera::expose_until(TimePoint now) {
   for (auto next = next_exposure(); next && next->end <= now; next = next_exposure()) {
     finish(*next);
-    skip_exposure();
+    step_exposure();
   }
 }
 

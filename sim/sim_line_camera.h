@@ -84,7 +84,7 @@ private:
 
   hal::Duration line_offset(std::int64_t line) const;
   std::optional<Exposure> next_exposure();
-  void skip_exposure();
+  void step_exposure();
   void expose_until(hal::TimePoint now);
   void finish(const Exposure& exposure);
   void discard_waiting();
