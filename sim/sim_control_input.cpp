@@ -38,6 +38,7 @@ hal::Result<> SimControlInput::do_open() {
   if (!zero_)
     zero_ = last_reported_ = now;
   // What was done to the pedal before is unseen.
+  next_injected_.reset();
   while (injected_.pop()) {
   }
   for (auto due = cursor_.next_time(); due && *zero_ + *due < now; due = cursor_.next_time())
@@ -90,15 +91,14 @@ void SimControlInput::play_to(TimePoint now) {
     return;
   }
   update_stuck_switches(now);
-  take_injected(now);
 }
 
 // False when the device is gone or the outbox is full before `now`.
 bool SimControlInput::play_timeline(TimePoint now) {
-  for (TimePoint t = next_moment(); t <= now; t = next_moment()) {
+  for (look_for_injected(now); next_moment() <= now; look_for_injected(now)) {
     if (!has_room())
       return false;
-    played_to_ = std::max(played_to_, t);
+    played_to_ = std::max(played_to_, next_moment());
     play_moment(played_to_);
     if (pulled_out_)
       return false;
@@ -116,6 +116,8 @@ TimePoint SimControlInput::next_moment() const {
     consider(*zero_ + *due);
   for (const BouncingContact& contact : contacts_)
     consider(contact.next_time());
+  if (next_injected_)
+    consider(next_injected_->time);
   consider(probe_.next_edge(FaultKind::unplug, played_to_));
   consider(probe_.next_edge(FaultKind::stuck_switch, played_to_));
   return next;
@@ -133,6 +135,7 @@ void SimControlInput::play_moment(TimePoint t) {
   }
   update_stuck_switches(t);
   play_script(t);
+  play_injected(t);
 }
 
 // One event at most: others due at the same time are a moment of their own.
@@ -144,14 +147,19 @@ void SimControlInput::play_script(TimePoint t) {
   move(t, event.kind, event.index, event.value);
 }
 
-void SimControlInput::take_injected(TimePoint now) {
-  while (has_room()) {
-    const auto event = injected_.pop();
-    if (!event)
-      return;
-    // Moments up to now have been played: nothing can happen before them any more.
-    move(std::clamp(event->time, played_to_, now), event->kind, event->index, event->value);
-  }
+void SimControlInput::look_for_injected(TimePoint now) {
+  if (next_injected_)
+    return;
+  next_injected_ = injected_.pop();
+  if (next_injected_) // what is said to come later than now has come
+    next_injected_->time = std::min(next_injected_->time, now);
+}
+
+void SimControlInput::play_injected(TimePoint t) {
+  if (!next_injected_ || next_injected_->time > t)
+    return;
+  move(t, next_injected_->kind, next_injected_->index, next_injected_->value);
+  next_injected_.reset();
 }
 
 void SimControlInput::update_stuck_switches(TimePoint t) {

@@ -44,7 +44,8 @@ private:
   hal::TimePoint next_moment() const;
   void play_moment(hal::TimePoint t);
   void play_script(hal::TimePoint t);
-  void take_injected(hal::TimePoint now);
+  void play_injected(hal::TimePoint t);
+  void look_for_injected(hal::TimePoint now);
   void update_stuck_switches(hal::TimePoint t);
   void move(hal::TimePoint t, hal::ControlKind kind, std::uint8_t index, std::int32_t value);
   void pull_out(hal::TimePoint t);
@@ -52,14 +53,15 @@ private:
   bool has_room() const { return reported_ + most_reports_at_once <= outbox_.size(); }
   std::size_t fetch(std::span<hal::ControlEvent> events);
 
-  // One moment can report every switch and one more control.
-  static constexpr std::size_t most_reports_at_once = switch_count + 1;
+  // One moment can report every switch, a scripted and an injected event.
+  static constexpr std::size_t most_reports_at_once = switch_count + 2;
 
   hal::Clock& clock_;
   const ControlScript script_;
   ControlScriptCursor cursor_;
   FaultProbe probe_;
   ControlQueue injected_;
+  std::optional<hal::ControlEvent> next_injected_; // already out of the queue
 
   std::optional<hal::TimePoint> zero_; // of the script
   hal::TimePoint played_to_;
