@@ -1,0 +1,15 @@
+// Deadlines of waits whose timeout the caller chose.
+#pragma once
+
+#include <algorithm>
+
+#include "hal/clock.h"
+
+namespace octascope::sim {
+
+// now + timeout, without overflow for a timeout that means "for ever".
+inline hal::TimePoint deadline_after(hal::TimePoint now, hal::Duration timeout) {
+  return now + std::clamp<hal::Duration>(timeout, hal::Duration{}, std::chrono::years{1});
+}
+
+} // namespace octascope::sim

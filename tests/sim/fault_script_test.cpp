@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/fault_script.h"
+
+namespace octascope::sim {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+std::string complaint(std::string_view text) {
+  const auto script = FaultScript::parse(text, "bad.toml");
+  return script ? "" : script.error().message;
+}
+
+TEST(FaultScript, reads_every_parameter) {
+  const auto script = FaultScript::parse("[[fault]]\ndevice = \"line_camera\"\n"
+                                         "kind = \"late_frames\"\nat_s = 1.5\nduration_s = 2\n"
+                                         "count = 3\nrepeat_s = 4\nevery = 5\nprobability = 0.25\n"
+                                         "seed = 6\nlate_ms = 7.5\n"
+                                         "[[fault]]\ndevice = \"control_input\"\n"
+                                         "kind = \"stuck_switch\"\nat_s = 0\nduration_s = 1\n"
+                                         "switch = 2\npressed = false\n",
+                                         "test.toml");
+  ASSERT_TRUE(script) << script.error().message;
+  ASSERT_EQ(script->faults.size(), 2U);
+  const ScriptedFault& late = script->faults[0];
+  EXPECT_EQ(late.device, FaultDevice::line_camera);
+  EXPECT_EQ(late.kind, FaultKind::late_frames);
+  EXPECT_EQ(late.at, 1500ms);
+  EXPECT_EQ(late.duration, 2s);
+  EXPECT_EQ(late.count, 3U);
+  EXPECT_EQ(late.repeat, 4s);
+  EXPECT_EQ(late.every, 5);
+  EXPECT_EQ(late.probability, 0.25);
+  EXPECT_EQ(late.seed, 6U);
+  EXPECT_EQ(late.late_by, 7500us);
+  EXPECT_EQ(describe(late), "line_camera late_frames at 1.5 s for 2 s 3 times every 4 s");
+  EXPECT_EQ(script->faults[1].switch_index, 2);
+  EXPECT_FALSE(script->faults[1].stuck_pressed);
+}
+
+TEST(FaultScript, an_empty_file_is_a_day_without_faults) {
+  EXPECT_TRUE(FaultScript::parse("", "test.toml")->faults.empty());
+}
+
+TEST(FaultScript, refuses_what_makes_no_sense) {
+  const std::string camera = "[[fault]]\ndevice = \"line_camera\"\nat_s = 1\n";
+  EXPECT_THAT(complaint("[[fault]]\nkind = \"unplug\"\nat_s = 1\nduration_s = 1"),
+              HasSubstr("bad.toml:1: [fault] device is missing"));
+  EXPECT_THAT(complaint("[[fault]]\ndevice = \"toaster\"\nkind = \"unplug\"\nat_s = 1"),
+              HasSubstr("device is 'toaster', expected one of \"line_camera\""));
+  EXPECT_THAT(complaint(camera + "kind = \"bounce\"\nduration_s = 1"),
+              HasSubstr("kind is 'bounce', expected for the line_camera one of \"unplug\", "));
+  EXPECT_THAT(complaint(camera + "kind = \"unplug\""), HasSubstr("duration_s is missing"));
+  EXPECT_THAT(complaint(camera + "kind = \"dropped_frames\""), HasSubstr("has no end"));
+  EXPECT_THAT(complaint(camera + "kind = \"unplug\"\nduration_s = 2\nrepeat_s = 2"),
+              HasSubstr("repeat_s is 2, expected more than duration_s, 2"));
+  EXPECT_THAT(complaint(camera + "kind = \"unplug\"\nduration_s = -1"),
+              HasSubstr("duration_s is -1"));
+  EXPECT_THAT(complaint(camera + "kind = \"unplug\"\nduration_s = 1\nlate_ms = 3"),
+              HasSubstr("unknown key \"late_ms\""));
+  EXPECT_THAT(complaint(camera + "kind = \"unplug\"\nduration_s = 1\ncount = 3"),
+              HasSubstr("unknown key \"count\""));
+  EXPECT_THAT(complaint(camera + "kind = \"wrong_size\"\ncount = 1\nsize_share = 1"),
+              HasSubstr("size_share is 1"));
+  EXPECT_THAT(complaint(camera + "kind = \"dropped_frames\"\ncount = 1\nprobability = 1.5"),
+              HasSubstr("probability is 1.5"));
+  EXPECT_THAT(complaint("fault = 3"), HasSubstr("fault is 3"));
+  EXPECT_THAT(complaint("[[fualt]]\n"), HasSubstr("unknown key \"fualt\""));
+}
+
+TEST(FaultScript, the_samples_load_and_cover_every_kind_of_every_device) {
+  std::set<std::pair<FaultDevice, FaultKind>> covered;
+  int files = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator{std::string{OCTASCOPE_SOURCE_DIR} + "/sim/faults"}) {
+    const auto script = FaultScript::load(entry.path());
+    ASSERT_TRUE(script) << script.error().message;
+    EXPECT_FALSE(script->faults.empty()) << entry.path();
+    for (const ScriptedFault& fault : script->faults)
+      covered.emplace(fault.device, fault.kind);
+    ++files;
+  }
+  EXPECT_GT(files, 0);
+  for (const FaultDevice device : fault_devices) {
+    for (const FaultKind kind : kinds_of(device))
+      EXPECT_TRUE(covered.contains({device, kind})) << to_string(device) << " " << to_string(kind);
+  }
+}
+
+} // namespace
+} // namespace octascope::sim
