@@ -74,10 +74,17 @@ struct OffscreenDisplay::Surface {
     if (display == EGL_NO_DISPLAY)
       return no_gles("no EGL display could be initialised");
     eglBindAPI(EGL_OPENGL_ES_API);
-    const std::array<EGLint, 11> wish{EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE,
-                                      EGL_PBUFFER_BIT,     EGL_RED_SIZE,       8,
-                                      EGL_GREEN_SIZE,      8,                  EGL_BLUE_SIZE,
-                                      8,                   EGL_NONE};
+    const std::array<EGLint, 11> wish{EGL_RENDERABLE_TYPE,
+                                      EGL_OPENGL_ES3_BIT,
+                                      EGL_SURFACE_TYPE,
+                                      EGL_PBUFFER_BIT,
+                                      EGL_RED_SIZE,
+                                      8,
+                                      EGL_GREEN_SIZE,
+                                      8,
+                                      EGL_BLUE_SIZE,
+                                      8,
+                                      EGL_NONE};
     EGLConfig egl_config = nullptr;
     EGLint found = 0;
     if (eglChooseConfig(display, wish.data(), &egl_config, 1, &found) != EGL_TRUE || found == 0)
@@ -123,7 +130,9 @@ struct OffscreenDisplay::Surface {
 
 OffscreenDisplay::OffscreenDisplay(hal::Clock& clock) : clock_{clock} {}
 
-OffscreenDisplay::~OffscreenDisplay() { do_close(); }
+OffscreenDisplay::~OffscreenDisplay() {
+  do_close();
+}
 
 hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
   if (state() != hal::DeviceState::absent)
@@ -133,9 +142,9 @@ hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
                      fmt::format("offscreen display: size is {}x{}, expected at least 1x1",
                                  config.width, config.height));
   if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
-    return hal::fail(Fault::invalid_argument,
-                     fmt::format("offscreen display: refresh_hz is {}, expected 1 to 1000",
-                                 config.refresh_hz));
+    return hal::fail(
+        Fault::invalid_argument,
+        fmt::format("offscreen display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
   if (lost_.load(std::memory_order_acquire))
     return hal::fail(Fault::absent, "offscreen display: lost; waiting for it to be restored");
 

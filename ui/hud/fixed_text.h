@@ -21,7 +21,8 @@ public:
     if (result.size > N)
       while (size_ > 0 && (static_cast<unsigned char>(bytes_[size_ - 1]) & 0xC0U) == 0x80U)
         --size_;
-    if (result.size > N && size_ > 0 && (static_cast<unsigned char>(bytes_[size_ - 1]) & 0x80U) != 0)
+    if (result.size > N && size_ > 0 &&
+        (static_cast<unsigned char>(bytes_[size_ - 1]) & 0x80U) != 0)
       --size_;
   }
 
