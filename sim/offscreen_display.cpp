@@ -157,6 +157,7 @@ hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
   width_ = config.width;
   height_ = config.height;
   refresh_period_ = hal::from_seconds(1.0 / config.refresh_hz);
+  context_lost_.store(false, std::memory_order_release);
   opened_ = clock_.now();
   flips_ = 0;
   set_state(hal::DeviceState::ready);
@@ -164,15 +165,14 @@ hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
 }
 
 hal::Result<hal::Flip> OffscreenDisplay::do_present() {
-  if (surface_ == nullptr)
+  if (state() == hal::DeviceState::absent)
     return hal::fail(Fault::absent, "offscreen display: not open; open() it first");
-  if (lost_.load(std::memory_order_acquire)) {
+  if (context_lost_.load(std::memory_order_acquire)) {
     surface_.reset();
     set_state(hal::DeviceState::failed);
-  }
-  if (state() == hal::DeviceState::failed)
     return hal::fail(Fault::disconnected,
                      "offscreen display: lost while drawing; close() it and open() it again");
+  }
   glFinish();
   const hal::TimePoint completed = clock_.now();
   const std::int64_t ticks = (completed - opened_) / refresh_period_;

@@ -28,8 +28,7 @@ double share_of_outliers(const ui::Image& a, const ui::Image& b) {
 }
 
 void expect_golden(const ui::Image& image, const std::string& name) {
-  const auto file =
-      std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/golden" / (name + ".png");
+  const auto file = std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/golden" / (name + ".png");
   if (std::getenv("OCTASCOPE_RENEW_GOLDEN") != nullptr) {
     ASSERT_TRUE(write_png(image, file)) << file;
     return;

@@ -1,6 +1,7 @@
 // A GLES 3 context for tests, where this machine has one.
 #pragma once
 
+#include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 
 #include "sim/offscreen_display.h"

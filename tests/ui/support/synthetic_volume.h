@@ -9,7 +9,8 @@ namespace octascope::tests {
 pipeline::Volume uniform_volume(const pipeline::VolumeGeometry& geometry, std::uint8_t count);
 
 // Tissue: three layers under a wavy surface, vessels (bright walls, dark lumen) within, a bright
-// sphere on it and the noise floor above, with speckle from a fixed seed. The same on every machine.
+// sphere on it and the noise floor above, with speckle from a fixed seed. The same on every
+// machine.
 pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& geometry);
 
 // 300 × 80 × 512 as the instrument's, and a smaller one of the same extents for quick tests.
