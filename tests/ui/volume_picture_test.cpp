@@ -162,6 +162,7 @@ TEST_F(VolumePictureTest, the_box_has_its_physical_aspect) {
   upload(uniform_volume(flat, 160));                            // grey 1: white …
   ui::ViewState view = plain_view();
   view.window_size_db = 80; // … now 0.5
+  view.distance = 5;
   view.planes = 256;
   draw(view);
   const ui::Camera camera = ui::make_camera(view, ui::box_extents_mm(flat), 1);

@@ -11,17 +11,23 @@ namespace octascope::ui {
 
 namespace {
 
-bool renders_half_floats() {
+bool has_extension(std::string_view name) {
   GLint count = 0;
   glGetIntegerv(GL_NUM_EXTENSIONS, &count);
-  for (GLint i = 0; i < count; ++i) {
-    const auto* name =
-        reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i)));
-    const std::string_view extension{name};
-    if (extension == "GL_EXT_color_buffer_float" || extension == "GL_EXT_color_buffer_half_float")
+  for (GLint i = 0; i < count; ++i)
+    if (name == reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i))))
       return true;
-  }
   return false;
+}
+
+// Hundreds of faint planes add up here. Software rasterisers cut 16-bit results off instead of
+// rounding them, which costs a picture of 256 planes 2 % of its opacity, while 32 bits take them no
+// longer; so 32 bits wherever GL can blend and filter them.
+GLenum accumulation_format() {
+  const bool floats = has_extension("GL_EXT_color_buffer_float");
+  if (floats && has_extension("GL_EXT_float_blend") && has_extension("GL_OES_texture_float_linear"))
+    return GL_RGBA32F;
+  return floats || has_extension("GL_EXT_color_buffer_half_float") ? GL_RGBA16F : GL_RGBA8;
 }
 
 // Puts back the framebuffer that was bound.
@@ -57,9 +63,7 @@ hal::Result<VolumePicture> VolumePicture::create() {
 }
 
 VolumePicture::VolumePicture(PlaneStack stack, gl::PicturePass pass)
-    : stack_{std::move(stack)}, pass_{std::move(pass)}, format_{static_cast<GLenum>(
-                                                            renders_half_floats() ? GL_RGBA16F
-                                                                                  : GL_RGBA8)} {}
+    : stack_{std::move(stack)}, pass_{std::move(pass)}, format_{accumulation_format()} {}
 
 hal::Result<> VolumePicture::resize(int width, int height) {
   colour_ = gl::Texture::make();
