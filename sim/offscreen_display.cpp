@@ -74,10 +74,17 @@ struct OffscreenDisplay::Surface {
     if (display == EGL_NO_DISPLAY)
       return no_gles("no EGL display could be initialised");
     eglBindAPI(EGL_OPENGL_ES_API);
-    const std::array<EGLint, 11> wish{EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE,
-                                      EGL_PBUFFER_BIT,     EGL_RED_SIZE,       8,
-                                      EGL_GREEN_SIZE,      8,                  EGL_BLUE_SIZE,
-                                      8,                   EGL_NONE};
+    const std::array<EGLint, 11> wish{EGL_RENDERABLE_TYPE,
+                                      EGL_OPENGL_ES3_BIT,
+                                      EGL_SURFACE_TYPE,
+                                      EGL_PBUFFER_BIT,
+                                      EGL_RED_SIZE,
+                                      8,
+                                      EGL_GREEN_SIZE,
+                                      8,
+                                      EGL_BLUE_SIZE,
+                                      8,
+                                      EGL_NONE};
     EGLConfig egl_config = nullptr;
     EGLint found = 0;
     if (eglChooseConfig(display, wish.data(), &egl_config, 1, &found) != EGL_TRUE || found == 0)
@@ -123,7 +130,9 @@ struct OffscreenDisplay::Surface {
 
 OffscreenDisplay::OffscreenDisplay(hal::Clock& clock) : clock_{clock} {}
 
-OffscreenDisplay::~OffscreenDisplay() { do_close(); }
+OffscreenDisplay::~OffscreenDisplay() {
+  do_close();
+}
 
 hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
   if (state() != hal::DeviceState::absent)
@@ -133,9 +142,9 @@ hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
                      fmt::format("offscreen display: size is {}x{}, expected at least 1x1",
                                  config.width, config.height));
   if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
-    return hal::fail(Fault::invalid_argument,
-                     fmt::format("offscreen display: refresh_hz is {}, expected 1 to 1000",
-                                 config.refresh_hz));
+    return hal::fail(
+        Fault::invalid_argument,
+        fmt::format("offscreen display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
   if (lost_.load(std::memory_order_acquire))
     return hal::fail(Fault::absent, "offscreen display: lost; waiting for it to be restored");
 
@@ -148,6 +157,7 @@ hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
   width_ = config.width;
   height_ = config.height;
   refresh_period_ = hal::from_seconds(1.0 / config.refresh_hz);
+  context_lost_.store(false, std::memory_order_release);
   opened_ = clock_.now();
   flips_ = 0;
   set_state(hal::DeviceState::ready);
@@ -155,15 +165,14 @@ hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
 }
 
 hal::Result<hal::Flip> OffscreenDisplay::do_present() {
-  if (surface_ == nullptr)
+  if (state() == hal::DeviceState::absent)
     return hal::fail(Fault::absent, "offscreen display: not open; open() it first");
-  if (lost_.load(std::memory_order_acquire)) {
+  if (context_lost_.load(std::memory_order_acquire)) {
     surface_.reset();
     set_state(hal::DeviceState::failed);
-  }
-  if (state() == hal::DeviceState::failed)
     return hal::fail(Fault::disconnected,
                      "offscreen display: lost while drawing; close() it and open() it again");
+  }
   glFinish();
   const hal::TimePoint completed = clock_.now();
   const std::int64_t ticks = (completed - opened_) / refresh_period_;

@@ -19,8 +19,12 @@ public:
   ~OffscreenDisplay() override;
 
   // The fault of a display whose cable is pulled: present() fails with Fault::disconnected, and
-  // open() with Fault::absent, until restore(). Thread-safe.
-  void lose() { lost_.store(true, std::memory_order_release); }
+  // open() with Fault::absent, until restore(). However short the loss, the context is gone with
+  // it. Thread-safe.
+  void lose() {
+    lost_.store(true, std::memory_order_release);
+    context_lost_.store(true, std::memory_order_release);
+  }
   void restore() { lost_.store(false, std::memory_order_release); }
 
 private:
@@ -46,6 +50,7 @@ private:
   hal::TimePoint opened_;
   std::uint64_t flips_ = 0;
   std::atomic<bool> lost_{false};
+  std::atomic<bool> context_lost_{false}; // until the next open()
 };
 
 } // namespace octascope::sim

@@ -9,7 +9,9 @@
 
 namespace octascope::ui {
 
-float Camera::depth_of(const glm::vec3& point) const { return glm::dot(point - eye, forward); }
+float Camera::depth_of(const glm::vec3& point) const {
+  return glm::dot(point - eye, forward);
+}
 
 glm::vec2 Camera::project(const glm::vec3& point) const {
   const glm::vec3 ray = point - eye;
@@ -35,8 +37,7 @@ Camera make_camera(const ViewState& view, const glm::vec3& extents_mm, float asp
   camera.up = glm::cross(camera.right, camera.forward);
   camera.near_mm = std::max(view.distance - 1.001F, 0.02F) * radius;
   camera.far_mm = (view.distance + 1.001F) * radius;
-  camera.tan_half_height =
-      std::tan(glm::radians(field_of_view_deg) / 2) / std::min(aspect, 1.0F);
+  camera.tan_half_height = std::tan(glm::radians(field_of_view_deg) / 2) / std::min(aspect, 1.0F);
   const glm::mat4 projection = glm::perspective(2 * std::atan(camera.tan_half_height), aspect,
                                                 camera.near_mm, camera.far_mm);
   camera.view_projection = projection * glm::lookAt(camera.eye, glm::vec3{0}, camera.up);

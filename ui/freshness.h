@@ -11,9 +11,9 @@ namespace octascope::ui {
 enum class Liveness : std::uint8_t {
   waiting, // no volume has come yet
   live,
-  stale,   // no fresh volume for more than one and a half volume periods
-  veiled,  // none for longer than the limit: the picture is covered
-  frozen,  // by the surgeon
+  stale,  // no fresh volume for more than one and a half volume periods
+  veiled, // none for longer than the limit: the picture is covered
+  frozen, // by the surgeon
 };
 
 // What is on the screen, as times.

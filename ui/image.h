@@ -16,7 +16,8 @@ struct Image {
 
   std::array<std::uint8_t, 3> at(int x, int y) const {
     const auto i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                    static_cast<std::size_t>(x)) * 3;
+                    static_cast<std::size_t>(x)) *
+                   3;
     return {rgb[i], rgb[i + 1], rgb[i + 2]};
   }
 };

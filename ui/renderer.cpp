@@ -91,12 +91,9 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
 DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& status, int width,
                                          int height) const {
   const ViewState shown = fitted(view);
-  return {volume_uploads,
-          scope_uploads,
-          width,
-          height,
-          without_times(shown),
-          compose_hud_text(shown, status, scene(shown).shown)};
+  return {
+      volume_uploads, scope_uploads,        width,
+      height,         without_times(shown), compose_hud_text(shown, status, scene(shown).shown)};
 }
 
 Layout Renderer::Parts::layout(int width, int height) const {
@@ -126,6 +123,7 @@ void Renderer::Parts::draw_box(Canvas& canvas, const Camera& camera, const Rect&
                                bool in_front) const {
   const Colour colour = in_front ? palette::box : palette::box_behind;
   const float width = std::max(1.0F, 1.5F * fonts_unit);
+  const Canvas::Clip clip{canvas, view};
   for (const BoxEdge& edge : project_box(camera, box_extents_mm(volume.geometry()), view))
     if (edge.visible && edge.in_front == in_front)
       canvas.line(edge.from, edge.to, colour, width);
@@ -143,12 +141,12 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   if (has_volume) {
     if (auto ok = volume_picture.update(volume, volume_uploads, view, places.view); !ok)
       return ok;
-    camera = make_camera(view, box_extents_mm(volume.geometry()),
-                         static_cast<float>(places.view.width) /
-                             static_cast<float>(places.view.height));
-    shown.view_mm_per_pixel = static_cast<double>(2 * camera.tan_half_height *
-                                                  camera.depth_of(glm::vec3{0})) /
-                              places.view.height;
+    camera =
+        make_camera(view, box_extents_mm(volume.geometry()),
+                    static_cast<float>(places.view.width) / static_cast<float>(places.view.height));
+    shown.view_mm_per_pixel =
+        static_cast<double>(2 * camera.tan_half_height * camera.depth_of(glm::vec3{0})) /
+        places.view.height;
   }
 
   ground.begin(*fonts, picture.width, height);
@@ -169,7 +167,7 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   if (has_volume) {
     volume_picture.composite(places.view, height);
     b_scan_panel.draw(volume, shown.shown.b_scan, view, places.b_scan.picture, height);
-    en_face_panel.draw(view, places.en_face.picture, height);
+    en_face_panel.draw(places.en_face.picture, height);
   }
   if (scope_shown)
     scope_panel.draw(places.scope.picture, height, picture.text.scope_stale);

@@ -14,8 +14,8 @@
 
 namespace octascope::ui {
 
-// Threads: bound to the thread and the GLES 3 context that were current in create(); destroyed there
-// too. When the context is lost (Display::present() says disconnected), destroy it, open the
+// Threads: bound to the thread and the GLES 3 context that were current in create(); destroyed
+// there too. When the context is lost (Display::present() says disconnected), destroy it, open the
 // display again and create a new one.
 //
 // A volume's picture is kept and drawn again only when the volume, the view or the window changes,

@@ -17,17 +17,17 @@ struct ViewState {
   // The camera always faces the centre of the volume. Yaw turns about the depth axis, tilt raises
   // the eye; tilt 0 looks along the surface, 90 straight down onto it (en face).
   float yaw_deg = 35;
-  float tilt_deg = 30;
-  float distance = 2.4F; // from the centre, in half-diagonals of the volume's box
+  float tilt_deg = 35;
+  float distance = 3.1F; // from the centre, in half-diagonals of the volume's box
 
   // Display window in decibels, the paper's formula (1): opacity is 0 below `offset`, rises to 1
   // over `size`, and grey equals opacity.
   float window_offset_db = 8;
   float window_size_db = 36;
 
-  int planes = 192;               // of the view-aligned plane stack
+  int planes = 128;               // of the view-aligned plane stack
   float volume_resolution = 1.0F; // of the volume's picture, per display pixel and axis
-  float opacity = 1.0F;           // of a voxel at the top of the window, per reference step
+  float opacity = 0.5F;           // of a voxel at the top of the window, per reference step
   bool box_visible = true;        // the wire-frame box
   bool frozen = false;            // the volume stays, the view still moves
   hal::TimePoint frozen_since{};  // when `frozen` became true

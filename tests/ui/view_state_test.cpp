@@ -1,6 +1,6 @@
-#include "ui/view_state.h"
-
 #include <gtest/gtest.h>
+
+#include "ui/view_state.h"
 
 namespace octascope::ui {
 namespace {

@@ -12,7 +12,9 @@ constexpr std::uint8_t left_switch = 0;
 constexpr std::uint8_t centre_switch = 1;
 constexpr std::uint8_t right_switch = 2;
 
-constexpr std::uint16_t code(hal::Key key) { return static_cast<std::uint16_t>(key); }
+constexpr std::uint16_t code(hal::Key key) {
+  return static_cast<std::uint16_t>(key);
+}
 
 void set_parameter(ViewState& view, Parameter parameter, float value) {
   switch (parameter) {

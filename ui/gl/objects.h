@@ -36,14 +36,30 @@ private:
   GLuint name_ = 0;
 };
 
-inline void generate_texture(GLuint& name) { glGenTextures(1, &name); }
-inline void destroy_texture(GLuint name) { glDeleteTextures(1, &name); }
-inline void generate_buffer(GLuint& name) { glGenBuffers(1, &name); }
-inline void destroy_buffer(GLuint name) { glDeleteBuffers(1, &name); }
-inline void generate_vertex_array(GLuint& name) { glGenVertexArrays(1, &name); }
-inline void destroy_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
-inline void generate_framebuffer(GLuint& name) { glGenFramebuffers(1, &name); }
-inline void destroy_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+inline void generate_texture(GLuint& name) {
+  glGenTextures(1, &name);
+}
+inline void destroy_texture(GLuint name) {
+  glDeleteTextures(1, &name);
+}
+inline void generate_buffer(GLuint& name) {
+  glGenBuffers(1, &name);
+}
+inline void destroy_buffer(GLuint name) {
+  glDeleteBuffers(1, &name);
+}
+inline void generate_vertex_array(GLuint& name) {
+  glGenVertexArrays(1, &name);
+}
+inline void destroy_vertex_array(GLuint name) {
+  glDeleteVertexArrays(1, &name);
+}
+inline void generate_framebuffer(GLuint& name) {
+  glGenFramebuffers(1, &name);
+}
+inline void destroy_framebuffer(GLuint name) {
+  glDeleteFramebuffers(1, &name);
+}
 
 using Texture = Object<generate_texture, destroy_texture>;
 using Buffer = Object<generate_buffer, destroy_buffer>;

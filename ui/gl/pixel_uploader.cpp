@@ -20,9 +20,9 @@ PixelUploader PixelUploader::create(std::size_t bytes) {
 
 hal::Result<> PixelUploader::stage(std::span<const std::uint8_t> pixels) {
   if (pixels.size() > bytes_)
-    return hal::fail(hal::Fault::invalid_argument,
-                     fmt::format("pixel upload: {} bytes given, expected at most {}", pixels.size(),
-                                 bytes_));
+    return hal::fail(
+        hal::Fault::invalid_argument,
+        fmt::format("pixel upload: {} bytes given, expected at most {}", pixels.size(), bytes_));
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffers_[next_].name());
   next_ = (next_ + 1) % buffers_.size();
   void* memory = glMapBufferRange(GL_PIXEL_UNPACK_BUFFER, 0, static_cast<GLsizeiptr>(pixels.size()),

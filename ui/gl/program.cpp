@@ -58,8 +58,9 @@ hal::Result<Program> Program::build(std::string_view name, std::string_view vert
   if (linked != GL_TRUE) {
     std::array<char, 2048> log{};
     glGetProgramInfoLog(program.name_, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    return hal::fail(hal::Fault::unsupported,
-                     fmt::format("shader program {}: its stages do not link: {}", name, log.data()));
+    return hal::fail(
+        hal::Fault::unsupported,
+        fmt::format("shader program {}: its stages do not link: {}", name, log.data()));
   }
   return program;
 }

@@ -42,8 +42,7 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
     break;
   case BadgeKind::waiting: canvas.ring(centre, half, ink, size * 0.15F); break;
   case BadgeKind::incomplete:
-    canvas.line({centre.x, centre.y - half}, {centre.x, centre.y + half * 0.35F}, ink,
-                size * 0.2F);
+    canvas.line({centre.x, centre.y - half}, {centre.x, centre.y + half * 0.35F}, ink, size * 0.2F);
     canvas.dot({centre.x, centre.y + half * 0.85F}, size * 0.13F, ink);
     break;
   }

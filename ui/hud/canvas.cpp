@@ -8,9 +8,15 @@ namespace octascope::ui {
 
 namespace {
 
-ImU32 packed(Colour c) { return IM_COL32(c.r, c.g, c.b, c.a); }
-ImVec2 to_im(glm::vec2 p) { return {p.x, p.y}; }
-ImVec2 top_left(const Rect& r) { return {static_cast<float>(r.x), static_cast<float>(r.y)}; }
+ImU32 packed(Colour c) {
+  return IM_COL32(c.r, c.g, c.b, c.a);
+}
+ImVec2 to_im(glm::vec2 p) {
+  return {p.x, p.y};
+}
+ImVec2 top_left(const Rect& r) {
+  return {static_cast<float>(r.x), static_cast<float>(r.y)};
+}
 ImVec2 bottom_right(const Rect& r) {
   return {static_cast<float>(r.right()), static_cast<float>(r.bottom())};
 }
@@ -18,10 +24,10 @@ ImVec2 bottom_right(const Rect& r) {
 } // namespace
 
 Canvas::Canvas()
-    : shared_{std::make_unique<ImDrawListSharedData>()},
-      list_{std::make_unique<ImDrawList>(shared_.get())} {
-  shared_->InitialFlags = ImDrawListFlags_AntiAliasedLines | ImDrawListFlags_AntiAliasedLinesUseTex |
-                          ImDrawListFlags_AntiAliasedFill;
+    : shared_{std::make_unique<ImDrawListSharedData>()}, list_{std::make_unique<ImDrawList>(
+                                                             shared_.get())} {
+  shared_->InitialFlags = ImDrawListFlags_AntiAliasedLines |
+                          ImDrawListFlags_AntiAliasedLinesUseTex | ImDrawListFlags_AntiAliasedFill;
   shared_->SetCircleTessellationMaxError(0.25F);
   shared_->CurveTessellationTol = 1.25F;
 }
@@ -47,12 +53,12 @@ float Canvas::text(glm::vec2 position, TextStyle style, Colour colour, std::stri
 
 float Canvas::text_width(TextStyle style, std::string_view words) const {
   const ImFont& font = fonts_->font(style);
-  return font
-      .CalcTextSizeA(font.FontSize, FLT_MAX, 0, words.data(), words.data() + words.size())
-      .x;
+  return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, words.data(), words.data() + words.size()).x;
 }
 
-float Canvas::text_height(TextStyle style) const { return fonts_->font(style).FontSize; }
+float Canvas::text_height(TextStyle style) const {
+  return fonts_->font(style).FontSize;
+}
 
 void Canvas::line(glm::vec2 from, glm::vec2 to, Colour colour, float width) {
   list_->AddLine(to_im(from), to_im(to), packed(colour), width);
@@ -78,13 +84,20 @@ void Canvas::ring(glm::vec2 centre, float radius, Colour colour, float width) {
 }
 
 void Canvas::stripes(const Rect& rect, Colour colour, float pitch, float width) {
-  list_->PushClipRect(top_left(rect), bottom_right(rect), true);
+  const Clip clip{*this, rect};
   const auto height = static_cast<float>(rect.height);
   const auto bottom = static_cast<float>(rect.bottom());
   for (float x = static_cast<float>(rect.x) - height; x < static_cast<float>(rect.right());
        x += pitch)
     line({x, bottom}, {x + height, bottom - height}, colour, width);
-  list_->PopClipRect();
+}
+
+Canvas::Clip::Clip(Canvas& canvas, const Rect& rect) : canvas_{canvas} {
+  canvas_.list_->PushClipRect(top_left(rect), bottom_right(rect), true);
+}
+
+Canvas::Clip::~Clip() {
+  canvas_.list_->PopClipRect();
 }
 
 } // namespace octascope::ui

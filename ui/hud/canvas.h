@@ -41,6 +41,18 @@ public:
   // Diagonal stripes within the rectangle.
   void stripes(const Rect& rect, Colour colour, float pitch, float width);
 
+  // Within its life, what is drawn is cut at the rectangle.
+  class Clip {
+  public:
+    Clip(Canvas& canvas, const Rect& rect);
+    Clip(const Clip&) = delete;
+    Clip& operator=(const Clip&) = delete;
+    ~Clip();
+
+  private:
+    Canvas& canvas_;
+  };
+
   const ImDrawList& list() const { return *list_; }
 
 private:

@@ -3,9 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include <imgui.h>
-
 #include "embedded_shaders.h"
+#include <imgui.h>
 
 namespace octascope::ui {
 
@@ -19,7 +18,9 @@ void set_scissor(const ImVec4& clip, int height) {
   glScissor(left, height - bottom, right - left, bottom - top);
 }
 
-const void* byte_offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+const void* byte_offset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
 
 } // namespace
 

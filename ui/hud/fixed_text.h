@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -19,10 +20,7 @@ public:
     const auto result = fmt::format_to_n(bytes_.data(), N, pattern, std::forward<Args>(args)...);
     size_ = std::min(result.size, N);
     if (result.size > N)
-      while (size_ > 0 && (static_cast<unsigned char>(bytes_[size_ - 1]) & 0xC0U) == 0x80U)
-        --size_;
-    if (result.size > N && size_ > 0 && (static_cast<unsigned char>(bytes_[size_ - 1]) & 0x80U) != 0)
-      --size_;
+      drop_cut_character();
   }
 
   std::string_view view() const { return {bytes_.data(), size_}; }
@@ -30,6 +28,17 @@ public:
   bool operator==(const FixedText& other) const { return view() == other.view(); }
 
 private:
+  void drop_cut_character() {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes_[i]); };
+    std::size_t lead = size_; // of the last character
+    while (lead > 0 && (byte(--lead) & 0xC0U) == 0x80U) {
+    }
+    const unsigned first = byte(lead);
+    const std::size_t length = first < 0x80U ? 1 : first < 0xE0U ? 2 : first < 0xF0U ? 3 : 4;
+    if (lead + length > size_)
+      size_ = lead;
+  }
+
   std::array<char, N> bytes_{};
   std::size_t size_ = 0;
 };

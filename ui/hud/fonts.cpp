@@ -5,10 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "embedded_fonts.h"
 #include <imgui.h>
 #include <imgui_freetype.h>
-
-#include "embedded_fonts.h"
 
 namespace octascope::ui {
 
@@ -67,9 +66,8 @@ hal::Result<Fonts> Fonts::create(float unit) {
     // Below ten pixels no hinting saves a letter.
     const float pixels = std::max(10.0F, std::round(face.pixels * unit));
     // ImGui takes a mutable pointer and does not write to data that it does not own.
-    result.fonts_[next++] = atlas.AddFontFromMemoryTTF(const_cast<unsigned char*>(face.bytes),
-                                                       static_cast<int>(face.size), pixels,
-                                                       &config);
+    result.fonts_[next++] = atlas.AddFontFromMemoryTTF(
+        const_cast<unsigned char*>(face.bytes), static_cast<int>(face.size), pixels, &config);
   }
   unsigned char* coverage = nullptr;
   int width = 0;
@@ -85,7 +83,8 @@ hal::Result<Fonts> Fonts::create(float unit) {
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_UNSIGNED_BYTE, coverage);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  atlas.SetTexID(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(result.texture_.name())));
+  atlas.SetTexID(
+      reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(result.texture_.name())));
   atlas.ClearTexData();
   return result;
 }

@@ -126,7 +126,7 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
       hud.b_scan.note.format("{} of {}", view.b_scan + 1, shown.geometry.b_scans);
       break;
     }
-    hud.en_face.note.format("maximum");
+    hud.en_face.note.format("mean, auto contrast");
   }
   if (!shown.scope || !shown.scope_time) {
     hud.scope.note.format("no picture");

@@ -18,20 +18,20 @@ struct Colour {
 
 namespace palette {
 
-inline constexpr Colour background{9, 12, 15};  // behind the volume
-inline constexpr Colour panel{18, 23, 28};      // under text
+inline constexpr Colour background{9, 12, 15}; // behind the volume
+inline constexpr Colour panel{18, 23, 28};     // under text
 inline constexpr Colour hairline{44, 53, 62};
 inline constexpr Colour text{233, 238, 242};
 inline constexpr Colour quiet_text{168, 179, 189};
-inline constexpr Colour box{104, 120, 134};     // the wire frame, before the volume
+inline constexpr Colour box{104, 120, 134}; // the wire frame, before the volume
 inline constexpr Colour box_behind{58, 69, 79};
-inline constexpr Colour accent{102, 200, 255};  // positions and the knob's parameter
+inline constexpr Colour accent{102, 200, 255}; // positions and the knob's parameter
 inline constexpr Colour good{110, 214, 160};
-inline constexpr Colour warning{255, 186, 74};  // STALE, missing, saturated, lost
-inline constexpr Colour alarm{255, 142, 128};   // no live picture, failed
+inline constexpr Colour warning{255, 186, 74}; // STALE, missing, saturated, lost
+inline constexpr Colour alarm{255, 142, 128};  // no live picture, failed
 inline constexpr Colour frozen{160, 222, 255};
 inline constexpr Colour simulated{205, 178, 255};
-inline constexpr Colour ink{8, 11, 14};         // text on a filled badge
+inline constexpr Colour ink{8, 11, 14}; // text on a filled badge
 
 } // namespace palette
 

@@ -13,8 +13,8 @@ Colour colour_of(Tone tone) {
 
 void draw_caption(Canvas& canvas, const Panel& panel, const Caption& caption, float unit) {
   const float height = canvas.text_height(TextStyle::body);
-  const float y = static_cast<float>(panel.title.y) +
-                  (static_cast<float>(panel.title.height) - height) / 2;
+  const float y =
+      static_cast<float>(panel.title.y) + (static_cast<float>(panel.title.height) - height) / 2;
   canvas.text({static_cast<float>(panel.title.x) + 2 * unit, y}, TextStyle::body, palette::text,
               caption.title.view());
   const float width = canvas.text_width(TextStyle::body, caption.note.view());
@@ -59,10 +59,9 @@ void draw_scan_field(Canvas& canvas, const Rect& rect, const ScanField& field, f
 }
 
 void draw_panel_scale(Canvas& canvas, const Rect& rect, double width_mm, float unit) {
-  draw_scale_bar(canvas,
-                 {static_cast<float>(rect.x) + 8 * unit,
-                  static_cast<float>(rect.bottom()) - 8 * unit},
-                 width_mm / rect.width, static_cast<float>(rect.width) * 0.4F, unit);
+  draw_scale_bar(
+      canvas, {static_cast<float>(rect.x) + 8 * unit, static_cast<float>(rect.bottom()) - 8 * unit},
+      width_mm / rect.width, static_cast<float>(rect.width) * 0.4F, unit);
 }
 
 } // namespace
@@ -93,7 +92,8 @@ void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, 
     words.format("{:g} mm", length_mm);
   const float y = from.y - 5 * unit - canvas.text_height(TextStyle::body);
   // A shadow keeps it legible on bright tissue.
-  for (const glm::vec2 shift : {glm::vec2{1, 1}, glm::vec2{-1, 1}, glm::vec2{1, -1}, glm::vec2{-1, -1}})
+  for (const glm::vec2 shift :
+       {glm::vec2{1, 1}, glm::vec2{-1, 1}, glm::vec2{1, -1}, glm::vec2{-1, -1}})
     canvas.text({from.x + shift.x * unit, y + shift.y * unit}, TextStyle::body,
                 palette::ink.faded(200), words.view());
   canvas.text({from.x, y}, TextStyle::body, palette::text, words.view());

@@ -49,8 +49,8 @@ void draw_devices(Canvas& canvas, const Layout& layout, const HudText& text) {
     column = std::max(column, canvas.text_width(TextStyle::label, text.devices[i].name));
   column += sign + 18 * u;
   const std::size_t columns = (text.device_count + 1) / 2;
-  const float left = static_cast<float>(layout.status_bar.right()) -
-                     static_cast<float>(columns) * column - 4 * u;
+  const float left =
+      static_cast<float>(layout.status_bar.right()) - static_cast<float>(columns) * column - 4 * u;
   const float row_height = 24 * u;
   const float top = static_cast<float>(layout.status_bar.y) + 9 * u;
   for (std::size_t i = 0; i < text.device_count; ++i) {
@@ -86,12 +86,12 @@ void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo) 
   const float u = layout.unit;
   const float height = 64 * u;
   const float width = 320 * u;
-  const float x = static_cast<float>(layout.view.x) +
-                  (static_cast<float>(layout.view.width) - width) / 2;
+  const float x =
+      static_cast<float>(layout.view.x) + (static_cast<float>(layout.view.width) - width) / 2;
   const float y = static_cast<float>(layout.view.bottom()) - height - 14 * u;
-  canvas.plate({static_cast<int>(x), static_cast<int>(y), static_cast<int>(width),
-                static_cast<int>(height)},
-               palette::panel.faded(235), 6 * u);
+  canvas.plate(
+      {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)},
+      palette::panel.faded(235), 6 * u);
   canvas.text({x + 16 * u, y + 10 * u}, TextStyle::value, palette::text, echo.name);
   const float value = canvas.text_width(TextStyle::value, echo.value.view());
   canvas.text({x + width - 16 * u - value, y + 10 * u}, TextStyle::value, palette::accent,

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "embedded_shaders.h"
+
 #include "ui/panels/hatch.h"
 #include "ui/window.h"
 
@@ -16,9 +17,9 @@ hal::Result<BScanPanel> BScanPanel::create() {
 }
 
 BScanPanel::BScanPanel(gl::PicturePass pass)
-    : pass_{std::move(pass)},
-      uniforms_{pass_.uniform("u_levels"), pass_.uniform("u_window"), pass_.uniform("u_slow"),
-                pass_.uniform("u_missing"), pass_.uniform("u_hatch_pitch")} {}
+    : pass_{std::move(pass)}, uniforms_{pass_.uniform("u_levels"), pass_.uniform("u_window"),
+                                        pass_.uniform("u_slow"), pass_.uniform("u_missing"),
+                                        pass_.uniform("u_hatch_pitch")} {}
 
 void BScanPanel::draw(const VolumeTexture& volume, pipeline::BScanState state,
                       const ViewState& view, const Rect& rect, int target_height) const {

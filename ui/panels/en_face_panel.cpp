@@ -1,10 +1,10 @@
 #include "ui/panels/en_face_panel.h"
 
 #include "embedded_shaders.h"
+
 #include "ui/hud/palette.h"
 #include "ui/panels/hatch.h"
 #include "ui/panels/projection.h"
-#include "ui/window.h"
 
 namespace octascope::ui {
 
@@ -16,15 +16,15 @@ hal::Result<EnFacePanel> EnFacePanel::create() {
 }
 
 EnFacePanel::EnFacePanel(gl::PicturePass pass)
-    : pass_{std::move(pass)},
-      uniforms_{pass_.uniform("u_projection"), pass_.uniform("u_states"),
-                pass_.uniform("u_window"),     pass_.uniform("u_hatch_pitch"),
-                pass_.uniform("u_mark_width"), pass_.uniform("u_mark")} {}
+    : pass_{std::move(pass)}, uniforms_{pass_.uniform("u_projection"), pass_.uniform("u_states"),
+                                        pass_.uniform("u_hatch_pitch"),
+                                        pass_.uniform("u_mark_width"), pass_.uniform("u_mark")} {}
 
 void EnFacePanel::allocate(int a_scans, int b_scans) {
   a_scans_ = a_scans;
   b_scans_ = b_scans;
-  maxima_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
+  sums_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
+  grey_.resize(sums_.size());
   projection_ = gl::Texture::make();
   glBindTexture(GL_TEXTURE_2D, projection_.name());
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8, a_scans, b_scans);
@@ -43,18 +43,18 @@ void EnFacePanel::show(const pipeline::Volume& volume) {
   static_assert(sizeof(pipeline::BScanState) == 1, "uploaded as one byte a B-scan");
   if (volume.geometry.a_scans != a_scans_ || volume.geometry.b_scans != b_scans_)
     allocate(volume.geometry.a_scans, volume.geometry.b_scans);
-  project_maximum(volume, maxima_);
+  project_sum(volume, sums_);
+  stretch_contrast(volume, sums_, grey_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glBindTexture(GL_TEXTURE_2D, projection_.name());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, a_scans_, b_scans_, GL_RED, GL_UNSIGNED_BYTE,
-                  maxima_.data());
+                  grey_.data());
   glBindTexture(GL_TEXTURE_2D, states_.name());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, b_scans_, 1, GL_RED_INTEGER, GL_UNSIGNED_BYTE,
                   volume.b_scan_states.data());
 }
 
-void EnFacePanel::draw(const ViewState& view, const Rect& rect, int target_height) const {
-  const WindowRamp window = window_ramp(view);
+void EnFacePanel::draw(const Rect& rect, int target_height) const {
   pass_.use();
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, states_.name());
@@ -62,7 +62,6 @@ void EnFacePanel::draw(const ViewState& view, const Rect& rect, int target_heigh
   glBindTexture(GL_TEXTURE_2D, projection_.name());
   glUniform1i(uniforms_.projection, 0);
   glUniform1i(uniforms_.states, 1);
-  glUniform2f(uniforms_.window, window.scale, window.offset);
   glUniform1f(uniforms_.hatch_pitch, hatch_pitch(target_height));
   glUniform1f(uniforms_.mark_width, 0.04F);
   constexpr Colour mark = palette::warning;

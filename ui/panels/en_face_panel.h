@@ -1,5 +1,5 @@
-// The en-face picture: the volume from above, its maximum along depth; fast axis to the right,
-// B-scans downwards, the first at the top.
+// The en-face picture: the volume from above, its mean along depth with automatic contrast; fast
+// axis to the right, B-scans downwards, the first at the top.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,6 @@
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
 #include "ui/layout.h"
-#include "ui/view_state.h"
 
 namespace octascope::ui {
 
@@ -19,12 +18,12 @@ class EnFacePanel {
 public:
   static hal::Result<EnFacePanel> create();
 
-  // Projects on the CPU, about a millisecond for 300 × 80 × 512, and uploads the projection.
+  // Projects on the CPU, one to two milliseconds for 300 × 80 × 512, and uploads the projection.
   void show(const pipeline::Volume& volume);
 
   // Fills `rect` of the bound framebuffer; missing B-scans are hatched, saturated ones marked at
   // the right border.
-  void draw(const ViewState& view, const Rect& rect, int target_height) const;
+  void draw(const Rect& rect, int target_height) const;
 
 private:
   explicit EnFacePanel(gl::PicturePass pass);
@@ -33,11 +32,12 @@ private:
   gl::PicturePass pass_;
   gl::Texture projection_;
   gl::Texture states_;
-  std::vector<std::uint8_t> maxima_;
+  std::vector<std::uint32_t> sums_;
+  std::vector<std::uint8_t> grey_;
   int a_scans_ = 0;
   int b_scans_ = 0;
   struct {
-    GLint projection, states, window, hatch_pitch, mark_width, mark;
+    GLint projection, states, hatch_pitch, mark_width, mark;
   } uniforms_;
 };
 

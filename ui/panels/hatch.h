@@ -15,6 +15,8 @@ inline std::string with_hatch(std::string_view fragment_source) {
 }
 
 // Pixels between two stripes on a target of that height.
-inline float hatch_pitch(int target_height) { return static_cast<float>(target_height) / 60; }
+inline float hatch_pitch(int target_height) {
+  return static_cast<float>(target_height) / 60;
+}
 
 } // namespace octascope::ui

@@ -1,6 +1,7 @@
 #include "ui/panels/scope_panel.h"
 
 #include "embedded_shaders.h"
+
 #include "ui/panels/scope_pixels.h"
 
 namespace octascope::ui {
@@ -13,8 +14,8 @@ hal::Result<ScopePanel> ScopePanel::create() {
 }
 
 ScopePanel::ScopePanel(gl::PicturePass pass)
-    : pass_{std::move(pass)},
-      uniforms_{pass_.uniform("u_picture"), pass_.uniform("u_brightness")} {}
+    : pass_{std::move(pass)}, uniforms_{pass_.uniform("u_picture"), pass_.uniform("u_brightness")} {
+}
 
 hal::Result<> ScopePanel::show(const hal::ScopeFrame& frame,
                                const std::optional<ScanField>& field) {
@@ -36,8 +37,7 @@ hal::Result<> ScopePanel::show(const hal::ScopeFrame& frame,
     height_ = frame.height;
   }
   glBindTexture(GL_TEXTURE_2D, texture_.name());
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE,
-                  rgba_.data());
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba_.data());
   time_ = frame.time;
   field_ = field;
   return {};

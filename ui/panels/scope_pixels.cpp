@@ -91,9 +91,8 @@ hal::Result<> convert_to_rgba(const hal::ScopeFrame& frame, std::span<std::uint8
                                  4 * width * height, out.size()));
   for (std::size_t y = 0; y < height; ++y) {
     const std::byte* luma = frame.pixels.data() + y * stride;
-    const std::byte* chroma = frame.format == PixelFormat::nv12
-                                  ? frame.pixels.data() + (height + y / 2) * stride
-                                  : luma;
+    const std::byte* chroma =
+        frame.format == PixelFormat::nv12 ? frame.pixels.data() + (height + y / 2) * stride : luma;
     convert_row(frame.format, {luma, chroma}, width, out.data() + 4 * width * y);
   }
   return {};

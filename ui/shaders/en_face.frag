@@ -5,7 +5,6 @@ in vec2 v_unit;
 
 uniform sampler2D u_projection;
 uniform usampler2D u_states; // one texel a B-scan: 0 missing, 1 good, 2 saturated
-uniform vec2 u_window;
 uniform float u_hatch_pitch;
 uniform float u_mark_width; // of the saturation mark, as a share of the width
 uniform vec3 u_mark;
@@ -16,7 +15,7 @@ void main() {
   int count = textureSize(u_states, 0).x;
   int b_scan = clamp(int(v_unit.y * float(count)), 0, count - 1);
   uint state = texelFetch(u_states, ivec2(b_scan, 0), 0).r;
-  float grey = clamp(texture(u_projection, v_unit).r * u_window.x + u_window.y, 0.0, 1.0);
+  float grey = texture(u_projection, v_unit).r;
   vec3 colour = vec3(grey);
   if (state == 2u && v_unit.x > 1.0 - u_mark_width)
     colour = u_mark;

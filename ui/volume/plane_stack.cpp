@@ -1,15 +1,15 @@
 #include "ui/volume/plane_stack.h"
 
+#include "embedded_shaders.h"
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "embedded_shaders.h"
 #include "ui/window.h"
 
 namespace octascope::ui {
 
 namespace {
-constexpr std::size_t most_planes = 1024; // ViewState::clamped()
+constexpr std::size_t most_planes = 1024;      // ViewState::clamped()
 constexpr std::size_t vertices_per_plane = 12; // a hexagon is a fan of four triangles
 } // namespace
 
@@ -23,11 +23,16 @@ hal::Result<PlaneStack> PlaneStack::create() {
 
 PlaneStack::PlaneStack(gl::Program program)
     : program_{std::move(program)}, vertex_array_{gl::VertexArray::make()},
-      vertex_buffer_{gl::Buffer::make()}, vertices_(most_planes * vertices_per_plane),
-      uniforms_{program_.uniform("u_view_projection"), program_.uniform("u_eye"),
-                program_.uniform("u_forward"),         program_.uniform("u_extents"),
-                program_.uniform("u_levels"),          program_.uniform("u_window"),
-                program_.uniform("u_opacity"),         program_.uniform("u_steps")} {
+      vertex_buffer_{gl::Buffer::make()},
+      vertices_(most_planes * vertices_per_plane), uniforms_{program_.uniform("u_view_projection"),
+                                                             program_.uniform("u_eye"),
+                                                             program_.uniform("u_forward"),
+                                                             program_.uniform("u_extents"),
+                                                             program_.uniform("u_levels"),
+                                                             program_.uniform("u_window"),
+                                                             program_.uniform("u_opacity"),
+                                                             program_.uniform("u_steps"),
+                                                             program_.uniform("u_spacing")} {
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(glm::vec3)),
@@ -43,8 +48,7 @@ int PlaneStack::fill_vertices(const Camera& camera, const glm::vec3& half,
   std::size_t used = 0;
   for (int i = 0; i < planes; ++i) {
     const float distance = spacing.first_mm + static_cast<float>(i) * spacing.spacing_mm;
-    const PlanePolygon polygon =
-        intersect_plane_box(half, camera.forward, eye_offset + distance);
+    const PlanePolygon polygon = intersect_plane_box(half, camera.forward, eye_offset + distance);
     for (std::size_t k = 2; k < static_cast<std::size_t>(polygon.count); ++k) {
       vertices_[used++] = polygon.corners[0];
       vertices_[used++] = polygon.corners[k - 1];
@@ -71,6 +75,7 @@ void PlaneStack::draw(const VolumeTexture& volume, const Camera& camera, const V
   glUniform2f(uniforms_.window, window.scale, window.offset);
   glUniform1f(uniforms_.opacity, view.opacity);
   glUniform1f(uniforms_.steps, spacing.spacing_mm / reference_step_mm(half));
+  glUniform1f(uniforms_.spacing, spacing.spacing_mm);
 
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_3D, volume.name());

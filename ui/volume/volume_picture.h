@@ -32,8 +32,8 @@ struct VolumePictureKey {
 VolumePictureKey volume_picture_key(const ViewState& view, std::uint64_t upload, int width,
                                     int height);
 
-// Drawn into a texture of its own, in 16-bit floating point where the GPU can, so that hundreds of
-// faint planes add up without rounding; composited from there, at any resolution.
+// Drawn into a texture of its own, in floating point where the GPU can, so that hundreds of faint
+// planes add up without rounding; composited from there, at any resolution.
 //
 // Threads: as gl/objects.h.
 class VolumePicture {

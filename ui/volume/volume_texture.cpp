@@ -54,8 +54,8 @@ hal::Result<> VolumeTexture::upload(const pipeline::Volume& volume) {
   const std::size_t back = 1 - front_;
   glBindTexture(GL_TEXTURE_3D, textures_[back].name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, geometry_.depths, geometry_.a_scans,
-                  geometry_.b_scans, GL_RED, GL_UNSIGNED_BYTE, nullptr);
+  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, geometry_.depths, geometry_.a_scans, geometry_.b_scans,
+                  GL_RED, GL_UNSIGNED_BYTE, nullptr);
   gl::PixelUploader::unbind();
   front_ = back;
   return {};

@@ -1,0 +1,210 @@
+#include "hal/linux/window_display.h"
+
+#include <optional>
+
+#include <GLES3/gl3.h>
+#include <SDL.h>
+#include <fmt/format.h>
+
+namespace octascope::hal::linux_backend {
+
+namespace {
+
+constexpr std::uint16_t code(Key key) {
+  return static_cast<std::uint16_t>(key);
+}
+
+// 0 for keys that mean nothing to us.
+std::uint16_t key_of(SDL_Keycode key) {
+  switch (key) {
+  case SDLK_LEFT: return code(Key::left);
+  case SDLK_RIGHT: return code(Key::right);
+  case SDLK_UP: return code(Key::up);
+  case SDLK_DOWN: return code(Key::down);
+  case SDLK_PAGEUP: return code(Key::page_up);
+  case SDLK_PAGEDOWN: return code(Key::page_down);
+  case SDLK_HOME: return code(Key::home);
+  case SDLK_END: return code(Key::end);
+  case SDLK_TAB: return code(Key::tab);
+  case SDLK_RETURN:
+  case SDLK_KP_ENTER: return code(Key::enter);
+  case SDLK_F1: return code(Key::f1);
+  case SDLK_ESCAPE: return code(Key::escape);
+  case SDLK_KP_PLUS: return '+';
+  case SDLK_KP_MINUS: return '-';
+  default: return key >= 32 && key < 127 ? static_cast<std::uint16_t>(key) : std::uint16_t{0};
+  }
+}
+
+std::optional<DisplayEvent> translate(const SDL_Event& event, TimePoint time) {
+  DisplayEvent result;
+  result.time = time;
+  switch (event.type) {
+  case SDL_QUIT: result.kind = DisplayEventKind::close_requested; return result;
+  case SDL_WINDOWEVENT:
+    if (event.window.event != SDL_WINDOWEVENT_SIZE_CHANGED)
+      return std::nullopt;
+    result.kind = DisplayEventKind::resized;
+    return result;
+  case SDL_KEYDOWN:
+  case SDL_KEYUP:
+    result.kind =
+        event.type == SDL_KEYDOWN ? DisplayEventKind::key_pressed : DisplayEventKind::key_released;
+    result.key = key_of(event.key.keysym.sym);
+    result.repeated = event.key.repeat != 0;
+    result.shift = (event.key.keysym.mod & KMOD_SHIFT) != 0;
+    if (result.key == 0)
+      return std::nullopt;
+    return result;
+  default: return std::nullopt;
+  }
+}
+
+tl::unexpected<Error> refuse(Fault fault, std::string_view found, std::string_view expected) {
+  return fail(fault,
+              fmt::format("window display: {} ({}), expected {}", found, SDL_GetError(), expected));
+}
+
+} // namespace
+
+struct WindowDisplay::Window {
+  SDL_Window* window = nullptr;
+  SDL_GLContext context = nullptr;
+  bool video = false;
+
+  Window() = default;
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  ~Window() {
+    if (context != nullptr)
+      SDL_GL_DeleteContext(context);
+    if (window != nullptr)
+      SDL_DestroyWindow(window);
+    if (video)
+      SDL_QuitSubSystem(SDL_INIT_VIDEO);
+  }
+
+  Result<> start_video() {
+    // Signals are the host's: SDL would turn Ctrl-C into a window event.
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "0");
+    SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
+      return refuse(Fault::absent, "no window system found",
+                    "an X11 or Wayland display; set DISPLAY or WAYLAND_DISPLAY, or choose "
+                    "--display offscreen");
+    video = true;
+    const std::string_view driver = SDL_GetCurrentVideoDriver();
+    if (driver != "x11" && driver != "wayland")
+      return fail(Fault::absent,
+                  fmt::format("window display: SDL found only its driver \"{}\", expected an X11 "
+                              "or Wayland display; set DISPLAY or WAYLAND_DISPLAY, or choose "
+                              "--display offscreen",
+                              driver));
+    return {};
+  }
+
+  Result<> make(const DisplayConfig& config) {
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
+    SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
+    SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
+    Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
+    if (config.fullscreen)
+      flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
+    window = SDL_CreateWindow(config.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                              config.width, config.height, flags);
+    if (window == nullptr)
+      return refuse(Fault::unsupported, "no window for GLES could be made",
+                    "a window system with EGL or GLX for GLES 3; install libegl1 and "
+                    "libgl1-mesa-dri");
+    context = SDL_GL_CreateContext(window);
+    if (context == nullptr)
+      return refuse(Fault::unsupported, "no GLES 3 context could be made",
+                    "a driver with GLES 3; install libgl1-mesa-dri or choose --display offscreen");
+    SDL_GL_SetSwapInterval(1); // refused on some virtual outputs: present() paces then
+    if (config.fullscreen)
+      SDL_ShowCursor(SDL_DISABLE);
+    return {};
+  }
+};
+
+WindowDisplay::WindowDisplay(Clock& clock) : clock_{clock} {}
+
+WindowDisplay::~WindowDisplay() {
+  do_close();
+}
+
+Result<> WindowDisplay::do_open(const DisplayConfig& config) {
+  if (state() != DeviceState::absent)
+    return fail(Fault::busy, "window display: open already; close() it first");
+  if (config.width < 1 || config.height < 1)
+    return fail(Fault::invalid_argument,
+                fmt::format("window display: size is {}x{}, expected at least 1x1", config.width,
+                            config.height));
+  if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
+    return fail(
+        Fault::invalid_argument,
+        fmt::format("window display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
+  auto window = std::make_unique<Window>();
+  if (auto ok = window->start_video(); !ok)
+    return ok;
+  if (auto ok = window->make(config); !ok)
+    return ok;
+
+  SDL_DisplayMode mode{};
+  const bool known = SDL_GetWindowDisplayMode(window->window, &mode) == 0 && mode.refresh_rate > 0;
+  refresh_period_ = from_seconds(1.0 / (known ? mode.refresh_rate : config.refresh_hz));
+  window_ = std::move(window);
+  flips_ = 0;
+  last_flip_ = clock_.now() - refresh_period_;
+  set_state(DeviceState::ready);
+  return {};
+}
+
+int WindowDisplay::do_width() const {
+  int width = 0;
+  if (window_ != nullptr)
+    SDL_GL_GetDrawableSize(window_->window, &width, nullptr);
+  return width;
+}
+
+int WindowDisplay::do_height() const {
+  int height = 0;
+  if (window_ != nullptr)
+    SDL_GL_GetDrawableSize(window_->window, nullptr, &height);
+  return height;
+}
+
+Result<Flip> WindowDisplay::do_present() {
+  if (window_ == nullptr)
+    return fail(Fault::absent, "window display: not open; open() it first");
+  SDL_GL_SwapWindow(window_->window);
+  glFinish();
+  const TimePoint completed = clock_.now();
+  // Half a period is less than any synchronised flip takes: this one came at once.
+  if (completed - last_flip_ < refresh_period_ / 2)
+    clock_.sleep_until(last_flip_ + refresh_period_);
+  last_flip_ = clock_.now();
+  return Flip{completed, ++flips_};
+}
+
+std::size_t WindowDisplay::do_poll_events(std::span<DisplayEvent> events) {
+  if (window_ == nullptr)
+    return 0;
+  std::size_t count = 0;
+  SDL_Event event;
+  while (count < events.size() && SDL_PollEvent(&event) != 0)
+    if (const auto translated = translate(event, clock_.now()))
+      events[count++] = *translated;
+  return count;
+}
+
+void WindowDisplay::do_close() {
+  window_.reset();
+  set_state(DeviceState::absent);
+}
+
+} // namespace octascope::hal::linux_backend

@@ -1,0 +1,125 @@
+// Golden pictures: the whole display against pictures kept in tests/golden.
+//
+// Software and hardware rasterisers differ in rounding and anti-aliasing, so a mean difference of
+// up to 1.5 of 255 is accepted, and at most 0.5 % of the channels may differ by more than 40. To
+// renew the pictures after a change that is meant, run the tests with OCTASCOPE_RENEW_GOLDEN=1 and
+// look at what git shows as changed.
+#include <cstdlib>
+#include <filesystem>
+
+#include "tests/ui/support/gl_test.h"
+#include "tests/ui/support/picture_file.h"
+#include "tests/ui/support/scene.h"
+#include "tests/ui/support/synthetic_volume.h"
+#include "ui/renderer.h"
+
+namespace octascope::tests {
+namespace {
+
+constexpr double most_mean = 1.5;
+constexpr double most_outliers = 0.005;
+constexpr int outlier = 40;
+
+double share_of_outliers(const ui::Image& a, const ui::Image& b) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.rgb.size(); ++i)
+    count += std::abs(int{a.rgb[i]} - int{b.rgb[i]}) > outlier ? 1U : 0U;
+  return static_cast<double>(count) / static_cast<double>(a.rgb.size());
+}
+
+void expect_golden(const ui::Image& image, const std::string& name) {
+  const auto file = std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/golden" / (name + ".png");
+  if (std::getenv("OCTASCOPE_RENEW_GOLDEN") != nullptr) {
+    ASSERT_TRUE(write_png(image, file)) << file;
+    return;
+  }
+  const auto golden = read_png(file);
+  ASSERT_TRUE(golden) << "no " << file << "; run with OCTASCOPE_RENEW_GOLDEN=1 and look at it";
+  ASSERT_EQ(golden->width, image.width);
+  ASSERT_EQ(golden->height, image.height);
+  const PictureDifference difference = compare(image, *golden);
+  const double outliers = share_of_outliers(image, *golden);
+  const auto found = picture_folder() / (name + "_found.png");
+  if (difference.mean > most_mean || outliers > most_outliers)
+    write_png(image, found);
+  EXPECT_LE(difference.mean, most_mean) << "largest " << difference.largest << "; see " << found;
+  EXPECT_LE(outliers, most_outliers) << "see " << found;
+}
+
+class GoldenPicture : public GlTest {
+protected:
+  ui::Image draw(const pipeline::Volume* volume, const ui::ViewState& view,
+                 const ui::Status& status, int width, int height) {
+    open(width, height);
+    auto renderer = ui::Renderer::create();
+    EXPECT_TRUE(renderer) << renderer.error().message;
+    if (volume != nullptr) {
+      EXPECT_TRUE((*renderer)->show_volume(*volume));
+    }
+    const ScopePicture scope{320, 240};
+    EXPECT_TRUE((*renderer)->show_scope_picture(scope.frame(status.now), scope.field()));
+    const auto drawn = (*renderer)->draw(view, status, width, height);
+    EXPECT_TRUE(drawn) << drawn.error().message;
+    return (*renderer)->read_back(width, height);
+  }
+};
+
+TEST_F(GoldenPicture, live_tissue_at_1280x720) {
+  const auto volume = tissue_volume(full_geometry);
+  expect_golden(draw(&volume, {}, live_status(), 1280, 720), "live_1280x720");
+}
+
+TEST_F(GoldenPicture, live_tissue_at_640x360) {
+  const auto volume = tissue_volume(full_geometry);
+  expect_golden(draw(&volume, {}, live_status(), 640, 360), "live_640x360");
+}
+
+TEST_F(GoldenPicture, incomplete_and_stale) {
+  auto volume = tissue_volume(small_geometry);
+  mark_incomplete(volume);
+  ui::ViewState view;
+  view.b_scan = 12;
+  ui::Status status = live_status();
+  status.freshness = {ui::Liveness::stale, std::chrono::milliseconds{1250}, {}};
+  status.missing_b_scans = volume.missing_b_scans();
+  status.saturated_lines = 41;
+  status.losses = {379, 3, 1};
+  status.devices[0].state = hal::DeviceState::failed;
+  status.notice = "Camera lost: looking for it again";
+  expect_golden(draw(&volume, view, status, 1280, 720), "stale_1280x720");
+}
+
+TEST_F(GoldenPicture, frozen_seen_from_above_while_the_window_is_turned) {
+  const auto volume = tissue_volume(small_geometry);
+  ui::ViewState view;
+  view.yaw_deg = 0;
+  view.tilt_deg = 80;
+  view.b_scan = 20;
+  view.frozen = true;
+  view.selected = ui::Parameter::window_size;
+  ui::Status status = live_status();
+  view.echo_until = status.now + std::chrono::seconds{1};
+  status.freshness = {ui::Liveness::frozen, std::chrono::seconds{12}, std::chrono::seconds{12}};
+  expect_golden(draw(&volume, view, status, 1280, 720), "frozen_1280x720");
+}
+
+TEST_F(GoldenPicture, veiled_at_1024x768) {
+  const auto volume = tissue_volume(small_geometry);
+  ui::ViewState view;
+  view.b_scan = 20;
+  ui::Status status = live_status();
+  status.simulated = false;
+  status.source_description.clear();
+  status.freshness = {ui::Liveness::veiled, std::chrono::seconds{75}, {}};
+  expect_golden(draw(&volume, view, status, 1024, 768), "veiled_1024x768");
+}
+
+TEST_F(GoldenPicture, waiting_for_the_first_volume) {
+  ui::Status status = live_status();
+  status.freshness = {};
+  status.latency_p50_ms.reset();
+  expect_golden(draw(nullptr, {}, status, 640, 360), "waiting_640x360");
+}
+
+} // namespace
+} // namespace octascope::tests

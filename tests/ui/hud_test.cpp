@@ -1,0 +1,249 @@
+#include <algorithm>
+
+#include "tests/ui/support/gl_test.h"
+#include "tests/ui/support/picture_file.h"
+#include "tests/ui/support/scene.h"
+#include "tests/ui/support/synthetic_volume.h"
+#include "ui/hud/hud.h"
+#include "ui/renderer.h"
+
+namespace octascope::tests {
+namespace {
+
+using namespace ui;
+
+TEST(Palette, every_text_colour_has_a_contrast_of_seven) {
+  for (const Colour ground : {palette::panel, palette::background})
+    for (const Colour text : {palette::text, palette::quiet_text, palette::warning, palette::alarm,
+                              palette::frozen, palette::simulated, palette::accent, palette::good})
+      EXPECT_GE(contrast(text, ground), 7)
+          << int{text.r} << " " << int{text.g} << " " << int{text.b};
+  for (const Colour badge : {palette::warning, palette::alarm, palette::frozen})
+    EXPECT_GE(contrast(palette::ink, badge), 7);
+  EXPECT_NEAR(contrast({255, 255, 255}, {0, 0, 0}), 21, 1e-9);
+}
+
+TEST(ScaleBar, lengths_are_round) {
+  EXPECT_DOUBLE_EQ(round_scale_length_mm(1.9), 1);
+  EXPECT_DOUBLE_EQ(round_scale_length_mm(2), 2);
+  EXPECT_DOUBLE_EQ(round_scale_length_mm(0.7), 0.5);
+  EXPECT_NEAR(round_scale_length_mm(0.049), 0.02, 1e-12);
+}
+
+TEST(Layout, parts_lie_within_the_picture_and_beside_each_other) {
+  for (const auto& [w, h] :
+       {std::pair{640, 360}, {1280, 720}, {1920, 1080}, {3840, 2160}, {1024, 768}, {320, 200}}) {
+    const Layout l = lay_out(w, h, {1.67, 1, 4.0 / 3});
+    EXPECT_GE(l.view.width, w * 6 / 10);
+    EXPECT_LE(l.view.bottom(), l.status_bar.y);
+    EXPECT_EQ(l.status_bar.bottom(), h);
+    int y = 0;
+    for (const Panel* panel : {&l.b_scan, &l.en_face, &l.scope}) {
+      EXPECT_GE(panel->frame.y, y);
+      EXPECT_GE(panel->frame.x, l.view.right());
+      EXPECT_LE(panel->frame.right(), w);
+      EXPECT_LE(panel->frame.bottom(), l.status_bar.y);
+      EXPECT_GE(panel->picture.y, panel->title.bottom());
+      EXPECT_LE(panel->picture.bottom(), panel->frame.bottom());
+      y = panel->frame.bottom();
+    }
+    EXPECT_NEAR(static_cast<double>(l.b_scan.picture.width) / l.b_scan.picture.height, 1.67, 0.05);
+  }
+}
+
+std::vector<std::string> badges_of(const Status& status) {
+  const HudText hud = compose_hud_text({}, status, {});
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < hud.badge_count; ++i)
+    words.emplace_back(hud.badges[i].text.view());
+  return words;
+}
+
+TEST(HudText, badges_say_what_is_not_live) {
+  using std::chrono::milliseconds;
+  using std::chrono::seconds;
+  using Words = std::vector<std::string>;
+  Status status = live_status();
+  status.simulated = false;
+  EXPECT_EQ(badges_of(status), Words{});
+  status.simulated = true;
+  EXPECT_EQ(badges_of(status), Words{"SIMULATED"});
+  status.freshness = {Liveness::stale, milliseconds{1290}, {}};
+  EXPECT_EQ(badges_of(status), (Words{"STALE 1.2 s", "SIMULATED"}));
+  status.freshness = {Liveness::stale, milliseconds{59'990}, {}};
+  EXPECT_EQ(badges_of(status)[0], "STALE 59.9 s");
+  status.freshness = {Liveness::veiled, seconds{75}, {}};
+  EXPECT_EQ(badges_of(status)[0], "NO LIVE PICTURE 1:15");
+  status.freshness = {Liveness::frozen, seconds{700}, seconds{12}};
+  EXPECT_EQ(badges_of(status)[0], "FROZEN 0:12");
+  status.missing_b_scans = 1;
+  status.saturated_lines = 4;
+  EXPECT_EQ(badges_of(status)[2], "1 B-scan missing");
+  EXPECT_EQ(badges_of(status)[3], "4 lines saturated");
+}
+
+TEST(HudText, figures_have_their_units_and_losses_warn) {
+  Status status = live_status();
+  HudText hud = compose_hud_text({}, status, {});
+  EXPECT_EQ(hud.cells[0].value.view(), "7.1");
+  EXPECT_EQ(hud.cells[1].value.view(), "215 k");
+  EXPECT_EQ(hud.cells[3].value.view(), "32 / 44 ms");
+  EXPECT_EQ(hud.cells[4].value.view(), "none");
+  EXPECT_EQ(hud.cells[5].value.view(), "8 to 44 dB");
+  status.lines_per_s = 1'234'000;
+  status.latency_p95_ms.reset();
+  status.losses.b_scans = 2;
+  hud = compose_hud_text({}, status, {});
+  EXPECT_EQ(hud.cells[1].value.view(), "1.23 M");
+  EXPECT_EQ(hud.cells[3].value.view(), "–");
+  EXPECT_EQ(hud.cells[4].value.view(), "0 / 2 / 0");
+  EXPECT_EQ(hud.cells[4].tone, Tone::warning);
+}
+
+TEST(HudText, an_old_microscope_picture_is_stale) {
+  const Status status = live_status();
+  ShownPictures shown;
+  shown.scope = true;
+  shown.scope_time = status.now - std::chrono::milliseconds{900};
+  EXPECT_FALSE(compose_hud_text({}, status, shown).scope_stale);
+  shown.scope_time = status.now - std::chrono::milliseconds{3100};
+  const HudText hud = compose_hud_text({}, status, shown);
+  EXPECT_TRUE(hud.scope_stale);
+  EXPECT_EQ(hud.scope.note.view(), "stale 3 s");
+}
+
+TEST(HudText, the_echo_lasts_for_a_moment) {
+  Status status = live_status();
+  ViewState view;
+  view.selected = Parameter::tilt;
+  view.echo_until = status.now + std::chrono::milliseconds{1};
+  const HudText hud = compose_hud_text(view, status, {});
+  EXPECT_TRUE(hud.echo.visible);
+  EXPECT_EQ(hud.echo.name, "Tilt");
+  EXPECT_EQ(hud.echo.value.view(), "35°");
+  status.now = view.echo_until;
+  EXPECT_FALSE(compose_hud_text(view, status, {}).echo.visible);
+}
+
+TEST(FixedText, long_text_is_cut_between_characters) {
+  FixedText<5> text;
+  text.format("abc–de"); // the dash is three bytes, from 3 to 5
+  EXPECT_EQ(text.view(), "abc");
+  text.format("ab–de");
+  EXPECT_EQ(text.view(), "ab–");
+  text.format("{}", 12345);
+  EXPECT_EQ(text.view(), "12345");
+}
+
+class HudPicture : public GlTest {
+protected:
+  static constexpr int width = 640;
+  static constexpr int height = 360;
+
+  void SetUp() override {
+    GlTest::SetUp();
+    if (IsSkipped())
+      return;
+    auto made = Renderer::create();
+    ASSERT_TRUE(made) << made.error().message;
+    renderer_ = std::move(*made);
+  }
+  void TearDown() override { renderer_.reset(); }
+
+  Image draw(const ViewState& view, const Status& status) {
+    const auto drawn = renderer_->draw(view, status, width, height);
+    EXPECT_TRUE(drawn) << drawn.error().message;
+    return renderer_->read_back(width, height);
+  }
+
+  // Pixels of a rectangle that differ.
+  static int changed(const Image& a, const Image& b, const Rect& rect) {
+    int count = 0;
+    for (int y = rect.y; y < rect.bottom(); ++y)
+      for (int x = rect.x; x < rect.right(); ++x)
+        count += a.at(x, y) != b.at(x, y) ? 1 : 0;
+    return count;
+  }
+
+  std::unique_ptr<Renderer> renderer_;
+};
+
+TEST_F(HudPicture, badges_change_the_corner_and_never_the_centre) {
+  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
+  Status status = live_status();
+  status.simulated = false;
+  const Image live = draw({}, status);
+  const Layout layout = lay_out(width, height, {});
+  const Rect corner{0, 0, layout.view.width, layout.view.height / 4};
+  const Rect centre{layout.view.width / 4, layout.view.height / 4, layout.view.width / 2,
+                    layout.view.height / 2};
+  for (const Liveness liveness : {Liveness::stale, Liveness::frozen}) {
+    status.freshness = {liveness, std::chrono::seconds{2}, std::chrono::seconds{2}};
+    const Image marked = draw({}, status);
+    EXPECT_GT(changed(live, marked, corner), 500);
+    EXPECT_EQ(changed(live, marked, centre), 0);
+  }
+  status.freshness = live_status().freshness;
+  status.simulated = true;
+  EXPECT_GT(changed(live, draw({}, status), corner), 200);
+}
+
+TEST_F(HudPicture, a_veiled_picture_is_dark_all_over) {
+  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
+  Status status = live_status();
+  const auto brightness = [&](const Image& image) {
+    const Layout layout = lay_out(width, height, {});
+    double sum = 0;
+    for (int y = 60; y < layout.view.height - 20; ++y)
+      for (int x = 20; x < layout.view.width - 20; ++x)
+        sum += image.at(x, y)[1];
+    return sum;
+  };
+  const double live = brightness(draw({}, status));
+  status.freshness = {Liveness::veiled, std::chrono::seconds{9}, {}};
+  EXPECT_LT(brightness(draw({}, status)), 0.45 * live);
+}
+
+TEST_F(HudPicture, is_drawn_again_only_when_it_would_look_different) {
+  Status status = live_status();
+  ViewState view;
+  EXPECT_TRUE(renderer_->needs_redraw(view, status, width, height));
+  draw(view, status);
+  EXPECT_FALSE(renderer_->needs_redraw(view, status, width, height));
+  status.now += std::chrono::milliseconds{16};
+  status.frames_per_s += 0.01;
+  EXPECT_FALSE(renderer_->needs_redraw(view, status, width, height)) << "the same in words";
+  status.freshness = {Liveness::stale, std::chrono::seconds{1}, {}};
+  EXPECT_TRUE(renderer_->needs_redraw(view, status, width, height));
+  draw(view, status);
+  view.tilt_deg += 1;
+  EXPECT_TRUE(renderer_->needs_redraw(view, status, width, height));
+  draw(view, status);
+  EXPECT_TRUE(renderer_->needs_redraw(view, status, width + 1, height));
+  ASSERT_TRUE(renderer_->show_volume(uniform_volume({8, 8, 8, 1, 1, 1}, 100)));
+  EXPECT_TRUE(renderer_->needs_redraw(view, status, width, height));
+}
+
+TEST_F(HudPicture, what_needs_no_redraw_is_the_same_to_the_pixel) {
+  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
+  Status status = live_status();
+  const Image first = draw({}, status);
+  status.now += std::chrono::milliseconds{16};
+  ASSERT_FALSE(renderer_->needs_redraw({}, status, width, height));
+  EXPECT_EQ(compare(first, draw({}, status)).largest, 0);
+}
+
+TEST_F(HudPicture, leaves_no_gl_error_and_the_target_bound) {
+  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
+  GLint before = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &before);
+  draw({}, live_status());
+  GLint after = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &after);
+  EXPECT_EQ(before, after);
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  EXPECT_FALSE(renderer_->draw({}, live_status(), 0, 10));
+}
+
+} // namespace
+} // namespace octascope::tests

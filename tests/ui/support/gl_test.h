@@ -1,0 +1,31 @@
+// A GLES 3 context for tests, where this machine has one.
+#pragma once
+
+#include <GLES3/gl3.h>
+#include <gtest/gtest.h>
+
+#include "sim/offscreen_display.h"
+#include "sim/virtual_clock.h"
+
+namespace octascope::tests {
+
+// Skips, saying why, where no offscreen context can be made.
+class GlTest : public testing::Test {
+protected:
+  void SetUp() override { open(640, 360); }
+
+  void open(int width, int height) {
+    display_.close();
+    hal::DisplayConfig config;
+    config.width = width;
+    config.height = height;
+    const auto opened = display_.open(config);
+    if (!opened)
+      GTEST_SKIP() << opened.error().message;
+  }
+
+  sim::VirtualClock clock_;
+  sim::OffscreenDisplay display_{clock_};
+};
+
+} // namespace octascope::tests

@@ -1,0 +1,89 @@
+#include "tests/ui/support/synthetic_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "pipeline/level_scale.h"
+
+namespace octascope::tests {
+
+namespace {
+
+// A hash of the position, so that neither order nor library changes the speckle.
+double uniform_noise(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  std::uint32_t h = x * 0x9E3779B1U ^ y * 0x85EBCA77U ^ z * 0xC2B2AE3DU;
+  h = (h ^ (h >> 15U)) * 0x2C1B3C6DU;
+  h = (h ^ (h >> 12U)) * 0x297A2D39U;
+  h ^= h >> 15U;
+  return (h + 0.5) / 4294967296.0;
+}
+
+struct PointMm {
+  double a, b, z;
+};
+
+double surface_mm(double a, double b) {
+  return 0.45 + 0.12 * std::sin(2.1 * a + 0.4) + 0.10 * std::cos(1.7 * b) + 0.08 * a;
+}
+
+// Distance to the axis of a vessel that winds along the slow axis.
+double vessel_distance(const PointMm& p, double a_start, double drift, double below) {
+  const double axis_a = a_start + drift * p.b + 0.18 * std::sin(2.4 * p.b + a_start);
+  const double axis_z = surface_mm(axis_a, p.b) + below;
+  return std::hypot(p.a - axis_a, p.z - axis_z);
+}
+
+// Mean level in decibels.
+double level_at(const PointMm& p) {
+  const double sphere = std::hypot(p.a - 2.2, p.b - 0.9, p.z - (surface_mm(2.2, 0.9) - 0.16));
+  if (sphere < 0.2)
+    return sphere > 0.17 ? 46 : 30;
+  const double below = p.z - surface_mm(p.a, p.b);
+  if (below < 0)
+    return 2;
+  for (const auto& [start, drift, depth, radius] :
+       {std::array{0.5, 0.25, 0.25, 0.09}, std::array{1.5, -0.12, 0.33, 0.12},
+        std::array{2.6, -0.4, 0.22, 0.07}}) {
+    const double d = vessel_distance(p, start, drift, depth);
+    if (d < radius)
+      return d > radius - 0.025 ? 42 : 8;
+  }
+  if (below < 0.03)
+    return 45;
+  if (below < 0.14)
+    return 30 - 20 * below;
+  if (below < 0.17)
+    return 38;
+  return std::max(4.0, 33 - 24 * (below - 0.17));
+}
+
+} // namespace
+
+pipeline::Volume uniform_volume(const pipeline::VolumeGeometry& geometry, std::uint8_t count) {
+  pipeline::Volume volume{geometry};
+  std::fill(volume.levels.begin(), volume.levels.end(), count);
+  std::fill(volume.b_scan_states.begin(), volume.b_scan_states.end(), pipeline::BScanState::good);
+  return volume;
+}
+
+pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& g) {
+  pipeline::Volume volume = uniform_volume(g, 0);
+  auto voxel = volume.levels.begin();
+  for (int b = 0; b < g.b_scans; ++b)
+    for (int a = 0; a < g.a_scans; ++a)
+      for (int z = 0; z < g.depths; ++z) {
+        const PointMm p{(a + 0.5) * g.a_spacing_um * 1e-3, (b + 0.5) * g.b_spacing_um * 1e-3,
+                        (z + 0.5) * g.depth_spacing_um * 1e-3};
+        const double noise =
+            uniform_noise(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                          static_cast<std::uint32_t>(z));
+        // Intensity of fully developed speckle is exponentially distributed.
+        const double speckle_db = 10 * std::log10(-std::log(noise));
+        *voxel++ = pipeline::quantise_level(
+            static_cast<float>(level_at(p) + 0.6 * std::max(speckle_db, -20.0)));
+      }
+  return volume;
+}
+
+} // namespace octascope::tests

@@ -1,0 +1,20 @@
+// Volumes with known contents.
+#pragma once
+
+#include "pipeline/volume.h"
+
+namespace octascope::tests {
+
+// Every voxel of every good B-scan has that count.
+pipeline::Volume uniform_volume(const pipeline::VolumeGeometry& geometry, std::uint8_t count);
+
+// Tissue: three layers under a wavy surface, vessels (bright walls, dark lumen) within, a bright
+// sphere on it and the noise floor above, with speckle from a fixed seed. The same on every
+// machine.
+pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& geometry);
+
+// 300 × 80 × 512 as the instrument's, and a smaller one of the same extents for quick tests.
+inline constexpr pipeline::VolumeGeometry full_geometry{512, 300, 80, 3.5, 10, 37.5};
+inline constexpr pipeline::VolumeGeometry small_geometry{128, 100, 40, 14, 30, 75};
+
+} // namespace octascope::tests
