@@ -149,7 +149,7 @@ hal::Result<> check(const ReconstructOptions& options) {
 
 } // namespace
 
-hal::Result<> reconstruct(const ReconstructOptions& options) {
+hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
   if (auto checked = check(options); !checked)
     return checked;
   const int samples = options.shape.samples;

@@ -25,7 +25,7 @@ struct ReconstructOptions {
 };
 
 // Fault::invalid_argument for what a user can put right on the command line.
-hal::Result<> reconstruct(const ReconstructOptions& options);
+hal::Result<> reconstruct_volume(const ReconstructOptions& options);
 
 // Adds the command to `app`. When the user gives it, it runs while `app` parses and puts 0 (done),
 // 1 (failed) or 2 (wrong use) into `exit_status`, which must live as long as `app`.

@@ -48,7 +48,7 @@ int run(const CommandLine& line) {
     return complain({hal::Fault::invalid_argument, fmt::format("--bscan is {}, expected 0 to {}",
                                                                line.b_scan, shape->b_scans - 1)},
                     wrong_use);
-  const auto done = reconstruct(options);
+  const auto done = reconstruct_volume(options);
   return done ? 0 : complain(done.error(), failed);
 }
 

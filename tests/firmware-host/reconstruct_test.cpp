@@ -1,0 +1,163 @@
+// The command from end to end: spectra in a file → NRRD and PNG.
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "firmware-host/commands/reconstruct.h"
+#include "pipeline/nrrd.h"
+#include "pipeline/png_image.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/support/test_data.h"
+
+namespace octascope::firmware_host {
+namespace {
+
+using testing::HasSubstr;
+
+// Runs a command line; the exit status that main() would give.
+int run_octascope(std::vector<std::string> arguments) {
+  int exit_status = 0;
+  CLI::App app;
+  app.require_subcommand(1);
+  add_reconstruct_command(app, exit_status);
+  std::reverse(arguments.begin(), arguments.end());
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError& error) {
+    return error.get_exit_code() == 0 ? 0 : 2;
+  }
+  return exit_status;
+}
+
+class ReconstructCommand : public testing::Test {
+protected:
+  ReconstructCommand() {
+    std::mt19937 generator{11};
+    std::vector<std::uint16_t> counts(5 * 4 * 32);
+    for (auto& count : counts)
+      count = static_cast<std::uint16_t>(generator() % 4096);
+    spectra = folder.write_values<std::uint16_t>("s.raw", counts).string();
+    out = (folder / "v.nrrd").string();
+    png = (folder / "b.png").string();
+  }
+  int reconstruct(std::vector<std::string> more, const std::string& shape = "5,4,32") {
+    std::vector<std::string> arguments{"reconstruct", "--spectra", spectra, "--shape",
+                                       shape,         "--out",     out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_octascope(std::move(arguments));
+  }
+
+  tests::ScratchFolder folder;
+  std::string spectra;
+  std::string out;
+  std::string png;
+};
+
+TEST_F(ReconstructCommand, writes_a_volume_and_a_picture) {
+  ASSERT_EQ(reconstruct({"--bscan", "4", "--png", png}), 0);
+  const auto volume = pipeline::read_nrrd(out);
+  ASSERT_TRUE(volume) << volume.error().message;
+  EXPECT_EQ(volume->geometry.depths, 16);
+  EXPECT_EQ(volume->geometry.a_scans, 4);
+  EXPECT_EQ(volume->geometry.b_scans, 5);
+  const auto picture = pipeline::read_png(png);
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_EQ(picture->width, 4);
+  EXPECT_EQ(picture->height, 16);
+  EXPECT_EQ(picture->channels, 1);
+  EXPECT_EQ(folder.count(), 3); // the spectra and these two: nothing half-written
+}
+
+TEST_F(ReconstructCommand, counts_are_the_quantised_decibels) {
+  ASSERT_EQ(reconstruct({}), 0);
+  const auto db = pipeline::read_nrrd(out);
+  ASSERT_EQ(reconstruct({"--u8"}), 0);
+  const auto counts = pipeline::read_nrrd(out);
+  ASSERT_TRUE(db && counts);
+  const auto& levels = std::get<std::vector<float>>(db->levels);
+  const auto& quantised = std::get<std::vector<std::uint8_t>>(counts->levels);
+  ASSERT_EQ(levels.size(), quantised.size());
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    EXPECT_NEAR(2 * (levels[i] + 40), quantised[i], 0.51F);
+}
+
+TEST_F(ReconstructCommand, wrong_use_is_2) {
+  EXPECT_EQ(run_octascope({"reconstruct"}), 2);
+  EXPECT_EQ(reconstruct({}, "5,4"), 2);
+  EXPECT_EQ(reconstruct({}, "0,4,32"), 2);
+  EXPECT_EQ(reconstruct({}, "5,4,-32"), 2);
+  EXPECT_EQ(reconstruct({"--dtype", "i64"}), 2);
+  EXPECT_EQ(reconstruct({"--bscan", "1"}), 2);
+  EXPECT_EQ(reconstruct({"--png", png}), 2);
+  EXPECT_EQ(reconstruct({"--bscan", "5", "--png", png}), 2);
+  EXPECT_EQ(reconstruct({"--bscan", "-1", "--png", png}), 2);
+  EXPECT_EQ(reconstruct({"--unknown"}), 2);
+  EXPECT_EQ(folder.count(), 1);
+}
+
+TEST_F(ReconstructCommand, failure_is_1_and_leaves_nothing) {
+  EXPECT_EQ(reconstruct({}, "5,4,33"), 1);
+  EXPECT_EQ(reconstruct({"--calibration", "missing.toml"}), 1);
+  EXPECT_EQ(reconstruct({"--dtype", "f32"}), 1);
+  out = (folder / "no/such/folder.nrrd").string();
+  EXPECT_EQ(reconstruct({}), 1);
+  EXPECT_EQ(folder.count(), 1);
+}
+
+TEST_F(ReconstructCommand, floats_must_be_finite) {
+  std::vector<float> values(5 * 4 * 32, 100.0F);
+  values[200] = std::numeric_limits<float>::infinity();
+  ReconstructOptions options;
+  options.spectra = folder.write_values<float>("f.raw", values);
+  options.shape = {5, 4, 32};
+  options.type = pipeline::SpectrumType::f32;
+  options.volume = out;
+  const auto done = reconstruct_volume(options);
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("B-scan 1, A-scan 2, sample 8 is inf"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+// The mean profile of ten A-scans first exceeds −5 dB here, behind the background's remains.
+int surface(const std::vector<float>& levels, std::size_t b, std::size_t first_a) {
+  for (std::size_t z = 10; z < 500; ++z) {
+    float sum = 0;
+    for (std::size_t a = first_a; a < first_a + 10; ++a)
+      sum += levels[(b * 100 + a) * 512 + z];
+    if (sum > -50)
+      return static_cast<int>(z);
+  }
+  return -1;
+}
+
+TEST_F(ReconstructCommand, real_tissue_has_its_sloping_surface) {
+  OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
+  const std::string calibration =
+      std::string{OCTASCOPE_SOURCE_DIR} + "/tests/calibrations/sd-oct-tissue.toml";
+  spectra = (tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw").string();
+  ASSERT_EQ(reconstruct({"--calibration", calibration}, "100,100,1024"), 0);
+  const auto volume = pipeline::read_nrrd(out);
+  ASSERT_TRUE(volume) << volume.error().message;
+  EXPECT_NEAR(volume->geometry.depth_spacing_um, 3.5, 1e-9);
+  const auto& levels = std::get<std::vector<float>>(volume->levels);
+  const int left = surface(levels, 50, 0);
+  const int right = surface(levels, 50, 90);
+  fmt::print("  surface of B-scan 50: bin {} at the left, {} at the right\n", left, right);
+  EXPECT_NEAR(left, 50, 10);
+  EXPECT_NEAR(right, 25, 8);
+  EXPECT_NEAR(left - right, 25, 8);
+
+  if (std::system("command -v teem-unu > /dev/null") == 0) {
+    EXPECT_EQ(std::system(fmt::format("teem-unu minmax {} > /dev/null", out).c_str()), 0);
+  }
+}
+
+} // namespace
+} // namespace octascope::firmware_host
