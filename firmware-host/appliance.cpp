@@ -131,7 +131,7 @@ hal::Result<> AssembledAppliance::make_display() {
     return hal::fail(hal::Fault::unsupported,
                      "--display kms: this version cannot drive a console display yet; use "
                      "--display window or --display offscreen");
-  if (window_ && twins_.faults && twins_.faults->concerns(sim::FaultDevice::display))
+  if (window_ && twins_.concern_display())
     return hal::fail(hal::Fault::invalid_argument,
                      "--faults: a window cannot be made to fail; display faults need --display "
                      "offscreen");
@@ -161,8 +161,9 @@ void AssembledAppliance::make_threads() {
   volumes_ = std::make_unique<pipeline::VolumeThread>(
       std::move(setup), *twins_.galvo_trigger, *acquisition_, *twins_.line_camera, clock_, faults_,
       arrived_, news_);
-  scope_ = std::make_unique<pipeline::ScopeThread>(
-      *twins_.scope_camera, hal::ScopeCameraConfig{}, clock_, faults_, news_);
+  if (twins_.scope_camera)
+    scope_ = std::make_unique<pipeline::ScopeThread>(
+        *twins_.scope_camera, hal::ScopeCameraConfig{}, clock_, faults_, news_);
   controls_ =
       std::make_unique<pipeline::ControlThread>(*twins_.control_input, clock_, faults_, news_);
 }
@@ -186,7 +187,7 @@ void AssembledAppliance::make_render_loop() {
       RenderLoopParts{.display = display(),
                       .clock = clock_,
                       .volumes = *volumes_,
-                      .scope = *scope_,
+                      .scope = scope_.get(),
                       .controls = *controls_,
                       .faults = faults_,
                       .news = news_,
@@ -198,13 +199,13 @@ void AssembledAppliance::make_render_loop() {
 }
 
 hal::Result<> AssembledAppliance::start_threads() {
-  if (twins_.faults)
-    twins_.faults->start(started_);
+  twins_.faults->start(started_);
   const pipeline::ThreadSetup setup = make_thread_setup(clock_, faults_);
   if (auto started = acquisition_->start(setup); !started)
     return started;
   volumes_->start(setup);
-  scope_->start(setup);
+  if (scope_)
+    scope_->start(setup);
   controls_->start(setup);
   return {};
 }
@@ -213,7 +214,8 @@ hal::Result<> AssembledAppliance::start_threads() {
 void AssembledAppliance::stop_threads() {
   volumes_->stop();
   acquisition_->stop();
-  scope_->stop();
+  if (scope_)
+    scope_->stop();
   controls_->stop();
 }
 
@@ -235,16 +237,19 @@ bool AssembledAppliance::done() const {
 }
 
 bool AssembledAppliance::simulated() const {
-  return twins_.line_camera->simulated() || twins_.scope_camera->simulated();
+  return twins_.line_camera->simulated() ||
+         (twins_.scope_camera && twins_.scope_camera->simulated());
 }
 
 void AssembledAppliance::update_devices(ui::Status& status) const {
   status.devices = {{{"camera", twins_.line_camera->backend(), twins_.line_camera->state()},
                      {"trigger", twins_.galvo_trigger->backend(), twins_.galvo_trigger->state()},
                      {"pedal", twins_.control_input->backend(), twins_.control_input->state()},
-                     {"scope", twins_.scope_camera->backend(), twins_.scope_camera->state()},
                      {"display", display().backend(), display().state()}}};
-  status.device_count = 5;
+  status.device_count = 4;
+  if (twins_.scope_camera)
+    status.devices[status.device_count++] = {"scope", twins_.scope_camera->backend(),
+                                             twins_.scope_camera->state()};
 }
 
 RunReport AssembledAppliance::report() const {
@@ -256,7 +261,7 @@ RunReport AssembledAppliance::report() const {
   r.line_camera = twins_.line_camera->backend();
   r.galvo_trigger = twins_.galvo_trigger->backend();
   r.control_input = twins_.control_input->backend();
-  r.scope_camera = twins_.scope_camera->backend();
+  r.scope_camera = twins_.scope_camera ? twins_.scope_camera->backend() : "none";
   r.display = display().backend();
   r.acquired = counters.acquired;
   r.published = counters.published;
@@ -299,7 +304,9 @@ hal::Result<> AssembledAppliance::leave_behind(const std::optional<ui::Image>& p
     return hal::fail(hal::Fault::absent,
                      fmt::format("{}: not written: the display was gone at the end",
                                  options_.snapshot->string()));
-  if (auto written = pipeline::write_png(*options_.snapshot, *picture); !written)
+  pipeline::Image png{picture->width, picture->height, 3};
+  png.pixels = picture->rgb;
+  if (auto written = pipeline::write_png(*options_.snapshot, png); !written)
     return written;
   fmt::print("snapshot: {}\n", options_.snapshot->string());
   return {};

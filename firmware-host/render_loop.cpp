@@ -89,9 +89,9 @@ void RenderLoop::take_volume() {
 }
 
 void RenderLoop::take_scope_picture() {
-  if (!renderer_)
+  if (!renderer_ || parts_.scope == nullptr)
     return;
-  if (const hal::ScopeFrame* picture = parts_.scope.take_newest()) {
+  if (const hal::ScopeFrame* picture = parts_.scope->take_newest()) {
     if (const auto shown = renderer_->show_scope_picture(*picture, setup_.scan_field); !shown)
       parts_.faults.add("scope_camera", to_string(shown.error().fault), shown.error().message,
                         parts_.clock.now());

@@ -32,7 +32,7 @@ struct RenderLoopParts {
   hal::Display& display;
   hal::Clock& clock;
   pipeline::VolumeThread& volumes;
-  pipeline::ScopeThread& scope;
+  pipeline::ScopeThread* scope; // null: there is no scope camera
   pipeline::ControlThread& controls;
   pipeline::FaultLog& faults;
   pipeline::Wakeup& news; // posted by the three threads above

@@ -1,0 +1,203 @@
+#include "firmware-host/twins.h"
+
+#include <algorithm>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "pipeline/spectra_file.h"
+#include "sim/control_script.h"
+#include "sim/fault_script.h"
+#include "sim/phantom.h"
+#include "sim/recorded_spectra.h"
+#include "sim/volume_loop.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+constexpr std::uint64_t phantom_seed = 1;
+
+tl::unexpected<hal::Error> pass_on(const hal::Error& error) { return tl::make_unexpected(error); }
+
+// --calibration comes before the configuration's.
+std::optional<std::filesystem::path> calibration_file(const RunOptions& options,
+                                                      const Configuration& configuration) {
+  return options.calibration ? options.calibration : configuration.calibration;
+}
+
+// What the recording says (counts) and what its calibration says (spacings).
+pipeline::ScanPlan plan_of(const pipeline::SpectraShape& shape,
+                           const pipeline::Calibration& calibration,
+                           const Configuration& configuration) {
+  pipeline::ScanPlan plan = configuration.plan.value_or(pipeline::ScanPlan{});
+  plan.samples = shape.samples;
+  plan.a_scans = shape.a_scans;
+  plan.b_scans = shape.b_scans;
+  plan.fly_back_lines = 0; // a recording has none
+  plan.depth_spacing_um = calibration.depth_spacing_um;
+  plan.a_spacing_um = calibration.a_spacing_um;
+  plan.b_spacing_um = calibration.b_spacing_um;
+  return plan;
+}
+
+hal::Result<> play_recording(const RunOptions& options, const Configuration& configuration,
+                             Twins& twins) {
+  const RecordingOptions& recording = *options.recording;
+  auto file = pipeline::SpectraFile::open(recording.file, recording.shape,
+                                          pipeline::SpectrumType::u16);
+  if (!file)
+    return pass_on(file.error());
+  const auto shared = std::make_shared<pipeline::SpectraFile>(std::move(*file));
+
+  twins.calibration = pipeline::Calibration::identity(recording.shape.samples);
+  if (const auto path = calibration_file(options, configuration)) {
+    auto loaded = pipeline::Calibration::load(*path, recording.shape.samples);
+    if (!loaded)
+      return pass_on(loaded.error());
+    twins.calibration = std::move(*loaded);
+  }
+  twins.plan = plan_of(recording.shape, twins.calibration, configuration);
+
+  const std::byte* first = shared->b_scan(0).data();
+  const std::size_t samples =
+      recording.shape.lines() * static_cast<std::size_t>(recording.shape.samples);
+  auto spectra = sim::RecordedSpectra::make(
+      {.samples = {reinterpret_cast<const std::uint16_t*>(first), samples},
+       .b_scans = recording.shape.b_scans,
+       .a_scans = recording.shape.a_scans,
+       .samples_per_line = recording.shape.samples,
+       .significant_bits = 16,
+       .name = recording.file.filename().string(),
+       .keep_alive = shared});
+  if (!spectra)
+    return pass_on(spectra.error());
+  twins.spectra = std::move(*spectra);
+  return {};
+}
+
+hal::Result<> play_phantom(const RunOptions& options, const Configuration& configuration,
+                           Twins& twins) {
+  auto loop = sim::suggested_loop(options.phantom.value_or(configuration.phantom));
+  if (!loop)
+    return pass_on(loop.error());
+  loop->volumes = configuration.loop_volumes;
+  loop->seed = phantom_seed;
+  if (configuration.plan)
+    loop->plan = *configuration.plan;
+  auto made = sim::VolumeLoop::make(*loop);
+  if (!made)
+    return pass_on(made.error());
+
+  const sim::Spectrometer& spectrometer = (*made)->spectrometer();
+  twins.plan = (*made)->plan();
+  if (const auto path = calibration_file(options, configuration)) {
+    auto loaded = pipeline::Calibration::load(*path, twins.plan.samples);
+    if (!loaded)
+      return pass_on(loaded.error());
+    twins.calibration = std::move(*loaded);
+  } else { // the one that fits the simulated spectrometer exactly
+    twins.calibration = pipeline::Calibration::identity(twins.plan.samples);
+    twins.calibration.positions = spectrometer.true_k_positions();
+    twins.calibration.dispersion_rad = spectrometer.true_dispersion_rad();
+  }
+  twins.spectra = std::move(*made);
+  return {};
+}
+
+// The corners of the scan within the picture; A-scan 0 of B-scan 0 is at the upper left.
+ui::ScanField corners(const sim::PictureRectangle& r) {
+  const auto corner = [](double x, double y) {
+    return ui::ScanField::Corner{static_cast<float>(x), static_cast<float>(y)};
+  };
+  return {{corner(r.x, r.y), corner(r.x + r.width, r.y), corner(r.x + r.width, r.y + r.height),
+           corner(r.x, r.y + r.height)}};
+}
+
+hal::Result<> make_scope_camera(const RunOptions& options, const Configuration& configuration,
+                                hal::Clock& clock, Twins& twins) {
+  auto made = sim::SimScopeCamera::make(
+      {.phantom = options.phantom.value_or(configuration.phantom),
+       .seed = phantom_seed,
+       .field = twins.plan.geometry(),
+       .loop = twins.plan.tick_period() * configuration.loop_volumes},
+      clock);
+  if (!made)
+    return pass_on(made.error());
+  twins.scope_camera = std::move(*made);
+  twins.scan_field = corners(twins.scope_camera->scan_field());
+  return {};
+}
+
+hal::Result<> load_faults(const RunOptions& options, const Configuration& configuration,
+                          Twins& twins) {
+  sim::FaultScript script;
+  if (const auto& file = options.faults ? options.faults : configuration.faults) {
+    auto loaded = sim::FaultScript::load(*file);
+    if (!loaded)
+      return pass_on(loaded.error());
+    script = std::move(*loaded);
+  }
+  twins.faults = std::make_unique<sim::FaultSchedule>(std::move(script));
+  return {};
+}
+
+hal::Result<> make_control_input(const RunOptions& options, const Configuration& configuration,
+                                 hal::Clock& clock, Twins& twins) {
+  sim::ControlScript script;
+  if (const auto& file = options.controls ? options.controls : configuration.controls) {
+    auto loaded = sim::ControlScript::load(*file);
+    if (!loaded)
+      return pass_on(loaded.error());
+    script = std::move(*loaded);
+  }
+  twins.control_input =
+      std::make_unique<sim::SimControlInput>(clock, std::move(script), twins.faults.get());
+  return {};
+}
+
+} // namespace
+
+bool Twins::concern_display() const {
+  return std::ranges::any_of(faults->faults(), [](const sim::ScriptedFault& fault) {
+    return fault.device == sim::FaultDevice::display;
+  });
+}
+
+void Twins::apply_faults(hal::TimePoint now, sim::OffscreenDisplay* display) {
+  if (scope_camera && faults->active(sim::FaultDevice::scope_camera, sim::FaultKind::unplug, now))
+    scope_camera->unplug();
+  else if (scope_camera)
+    scope_camera->replug();
+  if (display == nullptr)
+    return;
+  if (faults->active(sim::FaultDevice::display, sim::FaultKind::lost, now))
+    display->lose();
+  else
+    display->restore();
+}
+
+hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& configuration,
+                              hal::Clock& clock) {
+  Twins twins;
+  auto made = load_faults(options, configuration, twins);
+  if (made)
+    made = make_control_input(options, configuration, clock, twins);
+  if (made)
+    made = options.recording ? play_recording(options, configuration, twins)
+                             : play_phantom(options, configuration, twins);
+  if (made && !options.recording)
+    made = make_scope_camera(options, configuration, clock, twins);
+  if (!made)
+    return pass_on(made.error());
+  twins.format = twins.spectra->format();
+  twins.source = twins.spectra->description();
+  twins.link = std::make_unique<sim::GalvoLink>(twins.plan.sweep_duration());
+  twins.line_camera = std::make_unique<sim::SimLineCamera>(*twins.spectra, *twins.link, clock,
+                                                           twins.faults.get());
+  twins.galvo_trigger =
+      std::make_unique<sim::SimGalvoTrigger>(*twins.link, clock, twins.faults.get());
+  return twins;
+}
+
+} // namespace octascope::firmware_host

@@ -30,14 +30,17 @@ struct Twins {
   hal::LineFormat format;
   std::string source; // for people: what is seen, and how long its loop is
 
-  std::unique_ptr<sim::FaultSchedule> faults;
+  std::unique_ptr<sim::FaultSchedule> faults; // without --faults an empty one
   std::unique_ptr<sim::SpectraSource> spectra;
   std::unique_ptr<sim::GalvoLink> link;
   std::unique_ptr<sim::SimLineCamera> line_camera;
   std::unique_ptr<sim::SimGalvoTrigger> galvo_trigger;
   std::unique_ptr<sim::SimControlInput> control_input;
-  std::unique_ptr<sim::SimScopeCamera> scope_camera;
+  std::unique_ptr<sim::SimScopeCamera> scope_camera; // null for a recording: nobody looked on
   std::optional<ui::ScanField> scan_field;
+
+  // Does the fault script touch the display?
+  bool concern_display() const;
 
   // Scope camera and display know only "unplugged" and "there": this tells them, at every turn of
   // the render loop.

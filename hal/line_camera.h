@@ -76,8 +76,8 @@ public:
   // `failed`; loans stay readable until close(); then open() again.
   Result<std::optional<LineFrame>> wait_frame(Duration timeout) { return do_wait_frame(timeout); }
 
-  // Gives a loan back; its bytes must not be read afterwards. Numbers that are not on loan (a
-  // loan from before a disconnect, say) are ignored. Neither allocates nor blocks.
+  // Gives a loan back; its bytes must not be read afterwards. Numbers that are not on loan are
+  // ignored. Neither allocates nor blocks.
   void release(int buffer) { do_release(buffer); }
 
   // streaming → ready; frames not yet fetched are discarded. Loans stay readable until release().

@@ -1,14 +1,11 @@
 // Which of a camera twin's buffers are free, reserved for a waiting frame, or on loan.
 //
 // One thread (the camera's) reserves and lends; any thread gives back. Lock-free, no allocation.
-// Each loan has a number of its own, so that a loan given back twice, or one from before a
-// disconnect, cannot free somebody else's buffer.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cstddef>
-#include <limits>
 #include <optional>
 
 namespace octascope::sim {
@@ -41,22 +38,15 @@ public:
   // From reserved back to free.
   void cancel(int buffer) { state(buffer).store(free_state, std::memory_order_release); }
 
-  // From reserved to on loan; returns the loan's number.
-  int lend(int buffer) {
-    int& turn = turns_[static_cast<std::size_t>(buffer)];
-    turn = (turn + 1) % (std::numeric_limits<int>::max() / most_buffers);
-    const int loan = turn * most_buffers + buffer;
-    state(buffer).store(loan, std::memory_order_release);
-    return loan;
-  }
+  // From reserved to on loan.
+  void lend(int buffer) { state(buffer).store(lent_state, std::memory_order_release); }
 
-  // From on loan to free; false when no such loan is out. Any thread.
-  bool give_back(int loan) {
-    if (loan < 0)
+  // From on loan to free; false when it is not on loan. Any thread.
+  bool give_back(int buffer) {
+    if (buffer < 0 || buffer >= most_buffers)
       return false;
-    int expected = loan;
-    return state(loan % most_buffers)
-        .compare_exchange_strong(expected, free_state, std::memory_order_acq_rel);
+    int expected = lent_state;
+    return state(buffer).compare_exchange_strong(expected, free_state, std::memory_order_acq_rel);
   }
 
   // Every loan ends.
@@ -68,13 +58,13 @@ public:
 private:
   static constexpr int free_state = -1;
   static constexpr int reserved_state = -2;
+  static constexpr int lent_state = -3;
 
   std::atomic<int>& state(int buffer) { return states_[static_cast<std::size_t>(buffer)]; }
 
   int buffers_ = 0;
   int newest_ = -1;
   std::array<std::atomic<int>, most_buffers> states_;
-  std::array<int, most_buffers> turns_{};
 };
 
 } // namespace octascope::sim

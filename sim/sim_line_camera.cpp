@@ -251,7 +251,8 @@ hal::LineFrame SimLineCamera::hand_out(const WaitingFrame& frame) {
     out.integrity = hal::FrameIntegrity::wrong_size;
   if (frame.corrupted != nullptr)
     out.integrity = hal::FrameIntegrity::corrupted;
-  out.buffer = loans_.lend(frame.buffer);
+  loans_.lend(frame.buffer);
+  out.buffer = frame.buffer;
   return out;
 }
 

@@ -44,7 +44,9 @@ void make_this_thread_background() {
 }
 
 Result<> lock_memory() {
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0)
+  // On fault: what is never touched (stacks, the driver's reserves) is not fetched for its own sake.
+  // The buffers of the hot paths are written when they are made, and so are in from then on.
+  if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0)
     return {};
   const int error = errno;
   return fail(fault_of(error == ENOMEM ? EPERM : error),

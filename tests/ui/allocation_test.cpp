@@ -1,32 +1,10 @@
 // Drawing allocates nothing of ours once it runs. Counts operator new, which the C code of the
-// driver does not use; sanitizers bring an operator new of their own, so not under them.
-#ifndef OCTASCOPE_SANITIZED
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+// driver does not use.
+#include "tests/support/allocation_counter.h"
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/scene.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "ui/renderer.h"
-
-namespace {
-thread_local std::size_t allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size))
-    return memory;
-  throw std::bad_alloc{};
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace octascope::tests {
 namespace {
@@ -56,13 +34,11 @@ TEST_F(Allocation, a_running_display_makes_none) {
   };
   for (int i = 0; i < 6; ++i)
     one_frame(i);
-  const std::size_t before = allocations;
+  const std::uint64_t before = allocations_of_this_thread();
   for (int i = 6; i < 16; ++i)
     one_frame(i);
-  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_EQ(allocations_of_this_thread(), before);
 }
 
 } // namespace
 } // namespace octascope::tests
-
-#endif
