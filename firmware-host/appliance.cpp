@@ -173,13 +173,15 @@ void AssembledAppliance::make_render_loop() {
   setup.display.width = options_.size ? (*options_.size)[0] : configuration_.width;
   setup.display.height = options_.size ? (*options_.size)[1] : configuration_.height;
   setup.display.fullscreen = configuration_.fullscreen;
-  if (configuration_.window_offset_db)
-    setup.view.window_offset_db = *configuration_.window_offset_db;
-  if (configuration_.window_size_db)
-    setup.view.window_size_db = *configuration_.window_size_db;
+  if (configuration_.window) {
+    setup.window_from_first_volume = false;
+    setup.view.window_offset_db = configuration_.window->offset_db;
+    setup.view.window_size_db = configuration_.window->size_db;
+  }
   setup.view.b_scan = twins_.plan.b_scans / 2;
   setup.freshness = {twins_.plan.tick_period(), configuration_.veil_after};
   setup.b_scans = twins_.plan.b_scans;
+  setup.lines_per_frame = twins_.plan.lines_per_frame();
   setup.scan_field = twins_.scan_field;
   setup.status.simulated = simulated();
   setup.status.source_description = twins_.source;
@@ -187,6 +189,7 @@ void AssembledAppliance::make_render_loop() {
       RenderLoopParts{.display = display(),
                       .clock = clock_,
                       .volumes = *volumes_,
+                      .acquisition = *acquisition_,
                       .scope = scope_.get(),
                       .controls = *controls_,
                       .faults = faults_,

@@ -46,11 +46,12 @@ void read_display(ConfigTable table, Configuration& configuration) {
   configuration.width = table.integer("width", configuration.width, {320, 16384});
   configuration.height = table.integer("height", configuration.height, {180, 16384});
   configuration.fullscreen = table.boolean("fullscreen", configuration.fullscreen);
+  if (table.has("window_offset_db") != table.has("window_size_db"))
+    table.complain("window_offset_db and window_size_db go together: give both or neither");
+  const double offset_db = table.number("window_offset_db", 0, level_range_db);
+  const double size_db = table.number("window_size_db", 1, {1, 128});
   if (table.has("window_offset_db"))
-    configuration.window_offset_db =
-        static_cast<float>(table.number("window_offset_db", 0, level_range_db));
-  if (table.has("window_size_db"))
-    configuration.window_size_db = static_cast<float>(table.number("window_size_db", 1, {1, 128}));
+    configuration.window = {static_cast<float>(offset_db), static_cast<float>(size_db)};
   configuration.veil_after = hal::from_seconds(
       table.number("veil_after_s", hal::to_seconds(configuration.veil_after), {0.5, 3600}));
 }

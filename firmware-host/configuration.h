@@ -10,6 +10,7 @@
 #include "hal/result.h"
 #include "pipeline/neighbour_average.h"
 #include "pipeline/scan_plan.h"
+#include "ui/auto_window.h"
 
 namespace octascope::firmware_host {
 
@@ -25,8 +26,7 @@ struct Configuration {
   int width = 1280;
   int height = 720;
   bool fullscreen = false;
-  std::optional<float> window_offset_db;
-  std::optional<float> window_size_db;
+  std::optional<ui::DisplayWindow> window; // empty: what suits the first volume
   hal::Duration veil_after = std::chrono::seconds{5};
   // [sim]
   std::string phantom = "anterior_eye";

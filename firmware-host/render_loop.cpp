@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "ui/auto_window.h"
 #include "ui/controls/simulated_control.h"
 
 namespace octascope::firmware_host {
@@ -82,6 +83,10 @@ void RenderLoop::take_volume() {
     return;
   }
   statistics_.upload.add(parts_.clock.now() - begin);
+  if (setup_.window_from_first_volume && !shown_) {
+    if (const auto window = ui::suggest_window(*newest))
+      controller_.set_window(window->offset_db, window->size_db);
+  }
   undisplayed_last_line_ = newest->ledger.last_line;
   shown_ = ui::ShownVolume{newest->ledger.last_line, newest->ledger.published};
   setup_.status.missing_b_scans = newest->missing_b_scans();
@@ -103,6 +108,10 @@ void RenderLoop::update_status() {
   s.now = parts_.clock.now();
   const pipeline::VolumeCounters counters = parts_.volumes.counters();
   volume_rate_.update(counters.acquired, s.now);
+  line_rate_.update(parts_.acquisition.counters().frames *
+                        static_cast<std::uint64_t>(setup_.lines_per_frame),
+                    s.now);
+  s.lines_per_s = line_rate_.per_second();
   frame_rate_.update(statistics_.frames_drawn, s.now);
   s.volumes_per_s = volume_rate_.per_second();
   s.frames_per_s = frame_rate_.per_second();

@@ -11,6 +11,7 @@
 #include "hal/clock.h"
 #include "hal/control_input.h"
 #include "hal/display.h"
+#include "pipeline/acquisition.h"
 #include "pipeline/control_thread.h"
 #include "pipeline/duration_statistics.h"
 #include "pipeline/fault_log.h"
@@ -32,6 +33,7 @@ struct RenderLoopParts {
   hal::Display& display;
   hal::Clock& clock;
   pipeline::VolumeThread& volumes;
+  const pipeline::Acquisition& acquisition;
   pipeline::ScopeThread* scope; // null: there is no scope camera
   pipeline::ControlThread& controls;
   pipeline::FaultLog& faults;
@@ -43,8 +45,10 @@ struct RenderLoopParts {
 struct RenderLoopSetup {
   hal::DisplayConfig display;
   ui::ViewState view;
+  bool window_from_first_volume = true; // else the view's
   ui::FreshnessLimits freshness;
   int b_scans = 80;
+  int lines_per_frame = 379;
   std::optional<ui::ScanField> scan_field;
   ui::Status status; // devices, source: what does not change; the loop fills in the rest
 };
@@ -107,7 +111,7 @@ private:
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
   std::optional<ui::ShownVolume> shown_;
   pipeline::RetryDelay retry_;
-  RateMeter volume_rate_, frame_rate_;
+  RateMeter volume_rate_, line_rate_, frame_rate_;
   FrameStatistics statistics_;
 };
 

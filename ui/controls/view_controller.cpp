@@ -39,6 +39,14 @@ void ViewController::set_b_scans(int b_scans) {
   state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
 }
 
+void ViewController::set_window(float offset_db, float size_db) {
+  for (ViewState* view : {&initial_, &state_}) {
+    view->window_offset_db = offset_db;
+    view->window_size_db = size_db;
+    *view = view->clamped();
+  }
+}
+
 void ViewController::turn(Parameter parameter, float detents, hal::TimePoint time) {
   const ParameterRange range = parameter_range(parameter, b_scans_);
   set_parameter(state_, parameter, parameter_value(state_, parameter) + detents * range.detent);

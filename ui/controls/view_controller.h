@@ -27,6 +27,8 @@ public:
 
   const ViewState& state() const { return state_; }
   void set_b_scans(int b_scans);
+  // Also what "home" goes back to.
+  void set_window(float offset_db, float size_db);
 
   ControlRequests handle(const hal::DisplayEvent& event);
   ControlRequests handle(const hal::ControlEvent& event);

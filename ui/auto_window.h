@@ -1,0 +1,21 @@
+// A window that suits a volume, from its histogram.
+#pragma once
+
+#include <optional>
+
+#include "pipeline/volume.h"
+
+namespace octascope::ui {
+
+struct DisplayWindow {
+  float offset_db = 0;
+  float size_db = 1;
+};
+
+// Most voxels of a volume hold noise, so the histogram's peak is the noise floor, and what is below
+// the peak shows how far the noise spreads. The window begins above nearly all of the noise and
+// ends where but a few voxels are brighter. Looks at every fourth B-scan: some milliseconds for a
+// live volume. Empty when no B-scan is there. Pure.
+std::optional<DisplayWindow> suggest_window(const pipeline::Volume& volume);
+
+} // namespace octascope::ui
