@@ -298,7 +298,6 @@ void SimLineCamera::do_stop() {
 
 void SimLineCamera::do_close() {
   discard_waiting();
-  loans_.void_all();
   scratch_.reset();
   set_state(DeviceState::absent);
 }

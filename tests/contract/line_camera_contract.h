@@ -193,6 +193,14 @@ TEST_P(LineCameraContract, a_trigger_brings_one_sweep_of_good_frames_in_order) {
   expect_no_frame(bench_->sweep_duration());
 }
 
+TEST_P(LineCameraContract, a_wait_without_end_ends_with_a_frame) {
+  open_and_start();
+  bench_->trigger();
+  const MaybeFrame frame = camera_.wait_frame(hal::Duration::max());
+  ASSERT_TRUE(frame.has_value()) << frame.error().message;
+  EXPECT_TRUE(frame->has_value());
+}
+
 TEST_P(LineCameraContract, lines_keep_the_line_rate) {
   open_and_start();
   bench_->trigger();

@@ -111,6 +111,17 @@ TEST(SimControlInput, a_press_is_told_when_it_has_rested_and_stamped_when_it_cam
   EXPECT_EQ(input.read(events, 1s).value(), 0U);
 }
 
+TEST(SimControlInput, times_do_not_decrease_when_the_knob_turns_before_a_press_has_rested) {
+  VirtualClock clock;
+  SimControlInput input{clock, script("[[event]]\ntime_s = 0.100\nswitch = 0\nvalue = 1\n"
+                                      "[[event]]\ntime_s = 0.102\nknob = 0\nvalue = 1\n")};
+  ASSERT_TRUE(input.open());
+  const TimePoint t = clock.now();
+  EXPECT_THAT(read_for(input, clock, 1s),
+              ElementsAre(ControlEvent{t + 102ms, ControlKind::knob, 0, 1},
+                          ControlEvent{t + 102ms, pedal, 0, 1}));
+}
+
 TEST(SimControlInput, a_stuck_switch_ignores_the_foot_until_it_comes_loose) {
   VirtualClock clock;
   FaultSchedule schedule{
