@@ -3,6 +3,9 @@
 #include <string>
 #include <vector>
 
+#define EGL_NO_X11
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
 #include <SDL.h>
 
 #include "hal/linux/monotonic_clock.h"
@@ -13,7 +16,16 @@
 namespace octascope::tests {
 namespace {
 
+// Holds the GL driver in the process: SDL unloads it with each window, and the sanitizers can
+// neither name nor set aside what an unloaded library did.
+void keep_driver_loaded() {
+  eglInitialize(eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
+                nullptr, nullptr);
+}
+
 struct WindowMaker {
+  WindowMaker() { keep_driver_loaded(); }
+
   VirtualScreen screen;
   hal::linux_backend::MonotonicClock clock;
   hal::linux_backend::WindowDisplay window{clock};
