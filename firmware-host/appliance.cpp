@@ -58,8 +58,8 @@ public:
     if (auto started = start_threads(); !started)
       return started;
     show_until_done(stop_signal);
-    const std::optional<ui::Image> picture =
-        options_.snapshot ? loop_->picture() : std::optional<ui::Image>{};
+    const std::optional<pipeline::Image> picture =
+        options_.snapshot ? loop_->picture() : std::optional<pipeline::Image>{};
     ended_ = clock_.now();
     stop_threads();
     return leave_behind(picture);
@@ -77,7 +77,7 @@ private:
   void update_devices(ui::Status& status) const;
   bool simulated() const;
   RunReport report() const;
-  hal::Result<> leave_behind(const std::optional<ui::Image>& picture) const;
+  hal::Result<> leave_behind(const std::optional<pipeline::Image>& picture) const;
 
   RunOptions options_;
   Configuration configuration_;
@@ -293,7 +293,7 @@ RunReport AssembledAppliance::report() const {
   return r;
 }
 
-hal::Result<> AssembledAppliance::leave_behind(const std::optional<ui::Image>& picture) const {
+hal::Result<> AssembledAppliance::leave_behind(const std::optional<pipeline::Image>& picture) const {
   const RunReport finished = report();
   fmt::print("{}", to_text(finished));
   if (options_.report) {
@@ -307,9 +307,7 @@ hal::Result<> AssembledAppliance::leave_behind(const std::optional<ui::Image>& p
     return hal::fail(hal::Fault::absent,
                      fmt::format("{}: not written: the display was gone at the end",
                                  options_.snapshot->string()));
-  pipeline::Image png{picture->width, picture->height, 3};
-  png.pixels = picture->rgb;
-  if (auto written = pipeline::write_png(*options_.snapshot, png); !written)
+  if (auto written = pipeline::write_png(*options_.snapshot, *picture); !written)
     return written;
   fmt::print("snapshot: {}\n", options_.snapshot->string());
   return {};

@@ -7,6 +7,8 @@
 
 #include "ui/auto_window.h"
 #include "ui/controls/simulated_control.h"
+#include "ui/drawing_budget.h"
+#include "ui/gl/context_info.h"
 
 namespace octascope::firmware_host {
 
@@ -35,6 +37,7 @@ hal::Result<> RenderLoop::open_display() {
     return tl::make_unexpected(renderer.error());
   }
   renderer_ = std::move(*renderer);
+  software_ = ui::gl::describe_context().software;
   if (volume_ != nullptr) // a display that came back shows what the lost one did
     return renderer_->show_volume(*volume_);
   return {};
@@ -50,6 +53,14 @@ bool RenderLoop::turn() {
     draw_if_changed();
   parts_.news.wait_until(next); // at once when something came meanwhile
   return go_on;
+}
+
+// What hands and feet chose, as finely as this machine can draw it.
+ui::ViewState RenderLoop::view() const {
+  ui::ViewState view = controller_.state();
+  view.volume_resolution = ui::affordable_resolution(software_, parts_.display.width(),
+                                                     parts_.display.height());
+  return view;
 }
 
 bool RenderLoop::handle_input() {
@@ -127,7 +138,7 @@ void RenderLoop::update_status() {
 }
 
 void RenderLoop::draw_if_changed() {
-  const ui::ViewState& view = controller_.state();
+  const ui::ViewState view = this->view();
   hal::Display& display = parts_.display;
   if (!renderer_->needs_redraw(view, setup_.status, display.width(), display.height()))
     return;
@@ -179,13 +190,14 @@ bool RenderLoop::display_ready() {
   return true;
 }
 
-std::optional<ui::Image> RenderLoop::picture() {
+std::optional<pipeline::Image> RenderLoop::picture() {
   if (!renderer_)
     return std::nullopt;
+  take_volume();
   update_status();
   const int width = parts_.display.width();
   const int height = parts_.display.height();
-  if (!renderer_->draw(controller_.state(), setup_.status, width, height))
+  if (!renderer_->draw(view(), setup_.status, width, height))
     return std::nullopt;
   return renderer_->read_back(width, height);
 }

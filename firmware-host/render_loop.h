@@ -21,7 +21,6 @@
 #include "pipeline/wakeup.h"
 #include "ui/controls/view_controller.h"
 #include "ui/freshness.h"
-#include "ui/image.h"
 #include "ui/renderer.h"
 #include "ui/scan_field.h"
 #include "ui/status.h"
@@ -80,8 +79,8 @@ public:
     return volume_ != nullptr && !undisplayed_last_line_ && !parts_.volumes.has_newer();
   }
 
-  // The last picture drawn; draws it again. Empty when the display is gone.
-  std::optional<ui::Image> picture();
+  // Draws the newest state and returns the picture. Empty when the display is gone.
+  std::optional<pipeline::Image> picture();
 
   const FrameStatistics& statistics() const { return statistics_; }
   const ui::Status& status() const { return setup_.status; }
@@ -93,6 +92,7 @@ public:
   void set_notice(std::string notice) { setup_.status.notice = std::move(notice); }
 
 private:
+  ui::ViewState view() const;
   bool handle_input();
   void take_volume();
   void take_scope_picture();
@@ -107,6 +107,7 @@ private:
   RenderLoopSetup setup_;
   ui::ViewController controller_;
   std::unique_ptr<ui::Renderer> renderer_; // null while the display is gone
+  bool software_ = false;                  // the processor draws
   const pipeline::Volume* volume_ = nullptr; // the newest taken, ours until the next take
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
   std::optional<ui::ShownVolume> shown_;

@@ -1,6 +1,7 @@
 // Pictures as PNG files.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -22,6 +23,13 @@ struct Image {
       : width(w), height(h), channels(c),
         pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) *
                static_cast<std::size_t>(c)) {}
+  // Of an RGB picture; (0, 0) is the upper left corner.
+  std::array<std::uint8_t, 3> pixel(int x, int y) const {
+    const auto i = (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                    static_cast<std::size_t>(x)) *
+                   3;
+    return {pixels[i], pixels[i + 1], pixels[i + 2]};
+  }
   bool operator==(const Image&) const = default;
 };
 

@@ -7,10 +7,10 @@
 #include <mutex>
 #include <utility>
 
-#include <fftw3.h>
 #include <fmt/format.h>
 
 #include "pipeline/background.h"
+#include "pipeline/fft_plan.h"
 #include "pipeline/k_linearisation.h"
 #include "pipeline/line_kernels.h"
 
@@ -34,20 +34,6 @@ FftwBuffer make_buffer(std::size_t floats) {
   return buffer;
 }
 
-// FFTW's planner keeps its knowledge in globals of its own; executing a plan does not touch them.
-std::mutex& planner_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-struct DestroyPlan {
-  void operator()(fftwf_plan plan) const {
-    const std::scoped_lock lock{planner_mutex()};
-    fftwf_destroy_plan(plan);
-  }
-};
-using FftwPlan = std::unique_ptr<std::remove_pointer_t<fftwf_plan>, DestroyPlan>;
-
 std::size_t padded(int samples) {
   return (static_cast<std::size_t>(samples) + 7) / 8 * 8;
 }
@@ -56,14 +42,14 @@ fftwf_complex* as_complex(float* floats) {
   return reinterpret_cast<fftwf_complex*>(floats);
 }
 
-FftwPlan plan_transform(int samples, bool complex_input) {
+FftPlan plan_transform(int samples, bool complex_input) {
   // Two floats a sample serve both transforms, in and out.
   const FftwBuffer in = make_buffer(2 * padded(samples));
   const FftwBuffer out = make_buffer(2 * padded(samples));
-  const std::scoped_lock lock{planner_mutex()};
+  const std::scoped_lock lock{fft_planner_mutex()};
   constexpr double longest_planning_s = 1; // lines of many samples: a good plan, not the best
   fftwf_set_timelimit(longest_planning_s);
-  return FftwPlan{complex_input
+  return FftPlan{complex_input
                       ? fftwf_plan_dft_1d(samples, as_complex(in.get()), as_complex(out.get()),
                                           FFTW_FORWARD, FFTW_MEASURE)
                       : fftwf_plan_dft_r2c_1d(samples, in.get(), as_complex(out.get()),
@@ -125,7 +111,7 @@ struct Reconstructor::Plan {
   std::vector<float> factors;
   bool complex_input = false;
   ShapeLine shape_line = nullptr;
-  FftwPlan transform;
+  FftPlan transform;
 
   template <class Count, class Level>
   BScanOutcome run(Workspace::Buffers& buffers, std::span<const std::byte> frame,

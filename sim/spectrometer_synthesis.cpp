@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <mutex>
 #include <numbers>
 
-#include <fftw3.h>
-
+#include "pipeline/fft_plan.h"
 #include "sim/spectrometer_simd.h"
 
 namespace octascope::sim {
@@ -119,9 +119,6 @@ SpectrumSynthesis::Workspace::~Workspace() = default;
 
 struct SpectrumSynthesis::Tables {
   explicit Tables(const Spectrometer& s);
-  ~Tables() { fftwf_destroy_plan(plan); }
-  Tables(const Tables&) = delete;
-  Tables& operator=(const Tables&) = delete;
 
   // R(d) over the kernel's weight there.
   double depth_factor(double depth_bin) const {
@@ -137,7 +134,7 @@ struct SpectrumSynthesis::Tables {
   std::vector<PixelTaps> pixels;
   std::vector<std::int32_t> first_tap; // in the grid with its margin
   GaussianTable noise;
-  fftwf_plan plan;
+  pipeline::FftPlan plan;
 };
 
 SpectrumSynthesis::Tables::Tables(const Spectrometer& s)
@@ -163,7 +160,9 @@ SpectrumSynthesis::Tables::Tables(const Spectrometer& s)
   const auto n = static_cast<std::size_t>(samples);
   const FftBuffer bins = zeroed_buffer(n);
   const FftBuffer grid = zeroed_buffer(n + margin);
-  plan = fftwf_plan_dft_1d(samples, bins.get(), grid.get() + margin, FFTW_BACKWARD, FFTW_MEASURE);
+  const std::scoped_lock lock{pipeline::fft_planner_mutex()};
+  plan.reset(
+      fftwf_plan_dft_1d(samples, bins.get(), grid.get() + margin, FFTW_BACKWARD, FFTW_MEASURE));
 }
 
 SpectrumSynthesis::SpectrumSynthesis(const Spectrometer& spectrometer)
@@ -191,7 +190,7 @@ void SpectrumSynthesis::mean_counts(std::span<const std::complex<float>> scatter
     bin[0] = scatterers[depth].real() * t.depth_factors[depth];
     bin[1] = scatterers[depth].imag() * t.depth_factors[depth];
   }
-  fftwf_execute_dft(t.plan, bins, grid + margin);
+  fftwf_execute_dft(t.plan.get(), bins, grid + margin);
   std::memcpy(grid, grid + n, margin * sizeof(fftwf_complex));
   std::memcpy(grid + margin + n, grid + margin, margin * sizeof(fftwf_complex));
 

@@ -244,17 +244,16 @@ bool Renderer::needs_redraw(const ViewState& view, const Status& status, int wid
   return parts_->drawn != parts_->picture_of(view, status, width, height);
 }
 
-Image Renderer::read_back(int width, int height) const {
-  Image image{width, height, {}};
+pipeline::Image Renderer::read_back(int width, int height) const {
+  pipeline::Image image{width, height, 3};
   const auto w = static_cast<std::size_t>(width);
   const auto h = static_cast<std::size_t>(height);
   std::vector<std::uint8_t> rgba(4 * w * h);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  image.rgb.resize(3 * w * h);
   for (std::size_t y = 0; y < h; ++y) // GL's rows run from the bottom
     for (std::size_t x = 0; x < w; ++x)
-      std::copy_n(rgba.data() + 4 * ((h - 1 - y) * w + x), 3, image.rgb.data() + 3 * (y * w + x));
+      std::copy_n(rgba.data() + 4 * ((h - 1 - y) * w + x), 3, image.pixels.data() + 3 * (y * w + x));
   return image;
 }
 

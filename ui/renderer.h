@@ -6,8 +6,8 @@
 
 #include "hal/result.h"
 #include "hal/scope_camera.h"
+#include "pipeline/png_image.h"
 #include "pipeline/volume.h"
-#include "ui/image.h"
 #include "ui/scan_field.h"
 #include "ui/status.h"
 #include "ui/view_state.h"
@@ -44,7 +44,7 @@ public:
   bool needs_redraw(const ViewState& view, const Status& status, int width, int height) const;
 
   // What stands in the bound framebuffer; waits for the drawing. Allocates: for snapshots.
-  Image read_back(int width, int height) const;
+  pipeline::Image read_back(int width, int height) const;
 
 private:
   struct Parts;

@@ -6,7 +6,7 @@
 
 #include "sim/spectrometer.h"
 #include "sim/spectrometer_synthesis.h"
-#include "tests/sim/reference_chain.h"
+#include "tests/sim/exact_inverse.h"
 
 namespace octascope::sim {
 namespace {

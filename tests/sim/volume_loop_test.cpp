@@ -8,7 +8,7 @@
 
 #include "sim/phantom_anterior_eye.h"
 #include "sim/volume_loop.h"
-#include "tests/sim/reference_chain.h"
+#include "tests/sim/exact_inverse.h"
 
 namespace octascope::sim {
 namespace {

@@ -20,20 +20,20 @@ constexpr double most_mean = 1.5;
 constexpr double most_outliers = 0.005;
 constexpr int outlier = 40;
 
-double share_of_outliers(const ui::Image& a, const ui::Image& b) {
+double share_of_outliers(const pipeline::Image& a, const pipeline::Image& b) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < a.rgb.size(); ++i)
-    count += std::abs(int{a.rgb[i]} - int{b.rgb[i]}) > outlier ? 1U : 0U;
-  return static_cast<double>(count) / static_cast<double>(a.rgb.size());
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    count += std::abs(int{a.pixels[i]} - int{b.pixels[i]}) > outlier ? 1U : 0U;
+  return static_cast<double>(count) / static_cast<double>(a.pixels.size());
 }
 
-void expect_golden(const ui::Image& image, const std::string& name) {
+void expect_golden(const pipeline::Image& image, const std::string& name) {
   const auto file = std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/golden" / (name + ".png");
   if (std::getenv("OCTASCOPE_RENEW_GOLDEN") != nullptr) {
-    ASSERT_TRUE(write_png(image, file)) << file;
+    ASSERT_TRUE(pipeline::write_png(file, image)) << file;
     return;
   }
-  const auto golden = read_png(file);
+  const auto golden = pipeline::read_png(file);
   ASSERT_TRUE(golden) << "no " << file << "; run with OCTASCOPE_RENEW_GOLDEN=1 and look at it";
   ASSERT_EQ(golden->width, image.width);
   ASSERT_EQ(golden->height, image.height);
@@ -41,14 +41,14 @@ void expect_golden(const ui::Image& image, const std::string& name) {
   const double outliers = share_of_outliers(image, *golden);
   const auto found = picture_folder() / (name + "_found.png");
   if (difference.mean > most_mean || outliers > most_outliers)
-    write_png(image, found);
+    static_cast<void>(pipeline::write_png(found, image));
   EXPECT_LE(difference.mean, most_mean) << "largest " << difference.largest << "; see " << found;
   EXPECT_LE(outliers, most_outliers) << "see " << found;
 }
 
 class GoldenPicture : public GlTest {
 protected:
-  ui::Image draw(const pipeline::Volume* volume, const ui::ViewState& view,
+  pipeline::Image draw(const pipeline::Volume* volume, const ui::ViewState& view,
                  const ui::Status& status, int width, int height) {
     open(width, height);
     auto renderer = ui::Renderer::create();

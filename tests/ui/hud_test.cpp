@@ -150,18 +150,18 @@ protected:
   }
   void TearDown() override { renderer_.reset(); }
 
-  Image draw(const ViewState& view, const Status& status) {
+  pipeline::Image draw(const ViewState& view, const Status& status) {
     const auto drawn = renderer_->draw(view, status, width, height);
     EXPECT_TRUE(drawn) << drawn.error().message;
     return renderer_->read_back(width, height);
   }
 
   // Pixels of a rectangle that differ.
-  static int changed(const Image& a, const Image& b, const Rect& rect) {
+  static int changed(const pipeline::Image& a, const pipeline::Image& b, const Rect& rect) {
     int count = 0;
     for (int y = rect.y; y < rect.bottom(); ++y)
       for (int x = rect.x; x < rect.right(); ++x)
-        count += a.at(x, y) != b.at(x, y) ? 1 : 0;
+        count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
     return count;
   }
 
@@ -172,14 +172,14 @@ TEST_F(HudPicture, badges_change_the_corner_and_never_the_centre) {
   ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
   Status status = live_status();
   status.simulated = false;
-  const Image live = draw({}, status);
+  const pipeline::Image live = draw({}, status);
   const Layout layout = lay_out(width, height, {});
   const Rect corner{0, 0, layout.view.width, layout.view.height / 4};
   const Rect centre{layout.view.width / 4, layout.view.height / 4, layout.view.width / 2,
                     layout.view.height / 2};
   for (const Liveness liveness : {Liveness::stale, Liveness::frozen}) {
     status.freshness = {liveness, std::chrono::seconds{2}, std::chrono::seconds{2}};
-    const Image marked = draw({}, status);
+    const pipeline::Image marked = draw({}, status);
     EXPECT_GT(changed(live, marked, corner), 500);
     EXPECT_EQ(changed(live, marked, centre), 0);
   }
@@ -191,12 +191,12 @@ TEST_F(HudPicture, badges_change_the_corner_and_never_the_centre) {
 TEST_F(HudPicture, a_veiled_picture_is_dark_all_over) {
   ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
   Status status = live_status();
-  const auto brightness = [&](const Image& image) {
+  const auto brightness = [&](const pipeline::Image& image) {
     const Layout layout = lay_out(width, height, {});
     double sum = 0;
     for (int y = 60; y < layout.view.height - 20; ++y)
       for (int x = 20; x < layout.view.width - 20; ++x)
-        sum += image.at(x, y)[1];
+        sum += image.pixel(x, y)[1];
     return sum;
   };
   const double live = brightness(draw({}, status));
@@ -227,7 +227,7 @@ TEST_F(HudPicture, is_drawn_again_only_when_it_would_look_different) {
 TEST_F(HudPicture, what_needs_no_redraw_is_the_same_to_the_pixel) {
   ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
   Status status = live_status();
-  const Image first = draw({}, status);
+  const pipeline::Image first = draw({}, status);
   status.now += std::chrono::milliseconds{16};
   ASSERT_FALSE(renderer_->needs_redraw({}, status, width, height));
   EXPECT_EQ(compare(first, draw({}, status)).largest, 0);

@@ -11,6 +11,7 @@ uniform sampler3D u_levels;
 uniform vec2 u_window; // scale and offset of the ramp
 uniform float u_opacity;
 uniform float u_steps; // spacing of the planes in reference steps
+uniform float u_first_depth; // above it lies what the background left behind, not tissue
 
 out vec4 o_colour; // premultiplied
 
@@ -23,6 +24,7 @@ void main() {
   // the contour lines that evenly cut steep surfaces show dissolve into fine grain.
   vec3 position = v_texture + v_step * dither(gl_FragCoord.xy);
   float grey = clamp(texture(u_levels, position).r * u_window.x + u_window.y, 0.0, 1.0);
+  grey *= step(u_first_depth, position.x);
   // log2(0) is undefined: a fully opaque voxel keeps a transparency that no display can show.
   float transparency = max(1.0 - grey * u_opacity, 1e-5);
   float alpha = 1.0 - exp2(u_steps * length(v_ray) * log2(transparency));

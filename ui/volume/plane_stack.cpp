@@ -11,6 +11,15 @@ namespace octascope::ui {
 namespace {
 constexpr std::size_t most_planes = 1024;      // ViewState::clamped()
 constexpr std::size_t vertices_per_plane = 12; // a hexagon is a fan of four triangles
+
+// Around zero delay the volume holds what is left of the background, blurred over two bins by the
+// spectral window: a bright lid over the tissue. The volume's picture leaves it out; B-scan and
+// exports show it. As a share of the depth, up to the middle of the first bin that is shown.
+float first_depth_share(int depths) {
+  constexpr float blank_bins = 2;
+  return (blank_bins + 0.5F) / static_cast<float>(depths);
+}
+
 } // namespace
 
 hal::Result<PlaneStack> PlaneStack::create() {
@@ -32,6 +41,7 @@ PlaneStack::PlaneStack(gl::Program program)
                                                              program_.uniform("u_window"),
                                                              program_.uniform("u_opacity"),
                                                              program_.uniform("u_steps"),
+                                                             program_.uniform("u_first_depth"),
                                                              program_.uniform("u_spacing")} {
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_.name());
@@ -75,6 +85,7 @@ void PlaneStack::draw(const VolumeTexture& volume, const Camera& camera, const V
   glUniform2f(uniforms_.window, window.scale, window.offset);
   glUniform1f(uniforms_.opacity, view.opacity);
   glUniform1f(uniforms_.steps, spacing.spacing_mm / reference_step_mm(half));
+  glUniform1f(uniforms_.first_depth, first_depth_share(volume.geometry().depths));
   glUniform1f(uniforms_.spacing, spacing.spacing_mm);
 
   glActiveTexture(GL_TEXTURE0);
