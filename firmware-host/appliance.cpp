@@ -9,6 +9,7 @@
 
 #include "firmware-host/configuration.h"
 #include "firmware-host/device_choice.h"
+#include "firmware-host/picture_keeper.h"
 #include "firmware-host/render_loop.h"
 #include "firmware-host/report.h"
 #include "firmware-host/status_line.h"
@@ -29,7 +30,9 @@ using namespace std::chrono_literals;
 namespace {
 
 // The line camera's buffers: what a worker may fall behind, and a sixth of a volume more.
-int camera_buffers(const pipeline::ScanPlan& plan) { return std::max(96, plan.b_scans * 7 / 6); }
+int camera_buffers(const pipeline::ScanPlan& plan) {
+  return std::max(96, plan.b_scans * 7 / 6);
+}
 
 class AssembledAppliance final : public Appliance {
 public:
@@ -41,12 +44,10 @@ public:
     if (!twins)
       return tl::make_unexpected(twins.error());
     twins_ = std::move(*twins);
-    return make_reconstruction()
-        .and_then([this] { return make_display(); })
-        .map([this] {
-          make_threads();
-          make_render_loop();
-        });
+    return make_reconstruction().and_then([this] { return make_display(); }).map([this] {
+      make_threads();
+      make_render_loop();
+    });
   }
 
   hal::Result<> run(StopSignal& stop_signal) override {
@@ -83,11 +84,12 @@ private:
   Configuration configuration_;
   hal::linux_backend::MonotonicClock clock_;
   pipeline::FaultLog faults_;
+  PictureKeeper pictures_{".", clock_, faults_};
   Twins twins_;
   std::unique_ptr<pipeline::Reconstructor> reconstructor_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
   std::optional<pipeline::NeighbourAverage> average_;
-  std::unique_ptr<sim::OffscreenDisplay> offscreen_;           // one of the two
+  std::unique_ptr<sim::OffscreenDisplay> offscreen_; // one of the two
   std::unique_ptr<hal::Display> window_;
   pipeline::Wakeup arrived_; // B-scans, for the fixed-rate thread
   pipeline::Wakeup news_;    // anything new to show, for the render thread
@@ -158,12 +160,12 @@ void AssembledAppliance::make_threads() {
       .average = *average_,
       .most_volumes = options_.volumes,
   };
-  volumes_ = std::make_unique<pipeline::VolumeThread>(
-      std::move(setup), *twins_.galvo_trigger, *acquisition_, *twins_.line_camera, clock_, faults_,
-      arrived_, news_);
+  volumes_ = std::make_unique<pipeline::VolumeThread>(std::move(setup), *twins_.galvo_trigger,
+                                                      *acquisition_, *twins_.line_camera, clock_,
+                                                      faults_, arrived_, news_);
   if (twins_.scope_camera)
-    scope_ = std::make_unique<pipeline::ScopeThread>(
-        *twins_.scope_camera, hal::ScopeCameraConfig{}, clock_, faults_, news_);
+    scope_ = std::make_unique<pipeline::ScopeThread>(*twins_.scope_camera, hal::ScopeCameraConfig{},
+                                                     clock_, faults_, news_);
   controls_ =
       std::make_unique<pipeline::ControlThread>(*twins_.control_input, clock_, faults_, news_);
 }
@@ -186,18 +188,18 @@ void AssembledAppliance::make_render_loop() {
   setup.status.simulated = simulated();
   setup.status.source_description = twins_.source;
   loop_ = std::make_unique<RenderLoop>(
-      RenderLoopParts{.display = display(),
-                      .clock = clock_,
-                      .volumes = *volumes_,
-                      .acquisition = *acquisition_,
-                      .scope = scope_.get(),
-                      .controls = *controls_,
-                      .faults = faults_,
-                      .news = news_,
-                      .simulated_control =
-                          [this](const hal::ControlEvent& event) {
-                            twins_.control_input->inject(event);
-                          }},
+      RenderLoopParts{
+          .display = display(),
+          .clock = clock_,
+          .volumes = *volumes_,
+          .acquisition = *acquisition_,
+          .scope = scope_.get(),
+          .controls = *controls_,
+          .faults = faults_,
+          .news = news_,
+          .keep_picture = [this](pipeline::Image picture) { pictures_.keep(std::move(picture)); },
+          .simulated_control =
+              [this](const hal::ControlEvent& event) { twins_.control_input->inject(event); }},
       std::move(setup));
 }
 
@@ -293,7 +295,8 @@ RunReport AssembledAppliance::report() const {
   return r;
 }
 
-hal::Result<> AssembledAppliance::leave_behind(const std::optional<pipeline::Image>& picture) const {
+hal::Result<>
+AssembledAppliance::leave_behind(const std::optional<pipeline::Image>& picture) const {
   const RunReport finished = report();
   fmt::print("{}", to_text(finished));
   if (options_.report) {

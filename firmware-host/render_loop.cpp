@@ -26,7 +26,9 @@ RenderLoop::~RenderLoop() {
   parts_.display.close();
 }
 
-hal::Result<> RenderLoop::open() { return open_display(); }
+hal::Result<> RenderLoop::open() {
+  return open_display();
+}
 
 hal::Result<> RenderLoop::open_display() {
   if (auto opened = parts_.display.open(setup_.display); !opened)
@@ -58,14 +60,17 @@ bool RenderLoop::turn() {
 // What hands and feet chose, as finely as this machine can draw it.
 ui::ViewState RenderLoop::view() const {
   ui::ViewState view = controller_.state();
-  view.volume_resolution = ui::affordable_resolution(software_, parts_.display.width(),
-                                                     parts_.display.height());
+  view.volume_resolution =
+      ui::affordable_resolution(software_, parts_.display.width(), parts_.display.height());
   return view;
 }
 
 bool RenderLoop::handle_input() {
   bool quit = false;
-  const auto note = [&quit](const ui::ControlRequests& requests) { quit = quit || requests.quit; };
+  const auto note = [&](const ui::ControlRequests& requests) {
+    quit = quit || requests.quit;
+    picture_wanted_ = picture_wanted_ || requests.snapshot;
+  };
   std::array<hal::DisplayEvent, 32> events;
   if (renderer_) {
     for (const hal::DisplayEvent& event :
@@ -132,21 +137,25 @@ void RenderLoop::update_status() {
     s.latency_p95_ms = latency.p95_ms;
   }
   const ui::ViewState& view = controller_.state();
-  s.freshness = ui::judge_freshness(
-      shown_, s.now, setup_.freshness,
-      view.frozen ? std::optional{view.frozen_since} : std::nullopt);
+  s.freshness = ui::judge_freshness(shown_, s.now, setup_.freshness,
+                                    view.frozen ? std::optional{view.frozen_since} : std::nullopt);
 }
 
 void RenderLoop::draw_if_changed() {
   const ui::ViewState view = this->view();
   hal::Display& display = parts_.display;
-  if (!renderer_->needs_redraw(view, setup_.status, display.width(), display.height()))
+  if (!picture_wanted_ &&
+      !renderer_->needs_redraw(view, setup_.status, display.width(), display.height()))
     return;
   const hal::TimePoint begin = parts_.clock.now();
   if (const auto drawn = renderer_->draw(view, setup_.status, display.width(), display.height());
       !drawn) {
     lose_display(drawn.error());
     return;
+  }
+  if (picture_wanted_) { // before the flip: afterwards the frame buffer is another one
+    parts_.keep_picture(renderer_->read_back(display.width(), display.height()));
+    picture_wanted_ = false;
   }
   const auto flip = display.present();
   if (!flip)

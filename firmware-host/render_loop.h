@@ -37,6 +37,8 @@ struct RenderLoopParts {
   pipeline::ControlThread& controls;
   pipeline::FaultLog& faults;
   pipeline::Wakeup& news; // posted by the three threads above
+  // A picture that the surgeon asked for; called on the render thread, so it must not take long.
+  std::function<void(pipeline::Image)> keep_picture;
   // Keys that stand for the simulated pedal; empty where the pedal is real.
   std::function<void(const hal::ControlEvent&)> simulated_control;
 };
@@ -106,11 +108,12 @@ private:
   RenderLoopParts parts_;
   RenderLoopSetup setup_;
   ui::ViewController controller_;
-  std::unique_ptr<ui::Renderer> renderer_; // null while the display is gone
-  bool software_ = false;                  // the processor draws
+  std::unique_ptr<ui::Renderer> renderer_;   // null while the display is gone
+  bool software_ = false;                    // the processor draws
   const pipeline::Volume* volume_ = nullptr; // the newest taken, ours until the next take
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
   std::optional<ui::ShownVolume> shown_;
+  bool picture_wanted_ = false; // by a key or a pedal: the next frame is kept
   pipeline::RetryDelay retry_;
   RateMeter volume_rate_, line_rate_, frame_rate_;
   FrameStatistics statistics_;

@@ -1,0 +1,31 @@
+// Writes pictures that the surgeon asked for, beside the running display.
+#pragma once
+
+#include <filesystem>
+#include <future>
+
+#include "hal/clock.h"
+#include "pipeline/fault_log.h"
+#include "pipeline/png_image.h"
+
+namespace octascope::firmware_host {
+
+// One thread asks; a thread of its own compresses and writes, one picture at a time.
+class PictureKeeper {
+public:
+  // Pictures go into `folder`, named by date and time.
+  PictureKeeper(std::filesystem::path folder, hal::Clock& clock, pipeline::FaultLog& faults)
+      : folder_(std::move(folder)), clock_(clock), faults_(faults) {}
+
+  // Returns at once. A picture that is asked for while the last is still being written is not kept,
+  // and that is recorded.
+  void keep(pipeline::Image picture);
+
+private:
+  std::filesystem::path folder_;
+  hal::Clock& clock_;
+  pipeline::FaultLog& faults_;
+  std::future<void> writing_; // its destructor waits
+};
+
+} // namespace octascope::firmware_host
