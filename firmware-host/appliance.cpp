@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -9,6 +10,7 @@
 
 #include "firmware-host/configuration.h"
 #include "firmware-host/device_choice.h"
+#include "firmware-host/notice.h"
 #include "firmware-host/picture_keeper.h"
 #include "firmware-host/render_loop.h"
 #include "firmware-host/report.h"
@@ -19,6 +21,7 @@
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/realtime.h"
 #include "hal/linux/window_display.h"
+#include "pipeline/atomic_file.h"
 #include "pipeline/hot_path.h"
 #include "pipeline/png_image.h"
 #include "pipeline/reconstructor.h"
@@ -40,11 +43,17 @@ public:
       : options_(std::move(options)), configuration_(std::move(configuration)) {}
 
   hal::Result<> assemble() {
+    if (auto checked = check_outputs().and_then([this] { return choose_display(); }); !checked)
+      return checked;
     auto twins = make_twins(options_, configuration_, clock_);
     if (!twins)
       return tl::make_unexpected(twins.error());
     twins_ = std::move(*twins);
-    return make_reconstruction().and_then([this] { return make_display(); }).map([this] {
+    if (window_ && twins_.concern_display())
+      return hal::fail(hal::Fault::invalid_argument,
+                       "--faults: a window cannot be made to fail; display faults need --display "
+                       "offscreen");
+    return make_reconstruction().map([this] {
       make_threads();
       make_render_loop();
     });
@@ -67,15 +76,16 @@ public:
   }
 
 private:
+  hal::Result<> check_outputs() const;
+  hal::Result<> choose_display();
   hal::Result<> make_reconstruction();
-  hal::Result<> make_display();
   void make_threads();
   void make_render_loop();
   hal::Result<> start_threads();
   void stop_threads();
   void show_until_done(StopSignal& stop_signal);
   bool done() const;
-  void update_devices(ui::Status& status) const;
+  void update_status();
   bool simulated() const;
   RunReport report() const;
   hal::Result<> leave_behind(const std::optional<pipeline::Image>& picture) const;
@@ -104,6 +114,36 @@ private:
   hal::Display& display() const { return offscreen_ ? *offscreen_ : *window_; }
 };
 
+// What cannot be written is found out now, not after the run; nothing stays behind.
+hal::Result<> AssembledAppliance::check_outputs() const {
+  for (const auto& file : {options_.snapshot, options_.report}) {
+    if (!file)
+      continue;
+    if (const auto tried = pipeline::AtomicFile::create(*file); !tried)
+      return tl::make_unexpected(tried.error());
+  }
+  if (options_.snapshot && options_.report &&
+      options_.snapshot->lexically_normal() == options_.report->lexically_normal())
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("--snapshot and --report are both {}, expected two files",
+                                 options_.report->string()));
+  return {};
+}
+
+// Before anything that takes time.
+hal::Result<> AssembledAppliance::choose_display() {
+  const DeviceChoice choice = choose_devices(survey_hardware(), options_).display;
+  if (choice.backend == "offscreen")
+    offscreen_ = std::make_unique<sim::OffscreenDisplay>(clock_);
+  else if (choice.backend == "window")
+    window_ = std::make_unique<hal::linux_backend::WindowDisplay>(clock_);
+  else
+    return hal::fail(hal::Fault::unsupported,
+                     "--display kms: this version cannot drive a console display yet; use "
+                     "--display window or --display offscreen");
+  return {};
+}
+
 hal::Result<> AssembledAppliance::make_reconstruction() {
   auto made = pipeline::Reconstructor::create({.calibration = twins_.calibration,
                                                .format = pipeline::SpectrumFormat{twins_.format},
@@ -120,23 +160,6 @@ hal::Result<> AssembledAppliance::make_reconstruction() {
                                   : std::max(1U, std::thread::hardware_concurrency());
   for (std::size_t worker = 0; worker < workers; ++worker)
     workspaces_.push_back(reconstructor_->make_workspace());
-  return {};
-}
-
-hal::Result<> AssembledAppliance::make_display() {
-  const DeviceChoice choice = choose_devices(survey_hardware(), options_).display;
-  if (choice.backend == "offscreen")
-    offscreen_ = std::make_unique<sim::OffscreenDisplay>(clock_);
-  else if (choice.backend == "window")
-    window_ = std::make_unique<hal::linux_backend::WindowDisplay>(clock_);
-  else
-    return hal::fail(hal::Fault::unsupported,
-                     "--display kms: this version cannot drive a console display yet; use "
-                     "--display window or --display offscreen");
-  if (window_ && twins_.concern_display())
-    return hal::fail(hal::Fault::invalid_argument,
-                     "--faults: a window cannot be made to fail; display faults need --display "
-                     "offscreen");
   return {};
 }
 
@@ -228,7 +251,7 @@ void AssembledAppliance::show_until_done(StopSignal& stop_signal) {
   StatusLine line{started_};
   do {
     twins_.apply_faults(clock_.now(), offscreen_.get());
-    update_devices(loop_->editable_status());
+    update_status();
     line.update(loop_->status());
   } while (loop_->turn() && !done() && !stop_signal.requested());
   line.finish();
@@ -246,7 +269,8 @@ bool AssembledAppliance::simulated() const {
          (twins_.scope_camera && twins_.scope_camera->simulated());
 }
 
-void AssembledAppliance::update_devices(ui::Status& status) const {
+void AssembledAppliance::update_status() {
+  ui::Status& status = loop_->editable_status();
   status.devices = {{{"camera", twins_.line_camera->backend(), twins_.line_camera->state()},
                      {"trigger", twins_.galvo_trigger->backend(), twins_.galvo_trigger->state()},
                      {"pedal", twins_.control_input->backend(), twins_.control_input->state()},
@@ -255,6 +279,9 @@ void AssembledAppliance::update_devices(ui::Status& status) const {
   if (twins_.scope_camera)
     status.devices[status.device_count++] = {"scope", twins_.scope_camera->backend(),
                                              twins_.scope_camera->state()};
+  const hal::TimePoint now = clock_.now();
+  const auto devices = std::span<const ui::DeviceStatus>{status.devices}.first(status.device_count);
+  loop_->set_notice(compose_notice(faults_.records(), devices, now));
 }
 
 RunReport AssembledAppliance::report() const {

@@ -17,6 +17,10 @@ int main(int argc, char** argv) {
   program.footer("Example: octascope run --sim --duration 20\n"
                  "Each command explains itself: octascope run --help");
 
+  program.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string{"octascope: "} + error.what() + "; octascope --help says how\n";
+  });
+
   int exit_status = host::exit_done;
   host::add_run_command(program, exit_status);
   host::add_devices_command(program, exit_status);

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
+#include <string_view>
 
 #include "firmware-host/rate_meter.h"
 #include "hal/clock.h"
@@ -91,7 +91,7 @@ public:
   ui::Status& editable_status() { return setup_.status; }
 
   // A notice for the surgeon; empty for none.
-  void set_notice(std::string notice) { setup_.status.notice = std::move(notice); }
+  void set_notice(std::string_view notice) { setup_.status.notice = notice; }
 
 private:
   ui::ViewState view() const;

@@ -85,18 +85,20 @@ hal::Result<> play_phantom(const RunOptions& options, const Configuration& confi
   loop->seed = phantom_seed;
   if (configuration.plan)
     loop->plan = *configuration.plan;
+  const auto calibration = calibration_file(options, configuration);
+  if (calibration) { // before the loop, which takes its time
+    auto loaded = pipeline::Calibration::load(*calibration, loop->plan.samples);
+    if (!loaded)
+      return pass_on(loaded.error());
+    twins.calibration = std::move(*loaded);
+  }
   auto made = sim::VolumeLoop::make(*loop);
   if (!made)
     return pass_on(made.error());
 
   const sim::Spectrometer& spectrometer = (*made)->spectrometer();
   twins.plan = (*made)->plan();
-  if (const auto path = calibration_file(options, configuration)) {
-    auto loaded = pipeline::Calibration::load(*path, twins.plan.samples);
-    if (!loaded)
-      return pass_on(loaded.error());
-    twins.calibration = std::move(*loaded);
-  } else { // the one that fits the simulated spectrometer exactly
+  if (!calibration) { // the one that fits the simulated spectrometer exactly
     twins.calibration = pipeline::Calibration::identity(twins.plan.samples);
     twins.calibration.positions = spectrometer.true_k_positions();
     twins.calibration.dispersion_rad = spectrometer.true_dispersion_rad();

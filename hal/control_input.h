@@ -41,12 +41,17 @@ public:
     return do_read(events, timeout);
   }
 
+  // How many bounces were removed since the device was made: many tell of worn contacts. 0 where
+  // the device removes them itself and does not say.
+  std::uint64_t bounces() const { return do_bounces(); }
+
   // Any state → absent.
   void close() { do_close(); }
 
 private:
   virtual Result<> do_open() = 0;
   virtual Result<std::size_t> do_read(std::span<ControlEvent> events, Duration timeout) = 0;
+  virtual std::uint64_t do_bounces() const { return 0; }
   virtual void do_close() = 0;
 };
 

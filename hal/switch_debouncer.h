@@ -7,6 +7,7 @@
 // Pure logic over explicit times, for twins and real pedals alike. Not thread-safe.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "hal/clock.h"
@@ -28,6 +29,8 @@ public:
   void contact(TimePoint t, bool closed) {
     if (closed == contact_)
       return;
+    if (contact_ != closed_)
+      ++bounces_;
     contact_ = closed;
     since_ = t;
   }
@@ -51,6 +54,9 @@ public:
   // As last told by settle().
   bool closed() const { return closed_; }
 
+  // How often a change did not last for the settling time, ever.
+  std::uint64_t bounces() const { return bounces_; }
+
   // To an open contact, with nothing to tell.
   void reset() { contact_ = closed_ = false; }
 
@@ -59,6 +65,7 @@ private:
   TimePoint since_{};
   bool contact_ = false;
   bool closed_ = false;
+  std::uint64_t bounces_ = 0;
 };
 
 } // namespace octascope::hal

@@ -91,6 +91,7 @@ bool Acquisition::open_and_start() {
     return false;
   }
   last_sequence_.reset();
+  repeated_ = 0;
   retry_.success();
   return true;
 }
@@ -108,15 +109,7 @@ void Acquisition::close_when_returned() {
 }
 
 void Acquisition::receive(const hal::LineFrame& frame) {
-  if (last_sequence_) {
-    if (frame.sequence > *last_sequence_ + 1)
-      gaps_.fetch_add(frame.sequence - *last_sequence_ - 1, std::memory_order_relaxed);
-    if (frame.sequence <= *last_sequence_)
-      faults_.add(device_name, "stuck_sequence",
-                  fmt::format("sequence number {} after {}", frame.sequence, *last_sequence_),
-                  clock_.now());
-  }
-  last_sequence_ = frame.sequence;
+  check_sequence(frame.sequence);
   const bool sized = frame.bytes.size() == config_.format.frame_bytes();
   if (frame.integrity != hal::FrameIntegrity::good || !sized) {
     unusable_.fetch_add(1, std::memory_order_relaxed);
@@ -133,9 +126,34 @@ void Acquisition::receive(const hal::LineFrame& frame) {
   good_.fetch_add(1, std::memory_order_relaxed);
   if (const auto dropped = queue_.push_dropping_oldest(static_cast<std::uint32_t>(frame.buffer))) {
     overflowed_.fetch_add(1, std::memory_order_relaxed);
+    faults_.add(device_name, "overflow",
+                "frames came faster than they were worked off; the oldest was dropped",
+                clock_.now());
     give_back(static_cast<int>(*dropped));
   }
   arrived_.post();
+}
+
+// A counter that hung jumps to where it should be: the frames that came meanwhile fill the gap.
+void Acquisition::check_sequence(std::uint64_t sequence) {
+  if (last_sequence_ && sequence <= *last_sequence_) {
+    faults_.add(device_name, "stuck_sequence",
+                fmt::format("frame number {} came after {}", sequence, *last_sequence_),
+                clock_.now());
+    repeated_ = sequence == *last_sequence_ ? repeated_ + 1 : 0; // smaller: it began anew
+    last_sequence_ = sequence;
+    return;
+  }
+  if (const std::uint64_t step = last_sequence_ ? sequence - *last_sequence_ - 1 : 0;
+      step > repeated_) {
+    gaps_.fetch_add(step - repeated_, std::memory_order_relaxed);
+    faults_.add(device_name, "dropped_frames",
+                fmt::format("the driver lost frames: number {} came after {}", sequence,
+                            *last_sequence_),
+                clock_.now(), step - repeated_);
+  }
+  last_sequence_ = sequence;
+  repeated_ = 0;
 }
 
 void Acquisition::give_back(int buffer) {

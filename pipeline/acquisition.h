@@ -55,6 +55,7 @@ private:
   bool open_and_start();
   void close_when_returned();
   void receive(const hal::LineFrame& frame);
+  void check_sequence(std::uint64_t sequence);
   void give_back(int buffer);
   void wait_before_retry();
 
@@ -67,7 +68,8 @@ private:
   std::vector<hal::LineFrame> frames_; // by buffer number; written before the number is queued
   IndexRing queue_;
   std::atomic<int> on_loan_{0}; // queued or with the pipeline
-  std::optional<std::uint64_t> last_sequence_;
+  std::optional<std::uint64_t> last_sequence_; // of this stream
+  std::uint64_t repeated_ = 0;                 // frames since then with the same number
   RetryDelay retry_;
 
   std::atomic<std::uint64_t> good_{0}, unusable_{0}, gaps_{0}, overflowed_{0};

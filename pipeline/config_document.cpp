@@ -1,5 +1,6 @@
 #include "pipeline/config_document.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -28,6 +29,7 @@ std::string describe(const toml::node& node) {
   std::ostringstream text;
   node.visit([&](const auto& n) { text << n; });
   std::string words = text.str();
+  std::ranges::replace(words, '\n', ' '); // a message is one line
   constexpr std::size_t longest = 60;
   if (words.size() > longest)
     words = words.substr(0, longest) + "…";

@@ -3,6 +3,8 @@
 #include <array>
 #include <span>
 
+#include <fmt/format.h>
+
 namespace octascope::pipeline {
 
 using namespace std::chrono_literals;
@@ -49,14 +51,35 @@ void ControlThread::run() {
       input_.close();
       continue;
     }
-    for (const hal::ControlEvent& event : std::span{events}.first(*count)) {
-      if (!queue_.push(event))
-        faults_.add(device_name, "overflow", "more events than the display could take", event.time);
-    }
+    for (const hal::ControlEvent& event : std::span{events}.first(*count))
+      receive(event);
+    look_for_bad_contacts();
     if (*count > 0)
       news_.post();
   }
   input_.close();
+}
+
+void ControlThread::receive(const hal::ControlEvent& event) {
+  held_.note(event);
+  if (!queue_.push(event))
+    faults_.add(device_name, "overflow", "more events than the display could take", event.time);
+}
+
+void ControlThread::look_for_bad_contacts() {
+  const hal::TimePoint now = clock_.now();
+  if (const auto index = held_.longest_untold(now))
+    faults_.add(device_name, "stuck_switch",
+                fmt::format("switch {} has been down for {} s: it is stuck, or somebody stands on "
+                            "it",
+                            *index, hal::to_seconds(HeldSwitches::limit)),
+                now);
+  const std::uint64_t bounces = input_.bounces();
+  if (bounces > bounces_)
+    faults_.add(device_name, "bounce",
+                "contacts bounce, which is filtered out; they are worn when it grows", now,
+                bounces - bounces_);
+  bounces_ = bounces;
 }
 
 bool ControlThread::open() {

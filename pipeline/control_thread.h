@@ -9,6 +9,7 @@
 #include "hal/control_input.h"
 #include "pipeline/event_queue.h"
 #include "pipeline/fault_log.h"
+#include "pipeline/held_switches.h"
 #include "pipeline/retry_delay.h"
 #include "pipeline/wakeup.h"
 #include "pipeline/worker_pool.h"
@@ -31,6 +32,8 @@ public:
 private:
   void run();
   bool open();
+  void receive(const hal::ControlEvent& event);
+  void look_for_bad_contacts();
 
   hal::ControlInput& input_;
   hal::Clock& clock_;
@@ -38,6 +41,8 @@ private:
   Wakeup& news_;
   EventQueue<hal::ControlEvent, 256> queue_;
   RetryDelay retry_;
+  HeldSwitches held_;
+  std::uint64_t bounces_ = 0; // told so far
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

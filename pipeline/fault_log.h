@@ -25,8 +25,9 @@ struct FaultRecord {
 // kind: it is called where something has gone wrong, never on the way of good data.
 class FaultLog {
 public:
+  // `count` faults of the kind at once.
   void add(std::string_view device, std::string_view kind, std::string_view message,
-           hal::TimePoint when);
+           hal::TimePoint when, std::uint64_t count = 1);
   std::vector<FaultRecord> records() const;
 
 private:

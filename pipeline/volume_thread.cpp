@@ -12,12 +12,21 @@ using namespace std::chrono_literals;
 
 namespace {
 
+constexpr const char* camera_name = "line_camera";
 constexpr const char* trigger_name = "galvo_trigger";
 
 // How long after its sweep's end a volume waits for late B-scans, as a divisor of the sweep.
 constexpr int grace_divisor = 6;
 
 constexpr std::uint32_t none = ~0U;
+
+std::string complaint_about(std::string_view refused, std::uint64_t sequence) {
+  if (refused == "late_frame")
+    return fmt::format("frame {} came when its volume was finished already", sequence);
+  if (refused == "doubled_frame")
+    return fmt::format("frame {} has the time of a B-scan that had come already", sequence);
+  return fmt::format("frame {} was exposed outside every sweep", sequence);
+}
 
 } // namespace
 
@@ -96,8 +105,13 @@ void VolumeThread::tick() {
   const hal::TimePoint now = clock_.now();
   const bool was_running = last_number_ > 0;
   // If the thread itself was held up, the ticks that it slept through are lost.
-  for (; next_tick_ <= now; next_tick_ += setup_.plan.tick_period())
+  for (; next_tick_ <= now; next_tick_ += setup_.plan.tick_period()) {
+    faults_.add("pipeline", "late_tick",
+                "the fixed-rate thread was held up for a whole volume: is something else running, "
+                "without real-time priority for us?",
+                now);
     count_lost_volume();
+  }
 
   if (enough_triggered())
     return;
@@ -185,12 +199,16 @@ void VolumeThread::place(const hal::LineFrame& frame) {
   while (slot && index < pool_size && !is_its(index))
     ++index;
   const auto b_scan = static_cast<std::size_t>(slot ? slot->b_scan : 0);
-  if (!slot || index == pool_size || constructions_[index].placed[b_scan]) {
-    // Too late, doubled, or nobody's. The B-scan that it should have been counts as lost when its
-    // volume is finished.
-    faults_.add("line_camera", "unplaced_frame",
-                fmt::format("frame {} came outside its volume's time", frame.sequence),
-                clock_.now());
+  const char* refused = nullptr;
+  if (!slot)
+    refused = "unplaced_frame";
+  else if (index == pool_size)
+    refused = "late_frame";
+  else if (constructions_[index].placed[b_scan])
+    refused = "doubled_frame";
+  if (refused != nullptr) {
+    // The B-scan that it should have been counts as lost when its volume is finished.
+    faults_.add(camera_name, refused, complaint_about(refused, frame.sequence), clock_.now());
     acquisition_.release(frame.buffer);
     return;
   }
@@ -251,6 +269,11 @@ void VolumeThread::finish(std::uint32_t index) {
   Volume& volume = volumes_[index];
   c.open = false;
   if (c.placed_count == 0) {
+    if (camera_.state() == hal::DeviceState::streaming)
+      faults_.add(trigger_name, "missed_pulse",
+                  "a pulse brought no usable B-scan: the scanner missed it, or the camera lost all "
+                  "of its frames",
+                  clock_.now());
     count_lost_volume();
     free_.push_back(index);
     return;
@@ -284,6 +307,10 @@ void VolumeThread::fill_ledger(Volume& volume, const Construction& c) {
   ledger.lost_b_scans = setup_.plan.b_scans - c.placed_count;
   ledger.lost_lines = ledger.lost_b_scans * setup_.plan.a_scans;
   ledger.saturated_lines = c.saturated_lines.load(std::memory_order_relaxed);
+  if (ledger.saturated_lines > 0)
+    faults_.add(camera_name, "saturation",
+                "lines reach the camera's full scale: less light, or a shorter exposure",
+                clock_.now(), static_cast<std::uint64_t>(ledger.saturated_lines));
   counts_.lost_b_scans.fetch_add(static_cast<std::uint64_t>(ledger.lost_b_scans),
                                  std::memory_order_relaxed);
   counts_.lost_lines.fetch_add(static_cast<std::uint64_t>(ledger.lost_lines),

@@ -30,6 +30,9 @@ public:
   // As the device last reported it.
   bool reported() const { return debouncer_.closed(); }
 
+  // That the debouncer took out, ever.
+  std::uint64_t bounces() const { return debouncer_.bounces(); }
+
   // Foot up, nothing pending, nothing to report.
   void reset();
 

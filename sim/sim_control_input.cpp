@@ -79,6 +79,13 @@ hal::Result<std::size_t> SimControlInput::do_read(std::span<ControlEvent> events
   }
 }
 
+std::uint64_t SimControlInput::do_bounces() const {
+  std::uint64_t sum = 0;
+  for (const BouncingContact& contact : contacts_)
+    sum += contact.bounces();
+  return sum;
+}
+
 void SimControlInput::do_close() {
   set_state(DeviceState::absent);
 }

@@ -37,6 +37,7 @@ private:
   hal::Result<> do_open() override;
   hal::Result<std::size_t> do_read(std::span<hal::ControlEvent> events,
                                    hal::Duration timeout) override;
+  std::uint64_t do_bounces() const override;
   void do_close() override;
 
   void play_to(hal::TimePoint now);

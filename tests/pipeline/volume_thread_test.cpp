@@ -150,7 +150,7 @@ TEST_F(VolumeThreadTest, a_late_frame_of_a_published_volume_is_refused) {
   camera.deliver(0, time_of(armed, 0), 10);
   wait_for_volume(1); // published without the rest, while the second sweep runs
   camera.deliver(1, time_of(armed, 1), 99);
-  while (!has_fault("unplaced_frame"))
+  while (!has_fault("late_frame"))
     clock.sleep_for(1ms);
   stop();
 }

@@ -1,0 +1,78 @@
+#include "firmware-host/notice.h"
+
+#include <algorithm>
+#include <array>
+
+namespace octascope::firmware_host {
+
+namespace {
+
+constexpr hal::Duration shown_for = std::chrono::seconds{2}; // after a fault last struck
+
+struct DeviceNotice {
+  std::string_view fault_device;  // as in the fault log
+  std::string_view status_device; // as on the status bar
+  std::string_view words;
+};
+
+// Gravest first. Not the display: nobody would see it.
+constexpr std::array device_notices{
+    DeviceNotice{"line_camera", "camera", "Line camera disconnected: reconnecting"},
+    DeviceNotice{"galvo_trigger", "trigger", "Scanner trigger disconnected: reconnecting"},
+    DeviceNotice{"control_input", "pedal", "Pedal disconnected: reconnecting"},
+    DeviceNotice{"scope_camera", "scope", "Microscope camera disconnected: reconnecting"},
+};
+
+struct FaultNotice {
+  std::string_view device;
+  std::string_view kind;
+  std::string_view words;
+};
+
+// Gravest first; what concerns neither the picture nor the hands is left to the report.
+constexpr std::array fault_notices{
+    FaultNotice{"pipeline", "overrun", "Reconstruction is too slow: volumes are lost"},
+    FaultNotice{"pipeline", "late_tick", "The computer is busy: volumes are lost"},
+    FaultNotice{"galvo_trigger", "missed_pulse", "The scanner misses pulses: volumes are lost"},
+    FaultNotice{"line_camera", "overflow", "Reconstruction is too slow: B-scans are missing"},
+    FaultNotice{"line_camera", "dropped_frames", "Line camera loses frames: B-scans are missing"},
+    FaultNotice{"line_camera", "corrupted_frame",
+                "Line camera sends broken frames: B-scans are missing"},
+    FaultNotice{"line_camera", "wrong_size",
+                "Line camera sends frames of a wrong size: B-scans are missing"},
+    FaultNotice{"line_camera", "late_frame", "Line camera is late: B-scans are missing"},
+    FaultNotice{"line_camera", "unplaced_frame", "Line camera is out of step: B-scans are missing"},
+    FaultNotice{"line_camera", "doubled_frame", "Line camera sends B-scans twice"},
+    FaultNotice{"line_camera", "saturation", "Too much light: lines are saturated"},
+    FaultNotice{"control_input", "stuck_switch", "A pedal switch stays down: is it stuck?"},
+};
+
+bool is_away(hal::DeviceState state) {
+  return state == hal::DeviceState::absent || state == hal::DeviceState::failed;
+}
+
+} // namespace
+
+std::string_view compose_notice(std::span<const pipeline::FaultRecord> faults,
+                                std::span<const ui::DeviceStatus> devices, hal::TimePoint now) {
+  // Without a fault, a device that is not open has not been opened yet.
+  for (const DeviceNotice& notice : device_notices) {
+    const bool faulty = std::ranges::any_of(
+        faults, [&](const auto& fault) { return fault.device == notice.fault_device; });
+    const bool away = std::ranges::any_of(devices, [&](const ui::DeviceStatus& device) {
+      return device.name == notice.status_device && is_away(device.state);
+    });
+    if (faulty && away)
+      return notice.words;
+  }
+  for (const FaultNotice& notice : fault_notices) {
+    if (std::ranges::any_of(faults, [&](const pipeline::FaultRecord& fault) {
+          return fault.device == notice.device && fault.kind == notice.kind &&
+                 now - fault.last <= shown_for;
+        }))
+      return notice.words;
+  }
+  return {};
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,192 @@
+// Whatever is wrong with what a user gives: one clear line, the right exit status, at once, and
+// nothing written.
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <ostream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/program/program_support.h"
+
+namespace octascope::tests {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::HasSubstr;
+
+struct BadInput {
+  std::string name;
+  std::vector<std::string> arguments; // "@x" is the file x of the folder
+  int exit_status;
+  std::vector<std::string> told; // what the message says: place, found, expected
+  friend void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
+};
+
+// Good and broken files to name on the command line; spectra are 4 × 8 × 32.
+void lay_out_files(const ScratchFolder& folder) {
+  const std::vector<std::uint16_t> counts(4 * 8 * 32, 1000);
+  folder.write_values<std::uint16_t>("spectra.raw", counts);
+  folder.write("empty", "");
+  std::filesystem::create_directory(folder / "folder");
+  std::string rising;
+  std::string with_nan;
+  std::string falling;
+  for (int i = 0; i < 32; ++i) {
+    rising += std::to_string(i) + "\n";
+    with_nan += (i == 7 ? "nan" : std::to_string(i)) + "\n";
+    falling += std::to_string(i == 20 ? 3 : i) + "\n";
+  }
+  folder.write("rising.txt", rising);
+  folder.write("with_nan.txt", with_nan);
+  folder.write("falling.txt", falling);
+  const auto calibration = [&](std::string_view name, std::string_view curve,
+                               std::string_view more) {
+    folder.write(name, "[spectrometer]\nsamples = 32\n[k_linear]\ntable = \"" + std::string{curve} +
+                           "\"\n" + std::string{more});
+  };
+  calibration("good.toml", "rising.txt", "");
+  calibration("nan.toml", "with_nan.txt", "");
+  calibration("falling.toml", "falling.txt", "");
+  calibration("no_curve.toml", "nowhere.txt", "");
+  calibration("unknown_key.toml", "rising.txt", "[depth]\nspacing_mm = 3.5\n");
+  folder.write("configuration.toml", "[display]\nwidht = 640\n");
+  folder.write("syntax.toml", "[display\n");
+  folder.write("range.toml", "[scan]\nline_rate_hz = -5\n");
+  folder.write("faults.toml", "[[fault]]\ndevice = \"line_camera\"\nkind = \"unplug\"\nat_s = 1\n"
+                              "duration_s = 1\nhow_bad = 3\n");
+  folder.write("controls.toml", "[[event]]\ntime_s = 1\nswitch = 7\nvalue = 1\n");
+}
+
+std::vector<std::string> play(std::vector<std::string> more) {
+  std::vector<std::string> words{"run", "--spectra", "@spectra.raw", "--shape", "4,8,32"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::vector<BadInput> bad_inputs() {
+  return {
+      {"missing_spectra", {"run", "--spectra", "@nowhere.raw", "--shape", "4,8,32"}, 1,
+       {"nowhere.raw", "No such file", "2048 bytes"}},
+      {"wrong_size_for_the_shape", {"run", "--spectra", "@spectra.raw", "--shape", "5,8,32"}, 1,
+       {"spectra.raw", "found 2048 bytes", "expected 2560"}},
+      {"spectra_are_a_directory", {"run", "--spectra", "@folder", "--shape", "4,8,32"}, 2,
+       {"folder", "is a directory", "expected"}},
+      {"spectra_are_empty", {"run", "--spectra", "@empty", "--shape", "4,8,32"}, 1,
+       {"empty", "found 0 bytes", "expected 2048"}},
+      {"zero_shape", {"run", "--spectra", "@spectra.raw", "--shape", "0,8,32"}, 2,
+       {"shape", "is 0", "expected 1 to"}},
+      {"negative_shape", {"run", "--spectra", "@spectra.raw", "--shape", "4,-8,32"}, 2,
+       {"shape", "-8", "expected 1 to"}},
+      {"garbage_shape", {"run", "--spectra", "@spectra.raw", "--shape", "many"}, 2,
+       {"shape", "\"many\"", "expected B,A,N"}},
+      {"huge_shape", {"run", "--spectra", "@spectra.raw", "--shape", "99999999999,8,32"}, 2,
+       {"shape", "99999999999", "expected"}},
+      {"shape_without_spectra", {"run", "--shape", "4,8,32"}, 2, {"--shape", "--spectra"}},
+      {"spectra_without_shape", {"run", "--spectra", "@spectra.raw"}, 2,
+       {"--spectra", "--shape B,A,N"}},
+      {"missing_calibration", play({"--calibration", "@nowhere.toml"}), 1,
+       {"nowhere.toml", "No such file"}},
+      {"missing_calibration_of_a_phantom", {"run", "--sim", "--calibration", "@nowhere.toml"}, 1,
+       {"nowhere.toml", "No such file"}},
+      {"calibration_is_a_directory", play({"--calibration", "@folder"}), 2,
+       {"folder", "is a directory", "expected a TOML file"}},
+      {"calibration_is_empty", play({"--calibration", "@empty"}), 2, {"empty", "expected"}},
+      {"missing_curve", play({"--calibration", "@no_curve.toml"}), 1,
+       {"nowhere.txt", "No such file"}},
+      {"curve_with_nan", play({"--calibration", "@nan.toml"}), 1,
+       {"with_nan.txt:8", "nan", "expected"}},
+      {"curve_not_monotone", play({"--calibration", "@falling.toml"}), 1,
+       {"falling.txt", "expected"}},
+      {"calibration_with_unknown_key", play({"--calibration", "@unknown_key.toml"}), 2,
+       {"unknown_key.toml:6", "unknown key \"spacing_mm\"", "spacing_um"}},
+      {"missing_configuration", {"run", "--config", "@nowhere.toml"}, 1,
+       {"nowhere.toml", "No such file"}},
+      {"configuration_with_unknown_key", {"run", "--config", "@configuration.toml"}, 2,
+       {"configuration.toml:2", "unknown key \"widht\"", "width"}},
+      {"configuration_that_is_no_toml", {"run", "--config", "@syntax.toml"}, 1,
+       {"syntax.toml:1", "not TOML"}},
+      {"configuration_out_of_range", {"run", "--config", "@range.toml"}, 2,
+       {"range.toml:2", "line_rate_hz is -5", "expected a number from 1"}},
+      {"missing_fault_script", {"run", "--sim", "--faults", "@nowhere.toml"}, 1,
+       {"nowhere.toml", "No such file"}},
+      {"fault_script_with_unknown_key", {"run", "--sim", "--faults", "@faults.toml"}, 2,
+       {"faults.toml:6", "unknown key \"how_bad\""}},
+      {"control_script_out_of_range", {"run", "--sim", "--controls", "@controls.toml"}, 2,
+       {"controls.toml:3", "switch is 7", "expected"}},
+      {"unknown_phantom", {"run", "--sim", "--phantom", "teapot"}, 2,
+       {"teapot", "anterior_eye"}},
+      {"unknown_option", {"run", "--sim", "--teapot"}, 2, {"--teapot"}},
+      {"unknown_command", {"boil"}, 2, {"octascope"}},
+      {"no_command", {}, 2, {"subcommand"}},
+      {"unknown_display", {"run", "--display", "paper"}, 2, {"--display", "paper", "offscreen"}},
+      {"garbage_size", {"run", "--size", "wide"}, 2, {"--size", "\"wide\"", "1280x720"}},
+      {"zero_size", {"run", "--size", "0x360"}, 2, {"--size", "\"0x360\"", "1 to 16384"}},
+      {"zero_duration", {"run", "--duration", "0"}, 2, {"--duration", "0"}},
+      {"zero_volumes", {"run", "--volumes", "0"}, 2, {"--volumes", "0"}},
+      {"duration_and_volumes", {"run", "--duration", "1", "--volumes", "1"}, 2,
+       {"--duration", "--volumes"}},
+      {"snapshot_into_no_folder", {"run", "--sim", "--snapshot", "@nowhere/s.png"}, 1,
+       {"nowhere/s.png", "No such file"}},
+      {"report_into_no_folder", {"run", "--sim", "--report", "@nowhere/r.json"}, 1,
+       {"nowhere/r.json", "No such file"}},
+      {"report_is_a_directory", {"run", "--sim", "--report", "@folder"}, 2,
+       {"folder", "is a directory", "expected the name of a file"}},
+      {"snapshot_and_report_in_one_file",
+       {"run", "--sim", "--snapshot", "@one", "--report", "@one"}, 2,
+       {"--snapshot", "--report", "two files"}},
+      {"reconstruct_a_missing_file",
+       {"reconstruct", "--spectra", "@nowhere.raw", "--shape", "4,8,32", "--out", "@v.nrrd"}, 1,
+       {"nowhere.raw", "No such file"}},
+      {"reconstruct_zero_shape",
+       {"reconstruct", "--spectra", "@spectra.raw", "--shape", "4,0,32", "--out", "@v.nrrd"}, 2,
+       {"shape", "is 0", "expected 1 to"}},
+      {"reconstruct_into_no_folder",
+       {"reconstruct", "--spectra", "@spectra.raw", "--shape", "4,8,32", "--out",
+        "@nowhere/v.nrrd"}, 1, {"nowhere/v.nrrd", "No such file"}},
+      {"reconstruct_with_a_broken_curve",
+       {"reconstruct", "--spectra", "@spectra.raw", "--shape", "4,8,32", "--calibration",
+        "@nan.toml", "--out", "@v.nrrd"}, 1, {"with_nan.txt:8", "nan"}},
+      {"reconstruct_no_such_b_scan",
+       {"reconstruct", "--spectra", "@spectra.raw", "--shape", "4,8,32", "--out", "@v.nrrd",
+        "--bscan", "4", "--png", "@b.png"}, 2, {"--bscan is 4", "expected 0 to 3"}},
+  };
+}
+
+class BadInputs : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInputs, are_refused_in_one_line_at_once_and_nothing_is_written) {
+  const ScratchFolder folder;
+  lay_out_files(folder);
+  const auto before = listing(folder.path());
+  std::vector<std::string> arguments = GetParam().arguments;
+  for (std::string& argument : arguments) {
+    if (argument.starts_with('@'))
+      argument = folder / argument.substr(1);
+  }
+  if (!arguments.empty() && arguments.front() == "run") {
+    const auto give = [&](const std::string& option, const std::string& value) {
+      if (std::ranges::find(arguments, option) == arguments.end())
+        arguments.insert(arguments.end(), {option, value});
+    };
+    give("--display", "offscreen");
+    give("--snapshot", folder / "snapshot.png");
+    give("--report", folder / "report.json");
+  }
+  const ProgramResult result = run_octascope(arguments, 60s);
+  EXPECT_EQ(result.exit_status, GetParam().exit_status) << result.describe();
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  EXPECT_TRUE(result.err.starts_with("octascope") && result.err.ends_with('\n')) << result.err;
+  for (const std::string& words : GetParam().told)
+    EXPECT_THAT(result.err, HasSubstr(words));
+  EXPECT_EQ(listing(folder.path()), before);
+  EXPECT_LT(result.took, sanitized ? 20s : 2s);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadInputs, testing::ValuesIn(bad_inputs()),
+                         [](const auto& test) { return test.param.name; });
+
+} // namespace
+} // namespace octascope::tests

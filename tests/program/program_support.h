@@ -1,0 +1,60 @@
+// What the tests of the whole program share: scenes that cost little, reports, pictures.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "pipeline/png_image.h"
+#include "tests/support/program_run.h"
+#include "tests/support/scratch_folder.h"
+#include "ui/hud/palette.h"
+#include "ui/layout.h"
+
+namespace octascope::tests {
+
+// A configuration that any machine keeps up with, sanitized and busy: 20 B-scans of 24 short lines
+// in 200 ms.
+inline constexpr int small_b_scans = 20;
+inline constexpr int small_a_scans = 24;
+std::filesystem::path write_small_configuration(const ScratchFolder& folder);
+
+// The pictures of small_run(): sanitized builds draw slowly.
+inline constexpr struct {
+  int width = sanitized ? 320 : 640;
+  int height = sanitized ? 180 : 360;
+} small_picture;
+
+// `run` on twins with that configuration, offscreen, and these options more.
+std::vector<std::string> small_run(const ScratchFolder& folder, std::vector<std::string> more);
+
+// The report that a run left; an empty object, and a failed test, where there is none.
+nlohmann::json read_report(const std::filesystem::path& file);
+
+// The entry of `faults` with this device and kind; null if there is none.
+nlohmann::json find_fault(const nlohmann::json& report, std::string_view device,
+                          std::string_view kind);
+
+// The snapshot that a run left; empty, and a failed test, where there is none.
+pipeline::Image read_snapshot(const std::filesystem::path& file);
+
+// Pixels of `where` (within the picture) whose channels are all within `tolerance` of `colour`.
+int count_colour(const pipeline::Image& picture, const ui::Rect& where, ui::Colour colour,
+                 int tolerance = 6);
+
+// Pixels of `where` of which a channel differs by more than `tolerance`; the pictures are of one
+// size.
+int count_different(const pipeline::Image& a, const pipeline::Image& b, const ui::Rect& where,
+                    int tolerance);
+
+ui::Layout layout_of(const pipeline::Image& picture);
+ui::Rect badge_row(const pipeline::Image& picture); // top of the view
+ui::Rect notice_row(const pipeline::Image& picture); // left end of the notice line
+
+// Names of all that lies in a folder, in order.
+std::vector<std::string> listing(const std::filesystem::path& folder);
+
+} // namespace octascope::tests
