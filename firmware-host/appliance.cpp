@@ -11,6 +11,7 @@
 #include "firmware-host/configuration.h"
 #include "firmware-host/device_choice.h"
 #include "firmware-host/notice.h"
+#include "firmware-host/rate_meter.h"
 #include "firmware-host/render_loop.h"
 #include "firmware-host/report.h"
 #include "firmware-host/status_line.h"
@@ -104,6 +105,7 @@ private:
   std::unique_ptr<pipeline::ScopeThread> scope_;
   std::unique_ptr<pipeline::ControlThread> controls_;
   std::unique_ptr<RenderLoop> loop_;
+  RateMeter line_rate_;
   hal::TimePoint started_;
   hal::TimePoint ended_;
 
@@ -272,8 +274,13 @@ void AssembledAppliance::update_status() {
   if (twins_.scope_camera)
     status.devices[status.device_count++] = {"scope", twins_.scope_camera->backend(),
                                              twins_.scope_camera->state()};
+  const hal::TimePoint now = clock_.now();
+  line_rate_.update(acquisition_->counters().frames *
+                        static_cast<std::uint64_t>(twins_.plan.lines_per_frame()),
+                    now);
+  status.lines_per_s = line_rate_.per_second();
   const auto devices = std::span<const ui::DeviceStatus>{status.devices}.first(status.device_count);
-  loop_->set_notice(compose_notice(faults_.records(), devices, clock_.now()));
+  loop_->set_notice(compose_notice(faults_.records(), devices, now));
 }
 
 RunReport AssembledAppliance::report() const {

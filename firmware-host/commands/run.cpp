@@ -106,7 +106,7 @@ void add_run_command(CLI::App& program, int& exit_status) {
                   "  octascope run --spectra s.raw --shape 100,100,1024 --calibration c.toml "
                   "--display offscreen --volumes 5 --snapshot t.png --report t.json\n"
                   "Keys in a window: arrows turn, page up and down change the distance, o and s "
-                  "change the window, h shows all, q ends.");
+                  "change the window, q ends.");
   command->add_option("--config", a.configuration, "Configuration (TOML)");
   command->add_option("--display", a.display, "Where the picture goes")
       ->check(CLI::IsMember({"auto", "kms", "window", "offscreen"}))
