@@ -202,8 +202,7 @@ bool RenderLoop::display_ready() {
 std::optional<pipeline::Image> RenderLoop::picture() {
   if (!renderer_)
     return std::nullopt;
-  take_volume();
-  update_status();
+  // As it was shown: of a display that draws slowly, a live picture is STALE when we are back here.
   const int width = parts_.display.width();
   const int height = parts_.display.height();
   if (!renderer_->draw(view(), setup_.status, width, height))

@@ -36,6 +36,22 @@ TEST(SwitchDebouncer, spikes_are_never_seen) {
   EXPECT_FALSE(contact.settle(t0 + 1h));
 }
 
+TEST(SwitchDebouncer, counts_what_it_takes_out) {
+  SwitchDebouncer contact{5ms};
+  contact.contact(t0, true);
+  ASSERT_TRUE(contact.settle(t0 + 5ms));
+  EXPECT_EQ(contact.bounces(), 0U) << "a clean press";
+  contact.contact(t0 + 10ms, false);
+  contact.contact(t0 + 11ms, true);
+  contact.contact(t0 + 12ms, false);
+  contact.contact(t0 + 13ms, true);
+  contact.contact(t0 + 14ms, false);
+  ASSERT_TRUE(contact.settle(t0 + 19ms));
+  EXPECT_EQ(contact.bounces(), 2U) << "two openings that did not last";
+  contact.reset();
+  EXPECT_EQ(contact.bounces(), 2U);
+}
+
 TEST(SwitchDebouncer, repeating_a_level_does_not_prolong_the_wait) {
   SwitchDebouncer contact{5ms};
   contact.contact(t0, true);

@@ -94,7 +94,7 @@ std::vector<BadInput> bad_inputs() {
        {"folder", "is a directory", "expected a TOML file"}},
       {"calibration_is_empty", play({"--calibration", "@empty"}), 2, {"empty", "expected"}},
       {"missing_curve", play({"--calibration", "@no_curve.toml"}), 1,
-       {"nowhere.txt", "No such file"}},
+       {"nowhere.txt", "no such file", "expected a text file of 32 numbers"}},
       {"curve_with_nan", play({"--calibration", "@nan.toml"}), 1,
        {"with_nan.txt:8", "nan", "expected"}},
       {"curve_not_monotone", play({"--calibration", "@falling.toml"}), 1,

@@ -1,0 +1,134 @@
+#include "firmware-host/configuration.h"
+
+#include <ostream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/scratch_folder.h"
+
+namespace octascope::firmware_host {
+namespace {
+
+using testing::HasSubstr;
+
+class ConfigurationFile : public testing::Test {
+protected:
+  hal::Result<Configuration> load(std::string_view text) {
+    return load_configuration(folder_.write("c.toml", text));
+  }
+  tests::ScratchFolder folder_;
+};
+
+TEST_F(ConfigurationFile, empty_means_the_defaults) {
+  const auto c = load("");
+  ASSERT_TRUE(c) << c.error().message;
+  const Configuration defaults;
+  EXPECT_FALSE(c->plan) << "the phantom's or the recording's own";
+  EXPECT_FALSE(c->calibration);
+  EXPECT_EQ(c->width, defaults.width);
+  EXPECT_EQ(c->phantom, defaults.phantom);
+  EXPECT_EQ(c->veil_after, defaults.veil_after);
+}
+
+TEST_F(ConfigurationFile, sets_what_it_names) {
+  const auto c = load(R"([scan]
+samples = 512
+a_scans = 200
+fly_back_lines = 50
+b_scans = 60
+line_rate_hz = 100e3
+depth_spacing_um = 4.0
+a_spacing_um = 20
+b_spacing_um = 30.5
+[calibration]
+file = "cal/c.toml"
+[pipeline]
+workers = 3
+neighbour_weights = [0.25, 0.5, 0.25]
+[display]
+width = 1920
+height = 1080
+fullscreen = true
+veil_after_s = 2.5
+[sim]
+phantom = "nail_fold"
+loop_volumes = 4
+faults = "f.toml"
+controls = "/etc/controls.toml"
+)");
+  ASSERT_TRUE(c) << c.error().message;
+  ASSERT_TRUE(c->plan);
+  EXPECT_EQ(*c->plan, (pipeline::ScanPlan{.samples = 512,
+                                          .a_scans = 200,
+                                          .fly_back_lines = 50,
+                                          .b_scans = 60,
+                                          .line_rate_hz = 100e3,
+                                          .depth_spacing_um = 4,
+                                          .a_spacing_um = 20,
+                                          .b_spacing_um = 30.5}));
+  EXPECT_EQ(c->calibration, folder_ / "cal/c.toml") << "relative to the file";
+  EXPECT_EQ(c->workers, 3U);
+  EXPECT_EQ(c->width, 1920);
+  EXPECT_EQ(c->height, 1080);
+  EXPECT_TRUE(c->fullscreen);
+  EXPECT_EQ(c->veil_after, std::chrono::milliseconds{2500});
+  EXPECT_EQ(c->phantom, "nail_fold");
+  EXPECT_EQ(c->loop_volumes, 4);
+  EXPECT_EQ(c->faults, folder_ / "f.toml");
+  EXPECT_EQ(c->controls, "/etc/controls.toml");
+}
+
+TEST_F(ConfigurationFile, a_plan_that_names_little_keeps_the_other_defaults) {
+  const auto c = load("[scan]\nb_scans = 10\n");
+  ASSERT_TRUE(c);
+  pipeline::ScanPlan expected;
+  expected.b_scans = 10;
+  EXPECT_EQ(c->plan, expected);
+}
+
+TEST_F(ConfigurationFile, that_is_missing_is_named) {
+  const auto c = load_configuration(folder_ / "nowhere.toml");
+  ASSERT_FALSE(c);
+  EXPECT_EQ(c.error().fault, hal::Fault::absent);
+  EXPECT_THAT(c.error().message, HasSubstr("nowhere.toml"));
+}
+
+struct Refused {
+  std::string name;
+  std::string text;
+  std::string told;
+  friend void PrintTo(const Refused& refused, std::ostream* out) { *out << refused.name; }
+};
+
+class RefusedConfiguration : public testing::TestWithParam<Refused> {};
+
+TEST_P(RefusedConfiguration, is_refused_as_a_whole_in_one_line_with_its_place) {
+  const tests::ScratchFolder folder;
+  const auto c = load_configuration(folder.write("c.toml", GetParam().text));
+  ASSERT_FALSE(c);
+  EXPECT_THAT(c.error().message, HasSubstr("c.toml"));
+  EXPECT_THAT(c.error().message, HasSubstr(GetParam().told));
+  EXPECT_EQ(c.error().message.find('\n'), std::string::npos) << c.error().message;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RefusedConfiguration,
+    testing::Values(Refused{"unknown_table", "[screen]\n", "unknown key \"screen\""},
+                    Refused{"unknown_key", "[sim]\nphantoms = \"x\"\n", "unknown key \"phantoms\""},
+                    Refused{"wrong_type", "[display]\nwidth = \"wide\"\n", "width is"},
+                    Refused{"too_small", "[display]\nwidth = 10\n", "from 320"},
+                    Refused{"not_a_number", "[scan]\nline_rate_hz = nan\n", "line_rate_hz is nan"},
+                    Refused{"no_whole_number", "[scan]\nb_scans = 2.5\n", "whole number"},
+                    Refused{"zero", "[scan]\na_scans = 0\n", "a_scans is 0"},
+                    Refused{"too_many_workers", "[pipeline]\nworkers = 1000\n", "workers is 1000"},
+                    Refused{"two_weights", "[pipeline]\nneighbour_weights = [1, 2]\n",
+                            "three numbers"},
+                    Refused{"no_own_weight", "[pipeline]\nneighbour_weights = [1, 0, 1]\n",
+                            "own (> 0)"},
+                    Refused{"a_table_for_a_number", "[display.width]\nx = 1\ny = 2\n", "width is"},
+                    Refused{"no_toml", "[scan\n", "not TOML"}),
+    [](const auto& test) { return test.param.name; });
+
+} // namespace
+} // namespace octascope::firmware_host

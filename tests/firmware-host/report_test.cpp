@@ -1,0 +1,98 @@
+#include "firmware-host/report.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/scratch_folder.h"
+
+namespace octascope::firmware_host {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+RunReport example() {
+  RunReport r;
+  r.simulated = true;
+  r.source = "a \"quoted\" scene";
+  r.line_camera = "sim";
+  r.galvo_trigger = "gpio";
+  r.control_input = "hid";
+  r.scope_camera = "v4l2";
+  r.display = "offscreen";
+  r.acquired = 10;
+  r.published = 9;
+  r.displayed = 7;
+  r.skipped = 2;
+  r.lost_lines = 600;
+  r.lost_b_scans = 2;
+  r.lost_volumes = 1;
+  r.saturated_lines = 5;
+  r.duration_s = 1.5;
+  r.lines_per_s = 215000.12345;
+  r.volumes_per_s = 7.1;
+  r.frames_per_s = 30;
+  r.latency = {.count = 3, .p50_ms = 12.34567, .p95_ms = 20, .max_ms = 21};
+  r.frames_drawn = 45;
+  r.frames_missed = 3;
+  r.hot_path_allocations = 4;
+  r.started = hal::TimePoint{100s};
+  r.faults = {{"line_camera", "disconnected", "it went away", 2, r.started + 1s,
+               r.started + 2500ms}};
+  return r;
+}
+
+TEST(Report, says_every_figure_under_its_key) {
+  const json j = json::parse(to_json(example()));
+  EXPECT_EQ(j["simulated"], true);
+  EXPECT_EQ(j["source"], "a \"quoted\" scene");
+  EXPECT_EQ(j["devices"], (json{{"line_camera", "sim"},
+                                {"galvo_trigger", "gpio"},
+                                {"control_input", "hid"},
+                                {"scope_camera", "v4l2"},
+                                {"display", "offscreen"}}));
+  EXPECT_EQ(j["volumes"],
+            (json{{"acquired", 10}, {"published", 9}, {"displayed", 7}, {"skipped", 2}}));
+  EXPECT_EQ(j["lost"], (json{{"lines", 600}, {"b_scans", 2}, {"volumes", 1}}));
+  EXPECT_EQ(j["rates"],
+            (json{{"lines_per_s", 215000.123}, {"volumes_per_s", 7.1}, {"frames_per_s", 30.0}}));
+  EXPECT_EQ(j["latency_ms"], (json{{"p50", 12.346}, {"p95", 20.0}, {"max", 21.0}}));
+  EXPECT_EQ(j["frames"], (json{{"drawn", 45}, {"missed", 3}}));
+  EXPECT_EQ(j["hot_path"], (json{{"allocations", 4}}));
+  for (const char* stage : {"reconstruct", "assemble", "publish", "upload", "draw"})
+    EXPECT_EQ(j["stage_ms"][stage].size(), 3U) << stage;
+}
+
+TEST(Report, tells_a_faults_times_from_the_start) {
+  const json faults = json::parse(to_json(example()))["faults"];
+  EXPECT_EQ(faults, json::array({{{"device", "line_camera"},
+                                  {"kind", "disconnected"},
+                                  {"message", "it went away"},
+                                  {"count", 2},
+                                  {"first_s", 1.0},
+                                  {"last_s", 2.5}}}));
+}
+
+TEST(Report, speaks_to_people_too) {
+  const std::string text = to_text(example());
+  EXPECT_THAT(text, testing::HasSubstr("7 volumes displayed of 10 acquired"));
+  EXPECT_THAT(text, testing::HasSubstr("lost: 600 lines, 2 B-scans, 1 volumes"));
+  EXPECT_THAT(text, testing::HasSubstr("fault: line_camera disconnected ×2: it went away"));
+}
+
+TEST(Report, is_written_whole_or_not_at_all) {
+  const tests::ScratchFolder folder;
+  ASSERT_TRUE(write_report(example(), folder / "r.json"));
+  std::ifstream in{folder / "r.json"};
+  EXPECT_EQ(json::parse(in), json::parse(to_json(example())));
+  const auto refused = write_report(example(), folder / "nowhere/r.json");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("nowhere/r.json"));
+  EXPECT_EQ(folder.count(), 1);
+}
+
+} // namespace
+} // namespace octascope::firmware_host
