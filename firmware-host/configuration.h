@@ -20,7 +20,7 @@ struct Configuration {
   // [calibration]
   std::optional<std::filesystem::path> calibration;
   // [pipeline]
-  std::size_t workers = 0; // 0: one a core
+  std::size_t workers = 0;                      // 0: one a core
   pipeline::NeighbourWeights neighbour_weights; // each B-scan's share in its picture
   // [display]
   int width = 1280;

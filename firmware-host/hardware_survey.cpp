@@ -40,7 +40,9 @@ std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
   return found;
 }
 
-std::string node_of(const fs::path& entry) { return "/dev/" + entry.filename().string(); }
+std::string node_of(const fs::path& entry) {
+  return "/dev/" + entry.filename().string();
+}
 
 } // namespace
 

@@ -13,11 +13,11 @@ struct FoundDevice {
 };
 
 struct HardwareSurvey {
-  std::vector<FoundDevice> video;     // V4L2 nodes: line cameras, frame grabbers, scope cameras
-  std::vector<FoundDevice> gpio;      // GPIO chips
-  std::vector<FoundDevice> hid;       // raw HID devices: pedals, knobs, pucks
-  std::vector<FoundDevice> displays;  // connectors of display controllers, with their status
-  bool has_window_system = false;     // X11 or Wayland, by the environment
+  std::vector<FoundDevice> video;    // V4L2 nodes: line cameras, frame grabbers, scope cameras
+  std::vector<FoundDevice> gpio;     // GPIO chips
+  std::vector<FoundDevice> hid;      // raw HID devices: pedals, knobs, pucks
+  std::vector<FoundDevice> displays; // connectors of display controllers, with their status
+  bool has_window_system = false;    // X11 or Wayland, by the environment
 };
 
 // `root` is "/" but for tests, which lay out a folder like /sys and /dev.

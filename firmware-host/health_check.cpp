@@ -7,9 +7,8 @@
 #include <string_view>
 #include <thread>
 
-#include <sys/mman.h>
-
 #include <fmt/format.h>
+#include <sys/mman.h>
 
 #include "firmware-host/device_choice.h"
 #include "hal/linux/realtime.h"
@@ -65,8 +64,9 @@ HealthCheck check_memory() {
   const std::string found = fmt::format("{:.1f} GiB available", available_gib);
   if (available_gib >= needed_gib)
     return good("memory", found);
-  return {"memory", Verdict::limited, found,
-          fmt::format("free some, {} GiB are needed for buffers and the simulated loop", needed_gib)};
+  return {
+      "memory", Verdict::limited, found,
+      fmt::format("free some, {} GiB are needed for buffers and the simulated loop", needed_gib)};
 }
 
 // How late absolute sleeps of 1 ms wake: what every tick suffers.
@@ -113,9 +113,10 @@ HealthCheck check_graphics(hal::Clock& clock) {
   const std::string found = fmt::format("{}, {}", info.renderer, info.version);
   if (!info.software)
     return good("graphics", found);
-  return {"graphics", Verdict::limited, found,
-          "the processor draws: fine for trying out, fewer frames a second; with a GPU, install its "
-          "Mesa driver and add the user to the groups video and render"};
+  return {
+      "graphics", Verdict::limited, found,
+      "the processor draws: fine for trying out, fewer frames a second; with a GPU, install its "
+      "Mesa driver and add the user to the groups video and render"};
 }
 
 HealthCheck check_devices() {
@@ -134,8 +135,8 @@ HealthCheck check_devices() {
 } // namespace
 
 std::vector<HealthCheck> check_health(hal::Clock& clock) {
-  return {check_cores(),       check_memory(), check_realtime(),      check_locked_memory(),
-          check_clock(clock),  check_disk(),   check_graphics(clock), check_devices()};
+  return {check_cores(),      check_memory(), check_realtime(),      check_locked_memory(),
+          check_clock(clock), check_disk(),   check_graphics(clock), check_devices()};
 }
 
 } // namespace octascope::firmware_host

@@ -16,7 +16,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Three digits after the point are a microsecond of a millisecond: more would be noise.
-double rounded(double value) { return std::round(value * 1000.0) / 1000.0; }
+double rounded(double value) {
+  return std::round(value * 1000.0) / 1000.0;
+}
 
 Json to_json(const pipeline::DurationSummary& s) {
   return {{"p50", rounded(s.p50_ms)}, {"p95", rounded(s.p95_ms)}, {"max", rounded(s.max_ms)}};

@@ -1,7 +1,6 @@
 // Name and priority of each thread, by its role.
 #pragma once
 
-
 #include "hal/clock.h"
 #include "pipeline/fault_log.h"
 #include "pipeline/worker_pool.h"

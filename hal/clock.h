@@ -20,8 +20,12 @@ struct MonotonicAxis {
 using Duration = MonotonicAxis::duration;
 using TimePoint = MonotonicAxis::time_point;
 
-constexpr double to_ms(Duration d) { return static_cast<double>(d.count()) * 1e-6; }
-constexpr double to_seconds(Duration d) { return static_cast<double>(d.count()) * 1e-9; }
+constexpr double to_ms(Duration d) {
+  return static_cast<double>(d.count()) * 1e-6;
+}
+constexpr double to_seconds(Duration d) {
+  return static_cast<double>(d.count()) * 1e-9;
+}
 constexpr Duration from_seconds(double s) {
   return Duration{static_cast<std::int64_t>(s * 1e9 + (s < 0 ? -0.5 : 0.5))};
 }

@@ -33,13 +33,25 @@ enum class DisplayEventKind : std::uint8_t { close_requested, resized, key_press
 // Keys that mean something to us; the rest is not reported. Letters and digits are their ASCII
 // codes (lower case), so that a key binding reads as it is typed.
 enum class Key : std::uint16_t {
-  escape = 27, space = 32, left = 256, right, up, down, page_up, page_down, home, end, tab, enter, f1,
+  escape = 27,
+  space = 32,
+  left = 256,
+  right,
+  up,
+  down,
+  page_up,
+  page_down,
+  home,
+  end,
+  tab,
+  enter,
+  f1,
 };
 
 struct DisplayEvent {
   DisplayEventKind kind = DisplayEventKind::close_requested;
-  std::uint16_t key = 0;  // a Key or an ASCII code, for key events
-  bool repeated = false;  // a key held down
+  std::uint16_t key = 0; // a Key or an ASCII code, for key events
+  bool repeated = false; // a key held down
   bool shift = false;
   TimePoint time;
 };

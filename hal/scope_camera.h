@@ -13,7 +13,7 @@
 namespace octascope::hal {
 
 struct ScopeCameraConfig {
-  int width = 640;  // wishes: the frames say what the camera really gives
+  int width = 640; // wishes: the frames say what the camera really gives
   int height = 480;
   double frames_per_s = 30;
 };

@@ -57,7 +57,8 @@ private:
 class ConfigDocument {
 public:
   static hal::Result<ConfigDocument> load(const std::filesystem::path& file);
-  static hal::Result<ConfigDocument> parse(std::string_view text, const std::filesystem::path& name);
+  static hal::Result<ConfigDocument> parse(std::string_view text,
+                                           const std::filesystem::path& name);
 
   ConfigTable root() const { return root_; }
 

@@ -11,7 +11,7 @@ namespace octascope::pipeline {
 
 // One producer thread, one consumer thread. Neither waits; a full queue refuses.
 template <class T, std::size_t Capacity>
-  requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 class EventQueue {
 public:
   bool push(const T& value) {

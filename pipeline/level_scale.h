@@ -16,8 +16,12 @@ inline constexpr float lowest_level_db = -40.0F;
 inline constexpr float level_step_db = 0.5F;
 inline constexpr float highest_level_db = lowest_level_db + 255 * level_step_db;
 
-constexpr float level_db(float count) { return lowest_level_db + count * level_step_db; }
-constexpr float level_count(float db) { return (db - lowest_level_db) / level_step_db; }
+constexpr float level_db(float count) {
+  return lowest_level_db + count * level_step_db;
+}
+constexpr float level_count(float db) {
+  return (db - lowest_level_db) / level_step_db;
+}
 
 inline std::uint8_t quantise_level(float db) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(level_count(db), 0.0F, 255.0F)));

@@ -13,8 +13,8 @@ using hal::Fault;
 hal::Result<> in_range(const char* key, double found, double lowest, double highest) {
   if (std::isfinite(found) && found >= lowest && found <= highest)
     return {};
-  return hal::fail(Fault::invalid_argument,
-                   fmt::format("scan plan: {} is {}, expected {} to {}", key, found, lowest, highest));
+  return hal::fail(Fault::invalid_argument, fmt::format("scan plan: {} is {}, expected {} to {}",
+                                                        key, found, lowest, highest));
 }
 
 } // namespace

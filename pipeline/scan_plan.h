@@ -32,9 +32,7 @@ struct ScanPlan {
   }
   // From one trigger pulse to the next: a little more than the sweeps need, so that a scanner
   // that started late once catches up.
-  hal::Duration tick_period() const {
-    return sweep_duration() + sweep_duration() / pause_divisor;
-  }
+  hal::Duration tick_period() const { return sweep_duration() + sweep_duration() / pause_divisor; }
   VolumeGeometry geometry() const {
     return {samples / 2, a_scans, b_scans, depth_spacing_um, a_spacing_um, b_spacing_um};
   }

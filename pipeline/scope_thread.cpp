@@ -14,7 +14,9 @@ ScopeThread::ScopeThread(hal::ScopeCamera& camera, const hal::ScopeCameraConfig&
                          hal::Clock& clock, FaultLog& faults, Wakeup& news)
     : camera_(camera), config_(config), clock_(clock), faults_(faults), news_(news) {}
 
-ScopeThread::~ScopeThread() { stop(); }
+ScopeThread::~ScopeThread() {
+  stop();
+}
 
 void ScopeThread::start(const ThreadSetup& setup) {
   thread_ = std::thread{[this, setup] {

@@ -6,8 +6,7 @@ namespace octascope::pipeline {
 
 hal::TimePoint SweepTracker::armed(std::uint64_t volume, hal::TimePoint when) {
   const Sweep& last = recent_.front();
-  const hal::TimePoint start =
-      last.volume == 0 ? when : std::max(when, last.start + duration_);
+  const hal::TimePoint start = last.volume == 0 ? when : std::max(when, last.start + duration_);
   std::rotate(recent_.begin(), recent_.end() - 1, recent_.end());
   recent_.front() = {volume, start};
   return start + duration_;

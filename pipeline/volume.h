@@ -34,7 +34,7 @@ struct VolumeGeometry {
 };
 
 enum class BScanState : std::uint8_t {
-  missing,   // never came: its voxels are 0, the display hatches it
+  missing, // never came: its voxels are 0, the display hatches it
   good,
   saturated, // came with saturated lines: shown, and marked
 };

@@ -49,9 +49,9 @@ struct VolumeThreadSetup {
 
 struct VolumeCounters {
   std::uint64_t triggered = 0;
-  std::uint64_t acquired = 0;  // at least one B-scan came
+  std::uint64_t acquired = 0; // at least one B-scan came
   std::uint64_t published = 0;
-  std::uint64_t skipped = 0;   // published, and replaced before the renderer took them
+  std::uint64_t skipped = 0; // published, and replaced before the renderer took them
   std::uint64_t lost_lines = 0;
   std::uint64_t lost_b_scans = 0;
   std::uint64_t lost_volumes = 0; // ticks of which nothing came

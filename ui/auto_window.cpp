@@ -58,7 +58,8 @@ std::optional<DisplayWindow> suggest_window(const pipeline::Volume& volume) {
   const float lower = static_cast<float>(noise) + noise_spreads * spread;
   const auto upper = static_cast<float>(quantile(histogram, 1 - brightest_share));
   const float offset_db = pipeline::level_db(lower);
-  return DisplayWindow{offset_db, std::max(pipeline::level_db(upper) - offset_db, smallest_size_db)};
+  return DisplayWindow{offset_db,
+                       std::max(pipeline::level_db(upper) - offset_db, smallest_size_db)};
 }
 
 } // namespace octascope::ui

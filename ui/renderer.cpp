@@ -253,7 +253,8 @@ pipeline::Image Renderer::read_back(int width, int height) const {
   glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   for (std::size_t y = 0; y < h; ++y) // GL's rows run from the bottom
     for (std::size_t x = 0; x < w; ++x)
-      std::copy_n(rgba.data() + 4 * ((h - 1 - y) * w + x), 3, image.pixels.data() + 3 * (y * w + x));
+      std::copy_n(rgba.data() + 4 * ((h - 1 - y) * w + x), 3,
+                  image.pixels.data() + 3 * (y * w + x));
   return image;
 }
 

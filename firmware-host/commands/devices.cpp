@@ -1,8 +1,7 @@
 // octascope devices: what hardware is there, which backend or twin would be used, and why.
-#include <CLI/CLI.hpp>
-
 #include <memory>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

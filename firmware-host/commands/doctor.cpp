@@ -1,9 +1,8 @@
 // octascope doctor: what would fail on this machine, and the mend.
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <memory>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

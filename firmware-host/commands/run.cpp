@@ -1,10 +1,9 @@
 // octascope run: the appliance.
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 #include <memory>
 #include <string>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "firmware-host/appliance.h"
@@ -19,8 +18,8 @@ namespace {
 
 // As text, the way CLI11 collects it.
 struct RunArguments {
-  std::string configuration, display = "auto", size, spectra, shape, calibration, snapshot,
-      report, faults, controls, phantom;
+  std::string configuration, display = "auto", size, spectra, shape, calibration, snapshot, report,
+                             faults, controls, phantom;
   bool simulate = false;
   double duration_s = 0;
   std::uint64_t volumes = 0;
@@ -30,8 +29,9 @@ hal::Result<RecordingOptions> recording_of(const RunArguments& a) {
   if (a.shape.empty())
     return hal::fail(hal::Fault::invalid_argument,
                      "--spectra needs --shape B,A,N: B-scans, A-scans, samples");
-  return pipeline::SpectraShape::parse(a.shape).map(
-      [&](const pipeline::SpectraShape& shape) { return RecordingOptions{a.spectra, shape}; });
+  return pipeline::SpectraShape::parse(a.shape).map([&](const pipeline::SpectraShape& shape) {
+    return RecordingOptions{a.spectra, shape};
+  });
 }
 
 std::optional<std::filesystem::path> path_of(const std::string& text) {
@@ -100,14 +100,16 @@ int run(const RunArguments& arguments) {
 void add_run_command(CLI::App& program, int& exit_status) {
   auto arguments = std::make_shared<RunArguments>();
   RunArguments& a = *arguments;
-  CLI::App* command = program.add_subcommand("run", "Run the appliance: acquire, reconstruct, show");
-  command->footer("Examples:\n"
-                  "  octascope run --sim --duration 20\n"
-                  "  octascope run --spectra s.raw --shape 100,100,1024 --calibration c.toml "
-                  "--display offscreen --volumes 5 --snapshot t.png --report t.json\n"
-                  "Keys in a window: arrows turn and tilt; page up, page down closer and farther; o O "
-                  "window offset; s S window size; b box; [ ] B-scan; space freezes; p keeps the "
-                  "picture; home first view; 1 2 3 , . the simulated pedal and knob; q ends.");
+  CLI::App* command =
+      program.add_subcommand("run", "Run the appliance: acquire, reconstruct, show");
+  command->footer(
+      "Examples:\n"
+      "  octascope run --sim --duration 20\n"
+      "  octascope run --spectra s.raw --shape 100,100,1024 --calibration c.toml "
+      "--display offscreen --volumes 5 --snapshot t.png --report t.json\n"
+      "Keys in a window: arrows turn and tilt; page up, page down closer and farther; o O "
+      "window offset; s S window size; b box; [ ] B-scan; space freezes; p keeps the "
+      "picture; home first view; 1 2 3 , . the simulated pedal and knob; q ends.");
   command->add_option("--config", a.configuration, "Configuration (TOML)");
   command->add_option("--display", a.display, "Where the picture goes")
       ->check(CLI::IsMember({"auto", "kms", "window", "offscreen"}))

@@ -1,20 +1,22 @@
 #include "hal/linux/realtime.h"
 
+#include <cerrno>
+#include <string>
+#include <system_error>
+
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <string>
-#include <system_error>
-
 namespace octascope::hal::linux_backend {
 
 namespace {
 
-std::string system_message(int error) { return std::generic_category().message(error); }
+std::string system_message(int error) {
+  return std::generic_category().message(error);
+}
 
 Fault fault_of(int error) {
   return error == EPERM || error == EACCES ? Fault::denied : Fault::system;
@@ -44,8 +46,8 @@ void make_this_thread_background() {
 }
 
 Result<> lock_memory() {
-  // On fault: what is never touched (stacks, the driver's reserves) is not fetched for its own sake.
-  // The buffers of the hot paths are written when they are made, and so are in from then on.
+  // On fault: what is never touched (stacks, the driver's reserves) is not fetched for its own
+  // sake. The buffers of the hot paths are written when they are made, and so are in from then on.
   if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0)
     return {};
   const int error = errno;

@@ -1,6 +1,6 @@
-#include "pipeline/config_document.h"
-
 #include <gtest/gtest.h>
+
+#include "pipeline/config_document.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -28,7 +28,8 @@ TEST(ConfigDocument, accepts_what_is_asked_for) {
 }
 
 TEST(ConfigDocument, refuses_with_place_found_and_expected) {
-  EXPECT_EQ(complaint("count = 11"), "test.toml:1: count is 11, expected a whole number from 0 to 10");
+  EXPECT_EQ(complaint("count = 11"),
+            "test.toml:1: count is 11, expected a whole number from 0 to 10");
   EXPECT_EQ(complaint("\ncount = 1.5"),
             "test.toml:2: count is 1.5, expected a whole number from 0 to 10");
   EXPECT_EQ(complaint("[inner]\nlevel = nan"),

@@ -1,10 +1,10 @@
-#include "pipeline/duration_statistics.h"
-
 #include <algorithm>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "pipeline/duration_statistics.h"
 
 namespace octascope::pipeline {
 namespace {

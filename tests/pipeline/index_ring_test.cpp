@@ -1,11 +1,11 @@
-#include "pipeline/index_ring.h"
-
 #include <deque>
 #include <random>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "pipeline/index_ring.h"
 
 namespace octascope::pipeline {
 namespace {

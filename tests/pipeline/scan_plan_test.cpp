@@ -1,6 +1,6 @@
-#include "pipeline/scan_plan.h"
-
 #include <gtest/gtest.h>
+
+#include "pipeline/scan_plan.h"
 
 namespace octascope::pipeline {
 namespace {

@@ -1,6 +1,6 @@
-#include "pipeline/sweep_tracker.h"
-
 #include <gtest/gtest.h>
+
+#include "pipeline/sweep_tracker.h"
 
 namespace octascope::pipeline {
 namespace {

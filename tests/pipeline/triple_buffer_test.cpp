@@ -1,5 +1,3 @@
-#include "pipeline/triple_buffer.h"
-
 #include <array>
 #include <optional>
 #include <set>
@@ -7,6 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "pipeline/triple_buffer.h"
 
 namespace octascope::pipeline {
 namespace {

@@ -87,8 +87,12 @@ private:
     loans_.insert(buffer);
     auto& bytes = memory_[static_cast<std::size_t>(buffer)];
     std::fill(bytes.begin(), bytes.end(), std::byte{order.fill});
-    return hal::LineFrame{buffer, bytes, order.sequence, order.first_line,
-                          order.first_line + std::chrono::microseconds{100}, order.integrity};
+    return hal::LineFrame{buffer,
+                          bytes,
+                          order.sequence,
+                          order.first_line,
+                          order.first_line + std::chrono::microseconds{100},
+                          order.integrity};
   }
   void do_release(int buffer) override {
     const std::lock_guard lock{mutex_};

@@ -15,7 +15,9 @@ extern "C" const char* __tsan_default_suppressions() {
 }
 
 // It holds more locks at once than the deadlock detector can count, which then ends the program.
-extern "C" const char* __tsan_default_options() { return "detect_deadlocks=0"; }
+extern "C" const char* __tsan_default_options() {
+  return "detect_deadlocks=0";
+}
 
 // SDL keeps its connections to the desktop for the life of the process; Mesa its driver.
 extern "C" const char* __lsan_default_suppressions() {

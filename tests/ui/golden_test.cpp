@@ -49,7 +49,7 @@ void expect_golden(const pipeline::Image& image, const std::string& name) {
 class GoldenPicture : public GlTest {
 protected:
   pipeline::Image draw(const pipeline::Volume* volume, const ui::ViewState& view,
-                 const ui::Status& status, int width, int height) {
+                       const ui::Status& status, int width, int height) {
     open(width, height);
     auto renderer = ui::Renderer::create();
     EXPECT_TRUE(renderer) << renderer.error().message;

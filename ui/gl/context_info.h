@@ -6,8 +6,8 @@
 namespace octascope::ui::gl {
 
 struct ContextInfo {
-  std::string renderer; // "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA …"
-  std::string version;  // "OpenGL ES 3.2 Mesa 22.3.6"
+  std::string renderer;  // "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA …"
+  std::string version;   // "OpenGL ES 3.2 Mesa 22.3.6"
   bool software = false; // the processor draws
 };
 

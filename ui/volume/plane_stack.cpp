@@ -32,17 +32,12 @@ hal::Result<PlaneStack> PlaneStack::create() {
 
 PlaneStack::PlaneStack(gl::Program program)
     : program_{std::move(program)}, vertex_array_{gl::VertexArray::make()},
-      vertex_buffer_{gl::Buffer::make()},
-      vertices_(most_planes * vertices_per_plane), uniforms_{program_.uniform("u_view_projection"),
-                                                             program_.uniform("u_eye"),
-                                                             program_.uniform("u_forward"),
-                                                             program_.uniform("u_extents"),
-                                                             program_.uniform("u_levels"),
-                                                             program_.uniform("u_window"),
-                                                             program_.uniform("u_opacity"),
-                                                             program_.uniform("u_steps"),
-                                                             program_.uniform("u_first_depth"),
-                                                             program_.uniform("u_spacing")} {
+      vertex_buffer_{gl::Buffer::make()}, vertices_(most_planes * vertices_per_plane),
+      uniforms_{program_.uniform("u_view_projection"), program_.uniform("u_eye"),
+                program_.uniform("u_forward"),         program_.uniform("u_extents"),
+                program_.uniform("u_levels"),          program_.uniform("u_window"),
+                program_.uniform("u_opacity"),         program_.uniform("u_steps"),
+                program_.uniform("u_first_depth"),     program_.uniform("u_spacing")} {
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_.name());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices_.size() * sizeof(glm::vec3)),

@@ -34,7 +34,8 @@ private:
   gl::Buffer vertex_buffer_;
   std::vector<glm::vec3> vertices_;
   struct {
-    GLint view_projection, eye, forward, extents, levels, window, opacity, steps, first_depth, spacing;
+    GLint view_projection, eye, forward, extents, levels, window, opacity, steps, first_depth,
+        spacing;
   } uniforms_;
 };
 
