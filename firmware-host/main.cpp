@@ -1,7 +1,7 @@
 // octascope: the command line.
-#include <CLI/CLI.hpp>
-
 #include <string>
+
+#include <CLI/CLI.hpp>
 
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/reconstruct.h"

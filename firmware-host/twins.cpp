@@ -18,7 +18,9 @@ namespace {
 
 constexpr std::uint64_t phantom_seed = 1;
 
-tl::unexpected<hal::Error> pass_on(const hal::Error& error) { return tl::make_unexpected(error); }
+tl::unexpected<hal::Error> pass_on(const hal::Error& error) {
+  return tl::make_unexpected(error);
+}
 
 // --calibration comes before the configuration's.
 std::optional<std::filesystem::path> calibration_file(const RunOptions& options,
@@ -44,8 +46,8 @@ pipeline::ScanPlan plan_of(const pipeline::SpectraShape& shape,
 hal::Result<> play_recording(const RunOptions& options, const Configuration& configuration,
                              Twins& twins) {
   const RecordingOptions& recording = *options.recording;
-  auto file = pipeline::SpectraFile::open(recording.file, recording.shape,
-                                          pipeline::SpectrumType::u16);
+  auto file =
+      pipeline::SpectraFile::open(recording.file, recording.shape, pipeline::SpectrumType::u16);
   if (!file)
     return pass_on(file.error());
   const auto shared = std::make_shared<pipeline::SpectraFile>(std::move(*file));
@@ -118,12 +120,12 @@ ui::ScanField corners(const sim::PictureRectangle& r) {
 
 hal::Result<> make_scope_camera(const RunOptions& options, const Configuration& configuration,
                                 hal::Clock& clock, Twins& twins) {
-  auto made = sim::SimScopeCamera::make(
-      {.phantom = options.phantom.value_or(configuration.phantom),
-       .seed = phantom_seed,
-       .field = twins.plan.geometry(),
-       .loop = twins.plan.tick_period() * configuration.loop_volumes},
-      clock);
+  auto made =
+      sim::SimScopeCamera::make({.phantom = options.phantom.value_or(configuration.phantom),
+                                 .seed = phantom_seed,
+                                 .field = twins.plan.geometry(),
+                                 .loop = twins.plan.tick_period() * configuration.loop_volumes},
+                                clock);
   if (!made)
     return pass_on(made.error());
   twins.scope_camera = std::move(*made);
@@ -195,8 +197,8 @@ hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& co
   twins.format = twins.spectra->format();
   twins.source = twins.spectra->description();
   twins.link = std::make_unique<sim::GalvoLink>(twins.plan.sweep_duration());
-  twins.line_camera = std::make_unique<sim::SimLineCamera>(*twins.spectra, *twins.link, clock,
-                                                           twins.faults.get());
+  twins.line_camera =
+      std::make_unique<sim::SimLineCamera>(*twins.spectra, *twins.link, clock, twins.faults.get());
   twins.galvo_trigger =
       std::make_unique<sim::SimGalvoTrigger>(*twins.link, clock, twins.faults.get());
   return twins;

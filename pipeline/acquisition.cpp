@@ -23,14 +23,15 @@ Acquisition::Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& c
       frames_(static_cast<std::size_t>(config.buffers)),
       queue_(static_cast<std::size_t>(config.buffers)) {}
 
-Acquisition::~Acquisition() { stop(); }
+Acquisition::~Acquisition() {
+  stop();
+}
 
 hal::Result<> Acquisition::start(const ThreadSetup& setup) {
   if (auto opened = camera_.open(config_); !opened) {
     if (opened.error().fault == hal::Fault::invalid_argument)
       return opened;
-    faults_.add(device_name, to_string(opened.error().fault), opened.error().message,
-                clock_.now());
+    faults_.add(device_name, to_string(opened.error().fault), opened.error().message, clock_.now());
   }
   thread_ = std::thread{[this, setup] {
     if (setup)
@@ -54,7 +55,9 @@ std::optional<hal::LineFrame> Acquisition::take() {
   return frames_[*buffer];
 }
 
-void Acquisition::release(int buffer) { give_back(buffer); }
+void Acquisition::release(int buffer) {
+  give_back(buffer);
+}
 
 AcquisitionCounters Acquisition::counters() const {
   return {good_.load(), unusable_.load(), gaps_.load(), overflowed_.load()};
@@ -69,8 +72,7 @@ void Acquisition::run() {
     const HotPath hot;
     const auto frame = camera_.wait_frame(frame_timeout);
     if (!frame) {
-      faults_.add(device_name, to_string(frame.error().fault), frame.error().message,
-                  clock_.now());
+      faults_.add(device_name, to_string(frame.error().fault), frame.error().message, clock_.now());
       close_when_returned();
     } else if (*frame) {
       receive(**frame);
@@ -85,8 +87,7 @@ bool Acquisition::open_and_start() {
                           ? camera_.start()
                           : camera_.open(config_).and_then([&] { return camera_.start(); });
   if (!result) {
-    faults_.add(device_name, to_string(result.error().fault), result.error().message,
-                clock_.now());
+    faults_.add(device_name, to_string(result.error().fault), result.error().message, clock_.now());
     camera_.close();
     return false;
   }
@@ -147,10 +148,10 @@ void Acquisition::check_sequence(std::uint64_t sequence) {
   if (const std::uint64_t step = last_sequence_ ? sequence - *last_sequence_ - 1 : 0;
       step > repeated_) {
     gaps_.fetch_add(step - repeated_, std::memory_order_relaxed);
-    faults_.add(device_name, "dropped_frames",
-                fmt::format("the driver lost frames: number {} came after {}", sequence,
-                            *last_sequence_),
-                clock_.now(), step - repeated_);
+    faults_.add(
+        device_name, "dropped_frames",
+        fmt::format("the driver lost frames: number {} came after {}", sequence, *last_sequence_),
+        clock_.now(), step - repeated_);
   }
   last_sequence_ = sequence;
   repeated_ = 0;

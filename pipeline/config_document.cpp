@@ -55,9 +55,9 @@ struct ConfigTable::Node {
       return;
     const std::string place = name.empty() ? "" : fmt::format("[{}] ", name);
     const unsigned line = where == nullptr ? 0U : where->source().begin.line;
-    shared->complaint = line == 0 ? fmt::format("{}: {}{}", shared->file.string(), place, message)
-                                  : fmt::format("{}:{}: {}{}", shared->file.string(), line, place,
-                                                message);
+    shared->complaint =
+        line == 0 ? fmt::format("{}: {}{}", shared->file.string(), place, message)
+                  : fmt::format("{}:{}: {}{}", shared->file.string(), line, place, message);
   }
 
   void complain_value(std::string_view key, const toml::node& found, std::string_view expected) {
@@ -211,7 +211,9 @@ std::vector<ConfigTable> ConfigTable::tables(std::string_view key) {
   return entries;
 }
 
-void ConfigTable::complain(std::string_view message) { node_->complain_at(node_->table, message); }
+void ConfigTable::complain(std::string_view message) {
+  node_->complain_at(node_->table, message);
+}
 
 hal::Result<ConfigDocument> ConfigDocument::load(const fs::path& file) {
   std::error_code error;

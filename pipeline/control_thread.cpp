@@ -20,7 +20,9 @@ ControlThread::ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultL
                              Wakeup& news)
     : input_(input), clock_(clock), faults_(faults), news_(news) {}
 
-ControlThread::~ControlThread() { stop(); }
+ControlThread::~ControlThread() {
+  stop();
+}
 
 void ControlThread::start(const ThreadSetup& setup) {
   thread_ = std::thread{[this, setup] {
@@ -46,8 +48,7 @@ void ControlThread::run() {
     }
     const auto count = input_.read(events, read_timeout);
     if (!count) {
-      faults_.add(device_name, to_string(count.error().fault), count.error().message,
-                  clock_.now());
+      faults_.add(device_name, to_string(count.error().fault), count.error().message, clock_.now());
       input_.close();
       continue;
     }
@@ -86,8 +87,7 @@ bool ControlThread::open() {
   if (!retry_.due(clock_.now()))
     return false;
   if (const auto opened = input_.open(); !opened) {
-    faults_.add(device_name, to_string(opened.error().fault), opened.error().message,
-                clock_.now());
+    faults_.add(device_name, to_string(opened.error().fault), opened.error().message, clock_.now());
     retry_.failure(clock_.now());
     return false;
   }

@@ -44,7 +44,9 @@ VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
     free_.push_back(index);
 }
 
-VolumeThread::~VolumeThread() { stop(); }
+VolumeThread::~VolumeThread() {
+  stop();
+}
 
 void VolumeThread::start(const ThreadSetup& setup) {
   workers_ = std::make_unique<WorkerPool>(
@@ -71,9 +73,8 @@ const Volume* VolumeThread::take_newest() {
 }
 
 VolumeCounters VolumeThread::counters() const {
-  return {counts_.triggered,    counts_.acquired,     counts_.published,
-          counts_.skipped,      counts_.lost_lines,   counts_.lost_b_scans,
-          counts_.lost_volumes, counts_.saturated_lines};
+  return {counts_.triggered,  counts_.acquired,     counts_.published,    counts_.skipped,
+          counts_.lost_lines, counts_.lost_b_scans, counts_.lost_volumes, counts_.saturated_lines};
 }
 
 void VolumeThread::run() {
@@ -134,8 +135,8 @@ void VolumeThread::tick() {
 bool VolumeThread::enough_triggered() const {
   if (!setup_.most_volumes)
     return false;
-  const auto under_way = static_cast<std::uint64_t>(std::ranges::count_if(
-      constructions_, [](const Construction& c) { return c.open; }));
+  const auto under_way = static_cast<std::uint64_t>(
+      std::ranges::count_if(constructions_, [](const Construction& c) { return c.open; }));
   return counts_.published.load(std::memory_order_relaxed) + under_way >= *setup_.most_volumes;
 }
 
@@ -229,8 +230,7 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t index) {
   Construction& c = constructions_[job.volume];
   Volume& volume = volumes_[job.volume];
   const hal::TimePoint begin = clock_.now();
-  const int saturated =
-      setup_.reconstruct(worker, job.frame.bytes, volume.b_scan(job.b_scan));
+  const int saturated = setup_.reconstruct(worker, job.frame.bytes, volume.b_scan(job.b_scan));
   volume.b_scan_states[static_cast<std::size_t>(job.b_scan)] =
       saturated > 0 ? BScanState::saturated : BScanState::good;
   const int buffer = job.frame.buffer;

@@ -1,10 +1,9 @@
-#include "firmware-host/configuration.h"
-
 #include <ostream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "firmware-host/configuration.h"
 #include "tests/support/scratch_folder.h"
 
 namespace octascope::firmware_host {
@@ -114,20 +113,19 @@ TEST_P(RefusedConfiguration, is_refused_as_a_whole_in_one_line_with_its_place) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, RefusedConfiguration,
-    testing::Values(Refused{"unknown_table", "[screen]\n", "unknown key \"screen\""},
-                    Refused{"unknown_key", "[sim]\nphantoms = \"x\"\n", "unknown key \"phantoms\""},
-                    Refused{"wrong_type", "[display]\nwidth = \"wide\"\n", "width is"},
-                    Refused{"too_small", "[display]\nwidth = 10\n", "from 320"},
-                    Refused{"not_a_number", "[scan]\nline_rate_hz = nan\n", "line_rate_hz is nan"},
-                    Refused{"no_whole_number", "[scan]\nb_scans = 2.5\n", "whole number"},
-                    Refused{"zero", "[scan]\na_scans = 0\n", "a_scans is 0"},
-                    Refused{"too_many_workers", "[pipeline]\nworkers = 1000\n", "workers is 1000"},
-                    Refused{"two_weights", "[pipeline]\nneighbour_weights = [1, 2]\n",
-                            "three numbers"},
-                    Refused{"no_own_weight", "[pipeline]\nneighbour_weights = [1, 0, 1]\n",
-                            "own (> 0)"},
-                    Refused{"a_table_for_a_number", "[display.width]\nx = 1\ny = 2\n", "width is"},
-                    Refused{"no_toml", "[scan\n", "not TOML"}),
+    testing::Values(
+        Refused{"unknown_table", "[screen]\n", "unknown key \"screen\""},
+        Refused{"unknown_key", "[sim]\nphantoms = \"x\"\n", "unknown key \"phantoms\""},
+        Refused{"wrong_type", "[display]\nwidth = \"wide\"\n", "width is"},
+        Refused{"too_small", "[display]\nwidth = 10\n", "from 320"},
+        Refused{"not_a_number", "[scan]\nline_rate_hz = nan\n", "line_rate_hz is nan"},
+        Refused{"no_whole_number", "[scan]\nb_scans = 2.5\n", "whole number"},
+        Refused{"zero", "[scan]\na_scans = 0\n", "a_scans is 0"},
+        Refused{"too_many_workers", "[pipeline]\nworkers = 1000\n", "workers is 1000"},
+        Refused{"two_weights", "[pipeline]\nneighbour_weights = [1, 2]\n", "three numbers"},
+        Refused{"no_own_weight", "[pipeline]\nneighbour_weights = [1, 0, 1]\n", "own (> 0)"},
+        Refused{"a_table_for_a_number", "[display.width]\nx = 1\ny = 2\n", "width is"},
+        Refused{"no_toml", "[scan\n", "not TOML"}),
     [](const auto& test) { return test.param.name; });
 
 } // namespace

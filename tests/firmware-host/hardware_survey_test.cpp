@@ -1,5 +1,3 @@
-#include "firmware-host/hardware_survey.h"
-
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware-host/device_choice.h"
+#include "firmware-host/hardware_survey.h"
 #include "tests/support/scratch_folder.h"
 
 namespace octascope::firmware_host {

@@ -1,9 +1,9 @@
-#include "firmware-host/notice.h"
-
 #include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "firmware-host/notice.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -70,12 +70,16 @@ TEST_F(Notice, leaves_to_the_report_what_a_surgeon_cannot_use) {
 }
 
 TEST_F(Notice, has_words_for_every_fault_that_costs_volumes_or_b_scans) {
-  for (const auto& [device, kind] :
-       {std::pair{"pipeline", "overrun"}, {"pipeline", "late_tick"},
-        {"galvo_trigger", "missed_pulse"}, {"line_camera", "overflow"},
-        {"line_camera", "dropped_frames"}, {"line_camera", "corrupted_frame"},
-        {"line_camera", "wrong_size"}, {"line_camera", "late_frame"},
-        {"line_camera", "unplaced_frame"}, {"line_camera", "doubled_frame"}})
+  for (const auto& [device, kind] : {std::pair{"pipeline", "overrun"},
+                                     {"pipeline", "late_tick"},
+                                     {"galvo_trigger", "missed_pulse"},
+                                     {"line_camera", "overflow"},
+                                     {"line_camera", "dropped_frames"},
+                                     {"line_camera", "corrupted_frame"},
+                                     {"line_camera", "wrong_size"},
+                                     {"line_camera", "late_frame"},
+                                     {"line_camera", "unplaced_frame"},
+                                     {"line_camera", "doubled_frame"}})
     EXPECT_NE(of({fault(device, kind, 0s)}), "") << device << " " << kind;
 }
 

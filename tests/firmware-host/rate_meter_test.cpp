@@ -1,6 +1,6 @@
-#include "firmware-host/rate_meter.h"
-
 #include <gtest/gtest.h>
+
+#include "firmware-host/rate_meter.h"
 
 namespace octascope::firmware_host {
 namespace {

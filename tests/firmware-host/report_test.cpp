@@ -1,11 +1,10 @@
-#include "firmware-host/report.h"
-
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "firmware-host/report.h"
 #include "tests/support/scratch_folder.h"
 
 namespace octascope::firmware_host {
@@ -40,8 +39,8 @@ RunReport example() {
   r.frames_missed = 3;
   r.hot_path_allocations = 4;
   r.started = hal::TimePoint{100s};
-  r.faults = {{"line_camera", "disconnected", "it went away", 2, r.started + 1s,
-               r.started + 2500ms}};
+  r.faults = {
+      {"line_camera", "disconnected", "it went away", 2, r.started + 1s, r.started + 2500ms}};
   return r;
 }
 

@@ -1,12 +1,11 @@
 // What the camera thread makes of sequence numbers and broken frames.
-#include "pipeline/acquisition.h"
-
 #include <algorithm>
 #include <memory>
 
 #include <gtest/gtest.h>
 
 #include "hal/linux/monotonic_clock.h"
+#include "pipeline/acquisition.h"
 #include "tests/support/puppet_devices.h"
 
 namespace octascope::pipeline {

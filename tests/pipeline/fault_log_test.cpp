@@ -1,6 +1,6 @@
-#include "pipeline/fault_log.h"
-
 #include <gtest/gtest.h>
+
+#include "pipeline/fault_log.h"
 
 namespace octascope::pipeline {
 namespace {

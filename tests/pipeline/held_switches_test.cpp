@@ -1,6 +1,6 @@
-#include "pipeline/held_switches.h"
-
 #include <gtest/gtest.h>
+
+#include "pipeline/held_switches.h"
 
 namespace octascope::pipeline {
 namespace {

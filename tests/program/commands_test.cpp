@@ -49,9 +49,9 @@ TEST(Doctor, looks_at_everything_and_says_how_to_mend_it) {
     EXPECT_EQ(check.at("mend") == "", verdict == "good") << check;
     fails = fails || verdict == "fails";
   }
-  EXPECT_EQ(subjects, (std::set<std::string>{"processor", "memory", "real-time priority",
-                                             "locked memory", "clock", "disk", "graphics",
-                                             "devices"}));
+  EXPECT_EQ(subjects,
+            (std::set<std::string>{"processor", "memory", "real-time priority", "locked memory",
+                                   "clock", "disk", "graphics", "devices"}));
   EXPECT_EQ(result.exit_status, fails ? 1 : 0);
 }
 

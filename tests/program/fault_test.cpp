@@ -25,23 +25,23 @@ using ui::palette::warning;
 // What the display shows while a fault is on.
 enum class Shown {
   nothing,
-  badge,           // STALE, or B-scans missing, or lines saturated
-  notice,          // the notice line
+  badge,  // STALE, or B-scans missing, or lines saturated
+  notice, // the notice line
   badge_and_notice
 };
 
 struct FaultCase {
   std::string example; // file in sim/faults
   std::string device;
-  std::string kind;        // of the report
-  std::string script;      // short: over before 1.2 s
+  std::string kind;         // of the report
+  std::string script;       // short: over before 1.2 s
   std::string lasting = {}; // the same, still on at the end; empty: no look at the display
   Shown shown = Shown::nothing;
-  int fewest = 1;           // count in the report
-  int lost_b_scans = 0;     // when nothing else happens; −1: see `whole_volumes`
+  int fewest = 1;             // count in the report
+  int lost_b_scans = 0;       // when nothing else happens; −1: see `whole_volumes`
   bool whole_volumes = false; // loses volumes, at least one
-  std::string controls = {}; // what the pedal does meanwhile
-  bool ends_frozen = false; // …and so the picture is frozen at the end
+  std::string controls = {};  // what the pedal does meanwhile
+  bool ends_frozen = false;   // …and so the picture is frozen at the end
   double duration_s = 2.1;
   friend void PrintTo(const FaultCase& c, std::ostream* out) { *out << c.example; }
 };
@@ -187,11 +187,15 @@ protected:
 
 // Nothing else happened: what was lost is the script's doing, to the B-scan.
 bool is_undisturbed(const json& report, const FaultCase& c) {
-  return std::ranges::all_of(report["faults"], [&](const json& fault) {
-    return fault["device"] == "host" || fault["device"] == c.device;
-  }) && (c.device != "line_camera" || std::ranges::all_of(report["faults"], [&](const json& fault) {
-    return fault["device"] == "host" || fault["kind"] == c.kind || fault["kind"] == "absent";
-  }));
+  return std::ranges::all_of(report["faults"],
+                             [&](const json& fault) {
+                               return fault["device"] == "host" || fault["device"] == c.device;
+                             }) &&
+         (c.device != "line_camera" ||
+          std::ranges::all_of(report["faults"], [&](const json& fault) {
+            return fault["device"] == "host" || fault["kind"] == c.kind ||
+                   fault["kind"] == "absent";
+          }));
 }
 
 void expect_losses(const json& report, const FaultCase& c, const json& fault) {
@@ -314,7 +318,8 @@ std::string three_times_as_fast(const std::filesystem::path& file) {
   for (std::string line; std::getline(in, line); script += '\n') {
     const std::size_t value = line.find("_s = ");
     if (value != std::string::npos && !line.starts_with('#'))
-      line = line.substr(0, value + 5) + fmt::format("{:.3f}", std::stod(line.substr(value + 5)) / 3);
+      line =
+          line.substr(0, value + 5) + fmt::format("{:.3f}", std::stod(line.substr(value + 5)) / 3);
     script += line;
   }
   return script;
@@ -324,18 +329,20 @@ std::string three_times_as_fast(const std::filesystem::path& file) {
 TEST(Everything, at_once_is_survived) {
   const ScratchFolder folder;
   const std::string report_file = folder / "report.json";
-  const auto script = folder.write(
-      "faults.toml", three_times_as_fast(std::filesystem::path{OCTASCOPE_SOURCE_DIR} /
-                                         "sim/faults/everything.toml"));
+  const auto script =
+      folder.write("faults.toml", three_times_as_fast(std::filesystem::path{OCTASCOPE_SOURCE_DIR} /
+                                                      "sim/faults/everything.toml"));
   const ProgramResult result = run_octascope(
       small_run(folder, {"--faults", script, "--duration", "6", "--report", report_file}));
   ASSERT_EQ(result.exit_status, 0) << result.describe();
   const json report = read_report(report_file);
-  for (const auto& [device, kind] :
-       {std::pair{"line_camera", "disconnected"}, {"line_camera", "dropped_frames"},
-        {"line_camera", "corrupted_frame"}, {"galvo_trigger", "disconnected"},
-        {"control_input", "disconnected"}, {"scope_camera", "disconnected"},
-        {"display", "disconnected"}})
+  for (const auto& [device, kind] : {std::pair{"line_camera", "disconnected"},
+                                     {"line_camera", "dropped_frames"},
+                                     {"line_camera", "corrupted_frame"},
+                                     {"galvo_trigger", "disconnected"},
+                                     {"control_input", "disconnected"},
+                                     {"scope_camera", "disconnected"},
+                                     {"display", "disconnected"}})
     EXPECT_FALSE(find_fault(report, device, kind).is_null()) << device << " " << kind;
   EXPECT_GE(report["volumes"]["published"], 8);
 }
@@ -356,9 +363,8 @@ TEST(Everything, shipped_has_a_test) {
       EXPECT_TRUE(kinds.contains({device, kind})) << to_string(device) << " " << to_string(kind);
   }
   std::set<std::string> shipped;
-  for (const auto& entry :
-       std::filesystem::directory_iterator{std::filesystem::path{OCTASCOPE_SOURCE_DIR} /
-                                           "sim/faults"})
+  for (const auto& entry : std::filesystem::directory_iterator{
+           std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "sim/faults"})
     shipped.insert(entry.path().stem());
   EXPECT_EQ(shipped, tested);
 }

@@ -29,9 +29,11 @@ loop_volumes = 1
 }
 
 std::vector<std::string> small_run(const ScratchFolder& folder, std::vector<std::string> more) {
-  std::vector<std::string> words{"run",       "--sim",     "--config", write_small_configuration(folder),
-                                 "--display", "offscreen", "--size",
-                                 fmt::format("{}x{}", small_picture.width, small_picture.height)};
+  std::vector<std::string> words{
+      "run",       "--sim",
+      "--config",  write_small_configuration(folder),
+      "--display", "offscreen",
+      "--size",    fmt::format("{}x{}", small_picture.width, small_picture.height)};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }
@@ -70,8 +72,9 @@ int difference(const std::uint8_t* a, const std::uint8_t* b) {
 }
 
 const std::uint8_t* pixel(const pipeline::Image& picture, int x, int y) {
-  return &picture.pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                              static_cast<std::size_t>(x))];
+  return &picture
+              .pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                           static_cast<std::size_t>(x))];
 }
 
 } // namespace

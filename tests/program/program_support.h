@@ -51,7 +51,7 @@ int count_different(const pipeline::Image& a, const pipeline::Image& b, const ui
                     int tolerance);
 
 ui::Layout layout_of(const pipeline::Image& picture);
-ui::Rect badge_row(const pipeline::Image& picture); // top of the view
+ui::Rect badge_row(const pipeline::Image& picture);  // top of the view
 ui::Rect notice_row(const pipeline::Image& picture); // left end of the notice line
 
 // Names of all that lies in a folder, in order.

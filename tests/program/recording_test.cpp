@@ -14,13 +14,17 @@ using testing::HasSubstr;
 
 constexpr const char* spectra_file = "sd-oct-tissue/spectra_u16_100x100x1024.raw";
 
-std::string spectra() { return test_data_folder() / spectra_file; }
+std::string spectra() {
+  return test_data_folder() / spectra_file;
+}
 
 std::string calibration(const ScratchFolder& folder) {
   const std::string curves = (test_data_folder() / "sd-oct-tissue").string();
   return folder.write("calibration.toml", "[spectrometer]\nsamples = 1024\n[k_linear]\ntable = \"" +
-                                              curves + "/k_linear.txt\"\ninterpolation = "
-                                              "\"sinc8\"\n[dispersion]\ntable = \"" + curves +
+                                              curves +
+                                              "/k_linear.txt\"\ninterpolation = "
+                                              "\"sinc8\"\n[dispersion]\ntable = \"" +
+                                              curves +
                                               "/dispersion_rad.txt\"\nsign = 1\n[depth]\n"
                                               "spacing_um = 3.5\na_spacing_um = 10.0\n"
                                               "b_spacing_um = 10.0\n");
@@ -44,10 +48,10 @@ TEST(Recording, real_spectra_show_their_surface) {
   const ScratchFolder folder;
   const std::string snapshot = folder / "t.png";
   const std::string report_file = folder / "t.json";
-  const ProgramResult result = run_octascope(
-      {"run", "--spectra", spectra(), "--shape", "100,100,1024", "--calibration",
-       calibration(folder), "--display", "offscreen", "--size", "640x360", "--volumes", "5",
-       "--snapshot", snapshot, "--report", report_file});
+  const ProgramResult result =
+      run_octascope({"run", "--spectra", spectra(), "--shape", "100,100,1024", "--calibration",
+                     calibration(folder), "--display", "offscreen", "--size", "640x360",
+                     "--volumes", "5", "--snapshot", snapshot, "--report", report_file});
   ASSERT_EQ(result.exit_status, 0) << result.describe();
   const auto report = read_report(report_file);
   EXPECT_GE(report["volumes"]["displayed"], 1);
@@ -100,9 +104,9 @@ TEST(Recording, another_reader_opens_the_reconstructed_volume) {
   const ScratchFolder folder;
   const std::string volume = folder / "v.nrrd";
   const std::string png = folder / "b.png";
-  const ProgramResult made = run_octascope(
-      {"reconstruct", "--spectra", spectra(), "--shape", "100,100,1024", "--calibration",
-       calibration(folder), "--out", volume, "--bscan", "50", "--png", png});
+  const ProgramResult made = run_octascope({"reconstruct", "--spectra", spectra(), "--shape",
+                                            "100,100,1024", "--calibration", calibration(folder),
+                                            "--out", volume, "--bscan", "50", "--png", png});
   ASSERT_EQ(made.exit_status, 0) << made.describe();
   const pipeline::Image b_scan = read_snapshot(png);
   EXPECT_EQ(b_scan.width, 100);

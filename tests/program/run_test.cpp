@@ -114,8 +114,8 @@ TEST_P(RunEnds, at_once_by_a_signal_with_report_and_picture) {
   const ScratchFolder folder;
   const std::string snapshot = folder / "picture.png";
   const std::string report_file = folder / "report.json";
-  ProgramRun run{octascope_command(small_run(
-      folder, {"--duration", "100", "--snapshot", snapshot, "--report", report_file}))};
+  ProgramRun run{octascope_command(
+      small_run(folder, {"--duration", "100", "--snapshot", snapshot, "--report", report_file}))};
   ASSERT_TRUE(run.wait_for_thread("octa-camera", 60s));
   std::this_thread::sleep_for(1s); // some volumes
   const auto signalled = WallClock::now();
@@ -129,10 +129,9 @@ TEST_P(RunEnds, at_once_by_a_signal_with_report_and_picture) {
   ASSERT_NO_THROW(expect_contract(read_report(report_file)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, RunEnds, testing::Values(SIGINT, SIGTERM),
-                         [](const auto& test) {
-                           return std::string{test.param == SIGINT ? "sigint" : "sigterm"};
-                         });
+INSTANTIATE_TEST_SUITE_P(Signals, RunEnds, testing::Values(SIGINT, SIGTERM), [](const auto& test) {
+  return std::string{test.param == SIGINT ? "sigint" : "sigterm"};
+});
 
 } // namespace
 } // namespace octascope::tests

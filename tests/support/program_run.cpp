@@ -115,7 +115,9 @@ bool ProgramRun::wait_for_thread(const std::string& name, WallClock::duration mo
   return false;
 }
 
-void ProgramRun::send_signal(int number) const { kill(child_, number); }
+void ProgramRun::send_signal(int number) const {
+  kill(child_, number);
+}
 
 ProgramResult ProgramRun::wait(WallClock::duration most) {
   ProgramResult result;

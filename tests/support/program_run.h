@@ -13,11 +13,11 @@ namespace octascope::tests {
 using WallClock = std::chrono::steady_clock;
 
 struct ProgramResult {
-  int exit_status = -1;  // of a program that ended by itself
-  int signal = 0;        // that ended it, 0 if none did
+  int exit_status = -1;   // of a program that ended by itself
+  int signal = 0;         // that ended it, 0 if none did
   bool timed_out = false; // it was killed after the time it had
-  std::string out;       // stdout
-  std::string err;       // stderr
+  std::string out;        // stdout
+  std::string err;        // stderr
   WallClock::duration took{};
 
   // For messages of failed tests.

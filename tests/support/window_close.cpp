@@ -66,8 +66,13 @@ public:
 
   std::uint32_t atom(std::string_view name) {
     const auto length = static_cast<std::uint16_t>(name.size());
-    send(Message{}.u8(16).u8(0).u16(static_cast<std::uint16_t>(2 + (length + 3) / 4)).u16(length)
-             .u16(0).text(name));
+    send(Message{}
+             .u8(16)
+             .u8(0)
+             .u16(static_cast<std::uint16_t>(2 + (length + 3) / 4))
+             .u16(length)
+             .u16(0)
+             .text(name));
     const auto answer = receive_reply();
     std::uint32_t value = 0;
     std::memcpy(&value, &answer[8], sizeof value);
