@@ -67,7 +67,7 @@ private:
 
   std::vector<hal::LineFrame> frames_; // by buffer number; written before the number is queued
   IndexRing queue_;
-  std::atomic<int> on_loan_{0}; // queued or with the pipeline
+  std::atomic<int> on_loan_{0};                // queued or with the pipeline
   std::optional<std::uint64_t> last_sequence_; // of this stream
   std::uint64_t repeated_ = 0;                 // frames since then with the same number
   RetryDelay retry_;

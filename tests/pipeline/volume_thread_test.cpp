@@ -1,5 +1,3 @@
-#include "pipeline/volume_thread.h"
-
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/monotonic_clock.h"
+#include "pipeline/volume_thread.h"
 #include "tests/support/puppet_devices.h"
 
 namespace octascope::pipeline {
