@@ -248,7 +248,7 @@ TEST_P(Faults, are_survived_counted_and_over_when_they_are_over) {
   EXPECT_GE(report["volumes"]["published"], 4);
   EXPECT_GE(report["volumes"]["displayed"], c.ends_frozen ? 1 : 4);
   const pipeline::Image picture = read_snapshot(snapshot_);
-  ASSERT_EQ(picture.width, small_picture.width);
+  ASSERT_EQ(picture.width, small_width);
   EXPECT_EQ(count_colour(picture, badge_row(picture), frozen) > 0, c.ends_frozen);
 }
 
@@ -256,7 +256,8 @@ class ShownFaults : public Faults {};
 
 TEST_P(ShownFaults, are_on_the_display_while_they_are_on) {
   const FaultCase& c = GetParam();
-  const double until_noticed_s = (c.kind == "stuck_switch" ? 4.4 : 1.4) * (sanitized ? 2 : 1);
+  // A switch that is down is told after four seconds, and shown for two.
+  const double until_noticed_s = c.kind == "stuck_switch" ? 5.0 : sanitized ? 2.8 : 1.4;
   const ProgramResult result = run(c.lasting, until_noticed_s);
   ASSERT_EQ(result.exit_status, 0) << result.describe();
   const pipeline::Image picture = read_snapshot(snapshot_);

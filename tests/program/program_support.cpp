@@ -30,10 +30,8 @@ loop_volumes = 1
 
 std::vector<std::string> small_run(const ScratchFolder& folder, std::vector<std::string> more) {
   std::vector<std::string> words{
-      "run",       "--sim",
-      "--config",  write_small_configuration(folder),
-      "--display", "offscreen",
-      "--size",    fmt::format("{}x{}", small_picture.width, small_picture.height)};
+      "run",       "--sim",     "--config", write_small_configuration(folder),
+      "--display", "offscreen", "--size",   fmt::format("{}x{}", small_width, small_height)};
   words.insert(words.end(), more.begin(), more.end());
   return words;
 }

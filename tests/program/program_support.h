@@ -22,11 +22,9 @@ inline constexpr int small_b_scans = 20;
 inline constexpr int small_a_scans = 24;
 std::filesystem::path write_small_configuration(const ScratchFolder& folder);
 
-// The pictures of small_run(): sanitized builds draw slowly.
-inline constexpr struct {
-  int width = sanitized ? 320 : 640;
-  int height = sanitized ? 180 : 360;
-} small_picture;
+// The pictures of small_run().
+inline constexpr int small_width = 640;
+inline constexpr int small_height = 360;
 
 // `run` on twins with that configuration, offscreen, and these options more.
 std::vector<std::string> small_run(const ScratchFolder& folder, std::vector<std::string> more);

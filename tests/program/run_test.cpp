@@ -125,7 +125,7 @@ TEST_P(RunEnds, at_once_by_a_signal_with_report_and_picture) {
   std::printf("ended %.2f s after the signal\n", took.count());
   EXPECT_EQ(result.exit_status, 0) << result.describe();
   EXPECT_LT(took, sanitized ? 30s : 5s);
-  EXPECT_EQ(read_snapshot(snapshot).width, small_picture.width);
+  EXPECT_EQ(read_snapshot(snapshot).width, small_width);
   ASSERT_NO_THROW(expect_contract(read_report(report_file)));
 }
 

@@ -57,7 +57,7 @@ protected:
                                    "--display",
                                    display,
                                    "--size",
-                                   fmt::format("{}x{}", small_picture.width, small_picture.height),
+                                   fmt::format("{}x{}", small_width, small_height),
                                    "--snapshot",
                                    snapshot_,
                                    "--report",
