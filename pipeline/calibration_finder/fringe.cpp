@@ -198,8 +198,8 @@ SmoothFit FringeFinder::refine(const SmoothCurve& phase) {
   noise_ = std::sqrt(unexplained / static_cast<double>(n));
 
   const auto peak = std::max_element(amplitude_.begin(), amplitude_.end());
-  // The local fit averages about 3.5·sigma pixels.
-  const double uncertain = 4 * noise_ * std::sqrt(2 / (3.5 * sigma));
+  // The local fit averages about 3.5·sigma pixels; a phase is good to a tenth of a radian.
+  const double uncertain = 10 * noise_ * std::sqrt(2 / (3.5 * sigma));
   bright_ = bright_run(amplitude_, std::max(faintest * *peak, uncertain));
   for (std::size_t p = 0; p < n; ++p)
     measured_[p] = std::arg(local[p]);
@@ -216,9 +216,7 @@ hal::Result<Fringe> FringeFinder::find() {
   if (const auto checked = check(); !checked)
     return tl::make_unexpected(checked.error());
   const std::size_t n = spectrum_.size();
-  const std::vector<double> slow = smooth_gaussian(spectrum_, 0.033 * static_cast<double>(n));
-  std::transform(spectrum_.begin(), spectrum_.end(), slow.begin(), spectrum_.begin(),
-                 std::minus<>{});
+  spectrum_ = remove_slow_part(spectrum_);
   const auto band = find_band();
   if (!band)
     return tl::make_unexpected(band.error());
@@ -246,6 +244,12 @@ hal::Result<Fringe> FringeFinder::find() {
 }
 
 } // namespace
+
+std::vector<double> remove_slow_part(std::span<const double> spectrum) {
+  std::vector<double> rest = smooth_gaussian(spectrum, 0.033 * static_cast<double>(spectrum.size()));
+  std::transform(spectrum.begin(), spectrum.end(), rest.begin(), rest.begin(), std::minus<>{});
+  return rest;
+}
 
 hal::Result<Fringe> find_fringe(std::span<const double> spectrum, std::string_view name) {
   return FringeFinder{spectrum, name}.find();

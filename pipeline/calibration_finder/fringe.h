@@ -36,4 +36,8 @@ struct Fringe {
 // fringe.
 hal::Result<Fringe> find_fringe(std::span<const double> spectrum, std::string_view name);
 
+// The spectrum less its Gaussian moving average: what makes fewer than about five fringes over the
+// line, which is the background when none was measured, is gone.
+std::vector<double> remove_slow_part(std::span<const double> spectrum);
+
 } // namespace octascope::pipeline

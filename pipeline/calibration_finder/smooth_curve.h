@@ -8,8 +8,9 @@
 
 namespace octascope::pipeline {
 
-// Inside [first, last] the polynomial; outside it the parabola with the same value, slope and
-// curvature at that end, because a polynomial of high degree runs away where no value holds it.
+// Inside [first, last] the polynomial; outside it the parabola that fits the outer fifth best, put
+// on the value at that end: a polynomial of high degree runs away where no value holds it, and its
+// own curvature at the end is mostly noise.
 class SmoothCurve {
 public:
   SmoothCurve(double first, double last, std::vector<double> coefficients);
@@ -19,13 +20,14 @@ public:
   int degree() const { return static_cast<int>(coefficients_.size()) - 1; }
 
 private:
-  // Value, first and second derivative in the unit interval's coordinate.
+  // In the coordinate u of the polynomial: value + slope·(u ∓ 1) + curvature·(u ∓ 1)²/2.
   struct End {
     double value = 0;
     double slope = 0;
     double curvature = 0;
   };
   End end(double sign) const;
+  double polynomial(double u) const;
 
   double centre_;
   double half_width_;
@@ -40,7 +42,7 @@ struct SmoothFit {
 };
 
 // `values[i]` was measured at x = i with `weights[i]` ≥ 0; only `first` ≤ i ≤ `last` counts.
-// The degree is the smallest, from 1 to `highest_degree`, that leaves at most 3 % more than the
+// The degree is the smallest, from 1 to `highest_degree`, that leaves at most a tenth more than the
 // highest one does. Needs more than `highest_degree` values with a weight.
 SmoothFit fit_smooth_curve(std::span<const double> values, std::span<const double> weights,
                            std::size_t first, std::size_t last, int highest_degree);
