@@ -23,7 +23,7 @@ public:
   WavenumberPhase(const std::array<Fringe, 2>& fringes, SampleSide side) : fringes_(fringes) {
     const auto last = static_cast<double>(fringes[0].amplitude.size() - 1);
     const auto span = [&](const Fringe& f) { return f.phase_rad.at(last) - f.phase_rad.at(0); };
-    if (side != SampleSide::both_mirrors)
+    if (side == SampleSide::first_mirror || side == SampleSide::second_mirror)
       weights_ = {1, 1};
     else if (span(fringes[1]) > span(fringes[0]))
       weights_ = {-1, 1};
@@ -109,9 +109,9 @@ hal::Result<MirrorPair> combine_fringes(const std::array<Fringe, 2>& fringes, Sa
     return tl::make_unexpected(positions.error());
 
   MirrorPair pair{fringes, {}, {1, 1}, std::move(*positions), {}};
-  if (side == SampleSide::first_mirror)
+  if (side == SampleSide::first_mirror || side == SampleSide::no_mirror)
     pair.theta_sign[1] = -1;
-  if (side == SampleSide::second_mirror)
+  if (side == SampleSide::second_mirror || side == SampleSide::no_mirror)
     pair.theta_sign[0] = -1;
   const double first = static_cast<double>(std::max(fringes[0].first_bright, fringes[1].first_bright));
   const double last = static_cast<double>(std::min(fringes[0].last_bright, fringes[1].last_bright));

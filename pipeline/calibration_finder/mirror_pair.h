@@ -22,7 +22,7 @@
 namespace octascope::pipeline {
 
 // Which mirrors lie on the side of zero delay where samples lie.
-enum class SampleSide : std::uint8_t { both_mirrors, first_mirror, second_mirror };
+enum class SampleSide : std::uint8_t { both_mirrors, first_mirror, second_mirror, no_mirror };
 
 struct MirrorPair {
   std::array<Fringe, 2> fringes;
