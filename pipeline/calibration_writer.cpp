@@ -93,9 +93,9 @@ hal::Result<> write_calibration(const FoundCalibration& found, const std::filesy
   std::string dispersion_name;
   if (found.wavelength_polynomial_nm.empty()) {
     k_name = stem + "_k_linear.txt";
-    outputs.push_back({file.parent_path() / k_name,
-                       curve_text("fractional pixel positions uniform in wavenumber",
-                                  found.calibration.positions)});
+    outputs.push_back(
+        {file.parent_path() / k_name, curve_text("fractional pixel positions uniform in wavenumber",
+                                                 found.calibration.positions)});
   }
   if (found.dispersion_polynomial_rad.empty() && !found.calibration.dispersion_rad.empty()) {
     dispersion_name = stem + "_dispersion_rad.txt";

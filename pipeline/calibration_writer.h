@@ -14,16 +14,16 @@ namespace octascope::pipeline {
 struct Provenance {
   std::string program; // and its version
   std::string method;
-  std::string inputs; // the files, in words
+  std::string inputs;  // the files, in words
   std::string created; // date and time
   std::string verdict; // the figures in one line
 };
 
 struct FoundCalibration {
   Calibration calibration; // positions and dispersion go to curve files beside the TOML
-  std::vector<double> wavelength_polynomial_nm; // when not empty, in place of the positions
+  std::vector<double> wavelength_polynomial_nm;  // when not empty, in place of the positions
   std::vector<double> dispersion_polynomial_rad; // when not empty, in place of the phases
-  bool spacing_known = false; // else [depth] says that its spacing was assumed
+  bool spacing_known = false;                    // else [depth] says that its spacing was assumed
   Provenance provenance;
 };
 

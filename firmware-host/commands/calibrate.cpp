@@ -132,8 +132,11 @@ double CalibrationRun::sharpness(const Calibration& calibration, bool with_dispe
 // Without word of the user, the side that makes the tissue sharpest.
 hal::Result<> CalibrationRun::choose_side(const std::array<pipeline::Fringe, 2>& fringes) {
   std::vector<SampleSide> sides{options_.side.value_or(SampleSide::both_mirrors)};
-  verdict_.side_from_tissue = options_.tissue && !options_.side;
-  if (verdict_.side_from_tissue)
+  const bool ask_tissue = options_.tissue && !options_.side;
+  verdict_.side_source = options_.side ? "as given"
+                         : ask_tissue  ? "by the tissue's sharpness"
+                                       : "assumed; --tissue or --sample-side can tell";
+  if (ask_tissue)
     sides = {SampleSide::both_mirrors, SampleSide::no_mirror, SampleSide::first_mirror,
              SampleSide::second_mirror};
   double best = -1;
@@ -145,7 +148,7 @@ hal::Result<> CalibrationRun::choose_side(const std::array<pipeline::Fringe, 2>&
       continue;
     }
     adopt(*pair);
-    const double value = verdict_.side_from_tissue ? sharpness(found_.calibration, true) : 0;
+    const double value = ask_tissue ? sharpness(found_.calibration, true) : 0;
     if (value > best) {
       best = value;
       pair_ = std::move(*pair);
@@ -176,8 +179,8 @@ hal::Result<> CalibrationRun::use_mirrors() {
     return done;
   verdict_.method = "pair of mirrors";
   if (options_.tissue)
-    verdict_.tissue = TissueVerdict{sharpness(found_.calibration, false),
-                                    sharpness(found_.calibration, true), {}};
+    verdict_.tissue = TissueVerdict{
+        sharpness(found_.calibration, false), sharpness(found_.calibration, true), {}};
   if (options_.mirror_distance_um) {
     // Mirrors on either side of zero delay are as far apart as their depths together.
     const bool opposite = pair_->theta_sign[0] != pair_->theta_sign[1];
@@ -194,8 +197,8 @@ void CalibrationRun::judge_mirrors() {
   for (std::size_t i = 0; i < 2; ++i) {
     MirrorMeasurement& mirror = mirrors_[i];
     mirror.before = pipeline::measure_axial_psf(mirror.interferogram, raw);
-    mirror.after = pipeline::measure_axial_psf(mirror.interferogram, found_.calibration,
-                                               pair_->theta_sign[i]);
+    mirror.after =
+        pipeline::measure_axial_psf(mirror.interferogram, found_.calibration, pair_->theta_sign[i]);
     const pipeline::Fringe& fringe = pair_->fringes[i];
     verdict_.mirrors.push_back(
         {options_.mirrors[i].string(), pair_->depth_bins[i], mirror.after.peak_bin,
@@ -240,8 +243,7 @@ hal::Result<> CalibrationRun::use_base() {
 // Three B-scans, at a quarter, the half and three quarters.
 hal::Result<> CalibrationRun::read_tissue() {
   const auto type = spectrum_type(*options_.tissue, options_.tissue_type);
-  const auto spectra =
-      pipeline::SpectraFile::open(*options_.tissue, options_.tissue_shape, type);
+  const auto spectra = pipeline::SpectraFile::open(*options_.tissue, options_.tissue_shape, type);
   if (!spectra)
     return tl::make_unexpected(spectra.error());
   for (const int quarter : {1, 2, 3}) {
@@ -299,18 +301,18 @@ void CalibrationRun::judge_curves() {
 }
 
 hal::Result<> CalibrationRun::write() {
-  found_.provenance = {fmt::format("octascope {}", version()), verdict_.method,
-                       fmt::format("{}", fmt::join(inputs_, ", ")),
-                       fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                                   fmt::gmtime(std::chrono::system_clock::to_time_t(
-                                       std::chrono::system_clock::now()))),
-                       summary(verdict_)};
+  found_.provenance = {
+      fmt::format("octascope {}", version()), verdict_.method,
+      fmt::format("{}", fmt::join(inputs_, ", ")),
+      fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(
+                                               std::chrono::system_clock::now()))),
+      summary(verdict_)};
   verdict_.file = options_.out.string();
   // The picture first: without it there is no calibration either, and the calibration counts.
   if (options_.picture) {
-    const auto image = pair_ ? draw_mirrors(mirrors_, *pair_)
-                             : draw_curves(found_.calibration.positions,
-                                           found_.calibration.dispersion_rad);
+    const auto image =
+        pair_ ? draw_mirrors(mirrors_, *pair_)
+              : draw_curves(found_.calibration.positions, found_.calibration.dispersion_rad);
     if (auto drawn = pipeline::write_png(*options_.picture, image); !drawn)
       return drawn;
   }
@@ -330,13 +332,12 @@ hal::Result<CalibrationVerdict> CalibrationRun::run() {
   };
   samples_ = options_.samples.value_or(0);
   const bool tissue_gives_dispersion = options_.tissue && options_.mirrors.empty();
-  const auto done =
-      check(options_)
-          .and_then(step(options_.tissue.has_value(), &CalibrationRun::read_tissue))
-          .and_then(step(options_.base.has_value(), &CalibrationRun::use_base))
-          .and_then(step(options_.lamp.has_value(), &CalibrationRun::use_lamp))
-          .and_then(step(!options_.mirrors.empty(), &CalibrationRun::use_mirrors))
-          .and_then(step(tissue_gives_dispersion, &CalibrationRun::use_tissue));
+  const auto done = check(options_)
+                        .and_then(step(options_.tissue.has_value(), &CalibrationRun::read_tissue))
+                        .and_then(step(options_.base.has_value(), &CalibrationRun::use_base))
+                        .and_then(step(options_.lamp.has_value(), &CalibrationRun::use_lamp))
+                        .and_then(step(!options_.mirrors.empty(), &CalibrationRun::use_mirrors))
+                        .and_then(step(tissue_gives_dispersion, &CalibrationRun::use_tissue));
   if (!done)
     return tl::make_unexpected(done.error());
   judge_curves();
@@ -354,8 +355,8 @@ hal::Result<> check(const CalibrateOptions& options) {
   if (!options.mirrors.empty() && options.mirrors.size() != 2)
     return refuse(fmt::format("--mirror is given {} times, expected two mirrors at unequal depths",
                               options.mirrors.size()));
-  const int curves = (options.mirrors.empty() ? 0 : 1) + (options.lamp ? 1 : 0) +
-                     (options.base ? 1 : 0);
+  const int curves =
+      (options.mirrors.empty() ? 0 : 1) + (options.lamp ? 1 : 0) + (options.base ? 1 : 0);
   if (curves != 1)
     return refuse("expected one source of the k curve: two times --mirror, or --lamp with --lines, "
                   "or --calibration (with --tissue)");
@@ -373,8 +374,8 @@ hal::Result<> check(const CalibrateOptions& options) {
   if (options.mirror_distance_um && options.mirrors.empty())
     return refuse("--distance-um is the distance of two mirrors, expected --mirror");
   if (options.picture && options.picture->lexically_normal() == options.out.lexically_normal())
-    return refuse(fmt::format("--out and --picture are both {}, expected two files",
-                              options.out.string()));
+    return refuse(
+        fmt::format("--out and --picture are both {}, expected two files", options.out.string()));
   return {};
 }
 

@@ -67,21 +67,25 @@ int run(CommandLine& line) {
 }
 
 void add_mirror_options(CLI::App& command, CalibrateOptions& options) {
-  command.add_option("--mirror", options.mirrors,
-                     "Spectrum of a mirror; twice, at unequal depths (any order)")
+  command
+      .add_option("--mirror", options.mirrors,
+                  "Spectrum of a mirror; twice, at unequal depths (any order)")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  command.add_option("--dark", options.darks.plain,
-                     "Spectrum to subtract from both mirrors; several are averaged")
+  command
+      .add_option("--dark", options.darks.plain,
+                  "Spectrum to subtract from both mirrors; several are averaged")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command.add_option("--dark-none", options.darks.none, "Spectrum without any light")
       ->type_name("FILE");
-  command.add_option("--dark-reference", options.darks.reference,
-                     "Spectrum of the reference arm alone")
+  command
+      .add_option("--dark-reference", options.darks.reference,
+                  "Spectrum of the reference arm alone")
       ->type_name("FILE");
-  command.add_option("--dark-sample", options.darks.sample,
-                     "Spectrum of the sample arm alone; once, or once for each mirror")
+  command
+      .add_option("--dark-sample", options.darks.sample,
+                  "Spectrum of the sample arm alone; once, or once for each mirror")
       ->type_name("FILE")
       ->allow_extra_args(false);
   const std::map<std::string, pipeline::SampleSide> sides{
@@ -89,14 +93,16 @@ void add_mirror_options(CLI::App& command, CalibrateOptions& options) {
       {"first", pipeline::SampleSide::first_mirror},
       {"second", pipeline::SampleSide::second_mirror},
       {"none", pipeline::SampleSide::no_mirror}};
-  command.add_option("--sample-side", options.side,
-                     "Which mirrors lie on the side of zero delay where samples lie (both if not "
-                     "given, or what makes the tissue sharpest)")
+  command
+      .add_option("--sample-side", options.side,
+                  "Which mirrors lie on the side of zero delay where samples lie (both if not "
+                  "given, or what makes the tissue sharpest)")
       ->transform(CLI::CheckedTransformer(sides))
       ->type_name("both|first|second|none")
       ->option_text("both|first|second|none");
-  command.add_option("--distance-um", options.mirror_distance_um,
-                     "Distance between the two mirrors: gives the depth spacing")
+  command
+      .add_option("--distance-um", options.mirror_distance_um,
+                  "Distance between the two mirrors: gives the depth spacing")
       ->check(CLI::Range(1e-3, 1e9))
       ->type_name("UM");
 }
@@ -115,21 +121,24 @@ void add_other_options(CLI::App& command, CommandLine& line) {
                       "Raw spectra of tissue: with mirrors they tell the sample's side, else the "
                       "dispersion is found from their sharpness")
           ->type_name("FILE");
-  auto* shape = command.add_option("--shape", line.shape, "Of the tissue: B-scans, A-scans, samples")
-                    ->type_name("B,A,N");
+  auto* shape =
+      command.add_option("--shape", line.shape, "Of the tissue: B-scans, A-scans, samples")
+          ->type_name("B,A,N");
   tissue->needs(shape);
   shape->needs(tissue);
   command.add_option("--calibration", options.base, "Calibration whose k curve the tissue uses")
       ->type_name("FILE.toml");
-  command.add_option("--samples", options.samples,
-                     "Samples of a line, when a file has several (they are averaged)")
+  command
+      .add_option("--samples", options.samples,
+                  "Samples of a line, when a file has several (they are averaged)")
       ->check(CLI::Range(pipeline::fewest_samples, pipeline::most_samples))
       ->type_name("N");
   const std::map<std::string, pipeline::SpectrumType> types{{"u8", pipeline::SpectrumType::u8},
                                                             {"u16", pipeline::SpectrumType::u16},
                                                             {"f32", pipeline::SpectrumType::f32}};
-  command.add_option("--dtype", options.type,
-                     "Type of a sample (as the file's name says, like x_f32.raw, else u16)")
+  command
+      .add_option("--dtype", options.type,
+                  "Type of a sample (as the file's name says, like x_f32.raw, else u16)")
       ->transform(CLI::CheckedTransformer(types))
       ->type_name("u8|u16|f32")
       ->option_text("u8|u16|f32");
@@ -137,8 +146,9 @@ void add_other_options(CLI::App& command, CommandLine& line) {
       ->transform(CLI::CheckedTransformer(types))
       ->type_name("u8|u16|f32")
       ->option_text("u8|u16|f32");
-  command.add_option("--bits", options.significant_bits,
-                     "Bits of a sample: tells what is saturated (all of its type if not given)")
+  command
+      .add_option("--bits", options.significant_bits,
+                  "Bits of a sample: tells what is saturated (all of its type if not given)")
       ->check(CLI::Range(1, 16))
       ->type_name("BITS");
   command.add_option("--spacing-um", options.spacing_um, "Depth spacing of a bin, when known")
@@ -147,8 +157,7 @@ void add_other_options(CLI::App& command, CommandLine& line) {
   command.add_option("--out", options.out, "Calibration to write; its curves go beside it")
       ->required()
       ->type_name("FILE.toml");
-  command.add_option("--picture", options.picture, "Picture of the verdict")
-      ->type_name("FILE.png");
+  command.add_option("--picture", options.picture, "Picture of the verdict")->type_name("FILE.png");
   command.add_flag("--json", line.json, "The verdict as one JSON object");
 }
 

@@ -118,7 +118,8 @@ hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file
   const auto lines = static_cast<std::size_t>(shape->a_scans);
   std::optional<double> full_scale;
   if (type != SpectrumType::f32)
-    full_scale = std::ldexp(1.0, input.significant_bits.value_or(type == SpectrumType::u8 ? 8 : 16)) - 1;
+    full_scale =
+        std::ldexp(1.0, input.significant_bits.value_or(type == SpectrumType::u8 ? 8 : 16)) - 1;
 
   std::vector<double> mean(n);
   for (std::size_t a = 0; a < lines; ++a) {

@@ -82,8 +82,8 @@ std::vector<double> measured_rest(const pipeline::MirrorPair& pair, std::size_t 
     if (p < fringe.first_bright || p + 1 > fringe.last_bright)
       continue;
     const double f = r - static_cast<double>(p);
-    const double measured = fringe.measured_rad[p] +
-                            f * (fringe.measured_rad[p + 1] - fringe.measured_rad[p]);
+    const double measured =
+        fringe.measured_rad[p] + f * (fringe.measured_rad[p + 1] - fringe.measured_rad[p]);
     // The smooth phase is −θ·sign apart from the line.
     rest[m] = measured - fringe.phase_rad.at(r) - pair.theta_sign[i] * pair.dispersion_rad[m];
   }
@@ -98,8 +98,8 @@ pipeline::Image draw_mirrors(const std::array<MirrorMeasurement, 2>& mirrors,
   const auto last = static_cast<double>(pair.positions.size() - 1);
   PlotPanel spectra{"INTERFERENCE (COUNTS) OVER PIXEL", {}, 1, last, 0, 1};
   PlotPanel phases{"PHASE LEFT BY A STRAIGHT LINE (RAD) OVER K SAMPLE", {}, 1, last, 0, 1};
-  PlotPanel psfs{"POINT SPREAD (DB) OVER DEPTH BIN", {}, 1.0 / pipeline::psf_steps_per_bin, 1,
-                 -60, 3};
+  PlotPanel psfs{
+      "POINT SPREAD (DB) OVER DEPTH BIN", {}, 1.0 / pipeline::psf_steps_per_bin, 1, -60, 3};
   double highest_db = -1e9;
   for (const MirrorMeasurement& mirror : mirrors)
     highest_db = std::max(highest_db, mirror.after.level_db);
@@ -130,8 +130,8 @@ pipeline::Image draw_mirrors(const std::array<MirrorMeasurement, 2>& mirrors,
 pipeline::Image draw_curves(std::span<const double> positions,
                             std::span<const double> dispersion_rad) {
   pipeline::Image image = blank(dispersion_rad.empty() ? 1 : 2);
-  PlotPanel bow = curve_panel("K POSITION LESS ITS STRAIGHT LINE (PIXELS) OVER K SAMPLE",
-                              bow_of(positions));
+  PlotPanel bow =
+      curve_panel("K POSITION LESS ITS STRAIGHT LINE (PIXELS) OVER K SAMPLE", bow_of(positions));
   draw(image, 0, bow);
   if (!dispersion_rad.empty()) {
     PlotPanel phase = curve_panel("DISPERSION (RAD) OVER K SAMPLE",

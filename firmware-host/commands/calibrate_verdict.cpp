@@ -21,17 +21,16 @@ std::string mirrors_text(const CalibrationVerdict& v) {
         "mirror at {:.2f} bins{}: FWHM {:.2f} -> {:.2f} bins{}, peak {:.1f} -> {:.1f} dB, residual "
         "phase {:.3f} rad, pixels {} to {}  [{}]\n",
         m.depth_bins, in_um(m.depth_bins, v.spacing_um), m.fwhm_before_bins, m.fwhm_after_bins,
-        in_um(m.fwhm_after_bins, v.spacing_um), m.level_before_db, m.level_after_db,
-        m.residual_rad, m.first_bright_pixel, m.last_bright_pixel, m.file);
+        in_um(m.fwhm_after_bins, v.spacing_um), m.level_before_db, m.level_after_db, m.residual_rad,
+        m.first_bright_pixel, m.last_bright_pixel, m.file);
   if (v.mirrors.empty())
     return text;
-  text += v.spacing_um ? fmt::format("roll-off {:.2f} dB/mm", v.roll_off_db_per_bin() /
-                                                                  *v.spacing_um * 1000)
-                       : fmt::format("roll-off {:.2f} dB/100 bins", 100 * v.roll_off_db_per_bin());
+  text += v.spacing_um
+              ? fmt::format("roll-off {:.2f} dB/mm", v.roll_off_db_per_bin() / *v.spacing_um * 1000)
+              : fmt::format("roll-off {:.2f} dB/100 bins", 100 * v.roll_off_db_per_bin());
   return text + fmt::format(", depth linear within {:.3f} bins, residual phase {:.3f} rad rms\n"
-                            "samples lie on the side of {}{}\n",
-                            v.depth_error_bins(), v.residual_rad(), v.sample_side,
-                            v.side_from_tissue ? ", by the tissue's sharpness" : "");
+                            "samples lie on the side of {} ({})\n",
+                            v.depth_error_bins(), v.residual_rad(), v.sample_side, v.side_source);
 }
 
 nlohmann::json mirrors_json(const CalibrationVerdict& v) {
@@ -105,9 +104,10 @@ std::string to_text(const CalibrationVerdict& v) {
     text += fmt::format("tissue sharpness {:.6g} -> {:.6g} ({:+.1f} %) with the dispersion\n",
                         v.tissue->sharpness_before, v.tissue->sharpness_after,
                         100 * (v.tissue->sharpness_after / v.tissue->sharpness_before - 1));
-  return text + fmt::format("k curve monotone, steps {:.4f} to {:.4f} pixels; dispersion {:.3f} rad "
-                            "rms\n",
-                            v.least_step_pixels, v.greatest_step_pixels, v.dispersion_rms_rad);
+  return text +
+         fmt::format("k curve monotone, steps {:.4f} to {:.4f} pixels; dispersion {:.3f} rad "
+                     "rms\n",
+                     v.least_step_pixels, v.greatest_step_pixels, v.dispersion_rms_rad);
 }
 
 std::string to_json(const CalibrationVerdict& v) {
@@ -123,7 +123,7 @@ std::string to_json(const CalibrationVerdict& v) {
   if (!v.mirrors.empty()) {
     json["mirrors"] = mirrors_json(v);
     json["sample_side"] = v.sample_side;
-    json["side_from_tissue"] = v.side_from_tissue;
+    json["side_source"] = v.side_source;
     json["residual_phase_rad"] = v.residual_rad();
     json["depth_error_bins"] = v.depth_error_bins();
     json["roll_off_db_per_bin"] = v.roll_off_db_per_bin();

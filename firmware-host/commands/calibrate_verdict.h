@@ -41,10 +41,10 @@ struct CalibrationVerdict {
   std::optional<double> spacing_um; // of a bin, when known
   std::vector<MirrorVerdict> mirrors;
   std::string sample_side; // which mirrors lie where samples do
-  bool side_from_tissue = false;
+  std::string side_source; // how that is known
   std::optional<LampVerdict> lamp;
   std::optional<TissueVerdict> tissue;
-  bool monotone = true; // all others are refused
+  bool monotone = true;         // all others are refused
   double least_step_pixels = 0; // of r[m] from sample to sample
   double greatest_step_pixels = 0;
   double dispersion_rms_rad = 0;

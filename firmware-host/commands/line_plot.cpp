@@ -37,8 +37,8 @@ void set_pixel(pipeline::Image& image, int x, int y, Colour colour) {
 }
 
 void draw_line(pipeline::Image& image, double x0, double y0, double x1, double y1, Colour colour) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(
-                                    std::max(std::abs(x1 - x0), std::abs(y1 - y0)))));
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(std::max(std::abs(x1 - x0), std::abs(y1 - y0)))));
   for (int i = 0; i <= steps; ++i) {
     const double t = static_cast<double>(i) / steps;
     set_pixel(image, static_cast<int>(std::lround(x0 + t * (x1 - x0))),
@@ -112,8 +112,8 @@ void Axes::draw_curve(pipeline::Image& image, const PlotCurve& curve) const {
     if (from + panel_.x_step > panel_.x_last * (1 + 1e-9))
       return;
     if (std::isfinite(curve.values[i - 1]) && std::isfinite(curve.values[i]))
-      draw_line(image, x(from), y(curve.values[i - 1]), x(from + panel_.x_step),
-                y(curve.values[i]), curve.colour);
+      draw_line(image, x(from), y(curve.values[i - 1]), x(from + panel_.x_step), y(curve.values[i]),
+                curve.colour);
   }
 }
 

@@ -18,8 +18,8 @@ struct AxialPsf {
 };
 
 // The chain of `calibration` (positions, interpolation, window, phases times `theta_sign`; no
-// background) on one line, followed by a transform that is padded with zeros. The peak is looked for
-// beyond the bins of what is left of the background.
+// background) on one line, followed by a transform that is padded with zeros. The peak is looked
+// for beyond the bins of what is left of the background.
 AxialPsf measure_axial_psf(std::span<const double> line, const Calibration& calibration,
                            double theta_sign = 1);
 

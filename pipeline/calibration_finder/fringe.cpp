@@ -29,8 +29,8 @@ struct Band {
 
 // What the brightest run of pixels is, given amplitudes.
 Band bright_run(const std::vector<double>& amplitude, double threshold) {
-  const auto peak = static_cast<std::size_t>(
-      std::max_element(amplitude.begin(), amplitude.end()) - amplitude.begin());
+  const auto peak = static_cast<std::size_t>(std::max_element(amplitude.begin(), amplitude.end()) -
+                                             amplitude.begin());
   Band run{peak, peak};
   while (run.first > 0 && amplitude[run.first - 1] >= threshold)
     --run.first;
@@ -96,8 +96,8 @@ hal::Result<Band> FringeFinder::find_band() {
   LineTransform transform{n, LineTransform::Direction::forward};
   for (std::size_t p = 0; p < n; ++p)
     transform.values()[p] =
-        spectrum_[p] * (0.5 - 0.5 * std::cos(two_pi * (static_cast<double>(p) + 0.5) /
-                                             static_cast<double>(n)));
+        spectrum_[p] *
+        (0.5 - 0.5 * std::cos(two_pi * (static_cast<double>(p) + 0.5) / static_cast<double>(n)));
   transform.run();
   transform_.assign(transform.values().begin(), transform.values().end());
   std::vector<double> power(n / 2);
@@ -239,14 +239,14 @@ hal::Result<Fringe> FringeFinder::find() {
     if (fit.curve.at(x) <= fit.curve.at(x - 1))
       return refuse(fmt::format("the fringe's phase does not rise from pixel {} to {}", p - 1, p));
   }
-  return Fringe{fit.curve,     measured_,     amplitude_, bright_.first,
-                bright_.last, noise_, fit.rms};
+  return Fringe{fit.curve, measured_, amplitude_, bright_.first, bright_.last, noise_, fit.rms};
 }
 
 } // namespace
 
 std::vector<double> remove_slow_part(std::span<const double> spectrum) {
-  std::vector<double> rest = smooth_gaussian(spectrum, 0.033 * static_cast<double>(spectrum.size()));
+  std::vector<double> rest =
+      smooth_gaussian(spectrum, 0.033 * static_cast<double>(spectrum.size()));
   std::transform(spectrum.begin(), spectrum.end(), rest.begin(), rest.begin(), std::minus<>{});
   return rest;
 }

@@ -22,13 +22,13 @@ inline constexpr std::size_t fewest_fringe_samples = 64;
 inline constexpr std::size_t lowest_fringe_bin = 6;
 
 struct Fringe {
-  SmoothCurve phase_rad;         // over the pixel, rising
+  SmoothCurve phase_rad;            // over the pixel, rising
   std::vector<double> measured_rad; // of each pixel before smoothing; meaningful where bright
-  std::vector<double> amplitude; // of each pixel, in the spectrum's unit
-  std::size_t first_bright = 0;  // pixels from here …
-  std::size_t last_bright = 0;   // … to here are strong enough to be believed
-  double noise = 0;              // rms of the spectrum that the fringe does not explain
-  double residual_rad = 0;       // rms of the phase that the smooth curve leaves, weighted
+  std::vector<double> amplitude;    // of each pixel, in the spectrum's unit
+  std::size_t first_bright = 0;     // pixels from here …
+  std::size_t last_bright = 0;      // … to here are strong enough to be believed
+  double noise = 0;                 // rms of the spectrum that the fringe does not explain
+  double residual_rad = 0;          // rms of the phase that the smooth curve leaves, weighted
 };
 
 // `spectrum` is one line, best without its background. Fault::bad_data, with `name`, index, found

@@ -18,8 +18,8 @@ std::vector<double> smooth_gaussian(std::span<const double> values, double sigma
   for (std::ptrdiff_t p = 0; p < n; ++p) {
     double sum = 0;
     double weight = 0;
-    for (std::ptrdiff_t q = std::max<std::ptrdiff_t>(0, p - reach);
-         q <= std::min(n - 1, p + reach); ++q) {
+    for (std::ptrdiff_t q = std::max<std::ptrdiff_t>(0, p - reach); q <= std::min(n - 1, p + reach);
+         ++q) {
       const double w = kernel[static_cast<std::size_t>(std::abs(q - p))];
       sum += w * values[static_cast<std::size_t>(q)];
       weight += w;

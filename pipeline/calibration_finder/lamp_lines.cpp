@@ -35,9 +35,9 @@ hal::Result<> check_lines(std::span<const double> lines_nm) {
   const bool rising = lines_nm.back() > lines_nm.front();
   for (std::size_t i = 0; i < lines_nm.size(); ++i) {
     if (!std::isfinite(lines_nm[i]) || lines_nm[i] <= 0)
-      return hal::fail(Fault::invalid_argument,
-                       fmt::format("emission line {} is {} nm, expected more than 0", i,
-                                   lines_nm[i]));
+      return hal::fail(
+          Fault::invalid_argument,
+          fmt::format("emission line {} is {} nm, expected more than 0", i, lines_nm[i]));
     if (i > 0 && (rising ? lines_nm[i] <= lines_nm[i - 1] : lines_nm[i] >= lines_nm[i - 1]))
       return hal::fail(Fault::invalid_argument,
                        fmt::format("emission line {} is {} nm after {} nm, expected them in the "
@@ -189,8 +189,8 @@ hal::Result<LampCalibration> find_lamp_lines(std::span<const double> spectrum,
   if (std::abs(lamp.residuals_nm[worst]) > most_residual_pixels * pixel_nm)
     return refuse(fmt::format("the lines do not fit the peaks: line {} ({} nm, pixel {:.2f}) is "
                               "off by {:.4f} nm, expected at most {:.4f} nm (a pixel)",
-                              worst, lines_nm[worst], lamp.pixels[worst],
-                              lamp.residuals_nm[worst], most_residual_pixels * pixel_nm));
+                              worst, lines_nm[worst], lamp.pixels[worst], lamp.residuals_nm[worst],
+                              most_residual_pixels * pixel_nm));
   const auto positions =
       positions_from_wavelength(lamp.polynomial_nm, static_cast<int>(spectrum.size()));
   if (!positions)

@@ -32,7 +32,11 @@ LineTransform::LineTransform(std::size_t size, Direction direction)
 LineTransform::~LineTransform() = default;
 LineTransform::LineTransform(LineTransform&&) noexcept = default;
 
-std::span<std::complex<double>> LineTransform::values() { return state_->values; }
-void LineTransform::run() { fftw_execute(state_->plan); }
+std::span<std::complex<double>> LineTransform::values() {
+  return state_->values;
+}
+void LineTransform::run() {
+  fftw_execute(state_->plan);
+}
 
 } // namespace octascope::pipeline

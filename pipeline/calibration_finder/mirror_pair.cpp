@@ -45,11 +45,12 @@ hal::Result<std::vector<double>> invert(const WavenumberPhase& k, std::size_t sa
   for (std::size_t p = 1; p < samples; ++p) {
     const auto x = static_cast<double>(p);
     if (k.at(x) <= k.at(x - 1))
-      return hal::fail(Fault::bad_data,
-                       fmt::format("wavenumber is not monotone: the mirrors' phases give {:.4f} rad "
-                                   "at pixel {} and {:.4f} rad at pixel {}, expected it to rise; "
-                                   "measure with more light, or farther apart",
-                                   k.at(x - 1), p - 1, k.at(x), p));
+      return hal::fail(
+          Fault::bad_data,
+          fmt::format("wavenumber is not monotone: the mirrors' phases give {:.4f} rad "
+                      "at pixel {} and {:.4f} rad at pixel {}, expected it to rise; "
+                      "measure with more light, or farther apart",
+                      k.at(x - 1), p - 1, k.at(x), p));
   }
   const double from = k.at(0);
   const double span = k.at(last) - from;
@@ -113,7 +114,8 @@ hal::Result<MirrorPair> combine_fringes(const std::array<Fringe, 2>& fringes, Sa
     pair.theta_sign[1] = -1;
   if (side == SampleSide::second_mirror || side == SampleSide::no_mirror)
     pair.theta_sign[0] = -1;
-  const double first = static_cast<double>(std::max(fringes[0].first_bright, fringes[1].first_bright));
+  const double first =
+      static_cast<double>(std::max(fringes[0].first_bright, fringes[1].first_bright));
   const double last = static_cast<double>(std::min(fringes[0].last_bright, fringes[1].last_bright));
   std::vector<double> weights(samples);
   std::transform(pair.positions.begin(), pair.positions.end(), weights.begin(),
@@ -127,8 +129,8 @@ hal::Result<MirrorPair> combine_fringes(const std::array<Fringe, 2>& fringes, Sa
     pair.depth_bins[i] = line.slope * static_cast<double>(samples) / two_pi;
     // k is made of both phases, so that both leave the same θ: each gives half of it.
     for (std::size_t m = 0; m < samples; ++m)
-      pair.dispersion_rad[m] -= pair.theta_sign[i] / 2 *
-                                (phase[m] - line.offset - line.slope * static_cast<double>(m));
+      pair.dispersion_rad[m] -=
+          pair.theta_sign[i] / 2 * (phase[m] - line.offset - line.slope * static_cast<double>(m));
   }
   if (const auto fault = find_position_fault(pair.positions))
     return hal::fail(Fault::bad_data, *fault);

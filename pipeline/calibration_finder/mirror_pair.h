@@ -26,9 +26,9 @@ enum class SampleSide : std::uint8_t { both_mirrors, first_mirror, second_mirror
 
 struct MirrorPair {
   std::array<Fringe, 2> fringes;
-  std::array<double, 2> depth_bins; // of the linearised axis
-  std::array<double, 2> theta_sign; // of each mirror's fringe against `dispersion_rad`
-  std::vector<double> positions;    // r[m]
+  std::array<double, 2> depth_bins;   // of the linearised axis
+  std::array<double, 2> theta_sign;   // of each mirror's fringe against `dispersion_rad`
+  std::vector<double> positions;      // r[m]
   std::vector<double> dispersion_rad; // θ[m], multiplies as exp(+iθ)
 };
 

@@ -36,11 +36,13 @@ struct Case {
   std::uint64_t seed;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
 
 // One camera line with its noise, rounded and saturated, with or without the dark subtracted.
-std::vector<double> mirror_line(const sim::Spectrometer& s, const Case& c, double bin, bool mirrored,
-                                std::uint64_t seed) {
+std::vector<double> mirror_line(const sim::Spectrometer& s, const Case& c, double bin,
+                                bool mirrored, std::uint64_t seed) {
   // A mirror beyond zero delay: cos(−2π·d·m/N − θ).
   const sim::Reflector mirror{mirrored ? -bin : bin, 500, 0.7};
   const std::vector<double> mean = s.mean_counts({&mirror, 1});
@@ -51,7 +53,8 @@ std::vector<double> mirror_line(const sim::Spectrometer& s, const Case& c, doubl
   for (std::size_t p = 0; p < line.size(); ++p) {
     const double variance = mean[p] / s.config().electrons_per_count +
                             s.config().read_noise_counts * s.config().read_noise_counts;
-    line[p] = std::clamp(std::round(mean[p] + std::sqrt(variance) * normal(generator)), 0.0, 4095.0);
+    line[p] =
+        std::clamp(std::round(mean[p] + std::sqrt(variance) * normal(generator)), 0.0, 4095.0);
     if (c.dark)
       line[p] -= light[p];
   }
@@ -164,10 +167,10 @@ TEST(MirrorPair, on_either_side_of_zero_delay) {
   for (const bool first_beyond : {false, true}) {
     const Case c{"sides", 1024, 0.068, 0.1, 12, 3, 80, 190, true, 21};
     const sim::Spectrometer s = spectrometer(c);
-    const auto found = find_mirror_pair(
-        mirror_line(s, c, c.first_bin, first_beyond, 1),
-        mirror_line(s, c, c.second_bin, !first_beyond, 2),
-        first_beyond ? SampleSide::second_mirror : SampleSide::first_mirror);
+    const auto found =
+        find_mirror_pair(mirror_line(s, c, c.first_bin, first_beyond, 1),
+                         mirror_line(s, c, c.second_bin, !first_beyond, 2),
+                         first_beyond ? SampleSide::second_mirror : SampleSide::first_mirror);
     ASSERT_TRUE(found) << found.error().message;
     const Errors e = errors(*found, s);
     EXPECT_LE(e.positions_px, 0.05);
@@ -176,8 +179,8 @@ TEST(MirrorPair, on_either_side_of_zero_delay) {
 }
 
 std::vector<float> spectrum(const std::string& name) {
-  const auto values =
-      read_float_curve(tests::test_data_folder() / "sd-oct-tissue" / (name + "_f32_1024.raw"), 1024);
+  const auto values = read_float_curve(
+      tests::test_data_folder() / "sd-oct-tissue" / (name + "_f32_1024.raw"), 1024);
   return values ? *values : std::vector<float>{};
 }
 
@@ -221,6 +224,58 @@ TEST(MirrorPair, real_mirrors_become_sharp) {
       EXPECT_LE(width_2, 2.5);
     }
   }
+}
+
+// Cosine of `fringes` over the line, under a bell.
+std::vector<double> plain_fringe(double fringes, std::size_t samples = 512, double bend = 0) {
+  std::vector<double> line(samples);
+  for (std::size_t p = 0; p < samples; ++p) {
+    const double t = static_cast<double>(p) / static_cast<double>(samples - 1);
+    const double bell = std::exp(-std::pow((t - 0.5) / 0.25, 2) / 2);
+    line[p] = 1000 * bell * std::cos(2 * std::numbers::pi * (fringes * t + bend * t * t));
+  }
+  return line;
+}
+
+std::string refusal(const std::vector<double>& first, const std::vector<double>& second) {
+  const auto found = find_mirror_pair(first, second);
+  return found ? "" : found.error().message;
+}
+
+TEST(MirrorPair, plain_fringes_are_accepted) {
+  EXPECT_EQ(refusal(plain_fringe(40), plain_fringe(120)), "");
+}
+
+TEST(MirrorPair, refuses_the_same_depth_twice) {
+  EXPECT_THAT(refusal(plain_fringe(60), plain_fringe(60.5)), HasSubstr("too close to each other"));
+  EXPECT_THAT(refusal(plain_fringe(60), plain_fringe(60)), HasSubstr("expected at least 8"));
+}
+
+TEST(MirrorPair, refuses_what_is_no_number_with_its_index) {
+  auto bad = plain_fringe(60);
+  bad[137] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refusal(plain_fringe(120), bad), HasSubstr("second mirror: sample 137 is nan"));
+}
+
+TEST(MirrorPair, refuses_lines_without_a_fringe) {
+  std::mt19937_64 generator{5};
+  std::normal_distribution<double> normal;
+  for (int round = 0; round < 20; ++round) {
+    std::vector<double> noise(1024);
+    for (double& value : noise)
+      value = 1000 + 10 * normal(generator);
+    EXPECT_THAT(refusal(noise, plain_fringe(60, 1024)), HasSubstr("no fringe"));
+  }
+  EXPECT_THAT(refusal(std::vector<double>(512, 7.0), plain_fringe(60)),
+              HasSubstr("all samples are 7"));
+  EXPECT_THAT(refusal(plain_fringe(60), plain_fringe(60, 256)), HasSubstr("512 samples"));
+  EXPECT_THAT(refusal(plain_fringe(9, 48), plain_fringe(18, 48)), HasSubstr("at least 64"));
+}
+
+TEST(MirrorPair, refuses_a_difference_that_turns_back_with_its_pixel) {
+  // The fringes of one slow down where those of the other do not: no spectrometer does that.
+  EXPECT_THAT(refusal(plain_fringe(60), plain_fringe(130, 512, -55)),
+              HasSubstr("wavenumber is not monotone"));
 }
 
 } // namespace
