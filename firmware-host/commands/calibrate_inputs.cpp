@@ -48,17 +48,21 @@ hal::Result<pipeline::SpectraShape> shape_of(const std::filesystem::path& file,
   return pipeline::SpectraShape{1, static_cast<int>(lines), samples};
 }
 
-// The first of at least four samples in a row at the line's highest value.
+// The first of at least four samples in a row at the line's highest value, when that happens more
+// than once: a slow fringe in few bits has one flat top, a clipped one has many.
 std::optional<std::size_t> find_plateau(std::span<const double> line) {
   constexpr int fewest = 4; // noise does not do that
   const double highest = *std::max_element(line.begin(), line.end());
   if (highest <= *std::min_element(line.begin(), line.end()))
     return std::nullopt;
+  std::optional<std::size_t> first;
   int run = 0;
   for (std::size_t p = 0; p < line.size(); ++p) {
     run = line[p] >= highest ? run + 1 : 0;
+    if (run == fewest && first)
+      return first;
     if (run == fewest)
-      return p + 1 - fewest;
+      first = p + 1 - fewest;
   }
   return std::nullopt;
 }

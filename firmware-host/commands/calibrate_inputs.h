@@ -23,7 +23,7 @@ pipeline::SpectrumType spectrum_type(const std::filesystem::path& file,
                                      std::optional<pipeline::SpectrumType> given);
 
 // The mean of the lines of a file. Fault::bad_data with line and sample: not finite; with
-// `refuse_saturated`, at full scale or with its highest value on several samples in a row.
+// `refuse_saturated`, at full scale or flat at its highest value in several places.
 hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file,
                                                const SpectrumInput& input, bool refuse_saturated);
 

@@ -144,6 +144,11 @@ SmoothFit FringeFinder::first_phase(const Band& band) {
   const double highest = *peak;
   unwrap(measured_, static_cast<std::size_t>(peak - amplitude_.begin()));
   bright_ = bright_run(amplitude_, 0.15 * highest);
+  // At least an eighth of the line, so that a curve can be put through it at all.
+  bright_.first = bright_.first > n / 16
+                      ? std::min(bright_.first, bright_.last - std::min(bright_.last, n / 8))
+                      : 0;
+  bright_.last = std::max(bright_.last, std::min(n - 1, bright_.first + n / 8));
   std::vector<double> weights(n);
   std::transform(amplitude_.begin(), amplitude_.end(), weights.begin(),
                  [](double a) { return a * a; });

@@ -13,12 +13,15 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware-host/commands/calibrate.h"
+#include "firmware-host/commands/reconstruct.h"
 #include "pipeline/calibration.h"
 #include "pipeline/calibration_finder/tissue_sharpness.h"
+#include "pipeline/nrrd.h"
 #include "pipeline/png_image.h"
 #include "sim/spectrometer.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test_data.h"
+#include "tests/support/tissue_surface.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -258,6 +261,19 @@ TEST_F(CalibrateCommand, real_mirrors_and_tissue) {
   const double share = tissue_sharpness(*found) / tissue_sharpness(*supplied);
   fmt::print("  tissue: {:.1f} % of the sharpness with the supplied curves\n", 100 * share);
   EXPECT_GE(share, 0.95);
+
+  ReconstructOptions reconstruction;
+  reconstruction.spectra = data / "spectra_u16_100x100x1024.raw";
+  reconstruction.shape = {100, 100, 1024};
+  reconstruction.calibration = out;
+  reconstruction.volume = folder / "volume.nrrd";
+  const auto done = reconstruct_volume(reconstruction);
+  ASSERT_TRUE(done) << done.error().message;
+  const auto volume = pipeline::read_nrrd(reconstruction.volume);
+  ASSERT_TRUE(volume) << volume.error().message;
+  const auto& levels = std::get<std::vector<float>>(volume->levels);
+  EXPECT_NEAR(tests::tissue_surface(levels, 50, 0), 50, 10);
+  EXPECT_NEAR(tests::tissue_surface(levels, 50, 90), 25, 8);
 }
 
 } // namespace
