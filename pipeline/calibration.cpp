@@ -38,6 +38,7 @@ private:
   void read_background();
   void read_window();
   void read_depth();
+  void read_provenance();
   std::vector<double> read_curve(const fs::path& path);
   void check_positions(const std::string& source, bool measured);
   void keep(hal::Error error) {
@@ -59,6 +60,7 @@ hal::Result<Calibration> CalibrationReader::read(int expected_samples) {
     read_background();
     read_window();
     read_depth();
+    read_provenance();
     // A misspelt key explains more than what follows from it, so the document speaks first.
     if (const auto finished = document_.finish(); !finished)
       return tl::make_unexpected(finished.error());
@@ -219,6 +221,13 @@ void CalibrationReader::read_depth() {
       depth.number("a_spacing_um", calibration_.a_spacing_um, spacing_range_um);
   calibration_.b_spacing_um =
       depth.number("b_spacing_um", calibration_.b_spacing_um, spacing_range_um);
+}
+
+// For people only; a calibration that the program found has it.
+void CalibrationReader::read_provenance() {
+  ConfigTable provenance = root_.table("provenance");
+  for (const std::string_view key : {"program", "method", "inputs", "created", "verdict"})
+    provenance.text(key, "");
 }
 
 template <class Value>

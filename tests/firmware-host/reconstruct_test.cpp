@@ -15,6 +15,7 @@
 #include "pipeline/png_image.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test_data.h"
+#include "tests/support/tissue_surface.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -125,18 +126,6 @@ TEST_F(ReconstructCommand, floats_must_be_finite) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
-// The mean profile of ten A-scans first exceeds −5 dB here, behind the background's remains.
-int surface(const std::vector<float>& levels, std::size_t b, std::size_t first_a) {
-  for (std::size_t z = 10; z < 500; ++z) {
-    float sum = 0;
-    for (std::size_t a = first_a; a < first_a + 10; ++a)
-      sum += levels[(b * 100 + a) * 512 + z];
-    if (sum > -50)
-      return static_cast<int>(z);
-  }
-  return -1;
-}
-
 TEST_F(ReconstructCommand, real_tissue_has_its_sloping_surface) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
   const std::string calibration =
@@ -147,8 +136,8 @@ TEST_F(ReconstructCommand, real_tissue_has_its_sloping_surface) {
   ASSERT_TRUE(volume) << volume.error().message;
   EXPECT_NEAR(volume->geometry.depth_spacing_um, 3.5, 1e-9);
   const auto& levels = std::get<std::vector<float>>(volume->levels);
-  const int left = surface(levels, 50, 0);
-  const int right = surface(levels, 50, 90);
+  const int left = tests::tissue_surface(levels, 50, 0);
+  const int right = tests::tissue_surface(levels, 50, 90);
   fmt::print("  surface of B-scan 50: bin {} at the left, {} at the right\n", left, right);
   EXPECT_NEAR(left, 50, 10);
   EXPECT_NEAR(right, 25, 8);

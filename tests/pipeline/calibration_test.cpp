@@ -193,6 +193,8 @@ TEST_F(CalibrationFile, refuses_unclear_forms) {
 TEST_F(CalibrationFile, refuses_unknown_keys_and_values) {
   EXPECT_THAT(refusal(straight + "interpolate = \"cubic\"\n"), HasSubstr("unknown key"));
   EXPECT_THAT(refusal(straight + "[extra]\n"), HasSubstr("unknown key \"extra\""));
+  EXPECT_THAT(refusal(straight + "[provenance]\nauthor = \"x\"\n"), HasSubstr("\"author\""));
+  EXPECT_THAT(refusal(straight + "[provenance]\nmethod = 3\n"), HasSubstr("a text in quotes"));
   EXPECT_THAT(refusal(straight + "interpolation = \"best\"\n"), HasSubstr("\"linear\", \"cubic\""));
   EXPECT_THAT(refusal(straight + "[window]\nkind = \"triangle\"\n"), HasSubstr("kind"));
   EXPECT_THAT(refusal(straight + "[depth]\nspacing_um = 0\n"), HasSubstr("spacing_um"));

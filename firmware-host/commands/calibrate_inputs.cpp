@@ -1,0 +1,141 @@
+#include "firmware-host/commands/calibrate_inputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "pipeline/calibration.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using hal::Fault;
+using pipeline::SpectrumType;
+
+template <class Sample> std::vector<double> numbers_of(std::span<const std::byte> bytes) {
+  std::vector<double> values(bytes.size() / sizeof(Sample));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Sample sample{};
+    std::memcpy(&sample, bytes.data() + i * sizeof(Sample), sizeof(Sample));
+    values[i] = static_cast<double>(sample);
+  }
+  return values;
+}
+
+hal::Result<pipeline::SpectraShape> shape_of(const std::filesystem::path& file,
+                                             const SpectrumInput& input, SpectrumType type) {
+  std::error_code error;
+  const std::uintmax_t bytes =
+      std::filesystem::is_regular_file(file, error) ? std::filesystem::file_size(file, error) : 0;
+  const std::uintmax_t values = bytes / pipeline::bytes_per_sample(type);
+  const auto most = static_cast<std::uintmax_t>(pipeline::most_samples);
+  if (!input.samples && values > most)
+    return hal::fail(Fault::invalid_argument,
+                     fmt::format("{}: found {} samples, more than a line has; say with --samples "
+                                 "how many make one line",
+                                 file.string(), values));
+  // Of a file that is missing or empty, the reader speaks.
+  const int samples = input.samples.value_or(
+      values < static_cast<std::uintmax_t>(pipeline::fewest_samples) ? pipeline::fewest_samples
+                                                                     : static_cast<int>(values));
+  const std::uintmax_t lines = std::clamp<std::uintmax_t>(
+      values / static_cast<std::uintmax_t>(std::max(samples, 1)), 1, 65536);
+  return pipeline::SpectraShape{1, static_cast<int>(lines), samples};
+}
+
+// The first of at least four samples in a row at the line's highest value, when that happens more
+// than once: a slow fringe in few bits has one flat top, a clipped one has many.
+std::optional<std::size_t> find_plateau(std::span<const double> line) {
+  constexpr int fewest = 4; // noise does not do that
+  const double highest = *std::max_element(line.begin(), line.end());
+  if (highest <= *std::min_element(line.begin(), line.end()))
+    return std::nullopt;
+  std::optional<std::size_t> first;
+  int run = 0;
+  for (std::size_t p = 0; p < line.size(); ++p) {
+    run = line[p] >= highest ? run + 1 : 0;
+    if (run == fewest && first)
+      return first;
+    if (run == fewest)
+      first = p + 1 - fewest;
+  }
+  return std::nullopt;
+}
+
+hal::Result<> check_saturation(const std::string& place, std::span<const double> line,
+                               std::optional<double> full_scale) {
+  for (std::size_t p = 0; full_scale && p < line.size(); ++p) {
+    if (line[p] >= *full_scale)
+      return hal::fail(Fault::bad_data,
+                       fmt::format("{}: saturated: sample {} is {}, expected less than {}; measure "
+                                   "with less light",
+                                   place, p, line[p], *full_scale));
+  }
+  if (const auto plateau = find_plateau(line))
+    return hal::fail(Fault::bad_data,
+                     fmt::format("{}: saturated: samples {} to {} are all {}, the highest value; "
+                                 "measure with less light",
+                                 place, *plateau, *plateau + 3, line[*plateau]));
+  return {};
+}
+
+} // namespace
+
+SpectrumType spectrum_type(const std::filesystem::path& file, std::optional<SpectrumType> given) {
+  if (given)
+    return *given;
+  const std::string name = file.filename().string();
+  if (name.find("f32") != std::string::npos)
+    return SpectrumType::f32;
+  if (name.find("u8") != std::string::npos && name.find("u16") == std::string::npos)
+    return SpectrumType::u8;
+  return SpectrumType::u16;
+}
+
+std::vector<double> to_numbers(std::span<const std::byte> bytes, SpectrumType type) {
+  switch (type) {
+  case SpectrumType::u8: return numbers_of<std::uint8_t>(bytes);
+  case SpectrumType::u16: return numbers_of<std::uint16_t>(bytes);
+  case SpectrumType::f32: break;
+  }
+  return numbers_of<float>(bytes);
+}
+
+hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file,
+                                               const SpectrumInput& input, bool refuse_saturated) {
+  const SpectrumType type = spectrum_type(file, input.type);
+  const auto shape = shape_of(file, input, type);
+  if (!shape)
+    return tl::make_unexpected(shape.error());
+  const auto spectra = pipeline::SpectraFile::open(file, *shape, type);
+  if (!spectra)
+    return tl::make_unexpected(spectra.error());
+  if (const auto fault = spectra->find_non_finite(0))
+    return hal::fail(Fault::bad_data, *fault);
+  const std::vector<double> values = to_numbers(spectra->b_scan(0), type);
+  const auto n = static_cast<std::size_t>(shape->samples);
+  const auto lines = static_cast<std::size_t>(shape->a_scans);
+  std::optional<double> full_scale;
+  if (type != SpectrumType::f32)
+    full_scale =
+        std::ldexp(1.0, input.significant_bits.value_or(type == SpectrumType::u8 ? 8 : 16)) - 1;
+
+  std::vector<double> mean(n);
+  for (std::size_t a = 0; a < lines; ++a) {
+    const std::span line = std::span{values}.subspan(a * n, n);
+    const std::string place = fmt::format("{}: line {}", file.string(), a);
+    if (const auto checked = check_saturation(place, line, full_scale);
+        refuse_saturated && !checked)
+      return tl::make_unexpected(checked.error());
+    for (std::size_t p = 0; p < n; ++p)
+      mean[p] += line[p] / static_cast<double>(lines);
+  }
+  return mean;
+}
+
+} // namespace octascope::firmware_host

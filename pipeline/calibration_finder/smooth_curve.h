@@ -1,0 +1,50 @@
+// A smooth curve through noisy values: a weighted least-squares polynomial in Legendre form, and
+// its cautious continuation where nothing was measured.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace octascope::pipeline {
+
+// Inside [first, last] the polynomial; outside it the parabola that fits the outer fifth best, put
+// on the value at that end: a polynomial of high degree runs away where no value holds it, and its
+// own curvature at the end is mostly noise.
+class SmoothCurve {
+public:
+  SmoothCurve(double first, double last, std::vector<double> coefficients);
+
+  double at(double x) const;
+  double slope_at(double x) const; // per unit of x
+  int degree() const { return static_cast<int>(coefficients_.size()) - 1; }
+
+private:
+  // In the coordinate u of the polynomial: value + slope·(u ∓ 1) + curvature·(u ∓ 1)²/2.
+  struct End {
+    double value = 0;
+    double slope = 0;
+    double curvature = 0;
+  };
+  End end(double sign) const;
+  double polynomial(double u) const;
+
+  double centre_;
+  double half_width_;
+  std::vector<double> coefficients_; // of P_n(u), u = (x − centre)/half width
+  End low_;
+  End high_;
+};
+
+struct SmoothFit {
+  SmoothCurve curve;
+  double rms = 0; // weighted, of what the curve leaves
+};
+
+// `values[i]` was measured at x = i with `weights[i]` ≥ 0; only `first` ≤ i ≤ `last` counts.
+// The degree is the smallest, from 1 to `highest_degree`, that leaves at most a tenth more than the
+// highest one does. Needs more than `highest_degree` values with a weight.
+SmoothFit fit_smooth_curve(std::span<const double> values, std::span<const double> weights,
+                           std::size_t first, std::size_t last, int highest_degree);
+
+} // namespace octascope::pipeline
