@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "firmware-host/commands/bench_reconstruct.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/reconstruct.h"
 #include "firmware-host/version.h"
@@ -22,6 +23,7 @@ int main(int argc, char** argv) {
   host::add_devices_command(program, exit_status);
   host::add_doctor_command(program, exit_status);
   host::add_reconstruct_command(program, exit_status);
+  host::add_bench_command(program, exit_status);
 
   try {
     program.parse(argc, argv);

@@ -10,8 +10,15 @@ namespace octascope::pipeline {
 
 HWY_EXPORT(kernels);
 
-const FusedKernels* fused_kernels() {
-  return HWY_DYNAMIC_DISPATCH(kernels)();
+const FusedKernels* fused_kernels(std::string_view isa) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) { // the widest first
+    hwy::ChosenTarget only;
+    only.Update(target);
+    const FusedKernels* candidate = HWY_DISPATCH_TABLE(kernels)[only.GetIndex()]();
+    if (candidate != nullptr && (isa.empty() || isa == candidate->isa))
+      return candidate;
+  }
+  return nullptr;
 }
 
 } // namespace octascope::pipeline

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "pipeline/fused_tables.h"
 
@@ -37,7 +38,7 @@ struct FusedKernels {
   std::uint32_t (*highest_u16)(const std::uint16_t* counts, int samples);
 };
 
-// The widest that this processor has; nullptr where it has no vectors worth the name.
-const FusedKernels* fused_kernels();
+// The widest that this processor has, or the one named `isa`; nullptr where it has no such one.
+const FusedKernels* fused_kernels(std::string_view isa = {});
 
 } // namespace octascope::pipeline

@@ -42,8 +42,8 @@ FusedPath::FusedPath(FusedTables tables, const FusedKernels& kernels, RawKind ki
                                     [std::countr_zero(static_cast<unsigned>(tables_.tap_pairs))]) {}
 
 std::optional<FusedPath> FusedPath::make(const Calibration& calibration, int bytes_per_sample,
-                                         int right_shift) {
-  const FusedKernels* kernels = fused_kernels();
+                                         int right_shift, std::string_view isa) {
+  const FusedKernels* kernels = fused_kernels(isa);
   if (kernels == nullptr || bytes_per_sample > 2 || (bytes_per_sample == 1 && right_shift > 0))
     return std::nullopt;
   auto tables = make_fused_tables(calibration, right_shift, kernels->window);

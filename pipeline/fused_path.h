@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
+#include <string_view>
 
 #include "pipeline/calibration.h"
 #include "pipeline/fused_kernels.h"
@@ -22,9 +22,10 @@ public:
   };
 
   // Nothing where it does not apply: see make_fused_tables(), and recorded backgrounds so far from
-  // the counts that fixed point overflows, and processors without vectors.
+  // the counts that fixed point overflows, and processors without `isa` (empty:
+  // the widest they have).
   static std::optional<FusedPath> make(const Calibration& calibration, int bytes_per_sample,
-                                       int right_shift);
+                                       int right_shift, std::string_view isa);
 
   Buffers make_buffers() const;
   const char* isa() const { return kernels_->isa; }

@@ -278,7 +278,7 @@ hal::Result<Reconstructor> Reconstructor::create(const ReconstructionSetup& setu
   if (setup.format.type != SpectrumType::f32)
     plan->fused =
         FusedPath::make(calibration, static_cast<int>(bytes_per_sample(setup.format.type)),
-                        setup.format.right_shift);
+                        setup.format.right_shift, setup.fused_isa);
   plan->choose_path(setup.path);
   return Reconstructor{std::move(plan)};
 }

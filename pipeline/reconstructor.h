@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "hal/line_camera.h"
 #include "hal/result.h"
@@ -53,6 +54,8 @@ struct ReconstructionSetup {
   SpectrumFormat format;
   int a_scans = 300; // kept lines of a B-scan, the first of each frame
   ReconstructionPath path = ReconstructionPath::automatic;
+  // Of the fused path, to compare: AVX3, AVX2, SSE4 or NEON; empty: the widest there is.
+  std::string fused_isa = {};
 };
 
 struct BScanOutcome {
