@@ -1,6 +1,7 @@
 // octascope: the command line.
 #include <string>
 
+#include "firmware-host/commands/bench_reconstruct.h"
 #include "firmware-host/commands/calibrate.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/reconstruct.h"
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
   host::add_devices_command(program, exit_status);
   host::add_doctor_command(program, exit_status);
   host::add_reconstruct_command(program, exit_status);
+  host::add_bench_command(program, exit_status);
   host::add_calibrate_command(program, exit_status);
 
   try {

@@ -8,6 +8,11 @@
 
 namespace octascope::pipeline {
 
+inline constexpr float log2_c0 = 0.43872572F;
+inline constexpr float log2_c1 = -0.23905812F;
+inline constexpr float log2_c2 = 0.08213058F;
+inline constexpr float db_per_octave_of_power = 3.01029996F;
+
 // log2 of a positive, finite, normal float: the exponent as it stands, and for the mantissa m a
 // polynomial of degree 4 in t = m − 1, exact at both ends so that the result is continuous:
 // log2(1+t) ≈ t + t(1−t)(c0 + c1·t + c2·t²), minimax over [0, 1] with an error below 1.2e-4.
@@ -16,13 +21,12 @@ inline float fast_log2(float x) {
   const auto bits = std::bit_cast<std::int32_t>(x);
   const auto exponent = static_cast<float>((bits >> 23) - 127);
   const float t = std::bit_cast<float>((bits & 0x007F'FFFF) | 0x3F80'0000) - 1.0F;
-  const float q = 0.43872572F + t * (-0.23905812F + t * 0.08213058F);
+  const float q = log2_c0 + t * (log2_c1 + t * log2_c2);
   return exponent + (t + t * (1.0F - t) * q);
 }
 
 // 10·log10(power) within 0.002 dB (0.0004 dB in exact arithmetic).
 inline float fast_power_db(float power) {
-  constexpr float db_per_octave_of_power = 3.01029996F;
   return db_per_octave_of_power * fast_log2(power);
 }
 

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <chrono>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "pipeline/background.h"
 #include "pipeline/fft_plan.h"
+#include "pipeline/fused_path.h"
 #include "pipeline/k_linearisation.h"
 #include "pipeline/line_kernels.h"
 
@@ -50,10 +53,10 @@ FftPlan plan_transform(int samples, bool complex_input) {
   constexpr double longest_planning_s = 1; // lines of many samples: a good plan, not the best
   fftwf_set_timelimit(longest_planning_s);
   return FftPlan{complex_input
-                      ? fftwf_plan_dft_1d(samples, as_complex(in.get()), as_complex(out.get()),
-                                          FFTW_FORWARD, FFTW_MEASURE)
-                      : fftwf_plan_dft_r2c_1d(samples, in.get(), as_complex(out.get()),
-                                              FFTW_MEASURE | FFTW_DESTROY_INPUT)};
+                     ? fftwf_plan_dft_1d(samples, as_complex(in.get()), as_complex(out.get()),
+                                         FFTW_FORWARD, FFTW_MEASURE)
+                     : fftwf_plan_dft_r2c_1d(samples, in.get(), as_complex(out.get()),
+                                             FFTW_MEASURE | FFTW_DESTROY_INPUT)};
 }
 
 // Window, dispersion phase and the 1/N of the level, folded. The padding is 0.
@@ -112,6 +115,14 @@ struct Reconstructor::Plan {
   bool complex_input = false;
   ShapeLine shape_line = nullptr;
   FftPlan transform;
+  std::optional<FusedPath> fused; // used where there is one
+
+  bool background_is_measured() const {
+    return background_mode == BackgroundMode::mean || background_mode == BackgroundMode::running;
+  }
+  std::unique_ptr<Workspace::Buffers> make_buffers() const;
+  void choose_path(ReconstructionPath wanted);
+  std::chrono::nanoseconds time_b_scan(const std::vector<std::byte>& frame);
 
   template <class Count, class Level>
   BScanOutcome run(Workspace::Buffers& buffers, std::span<const std::byte> frame,
@@ -126,10 +137,16 @@ struct Reconstructor::Workspace::Buffers {
       : background(mode, samples, recorded), line(make_buffer(padded(samples))),
         shaped(make_buffer(2 * padded(samples))), bins(make_buffer(2 * padded(samples))) {}
 
+  void set_fused(const FusedPath& path) {
+    fused = path.make_buffers();
+    path.set_background(background.values(), *fused);
+  }
+
   Background background;
   FftwBuffer line;   // counts without background
   FftwBuffer shaped; // input of the transform
   FftwBuffer bins;   // its output, complex
+  std::optional<FusedPath::Buffers> fused;
 };
 
 template <class Count, class Level>
@@ -145,6 +162,14 @@ BScanOutcome Reconstructor::Plan::run(Workspace::Buffers& buffers, std::span<con
   buffers.background.update(counts, a_scans, format.right_shift);
   const float* background = buffers.background.values();
   const std::uint32_t full_scale = (1U << format.significant_bits) - 1U;
+
+  if constexpr (!std::is_same_v<Count, float>) {
+    if (fused) {
+      if (background_is_measured())
+        fused->set_background(background, *buffers.fused);
+      return {fused->reconstruct(frame.data(), a_scans, full_scale, *buffers.fused, levels.data())};
+    }
+  }
 
   BScanOutcome outcome;
   for (std::size_t a = 0; a < lines; ++a) {
@@ -180,6 +205,50 @@ BScanOutcome Reconstructor::Plan::dispatch(Workspace::Buffers& buffers,
   return {};
 }
 
+std::unique_ptr<Reconstructor::Workspace::Buffers> Reconstructor::Plan::make_buffers() const {
+  auto buffers =
+      std::make_unique<Workspace::Buffers>(background_mode, format.samples, recorded_background);
+  if (fused)
+    buffers->set_fused(*fused);
+  return buffers;
+}
+
+// The fastest of a few B-scans on whichever path is set.
+std::chrono::nanoseconds Reconstructor::Plan::time_b_scan(const std::vector<std::byte>& frame) {
+  using Clock = std::chrono::steady_clock;
+  const auto buffers = make_buffers();
+  std::vector<std::uint8_t> levels(static_cast<std::size_t>(a_scans) *
+                                   static_cast<std::size_t>(format.samples / 2));
+  auto fastest = std::chrono::nanoseconds::max();
+  for (int repeat = 0; repeat < 5; ++repeat) {
+    const auto start = Clock::now();
+    dispatch(*buffers, std::span{frame}, std::span{levels});
+    fastest = std::min<std::chrono::nanoseconds>(fastest, Clock::now() - start);
+  }
+  return fastest;
+}
+
+void Reconstructor::Plan::choose_path(ReconstructionPath wanted) {
+  if (!fused || wanted == ReconstructionPath::fused)
+    return;
+  std::optional<FusedPath> candidate;
+  if (wanted == ReconstructionPath::automatic) {
+    // A short B-scan: large ones take no longer by the line, and only delay the start.
+    const int all_a_scans = std::exchange(a_scans, std::min(a_scans, 64));
+    std::vector<std::byte> frame(format.line_bytes() * static_cast<std::size_t>(a_scans));
+    for (std::size_t i = 0; i < frame.size(); ++i)
+      frame[i] = static_cast<std::byte>(i * i >> 8);
+    const auto with_fused = time_b_scan(frame);
+    candidate.swap(fused);
+    const auto with_fftw = time_b_scan(frame);
+    a_scans = all_a_scans;
+    if (with_fused < with_fftw)
+      candidate.swap(fused);
+  } else {
+    fused.reset();
+  }
+}
+
 Reconstructor::Workspace::Workspace(std::unique_ptr<Buffers> buffers)
     : buffers_(std::move(buffers)) {}
 Reconstructor::Workspace::Workspace(Workspace&&) noexcept = default;
@@ -206,6 +275,11 @@ hal::Result<Reconstructor> Reconstructor::create(const ReconstructionSetup& setu
   if (!plan->transform)
     return hal::fail(Fault::system, fmt::format("reconstruction: FFTW has no plan for {} samples",
                                                 calibration.samples));
+  if (setup.format.type != SpectrumType::f32)
+    plan->fused =
+        FusedPath::make(calibration, static_cast<int>(bytes_per_sample(setup.format.type)),
+                        setup.format.right_shift, setup.fused_isa);
+  plan->choose_path(setup.path);
   return Reconstructor{std::move(plan)};
 }
 
@@ -230,9 +304,15 @@ std::size_t Reconstructor::levels() const {
   return static_cast<std::size_t>(depths()) * static_cast<std::size_t>(a_scans());
 }
 
+ReconstructionPath Reconstructor::path() const {
+  return plan_->fused ? ReconstructionPath::fused : ReconstructionPath::fftw;
+}
+const char* Reconstructor::isa() const {
+  return plan_->fused ? plan_->fused->isa() : "native";
+}
+
 Reconstructor::Workspace Reconstructor::make_workspace() const {
-  return Workspace{std::make_unique<Workspace::Buffers>(
-      plan_->background_mode, plan_->format.samples, plan_->recorded_background)};
+  return Workspace{plan_->make_buffers()};
 }
 
 BScanOutcome Reconstructor::reconstruct_b_scan(Workspace& workspace,

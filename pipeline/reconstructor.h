@@ -4,13 +4,15 @@
 //   shift, s − background[p]; x[m] = s(r[m]) (k-linearisation by taps);
 //   y[m] = x[m]·w[m]·exp(iθ[m])/N (one complex factor a sample; real without dispersion);
 //   Y = FFT(y), bins 0 … N/2−1; level = 10·log10(|Y|²) dB, which is 20·log10(|FFT|/N).
-// Single precision, FFTW in the middle.
+// Single precision. Two paths with one meaning: FFTW in the middle, for any N and type; and the
+// fused one (fused_kernels.h), a line in one pass, for integer counts and N = 256, 512 … 8192.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "hal/line_camera.h"
 #include "hal/result.h"
@@ -40,10 +42,20 @@ struct SpectrumFormat {
   }
 };
 
+// Which of the two. `fused` where it does not apply gives FFTW's.
+enum class ReconstructionPath : std::uint8_t {
+  automatic, // the faster one, measured for some milliseconds when the Reconstructor is made
+  fftw,
+  fused,
+};
+
 struct ReconstructionSetup {
   Calibration calibration;
   SpectrumFormat format;
   int a_scans = 300; // kept lines of a B-scan, the first of each frame
+  ReconstructionPath path = ReconstructionPath::automatic;
+  // Of the fused path, to compare: AVX3, AVX2, SSE4 or NEON; empty: the widest there is.
+  std::string fused_isa = {};
 };
 
 struct BScanOutcome {
@@ -84,6 +96,11 @@ public:
   int a_scans() const;
   std::size_t kept_bytes() const; // of the kept lines of a frame: the least that a frame has
   std::size_t levels() const;     // of a B-scan: a_scans × depths
+
+  ReconstructionPath path() const; // fftw or fused, what was chosen
+  // The instruction set of the fused kernels ("AVX3", "AVX2", …); "native" for FFTW's path, whose
+  // loops choose their own.
+  const char* isa() const;
 
   Workspace make_workspace() const;
 

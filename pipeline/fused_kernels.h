@@ -1,0 +1,44 @@
+// The fused reconstruction of one line: raw counts → levels in one pass through the first-level
+// cache. Compiled for every instruction set, chosen at run time.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "pipeline/fused_tables.h"
+
+namespace octascope::pipeline {
+
+// How raw samples become signed 16-bit numbers: as they are, less 32768, or shifted.
+enum class RawKind : std::uint8_t { u8, u16, u16_shifted };
+inline constexpr int raw_kinds = 3;
+
+// What RawKind takes off each count.
+constexpr int raw_offset(RawKind kind) {
+  return kind == RawKind::u16 ? 32768 : 0;
+}
+
+// Functions of one instruction set. `work` has 2·N floats on a cache line, `background` N values
+// as resample_background() leaves them, also on a cache line. None allocates or locks.
+struct FusedKernels {
+  const char* isa;
+  WindowShape window;
+
+  // Counts → first radix of the transform → work. Fetches `next_line` into the cache meanwhile.
+  using FirstPass = void (*)(const FusedTables& tables, const void* counts, const void* next_line,
+                             const std::int32_t* background, float* work);
+  FirstPass first_pass[raw_kinds][3]; // [kind][log2 of the tap pairs]
+
+  // The rest of the transform, bins 0 … N/2−1, and the levels.
+  void (*finish_u8)(const FusedTables& tables, float* work, std::uint8_t* levels);
+  void (*finish_db)(const FusedTables& tables, float* work, float* levels_db);
+
+  // The largest count of a line, before the shift. N is a multiple of 64.
+  std::uint32_t (*highest_u8)(const std::uint8_t* counts, int samples);
+  std::uint32_t (*highest_u16)(const std::uint16_t* counts, int samples);
+};
+
+// The widest that this processor has, or the one named `isa`; nullptr where it has no such one.
+const FusedKernels* fused_kernels(std::string_view isa = {});
+
+} // namespace octascope::pipeline
