@@ -2,9 +2,8 @@
 // thread on a hot path? The count goes into the report ("hot_path.allocations") and must be 0.
 //
 // The C functions are replaced, not operator new alone, so that libraries written in C count too.
-// A sanitizer brings allocation functions of its own; there the C++ ones are counted only.
+// A sanitizer brings allocation functions of its own: nothing is counted there.
 #include <cstdlib>
-#include <new>
 
 #include "pipeline/hot_path.h"
 
@@ -40,21 +39,5 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 
 } // extern "C"
-
-#else
-
-void* operator new(std::size_t size) {
-  HotPath::count_allocation();
-  if (void* memory = std::malloc(size == 0 ? 1 : size))
-    return memory;
-  throw std::bad_alloc{};
-}
-
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 #endif
