@@ -2,9 +2,8 @@
 // thread on a hot path? The count goes into the report ("hot_path.allocations") and must be 0.
 //
 // The C functions are replaced, not operator new alone, so that libraries written in C count too.
-// A sanitizer brings allocation functions of its own; there the C++ ones are counted only.
-#include <cstdlib>
-#include <new>
+// A sanitizer brings allocation functions of its own, and asks a hook.
+#include <cstddef>
 
 #include "pipeline/hot_path.h"
 
@@ -43,14 +42,11 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 
 #else
 
-void* operator new(std::size_t size) {
-  HotPath::count_allocation();
-  if (void* memory = std::malloc(size == 0 ? 1 : size))
-    return memory;
-  throw std::bad_alloc{};
-}
+// Called by the sanitizer's own allocator after every allocation, C or C++.
+extern "C" void __sanitizer_malloc_hook(const volatile void* memory, std::size_t size);
 
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+extern "C" void __sanitizer_malloc_hook(const volatile void*, std::size_t) {
+  HotPath::count_allocation();
+}
 
 #endif
