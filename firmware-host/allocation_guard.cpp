@@ -2,8 +2,8 @@
 // thread on a hot path? The count goes into the report ("hot_path.allocations") and must be 0.
 //
 // The C functions are replaced, not operator new alone, so that libraries written in C count too.
-// A sanitizer brings allocation functions of its own: nothing is counted there.
-#include <cstdlib>
+// A sanitizer brings allocation functions of its own, and asks a hook.
+#include <cstddef>
 
 #include "pipeline/hot_path.h"
 
@@ -39,5 +39,14 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 
 } // extern "C"
+
+#else
+
+// Called by the sanitizer's own allocator after every allocation, C or C++.
+extern "C" void __sanitizer_malloc_hook(const volatile void* memory, std::size_t size);
+
+extern "C" void __sanitizer_malloc_hook(const volatile void*, std::size_t) {
+  HotPath::count_allocation();
+}
 
 #endif

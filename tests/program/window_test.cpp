@@ -39,14 +39,6 @@ std::string write_recording(const ScratchFolder& folder) {
 
 class Window : public testing::Test {
 protected:
-  // The window system's client libraries keep a few hundred bytes and are unloaded at the end, so
-  // that no suppression can name them any more. Leaks of ours show in the offscreen runs.
-  static void SetUpTestSuite() {
-    const char* options = std::getenv("ASAN_OPTIONS");
-    setenv("ASAN_OPTIONS",
-           (std::string{options == nullptr ? "" : options} + ":detect_leaks=0").c_str(), 1);
-  }
-
   void SetUp() override {
     if (!screen_.running())
       GTEST_SKIP() << screen_.problem();
@@ -86,19 +78,25 @@ protected:
     pipeline::Image picture;
     for (int i = 0; i < attempts && !is_unmarked(picture); ++i) {
       const ProgramResult result = run_program(play(display, {"--volumes", "3"}));
-      EXPECT_EQ(result.exit_status, 0) << result.describe();
+      if (result.exit_status != 0) {
+        ADD_FAILURE() << result.describe();
+        return {};
+      }
       picture = read_snapshot(snapshot_);
     }
     EXPECT_TRUE(is_unmarked(picture)) << display;
     return picture;
   }
 
-  // Starts in the window and waits until volumes are shown.
+  // Starts in the window and waits until volumes are shown; null, and a failed test, if it ends.
   std::unique_ptr<ProgramRun> start() {
     auto run = std::make_unique<ProgramRun>(play("window", {"--duration", "100"}));
-    EXPECT_TRUE(run->wait_for_thread("octa-camera", 60s));
+    const bool started = run->wait_for_thread("octa-camera", 60s);
     std::this_thread::sleep_for(sanitized ? 4s : 1s);
-    return run;
+    if (started && run->running())
+      return run;
+    ADD_FAILURE() << run->wait(1s).describe();
+    return nullptr;
   }
 
   // Runs xdotool on the window; what it prints.
@@ -131,6 +129,7 @@ TEST_F(Window, shows_what_offscreen_shows) {
 TEST_F(Window, is_turned_by_keys_and_ended_by_q) {
   const pipeline::Image unturned = picture_on("offscreen");
   auto run = start();
+  ASSERT_TRUE(run);
   on_window("windowfocus --sync key Left Left Left Left q");
   const ProgramResult result = run->wait(30s);
   ASSERT_EQ(result.exit_status, 0) << result.describe();
@@ -145,6 +144,7 @@ TEST_F(Window, is_turned_by_keys_and_ended_by_q) {
 
 TEST_F(Window, closed_ends_the_program) {
   auto run = start();
+  ASSERT_TRUE(run);
   const std::string id = on_window("");
   ASSERT_FALSE(id.empty());
   const auto closed = WallClock::now();

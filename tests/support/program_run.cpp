@@ -99,9 +99,13 @@ ProgramRun::~ProgramRun() {
   waitpid(child_, nullptr, 0);
 }
 
+bool ProgramRun::running() const {
+  return child_ > 0 && !ends_within(child_, {});
+}
+
 bool ProgramRun::wait_for_thread(const std::string& name, WallClock::duration most) const {
   const std::filesystem::path tasks = "/proc/" + std::to_string(child_) + "/task";
-  for (const auto end = WallClock::now() + most; WallClock::now() < end;) {
+  for (const auto end = WallClock::now() + most; running() && WallClock::now() < end;) {
     std::error_code error; // a thread may end while we look
     for (std::filesystem::directory_iterator it{tasks, error}, last; !error && it != last;
          it.increment(error)) {

@@ -35,7 +35,9 @@ public:
 
   void send_signal(int number) const;
 
-  // Waits until it has a thread of this name; false after `most`.
+  bool running() const;
+
+  // Waits until it has a thread of this name; false when it ends, and after `most`.
   bool wait_for_thread(const std::string& name, WallClock::duration most) const;
 
   // Waits for its end; kills it when that takes longer than `most` from now. Once.
