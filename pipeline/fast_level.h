@@ -1,6 +1,7 @@
 // Levels without the library's logarithm, which alone costs six times the Fourier transform.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstdint>
 
@@ -24,6 +25,22 @@ inline float fast_log2(float x) {
   const float q = log2_c0 + t * (log2_c1 + t * log2_c2);
   return exponent + (t + t * (1.0F - t) * q);
 }
+
+// The same as a sum: log2 of a positive normal float x is its bits, taken for an integer, over
+// 2^23, plus the polynomial with these coefficients (constant first) in the mantissa m = 1 … 2.
+// They are the one above, expanded, less m − 1 and the exponent's bias.
+constexpr std::array<float, 5> expand_log2_of_mantissa() {
+  // t(1 − t)(c0 + c1·t + c2·t²) = Σ a_i·t^i, with t = m − 1
+  constexpr double c0 = log2_c0;
+  constexpr double c1 = log2_c1;
+  constexpr double c2 = log2_c2;
+  constexpr std::array<double, 5> a{0, c0, c1 - c0, c2 - c1, -c2};
+  return {static_cast<float>(a[0] - a[1] + a[2] - a[3] + a[4] - 127),
+          static_cast<float>(a[1] - 2 * a[2] + 3 * a[3] - 4 * a[4]),
+          static_cast<float>(a[2] - 3 * a[3] + 6 * a[4]), static_cast<float>(a[3] - 4 * a[4]),
+          static_cast<float>(a[4])};
+}
+inline constexpr std::array<float, 5> log2_of_mantissa = expand_log2_of_mantissa();
 
 // 10·log10(power) within 0.002 dB (0.0004 dB in exact arithmetic).
 inline float fast_power_db(float power) {

@@ -1,5 +1,5 @@
-// Butterflies of the fused transform and the transposition of a square of registers. For one
-// instruction set; see fused_kernels.h.
+// Complex registers and the butterflies of the fused transform. For one instruction set; see
+// fused_kernels.h.
 #if defined(OCTASCOPE_FUSED_BUTTERFLIES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_FUSED_BUTTERFLIES_INL
 #undef OCTASCOPE_FUSED_BUTTERFLIES_INL
@@ -50,10 +50,6 @@ HWY_INLINE Complex broadcast(const float* from) {
   const Floats floats;
   return {hn::Set(floats, from[0]), hn::Set(floats, from[1])};
 }
-HWY_INLINE Complex broadcast(double re, double im) {
-  const Floats floats;
-  return {hn::Set(floats, static_cast<float>(re)), hn::Set(floats, static_cast<float>(im))};
-}
 
 // x[q] ← Σ_r x[r]·exp(−2πi·qr/4).
 HWY_INLINE void butterfly_4(Complex& x0, Complex& x1, Complex& x2, Complex& x3) {
@@ -67,21 +63,21 @@ HWY_INLINE void butterfly_4(Complex& x0, Complex& x1, Complex& x2, Complex& x3) 
   x3 = plus_i(b, d);
 }
 
-// The radix-8 butterfly up to its last additions: output q is even[q] + odd[q], output q + 4 their
-// difference.
-HWY_INLINE void half_butterfly_8(const Complex (&x)[8], Complex (&even)[4], Complex (&odd)[4]) {
-  for (int i = 0; i < 4; ++i) {
-    even[i] = x[2 * i];
-    odd[i] = x[2 * i + 1];
-  }
-  butterfly_4(even[0], even[1], even[2], even[3]);
-  butterfly_4(odd[0], odd[1], odd[2], odd[3]);
+// The last two of the three steps of a radix-8 butterfly: s[a] = x[a] + x[a+4] and
+// d[a] = x[a] − x[a+4] become x[q].
+HWY_INLINE void finish_butterfly_8(Complex (&s)[4], Complex (&d)[4], Complex (&x)[8]) {
   const Real half = hn::Set(Floats{}, 0.70710678F);
-  const Complex t1 = odd[1]; // times (1 − i)/√2
-  odd[1] = {hn::Mul(half, hn::Add(t1.re, t1.im)), hn::Mul(half, hn::Sub(t1.im, t1.re))};
-  odd[2] = {odd[2].im, hn::Neg(odd[2].re)};
-  const Complex t3 = odd[3]; // times (−1 − i)/√2
-  odd[3] = {hn::Mul(half, hn::Sub(t3.im, t3.re)), hn::Neg(hn::Mul(half, hn::Add(t3.re, t3.im)))};
+  const Complex d1 = d[1]; // times (1 − i)/√2
+  d[1] = {hn::Mul(half, hn::Add(d1.re, d1.im)), hn::Mul(half, hn::Sub(d1.im, d1.re))};
+  d[2] = {d[2].im, hn::Neg(d[2].re)};
+  const Complex d3 = d[3]; // times (−1 − i)/√2
+  d[3] = {hn::Mul(half, hn::Sub(d3.im, d3.re)), hn::Neg(hn::Mul(half, hn::Add(d3.re, d3.im)))};
+  butterfly_4(s[0], s[1], s[2], s[3]);
+  butterfly_4(d[0], d[1], d[2], d[3]);
+  for (int i = 0; i < 4; ++i) {
+    x[2 * i] = s[i];
+    x[2 * i + 1] = d[i];
+  }
 }
 
 HWY_INLINE void butterfly(Complex (&x)[4]) {
@@ -89,78 +85,52 @@ HWY_INLINE void butterfly(Complex (&x)[4]) {
 }
 
 HWY_INLINE void butterfly(Complex (&x)[8]) {
-  Complex even[4];
-  Complex odd[4];
-  half_butterfly_8(x, even, odd);
-  for (int q = 0; q < 4; ++q) {
-    x[q] = even[q] + odd[q];
-    x[q + 4] = even[q] - odd[q];
+  Complex s[4];
+  Complex d[4];
+  for (int a = 0; a < 4; ++a) {
+    s[a] = x[a] + x[a + 4];
+    d[a] = x[a] - x[a + 4];
   }
+  finish_butterfly_8(s, d, x);
 }
 
-HWY_INLINE void butterfly(Complex (&x)[16]) {
-  constexpr double c = 0.92387953251128674; // cos π/8
-  constexpr double s = 0.38268343236508977;
-  constexpr double h = 0.70710678118654752;
-  for (int g = 0; g < 4; ++g)
-    butterfly_4(x[g], x[g + 4], x[g + 8], x[g + 12]);
-  // x[g + 4q] times exp(−2πi·gq/16)
-  x[5] = x[5] * broadcast(c, -s);
-  x[6] = x[6] * broadcast(h, -h);
-  x[7] = x[7] * broadcast(s, -c);
-  x[9] = x[9] * broadcast(h, -h);
-  x[10] = {x[10].im, hn::Neg(x[10].re)};
-  x[11] = x[11] * broadcast(-h, -h);
-  x[13] = x[13] * broadcast(s, -c);
-  x[14] = x[14] * broadcast(-h, -h);
-  x[15] = x[15] * broadcast(-c, s);
-  for (int q = 0; q < 4; ++q)
-    butterfly_4(x[4 * q], x[4 * q + 1], x[4 * q + 2], x[4 * q + 3]);
-  for (int q = 0; q < 4; ++q) // output q + 4p lies at 4q + p: exchange
-    for (int p = 0; p < q; ++p) {
-      const Complex kept = x[4 * q + p];
-      x[4 * q + p] = x[4 * p + q];
-      x[4 * p + q] = kept;
-    }
+// The first radix of the transform on real counts times complex factors (L real, L imaginary parts
+// a block): multiplication and first additions in one.
+HWY_INLINE void weighted_butterfly(const Real (&count)[8], const float* factors, Complex (&x)[8]) {
+  Complex s[4];
+  Complex d[4];
+  for (int a = 0; a < 4; ++a) {
+    const Complex near = load(factors + a * 2 * lanes);
+    const Complex far = load(factors + (a + 4) * 2 * lanes);
+    const Complex shaped = {hn::Mul(count[a + 4], far.re), hn::Mul(count[a + 4], far.im)};
+    s[a] = {hn::MulAdd(count[a], near.re, shaped.re), hn::MulAdd(count[a], near.im, shaped.im)};
+    d[a] = {hn::MulSub(count[a], near.re, shaped.re), hn::MulSub(count[a], near.im, shaped.im)};
+  }
+  finish_butterfly_8(s, d, x);
 }
 
-// Transposes the 4×4 squares inside each 128-bit part of four registers.
-HWY_INLINE void transpose_parts(Real& r0, Real& r1, Real& r2, Real& r3) {
+// The same for real factors (L a block). Output 8 − q is the conjugate of output q: only x[0] to
+// x[4] are made.
+HWY_INLINE void real_butterfly(const Real (&count)[8], const float* factors, Complex (&x)[8]) {
   const Floats floats;
-  const hn::Repartition<double, Floats> doubles;
-  const auto pair = [&](Real v) HWY_ATTR { return hn::BitCast(doubles, v); };
-  const auto a = pair(hn::InterleaveLower(floats, r0, r1));
-  const auto b = pair(hn::InterleaveUpper(floats, r0, r1));
-  const auto c = pair(hn::InterleaveLower(floats, r2, r3));
-  const auto d = pair(hn::InterleaveUpper(floats, r2, r3));
-  r0 = hn::BitCast(floats, hn::InterleaveLower(doubles, a, c));
-  r1 = hn::BitCast(floats, hn::InterleaveUpper(doubles, a, c));
-  r2 = hn::BitCast(floats, hn::InterleaveLower(doubles, b, d));
-  r3 = hn::BitCast(floats, hn::InterleaveUpper(doubles, b, d));
-}
-
-// Lane j of register i changes places with lane i of register j.
-HWY_INLINE void transpose(Real (&r)[lanes]) {
-  for (int i = 0; i < lanes; i += 4)
-    transpose_parts(r[i], r[i + 1], r[i + 2], r[i + 3]);
-#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-  for (int i = 0; i < 4; ++i) {
-    const __m512 low01 = _mm512_shuffle_f32x4(r[i].raw, r[i + 4].raw, 0x44);
-    const __m512 high01 = _mm512_shuffle_f32x4(r[i].raw, r[i + 4].raw, 0xEE);
-    const __m512 low23 = _mm512_shuffle_f32x4(r[i + 8].raw, r[i + 12].raw, 0x44);
-    const __m512 high23 = _mm512_shuffle_f32x4(r[i + 8].raw, r[i + 12].raw, 0xEE);
-    r[i] = Real{_mm512_shuffle_f32x4(low01, low23, 0x88)};
-    r[i + 4] = Real{_mm512_shuffle_f32x4(low01, low23, 0xDD)};
-    r[i + 8] = Real{_mm512_shuffle_f32x4(high01, high23, 0x88)};
-    r[i + 12] = Real{_mm512_shuffle_f32x4(high01, high23, 0xDD)};
+  Real s[4];
+  Real d[4];
+  for (int a = 0; a < 4; ++a) {
+    const Real near = hn::Load(floats, factors + a * lanes);
+    const Real shaped = hn::Mul(count[a + 4], hn::Load(floats, factors + (a + 4) * lanes));
+    s[a] = hn::MulAdd(count[a], near, shaped);
+    d[a] = hn::MulSub(count[a], near, shaped);
   }
-#elif HWY_MAX_BYTES == 32
-  for (int i = 0; i < 4; ++i) {
-    const Real low = r[i];
-    r[i] = hn::ConcatLowerLower(Floats{}, r[i + 4], low);
-    r[i + 4] = hn::ConcatUpperUpper(Floats{}, r[i + 4], low);
-  }
-#endif
+  const Real half = hn::Set(floats, 0.70710678F);
+  const Real across = hn::Mul(half, hn::Sub(d[1], d[3]));
+  const Real down = hn::Mul(half, hn::Add(d[1], d[3]));
+  const Real even = hn::Add(s[0], s[2]);
+  const Real odd = hn::Add(s[1], s[3]);
+  x[0] = {hn::Add(even, odd), hn::Zero(floats)};
+  x[1] = {hn::Add(d[0], across), hn::Neg(hn::Add(d[2], down))};
+  x[2] = {hn::Sub(s[0], s[2]), hn::Sub(s[3], s[1])};
+  x[3] = {hn::Sub(d[0], across), hn::Sub(d[2], down)};
+  x[4] = {hn::Sub(even, odd), hn::Zero(floats)};
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

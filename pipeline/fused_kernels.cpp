@@ -10,12 +10,13 @@ namespace octascope::pipeline {
 
 HWY_EXPORT(kernels);
 
-const FusedKernels* fused_kernels(std::string_view isa) {
+const FusedKernels* fused_kernels(int samples, std::string_view isa) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) { // the widest first
     hwy::ChosenTarget only;
     only.Update(target);
     const FusedKernels* candidate = HWY_DISPATCH_TABLE(kernels)[only.GetIndex()]();
-    if (candidate != nullptr && (isa.empty() || isa == candidate->isa))
+    if (candidate != nullptr && samples >= fewest_blocks * candidate->window.lanes &&
+        (isa.empty() || isa == candidate->isa))
       return candidate;
   }
   return nullptr;

@@ -2,6 +2,7 @@
 // cache. Compiled for every instruction set, chosen at run time.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -18,8 +19,8 @@ constexpr int raw_offset(RawKind kind) {
   return kind == RawKind::u16 ? 32768 : 0;
 }
 
-// Functions of one instruction set. `work` has 2·N floats on a cache line, `background` N values
-// as resample_background() leaves them, also on a cache line. None allocates or locks.
+// Functions of one instruction set. `work` has work_floats(N) floats on a cache line, `background`
+// N values as resample_background() leaves them, also on a cache line. None allocates or locks.
 struct FusedKernels {
   const char* isa;
   WindowShape window;
@@ -27,18 +28,26 @@ struct FusedKernels {
   // Counts → first radix of the transform → work. Fetches `next_line` into the cache meanwhile.
   using FirstPass = void (*)(const FusedTables& tables, const void* counts, const void* next_line,
                              const std::int32_t* background, float* work);
-  FirstPass first_pass[raw_kinds][3]; // [kind][log2 of the tap pairs]
+  using FirstPasses = std::array<std::array<FirstPass, 2>, 2>;  // [one window][real input]
+  std::array<std::array<FirstPasses, 3>, raw_kinds> first_pass; // [kind][log2 of the tap pairs]
 
   // The rest of the transform, bins 0 … N/2−1, and the levels.
   void (*finish_u8)(const FusedTables& tables, float* work, std::uint8_t* levels);
   void (*finish_db)(const FusedTables& tables, float* work, float* levels_db);
 
-  // The largest count of a line, before the shift. N is a multiple of 64.
-  std::uint32_t (*highest_u8)(const std::uint8_t* counts, int samples);
-  std::uint32_t (*highest_u16)(const std::uint16_t* counts, int samples);
+  // Whether a count of the line, before the shift, is at least `threshold`, which is one that the
+  // type has. N is a multiple of 128.
+  bool (*reaches_u8)(const std::uint8_t* counts, int samples, std::uint32_t threshold);
+  bool (*reaches_u16)(const std::uint16_t* counts, int samples, std::uint32_t threshold);
 };
 
-// The widest that this processor has, or the one named `isa`; nullptr where it has no such one.
-const FusedKernels* fused_kernels(std::string_view isa = {});
+// N complex numbers, and the rows of levels.
+constexpr std::size_t work_floats(int samples) {
+  return static_cast<std::size_t>(2 * samples + samples / 2);
+}
+
+// The widest that this processor has and lines of `samples` have blocks enough for, or the one
+// named `isa`; nullptr where there is no such one.
+const FusedKernels* fused_kernels(int samples, std::string_view isa = {});
 
 } // namespace octascope::pipeline

@@ -1,8 +1,13 @@
-// The passes of the fused reconstruction. For one instruction set; see fused_kernels.h.
+// The passes of the fused reconstruction. For one instruction set; see fused_kernels.h and, for
+// the numbering, fused_tables.h.
 //
-// First pass, for each register of b: radix L over a, twiddle, transposition; then slot b of `work`
-// holds lanes k2. Middle passes in place over the slots. Last pass: bins k2 + L·k1 in order, only
-// those below N/2, straight to levels. (Four-step transform, then decimation in frequency.)
+// First pass: counts, factors and radix 8 over the blocks. Middle passes in place. Last pass: the
+// last radix over the blocks, the transform over the lanes, of which only bins below N/2 are made,
+// and their levels, in rows; at the end the rows are put in the order of depth.
+//
+// Real input (no dispersion phase): results 5, 6, 7 of the first radix are the conjugates of 3, 2,
+// 1. They are neither stored nor transformed; instead results 1, 2, 3 are transformed to all their
+// bins, of which the upper half are the missing ones, mirrored.
 #if defined(OCTASCOPE_FUSED_KERNELS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_FUSED_KERNELS_INL
 #undef OCTASCOPE_FUSED_KERNELS_INL
@@ -29,47 +34,53 @@ HWY_AFTER_NAMESPACE();
 
 #else
 
-#include <algorithm>
+#include <array>
+#include <type_traits>
 
 #include <hwy/cache_control.h>
 
-#include "pipeline/fast_level.h"
-#include "pipeline/fused_butterflies_inl.h"
+#include "pipeline/fused_lanes_inl.h"
+#include "pipeline/fused_levels_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace octascope::pipeline::HWY_NAMESPACE {
 
 inline constexpr int slot = 2 * lanes; // floats of one complex register
 
-template <RawKind Kind, int Pairs>
+// Of the first radix' results, those that real input needs.
+inline constexpr int real_results = first_radix / 2 + 1;
+
+HWY_INLINE void prefetch(const void* line, std::ptrdiff_t from, std::ptrdiff_t bytes) {
+  constexpr std::ptrdiff_t cache_line = 64;
+  for (std::ptrdiff_t at = from; at < from + bytes; at += cache_line)
+    hwy::Prefetch(static_cast<const char*>(line) + at);
+}
+
+template <RawKind Kind, int Pairs, bool OneWindow, bool RealInput>
 void first_pass(const FusedTables& tables, const void* counts, const void* next_line,
                 const std::int32_t* background, float* work) {
-  constexpr std::ptrdiff_t line_bytes_per_block = lanes * (Kind == RawKind::u8 ? 1 : 2);
-  const Floats floats;
-  const std::ptrdiff_t blocks = tables.samples / lanes;
-  const float* twiddles = tables.first_twiddles.data();
-  for (std::ptrdiff_t first = 0; first < blocks; first += lanes) {
-    Complex x[lanes];
-    for (int a = 0; a < lanes; ++a) {
-      const std::ptrdiff_t block = first + a;
-      hwy::Prefetch(static_cast<const char*>(next_line) + block * line_bytes_per_block);
-      const Real count = resample<Kind, Pairs>(tables, counts, background, block);
-      const float* factor = tables.factors.data() + block * slot;
-      x[a] = {hn::Mul(count, hn::Load(floats, factor)),
-              hn::Mul(count, hn::Load(floats, factor + lanes))};
-    }
-    butterfly(x);
-    Real re[lanes];
-    Real im[lanes];
-    for (int k2 = 0; k2 < lanes; ++k2) {
-      const Complex turned = k2 == 0 ? x[k2] : x[k2] * load(twiddles + (first + k2) * slot);
-      re[k2] = turned.re;
-      im[k2] = turned.im;
-    }
-    transpose(re);
-    transpose(im);
-    for (int b = 0; b < lanes; ++b)
-      store({re[b], im[b]}, work + (first + b) * slot);
+  constexpr int sample_bytes = Kind == RawKind::u8 ? 1 : 2;
+  constexpr int results = RealInput ? real_results : first_radix;
+  const std::ptrdiff_t steps = tables.blocks / first_radix;
+  const std::ptrdiff_t fetched = tables.samples * sample_bytes / steps;
+  const float* twiddle = tables.pass_twiddles[0].data();
+  for (std::ptrdiff_t j = 0; j < steps; ++j, twiddle += 2 * (first_radix - 1)) {
+    prefetch(next_line, j * fetched, fetched);
+    Real count[first_radix];
+#pragma GCC unroll 8
+    for (int a = 0; a < first_radix; ++a)
+      count[a] = resample<Kind, Pairs, OneWindow>(tables, counts, background, j * first_radix + a);
+    Complex x[first_radix];
+    const float* factors = tables.factors.data();
+    if constexpr (RealInput)
+      real_butterfly(count, factors + j * first_radix * lanes, x);
+    else
+      weighted_butterfly(count, factors + j * first_radix * slot, x);
+    float* at = work + j * slot;
+    store(x[0], at);
+#pragma GCC unroll 8
+    for (int q = 1; q < results; ++q)
+      store(x[q] * broadcast(twiddle + 2 * (q - 1)), at + q * steps * slot);
   }
 }
 
@@ -83,76 +94,79 @@ HWY_INLINE void middle_pass(float* work, std::ptrdiff_t slots, std::ptrdiff_t si
     for (std::ptrdiff_t j = 0; j < size / Radix; ++j) {
       float* at = work + (group + j) * slot;
       Complex x[Radix];
+#pragma GCC unroll 8
       for (int r = 0; r < Radix; ++r)
         x[r] = load(at + r * step);
       butterfly(x);
       store(x[0], at);
+#pragma GCC unroll 8
       for (int q = 1; q < Radix; ++q, twiddle += 2)
         store(x[q] * broadcast(twiddle), at + q * step);
     }
   }
 }
 
-// log2 of the power as in fast_log2(), by registers.
-HWY_INLINE Real log2_power(const Complex& y) {
-  const Floats floats;
-  const Ints ints;
-  const Real power = hn::MulAdd(y.re, y.re, hn::Mul(y.im, y.im));
-  const auto bits = hn::BitCast(ints, power);
-  const Real exponent =
-      hn::ConvertTo(floats, hn::Sub(hn::ShiftRight<23>(bits), hn::Set(ints, 127)));
-  const auto mantissa =
-      hn::Or(hn::And(bits, hn::Set(ints, 0x007F'FFFF)), hn::Set(ints, 0x3F80'0000));
-  const Real t = hn::Sub(hn::BitCast(floats, mantissa), hn::Set(floats, 1.0F));
-  const Real q = hn::MulAdd(t, hn::MulAdd(t, hn::Set(floats, log2_c2), hn::Set(floats, log2_c1)),
-                            hn::Set(floats, log2_c0));
-  // t + t(1 − t)q
-  return hn::Add(exponent, hn::MulAdd(hn::NegMulAdd(t, t, t), q, t));
-}
-
-HWY_INLINE void put_level(const Complex& y, float* level) {
-  const Floats floats;
-  hn::StoreU(hn::Mul(log2_power(y), hn::Set(floats, db_per_octave_of_power)), floats, level);
-}
-
-HWY_INLINE void put_level(const Complex& y, std::uint8_t* level) {
-  const Floats floats;
-  constexpr float counts_per_octave = db_per_octave_of_power / level_step_db;
-  constexpr float zero_db = level_count(0.0F);
-  const Real count =
-      hn::MulAdd(log2_power(y), hn::Set(floats, counts_per_octave), hn::Set(floats, zero_db));
-  const hn::Rebind<std::uint8_t, Floats> bytes;
-  hn::StoreU(hn::DemoteTo(bytes, hn::NearestInt(count)), bytes, level);
-}
-
-template <int Radix, class Level>
-HWY_INLINE void last_pass(const FusedTables& tables, const float* work, Level* levels) {
-  const std::ptrdiff_t slots = tables.samples / lanes;
-  const std::ptrdiff_t groups = slots / Radix;
-  for (std::ptrdiff_t group = 0; group < groups; ++group) {
-    const float* at = work + group * Radix * slot;
-    Level* to = levels + tables.last_offsets[static_cast<std::size_t>(group)] * lanes;
-    Complex x[Radix];
-    for (int r = 0; r < Radix; ++r)
-      x[r] = load(at + r * slot);
-    if constexpr (Radix == 8) {
-      Complex even[4];
-      Complex odd[4];
-      half_butterfly_8(x, even, odd);
-      for (int p = 0; p < 4; ++p)
-        put_level(even[p] + odd[p], to + p * groups * lanes);
-    } else {
-      const Complex difference = x[1] - x[3];
-      put_level((x[0] + x[2]) + (x[1] + x[3]), to);
-      put_level(minus_i(x[0] - x[2], difference), to + groups * lanes);
-    }
+// One group: the last radix, the lanes, the power of the lower half of the bins. Mirrored: of the
+// upper half as well, backwards: as they are the conjugates of bins of another row, in its order.
+template <int Radix, bool Mirrored>
+HWY_INLINE void last_group(const FusedTables& tables, const float* from, const float* twiddles,
+                           float* row, float* mirrored_row) {
+  Complex x[Radix];
+#pragma GCC unroll 8
+  for (int r = 0; r < Radix; ++r)
+    x[r] = load(from + r * slot);
+  butterfly(x);
+#pragma GCC unroll 8
+  for (int r = 0; r < Radix; ++r)
+    x[r] = x[r] * load(twiddles + r * slot);
+  transform_lanes(tables, x);
+  Complex lower[Radix / 2];
+  Complex upper[Radix / 2];
+#pragma GCC unroll 8
+  for (int r = 0; r < Radix / 2; ++r) {
+    lower[r] = x[r / 2 * 4 + r % 2];
+    upper[r] = x[r / 2 * 4 + r % 2 + 2];
+  }
+  store_power(lower, row);
+  if constexpr (Mirrored) {
+    constexpr int size = Radix / 2 * lanes;
+    alignas(64) float power[size];
+    store_power(upper, power);
+    for (int r = 0; r < size; r += lanes)
+      hn::Store(hn::Reverse(Floats{}, hn::Load(Floats{}, power + r)), Floats{},
+                mirrored_row + size - lanes - r);
   }
 }
 
+template <int Radix>
+HWY_INLINE void last_pass(const FusedTables& tables, const float* work, float* rows) {
+  constexpr int row_size = Radix / 2 * lanes;
+  const int groups = tables.blocks / Radix;
+  const int groups_each = groups / first_radix; // of each of the first radix' results
+  const int made = tables.real_input ? real_results * groups_each : groups;
+  const int mirrored_from = tables.real_input ? groups_each : made;
+  const int mirrored_to = tables.real_input ? made - groups_each : made;
+  const float* twiddles = tables.last_twiddles.data();
+  for (int group = 0; group < made; ++group, twiddles += Radix * slot) {
+    const float* from = work + static_cast<std::ptrdiff_t>(group) * Radix * slot;
+    const int row = tables.last_rows[static_cast<std::size_t>(group)];
+    float* to = rows + row * row_size;
+    if (group < mirrored_from || group >= mirrored_to)
+      last_group<Radix, false>(tables, from, twiddles, to, nullptr);
+    else
+      last_group<Radix, true>(tables, from, twiddles, to, rows + (groups - row) * row_size);
+  }
+}
+
+template <class Level> const std::int32_t* row_offsets(const FusedTables& tables) {
+  return std::is_same_v<Level, float> ? tables.offsets_db.data() : tables.offsets_u8.data();
+}
+
 template <class Level> void finish(const FusedTables& tables, float* work, Level* levels) {
-  const std::ptrdiff_t slots = tables.samples / lanes;
-  std::ptrdiff_t size = slots;
-  for (int pass = 0; pass + 1 < tables.passes; ++pass) {
+  const std::ptrdiff_t slots =
+      tables.real_input ? tables.blocks / first_radix * real_results : tables.blocks;
+  std::ptrdiff_t size = tables.blocks / first_radix;
+  for (int pass = 1; pass + 1 < tables.passes; ++pass) {
     const auto at = static_cast<std::size_t>(pass);
     const float* twiddles = tables.pass_twiddles[at].data();
     if (tables.radices[at] == 8)
@@ -161,36 +175,54 @@ template <class Level> void finish(const FusedTables& tables, float* work, Level
       middle_pass<4>(work, slots, size, twiddles);
     size /= tables.radices[at];
   }
+  float* power = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
   if (size == 8)
-    last_pass<8>(tables, work, levels);
+    last_pass<8>(tables, work, power);
   else
-    last_pass<4>(tables, work, levels);
+    last_pass<4>(tables, work, power);
+  Level* rows = reinterpret_cast<Level*>(work); // which is no longer needed
+  make_levels(power, tables.samples / 2, rows);
+  const int row_size = static_cast<int>(size) / 2 * lanes;
+  for (int row = 0; row < tables.blocks / static_cast<int>(size); row += 8)
+    unscramble_rows(rows + row * row_size, row_size, row_offsets<Level>(tables), levels + row);
 }
 
-template <class Count> std::uint32_t highest_count(const Count* counts, int samples) {
+template <class Count> bool reaches(const Count* counts, int samples, std::uint32_t threshold) {
   const hn::ScalableTag<Count> tag;
   constexpr int step = static_cast<int>(HWY_LANES(Count));
-  auto highest = hn::Zero(tag);
-  for (int p = 0; p < samples; p += step)
-    highest = hn::Max(highest, hn::LoadU(tag, counts + p));
-  alignas(64) Count lane[HWY_LANES(Count)];
-  hn::Store(highest, tag, lane);
-  return *std::max_element(lane, lane + step);
+  auto even = hn::Zero(tag); // two, for the next load not to wait for the last comparison
+  auto odd = hn::Zero(tag);
+  for (int p = 0; p < samples; p += 2 * step) {
+    even = hn::Max(even, hn::LoadU(tag, counts + p));
+    odd = hn::Max(odd, hn::LoadU(tag, counts + p + step));
+  }
+  const auto highest = hn::Max(even, odd);
+  const auto limit = hn::Set(tag, static_cast<Count>(threshold));
+  return !hn::AllFalse(tag, hn::Eq(hn::Max(highest, limit), highest));
+}
+
+template <RawKind Kind, int Pairs> constexpr FusedKernels::FirstPasses first_passes() {
+  // Permutations by bytes cannot reach beyond their part.
+  constexpr bool one_window = Pairs > 1 && !window_shape.byte_indices;
+  return {
+      {{&first_pass<Kind, Pairs, false, false>, &first_pass<Kind, Pairs, false, true>},
+       {&first_pass<Kind, Pairs, one_window, false>, &first_pass<Kind, Pairs, one_window, true>}}};
+}
+
+template <RawKind Kind> constexpr std::array<FusedKernels::FirstPasses, 3> all_first_passes() {
+  return {first_passes<Kind, 1>(), first_passes<Kind, 2>(), first_passes<Kind, 4>()};
 }
 
 const FusedKernels* kernels() {
-#define OCTASCOPE_FIRST_PASSES(kind)                                                               \
-  { &first_pass<kind, 1>, &first_pass<kind, 2>, &first_pass<kind, 4> }
   static const FusedKernels table{hwy::TargetName(HWY_TARGET),
                                   window_shape,
-                                  {OCTASCOPE_FIRST_PASSES(RawKind::u8),
-                                   OCTASCOPE_FIRST_PASSES(RawKind::u16),
-                                   OCTASCOPE_FIRST_PASSES(RawKind::u16_shifted)},
+                                  {all_first_passes<RawKind::u8>(),
+                                   all_first_passes<RawKind::u16>(),
+                                   all_first_passes<RawKind::u16_shifted>()},
                                   &finish<std::uint8_t>,
                                   &finish<float>,
-                                  &highest_count<std::uint8_t>,
-                                  &highest_count<std::uint16_t>};
-#undef OCTASCOPE_FIRST_PASSES
+                                  &reaches<std::uint8_t>,
+                                  &reaches<std::uint16_t>};
   return &table;
 }
 

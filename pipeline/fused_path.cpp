@@ -37,13 +37,16 @@ bool fits_fixed_point(const FusedTables& tables, const Calibration& calibration)
 } // namespace
 
 FusedPath::FusedPath(FusedTables tables, const FusedKernels& kernels, RawKind kind)
-    : tables_(std::move(tables)), kernels_(&kernels), kind_(kind),
-      first_pass_(kernels.first_pass[static_cast<std::size_t>(kind)]
-                                    [std::countr_zero(static_cast<unsigned>(tables_.tap_pairs))]) {}
+    : tables_(std::move(tables)), kernels_(&kernels), kind_(kind) {
+  const auto pairs =
+      static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(tables_.tap_pairs)));
+  first_pass_ = kernels.first_pass[static_cast<std::size_t>(kind)][pairs]
+                                  [tables_.one_window ? 1 : 0][tables_.real_input ? 1 : 0];
+}
 
 std::optional<FusedPath> FusedPath::make(const Calibration& calibration, int bytes_per_sample,
                                          int right_shift, std::string_view isa) {
-  const FusedKernels* kernels = fused_kernels(isa);
+  const FusedKernels* kernels = fused_kernels(calibration.samples, isa);
   if (kernels == nullptr || bytes_per_sample > 2 || (bytes_per_sample == 1 && right_shift > 0))
     return std::nullopt;
   auto tables = make_fused_tables(calibration, right_shift, kernels->window);
@@ -57,7 +60,7 @@ std::optional<FusedPath> FusedPath::make(const Calibration& calibration, int byt
 
 FusedPath::Buffers FusedPath::make_buffers() const {
   const auto samples = static_cast<std::size_t>(tables_.samples);
-  return {AlignedVector<float>(2 * samples), AlignedVector<std::int32_t>(samples)};
+  return {AlignedVector<float>(work_floats(tables_.samples)), AlignedVector<std::int32_t>(samples)};
 }
 
 void FusedPath::set_background(const float* background, Buffers& buffers) const noexcept {
@@ -74,11 +77,13 @@ int FusedPath::reconstruct(const std::byte* counts, int lines, std::uint32_t ful
     const std::byte* line = counts + static_cast<std::size_t>(a) * line_bytes;
     const std::byte* next =
         counts + static_cast<std::size_t>(std::min(a + lines_ahead, lines - 1)) * line_bytes;
-    const std::uint32_t highest =
+    const bool reached =
         kind_ == RawKind::u8
-            ? kernels_->highest_u8(reinterpret_cast<const std::uint8_t*>(line), tables_.samples)
-            : kernels_->highest_u16(reinterpret_cast<const std::uint16_t*>(line), tables_.samples);
-    saturated += highest >> tables_.right_shift >= full_scale ? 1 : 0;
+            ? kernels_->reaches_u8(reinterpret_cast<const std::uint8_t*>(line), tables_.samples,
+                                   full_scale)
+            : kernels_->reaches_u16(reinterpret_cast<const std::uint16_t*>(line), tables_.samples,
+                                    full_scale << tables_.right_shift);
+    saturated += reached ? 1 : 0;
     first_pass_(tables_, line, next, buffers.background.data(), buffers.work.data());
     Level* profile = levels + static_cast<std::size_t>(a) * (samples / 2);
     if constexpr (std::is_same_v<Level, float>)

@@ -73,20 +73,27 @@ HWY_INLINE hn::Vec<Words> permute(hn::Vec<Words> window, hn::Vec<Words> permutat
 #endif
 }
 
-// L interpolated counts less their background, times 2^14: block `block` of the tables.
-template <RawKind Kind, int Pairs>
+// L interpolated counts less their background, times 2^14: block `block` in the tables' order. The
+// taps of the second and further pairs come out of windows of their own, two samples on each, or
+// out of the first one where it holds all of them.
+template <RawKind Kind, int Pairs, bool OneWindow>
 HWY_INLINE Real resample(const FusedTables& tables, const void* counts,
                          const std::int32_t* background, std::ptrdiff_t block) {
   const Words words;
   const Ints ints;
   const std::int32_t* starts = tables.window_starts.data() + block * windows_per_block;
-  const auto permutation = hn::Load(
+  auto permutation = hn::Load(
       words, reinterpret_cast<const std::int16_t*>(tables.permutations.data()) + block * 2 * lanes);
   const std::int16_t* weights = tables.weights.data() + block * 2 * lanes * Pairs;
   auto even = hn::Neg(hn::Load(ints, background + block * lanes));
   auto odd = hn::Zero(ints);
+  auto window = load_windows<Kind>(counts, starts, 0, tables.right_shift);
+#pragma GCC unroll 4
   for (int pair = 0; pair < Pairs; ++pair) {
-    const auto window = load_windows<Kind>(counts, starts, 2 * pair, tables.right_shift);
+    if (pair > 0 && OneWindow)
+      permutation = hn::Add(permutation, hn::Set(words, std::int16_t{2}));
+    else if (pair > 0)
+      window = load_windows<Kind>(counts, starts, 2 * pair, tables.right_shift);
     even = hn::ReorderWidenMulAccumulate(ints, permute(window, permutation),
                                          hn::Load(words, weights + pair * 2 * lanes), even, odd);
   }

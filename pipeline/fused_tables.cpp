@@ -100,6 +100,7 @@ bool append_windows(FusedTables& tables, const WindowShape& shape, int m) {
       const int offset = first[i] - start;
       if (offset < 0 || offset + 1 >= shape.samples)
         return false;
+      tables.one_window = tables.one_window && offset + width <= shape.samples;
       for (const int sample : {offset, offset + 1}) {
         const int low = shape.byte_indices ? 2 * sample : sample;
         const int high = shape.byte_indices ? 2 * sample + 1 : 0;
@@ -123,35 +124,36 @@ bool append_block(FusedTables& tables, const Calibration& calibration, const Win
   std::vector<double> imaginary;
   for (int lane = 0; lane < shape.lanes; ++lane) {
     const auto sample = index(m + lane);
-    const double theta =
-        calibration.dispersion_rad.empty() ? 0 : calibration.dispersion_rad[sample];
+    const double theta = tables.real_input ? 0 : calibration.dispersion_rad[sample];
     const double weight = calibration.window[sample] / tables.samples / (1 << weight_bits);
     tables.factors.push_back(static_cast<float>(weight * std::cos(theta)));
     imaginary.push_back(weight * std::sin(theta));
-    tables.block_of[sample] =
-        static_cast<std::int32_t>(tables.factors.size()) - 1 -
-        static_cast<std::int32_t>(tables.factors.size() - 1) / (2 * shape.lanes) * shape.lanes;
   }
-  for (const double value : imaginary)
-    tables.factors.push_back(static_cast<float>(value));
+  if (!tables.real_input)
+    for (const double value : imaginary)
+      tables.factors.push_back(static_cast<float>(value));
   return true;
 }
 
-void make_first_twiddles(FusedTables& tables) {
-  const int lanes = tables.lanes;
-  for (int b = 0; b < tables.samples / lanes; b += lanes)
-    for (int k2 = 0; k2 < lanes; ++k2)
-      for (const bool imaginary : {false, true})
-        for (int lane = 0; lane < lanes; ++lane) {
-          const auto root = unit_root(static_cast<double>(b + lane) * k2, tables.samples);
-          tables.first_twiddles.push_back(
-              static_cast<float>(imaginary ? root.imag() : root.real()));
-        }
+bool append_blocks(FusedTables& tables, const Calibration& calibration, const WindowShape& shape) {
+  const int step = tables.blocks / first_radix;
+  std::int32_t place = 0;
+  for (int j = 0; j < step; ++j)
+    for (int a = 0; a < first_radix; ++a) {
+      const int m = (j + a * step) * shape.lanes;
+      if (!append_block(tables, calibration, shape, m))
+        return false;
+      for (int lane = 0; lane < shape.lanes; ++lane)
+        tables.block_of[index(m + lane)] = place++;
+    }
+  return true;
 }
 
-// M = 4^i·8^j with as few passes as possible; every M of the supported lines has one.
+// J = 8·4^i·8^j with as few passes as possible, an eight last where there is one: every J of the
+// supported lines has such radices.
 void choose_radices(FusedTables& tables) {
-  int bits = std::countr_zero(static_cast<unsigned>(tables.samples / tables.lanes));
+  int bits = std::countr_zero(static_cast<unsigned>(tables.blocks / first_radix));
+  tables.radices[index(tables.passes++)] = first_radix;
   while (bits > 0) {
     const bool four = bits % 3 != 0;
     tables.radices[index(tables.passes++)] = four ? 4 : 8;
@@ -160,8 +162,7 @@ void choose_radices(FusedTables& tables) {
 }
 
 void make_pass_twiddles(FusedTables& tables) {
-  const int points = tables.samples / tables.lanes;
-  int size = points;
+  int size = tables.blocks;
   for (int pass = 0; pass + 1 < tables.passes; ++pass) {
     const int radix = tables.radices[index(pass)];
     for (int j = 0; j < size / radix; ++j)
@@ -169,19 +170,67 @@ void make_pass_twiddles(FusedTables& tables) {
         append(tables.pass_twiddles[index(pass)], unit_root(static_cast<double>(j) * q, size));
     size /= radix;
   }
-  for (int group = 0; group < points / size; ++group) {
-    int rest = group; // its digits, most significant first, are the outputs of the passes so far
-    int weight = points / size;
-    int offset = 0;
+}
+
+// The groups of the last pass lie in the order of their digits, the first pass' output being the
+// most significant; in the bins it is the least.
+void make_last_rows(FusedTables& tables) {
+  const int groups = tables.blocks / tables.last_radix();
+  for (int group = 0; group < groups; ++group) {
+    int rest = group;
+    int weight = groups;
+    int row = 0;
     int scale = 1;
     for (int pass = 0; pass + 1 < tables.passes; ++pass) {
-      const int radix = tables.radices[index(pass)];
-      weight /= radix;
-      offset += rest / weight * scale;
+      weight /= tables.radices[index(pass)];
+      row += rest / weight * scale;
       rest %= weight;
-      scale *= radix;
+      scale *= tables.radices[index(pass)];
     }
-    tables.last_offsets.push_back(offset);
+    tables.last_rows.push_back(row);
+  }
+}
+
+void append_turns(AlignedVector<float>& table, int lanes, const auto& turn) {
+  for (const bool imaginary : {false, true})
+    for (int lane = 0; lane < lanes; ++lane) {
+      const std::complex<double> root = turn(lane);
+      table.push_back(static_cast<float>(imaginary ? root.imag() : root.real()));
+    }
+}
+
+void make_lane_twiddles(FusedTables& tables) {
+  const int rows = tables.blocks / tables.last_radix();
+  for (const int row : tables.last_rows)
+    for (int t = 0; t < tables.last_radix(); ++t)
+      append_turns(tables.last_twiddles, tables.lanes, [&](int lane) {
+        return unit_root(static_cast<double>(lane) * (row + rows * t), tables.samples);
+      });
+  for (int v = 1; v < tables.lanes / 4; ++v)
+    append_turns(tables.lane_twiddles, tables.lanes,
+                 [&](int lane) { return unit_root(lane % 4 * v, tables.lanes); });
+}
+
+// The bin less its row of lane 4·part + i in output register u of one group of four results.
+int bin_offset(const FusedTables& tables, int group, int u, int part, int i) {
+  const int parts = tables.lanes / 4;
+  // Which of the four results, and which v: see lane_transform() in fused_lanes_inl.h.
+  const int result = parts == 4 ? part : parts == 2 ? i / 2 * 2 + part : i;
+  const int v = parts == 4 ? i : parts == 2 ? i % 2 : 0;
+  const int rows = tables.blocks / tables.last_radix();
+  return rows * (4 * group + result) + tables.blocks * (v + parts * u);
+}
+
+void make_offsets(FusedTables& tables) {
+  const int parts = tables.lanes / 4;
+  for (int group = 0; group < tables.last_radix() / 4; ++group) {
+    for (int part = 0; part < parts; ++part) // bytes: packed four by four
+      for (int u = 0; u < 2; ++u)
+        for (int i = 0; i < 4; ++i)
+          tables.offsets_u8.push_back(bin_offset(tables, group, u, part, i));
+    for (int u = 0; u < 2; ++u) // floats: register by register
+      for (int lane = 0; lane < tables.lanes; ++lane)
+        tables.offsets_db.push_back(bin_offset(tables, group, u, lane / 4, lane % 4));
   }
 }
 
@@ -204,22 +253,23 @@ std::optional<FusedTables> make_fused_tables(const Calibration& calibration, int
                                              const WindowShape& shape) {
   const int samples = calibration.samples;
   if (samples < shortest_line || samples > longest_line ||
-      !std::has_single_bit(static_cast<unsigned>(samples)))
+      !std::has_single_bit(static_cast<unsigned>(samples)) || samples < fewest_blocks * shape.lanes)
     return std::nullopt;
   FusedTables tables;
   tables.samples = samples;
   tables.lanes = shape.lanes;
+  tables.blocks = samples / shape.lanes;
   tables.right_shift = right_shift;
+  tables.real_input = calibration.dispersion_rad.empty();
   make_taps(tables, calibration);
   tables.block_of.resize(index(samples));
-  const int points = samples / shape.lanes;
-  for (int b = 0; b < points; b += shape.lanes)
-    for (int a = 0; a < shape.lanes; ++a)
-      if (!append_block(tables, calibration, shape, points * a + b))
-        return std::nullopt;
-  make_first_twiddles(tables);
+  if (!append_blocks(tables, calibration, shape))
+    return std::nullopt;
   choose_radices(tables);
   make_pass_twiddles(tables);
+  make_last_rows(tables);
+  make_lane_twiddles(tables);
+  make_offsets(tables);
   return tables;
 }
 
