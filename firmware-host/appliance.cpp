@@ -12,6 +12,7 @@
 #include "firmware-host/device_choice.h"
 #include "firmware-host/notice.h"
 #include "firmware-host/picture_keeper.h"
+#include "firmware-host/reconstruction_cache.h"
 #include "firmware-host/render_loop.h"
 #include "firmware-host/report.h"
 #include "firmware-host/status_line.h"
@@ -95,6 +96,7 @@ private:
   hal::linux_backend::MonotonicClock clock_;
   pipeline::FaultLog faults_;
   PictureKeeper pictures_{".", clock_, faults_};
+  ReconstructionCache cache_; // before whatever plans a transform: it brings FFTW's wisdom
   Twins twins_;
   std::unique_ptr<pipeline::Reconstructor> reconstructor_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
@@ -147,9 +149,11 @@ hal::Result<> AssembledAppliance::choose_display() {
 hal::Result<> AssembledAppliance::make_reconstruction() {
   auto made = pipeline::Reconstructor::create({.calibration = twins_.calibration,
                                                .format = pipeline::SpectrumFormat{twins_.format},
-                                               .a_scans = twins_.plan.a_scans});
+                                               .a_scans = twins_.plan.a_scans,
+                                               .memory = &cache_});
   if (!made)
     return tl::make_unexpected(made.error());
+  static_cast<void>(cache_.save()); // what was not kept is measured again; the doctor says why
   reconstructor_ = std::make_unique<pipeline::Reconstructor>(std::move(*made));
   auto average = pipeline::NeighbourAverage::create(configuration_.neighbour_weights);
   if (!average)
@@ -290,6 +294,11 @@ RunReport AssembledAppliance::report() const {
   const FrameStatistics& frames = loop_->statistics();
   r.simulated = simulated();
   r.source = twins_.source;
+  r.reconstruction_path =
+      reconstructor_->path() == pipeline::ReconstructionPath::fused ? "fused" : "fftw";
+  r.reconstruction_isa = reconstructor_->isa();
+  r.reconstruction_reason = name_of(reconstructor_->path_decision().reason);
+  r.reconstruction_times = reconstructor_->path_decision().times;
   r.line_camera = twins_.line_camera->backend();
   r.galvo_trigger = twins_.galvo_trigger->backend();
   r.control_input = twins_.control_input->backend();
