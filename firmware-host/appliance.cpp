@@ -100,6 +100,7 @@ private:
   Twins twins_;
   std::unique_ptr<pipeline::Reconstructor> reconstructor_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
+  std::optional<pipeline::FrameBackgrounds> backgrounds_;      // running ones
   std::optional<pipeline::NeighbourAverage> average_;
   std::unique_ptr<sim::OffscreenDisplay> offscreen_; // one of the two
   std::unique_ptr<hal::Display> window_;
@@ -173,16 +174,24 @@ void AssembledAppliance::make_threads() {
                                      .buffers = camera_buffers(twins_.plan)};
   acquisition_ = std::make_unique<pipeline::Acquisition>(*twins_.line_camera, camera, clock_,
                                                          faults_, arrived_);
+  if (auto running = reconstructor_->make_running_background())
+    backgrounds_.emplace(std::move(*running), reconstructor_->samples(), camera.buffers);
   pipeline::VolumeThreadSetup setup{
       .plan = twins_.plan,
       .trigger = {},
       .workers = workspaces_.size(),
       .camera_buffers = camera.buffers,
       .reconstruct =
-          [this](std::size_t worker, std::span<const std::byte> frame,
-                 std::span<std::uint8_t> levels) {
-            return reconstructor_->reconstruct_b_scan(workspaces_[worker], frame, levels)
+          [this](std::size_t worker, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
+            const auto running = backgrounds_ ? backgrounds_->of(frame) : std::span<const float>{};
+            return reconstructor_
+                ->reconstruct_b_scan(workspaces_[worker], frame.bytes, levels, running)
                 .saturated_lines;
+          },
+      .observe =
+          [this](const hal::LineFrame& frame) {
+            if (backgrounds_)
+              backgrounds_->take(frame);
           },
       .average = *average_,
       .most_volumes = options_.volumes,

@@ -157,9 +157,11 @@ HealthCheck check_reconstruction() {
     return {subject, Verdict::fails, "cannot be made", reconstructor.error().message};
   const std::string found = describe(*reconstructor);
   if (const auto saved = cache.save(); !saved)
-    return {subject, Verdict::limited, found + ", not kept",
+    return {subject, Verdict::limited, found + " but not kept",
             saved.error().message + "; until then every start measures again"};
-  return good(subject, found + fmt::format(" in {}", cache.file().string()));
+  const bool remembered = reconstructor->path_decision().reason == pipeline::PathReason::remembered;
+  return good(subject, fmt::format("{}{} {}", found, remembered ? " from" : ", kept in",
+                                   cache.file().string()));
 }
 
 HealthCheck check_devices() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <type_traits>
+#include <utility>
 
 #include "pipeline/line_kernels.h"
 
@@ -55,6 +56,20 @@ std::span<const float> RunningBackground::add(std::span<const std::byte> frame) 
     values_[p] = static_cast<float>(mean_[p]);
   }
   return values_;
+}
+
+FrameBackgrounds::FrameBackgrounds(RunningBackground running, int samples, int camera_buffers)
+    : running_(std::move(running)), samples_(static_cast<std::size_t>(samples)),
+      by_buffer_(samples_ * static_cast<std::size_t>(camera_buffers)) {}
+
+void FrameBackgrounds::take(const hal::LineFrame& frame) noexcept {
+  const std::size_t start = samples_ * static_cast<std::size_t>(frame.buffer);
+  assert(frame.buffer >= 0 && start < by_buffer_.size());
+  std::ranges::copy(running_.add(frame.bytes), by_buffer_.data() + start);
+}
+
+std::span<const float> FrameBackgrounds::of(const hal::LineFrame& frame) const noexcept {
+  return std::span{by_buffer_}.subspan(samples_ * static_cast<std::size_t>(frame.buffer), samples_);
 }
 
 } // namespace octascope::pipeline

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "hal/line_camera.h"
 #include "pipeline/calibration.h"
 #include "pipeline/spectrum_format.h"
 
@@ -62,6 +63,23 @@ private:
   LineMean b_scan_;
   std::vector<double> mean_; // in double precision, so that a long run does not drift
   std::vector<float> values_;
+};
+
+// The running background of every frame that is in work, kept by the number of its camera buffer.
+// The thread that hands frames out calls take() for each of them, in order and before it hands the
+// frame out; whoever got the frame calls of() until the frame is given back to the camera. Handing
+// over and giving back order the two; nothing allocates or locks.
+class FrameBackgrounds {
+public:
+  FrameBackgrounds(RunningBackground running, int samples, int camera_buffers);
+
+  void take(const hal::LineFrame& frame) noexcept;
+  std::span<const float> of(const hal::LineFrame& frame) const noexcept;
+
+private:
+  RunningBackground running_;
+  std::size_t samples_;
+  std::vector<float> by_buffer_; // [buffer][sample]
 };
 
 } // namespace octascope::pipeline

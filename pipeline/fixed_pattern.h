@@ -7,6 +7,10 @@
 // S.-W. Lee, Z. Chen: Reference spectrum extraction and fixed-pattern noise removal in optical
 // coherence tomography, Optics Express 18 (2010) 24395.
 //
+// A reflector that keeps amplitude and phase from A-scan to A-scan better than the noise does, as a
+// perfectly flat mirror, cannot be told from a fixed line, and one that fills every segment loses
+// what it has in common in the quietest of them. Tissue does neither.
+//
 // The chain before it is linear, so whatever constant background was subtracted from the lines
 // (a recorded one, a mean, nothing) drops out: the result is the same.
 #pragma once
