@@ -12,6 +12,7 @@
 #include "firmware-host/device_choice.h"
 #include "firmware-host/notice.h"
 #include "firmware-host/picture_keeper.h"
+#include "firmware-host/reconstruction_cache.h"
 #include "firmware-host/render_loop.h"
 #include "firmware-host/report.h"
 #include "firmware-host/status_line.h"
@@ -95,9 +96,11 @@ private:
   hal::linux_backend::MonotonicClock clock_;
   pipeline::FaultLog faults_;
   PictureKeeper pictures_{".", clock_, faults_};
+  ReconstructionCache cache_; // before whatever plans a transform: it brings FFTW's wisdom
   Twins twins_;
   std::unique_ptr<pipeline::Reconstructor> reconstructor_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
+  std::optional<pipeline::FrameBackgrounds> backgrounds_;      // running ones
   std::optional<pipeline::NeighbourAverage> average_;
   std::unique_ptr<sim::OffscreenDisplay> offscreen_; // one of the two
   std::unique_ptr<hal::Display> window_;
@@ -147,9 +150,11 @@ hal::Result<> AssembledAppliance::choose_display() {
 hal::Result<> AssembledAppliance::make_reconstruction() {
   auto made = pipeline::Reconstructor::create({.calibration = twins_.calibration,
                                                .format = pipeline::SpectrumFormat{twins_.format},
-                                               .a_scans = twins_.plan.a_scans});
+                                               .a_scans = twins_.plan.a_scans,
+                                               .memory = &cache_});
   if (!made)
     return tl::make_unexpected(made.error());
+  static_cast<void>(cache_.save()); // what was not kept is measured again; the doctor says why
   reconstructor_ = std::make_unique<pipeline::Reconstructor>(std::move(*made));
   auto average = pipeline::NeighbourAverage::create(configuration_.neighbour_weights);
   if (!average)
@@ -169,16 +174,24 @@ void AssembledAppliance::make_threads() {
                                      .buffers = camera_buffers(twins_.plan)};
   acquisition_ = std::make_unique<pipeline::Acquisition>(*twins_.line_camera, camera, clock_,
                                                          faults_, arrived_);
+  if (auto running = reconstructor_->make_running_background())
+    backgrounds_.emplace(std::move(*running), reconstructor_->samples(), camera.buffers);
   pipeline::VolumeThreadSetup setup{
       .plan = twins_.plan,
       .trigger = {},
       .workers = workspaces_.size(),
       .camera_buffers = camera.buffers,
       .reconstruct =
-          [this](std::size_t worker, std::span<const std::byte> frame,
-                 std::span<std::uint8_t> levels) {
-            return reconstructor_->reconstruct_b_scan(workspaces_[worker], frame, levels)
+          [this](std::size_t worker, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
+            const auto running = backgrounds_ ? backgrounds_->of(frame) : std::span<const float>{};
+            return reconstructor_
+                ->reconstruct_b_scan(workspaces_[worker], frame.bytes, levels, running)
                 .saturated_lines;
+          },
+      .observe =
+          [this](const hal::LineFrame& frame) {
+            if (backgrounds_)
+              backgrounds_->take(frame);
           },
       .average = *average_,
       .most_volumes = options_.volumes,
@@ -290,6 +303,11 @@ RunReport AssembledAppliance::report() const {
   const FrameStatistics& frames = loop_->statistics();
   r.simulated = simulated();
   r.source = twins_.source;
+  r.reconstruction_path =
+      reconstructor_->path() == pipeline::ReconstructionPath::fused ? "fused" : "fftw";
+  r.reconstruction_isa = reconstructor_->isa();
+  r.reconstruction_reason = name_of(reconstructor_->path_decision().reason);
+  r.reconstruction_times = reconstructor_->path_decision().times;
   r.line_camera = twins_.line_camera->backend();
   r.galvo_trigger = twins_.galvo_trigger->backend();
   r.control_input = twins_.control_input->backend();

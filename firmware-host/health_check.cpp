@@ -11,8 +11,12 @@
 #include <sys/mman.h>
 
 #include "firmware-host/device_choice.h"
+#include "firmware-host/reconstruction_cache.h"
 #include "hal/linux/realtime.h"
+#include "pipeline/reconstructor.h"
+#include "pipeline/scan_plan.h"
 #include "sim/offscreen_display.h"
+#include "sim/spectrometer.h"
 #include "ui/gl/context_info.h"
 
 namespace octascope::firmware_host {
@@ -119,6 +123,47 @@ HealthCheck check_graphics(hal::Clock& clock) {
       "Mesa driver and add the user to the groups video and render"};
 }
 
+// With what `run` takes unless told otherwise: the simulated spectrometer's lines and curves.
+hal::Result<pipeline::Reconstructor> make_default_reconstructor(ReconstructionCache& cache) {
+  const auto spectrometer = sim::Spectrometer::make({});
+  if (!spectrometer)
+    return tl::make_unexpected(spectrometer.error());
+  const pipeline::ScanPlan plan;
+  pipeline::ReconstructionSetup setup{.calibration = pipeline::Calibration::identity(plan.samples),
+                                      .format = {plan.samples, pipeline::SpectrumType::u16},
+                                      .a_scans = plan.a_scans,
+                                      .memory = &cache};
+  setup.calibration.positions = spectrometer->true_k_positions();
+  setup.calibration.dispersion_rad = spectrometer->true_dispersion_rad();
+  return pipeline::Reconstructor::create(setup);
+}
+
+std::string describe(const pipeline::Reconstructor& reconstructor) {
+  const bool fused = reconstructor.path() == pipeline::ReconstructionPath::fused;
+  const pipeline::PathDecision& decision = reconstructor.path_decision();
+  std::string text = fmt::format("{} path, {}", fused ? "fused" : "FFTW's", reconstructor.isa());
+  if (decision.times)
+    text += fmt::format("; ns a line of {} samples: fused {:.0f}, FFTW's {:.0f}, {}",
+                        reconstructor.samples(), decision.times->fused_ns, decision.times->fftw_ns,
+                        name_of(decision.reason));
+  return text;
+}
+
+HealthCheck check_reconstruction() {
+  constexpr const char* subject = "reconstruction";
+  ReconstructionCache cache;
+  const auto reconstructor = make_default_reconstructor(cache);
+  if (!reconstructor)
+    return {subject, Verdict::fails, "cannot be made", reconstructor.error().message};
+  const std::string found = describe(*reconstructor);
+  if (const auto saved = cache.save(); !saved)
+    return {subject, Verdict::limited, found + " but not kept",
+            saved.error().message + "; until then every start measures again"};
+  const bool remembered = reconstructor->path_decision().reason == pipeline::PathReason::remembered;
+  return good(subject, fmt::format("{}{} {}", found, remembered ? " from" : ", kept in",
+                                   cache.file().string()));
+}
+
 HealthCheck check_devices() {
   const DeviceChoices choices = choose_devices(survey_hardware(), RunOptions{});
   std::string twins;
@@ -135,8 +180,9 @@ HealthCheck check_devices() {
 } // namespace
 
 std::vector<HealthCheck> check_health(hal::Clock& clock) {
-  return {check_cores(),      check_memory(), check_realtime(),      check_locked_memory(),
-          check_clock(clock), check_disk(),   check_graphics(clock), check_devices()};
+  return {check_cores(),          check_memory(),        check_realtime(),
+          check_locked_memory(),  check_clock(clock),    check_disk(),
+          check_reconstruction(), check_graphics(clock), check_devices()};
 }
 
 } // namespace octascope::firmware_host

@@ -37,6 +37,20 @@ Json faults_to_json(const RunReport& report) {
   return faults;
 }
 
+// The times are null where there was no choice to make.
+Json reconstruction_to_json(const RunReport& report) {
+  Json json = {{"path", report.reconstruction_path},
+               {"isa", report.reconstruction_isa},
+               {"reason", report.reconstruction_reason},
+               {"fused_ns_per_line", nullptr},
+               {"fftw_ns_per_line", nullptr}};
+  if (report.reconstruction_times) {
+    json["fused_ns_per_line"] = std::round(report.reconstruction_times->fused_ns);
+    json["fftw_ns_per_line"] = std::round(report.reconstruction_times->fftw_ns);
+  }
+  return json;
+}
+
 } // namespace
 
 std::string to_json(const RunReport& r) {
@@ -51,6 +65,7 @@ std::string to_json(const RunReport& r) {
         {"control_input", r.control_input},
         {"scope_camera", r.scope_camera},
         {"display", r.display}}},
+      {"reconstruction", reconstruction_to_json(r)},
       {"volumes",
        {{"acquired", r.acquired},
         {"published", r.published},

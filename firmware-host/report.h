@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,17 @@
 #include "hal/result.h"
 #include "pipeline/duration_statistics.h"
 #include "pipeline/fault_log.h"
+#include "pipeline/path_choice.h"
 
 namespace octascope::firmware_host {
 
 struct RunReport {
   bool simulated = false;
-  std::string source; // what the spectra were
+  std::string source;                // what the spectra were
+  std::string reconstruction_path;   // "fused" or "fftw"
+  std::string reconstruction_isa;    // its instruction set
+  std::string reconstruction_reason; // pipeline::PathReason's name
+  std::optional<pipeline::PathTimes> reconstruction_times;
   std::string line_camera, galvo_trigger, control_input, scope_camera, display; // backends
 
   std::uint64_t acquired = 0, published = 0, displayed = 0, skipped = 0;

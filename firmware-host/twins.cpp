@@ -190,6 +190,7 @@ hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& co
   if (made)
     made = options.recording ? play_recording(options, configuration, twins)
                              : play_phantom(options, configuration, twins);
+  twins.plan.zero_padding = twins.calibration.zero_padding;
   if (made && !options.recording)
     made = make_scope_camera(options, configuration, clock, twins);
   if (!made)

@@ -1,57 +1,75 @@
 #include "pipeline/background.h"
 
 #include <algorithm>
+#include <cassert>
 #include <type_traits>
+#include <utility>
 
 #include "pipeline/line_kernels.h"
 
 namespace octascope::pipeline {
 
-namespace {
-
-// The number of sums to keep: none where the background does not come from the lines.
-std::size_t sums(BackgroundMode mode, int samples) {
-  const bool measured = mode == BackgroundMode::mean || mode == BackgroundMode::running;
-  return measured ? static_cast<std::size_t>(samples) : 0;
-}
-
-} // namespace
-
-Background::Background(BackgroundMode mode, int samples, const std::vector<float>& recorded)
-    : mode_(mode), samples_(samples), values_(static_cast<std::size_t>(samples)),
-      sum_(sums(mode, samples)), float_sum_(sums(mode, samples)) {
-  if (mode == BackgroundMode::file)
-    values_ = recorded;
-}
+LineMean::LineMean(int samples)
+    : sums_(static_cast<std::size_t>(samples)), mean_(static_cast<std::size_t>(samples)) {}
 
 template <class Count>
-void Background::update(std::span<const Count> counts, int lines, int right_shift) noexcept {
-  if (sum_.empty())
-    return;
-  auto& sum = [this]() -> auto& {
-    if constexpr (std::is_same_v<Count, float>)
-      return float_sum_;
-    else
-      return sum_;
-  }
-  ();
-  std::fill(sum.begin(), sum.end(), 0);
-  const auto stride = static_cast<std::size_t>(samples_);
-  for (std::size_t line = 0; line < static_cast<std::size_t>(lines); ++line)
-    add_line(counts.data() + line * stride, right_shift, samples_, sum.data());
-
-  b_scans_seen_ =
-      mode_ == BackgroundMode::mean ? 1 : std::min(b_scans_seen_ + 1, running_mean_b_scans);
-  const double share = 1.0 / b_scans_seen_;
-  for (std::size_t p = 0; p < stride; ++p) {
-    const double before = b_scans_seen_ == 1 ? 0.0 : static_cast<double>(values_[p]);
-    values_[p] =
-        static_cast<float>(before + share * (static_cast<double>(sum[p]) / lines - before));
-  }
+void LineMean::measure(const Count* counts, int lines, int right_shift) noexcept {
+  const auto samples = static_cast<int>(mean_.size());
+  const auto add_all = [&](auto* sums) {
+    std::fill_n(sums, mean_.size(), 0);
+    for (std::size_t line = 0; line < static_cast<std::size_t>(lines); ++line)
+      add_line(counts + line * mean_.size(), right_shift, samples, sums);
+    for (std::size_t p = 0; p < mean_.size(); ++p)
+      mean_[p] = static_cast<double>(sums[p]) / lines;
+  };
+  if constexpr (std::is_same_v<Count, float>)
+    add_all(mean_.data());
+  else
+    add_all(sums_.data());
 }
 
-template void Background::update(std::span<const std::uint8_t>, int, int) noexcept;
-template void Background::update(std::span<const std::uint16_t>, int, int) noexcept;
-template void Background::update(std::span<const float>, int, int) noexcept;
+template void LineMean::measure(const std::uint8_t*, int, int) noexcept;
+template void LineMean::measure(const std::uint16_t*, int, int) noexcept;
+template void LineMean::measure(const float*, int, int) noexcept;
+
+RunningBackground::RunningBackground(const SpectrumFormat& format, int a_scans)
+    : format_(format), a_scans_(a_scans), b_scan_(format.samples),
+      mean_(static_cast<std::size_t>(format.samples)),
+      values_(static_cast<std::size_t>(format.samples)) {}
+
+std::span<const float> RunningBackground::add(std::span<const std::byte> frame) noexcept {
+  assert(frame.size() >= format_.line_bytes() * static_cast<std::size_t>(a_scans_));
+  const auto measure = [&](auto* counts) {
+    b_scan_.measure(counts, a_scans_, format_.right_shift);
+  };
+  switch (format_.type) {
+  case SpectrumType::u8: measure(reinterpret_cast<const std::uint8_t*>(frame.data())); break;
+  case SpectrumType::u16: measure(reinterpret_cast<const std::uint16_t*>(frame.data())); break;
+  case SpectrumType::f32: measure(reinterpret_cast<const float*>(frame.data())); break;
+  }
+  b_scans_seen_ = std::min(b_scans_seen_ + 1, running_mean_b_scans);
+  const double share = 1.0 / b_scans_seen_;
+  const std::span<const double> b_scan = b_scan_.values();
+  for (std::size_t p = 0; p < mean_.size(); ++p) {
+    const double before = b_scans_seen_ == 1 ? 0.0 : mean_[p];
+    mean_[p] = before + share * (b_scan[p] - before);
+    values_[p] = static_cast<float>(mean_[p]);
+  }
+  return values_;
+}
+
+FrameBackgrounds::FrameBackgrounds(RunningBackground running, int samples, int camera_buffers)
+    : running_(std::move(running)), samples_(static_cast<std::size_t>(samples)),
+      by_buffer_(samples_ * static_cast<std::size_t>(camera_buffers)) {}
+
+void FrameBackgrounds::take(const hal::LineFrame& frame) noexcept {
+  const std::size_t start = samples_ * static_cast<std::size_t>(frame.buffer);
+  assert(frame.buffer >= 0 && start < by_buffer_.size());
+  std::ranges::copy(running_.add(frame.bytes), by_buffer_.data() + start);
+}
+
+std::span<const float> FrameBackgrounds::of(const hal::LineFrame& frame) const noexcept {
+  return std::span{by_buffer_}.subspan(samples_ * static_cast<std::size_t>(frame.buffer), samples_);
+}
 
 } // namespace octascope::pipeline

@@ -1,11 +1,14 @@
 // The background of a B-scan: what the spectrum is without interference.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "hal/line_camera.h"
 #include "pipeline/calibration.h"
+#include "pipeline/spectrum_format.h"
 
 namespace octascope::pipeline {
 
@@ -13,30 +16,70 @@ namespace octascope::pipeline {
 // each new one counts for a sixteenth.
 inline constexpr int running_mean_b_scans = 16;
 
-// One worker's background, in counts after the right shift. Not thread-safe: with
-// BackgroundMode::running each worker averages the B-scans that it sees itself. update() allocates
-// nothing.
-class Background {
+// The mean over the lines of a B-scan, in counts after the right shift. For one thread; measure()
+// allocates nothing.
+class LineMean {
 public:
-  Background(BackgroundMode mode, int samples, const std::vector<float>& recorded);
+  explicit LineMean(int samples);
 
-  // Takes the kept lines of a B-scan ([line][sample]) and makes values() right for it.
-  template <class Count>
-  void update(std::span<const Count> counts, int lines, int right_shift) noexcept;
+  // Count: std::uint8_t, std::uint16_t or float; counts are [line][sample].
+  template <class Count> void measure(const Count* counts, int lines, int right_shift) noexcept;
 
   // `samples` values.
-  const float* values() const { return values_.data(); }
+  std::span<const double> values() const { return mean_; }
 
-  // Forgets the B-scans seen so far (running).
+private:
+  std::vector<std::uint32_t> sums_;
+  std::vector<double> mean_;
+};
+
+// The running mean of BackgroundMode::running.
+//
+// It depends on the order of the B-scans, and workers finish them in any order. So it is not the
+// workers' business: the one thread that hands B-scans out calls add() for each of them, in order,
+// and hands the mean as it is then out with the B-scan. No lock and no waiting is needed, the
+// result is the same for any number of workers, the first B-scan has a background already, and no
+// work is done twice, as the workers need not sum the lines any more. Keeping a mean for each
+// worker (which B-scans it sees is chance), a mean for each B-scan position (it would take still
+// tissue for background) or publishing one a volume (nothing for the first volumes, and volumes
+// overlap) do not have all of that.
+//
+// Not thread-safe; add() allocates nothing.
+class RunningBackground {
+public:
+  RunningBackground(const SpectrumFormat& format, int a_scans);
+
+  // Takes the kept lines of the next B-scan (Reconstructor::reconstruct_b_scan() says what a frame
+  // is) and returns the mean over it and those before, N values, unchanged until the next call.
+  std::span<const float> add(std::span<const std::byte> frame) noexcept;
+
+  // As if no B-scan had been seen.
   void reset() { b_scans_seen_ = 0; }
 
 private:
-  BackgroundMode mode_;
-  int samples_;
+  SpectrumFormat format_;
+  int a_scans_;
   int b_scans_seen_ = 0;
+  LineMean b_scan_;
+  std::vector<double> mean_; // in double precision, so that a long run does not drift
   std::vector<float> values_;
-  std::vector<std::uint32_t> sum_;
-  std::vector<double> float_sum_;
+};
+
+// The running background of every frame that is in work, kept by the number of its camera buffer.
+// The thread that hands frames out calls take() for each of them, in order and before it hands the
+// frame out; whoever got the frame calls of() until the frame is given back to the camera. Handing
+// over and giving back order the two; nothing allocates or locks.
+class FrameBackgrounds {
+public:
+  FrameBackgrounds(RunningBackground running, int samples, int camera_buffers);
+
+  void take(const hal::LineFrame& frame) noexcept;
+  std::span<const float> of(const hal::LineFrame& frame) const noexcept;
+
+private:
+  RunningBackground running_;
+  std::size_t samples_;
+  std::vector<float> by_buffer_; // [buffer][sample]
 };
 
 } // namespace octascope::pipeline

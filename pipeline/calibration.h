@@ -6,17 +6,20 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "hal/result.h"
+#include "pipeline/fixed_pattern.h"
 #include "pipeline/k_linearisation.h"
+#include "pipeline/spectral_shaping.h"
 #include "pipeline/spectral_window.h"
 
 namespace octascope::pipeline {
 
 enum class BackgroundMode : std::uint8_t {
   mean,    // of the kept lines of each B-scan
-  running, // mean over the last B-scans of one worker (background.h)
+  running, // mean over the last B-scans, in their order (background.h)
   file,    // a recorded spectrum
   none,
 };
@@ -33,8 +36,14 @@ struct Calibration {
   std::vector<double> dispersion_rad; // θ[m] with its sign applied; empty: none
   BackgroundMode background_mode = BackgroundMode::mean;
   std::vector<float> background; // counts after the right shift; only for BackgroundMode::file
-  std::vector<double> window;    // w[m]
-  double depth_spacing_um = 3.5; // of one bin, in the medium
+  FixedPatternRemoval fixed_pattern;
+  // w[m], what counts; and where it comes from, for the file: `shaping` where there is one, else
+  // `window_kind`.
+  std::vector<double> window;
+  SpectralWindow window_kind = SpectralWindow::hann;
+  std::optional<SourceShaping> shaping;
+  int zero_padding = 1;          // 1: none; 2: as many zeros behind each line as it has samples
+  double depth_spacing_um = 3.5; // of one bin without zero-padding, in the medium
   double a_spacing_um = 10;
   double b_spacing_um = 37.5;
 
@@ -44,6 +53,10 @@ struct Calibration {
 
   // For when no calibration is given: no resampling, no dispersion, Hann window, mean background.
   static Calibration identity(int samples);
+
+  // Levels of an A-scan, and the distance between two of them.
+  int depths() const { return samples * zero_padding / 2; }
+  double bin_spacing_um() const { return depth_spacing_um / zero_padding; }
 
   // Every curve has `samples` finite values and every position lies on the line.
   hal::Result<> validate() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -53,22 +54,76 @@ std::string_view name_of(Interpolation interpolation) {
   return "sinc8";
 }
 
-std::string toml(const FoundCalibration& found, const std::string& k_name,
-                 const std::string& dispersion_name) {
+std::string_view name_of(SpectralWindow window) {
+  switch (window) {
+  case SpectralWindow::hann: break;
+  case SpectralWindow::hamming: return "hamming";
+  case SpectralWindow::blackman: return "blackman";
+  case SpectralWindow::gaussian: return "gaussian";
+  case SpectralWindow::tukey: return "tukey";
+  case SpectralWindow::flat: return "flat";
+  }
+  return "hann";
+}
+
+std::string_view name_of(BackgroundMode mode) {
+  switch (mode) {
+  case BackgroundMode::mean: break;
+  case BackgroundMode::running: return "running";
+  case BackgroundMode::file: return "file";
+  case BackgroundMode::none: return "none";
+  }
+  return "mean";
+}
+
+// Little-endian floats, as the reader takes them.
+std::string raw_floats(const std::vector<float>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)};
+}
+
+// The sections on how lines become A-scans; what is not there has its default.
+std::string options_toml(const Calibration& c, const std::string& background_name,
+                         const std::string& source_name) {
+  std::string text = fmt::format("[background]\nmode = \"{}\"\n", name_of(c.background_mode));
+  if (!background_name.empty())
+    text += fmt::format("file = {}\n", toml_text(background_name));
+  if (c.fixed_pattern.mode == FixedPatternMode::minimum_variance)
+    text += fmt::format("\n[fixed_pattern]\nmode = \"minimum_variance\"\nsegments = {}\n",
+                        c.fixed_pattern.segments);
+  if (c.shaping)
+    text += fmt::format("\n[window]\nkind = \"shaped\"\nsource = {}\nfwhm = {}\n"
+                        "highest_gain = {}\n",
+                        toml_text(source_name), c.shaping->fwhm, c.shaping->highest_gain);
+  else
+    text += fmt::format("\n[window]\nkind = \"{}\"\n", name_of(c.window_kind));
+  if (c.zero_padding != 1)
+    text += fmt::format("\n[transform]\nzero_padding = {}\n", c.zero_padding);
+  return text + "\n";
+}
+
+// Names of the files beside the TOML; empty where there is none.
+struct CurveNames {
+  std::string k_linear;
+  std::string dispersion;
+  std::string background;
+  std::string source;
+};
+
+std::string toml(const FoundCalibration& found, const CurveNames& names) {
   const Calibration& c = found.calibration;
   std::string text = fmt::format("# Found by measurement; [provenance] says how.\n"
                                  "[spectrometer]\nsamples = {}\n\n[k_linear]\n",
                                  c.samples);
-  text += k_name.empty() ? fmt::format("wavelength_polynomial_nm = {}\n",
-                                       numbers(found.wavelength_polynomial_nm))
-                         : fmt::format("table = {}\n", toml_text(k_name));
+  text += names.k_linear.empty() ? fmt::format("wavelength_polynomial_nm = {}\n",
+                                               numbers(found.wavelength_polynomial_nm))
+                                 : fmt::format("table = {}\n", toml_text(names.k_linear));
   text += fmt::format("interpolation = \"{}\"\n\n", name_of(c.interpolation));
   if (!found.dispersion_polynomial_rad.empty())
     text += fmt::format("[dispersion]\npolynomial = {}\nsign = 1\n\n",
                         numbers(found.dispersion_polynomial_rad));
-  else if (!dispersion_name.empty())
-    text += fmt::format("[dispersion]\ntable = {}\nsign = 1\n\n", toml_text(dispersion_name));
-  text += "[background]\nmode = \"mean\"\n\n[window]\nkind = \"hann\"\n\n";
+  else if (!names.dispersion.empty())
+    text += fmt::format("[dispersion]\ntable = {}\nsign = 1\n\n", toml_text(names.dispersion));
+  text += options_toml(c, names.background, names.source);
   text += fmt::format("[depth]{}\nspacing_um = {}\na_spacing_um = {}\nb_spacing_um = {}\n\n",
                       found.spacing_known ? "" : " # not measured: assumed", c.depth_spacing_um,
                       c.a_spacing_um, c.b_spacing_um);
@@ -87,23 +142,28 @@ struct Output {
 } // namespace
 
 hal::Result<> write_calibration(const FoundCalibration& found, const std::filesystem::path& file) {
-  const std::string stem = file.stem().string();
+  const Calibration& calibration = found.calibration;
   std::vector<Output> outputs;
-  std::string k_name;
-  std::string dispersion_name;
-  if (found.wavelength_polynomial_nm.empty()) {
-    k_name = stem + "_k_linear.txt";
-    outputs.push_back(
-        {file.parent_path() / k_name, curve_text("fractional pixel positions uniform in wavenumber",
-                                                 found.calibration.positions)});
-  }
-  if (found.dispersion_polynomial_rad.empty() && !found.calibration.dispersion_rad.empty()) {
-    dispersion_name = stem + "_dispersion_rad.txt";
-    outputs.push_back({file.parent_path() / dispersion_name,
-                       curve_text("phase in rad over the k-linear samples, multiplies as exp(+i)",
-                                  found.calibration.dispersion_rad)});
-  }
-  outputs.push_back({file, toml(found, k_name, dispersion_name)});
+  const auto beside = [&](std::string_view ending, std::string text) {
+    std::string name = file.stem().string() + std::string{ending};
+    outputs.push_back({file.parent_path() / name, std::move(text)});
+    return name;
+  };
+  CurveNames names;
+  if (found.wavelength_polynomial_nm.empty())
+    names.k_linear =
+        beside("_k_linear.txt", curve_text("fractional pixel positions uniform in wavenumber",
+                                           calibration.positions));
+  if (found.dispersion_polynomial_rad.empty() && !calibration.dispersion_rad.empty())
+    names.dispersion =
+        beside("_dispersion_rad.txt",
+               curve_text("phase in rad over the k-linear samples, multiplies as exp(+i)",
+                          calibration.dispersion_rad));
+  if (calibration.background_mode == BackgroundMode::file)
+    names.background = beside("_background_f32.raw", raw_floats(calibration.background));
+  if (calibration.shaping)
+    names.source = beside("_source_f32.raw", raw_floats(calibration.shaping->source));
+  outputs.push_back({file, toml(found, names)});
   for (std::size_t i = 0; i + 1 < outputs.size(); ++i) {
     if (outputs[i].file.lexically_normal() == file.lexically_normal())
       return hal::fail(hal::Fault::invalid_argument,

@@ -28,10 +28,10 @@ struct FoundCalibration {
 };
 
 // Writes `file` (TOML) and beside it, where they are needed, <stem>_k_linear.txt and
-// <stem>_dispersion_rad.txt, with 17 digits. All of them are complete under temporary names before
-// the first gets its own, the TOML last. The background is the mean of each B-scan, the window
-// Hann. Faults as AtomicFile's, and Fault::invalid_argument for a name that is
-// one of the curves'.
+// <stem>_dispersion_rad.txt, with 17 digits, <stem>_background_f32.raw and <stem>_source_f32.raw
+// (without its dark counts). All of them are complete under temporary names before the first gets
+// its own, the TOML last. What Calibration::load() makes of it is the same calibration. Faults as
+// AtomicFile's, and Fault::invalid_argument for a name that is one of the curves'.
 hal::Result<> write_calibration(const FoundCalibration& found, const std::filesystem::path& file);
 
 } // namespace octascope::pipeline

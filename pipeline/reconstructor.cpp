@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <chrono>
-#include <cmath>
-#include <mutex>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "pipeline/background.h"
-#include "pipeline/fft_plan.h"
+#include "pipeline/fftw_path.h"
 #include "pipeline/fused_path.h"
-#include "pipeline/k_linearisation.h"
-#include "pipeline/line_kernels.h"
 
 namespace octascope::pipeline {
 
@@ -25,228 +20,191 @@ static_assert(std::endian::native == std::endian::little, "frames are little-end
 
 namespace {
 
-struct FftwFree {
-  void operator()(float* memory) const { fftwf_free(memory); }
-};
-using FftwBuffer = std::unique_ptr<float[], FftwFree>;
-
-// Zeroed, aligned as FFTW's fastest code wants it.
-FftwBuffer make_buffer(std::size_t floats) {
-  FftwBuffer buffer{fftwf_alloc_real(floats)};
-  std::fill_n(buffer.get(), floats, 0.0F);
-  return buffer;
-}
-
-std::size_t padded(int samples) {
-  return (static_cast<std::size_t>(samples) + 7) / 8 * 8;
-}
-
-fftwf_complex* as_complex(float* floats) {
-  return reinterpret_cast<fftwf_complex*>(floats);
-}
-
-FftPlan plan_transform(int samples, bool complex_input) {
-  // Two floats a sample serve both transforms, in and out.
-  const FftwBuffer in = make_buffer(2 * padded(samples));
-  const FftwBuffer out = make_buffer(2 * padded(samples));
-  const std::scoped_lock lock{fft_planner_mutex()};
-  constexpr double longest_planning_s = 1; // lines of many samples: a good plan, not the best
-  fftwf_set_timelimit(longest_planning_s);
-  return FftPlan{complex_input
-                     ? fftwf_plan_dft_1d(samples, as_complex(in.get()), as_complex(out.get()),
-                                         FFTW_FORWARD, FFTW_MEASURE)
-                     : fftwf_plan_dft_r2c_1d(samples, in.get(), as_complex(out.get()),
-                                             FFTW_MEASURE | FFTW_DESTROY_INPUT)};
-}
-
-// Window, dispersion phase and the 1/N of the level, folded. The padding is 0.
-std::vector<float> make_factors(const Calibration& calibration) {
-  const bool complex_factors = !calibration.dispersion_rad.empty();
-  std::vector<float> factors(padded(calibration.samples) * (complex_factors ? 2 : 1));
-  for (std::size_t m = 0; m < calibration.window.size(); ++m) {
-    const double weight = calibration.window[m] / calibration.samples;
-    if (complex_factors) {
-      factors[2 * m] = static_cast<float>(weight * std::cos(calibration.dispersion_rad[m]));
-      factors[2 * m + 1] = static_cast<float>(weight * std::sin(calibration.dispersion_rad[m]));
-    } else {
-      factors[m] = static_cast<float>(weight);
-    }
-  }
-  return factors;
-}
-
 hal::Result<> check(const ReconstructionSetup& setup) {
-  const SpectrumFormat& format = setup.format;
-  const auto refuse = [](std::string message) {
-    return hal::fail(Fault::invalid_argument, "reconstruction: " + std::move(message));
+  const auto refuse = [](std::string_view message) {
+    return hal::fail(Fault::invalid_argument, fmt::format("reconstruction: {}", message));
   };
-  if (format.samples != setup.calibration.samples)
-    return refuse(fmt::format("lines have {} samples, the calibration is for {}", format.samples,
-                              setup.calibration.samples));
+  if (setup.format.samples != setup.calibration.samples)
+    return refuse(fmt::format("lines have {} samples, the calibration is for {}",
+                              setup.format.samples, setup.calibration.samples));
   if (setup.a_scans < 1 || setup.a_scans > 65536)
     return refuse(fmt::format("a_scans is {}, expected 1 to 65536", setup.a_scans));
-  const int bits = format.type == SpectrumType::u8 ? 8 : 16;
-  if (format.significant_bits < 1 || format.right_shift < 0 || format.right_shift >= bits ||
-      format.significant_bits + format.right_shift > bits)
-    return refuse(fmt::format("significant_bits {} and right_shift {} do not fit into {} bits",
-                              format.significant_bits, format.right_shift, bits));
-  return setup.calibration.validate();
+  if (const auto format = setup.format.validate(); !format)
+    return refuse(format.error().message);
+  return setup.calibration.validate().and_then(
+      [&] { return setup.calibration.fixed_pattern.validate(setup.a_scans); });
+}
+
+// Nothing where the fused path does not apply.
+std::optional<FusedPath> make_fused(const ReconstructionSetup& setup) {
+  const Calibration& calibration = setup.calibration;
+  if (setup.path == ReconstructionPath::fftw || setup.format.type == SpectrumType::f32 ||
+      calibration.zero_padding > 1 || calibration.fixed_pattern.mode != FixedPatternMode::none)
+    return std::nullopt;
+  return FusedPath::make(calibration, static_cast<int>(bytes_per_sample(setup.format.type)),
+                         setup.format.right_shift, setup.fused_isa);
+}
+
+// What the times of both paths depend on.
+std::string line_case(const ReconstructionSetup& setup, const FusedPath& fused) {
+  constexpr std::string_view interpolations[] = {"linear", "cubic", "sinc8"};
+  const Calibration& calibration = setup.calibration;
+  const bool resampled =
+      calibration.positions != Calibration::identity(calibration.samples).positions;
+  const bool summed = calibration.background_mode == BackgroundMode::mean;
+  return fmt::format("{} {}{} {} {} {} {}", setup.format.samples, name_of(setup.format.type),
+                     setup.format.right_shift > 0 ? " shifted" : "",
+                     resampled ? interpolations[static_cast<std::size_t>(calibration.interpolation)]
+                               : "unresampled",
+                     calibration.dispersion_rad.empty() ? "real" : "dispersion",
+                     summed ? "mean" : "given", fused.isa());
 }
 
 } // namespace
 
-SpectrumFormat::SpectrumFormat(int samples_per_line, SpectrumType sample_type)
-    : samples(samples_per_line), type(sample_type),
-      significant_bits(sample_type == SpectrumType::u8 ? 8 : 16) {}
-
-SpectrumFormat::SpectrumFormat(const hal::LineFormat& line)
-    : samples(line.samples_per_line),
-      type(line.sample_type == hal::SampleType::u8 ? SpectrumType::u8 : SpectrumType::u16),
-      significant_bits(line.significant_bits), right_shift(line.right_shift) {}
-
 // Everything that is the same for all B-scans.
 struct Reconstructor::Plan {
   SpectrumFormat format;
-  int a_scans = 0;
-  BackgroundMode background_mode = BackgroundMode::mean;
+  int a_scans;
+  int depths;
+  BackgroundMode background_mode;
   std::vector<float> recorded_background;
-  ResamplingTaps taps;
-  std::vector<float> factors;
-  bool complex_input = false;
-  ShapeLine shape_line = nullptr;
-  FftPlan transform;
+  FftwPath fftw;
   std::optional<FusedPath> fused; // used where there is one
+  PathDecision decision;
 
-  bool background_is_measured() const {
-    return background_mode == BackgroundMode::mean || background_mode == BackgroundMode::running;
-  }
   std::unique_ptr<Workspace::Buffers> make_buffers() const;
-  void choose_path(ReconstructionPath wanted);
-  std::chrono::nanoseconds time_b_scan(const std::vector<std::byte>& frame);
+  void choose_path(const ReconstructionSetup& setup);
+  PathTimes measure_paths() const;
 
+  template <class Count>
+  const float* background_of(Workspace::Buffers& buffers, const Count* counts, int lines,
+                             std::span<const std::byte> frame,
+                             std::span<const float> running) const noexcept;
   template <class Count, class Level>
-  BScanOutcome run(Workspace::Buffers& buffers, std::span<const std::byte> frame,
-                   std::span<Level> levels) const noexcept;
+  int run(const std::optional<FusedPath>& path, Workspace::Buffers& buffers, int lines,
+          std::span<const std::byte> frame, Level* levels,
+          std::span<const float> running) const noexcept;
   template <class Level>
-  BScanOutcome dispatch(Workspace::Buffers& buffers, std::span<const std::byte> frame,
-                        std::span<Level> levels) const noexcept;
+  int dispatch(const std::optional<FusedPath>& path, Workspace::Buffers& buffers, int lines,
+               std::span<const std::byte> frame, Level* levels,
+               std::span<const float> running) const noexcept;
+  template <class Level>
+  BScanOutcome b_scan(Workspace::Buffers& buffers, std::span<const std::byte> frame,
+                      std::span<Level> levels, std::span<const float> running) const noexcept;
 };
 
 struct Reconstructor::Workspace::Buffers {
-  Buffers(BackgroundMode mode, int samples, const std::vector<float>& recorded)
-      : background(mode, samples, recorded), line(make_buffer(padded(samples))),
-        shaped(make_buffer(2 * padded(samples))), bins(make_buffer(2 * padded(samples))) {}
-
-  void set_fused(const FusedPath& path) {
-    fused = path.make_buffers();
-    path.set_background(background.values(), *fused);
-  }
-
-  Background background;
-  FftwBuffer line;   // counts without background
-  FftwBuffer shaped; // input of the transform
-  FftwBuffer bins;   // its output, complex
+  LineMean mean;
+  std::optional<RunningBackground> running;
+  std::vector<float> background;
+  FftwPath::Buffers fftw;
   std::optional<FusedPath::Buffers> fused;
 };
 
-template <class Count, class Level>
-BScanOutcome Reconstructor::Plan::run(Workspace::Buffers& buffers, std::span<const std::byte> frame,
-                                      std::span<Level> levels) const noexcept {
-  const int samples = format.samples;
-  const int depths = samples / 2;
-  const auto lines = static_cast<std::size_t>(a_scans);
-  const std::span counts{reinterpret_cast<const Count*>(frame.data()),
-                         lines * static_cast<std::size_t>(samples)};
-  assert(frame.size() >= counts.size_bytes());
-  assert(levels.size() >= lines * static_cast<std::size_t>(depths));
-  buffers.background.update(counts, a_scans, format.right_shift);
-  const float* background = buffers.background.values();
-  const std::uint32_t full_scale = (1U << format.significant_bits) - 1U;
-
-  if constexpr (!std::is_same_v<Count, float>) {
-    if (fused) {
-      if (background_is_measured())
-        fused->set_background(background, *buffers.fused);
-      return {fused->reconstruct(frame.data(), a_scans, full_scale, *buffers.fused, levels.data())};
-    }
-  }
-
-  BScanOutcome outcome;
-  for (std::size_t a = 0; a < lines; ++a) {
-    const std::uint32_t highest =
-        load_line(counts.data() + a * static_cast<std::size_t>(samples), background,
-                  format.right_shift, samples, buffers.line.get());
-    outcome.saturated_lines += highest >= full_scale ? 1 : 0;
-    shape_line(buffers.line.get(), taps.first.data(), taps.weights.data(), factors.data(), samples,
-               buffers.shaped.get());
-    if (complex_input)
-      fftwf_execute_dft(transform.get(), as_complex(buffers.shaped.get()),
-                        as_complex(buffers.bins.get()));
-    else
-      fftwf_execute_dft_r2c(transform.get(), buffers.shaped.get(), as_complex(buffers.bins.get()));
-    Level* profile = levels.data() + a * static_cast<std::size_t>(depths);
-    if constexpr (std::is_same_v<Level, float>)
-      levels_db(buffers.bins.get(), depths, profile);
-    else
-      levels_u8(buffers.bins.get(), depths, profile);
-  }
-  return outcome;
-}
-
-template <class Level>
-BScanOutcome Reconstructor::Plan::dispatch(Workspace::Buffers& buffers,
-                                           std::span<const std::byte> frame,
-                                           std::span<Level> levels) const noexcept {
-  switch (format.type) {
-  case SpectrumType::u8: return run<std::uint8_t>(buffers, frame, levels);
-  case SpectrumType::u16: return run<std::uint16_t>(buffers, frame, levels);
-  case SpectrumType::f32: return run<float>(buffers, frame, levels);
-  }
-  return {};
-}
-
 std::unique_ptr<Reconstructor::Workspace::Buffers> Reconstructor::Plan::make_buffers() const {
-  auto buffers =
-      std::make_unique<Workspace::Buffers>(background_mode, format.samples, recorded_background);
-  if (fused)
-    buffers->set_fused(*fused);
+  auto buffers = std::make_unique<Workspace::Buffers>(
+      LineMean{format.samples}, std::nullopt,
+      std::vector<float>(static_cast<std::size_t>(format.samples)), fftw.make_buffers(),
+      std::nullopt);
+  if (background_mode == BackgroundMode::running)
+    buffers->running.emplace(format, a_scans);
+  if (background_mode == BackgroundMode::file)
+    buffers->background = recorded_background;
+  if (fused) {
+    buffers->fused = fused->make_buffers();
+    fused->set_background(buffers->background.data(), *buffers->fused);
+  }
   return buffers;
 }
 
-// The fastest of a few B-scans on whichever path is set.
-std::chrono::nanoseconds Reconstructor::Plan::time_b_scan(const std::vector<std::byte>& frame) {
-  using Clock = std::chrono::steady_clock;
-  const auto buffers = make_buffers();
-  std::vector<std::uint8_t> levels(static_cast<std::size_t>(a_scans) *
-                                   static_cast<std::size_t>(format.samples / 2));
-  auto fastest = std::chrono::nanoseconds::max();
-  for (int repeat = 0; repeat < 5; ++repeat) {
-    const auto start = Clock::now();
-    dispatch(*buffers, std::span{frame}, std::span{levels});
-    fastest = std::min<std::chrono::nanoseconds>(fastest, Clock::now() - start);
+template <class Count>
+const float* Reconstructor::Plan::background_of(Workspace::Buffers& buffers, const Count* counts,
+                                                int lines, std::span<const std::byte> frame,
+                                                std::span<const float> running) const noexcept {
+  if (background_mode == BackgroundMode::mean) {
+    buffers.mean.measure(counts, lines, format.right_shift);
+    std::ranges::transform(buffers.mean.values(), buffers.background.begin(),
+                           [](double mean) { return static_cast<float>(mean); });
   }
-  return fastest;
+  if (background_mode == BackgroundMode::running) {
+    assert(running.empty() || running.size() == buffers.background.size());
+    return running.empty() ? buffers.running->add(frame).data() : running.data();
+  }
+  return buffers.background.data();
 }
 
-void Reconstructor::Plan::choose_path(ReconstructionPath wanted) {
-  if (!fused || wanted == ReconstructionPath::fused)
-    return;
-  std::optional<FusedPath> candidate;
-  if (wanted == ReconstructionPath::automatic) {
-    // A short B-scan: large ones take no longer by the line, and only delay the start.
-    const int all_a_scans = std::exchange(a_scans, std::min(a_scans, 64));
-    std::vector<std::byte> frame(format.line_bytes() * static_cast<std::size_t>(a_scans));
-    for (std::size_t i = 0; i < frame.size(); ++i)
-      frame[i] = static_cast<std::byte>(i * i >> 8);
-    const auto with_fused = time_b_scan(frame);
-    candidate.swap(fused);
-    const auto with_fftw = time_b_scan(frame);
-    a_scans = all_a_scans;
-    if (with_fused < with_fftw)
-      candidate.swap(fused);
-  } else {
-    fused.reset();
+template <class Count, class Level>
+int Reconstructor::Plan::run(const std::optional<FusedPath>& path, Workspace::Buffers& buffers,
+                             int lines, std::span<const std::byte> frame, Level* levels,
+                             std::span<const float> running) const noexcept {
+  const auto* counts = reinterpret_cast<const Count*>(frame.data());
+  const float* background = background_of(buffers, counts, lines, frame, running);
+  if constexpr (!std::is_same_v<Count, float>) {
+    if (path) {
+      if (background_mode == BackgroundMode::mean || background_mode == BackgroundMode::running)
+        path->set_background(background, *buffers.fused);
+      return path->reconstruct(frame.data(), lines, format.full_scale(), *buffers.fused, levels);
+    }
   }
+  return fftw.reconstruct(counts, lines, background, buffers.fftw, levels);
+}
+
+template <class Level>
+int Reconstructor::Plan::dispatch(const std::optional<FusedPath>& path, Workspace::Buffers& buffers,
+                                  int lines, std::span<const std::byte> frame, Level* levels,
+                                  std::span<const float> running) const noexcept {
+  switch (format.type) {
+  case SpectrumType::u8: return run<std::uint8_t>(path, buffers, lines, frame, levels, running);
+  case SpectrumType::u16: return run<std::uint16_t>(path, buffers, lines, frame, levels, running);
+  case SpectrumType::f32: break;
+  }
+  return run<float>(path, buffers, lines, frame, levels, running);
+}
+
+template <class Level>
+BScanOutcome Reconstructor::Plan::b_scan(Workspace::Buffers& buffers,
+                                         std::span<const std::byte> frame, std::span<Level> levels,
+                                         std::span<const float> running) const noexcept {
+  assert(frame.size() >= format.line_bytes() * static_cast<std::size_t>(a_scans));
+  assert(levels.size() >= static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(depths));
+  return {dispatch(fused, buffers, a_scans, frame, levels.data(), running)};
+}
+
+PathTimes Reconstructor::Plan::measure_paths() const {
+  // A short B-scan: large ones take no longer by the line, and only delay the start.
+  const int lines = std::min(a_scans, 64);
+  // A running background is given, as live; the workspace's own one wants whole frames.
+  const std::vector<float> given(static_cast<std::size_t>(format.samples));
+  const auto buffers = make_buffers();
+  std::vector<std::byte> frame(format.line_bytes() * static_cast<std::size_t>(lines));
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    frame[i] = static_cast<std::byte>(i * i >> 8);
+  std::vector<std::uint8_t> levels(static_cast<std::size_t>(lines) *
+                                   static_cast<std::size_t>(depths));
+  const auto run_on = [&](const std::optional<FusedPath>& path) {
+    dispatch(path, *buffers, lines, frame, levels.data(), given);
+  };
+  const std::optional<FusedPath> no_fused;
+  return race_paths([&] { run_on(fused); }, [&] { run_on(no_fused); }, lines);
+}
+
+void Reconstructor::Plan::choose_path(const ReconstructionSetup& setup) {
+  if (setup.path != ReconstructionPath::automatic || !fused) {
+    const bool asked = setup.path == ReconstructionPath::fftw || fused;
+    decision = {asked ? PathReason::asked : PathReason::only, std::nullopt};
+    return;
+  }
+  const std::string what = line_case(setup, *fused);
+  if (setup.memory != nullptr)
+    decision = {PathReason::remembered, setup.memory->recall(what)};
+  if (!decision.times) {
+    decision = {PathReason::measured, measure_paths()};
+    if (setup.memory != nullptr)
+      setup.memory->remember(what, *decision.times);
+  }
+  if (decision.times->fftw_ns < decision.times->fused_ns)
+    fused.reset();
 }
 
 Reconstructor::Workspace::Workspace(std::unique_ptr<Buffers> buffers)
@@ -255,31 +213,26 @@ Reconstructor::Workspace::Workspace(Workspace&&) noexcept = default;
 Reconstructor::Workspace& Reconstructor::Workspace::operator=(Workspace&&) noexcept = default;
 Reconstructor::Workspace::~Workspace() = default;
 void Reconstructor::Workspace::reset_background() {
-  buffers_->background.reset();
+  if (buffers_->running)
+    buffers_->running->reset();
 }
 
 hal::Result<Reconstructor> Reconstructor::create(const ReconstructionSetup& setup) {
   if (const auto checked = check(setup); !checked)
     return tl::make_unexpected(checked.error());
   const Calibration& calibration = setup.calibration;
-  auto plan = std::make_unique<Plan>();
-  plan->format = setup.format;
-  plan->a_scans = setup.a_scans;
-  plan->background_mode = calibration.background_mode;
-  plan->recorded_background = calibration.background;
-  plan->taps = make_resampling_taps(calibration.positions, calibration.interpolation);
-  plan->factors = make_factors(calibration);
-  plan->complex_input = !calibration.dispersion_rad.empty();
-  plan->shape_line = shape_line_kernel(plan->taps.width, plan->complex_input);
-  plan->transform = plan_transform(calibration.samples, plan->complex_input);
-  if (!plan->transform)
-    return hal::fail(Fault::system, fmt::format("reconstruction: FFTW has no plan for {} samples",
-                                                calibration.samples));
-  if (setup.format.type != SpectrumType::f32)
-    plan->fused =
-        FusedPath::make(calibration, static_cast<int>(bytes_per_sample(setup.format.type)),
-                        setup.format.right_shift, setup.fused_isa);
-  plan->choose_path(setup.path);
+  auto fftw = FftwPath::make(calibration, setup.format, setup.a_scans);
+  if (!fftw)
+    return tl::make_unexpected(fftw.error());
+  auto plan = std::make_unique<Plan>(Plan{.format = setup.format,
+                                          .a_scans = setup.a_scans,
+                                          .depths = calibration.depths(),
+                                          .background_mode = calibration.background_mode,
+                                          .recorded_background = calibration.background,
+                                          .fftw = std::move(*fftw),
+                                          .fused = make_fused(setup),
+                                          .decision = {}});
+  plan->choose_path(setup);
   return Reconstructor{std::move(plan)};
 }
 
@@ -292,7 +245,7 @@ int Reconstructor::samples() const {
   return plan_->format.samples;
 }
 int Reconstructor::depths() const {
-  return plan_->format.samples / 2;
+  return plan_->depths;
 }
 int Reconstructor::a_scans() const {
   return plan_->a_scans;
@@ -310,21 +263,31 @@ ReconstructionPath Reconstructor::path() const {
 const char* Reconstructor::isa() const {
   return plan_->fused ? plan_->fused->isa() : "native";
 }
+const PathDecision& Reconstructor::path_decision() const {
+  return plan_->decision;
+}
 
 Reconstructor::Workspace Reconstructor::make_workspace() const {
   return Workspace{plan_->make_buffers()};
 }
+std::optional<RunningBackground> Reconstructor::make_running_background() const {
+  if (plan_->background_mode != BackgroundMode::running)
+    return std::nullopt;
+  return RunningBackground{plan_->format, plan_->a_scans};
+}
 
 BScanOutcome Reconstructor::reconstruct_b_scan(Workspace& workspace,
                                                std::span<const std::byte> frame,
-                                               std::span<std::uint8_t> levels) const noexcept {
-  return plan_->dispatch(*workspace.buffers_, frame, levels);
+                                               std::span<std::uint8_t> levels,
+                                               std::span<const float> running) const noexcept {
+  return plan_->b_scan(*workspace.buffers_, frame, levels, running);
 }
 
 BScanOutcome Reconstructor::reconstruct_b_scan_db(Workspace& workspace,
                                                   std::span<const std::byte> frame,
-                                                  std::span<float> levels_db) const noexcept {
-  return plan_->dispatch(*workspace.buffers_, frame, levels_db);
+                                                  std::span<float> levels_db,
+                                                  std::span<const float> running) const noexcept {
+  return plan_->b_scan(*workspace.buffers_, frame, levels_db, running);
 }
 
 } // namespace octascope::pipeline

@@ -3,51 +3,27 @@
 // The chain for one line of N samples s[p]:
 //   shift, s − background[p]; x[m] = s(r[m]) (k-linearisation by taps);
 //   y[m] = x[m]·w[m]·exp(iθ[m])/N (one complex factor a sample; real without dispersion);
-//   Y = FFT(y), bins 0 … N/2−1; level = 10·log10(|Y|²) dB, which is 20·log10(|FFT|/N).
-// Single precision. Two paths with one meaning: FFTW in the middle, for any N and type; and the
-// fused one (fused_kernels.h), a line in one pass, for integer counts and N = 256, 512 … 8192.
+//   Y = FFT(y), bins 0 … N/2−1 (with zero-padding: of 2N samples, bins 0 … N−1);
+//   on request, what is fixed in all A-scans is taken off Y (fixed_pattern.h);
+//   level = 10·log10(|Y|²) dB, which is 20·log10(|FFT|/N).
+// Single precision. Two paths with one meaning: FFTW's (fftw_path.h), for everything; and the fused
+// one (fused_path.h), a line in one pass, for integer counts and N = 256, 512 … 8192.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
-#include "hal/line_camera.h"
 #include "hal/result.h"
+#include "pipeline/background.h"
 #include "pipeline/calibration.h"
+#include "pipeline/path_choice.h"
+#include "pipeline/spectrum_format.h"
 
 namespace octascope::pipeline {
-
-enum class SpectrumType : std::uint8_t { u8, u16, f32 };
-
-constexpr std::size_t bytes_per_sample(SpectrumType type) {
-  return type == SpectrumType::u8 ? 1 : type == SpectrumType::u16 ? 2 : 4;
-}
-
-// Little-endian samples, lines without gaps. Shift and full scale mean nothing to f32.
-struct SpectrumFormat {
-  int samples = 1024;
-  SpectrumType type = SpectrumType::u16;
-  int significant_bits = 16; // full scale is 2^significant_bits − 1 after the shift
-  int right_shift = 0;
-
-  SpectrumFormat() = default;
-  SpectrumFormat(int samples_per_line, SpectrumType sample_type);
-  explicit SpectrumFormat(const hal::LineFormat& line);
-
-  std::size_t line_bytes() const {
-    return static_cast<std::size_t>(samples) * bytes_per_sample(type);
-  }
-};
-
-// Which of the two. `fused` where it does not apply gives FFTW's.
-enum class ReconstructionPath : std::uint8_t {
-  automatic, // the faster one, measured for some milliseconds when the Reconstructor is made
-  fftw,
-  fused,
-};
 
 struct ReconstructionSetup {
   Calibration calibration;
@@ -56,6 +32,9 @@ struct ReconstructionSetup {
   ReconstructionPath path = ReconstructionPath::automatic;
   // Of the fused path, to compare: AVX3, AVX2, SSE4 or NEON; empty: the widest there is.
   std::string fused_isa = {};
+  // Borrowed while the Reconstructor is made: what `automatic` measures is kept there and not
+  // measured again. nullptr: it is measured each time, for some milliseconds.
+  PathMemory* memory = nullptr;
 };
 
 struct BScanOutcome {
@@ -73,7 +52,7 @@ public:
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    // Forgets the running background, as if no B-scan had been seen.
+    // Forgets the workspace's own running background, as if no B-scan had been seen.
     void reset_background();
 
   private:
@@ -92,7 +71,7 @@ public:
   ~Reconstructor();
 
   int samples() const;
-  int depths() const; // samples / 2, rounded down
+  int depths() const; // Calibration::depths(): samples / 2, rounded down, without zero-padding
   int a_scans() const;
   std::size_t kept_bytes() const; // of the kept lines of a frame: the least that a frame has
   std::size_t levels() const;     // of a B-scan: a_scans × depths
@@ -101,17 +80,25 @@ public:
   // The instruction set of the fused kernels ("AVX3", "AVX2", …); "native" for FFTW's path, whose
   // loops choose their own.
   const char* isa() const;
+  const PathDecision& path_decision() const;
 
   Workspace make_workspace() const;
+  // With BackgroundMode::running, what hands out the background of each B-scan in order; nothing
+  // else.
+  std::optional<RunningBackground> make_running_background() const;
 
   // `frame` begins with the kept lines, at least kept_bytes() and aligned for its sample type;
   // fly-back lines behind them are not read. `levels` has levels() values [a][z], depth fastest.
-  // Neither allocates, locks nor logs.
+  // `running`: with BackgroundMode::running, what RunningBackground::add() gave for this B-scan; of
+  // no meaning otherwise. Without it the workspace averages the B-scans that it sees itself, which
+  // is right where one worker sees all of them in order. Neither allocates, locks nor logs.
   BScanOutcome reconstruct_b_scan(Workspace& workspace, std::span<const std::byte> frame,
-                                  std::span<std::uint8_t> levels) const noexcept;
+                                  std::span<std::uint8_t> levels,
+                                  std::span<const float> running = {}) const noexcept;
   // The same in decibels, not quantised, for exports. Floats in `frame` must be finite.
   BScanOutcome reconstruct_b_scan_db(Workspace& workspace, std::span<const std::byte> frame,
-                                     std::span<float> levels_db) const noexcept;
+                                     std::span<float> levels_db,
+                                     std::span<const float> running = {}) const noexcept;
 
 private:
   struct Plan;

@@ -13,7 +13,8 @@ namespace octascope::pipeline {
 struct ScanPlan {
   static constexpr int pause_divisor = 500; // the pause is 0.2 % of the sweeps
 
-  int samples = 1024;      // per line; depths are half of it
+  int samples = 1024;      // per line; depths are half of it, times the zero-padding
+  int zero_padding = 1;    // the calibration's: depths are so many times more and closer
   int a_scans = 300;       // kept lines per B-scan
   int fly_back_lines = 79; // at the end of each frame, recorded and not converted
   int b_scans = 80;
@@ -34,7 +35,8 @@ struct ScanPlan {
   // that started late once catches up.
   hal::Duration tick_period() const { return sweep_duration() + sweep_duration() / pause_divisor; }
   VolumeGeometry geometry() const {
-    return {samples / 2, a_scans, b_scans, depth_spacing_um, a_spacing_um, b_spacing_um};
+    return {samples * zero_padding / 2,      a_scans,      b_scans,
+            depth_spacing_um / zero_padding, a_spacing_um, b_spacing_um};
   }
 
   // Counts within reason and positive rates and spacings; the message names the first that is not,

@@ -141,10 +141,43 @@ std::optional<std::string> SpectraFile::find_non_finite(int b) const {
       std::find_if(floats.begin(), floats.end(), [](float value) { return !std::isfinite(value); });
   if (found == floats.end())
     return std::nullopt;
-  const auto index = static_cast<std::size_t>(found - floats.begin());
+  return fmt::format("{} is {}, expected a finite number",
+                     place_of(b, static_cast<std::size_t>(found - floats.begin())), *found);
+}
+
+std::string SpectraFile::place_of(int b, std::size_t index) const {
   const auto samples = static_cast<std::size_t>(shape_.samples);
-  return fmt::format("{}: B-scan {}, A-scan {}, sample {} is {}, expected a finite number",
-                     file_.string(), b, index / samples, index % samples, *found);
+  return fmt::format("{}: B-scan {}, A-scan {}, sample {}", file_.string(), b, index / samples,
+                     index % samples);
+}
+
+template <class Count>
+std::optional<std::string> SpectraFile::find_above(int b, const SpectrumFormat& format) const {
+  const std::span<const std::byte> bytes = b_scan(b);
+  const std::span counts{reinterpret_cast<const Count*>(bytes.data()),
+                         bytes.size() / sizeof(Count)};
+  const std::uint32_t full_scale = format.full_scale();
+  const auto found = std::ranges::find_if(counts, [&](Count count) {
+    return static_cast<std::uint32_t>(count >> format.right_shift) > full_scale;
+  });
+  if (found == counts.end())
+    return std::nullopt;
+  return fmt::format("{} is {}, expected at most {}: {} bits{}",
+                     place_of(b, static_cast<std::size_t>(found - counts.begin())), *found,
+                     full_scale << format.right_shift, format.significant_bits,
+                     format.right_shift > 0
+                         ? fmt::format(" behind a shift of {}", format.right_shift)
+                         : std::string{});
+}
+
+std::optional<std::string> SpectraFile::find_above_full_scale(int b,
+                                                              const SpectrumFormat& format) const {
+  switch (type_) {
+  case SpectrumType::u8: return find_above<std::uint8_t>(b, format);
+  case SpectrumType::u16: return find_above<std::uint16_t>(b, format);
+  case SpectrumType::f32: break;
+  }
+  return std::nullopt;
 }
 
 } // namespace octascope::pipeline

@@ -10,7 +10,8 @@
 #include <string_view>
 
 #include "hal/result.h"
-#include "pipeline/reconstructor.h"
+#include "pipeline/calibration.h" // how many samples a line may have
+#include "pipeline/spectrum_format.h"
 
 namespace octascope::pipeline {
 
@@ -49,9 +50,17 @@ public:
   // f32 only: the first sample of B-scan `b` that is NaN or infinite, in words.
   std::optional<std::string> find_non_finite(int b) const;
 
+  // Integers only: the first sample of B-scan `b` that has, shifted as `format` says, more bits
+  // than are significant there, in words: it is of another type.
+  std::optional<std::string> find_above_full_scale(int b, const SpectrumFormat& format) const;
+
 private:
   SpectraFile(std::filesystem::path file, const SpectraShape& shape, SpectrumType type,
               std::span<const std::byte> bytes);
+
+  template <class Count>
+  std::optional<std::string> find_above(int b, const SpectrumFormat& format) const;
+  std::string place_of(int b, std::size_t index) const;
 
   std::filesystem::path file_;
   SpectraShape shape_;

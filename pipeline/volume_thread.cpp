@@ -221,6 +221,8 @@ void VolumeThread::place(const hal::LineFrame& frame) {
   c.placed[b_scan] = true;
   ++c.placed_count;
   const auto job = static_cast<std::uint32_t>(frame.buffer);
+  if (setup_.observe)
+    setup_.observe(frame);
   jobs_[job] = {frame, index, slot->b_scan};
   workers_->submit(job); // never full: as many jobs fit as the camera has buffers
 }
@@ -230,7 +232,7 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t index) {
   Construction& c = constructions_[job.volume];
   Volume& volume = volumes_[job.volume];
   const hal::TimePoint begin = clock_.now();
-  const int saturated = setup_.reconstruct(worker, job.frame.bytes, volume.b_scan(job.b_scan));
+  const int saturated = setup_.reconstruct(worker, job.frame, volume.b_scan(job.b_scan));
   volume.b_scan_states[static_cast<std::size_t>(job.b_scan)] =
       saturated > 0 ? BScanState::saturated : BScanState::good;
   const int buffer = job.frame.buffer;

@@ -34,8 +34,12 @@ namespace octascope::pipeline {
 
 // Converts one frame's raw lines into one B-scan's levels; returns the number of saturated lines.
 // Called by several workers at once, each with its own number; must not throw or allocate.
-using ReconstructBScan = std::function<int(std::size_t worker, std::span<const std::byte> frame,
+using ReconstructBScan = std::function<int(std::size_t worker, const hal::LineFrame& frame,
                                            std::span<std::uint8_t> levels)>;
+
+// Called on the volume thread for each frame in the order of their coming, before a worker gets
+// it, for what depends on that order; must not throw or allocate. May be empty.
+using ObserveFrame = std::function<void(const hal::LineFrame& frame)>;
 
 struct VolumeThreadSetup {
   ScanPlan plan;
@@ -43,6 +47,7 @@ struct VolumeThreadSetup {
   std::size_t workers = 1;
   int camera_buffers = 96; // of the acquisition: as many B-scans can be in work at once
   ReconstructBScan reconstruct;
+  ObserveFrame observe = {};
   NeighbourAverage average;
   std::optional<std::uint64_t> most_volumes; // then no more are triggered
 };

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <variant>
 #include <vector>
@@ -14,6 +15,7 @@
 #include <unistd.h>
 
 #include "firmware-host/commands/level_picture.h"
+#include "firmware-host/reconstruction_cache.h"
 #include "pipeline/level_scale.h"
 #include "pipeline/nrrd.h"
 #include "pipeline/reconstructor.h"
@@ -24,13 +26,15 @@ namespace {
 
 using hal::Fault;
 
-// The workers take B-scans from a shared counter; the first error ends the work.
+// The workers take one B-scan after the other; the first error ends the work.
 class VolumeReconstruction {
 public:
-  VolumeReconstruction(const ReconstructOptions& options, const pipeline::SpectraFile& spectra,
+  VolumeReconstruction(const ReconstructOptions& options, const pipeline::SpectrumFormat& format,
+                       const pipeline::SpectraFile& spectra,
                        const pipeline::Reconstructor& reconstructor,
                        const pipeline::NrrdWriter& writer)
-      : options_(options), spectra_(spectra), reconstructor_(reconstructor), writer_(writer) {}
+      : options_(options), format_(format), spectra_(spectra), reconstructor_(reconstructor),
+        writer_(writer), running_background_(reconstructor.make_running_background()) {}
 
   hal::Result<> run(unsigned threads);
 
@@ -40,15 +44,20 @@ public:
 
 private:
   void work();
+  int take_next(std::vector<float>& running);
+  hal::Result<> check_counts(int b_scan) const;
   template <class Level> hal::Result<> reconstruct_all();
   template <class Level> void keep_for_picture(const std::vector<Level>& levels);
   void show_progress();
 
   const ReconstructOptions& options_;
+  const pipeline::SpectrumFormat& format_;
   const pipeline::SpectraFile& spectra_;
   const pipeline::Reconstructor& reconstructor_;
   const pipeline::NrrdWriter& writer_;
-  std::atomic<int> next_{0};
+  std::mutex taking_; // B-scans are taken in order, and so is their running background
+  int next_ = 0;
+  std::optional<pipeline::RunningBackground> running_background_;
   std::atomic<int> done_{0};
   std::atomic<int> saturated_lines_{0};
   std::vector<float> picture_levels_; // written by the one worker that has the B-scan
@@ -72,26 +81,50 @@ hal::Result<> VolumeReconstruction::run(unsigned threads) {
 void VolumeReconstruction::work() {
   auto result =
       options_.display_counts ? reconstruct_all<std::uint8_t>() : reconstruct_all<float>();
-  const std::scoped_lock lock{mutex_};
-  if (!result && outcome_) {
-    outcome_ = std::move(result);
-    next_.store(spectra_.shape().b_scans);
+  if (!result) {
+    const std::scoped_lock lock{taking_};
+    next_ = spectra_.shape().b_scans;
   }
+  const std::scoped_lock lock{mutex_};
+  if (!result && outcome_)
+    outcome_ = std::move(result);
   --running_;
   finished_.notify_all();
+}
+
+// The number of a B-scan that nobody has yet, and its running background; B when all are taken.
+int VolumeReconstruction::take_next(std::vector<float>& running) {
+  const std::scoped_lock lock{taking_};
+  if (next_ == spectra_.shape().b_scans)
+    return next_;
+  if (running_background_) {
+    const auto mean = running_background_->add(spectra_.b_scan(next_));
+    running.assign(mean.begin(), mean.end());
+  }
+  return next_++;
+}
+
+hal::Result<> VolumeReconstruction::check_counts(int b_scan) const {
+  if (const auto fault = spectra_.find_non_finite(b_scan))
+    return hal::fail(Fault::bad_data, *fault);
+  if (const auto fault = spectra_.find_above_full_scale(b_scan, format_))
+    return hal::fail(Fault::bad_data, *fault + "; another --dtype or --shift");
+  return {};
 }
 
 template <class Level> hal::Result<> VolumeReconstruction::reconstruct_all() {
   auto workspace = reconstructor_.make_workspace();
   std::vector<Level> levels(reconstructor_.levels());
-  for (int b = next_.fetch_add(1); b < spectra_.shape().b_scans; b = next_.fetch_add(1)) {
-    if (const auto fault = spectra_.find_non_finite(b))
-      return hal::fail(Fault::bad_data, *fault);
+  std::vector<float> running;
+  for (int b = take_next(running); b < spectra_.shape().b_scans; b = take_next(running)) {
+    if (auto checked = check_counts(b); !checked)
+      return checked;
     pipeline::BScanOutcome outcome;
     if constexpr (std::is_same_v<Level, float>)
-      outcome = reconstructor_.reconstruct_b_scan_db(workspace, spectra_.b_scan(b), levels);
+      outcome =
+          reconstructor_.reconstruct_b_scan_db(workspace, spectra_.b_scan(b), levels, running);
     else
-      outcome = reconstructor_.reconstruct_b_scan(workspace, spectra_.b_scan(b), levels);
+      outcome = reconstructor_.reconstruct_b_scan(workspace, spectra_.b_scan(b), levels, running);
     saturated_lines_.fetch_add(outcome.saturated_lines);
     if (auto written = writer_.write_b_scan(b, levels); !written)
       return written;
@@ -125,13 +158,29 @@ void VolumeReconstruction::show_progress() {
     fmt::print(stderr, "\r\033[K");
 }
 
-unsigned worker_count(const ReconstructOptions& options, const pipeline::Calibration& calibration) {
-  // A running background depends on the B-scans before: in order, whatever the machine has.
-  if (calibration.background_mode == pipeline::BackgroundMode::running)
-    return 1;
+unsigned worker_count(const ReconstructOptions& options) {
   const unsigned wanted =
       options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   return std::min(wanted, static_cast<unsigned>(options.shape.b_scans));
+}
+
+hal::Result<pipeline::SpectrumFormat> format_of(const ReconstructOptions& options) {
+  pipeline::SpectrumFormat format{options.shape.samples, options.type};
+  if (options.type == pipeline::SpectrumType::f32 && options.right_shift != 0)
+    return hal::fail(
+        Fault::invalid_argument,
+        fmt::format("--shift is {}, but f32 cannot be shifted, expected 0", options.right_shift));
+  const int bits = format.significant_bits;
+  format.right_shift = options.right_shift;
+  format.significant_bits = options.significant_bits.value_or(bits - options.right_shift);
+  if (options.right_shift < 0 || format.significant_bits < 1 ||
+      format.significant_bits + options.right_shift > bits)
+    return hal::fail(Fault::invalid_argument,
+                     fmt::format("--shift is {}, expected 0 to {}: the sample has {} bits, {} of "
+                                 "them significant",
+                                 options.right_shift, bits - options.significant_bits.value_or(1),
+                                 bits, options.significant_bits.value_or(bits)));
+  return format;
 }
 
 hal::Result<> check(const ReconstructOptions& options) {
@@ -153,6 +202,9 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
   if (auto checked = check(options); !checked)
     return checked;
   const int samples = options.shape.samples;
+  const auto format = format_of(options);
+  if (!format)
+    return tl::make_unexpected(format.error());
   auto spectra = pipeline::SpectraFile::open(options.spectra, options.shape, options.type);
   if (!spectra)
     return tl::make_unexpected(spectra.error());
@@ -161,21 +213,25 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
     calibration = pipeline::Calibration::load(*options.calibration, samples);
   if (!calibration)
     return tl::make_unexpected(calibration.error());
-  const auto reconstructor = pipeline::Reconstructor::create(
-      {*calibration, pipeline::SpectrumFormat{samples, options.type}, options.shape.a_scans});
+  ReconstructionCache cache;
+  const auto reconstructor = pipeline::Reconstructor::create({.calibration = *calibration,
+                                                              .format = *format,
+                                                              .a_scans = options.shape.a_scans,
+                                                              .memory = &cache});
   if (!reconstructor)
     return tl::make_unexpected(reconstructor.error());
+  static_cast<void>(cache.save()); // what was not kept is measured again; the doctor says why
 
   const pipeline::VolumeGeometry geometry{reconstructor->depths(),   options.shape.a_scans,
-                                          options.shape.b_scans,     calibration->depth_spacing_um,
+                                          options.shape.b_scans,     calibration->bin_spacing_um(),
                                           calibration->a_spacing_um, calibration->b_spacing_um};
   auto writer = pipeline::NrrdWriter::create(options.volume, geometry,
                                              options.display_counts ? pipeline::NrrdType::uint8
                                                                     : pipeline::NrrdType::float32);
   if (!writer)
     return tl::make_unexpected(writer.error());
-  VolumeReconstruction work{options, *spectra, *reconstructor, *writer};
-  if (auto done = work.run(worker_count(options, *calibration)); !done)
+  VolumeReconstruction work{options, *format, *spectra, *reconstructor, *writer};
+  if (auto done = work.run(worker_count(options)); !done)
     return done;
   if (auto committed = writer->commit(); !committed)
     return committed;

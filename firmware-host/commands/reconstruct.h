@@ -16,6 +16,8 @@ struct ReconstructOptions {
   std::filesystem::path spectra;
   pipeline::SpectraShape shape;
   pipeline::SpectrumType type = pipeline::SpectrumType::u16;
+  std::optional<int> significant_bits;              // none: as many as the type has
+  int right_shift = 0;                              // of left-justified counts
   std::optional<std::filesystem::path> calibration; // none: no resampling, no dispersion
   std::filesystem::path volume;                     // NRRD to write
   bool display_counts = false;                      // 8 bits instead of float dB

@@ -1,6 +1,10 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,13 +21,26 @@ constexpr int wrong_use = 2;
 struct CommandLine {
   std::string spectra;
   std::string shape;
-  pipeline::SpectrumType type = pipeline::SpectrumType::u16;
+  std::string type = "u16";
+  int shift = 0;
   std::string calibration;
   std::string out;
   bool u8 = false;
   int b_scan = 0;
   std::string png;
 };
+
+// What --dtype says: cameras of 10, 12 and 14 bits are u16 with fewer significant ones. u16 and u8
+// leave open how many there are: what the shift leaves.
+using TypeAndBits = std::pair<pipeline::SpectrumType, std::optional<int>>;
+const std::map<std::string, TypeAndBits>& types() {
+  using pipeline::SpectrumType;
+  static const std::map<std::string, TypeAndBits> all{
+      {"u8", {SpectrumType::u8, {}}},   {"u10", {SpectrumType::u16, 10}},
+      {"u12", {SpectrumType::u16, 12}}, {"u14", {SpectrumType::u16, 14}},
+      {"u16", {SpectrumType::u16, {}}}, {"f32", {SpectrumType::f32, {}}}};
+  return all;
+}
 
 int run(const CommandLine& line) {
   const auto complain = [](const hal::Error& error, int status) {
@@ -36,7 +53,8 @@ int run(const CommandLine& line) {
   ReconstructOptions options;
   options.spectra = line.spectra;
   options.shape = *shape;
-  options.type = line.type;
+  std::tie(options.type, options.significant_bits) = types().at(line.type);
+  options.right_shift = line.shift;
   options.volume = line.out;
   options.display_counts = line.u8;
   options.picture_b_scan = line.b_scan;
@@ -57,9 +75,6 @@ int run(const CommandLine& line) {
 void add_reconstruct_command(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand("reconstruct", "Raw spectra to a volume of levels (NRRD)");
   auto line = std::make_shared<CommandLine>();
-  const std::map<std::string, pipeline::SpectrumType> types{{"u8", pipeline::SpectrumType::u8},
-                                                            {"u16", pipeline::SpectrumType::u16},
-                                                            {"f32", pipeline::SpectrumType::f32}};
   command
       ->add_option("--spectra", line->spectra,
                    "Raw spectra, little-endian, [B-scan][A-scan][sample]")
@@ -70,10 +85,17 @@ void add_reconstruct_command(CLI::App& app, int& exit_status) {
                    "B-scans, A-scans per B-scan and samples per line, like 100,100,1024")
       ->required()
       ->type_name("B,A,N");
-  command->add_option("--dtype", line->type, "Type of a sample (u16 if not given)")
-      ->transform(CLI::CheckedTransformer(types))
-      ->type_name("u8|u16|f32")
-      ->option_text("u8|u16|f32");
+  command
+      ->add_option("--dtype", line->type,
+                   "Type of a sample (u16 if not given); u10, u12 and u14 take 16 bits")
+      ->check(CLI::IsMember({"u8", "u10", "u12", "u14", "u16", "f32"}))
+      ->type_name("u8|u10|u12|u14|u16|f32")
+      ->option_text("u8|u10|u12|u14|u16|f32");
+  command
+      ->add_option("--shift", line->shift,
+                   "Bits to shift each sample to the right: left-justified 12-bit counts need "
+                   "--dtype u12 --shift 4")
+      ->type_name("BITS");
   command
       ->add_option("--calibration", line->calibration,
                    "Calibration; without it no resampling and no dispersion, Hann window")

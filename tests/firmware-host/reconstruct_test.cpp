@@ -41,7 +41,6 @@ class ReconstructCommand : public testing::Test {
 protected:
   ReconstructCommand() {
     std::mt19937 generator{11};
-    std::vector<std::uint16_t> counts(5 * 4 * 32);
     for (auto& count : counts)
       count = static_cast<std::uint16_t>(generator() % 4096);
     spectra = folder.write_values<std::uint16_t>("s.raw", counts).string();
@@ -56,6 +55,7 @@ protected:
   }
 
   tests::ScratchFolder folder;
+  std::vector<std::uint16_t> counts = std::vector<std::uint16_t>(5 * 4 * 32);
   std::string spectra;
   std::string out;
   std::string png;
@@ -80,13 +80,85 @@ TEST_F(ReconstructCommand, counts_are_the_quantised_decibels) {
   ASSERT_EQ(reconstruct({}), 0);
   const auto db = pipeline::read_nrrd(out);
   ASSERT_EQ(reconstruct({"--u8"}), 0);
-  const auto counts = pipeline::read_nrrd(out);
-  ASSERT_TRUE(db && counts);
+  const auto display = pipeline::read_nrrd(out);
+  ASSERT_TRUE(db && display);
   const auto& levels = std::get<std::vector<float>>(db->levels);
-  const auto& quantised = std::get<std::vector<std::uint8_t>>(counts->levels);
+  const auto& quantised = std::get<std::vector<std::uint8_t>>(display->levels);
   ASSERT_EQ(levels.size(), quantised.size());
   for (std::size_t i = 0; i < levels.size(); ++i)
     EXPECT_NEAR(2 * (levels[i] + 40), quantised[i], 0.51F);
+}
+
+TEST_F(ReconstructCommand, takes_every_type) {
+  ASSERT_EQ(reconstruct({"--dtype", "u12"}), 0); // drawn below 4096
+  const auto expected = std::get<std::vector<float>>(pipeline::read_nrrd(out)->levels);
+  const auto expect_the_same = [&](std::vector<std::string> options) {
+    ASSERT_EQ(reconstruct(std::move(options)), 0);
+    const auto volume = pipeline::read_nrrd(out);
+    ASSERT_TRUE(volume);
+    const auto& levels = std::get<std::vector<float>>(volume->levels);
+    ASSERT_EQ(levels.size(), expected.size());
+    for (std::size_t i = 0; i < levels.size(); ++i)
+      if (expected[i] > 0) {
+        ASSERT_NEAR(levels[i], expected[i], 0.01F) << i;
+      }
+  };
+  expect_the_same({"--dtype", "u16"});
+  expect_the_same({"--dtype", "u14"});
+  std::vector<std::uint16_t> shifted(counts);
+  for (auto& count : shifted)
+    count = static_cast<std::uint16_t>(count << 4 | 5);
+  spectra = folder.write_values<std::uint16_t>("shifted.raw", shifted).string();
+  expect_the_same({"--dtype", "u12", "--shift", "4"});
+  expect_the_same({"--shift", "4"});
+  const std::vector<float> floats{counts.begin(), counts.end()};
+  spectra = folder.write_values<float>("floats.raw", floats).string();
+  expect_the_same({"--dtype", "f32"});
+}
+
+TEST_F(ReconstructCommand, refuses_what_does_not_fit_the_type) {
+  EXPECT_EQ(reconstruct({"--dtype", "u10"}), 1); // some have 12 bits
+  EXPECT_EQ(reconstruct({"--dtype", "u12", "--shift", "5"}), 1);
+  EXPECT_EQ(reconstruct({"--dtype", "u16", "--shift", "-1"}), 1);
+  EXPECT_EQ(reconstruct({"--dtype", "u16", "--shift", "16"}), 1);
+  EXPECT_EQ(reconstruct({"--dtype", "u12", "--shift", "x"}), 2);
+  EXPECT_FALSE(std::filesystem::exists(out));
+  ReconstructOptions options;
+  options.spectra = spectra;
+  options.shape = {5, 4, 32};
+  options.significant_bits = 10;
+  options.volume = out;
+  const auto done = reconstruct_volume(options);
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("expected at most 1023: 10 bits"));
+}
+
+TEST_F(ReconstructCommand, a_running_background_is_the_same_for_any_number_of_threads) {
+  folder.write("c.toml", "[spectrometer]\nsamples = 32\n[k_linear]\npolynomial = [0.0, 31.0]\n"
+                         "[background]\nmode = \"running\"\n");
+  ReconstructOptions options;
+  options.spectra = spectra;
+  options.shape = {5, 4, 32};
+  options.calibration = folder / "c.toml";
+  options.volume = out;
+  options.threads = 1;
+  ASSERT_TRUE(reconstruct_volume(options));
+  const auto alone = pipeline::read_nrrd(out);
+  options.threads = 4;
+  ASSERT_TRUE(reconstruct_volume(options));
+  const auto together = pipeline::read_nrrd(out);
+  ASSERT_TRUE(alone && together);
+  EXPECT_EQ(alone->levels, together->levels);
+}
+
+TEST_F(ReconstructCommand, zero_padding_halves_the_spacing) {
+  folder.write("c.toml", "[spectrometer]\nsamples = 32\n[k_linear]\npolynomial = [0.0, 31.0]\n"
+                         "[transform]\nzero_padding = 2\n[depth]\nspacing_um = 3.0\n");
+  ASSERT_EQ(reconstruct({"--calibration", (folder / "c.toml").string()}), 0);
+  const auto volume = pipeline::read_nrrd(out);
+  ASSERT_TRUE(volume);
+  EXPECT_EQ(volume->geometry.depths, 32);
+  EXPECT_NEAR(volume->geometry.depth_spacing_um, 1.5, 1e-9);
 }
 
 TEST_F(ReconstructCommand, wrong_use_is_2) {

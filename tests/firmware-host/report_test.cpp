@@ -17,6 +17,10 @@ RunReport example() {
   RunReport r;
   r.simulated = true;
   r.source = "a \"quoted\" scene";
+  r.reconstruction_path = "fused";
+  r.reconstruction_isa = "AVX2";
+  r.reconstruction_reason = "remembered";
+  r.reconstruction_times = {{700.4, 1500.6}};
   r.line_camera = "sim";
   r.galvo_trigger = "gpio";
   r.control_input = "hid";
@@ -47,6 +51,11 @@ RunReport example() {
 TEST(Report, says_every_figure_under_its_key) {
   const json j = json::parse(to_json(example()));
   EXPECT_EQ(j["simulated"], true);
+  EXPECT_EQ(j["reconstruction"]["path"], "fused");
+  EXPECT_EQ(j["reconstruction"]["isa"], "AVX2");
+  EXPECT_EQ(j["reconstruction"]["reason"], "remembered");
+  EXPECT_EQ(j["reconstruction"]["fused_ns_per_line"], 700);
+  EXPECT_EQ(j["reconstruction"]["fftw_ns_per_line"], 1501);
   EXPECT_EQ(j["source"], "a \"quoted\" scene");
   EXPECT_EQ(j["devices"], (json{{"line_camera", "sim"},
                                 {"galvo_trigger", "gpio"},

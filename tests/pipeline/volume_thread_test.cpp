@@ -44,9 +44,9 @@ protected:
         .camera_buffers = config.buffers,
         // A level is the frame's fill, so the test sees which frame went where.
         .reconstruct =
-            [](std::size_t, std::span<const std::byte> frame, std::span<std::uint8_t> levels) {
-              std::ranges::fill(levels, std::to_integer<std::uint8_t>(frame.front()));
-              return frame.front() == std::byte{saturated_fill} ? 3 : 0;
+            [](std::size_t, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
+              std::ranges::fill(levels, std::to_integer<std::uint8_t>(frame.bytes.front()));
+              return frame.bytes.front() == std::byte{saturated_fill} ? 3 : 0;
             },
         .average = *NeighbourAverage::create({0, 1, 0}),
         .most_volumes = std::nullopt,

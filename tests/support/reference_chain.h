@@ -64,7 +64,7 @@ inline double reference_interpolate(std::span<const double> line, double positio
   return sum / weights;
 }
 
-// One line without its background → N/2 levels in dB, not clamped.
+// One line without its background → N/2 levels in dB (N with zero-padding), not clamped.
 inline std::vector<double> reference_levels_db(std::span<const double> line,
                                                const pipeline::Calibration& calibration) {
   const std::size_t n = line.size();
@@ -74,8 +74,9 @@ inline std::vector<double> reference_levels_db(std::span<const double> line,
     shaped[m] = std::polar(1.0, theta) * calibration.window[m] *
                 reference_interpolate(line, calibration.positions[m], calibration.interpolation);
   }
+  shaped.resize(n * static_cast<std::size_t>(calibration.zero_padding));
   const auto bins = reference_transform(std::move(shaped));
-  std::vector<double> levels(n / 2);
+  std::vector<double> levels(bins.size() / 2);
   for (std::size_t z = 0; z < levels.size(); ++z)
     levels[z] = 20 * std::log10(std::abs(bins[z]) / static_cast<double>(n));
   return levels;
