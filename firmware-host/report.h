@@ -11,6 +11,8 @@
 #include "hal/result.h"
 #include "pipeline/duration_statistics.h"
 #include "pipeline/fault_log.h"
+#include "pipeline/phase_thread.h"
+#include "pipeline/scan_plan.h"
 
 namespace octascope::firmware_host {
 
@@ -18,6 +20,10 @@ struct RunReport {
   bool simulated = false;
   std::string source; // what the spectra were
   std::string line_camera, galvo_trigger, control_input, scope_camera, display; // backends
+
+  pipeline::ScanPlan plan;
+  pipeline::PhaseStatus phase;
+  std::vector<int> worker_cores; // by worker; −1 where the system chooses
 
   std::uint64_t acquired = 0, published = 0, displayed = 0, skipped = 0;
   std::uint64_t lost_lines = 0, lost_b_scans = 0, lost_volumes = 0;

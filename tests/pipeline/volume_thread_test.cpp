@@ -41,7 +41,6 @@ protected:
         .plan = plan,
         .trigger = {},
         .workers = 2,
-        .camera_buffers = config.buffers,
         // A level is the frame's fill, so the test sees which frame went where.
         .reconstruct =
             [](std::size_t, std::span<const std::byte> frame, std::span<std::uint8_t> levels) {
@@ -68,7 +67,7 @@ protected:
   }
 
   hal::TimePoint time_of(hal::TimePoint armed, int b) const {
-    return armed + b * plan.b_scan_period();
+    return armed + b * plan.frame_period();
   }
 
   // Waits until a volume with this number has been published.
