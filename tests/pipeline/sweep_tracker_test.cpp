@@ -23,6 +23,18 @@ TEST(SweepTracker, places_frames_by_their_time) {
   EXPECT_FALSE(tracker.place(start - plan.frame_period()));
 }
 
+TEST(SweepTracker, counts_repeats_like_any_other_sweep) {
+  ScanPlan plan;
+  plan.repeats = 4;
+  SweepTracker tracker{plan};
+  const hal::TimePoint end = tracker.armed(1, start);
+  EXPECT_EQ(end, start + plan.sweep_duration());
+  const auto slot = tracker.place(start + 319 * plan.frame_period());
+  ASSERT_TRUE(slot);
+  EXPECT_EQ(slot->sweep, 319);
+  EXPECT_FALSE(tracker.place(start + 320 * plan.frame_period()));
+}
+
 TEST(SweepTracker, knows_that_a_pulse_during_a_sweep_is_latched) {
   const ScanPlan plan;
   SweepTracker tracker{plan};
