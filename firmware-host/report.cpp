@@ -52,7 +52,7 @@ Json scan_to_json(const RunReport& report) {
                             {"estimates_used", phase.used},
                             {"estimates_refused", phase.refused},
                             {"correlation", rounded(phase.correlation)},
-                            {"prominence", rounded(phase.prominence)}};
+                            {"significance", rounded(phase.significance)}};
   }
   return scan;
 }

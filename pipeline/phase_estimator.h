@@ -26,11 +26,12 @@ namespace octascope::pipeline {
 
 struct PhaseEstimate {
   double phase_offset_a_scans = 0; // p
-  // What speaks for it. Peak of the correlation, −1 … 1, and by how many standard deviations of
-  // the rest of its curve it stands out, of the weaker group; how far apart, in A-scans between
-  // neighbours, the peaks of the two groups are.
+  // What speaks for it, of the weaker group: the peak of the correlation, −1 … 1; the same in
+  // standard deviations of what noise alone would give; and the next best elsewhere, as a share of
+  // it. And how far apart the peaks of the two groups are, in A-scans between neighbours.
   double correlation = 0;
-  double prominence = 0;
+  double significance = 0;
+  double rival = 1;
   double disagreement_a_scans = 0;
   int pairs = 0;
 
@@ -45,7 +46,7 @@ public:
   // Searches ± this around the plan's phase_offset_a_scans, or a quarter of a sweep if that is
   // less.
   static constexpr int widest_search_a_scans = 32;
-  static constexpr int most_pairs = 32; // of each group
+  static constexpr int most_pairs = 64; // of each group
 
   explicit PhaseEstimator(const ScanPlan& plan);
 
@@ -65,7 +66,8 @@ private:
   struct Peak {
     double sum = 0; // c
     double correlation = 0;
-    double prominence = 0;
+    double significance = 0;
+    double rival = 1;
   };
 
   void find_slopes(const SweepSketch& sketch, int sweep, Slopes& slopes) const;

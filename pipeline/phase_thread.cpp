@@ -71,7 +71,7 @@ PhaseStatus PhaseThread::status() const {
           .used = used_.load(),
           .refused = refused_.load(),
           .correlation = correlation_.load(),
-          .prominence = prominence_.load()};
+          .significance = significance_.load()};
 }
 
 void PhaseThread::run() {
@@ -90,7 +90,7 @@ void PhaseThread::look() {
   const PhaseEstimate estimate = estimator_.estimate(sketch_);
   const bool changed = tracker_.update(estimate);
   correlation_.store(estimate.correlation, std::memory_order_relaxed);
-  prominence_.store(estimate.prominence, std::memory_order_relaxed);
+  significance_.store(estimate.significance, std::memory_order_relaxed);
   used_.store(tracker_.used(), std::memory_order_relaxed);
   refused_.store(tracker_.refused(), std::memory_order_relaxed);
   if (!changed)

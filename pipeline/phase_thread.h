@@ -23,7 +23,7 @@ struct PhaseStatus {
   std::uint64_t used = 0;
   std::uint64_t refused = 0;
   double correlation = 0;
-  double prominence = 0;
+  double significance = 0;
 };
 
 // One sketch goes round: the volume thread borrows it for a volume, its workers draw, and it comes
@@ -65,7 +65,7 @@ private:
   Wakeup wakeup_;
   std::atomic<Sketch> state_{Sketch::free};
   std::atomic<double> in_use_a_scans_;
-  std::atomic<double> correlation_{0}, prominence_{0};
+  std::atomic<double> correlation_{0}, significance_{0};
   std::atomic<std::uint64_t> used_{0}, refused_{0};
   std::atomic<bool> stopping_{false};
   std::thread thread_;

@@ -72,7 +72,7 @@ TEST(SweepAlignment, whole_and_half_lags_keep_every_level_as_it_came) {
   const auto lines = sweep(plan, 0, false);
   for (const double lag : {0.0, 3.0, 3.5}) {
     SweepAlignment{plan, lag}.apply(lines, false, a_scans);
-    const std::size_t first = static_cast<std::size_t>(lag) * depths;
+    const auto first = static_cast<std::ptrdiff_t>(lag) * depths;
     EXPECT_TRUE(std::equal(a_scans.begin(), a_scans.end(), lines.begin() + first)) << lag;
   }
 }
