@@ -33,9 +33,10 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// The line camera's buffers: what a worker may fall behind, and a sixth of a volume more.
+// The line camera's buffers: a volume and a sixth of it is what the workers may fall behind, and
+// more than so many drivers do not have.
 int camera_buffers(const pipeline::ScanPlan& plan) {
-  return std::max(96, plan.b_scans * 7 / 6);
+  return std::clamp(plan.sweeps() * 7 / 6, 96, 512);
 }
 
 class AssembledAppliance final : public Appliance {
@@ -101,6 +102,7 @@ private:
   std::unique_ptr<pipeline::Reconstructor> reconstructor_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
   std::optional<pipeline::FrameBackgrounds> backgrounds_;      // running ones
+  std::unique_ptr<WorkerCores> worker_cores_;
   std::optional<pipeline::NeighbourAverage> average_;
   std::unique_ptr<sim::OffscreenDisplay> offscreen_; // one of the two
   std::unique_ptr<hal::Display> window_;
@@ -150,7 +152,7 @@ hal::Result<> AssembledAppliance::choose_display() {
 hal::Result<> AssembledAppliance::make_reconstruction() {
   auto made = pipeline::Reconstructor::create({.calibration = twins_.calibration,
                                                .format = pipeline::SpectrumFormat{twins_.format},
-                                               .a_scans = twins_.plan.a_scans,
+                                               .a_scans = twins_.plan.converted_lines(),
                                                .memory = &cache_});
   if (!made)
     return tl::make_unexpected(made.error());
@@ -163,6 +165,8 @@ hal::Result<> AssembledAppliance::make_reconstruction() {
   const std::size_t workers = configuration_.workers > 0
                                   ? configuration_.workers
                                   : std::max(1U, std::thread::hardware_concurrency());
+  worker_cores_ = std::make_unique<WorkerCores>(workers, configuration_.worker_cores,
+                                                hal::linux_backend::allowed_cores());
   for (std::size_t worker = 0; worker < workers; ++worker)
     workspaces_.push_back(reconstructor_->make_workspace());
   return {};
@@ -180,7 +184,6 @@ void AssembledAppliance::make_threads() {
       .plan = twins_.plan,
       .trigger = {},
       .workers = workspaces_.size(),
-      .camera_buffers = camera.buffers,
       .reconstruct =
           [this](std::size_t worker, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
             const auto running = backgrounds_ ? backgrounds_->of(frame) : std::span<const float>{};
@@ -241,7 +244,7 @@ void AssembledAppliance::make_render_loop() {
 
 hal::Result<> AssembledAppliance::start_threads() {
   twins_.faults->start(started_);
-  const pipeline::ThreadSetup setup = make_thread_setup(clock_, faults_);
+  const pipeline::ThreadSetup setup = make_thread_setup(clock_, faults_, *worker_cores_);
   if (auto started = acquisition_->start(setup); !started)
     return started;
   volumes_->start(setup);
@@ -313,6 +316,9 @@ RunReport AssembledAppliance::report() const {
   r.control_input = twins_.control_input->backend();
   r.scope_camera = twins_.scope_camera ? twins_.scope_camera->backend() : "none";
   r.display = display().backend();
+  r.plan = twins_.plan;
+  r.phase = volumes_->phase();
+  r.worker_cores = worker_cores_->pinned();
   r.acquired = counters.acquired;
   r.published = counters.published;
   r.displayed = frames.volumes_displayed;

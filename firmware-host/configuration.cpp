@@ -1,5 +1,7 @@
 #include "firmware-host/configuration.h"
 
+#include <cmath>
+
 #include "pipeline/config_document.h"
 
 namespace octascope::firmware_host {
@@ -25,12 +27,31 @@ void read_scan(ConfigTable root, Configuration& configuration) {
   plan.depth_spacing_um = scan.number("depth_spacing_um", plan.depth_spacing_um, spacings_um);
   plan.a_spacing_um = scan.number("a_spacing_um", plan.a_spacing_um, spacings_um);
   plan.b_spacing_um = scan.number("b_spacing_um", plan.b_spacing_um, spacings_um);
+  plan.bidirectional = scan.boolean("bidirectional", plan.bidirectional);
+  plan.turn_around_lines = scan.integer("turn_around_lines", plan.turn_around_lines, {0, 65536});
+  plan.phase_offset_a_scans =
+      scan.number("phase_offset_a_scans", plan.phase_offset_a_scans,
+                  {-static_cast<double>(plan.a_scans), static_cast<double>(plan.a_scans)});
+  plan.find_phase_offset = scan.boolean("find_phase_offset", plan.find_phase_offset);
+  plan.repeats = scan.integer("repeats", plan.repeats, {1, pipeline::ScanPlan::most_repeats});
   if (present)
     configuration.plan = plan;
 }
 
+void read_worker_cores(ConfigTable table, Configuration& configuration) {
+  constexpr double highest_core = 1023; // of the sets that the system takes
+  for (const double core : table.numbers("worker_cores")) {
+    if (core < 0 || core > highest_core || core != std::floor(core)) {
+      table.complain("worker_cores must be core numbers from 0 to 1023, as in [2, 3]");
+      return;
+    }
+    configuration.worker_cores.push_back(static_cast<int>(core));
+  }
+}
+
 void read_pipeline(ConfigTable table, Configuration& configuration) {
   configuration.workers = static_cast<std::size_t>(table.integer("workers", 0, {0, 256}));
+  read_worker_cores(table, configuration);
   const auto weights = table.numbers("neighbour_weights");
   if (weights.empty())
     return;
@@ -59,6 +80,7 @@ void read_display(ConfigTable table, Configuration& configuration) {
 void read_sim(ConfigTable table, Configuration& configuration) {
   configuration.phantom = table.text("phantom", configuration.phantom);
   configuration.loop_volumes = table.integer("loop_volumes", configuration.loop_volumes, {1, 64});
+  configuration.galvo_lag_us = table.number("galvo_lag_us", configuration.galvo_lag_us, {0, 1e6});
   configuration.faults = table.path("faults");
   configuration.controls = table.path("controls");
 }

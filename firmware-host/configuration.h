@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/clock.h"
 #include "hal/result.h"
@@ -21,6 +22,7 @@ struct Configuration {
   std::optional<std::filesystem::path> calibration;
   // [pipeline]
   std::size_t workers = 0;                      // 0: one a core
+  std::vector<int> worker_cores;                // taken in turns; empty: spread over the allowed
   pipeline::NeighbourWeights neighbour_weights; // each B-scan's share in its picture
   // [display]
   int width = 1280;
@@ -31,6 +33,7 @@ struct Configuration {
   // [sim]
   std::string phantom = "anterior_eye";
   int loop_volumes = 6;
+  double galvo_lag_us = 25; // of the mirror, in a bidirectional scan
   std::optional<std::filesystem::path> faults;
   std::optional<std::filesystem::path> controls;
 };

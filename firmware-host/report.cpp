@@ -51,6 +51,26 @@ Json reconstruction_to_json(const RunReport& report) {
   return json;
 }
 
+Json scan_to_json(const RunReport& report) {
+  const pipeline::ScanPlan& plan = report.plan;
+  Json scan = {{"bidirectional", plan.bidirectional},
+               {"repeats", plan.repeats},
+               {"lines_per_sweep", plan.lines_per_frame()},
+               {"kept_lines_per_sweep", plan.a_scans},
+               {"sweeps_per_volume", plan.sweeps()},
+               {"planned_volumes_per_s", rounded(plan.volumes_per_s())}};
+  if (plan.bidirectional) {
+    const pipeline::PhaseStatus& phase = report.phase;
+    scan["phase_offset"] = {{"a_scans", rounded(phase.in_use_a_scans)},
+                            {"automatic", phase.automatic},
+                            {"estimates_used", phase.used},
+                            {"estimates_refused", phase.refused},
+                            {"correlation", rounded(phase.correlation)},
+                            {"significance", rounded(phase.significance)}};
+  }
+  return scan;
+}
+
 } // namespace
 
 std::string to_json(const RunReport& r) {
@@ -66,6 +86,8 @@ std::string to_json(const RunReport& r) {
         {"scope_camera", r.scope_camera},
         {"display", r.display}}},
       {"reconstruction", reconstruction_to_json(r)},
+      {"scan", scan_to_json(r)},
+      {"workers", {{"count", r.worker_cores.size()}, {"cores", r.worker_cores}}},
       {"volumes",
        {{"acquired", r.acquired},
         {"published", r.published},
@@ -99,6 +121,11 @@ std::string to_text(const RunReport& r) {
       r.duration_s, r.displayed, r.acquired, r.volumes_per_s, r.lines_per_s, r.frames_drawn,
       r.frames_per_s, r.lost_lines, r.lost_b_scans, r.lost_volumes, r.latency.p50_ms,
       r.latency.p95_ms);
+  if (r.plan.bidirectional)
+    text += fmt::format("bidirectional: phase offset {:.2f} A-scans, {}\n", r.phase.in_use_a_scans,
+                        !r.phase.automatic ? "as configured"
+                        : r.phase.used > 0 ? "found in the picture"
+                                           : "as configured: the picture shows no better one");
   for (const pipeline::FaultRecord& f : r.faults)
     text += fmt::format("fault: {} {} ×{}: {}\n", f.device, f.kind, f.count, f.message);
   return text;

@@ -13,6 +13,8 @@
 #include "pipeline/duration_statistics.h"
 #include "pipeline/fault_log.h"
 #include "pipeline/path_choice.h"
+#include "pipeline/phase_thread.h"
+#include "pipeline/scan_plan.h"
 
 namespace octascope::firmware_host {
 
@@ -24,6 +26,10 @@ struct RunReport {
   std::string reconstruction_reason; // pipeline::PathReason's name
   std::optional<pipeline::PathTimes> reconstruction_times;
   std::string line_camera, galvo_trigger, control_input, scope_camera, display; // backends
+
+  pipeline::ScanPlan plan;
+  pipeline::PhaseStatus phase;
+  std::vector<int> worker_cores; // by worker; −1 where the system chooses
 
   std::uint64_t acquired = 0, published = 0, displayed = 0, skipped = 0;
   std::uint64_t lost_lines = 0, lost_b_scans = 0, lost_volumes = 0;

@@ -17,7 +17,7 @@ struct Role {
 
 constexpr std::array roles{
     Role{"camera", 42}, Role{"volumes", 41}, Role{"controls", 40},
-    Role{"worker", 30}, Role{"scope", 0},
+    Role{"worker", 30}, Role{"scope", 0},    Role{"phase", 0},
 };
 
 int priority_of(std::string_view name) {
@@ -30,10 +30,41 @@ int priority_of(std::string_view name) {
 
 } // namespace
 
-pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& faults) {
-  return [&clock, &faults](std::string_view role) {
-    hal::linux_backend::name_this_thread("octa-" + std::string{role});
-    const int priority = priority_of(role);
+WorkerCores::WorkerCores(std::size_t workers, std::span<const int> configured,
+                         std::span<const int> allowed)
+    : pinned_(workers) {
+  for (std::atomic<int>& core : pinned_)
+    core.store(-1);
+  const std::span<const int> cores = configured.empty() ? allowed : configured;
+  if (cores.empty() || (configured.empty() && allowed.size() < workers))
+    return;
+  for (std::size_t worker = 0; worker < workers; ++worker)
+    planned_.push_back(cores[worker % cores.size()]);
+}
+
+std::optional<int> WorkerCores::planned(std::size_t worker) const {
+  return worker < planned_.size() ? std::optional{planned_[worker]} : std::nullopt;
+}
+
+void WorkerCores::set_pinned(std::size_t worker, int core) {
+  pinned_.at(worker).store(core, std::memory_order_relaxed);
+}
+
+std::vector<int> WorkerCores::pinned() const {
+  return {pinned_.begin(), pinned_.end()};
+}
+
+pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& faults,
+                                        WorkerCores& cores) {
+  return [&clock, &faults, &cores](pipeline::ThreadRole role) {
+    hal::linux_backend::name_this_thread("octa-" + std::string{role.name});
+    if (const auto core = role.name == "worker" ? cores.planned(role.number) : std::nullopt) {
+      if (const auto pinned = hal::linux_backend::pin_this_thread(*core); pinned)
+        cores.set_pinned(role.number, *core);
+      else
+        faults.add("host", "not_pinned", pinned.error().message, clock.now());
+    }
+    const int priority = priority_of(role.name);
     if (priority == 0)
       return;
     if (const auto made = hal::linux_backend::make_this_thread_realtime(priority); !made)

@@ -28,19 +28,37 @@ std::optional<std::filesystem::path> calibration_file(const RunOptions& options,
   return options.calibration ? options.calibration : configuration.calibration;
 }
 
-// What the recording says (counts) and what its calibration says (spacings).
-pipeline::ScanPlan plan_of(const pipeline::SpectraShape& shape,
-                           const pipeline::Calibration& calibration,
-                           const Configuration& configuration) {
+void override_plan(const RunOptions& options, pipeline::ScanPlan& plan) {
+  plan.bidirectional |= options.bidirectional;
+  plan.repeats = options.repeats.value_or(plan.repeats);
+}
+
+// What the recording says (counts) and what its calibration says (spacings). A recording has no
+// fly-back; of a bidirectional scan it has the turn-around lines, and of repeats every sweep.
+hal::Result<pipeline::ScanPlan> plan_of(const pipeline::SpectraShape& shape,
+                                        const pipeline::Calibration& calibration,
+                                        const RunOptions& options,
+                                        const Configuration& configuration) {
   pipeline::ScanPlan plan = configuration.plan.value_or(pipeline::ScanPlan{});
+  override_plan(options, plan);
   plan.samples = shape.samples;
-  plan.a_scans = shape.a_scans;
-  plan.b_scans = shape.b_scans;
-  plan.fly_back_lines = 0; // a recording has none
+  plan.fly_back_lines = 0;
+  plan.a_scans = shape.a_scans - (plan.bidirectional ? plan.turn_around_lines : 0);
+  plan.b_scans = shape.b_scans / plan.repeats;
   plan.depth_spacing_um = calibration.depth_spacing_um;
   plan.a_spacing_um = calibration.a_spacing_um;
   plan.b_spacing_um = calibration.b_spacing_um;
-  return plan;
+  if (plan.sweeps() != shape.b_scans)
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("--shape has {} sweeps, expected a multiple of the {} repeats of "
+                                 "each B-scan",
+                                 shape.b_scans, plan.repeats));
+  if (plan.a_scans < 1)
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("--shape has {} lines a sweep, expected more than the {} "
+                                 "turn-around lines of a bidirectional scan",
+                                 shape.a_scans, plan.turn_around_lines));
+  return plan.validate().map([&] { return plan; });
 }
 
 hal::Result<> play_recording(const RunOptions& options, const Configuration& configuration,
@@ -59,7 +77,10 @@ hal::Result<> play_recording(const RunOptions& options, const Configuration& con
       return pass_on(loaded.error());
     twins.calibration = std::move(*loaded);
   }
-  twins.plan = plan_of(recording.shape, twins.calibration, configuration);
+  auto plan = plan_of(recording.shape, twins.calibration, options, configuration);
+  if (!plan)
+    return pass_on(plan.error());
+  twins.plan = *plan;
 
   const std::byte* first = shared->b_scan(0).data();
   const std::size_t samples =
@@ -84,9 +105,11 @@ hal::Result<> play_phantom(const RunOptions& options, const Configuration& confi
   if (!loop)
     return pass_on(loop.error());
   loop->volumes = configuration.loop_volumes;
+  loop->galvo_lag_us = configuration.galvo_lag_us;
   loop->seed = phantom_seed;
   if (configuration.plan)
     loop->plan = *configuration.plan;
+  override_plan(options, loop->plan);
   const auto calibration = calibration_file(options, configuration);
   if (calibration) { // before the loop, which takes its time
     auto loaded = pipeline::Calibration::load(*calibration, loop->plan.samples);

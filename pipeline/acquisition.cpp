@@ -35,7 +35,7 @@ hal::Result<> Acquisition::start(const ThreadSetup& setup) {
   }
   thread_ = std::thread{[this, setup] {
     if (setup)
-      setup("camera");
+      setup({"camera"});
     run();
   }};
   return {};

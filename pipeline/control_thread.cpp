@@ -27,7 +27,7 @@ ControlThread::~ControlThread() {
 void ControlThread::start(const ThreadSetup& setup) {
   thread_ = std::thread{[this, setup] {
     if (setup)
-      setup("controls");
+      setup({"controls"});
     run();
   }};
 }

@@ -18,9 +18,13 @@ struct VolumeLedger {
   hal::Duration reconstruct{}; // work of all workers, summed
   hal::Duration assemble{};    // neighbour averaging and bookkeeping
 
-  std::int32_t lost_b_scans = 0; // never came, came too late, or came broken
-  std::int32_t lost_lines = 0;   // kept lines of those B-scans
-  std::int32_t saturated_lines = 0;
+  // B-scans of which no sweep came in time and whole; kept lines of all sweeps that did not, also
+  // of those whose B-scan has others.
+  std::int32_t lost_b_scans = 0;
+  std::int32_t lost_lines = 0;
+  std::int32_t saturated_lines = 0; // of all converted ones, turn-around included
+
+  double phase_offset_a_scans = 0; // bidirectional: with which all its sweeps were placed
 };
 
 } // namespace octascope::pipeline

@@ -28,7 +28,11 @@ hal::Result<> ScanPlan::validate() const {
       .and_then([&] { return in_range("line_rate_hz", line_rate_hz, 1, 1e9); })
       .and_then([&] { return in_range("depth_spacing_um", depth_spacing_um, 1e-3, 1e6); })
       .and_then([&] { return in_range("a_spacing_um", a_spacing_um, 1e-3, 1e6); })
-      .and_then([&] { return in_range("b_spacing_um", b_spacing_um, 1e-3, 1e6); });
+      .and_then([&] { return in_range("b_spacing_um", b_spacing_um, 1e-3, 1e6); })
+      .and_then([&] { return in_range("turn_around_lines", turn_around_lines, 0, 65536); })
+      .and_then(
+          [&] { return in_range("phase_offset_a_scans", phase_offset_a_scans, -a_scans, a_scans); })
+      .and_then([&] { return in_range("repeats", repeats, 1, most_repeats); });
 }
 
 } // namespace octascope::pipeline

@@ -21,7 +21,7 @@ ScopeThread::~ScopeThread() {
 void ScopeThread::start(const ThreadSetup& setup) {
   thread_ = std::thread{[this, setup] {
     if (setup)
-      setup("scope");
+      setup({"scope"});
     run();
   }};
 }

@@ -5,24 +5,24 @@
 namespace octascope::pipeline {
 
 hal::TimePoint SweepTracker::armed(std::uint64_t volume, hal::TimePoint when) {
-  const Sweep& last = recent_.front();
-  const hal::TimePoint start = last.volume == 0 ? when : std::max(when, last.start + duration_);
+  const Start& last = recent_.front();
+  const hal::TimePoint start = last.volume == 0 ? when : std::max(when, last.when + duration_);
   std::rotate(recent_.begin(), recent_.end() - 1, recent_.end());
   recent_.front() = {volume, start};
   return start + duration_;
 }
 
 std::optional<SweepSlot> SweepTracker::place(hal::TimePoint first_line) {
-  for (Sweep& sweep : recent_) {
-    const hal::Duration since_start = first_line - sweep.start;
-    if (sweep.volume == 0 || since_start < -period_ / 2)
+  for (Start& start : recent_) {
+    const hal::Duration since_start = first_line - start.when;
+    if (start.volume == 0 || since_start < -period_ / 2)
       continue;
-    const auto b_scan = (since_start + period_ / 2) / period_;
-    if (b_scan >= b_scans_)
+    const auto sweep = (since_start + period_ / 2) / period_;
+    if (sweep >= sweeps_)
       return std::nullopt;
-    const hal::Duration deviation = since_start - b_scan * period_;
-    sweep.start += deviation / 4;
-    return SweepSlot{sweep.volume, static_cast<int>(b_scan)};
+    const hal::Duration deviation = since_start - sweep * period_;
+    start.when += deviation / 4;
+    return SweepSlot{start.volume, static_cast<int>(sweep)};
   }
   return std::nullopt;
 }

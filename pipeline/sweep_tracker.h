@@ -1,7 +1,7 @@
-// Which B-scan of which volume a camera frame is, by its timestamp.
+// Which sweep of which volume a camera frame is, by its timestamp.
 //
 // Sequence numbers alone cannot tell: a lost first frame, a restarted stream or a stuck counter
-// would shift the picture sideways. The time since the trigger can: a B-scan lasts 1.76 ms, and
+// would shift the picture sideways. The time since the trigger can: a sweep lasts 1.76 ms, and
 // timestamps are right within microseconds.
 #pragma once
 
@@ -16,33 +16,33 @@ namespace octascope::pipeline {
 
 struct SweepSlot {
   std::uint64_t volume = 0;
-  int b_scan = 0;
+  int sweep = 0; // of the volume, from 0: repeats and backward sweeps count like any other
 };
 
-// Pure logic, one thread. Follows the scanner: sweeps start at the trigger's pulse or, when that
-// was latched, at the end of the sweep before. Each frame placed corrects the estimated start by a
-// quarter of its deviation, so the clock of the camera may drift against ours.
+// Pure logic, one thread. Follows the scanner: a volume's sweeps start at the trigger's pulse or,
+// when that was latched, at the end of those before. Each frame placed corrects the estimated start
+// by a quarter of its deviation, so the clock of the camera may drift against ours.
 class SweepTracker {
 public:
   explicit SweepTracker(const ScanPlan& plan)
-      : period_(plan.b_scan_period()), duration_(plan.sweep_duration()), b_scans_(plan.b_scans) {}
+      : period_(plan.frame_period()), duration_(plan.sweep_duration()), sweeps_(plan.sweeps()) {}
 
-  // The pulse for `volume` (> 0, counting up) was made. Returns when its sweep should end.
+  // The pulse for `volume` (> 0, counting up) was made. Returns when its last sweep should end.
   hal::TimePoint armed(std::uint64_t volume, hal::TimePoint when);
 
-  // Empty for a frame that belongs to none of the last three sweeps.
+  // Empty for a frame that belongs to none of the last three volumes.
   std::optional<SweepSlot> place(hal::TimePoint first_line);
 
 private:
-  struct Sweep {
+  struct Start {
     std::uint64_t volume = 0; // 0: none yet
-    hal::TimePoint start;
+    hal::TimePoint when;
   };
 
   hal::Duration period_;
   hal::Duration duration_;
-  int b_scans_;
-  std::array<Sweep, 3> recent_{}; // newest first
+  int sweeps_;                    // of a volume
+  std::array<Start, 3> recent_{}; // newest first
 };
 
 } // namespace octascope::pipeline

@@ -1,6 +1,8 @@
 #include "pipeline/volume_thread.h"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -22,9 +24,9 @@ constexpr std::uint32_t none = ~0U;
 
 std::string complaint_about(std::string_view refused, std::uint64_t sequence) {
   if (refused == "late_frame")
-    return fmt::format("frame {} came when its volume was finished already", sequence);
+    return fmt::format("frame {} came when its B-scan was made already", sequence);
   if (refused == "doubled_frame")
-    return fmt::format("frame {} has the time of a B-scan that had come already", sequence);
+    return fmt::format("frame {} has the time of a sweep that had come already", sequence);
   return fmt::format("frame {} was exposed outside every sweep", sequence);
 }
 
@@ -36,9 +38,10 @@ VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
     : setup_(std::move(setup)), trigger_(trigger), acquisition_(acquisition), camera_(camera),
       clock_(clock), faults_(faults), arrived_(arrived), news_(news),
       volumes_(pool_size, Volume{setup_.plan.geometry()}), sweeps_(setup_.plan),
-      jobs_(static_cast<std::size_t>(setup_.camera_buffers)) {
+      builder_(setup_.plan, setup_.workers, setup_.reconstruct),
+      phase_(setup_.plan, clock, faults) {
   for (Construction& construction : constructions_)
-    construction.placed.resize(static_cast<std::size_t>(setup_.plan.b_scans));
+    construction.positions.resize(static_cast<std::size_t>(setup_.plan.b_scans));
   free_.reserve(pool_size);
   for (std::uint32_t index = 2; index < pool_size; ++index)
     free_.push_back(index);
@@ -49,12 +52,14 @@ VolumeThread::~VolumeThread() {
 }
 
 void VolumeThread::start(const ThreadSetup& setup) {
+  phase_.start(setup);
+  const std::size_t most_jobs = pool_size * static_cast<std::size_t>(setup_.plan.b_scans);
   workers_ = std::make_unique<WorkerPool>(
-      setup_.workers, jobs_.size(), setup,
+      setup_.workers, most_jobs, setup,
       [this](std::size_t worker, std::uint32_t job) { reconstruct(worker, job); });
   thread_ = std::thread{[this, setup] {
     if (setup)
-      setup("volumes");
+      setup({"volumes"});
     run();
   }};
 }
@@ -65,6 +70,7 @@ void VolumeThread::stop() {
   stopping_.store(true, std::memory_order_release);
   arrived_.post();
   thread_.join();
+  phase_.stop();
 }
 
 const Volume* VolumeThread::take_newest() {
@@ -92,9 +98,9 @@ void VolumeThread::run() {
   }
   // The workers' last jobs hold loans of the camera; those not begun are given back here.
   workers_.reset();
-  for (Job& job : jobs_) {
-    if (job.frame.buffer >= 0)
-      acquisition_.release(job.frame.buffer);
+  for (Construction& construction : constructions_) {
+    for (Position& position : construction.positions)
+      release(position);
   }
   while (const auto frame = acquisition_.take())
     acquisition_.release(frame->buffer);
@@ -171,8 +177,12 @@ void VolumeThread::open_volume(hal::TimePoint armed) {
   Construction& c = constructions_[index];
   c.open = true;
   c.accept_until = end + setup_.plan.sweep_duration() / grace_divisor;
-  std::fill(c.placed.begin(), c.placed.end(), false);
-  c.placed_count = 0;
+  c.alignment = SweepAlignment{setup_.plan, phase_.in_use_a_scans()};
+  c.sketch = phase_.borrow();
+  std::ranges::fill(c.positions, Position{});
+  c.sweeps_came = 0;
+  c.submitted = 0;
+  c.flushed = 0;
   c.finished.store(0, std::memory_order_relaxed);
   c.work_ns.store(0, std::memory_order_relaxed);
   c.saturated_lines.store(0, std::memory_order_relaxed);
@@ -181,13 +191,15 @@ void VolumeThread::open_volume(hal::TimePoint armed) {
   volume.ledger = {};
   volume.ledger.index = last_number_;
   volume.ledger.armed = armed;
+  volume.ledger.phase_offset_a_scans = c.alignment.phase_offset_a_scans();
 }
 
 void VolumeThread::count_lost_volume() {
   const auto b_scans = static_cast<std::uint64_t>(setup_.plan.b_scans);
   counts_.lost_volumes.fetch_add(1, std::memory_order_relaxed);
   counts_.lost_b_scans.fetch_add(b_scans, std::memory_order_relaxed);
-  counts_.lost_lines.fetch_add(b_scans * static_cast<std::uint64_t>(setup_.plan.a_scans),
+  counts_.lost_lines.fetch_add(static_cast<std::uint64_t>(setup_.plan.sweeps()) *
+                                   static_cast<std::uint64_t>(setup_.plan.a_scans),
                                std::memory_order_relaxed);
 }
 
@@ -199,45 +211,78 @@ void VolumeThread::place(const hal::LineFrame& frame) {
   std::uint32_t index = 0;
   while (slot && index < pool_size && !is_its(index))
     ++index;
-  const auto b_scan = static_cast<std::size_t>(slot ? slot->b_scan : 0);
+  const int b_scan = slot ? setup_.plan.b_scan_of(slot->sweep) : 0;
+  const auto repeat = static_cast<std::size_t>(slot ? slot->sweep % setup_.plan.repeats : 0);
+  Position* position = nullptr;
+  if (slot && index < pool_size)
+    position = &constructions_[index].positions[static_cast<std::size_t>(b_scan)];
   const char* refused = nullptr;
   if (!slot)
     refused = "unplaced_frame";
-  else if (index == pool_size)
-    refused = "late_frame";
-  else if (constructions_[index].placed[b_scan])
+  else if (position != nullptr && (position->came >> repeat & 1U) != 0)
     refused = "doubled_frame";
+  else if (position == nullptr || position->submitted)
+    refused = "late_frame";
   if (refused != nullptr) {
-    // The B-scan that it should have been counts as lost when its volume is finished.
+    // The sweep that it should have been counts as lost when its volume is finished.
     faults_.add(camera_name, refused, complaint_about(refused, frame.sequence), clock_.now());
     acquisition_.release(frame.buffer);
     return;
   }
   Construction& c = constructions_[index];
   VolumeLedger& ledger = volumes_[index].ledger;
-  if (c.placed_count == 0)
+  if (c.sweeps_came == 0)
     ledger.first_line = frame.first_line;
   ledger.last_line = std::max(ledger.last_line, frame.last_line);
-  c.placed[b_scan] = true;
-  ++c.placed_count;
-  const auto job = static_cast<std::uint32_t>(frame.buffer);
+  position->frames[repeat] = frame;
   if (setup_.observe)
     setup_.observe(frame);
-  jobs_[job] = {frame, index, slot->b_scan};
-  workers_->submit(job); // never full: as many jobs fit as the camera has buffers
+  position->came |= 1U << repeat;
+  ++c.sweeps_came;
+  if (std::popcount(position->came) == setup_.plan.repeats)
+    submit(index, b_scan);
+  flush(index, b_scan - 1);
 }
 
-void VolumeThread::reconstruct(std::size_t worker, std::uint32_t index) {
-  Job& job = jobs_[index];
-  Construction& c = constructions_[job.volume];
-  Volume& volume = volumes_[job.volume];
+void VolumeThread::submit(std::uint32_t index, int b_scan) {
+  Construction& c = constructions_[index];
+  c.positions[static_cast<std::size_t>(b_scan)].submitted = true;
+  ++c.submitted;
+  // Never full: there is a place for every B-scan of the pool.
+  workers_->submit(index * static_cast<std::uint32_t>(setup_.plan.b_scans) +
+                   static_cast<std::uint32_t>(b_scan));
+}
+
+// B-scans before `end` wait no longer for the sweeps that they miss.
+void VolumeThread::flush(std::uint32_t index, int end) {
+  Construction& c = constructions_[index];
+  for (; c.flushed < end; ++c.flushed) {
+    const Position& position = c.positions[static_cast<std::size_t>(c.flushed)];
+    if (position.came != 0 && !position.submitted)
+      submit(index, c.flushed);
+  }
+}
+
+void VolumeThread::release(Position& position) {
+  for (hal::LineFrame& frame : position.frames) {
+    if (frame.buffer >= 0)
+      acquisition_.release(std::exchange(frame.buffer, -1));
+  }
+}
+
+void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
+  const auto b_scans = static_cast<std::uint32_t>(setup_.plan.b_scans);
+  const auto b_scan = static_cast<std::size_t>(job % b_scans);
+  Construction& c = constructions_[job / b_scans];
+  Volume& volume = volumes_[job / b_scans];
+  Position& position = c.positions[b_scan];
   const hal::TimePoint begin = clock_.now();
-  const int saturated = setup_.reconstruct(worker, job.frame, volume.b_scan(job.b_scan));
-  volume.b_scan_states[static_cast<std::size_t>(job.b_scan)] =
-      saturated > 0 ? BScanState::saturated : BScanState::good;
-  const int buffer = job.frame.buffer;
-  job.frame.buffer = -1;
-  acquisition_.release(buffer);
+  const int b = static_cast<int>(b_scan);
+  const int saturated = builder_.build(
+      worker, b, std::span{position.frames}.first(static_cast<std::size_t>(setup_.plan.repeats)),
+      c.alignment, c.sketch, volume.b_scan(b));
+  volume.b_scan_states[b_scan] = saturated > 0 ? BScanState::saturated : BScanState::good;
+  release(position);
   c.saturated_lines.fetch_add(saturated, std::memory_order_relaxed);
   c.work_ns.fetch_add((clock_.now() - begin).count(), std::memory_order_relaxed);
   c.finished.fetch_add(1, std::memory_order_release);
@@ -258,9 +303,10 @@ void VolumeThread::finish_due_volumes() {
   const hal::TimePoint now = clock_.now();
   for (std::uint32_t i = oldest_open(); i != none; i = oldest_open()) {
     const Construction& c = constructions_[i];
-    const bool whole = c.placed_count == setup_.plan.b_scans;
-    const bool worked_off = c.finished.load(std::memory_order_acquire) == c.placed_count;
-    if (!worked_off || (!whole && now < c.accept_until))
+    if (c.sweeps_came < setup_.plan.sweeps() && now < c.accept_until)
+      return;
+    flush(i, setup_.plan.b_scans);
+    if (c.finished.load(std::memory_order_acquire) < c.submitted)
       return;
     finish(i);
   }
@@ -270,10 +316,12 @@ void VolumeThread::finish(std::uint32_t index) {
   Construction& c = constructions_[index];
   Volume& volume = volumes_[index];
   c.open = false;
-  if (c.placed_count == 0) {
+  if (c.sketch != nullptr)
+    phase_.finished();
+  if (c.sweeps_came == 0) {
     if (camera_.state() == hal::DeviceState::streaming)
       faults_.add(trigger_name, "missed_pulse",
-                  "a pulse brought no usable B-scan: the scanner missed it, or the camera lost all "
+                  "a pulse brought no usable sweep: the scanner missed it, or the camera lost all "
                   "of its frames",
                   clock_.now());
     count_lost_volume();
@@ -282,7 +330,7 @@ void VolumeThread::finish(std::uint32_t index) {
   }
   const hal::TimePoint begin = clock_.now();
   for (int b = 0; b < setup_.plan.b_scans; ++b) {
-    if (!c.placed[static_cast<std::size_t>(b)])
+    if (!c.positions[static_cast<std::size_t>(b)].submitted)
       std::ranges::fill(volume.b_scan(b), std::uint8_t{0});
   }
   setup_.average.apply(volume);
@@ -306,8 +354,8 @@ void VolumeThread::finish(std::uint32_t index) {
 void VolumeThread::fill_ledger(Volume& volume, const Construction& c) {
   VolumeLedger& ledger = volume.ledger;
   ledger.reconstruct = hal::Duration{c.work_ns.load(std::memory_order_relaxed)};
-  ledger.lost_b_scans = setup_.plan.b_scans - c.placed_count;
-  ledger.lost_lines = ledger.lost_b_scans * setup_.plan.a_scans;
+  ledger.lost_b_scans = setup_.plan.b_scans - c.submitted;
+  ledger.lost_lines = (setup_.plan.sweeps() - c.sweeps_came) * setup_.plan.a_scans;
   ledger.saturated_lines = c.saturated_lines.load(std::memory_order_relaxed);
   if (ledger.saturated_lines > 0)
     faults_.add(camera_name, "saturation",

@@ -1,9 +1,13 @@
 // The fixed-rate thread: one tick, one trigger pulse, one volume.
 //
 // Each tick arms the galvo trigger. B-scans are handed to the workers as they come, not at the end
-// of the sweep, so that almost nothing is left to do when the last one arrives. A volume is
-// published when it is complete, or, with its missing B-scans marked, shortly after its sweep
+// of the sweeps, so that almost nothing is left to do when the last one arrives. A volume is
+// published when it is complete, or, with its missing B-scans marked, shortly after its sweeps
 // should have ended: a late camera never delays the tick.
+//
+// With several sweeps of each B-scan, a B-scan goes to a worker when all of them have come; when
+// one is missing, once the B-scan after the next has begun, or when the volume's time is over. A
+// B-scan is missing when none of its sweeps came.
 #pragma once
 
 #include <array>
@@ -19,11 +23,14 @@
 #include "hal/clock.h"
 #include "hal/galvo_trigger.h"
 #include "pipeline/acquisition.h"
+#include "pipeline/b_scan_builder.h"
 #include "pipeline/duration_statistics.h"
 #include "pipeline/fault_log.h"
 #include "pipeline/neighbour_average.h"
+#include "pipeline/phase_thread.h"
 #include "pipeline/retry_delay.h"
 #include "pipeline/scan_plan.h"
+#include "pipeline/sweep_alignment.h"
 #include "pipeline/sweep_tracker.h"
 #include "pipeline/triple_buffer.h"
 #include "pipeline/volume.h"
@@ -31,11 +38,6 @@
 #include "pipeline/worker_pool.h"
 
 namespace octascope::pipeline {
-
-// Converts one frame's raw lines into one B-scan's levels; returns the number of saturated lines.
-// Called by several workers at once, each with its own number; must not throw or allocate.
-using ReconstructBScan = std::function<int(std::size_t worker, const hal::LineFrame& frame,
-                                           std::span<std::uint8_t> levels)>;
 
 // Called on the volume thread for each frame in the order of their coming, before a worker gets
 // it, for what depends on that order; must not throw or allocate. May be empty.
@@ -45,8 +47,7 @@ struct VolumeThreadSetup {
   ScanPlan plan;
   hal::GalvoTriggerConfig trigger;
   std::size_t workers = 1;
-  int camera_buffers = 96; // of the acquisition: as many B-scans can be in work at once
-  ReconstructBScan reconstruct;
+  ReconstructSweep reconstruct;
   ObserveFrame observe = {};
   NeighbourAverage average;
   std::optional<std::uint64_t> most_volumes; // then no more are triggered
@@ -56,9 +57,9 @@ struct VolumeCounters {
   std::uint64_t triggered = 0;
   std::uint64_t acquired = 0; // at least one B-scan came
   std::uint64_t published = 0;
-  std::uint64_t skipped = 0; // published, and replaced before the renderer took them
-  std::uint64_t lost_lines = 0;
-  std::uint64_t lost_b_scans = 0;
+  std::uint64_t skipped = 0;      // published, and replaced before the renderer took them
+  std::uint64_t lost_lines = 0;   // kept lines of every sweep that did not come whole and in time
+  std::uint64_t lost_b_scans = 0; // of which no sweep did
   std::uint64_t lost_volumes = 0; // ticks of which nothing came
   std::uint64_t saturated_lines = 0;
 };
@@ -91,22 +92,28 @@ public:
   // Any thread.
   VolumeCounters counters() const;
   const PipelineStatistics& statistics() const { return statistics_; }
+  PhaseStatus phase() const { return phase_.status(); }
 
 private:
+  // A B-scan under construction, and the job that makes it.
+  struct Position {
+    std::array<hal::LineFrame, ScanPlan::most_repeats> frames; // buffer < 0: did not come (yet)
+    std::uint32_t came = 0;                                    // one bit a repeat
+    bool submitted = false; // from then on the frames are the worker's
+  };
   // A volume under construction; one for each buffer of the pool.
   struct Construction {
     bool open = false;
     hal::TimePoint accept_until;
-    std::vector<bool> placed; // by B-scan
-    int placed_count = 0;
+    SweepAlignment alignment; // of all its sweeps
+    SweepSketch* sketch = nullptr;
+    std::vector<Position> positions; // by B-scan
+    int sweeps_came = 0;
+    int submitted = 0;
+    int flushed = 0;              // B-scans before this one wait for no more sweeps
     std::atomic<int> finished{0}; // B-scans that the workers are done with
     std::atomic<std::int64_t> work_ns{0};
     std::atomic<int> saturated_lines{0};
-  };
-  struct Job {
-    hal::LineFrame frame;
-    std::uint32_t volume = 0; // in the pool
-    int b_scan = 0;
   };
   struct Counts {
     std::atomic<std::uint64_t> triggered{0}, acquired{0}, published{0}, skipped{0}, lost_lines{0},
@@ -122,6 +129,9 @@ private:
   void open_volume(hal::TimePoint armed);
   void count_lost_volume();
   void place(const hal::LineFrame& frame);
+  void submit(std::uint32_t index, int b_scan);
+  void flush(std::uint32_t index, int end);
+  void release(Position& position);
   void reconstruct(std::size_t worker, std::uint32_t job);
   void finish_due_volumes();
   void finish(std::uint32_t index);
@@ -143,7 +153,8 @@ private:
   std::vector<std::uint32_t> free_; // buffers of the pool to build in
   TripleBuffer triple_buffer_{0, 1};
   SweepTracker sweeps_;
-  std::vector<Job> jobs_; // by camera buffer
+  BScanBuilder builder_;
+  PhaseThread phase_;
 
   std::uint64_t last_number_ = 0;
   hal::TimePoint next_tick_;

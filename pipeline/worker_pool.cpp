@@ -11,7 +11,7 @@ WorkerPool::WorkerPool(std::size_t workers, std::size_t most_jobs, const ThreadS
   for (std::size_t worker = 0; worker < workers; ++worker) {
     threads_.emplace_back([this, worker, setup] {
       if (setup)
-        setup("worker");
+        setup({"worker", worker});
       run(worker);
     });
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -14,9 +15,14 @@
 
 namespace octascope::pipeline {
 
-// Called first thing on each new thread, with the thread's role: sets priority and name. The
+struct ThreadRole {
+  std::string_view name;
+  std::size_t number = 0; // of a worker, from 0
+};
+
+// Called first thing on each new thread, with the thread's role: sets name, priority and core. The
 // pipeline knows no operating-system backend, so the composition root brings this.
-using ThreadSetup = std::function<void(std::string_view role)>;
+using ThreadSetup = std::function<void(ThreadRole role)>;
 
 // One thread submits; the jobs start in order and may finish in any. Destruction waits for the
 // jobs in progress and forgets those not begun.

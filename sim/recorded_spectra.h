@@ -12,8 +12,9 @@
 
 namespace octascope::sim {
 
-// One volume of raw spectra in the order [b_scan][a_scan][sample], 16-bit counts in the machine's
-// (little-endian) order. The caller opens the file; `keep_alive` holds what `samples` points into.
+// One volume of raw spectra in the order [sweep][line][sample] (B-scan and A-scan, of a plain
+// scan), 16-bit counts in the machine's (little-endian) order. The caller opens the file;
+// `keep_alive` holds what `samples` points into.
 struct SpectraRecording {
   std::span<const std::uint16_t> samples;
   int b_scans = 0;
@@ -34,7 +35,7 @@ public:
                                                             int fly_back_lines = 0);
 
   const hal::LineFormat& format() const override { return format_; }
-  int b_scans() const override { return recording_.b_scans; }
+  int sweeps() const override { return recording_.b_scans; }
   std::span<const std::byte> frame(std::uint64_t volume, int b_scan) const override;
   std::string description() const override;
 

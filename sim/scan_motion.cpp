@@ -16,10 +16,14 @@ double sway(double amplitude, hal::Duration t, hal::Duration period) {
 
 } // namespace
 
-int ScanMotion::met_b_scan(int b_scan, int b_scans, hal::Duration t) const {
-  const double offset =
-      sway(breathing_b_scans, t, breathing_period) + sway(drift_b_scans, t, drift_period);
-  return std::clamp(b_scan + static_cast<int>(std::lround(offset)), 0, b_scans - 1);
+int ScanMotion::met_sweep(int sweep, int sweeps, int alike_every, int sweeps_per_b_scan,
+                          hal::Duration t) const {
+  const double offset = sweeps_per_b_scan * (sway(breathing_b_scans, t, breathing_period) +
+                                             sway(drift_b_scans, t, drift_period));
+  const int kind = sweep % alike_every;
+  const int last = (sweeps - 1 - kind) / alike_every;
+  const int met = sweep / alike_every + static_cast<int>(std::lround(offset / alike_every));
+  return kind + alike_every * std::clamp(met, 0, last);
 }
 
 } // namespace octascope::sim

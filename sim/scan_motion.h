@@ -14,8 +14,11 @@ struct ScanMotion {
   hal::Duration breathing_period = std::chrono::seconds{4};
   hal::Duration drift_period = std::chrono::seconds{60};
 
-  // The B-scan of the source that is met where `b_scan` of `b_scans` was aimed at.
-  int met_b_scan(int b_scan, int b_scans, hal::Duration t) const;
+  // The sweep of the source that is met where `sweep` of `sweeps` was aimed at. Sweeps that are
+  // made alike (same direction, same repeat) are `alike_every` apart: only such ones are met, the
+  // mirror goes its way whatever the patient does.
+  int met_sweep(int sweep, int sweeps, int alike_every, int sweeps_per_b_scan,
+                hal::Duration t) const;
 };
 
 } // namespace octascope::sim

@@ -63,11 +63,11 @@ hal::Result<> SimLineCamera::check(const hal::LineCameraConfig& config) const {
     return refuse(
         fmt::format("buffers is {}, expected 1 to {}", config.buffers, FrameLoans::most_buffers));
   const double sweep_s =
-      static_cast<double>(config.format.lines_per_frame) * source_.b_scans() / config.line_rate_hz;
+      static_cast<double>(config.format.lines_per_frame) * source_.sweeps() / config.line_rate_hz;
   if (std::abs(sweep_s - hal::to_seconds(link_.sweep_duration())) > 1e-6)
-    return refuse(fmt::format("{} B-scans of {} lines at {} Hz take {} s, expected the {} s that "
+    return refuse(fmt::format("{} sweeps of {} lines at {} Hz take {} s, expected the {} s that "
                               "the scanner sweeps; give both the same scan plan",
-                              source_.b_scans(), config.format.lines_per_frame, config.line_rate_hz,
+                              source_.sweeps(), config.format.lines_per_frame, config.line_rate_hz,
                               sweep_s, hal::to_seconds(link_.sweep_duration())));
   return {};
 }
@@ -113,7 +113,7 @@ hal::Result<> SimLineCamera::do_start() {
     return tl::make_unexpected(disconnect());
   next_sequence_ = 0;
   shown_sequence_ = 0;
-  next_b_scan_ = 0;
+  next_in_volume_ = 0;
   // The one sweep that may run now, or wait latched, is among the two newest.
   const std::uint64_t sweeps = link_.sweeps();
   next_sweep_ = sweeps >= 2 ? sweeps - 2 : 0;
@@ -169,28 +169,28 @@ std::optional<SimLineCamera::Exposure> SimLineCamera::next_exposure() {
   while (next_sweep_ < link_.sweeps()) {
     if (const auto start = link_.start_of(next_sweep_)) {
       const std::int64_t lines = config_.format.lines_per_frame;
-      const std::int64_t first = lines * next_b_scan_;
+      const std::int64_t first = lines * next_in_volume_;
       return Exposure{.sweep = next_sweep_,
-                      .b_scan = next_b_scan_,
+                      .in_volume = next_in_volume_,
                       .begin = *start + line_offset(first),
                       .end = *start + line_offset(first + lines)};
     }
     // Nobody fetched for so many volumes that the scanner forgot this one. Its frames were made,
     // and dropped for want of buffers.
-    const auto forgotten = static_cast<std::uint64_t>(source_.b_scans() - next_b_scan_);
+    const auto forgotten = static_cast<std::uint64_t>(source_.sweeps() - next_in_volume_);
     next_sequence_ += forgotten;
     made_.fetch_add(forgotten, std::memory_order_relaxed);
     dropped_without_buffer_.fetch_add(forgotten, std::memory_order_relaxed);
     ++next_sweep_;
-    next_b_scan_ = 0;
+    next_in_volume_ = 0;
   }
   return std::nullopt;
 }
 
 void SimLineCamera::step_exposure() {
-  if (++next_b_scan_ < source_.b_scans())
+  if (++next_in_volume_ < source_.sweeps())
     return;
-  next_b_scan_ = 0;
+  next_in_volume_ = 0;
   ++next_sweep_;
 }
 
@@ -222,8 +222,9 @@ void SimLineCamera::finish(const Exposure& exposure) {
   // shows does not depend on how busy the machine was.
   const Duration patient_time =
       static_cast<std::int64_t>(exposure.sweep) * link_.sweep_duration() +
-      line_offset(std::int64_t{config_.format.lines_per_frame} * exposure.b_scan);
-  const int met = motion_.met_b_scan(exposure.b_scan, source_.b_scans(), patient_time);
+      line_offset(std::int64_t{config_.format.lines_per_frame} * exposure.in_volume);
+  const int met = motion_.met_sweep(exposure.in_volume, source_.sweeps(), source_.alike_every(),
+                                    source_.sweeps_per_b_scan(), patient_time);
 
   const std::size_t place = (oldest_waiting_ + waiting_count_) % waiting_.size();
   waiting_[place] = {.buffer = *buffer,

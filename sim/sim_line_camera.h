@@ -63,7 +63,7 @@ private:
   // The frame that the hardware exposes next.
   struct Exposure {
     std::uint64_t sweep = 0;
-    int b_scan = 0;
+    int in_volume = 0; // which of its frames
     hal::TimePoint begin;
     hal::TimePoint end;
   };
@@ -108,7 +108,7 @@ private:
 
   hal::TimePoint started_;
   std::uint64_t next_sweep_ = 0;
-  int next_b_scan_ = 0;
+  int next_in_volume_ = 0;
   std::uint64_t next_sequence_ = 0;
   std::uint64_t shown_sequence_ = 0; // of the newest frame, as the driver told it
 

@@ -18,11 +18,14 @@ public:
   virtual ~SpectraSource() = default;
 
   virtual const hal::LineFormat& format() const = 0;
-  virtual int b_scans() const = 0; // per volume
+  virtual int sweeps() const = 0; // of a volume, repeats counted
+  // The beam makes sweeps alike that are so many apart: same direction, same repeat of a B-scan.
+  virtual int alike_every() const { return 1; }
+  virtual int sweeps_per_b_scan() const { return 1; }
 
-  // All lines of one B-scan, fly-back included, format().frame_bytes() long, valid as long as the
-  // source lives. Volumes count from 0 for ever; the source loops.
-  virtual std::span<const std::byte> frame(std::uint64_t volume, int b_scan) const = 0;
+  // All lines of one sweep, fly-back or turn-around included, format().frame_bytes() long, valid as
+  // long as the source lives. Volumes count from 0 for ever; the source loops.
+  virtual std::span<const std::byte> frame(std::uint64_t volume, int sweep) const = 0;
 
   // For people: what this is and how long its loop lasts.
   virtual std::string description() const = 0;

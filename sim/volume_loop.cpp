@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,22 +12,6 @@ namespace octascope::sim {
 namespace {
 
 constexpr int most_volumes = 255; // a place of the ring fits in 8 bits
-
-struct BeamPlace {
-  float x_mm;
-  float y_mm;
-};
-
-BeamPlace beam_place(const pipeline::ScanPlan& plan, int b_scan, int line) {
-  const double last = plan.a_scans - 1;
-  double a = line;
-  if (line >= plan.a_scans) {
-    const double t = (line - plan.a_scans + 1.0) / (plan.fly_back_lines + 1.0);
-    a = last * (0.5 + 0.5 * std::cos(std::numbers::pi * t));
-  }
-  return {static_cast<float>((a - last / 2) * plan.a_spacing_um * 1e-3),
-          static_cast<float>((b_scan - (plan.b_scans - 1) / 2.0) * plan.b_spacing_um * 1e-3)};
-}
 
 // Nearly only cycles that nobody else wants; the pipeline's threads come first. Not SCHED_IDLE: a
 // renderer in software can keep all cores busy, and the loop would never grow. Where the system
@@ -46,6 +29,10 @@ hal::Result<> VolumeLoopConfig::validate() const {
     return hal::fail(
         hal::Fault::invalid_argument,
         fmt::format("volume loop: volumes is {}, expected 1 to {}", volumes, most_volumes));
+  if (!(galvo_lag_us >= 0 && galvo_lag_us <= 1e6))
+    return hal::fail(
+        hal::Fault::invalid_argument,
+        fmt::format("volume loop: galvo_lag_us is {}, expected 0 to 1e6", galvo_lag_us));
   SpectrometerConfig with_plan = spectrometer;
   with_plan.samples = plan.samples;
   return with_plan.validate();
@@ -68,12 +55,12 @@ public:
         profile_(loop.profiles_.make_profile()),
         mean_(static_cast<std::size_t>(loop.config_.plan.samples)) {}
 
-  void make(int volume, int b_scan, int line, std::span<std::uint16_t> counts) {
+  void make(int volume, int sweep, int line, std::span<std::uint16_t> counts) {
     const pipeline::ScanPlan& plan = loop_.config_.plan;
-    const BeamPlace place = beam_place(plan, b_scan, line);
+    const BeamPlace place = loop_.beam_path_.at(sweep, line);
     const double in_volume =
-        (b_scan + static_cast<double>(line) / plan.lines_per_frame()) / plan.b_scans;
-    const auto visit = static_cast<std::uint64_t>(volume * plan.b_scans + b_scan);
+        (sweep + static_cast<double>(line) / plan.lines_per_frame()) / plan.sweeps();
+    const auto visit = static_cast<std::uint64_t>(volume * plan.sweeps() + sweep);
     loop_.phantom_->fill(column_, (volume + in_volume) / loop_.config_.volumes, place.x_mm,
                          place.y_mm);
     loop_.profiles_.fill(profile_, column_, place.x_mm, place.y_mm, visit);
@@ -112,6 +99,7 @@ hal::Result<std::unique_ptr<VolumeLoop>> VolumeLoop::make(const VolumeLoopConfig
 VolumeLoop::VolumeLoop(const VolumeLoopConfig& config, const Spectrometer& spectrometer,
                        std::unique_ptr<Phantom> phantom)
     : config_(config), spectrometer_(spectrometer), phantom_(std::move(phantom)),
+      beam_path_(config.plan, config.galvo_lag_us * 1e-6 * config.plan.line_rate_hz),
       synthesis_(spectrometer_), profiles_(config.plan.geometry(), hash(config.seed, 0x7155)),
       ring_(static_cast<std::size_t>(config.volumes)) {
   format_.samples_per_line = config.plan.samples;
@@ -127,23 +115,23 @@ std::size_t VolumeLoop::samples_per_frame() const {
 }
 
 void VolumeLoop::make_first_volume() {
-  const int b_scans = config_.plan.b_scans;
+  const int sweeps = config_.plan.sweeps();
   const auto samples = static_cast<std::size_t>(config_.plan.samples);
   ring_[0] = std::make_unique_for_overwrite<std::uint16_t[]>(samples_per_frame() *
-                                                             static_cast<std::size_t>(b_scans));
+                                                             static_cast<std::size_t>(sweeps));
   std::atomic<int> next{0};
   const auto work = [&] {
     LineMaker maker(*this);
-    for (int b = next++; b < b_scans; b = next++) {
-      std::uint16_t* frame = ring_[0].get() + samples_per_frame() * static_cast<std::size_t>(b);
+    for (int sweep = next++; sweep < sweeps; sweep = next++) {
+      std::uint16_t* frame = ring_[0].get() + samples_per_frame() * static_cast<std::size_t>(sweep);
       for (int line = 0; line < format_.lines_per_frame; ++line)
-        maker.make(0, b, line, {frame + samples * static_cast<std::size_t>(line), samples});
+        maker.make(0, sweep, line, {frame + samples * static_cast<std::size_t>(line), samples});
     }
   };
   const int cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
   {
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < std::min(cores, b_scans); ++i)
+    for (int i = 1; i < std::min(cores, sweeps); ++i)
       helpers.emplace_back(work);
     work();
   }
@@ -157,13 +145,13 @@ void VolumeLoop::make_further_volumes(const std::stop_token& stop) {
   for (int volume = 1; volume < config_.volumes; ++volume) {
     auto& counts = ring_[static_cast<std::size_t>(volume)];
     counts = std::make_unique_for_overwrite<std::uint16_t[]>(
-        samples_per_frame() * static_cast<std::size_t>(config_.plan.b_scans));
+        samples_per_frame() * static_cast<std::size_t>(config_.plan.sweeps()));
     std::uint16_t* at = counts.get();
-    for (int b = 0; b < config_.plan.b_scans; ++b) {
+    for (int sweep = 0; sweep < config_.plan.sweeps(); ++sweep) {
       for (int line = 0; line < format_.lines_per_frame; ++line, at += samples) {
         if (stop.stop_requested())
           return;
-        maker.make(volume, b, line, {at, samples});
+        maker.make(volume, sweep, line, {at, samples});
       }
     }
     ready_.store(volume + 1, std::memory_order_release);
@@ -185,10 +173,16 @@ int VolumeLoop::place_of(std::uint64_t volume) const {
   return static_cast<int>(place);
 }
 
-std::span<const std::byte> VolumeLoop::frame(std::uint64_t volume, int b_scan) const {
+std::span<const std::byte> VolumeLoop::frame(std::uint64_t volume, int sweep) const {
   const std::uint16_t* counts = ring_[static_cast<std::size_t>(place_of(volume))].get();
-  return std::as_bytes(std::span{counts + samples_per_frame() * static_cast<std::size_t>(b_scan),
+  return std::as_bytes(std::span{counts + samples_per_frame() * static_cast<std::size_t>(sweep),
                                  samples_per_frame()});
+}
+
+int VolumeLoop::alike_every() const {
+  const pipeline::ScanPlan& plan = config_.plan;
+  // With an odd number of repeats a B-scan begins in the other direction than the one before.
+  return plan.bidirectional && plan.repeats % 2 != 0 ? 2 * plan.repeats : plan.repeats;
 }
 
 hal::Duration VolumeLoop::loop_duration() const {

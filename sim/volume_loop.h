@@ -12,6 +12,7 @@
 
 #include "hal/result.h"
 #include "pipeline/scan_plan.h"
+#include "sim/beam_path.h"
 #include "sim/phantom.h"
 #include "sim/phantom_profile.h"
 #include "sim/spectra_source.h"
@@ -23,8 +24,9 @@ namespace octascope::sim {
 struct VolumeLoopConfig {
   std::string phantom = "anterior_eye";
   pipeline::ScanPlan plan;
-  int volumes = 6; // of the loop; each takes plan.b_scans frames of memory
+  int volumes = 6; // of the loop; each takes plan.sweeps() frames of memory
   std::uint64_t seed = 1;
+  double galvo_lag_us = 25; // of the mirror behind its command, bidirectional: what drivers leave
   SpectrometerConfig spectrometer; // its `samples` is overruled by the plan's
 
   hal::Result<> validate() const;
@@ -33,11 +35,11 @@ struct VolumeLoopConfig {
 // The phantom with the plan that it suggests. Fault::invalid_argument for a name that is none.
 hal::Result<VolumeLoopConfig> suggested_loop(std::string_view phantom);
 
-// Line l of B-scan b of volume v shows the scene at the phase (v + (b + l/lines)/b_scans)/volumes:
+// Line l of sweep s of volume v shows the scene at the phase (v + (s + l/lines)/sweeps)/volumes:
 // instruments move along their path once a loop, flowing scatterers are new at each visit, tissue
-// keeps its speckle, noise differs from line to line. Kept line a looks at
-// x = (a − (a_scans − 1)/2)·a_spacing, B-scan b at y = (b − (b_scans − 1)/2)·b_spacing; on the
-// fly-back lines the beam swings back over the same B-scan.
+// keeps its speckle, noise differs from line to line. The beam looks where the mirrors point
+// (beam_path.h): at A-scan a, x = (a − (a_scans − 1)/2)·a_spacing; B-scan b lies at
+// y = (b − (b_scans − 1)/2)·b_spacing, each of its repeats with fly-back or turn-around.
 //
 // The first volume is made by make(), on all cores. The others follow one by one in a background
 // thread at the lowest priority; until they are there, frame() loops over
@@ -50,12 +52,15 @@ public:
   ~VolumeLoop() override;
 
   const hal::LineFormat& format() const override { return format_; }
-  int b_scans() const override { return config_.plan.b_scans; }
-  std::span<const std::byte> frame(std::uint64_t volume, int b_scan) const override;
+  int sweeps() const override { return config_.plan.sweeps(); }
+  int alike_every() const override;
+  int sweeps_per_b_scan() const override { return config_.plan.repeats; }
+  std::span<const std::byte> frame(std::uint64_t volume, int sweep) const override;
   std::string description() const override;
 
   const Spectrometer& spectrometer() const { return spectrometer_; }
   const Phantom& phantom() const { return *phantom_; }
+  const BeamPath& beam_path() const { return beam_path_; } // the truth, for tests
   const pipeline::ScanPlan& plan() const { return config_.plan; }
   int volumes() const { return config_.volumes; }
   // Thread-safe; rises from 1 to volumes().
@@ -77,6 +82,7 @@ private:
   hal::LineFormat format_;
   Spectrometer spectrometer_;
   std::unique_ptr<Phantom> phantom_;
+  BeamPath beam_path_;
   SpectrumSynthesis synthesis_;
   ProfileMaker profiles_;
   std::vector<std::unique_ptr<std::uint16_t[]>> ring_; // the first ready_ of them are made

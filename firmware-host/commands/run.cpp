@@ -11,6 +11,7 @@
 #include "firmware-host/commands/command.h"
 #include "firmware-host/run_options.h"
 #include "firmware-host/stop_signal.h"
+#include "pipeline/scan_plan.h"
 
 namespace octascope::firmware_host {
 
@@ -21,6 +22,8 @@ struct RunArguments {
   std::string configuration, display = "auto", size, spectra, shape, calibration, snapshot, report,
                              faults, controls, phantom;
   bool simulate = false;
+  bool bidirectional = false;
+  int repeats = 0;
   double duration_s = 0;
   std::uint64_t volumes = 0;
 };
@@ -55,6 +58,9 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
     o.display = DisplayChoice::offscreen;
   if (!a.phantom.empty())
     o.phantom = a.phantom;
+  o.bidirectional = a.bidirectional;
+  if (a.repeats > 0)
+    o.repeats = a.repeats;
   if (a.duration_s > 0)
     o.duration_s = a.duration_s;
   if (a.volumes > 0)
@@ -126,6 +132,10 @@ void add_run_command(CLI::App& program, int& exit_status) {
   command->add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024");
   command->add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)");
   command->add_option("--phantom", a.phantom, "What the simulated camera sees");
+  command->add_flag("--bidirectional", a.bidirectional,
+                    "Scan there and back, without fly-back, whatever the configuration says");
+  command->add_option("--repeats", a.repeats, "Sweeps of each B-scan, averaged (1 to 4)")
+      ->check(CLI::Range(1, pipeline::ScanPlan::most_repeats));
   command->add_option("--faults", a.faults, "Faults that the simulated devices suffer (TOML)");
   command->add_option("--controls", a.controls, "What the simulated pedal and knob do (TOML)");
   command->add_option("--snapshot", a.snapshot, "Write the last picture here (PNG)");

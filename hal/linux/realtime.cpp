@@ -40,6 +40,38 @@ Result<> make_this_thread_realtime(int priority) {
                                    "service unit, or \"@video - rtprio 49\" in limits.conf");
 }
 
+std::vector<int> allowed_cores() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  std::vector<int> cores;
+  if (sched_getaffinity(getpid(), sizeof(set), &set) != 0)
+    return cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(static_cast<std::size_t>(core), &set))
+      cores.push_back(core);
+  }
+  return cores;
+}
+
+Result<> pin_this_thread(int core) {
+  int error = EINVAL;
+  if (core >= 0 && core < CPU_SETSIZE) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    CPU_SET(static_cast<std::size_t>(core), &set);
+    error = pthread_setaffinity_np(pthread_self(), sizeof(set), &set);
+  }
+  if (error == 0)
+    return {};
+  std::string allowed;
+  for (const int one : allowed_cores())
+    allowed += (allowed.empty() ? "" : ", ") + std::to_string(one);
+  return fail(error == EINVAL ? Fault::invalid_argument : fault_of(error),
+              "a thread is not pinned to core " + std::to_string(core) + " (" +
+                  system_message(error) + "): expected one of the allowed cores, " + allowed +
+                  "; the system chooses instead");
+}
+
 void make_this_thread_background() {
   constexpr int lowest = 19;
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), lowest);

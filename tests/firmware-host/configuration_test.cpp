@@ -40,10 +40,16 @@ line_rate_hz = 100e3
 depth_spacing_um = 4.0
 a_spacing_um = 20
 b_spacing_um = 30.5
+bidirectional = true
+turn_around_lines = 12
+phase_offset_a_scans = 4.25
+find_phase_offset = false
+repeats = 2
 [calibration]
 file = "cal/c.toml"
 [pipeline]
 workers = 3
+worker_cores = [1, 0]
 neighbour_weights = [0.25, 0.5, 0.25]
 [display]
 width = 1920
@@ -53,6 +59,7 @@ veil_after_s = 2.5
 [sim]
 phantom = "nail_fold"
 loop_volumes = 4
+galvo_lag_us = 110.5
 faults = "f.toml"
 controls = "/etc/controls.toml"
 )");
@@ -65,9 +72,16 @@ controls = "/etc/controls.toml"
                                           .line_rate_hz = 100e3,
                                           .depth_spacing_um = 4,
                                           .a_spacing_um = 20,
-                                          .b_spacing_um = 30.5}));
+                                          .b_spacing_um = 30.5,
+                                          .bidirectional = true,
+                                          .turn_around_lines = 12,
+                                          .phase_offset_a_scans = 4.25,
+                                          .find_phase_offset = false,
+                                          .repeats = 2}));
   EXPECT_EQ(c->calibration, folder_ / "cal/c.toml") << "relative to the file";
   EXPECT_EQ(c->workers, 3U);
+  EXPECT_EQ(c->worker_cores, (std::vector{1, 0}));
+  EXPECT_EQ(c->galvo_lag_us, 110.5);
   EXPECT_EQ(c->width, 1920);
   EXPECT_EQ(c->height, 1080);
   EXPECT_TRUE(c->fullscreen);
@@ -122,6 +136,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"no_whole_number", "[scan]\nb_scans = 2.5\n", "whole number"},
         Refused{"zero", "[scan]\na_scans = 0\n", "a_scans is 0"},
         Refused{"too_many_workers", "[pipeline]\nworkers = 1000\n", "workers is 1000"},
+        Refused{"too_many_repeats", "[scan]\nrepeats = 5\n", "repeats is 5"},
+        Refused{"offset_beyond_the_sweep", "[scan]\nphase_offset_a_scans = 301\n",
+                "phase_offset_a_scans is 301"},
+        Refused{"half_a_core", "[pipeline]\nworker_cores = [0, 1.5]\n", "core numbers"},
         Refused{"two_weights", "[pipeline]\nneighbour_weights = [1, 2]\n", "three numbers"},
         Refused{"no_own_weight", "[pipeline]\nneighbour_weights = [1, 0, 1]\n", "own (> 0)"},
         Refused{"a_table_for_a_number", "[display.width]\nx = 1\ny = 2\n", "width is"},

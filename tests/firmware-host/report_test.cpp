@@ -26,6 +26,15 @@ RunReport example() {
   r.control_input = "hid";
   r.scope_camera = "v4l2";
   r.display = "offscreen";
+  r.plan.bidirectional = true;
+  r.plan.repeats = 2;
+  r.phase = {.in_use_a_scans = 5.43219,
+             .automatic = true,
+             .used = 3,
+             .refused = 1,
+             .correlation = 0.5,
+             .significance = 9};
+  r.worker_cores = {2, -1};
   r.acquired = 10;
   r.published = 9;
   r.displayed = 7;
@@ -62,6 +71,20 @@ TEST(Report, says_every_figure_under_its_key) {
                                 {"control_input", "hid"},
                                 {"scope_camera", "v4l2"},
                                 {"display", "offscreen"}}));
+  EXPECT_EQ(j["scan"], (json{{"bidirectional", true},
+                             {"repeats", 2},
+                             {"lines_per_sweep", 308},
+                             {"kept_lines_per_sweep", 300},
+                             {"sweeps_per_volume", 160},
+                             {"planned_volumes_per_s", 4.354},
+                             {"phase_offset",
+                              {{"a_scans", 5.432},
+                               {"automatic", true},
+                               {"estimates_used", 3},
+                               {"estimates_refused", 1},
+                               {"correlation", 0.5},
+                               {"significance", 9.0}}}}));
+  EXPECT_EQ(j["workers"], (json{{"count", 2}, {"cores", {2, -1}}}));
   EXPECT_EQ(j["volumes"],
             (json{{"acquired", 10}, {"published", 9}, {"displayed", 7}, {"skipped", 2}}));
   EXPECT_EQ(j["lost"], (json{{"lines", 600}, {"b_scans", 2}, {"volumes", 1}}));
@@ -88,6 +111,7 @@ TEST(Report, speaks_to_people_too) {
   const std::string text = to_text(example());
   EXPECT_THAT(text, testing::HasSubstr("7 volumes displayed of 10 acquired"));
   EXPECT_THAT(text, testing::HasSubstr("lost: 600 lines, 2 B-scans, 1 volumes"));
+  EXPECT_THAT(text, testing::HasSubstr("phase offset 5.43 A-scans, found in the picture"));
   EXPECT_THAT(text, testing::HasSubstr("fault: line_camera disconnected ×2: it went away"));
 }
 

@@ -14,13 +14,25 @@ TEST(SweepTracker, places_frames_by_their_time) {
   SweepTracker tracker{plan};
   EXPECT_EQ(tracker.armed(1, start), start + plan.sweep_duration());
   for (const int b : {0, 5, 41, 79}) {
-    const auto slot = tracker.place(start + b * plan.b_scan_period() + 20us);
+    const auto slot = tracker.place(start + b * plan.frame_period() + 20us);
     ASSERT_TRUE(slot);
     EXPECT_EQ(slot->volume, 1U);
-    EXPECT_EQ(slot->b_scan, b);
+    EXPECT_EQ(slot->sweep, b);
   }
-  EXPECT_FALSE(tracker.place(start + 81 * plan.b_scan_period()));
-  EXPECT_FALSE(tracker.place(start - plan.b_scan_period()));
+  EXPECT_FALSE(tracker.place(start + 81 * plan.frame_period()));
+  EXPECT_FALSE(tracker.place(start - plan.frame_period()));
+}
+
+TEST(SweepTracker, counts_repeats_like_any_other_sweep) {
+  ScanPlan plan;
+  plan.repeats = 4;
+  SweepTracker tracker{plan};
+  const hal::TimePoint end = tracker.armed(1, start);
+  EXPECT_EQ(end, start + plan.sweep_duration());
+  const auto slot = tracker.place(start + 319 * plan.frame_period());
+  ASSERT_TRUE(slot);
+  EXPECT_EQ(slot->sweep, 319);
+  EXPECT_FALSE(tracker.place(start + 320 * plan.frame_period()));
 }
 
 TEST(SweepTracker, knows_that_a_pulse_during_a_sweep_is_latched) {
@@ -28,14 +40,14 @@ TEST(SweepTracker, knows_that_a_pulse_during_a_sweep_is_latched) {
   SweepTracker tracker{plan};
   const hal::TimePoint second = tracker.armed(1, start);
   EXPECT_EQ(tracker.armed(2, second - 7ms), second + plan.sweep_duration());
-  const auto last = tracker.place(second - plan.b_scan_period());
+  const auto last = tracker.place(second - plan.frame_period());
   ASSERT_TRUE(last);
   EXPECT_EQ(last->volume, 1U);
-  EXPECT_EQ(last->b_scan, 79);
+  EXPECT_EQ(last->sweep, 79);
   const auto first = tracker.place(second);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->volume, 2U);
-  EXPECT_EQ(first->b_scan, 0);
+  EXPECT_EQ(first->sweep, 0);
 }
 
 // A camera clock 0.5 % slow, and pulses latched for ever: without correction the second volume
@@ -43,7 +55,7 @@ TEST(SweepTracker, knows_that_a_pulse_during_a_sweep_is_latched) {
 TEST(SweepTracker, follows_a_camera_whose_clock_drifts) {
   const ScanPlan plan;
   SweepTracker tracker{plan};
-  const hal::Duration true_period = plan.b_scan_period() * 1005 / 1000;
+  const hal::Duration true_period = plan.frame_period() * 1005 / 1000;
   hal::TimePoint true_time = start;
   for (std::uint64_t volume = 1; volume <= 20; ++volume) {
     tracker.armed(volume, true_time - (volume == 1 ? 0ms : 1ms));
@@ -51,7 +63,7 @@ TEST(SweepTracker, follows_a_camera_whose_clock_drifts) {
       const auto slot = tracker.place(true_time);
       ASSERT_TRUE(slot);
       ASSERT_EQ(slot->volume, volume);
-      ASSERT_EQ(slot->b_scan, b);
+      ASSERT_EQ(slot->sweep, b);
     }
   }
 }

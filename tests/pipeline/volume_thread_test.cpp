@@ -31,7 +31,7 @@ constexpr std::uint8_t saturated_fill = 200;
 
 class VolumeThreadTest : public testing::Test {
 protected:
-  VolumeThreadTest() {
+  explicit VolumeThreadTest(const ScanPlan& scan_plan = slow_plan()) : plan(scan_plan) {
     hal::LineCameraConfig config;
     config.format.samples_per_line = plan.samples;
     config.format.lines_per_frame = plan.lines_per_frame();
@@ -41,7 +41,6 @@ protected:
         .plan = plan,
         .trigger = {},
         .workers = 2,
-        .camera_buffers = config.buffers,
         // A level is the frame's fill, so the test sees which frame went where.
         .reconstruct =
             [](std::size_t, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
@@ -67,8 +66,8 @@ protected:
     EXPECT_EQ(camera.on_loan(), 0U);
   }
 
-  hal::TimePoint time_of(hal::TimePoint armed, int b) const {
-    return armed + b * plan.b_scan_period();
+  hal::TimePoint time_of(hal::TimePoint armed, int sweep) const {
+    return armed + sweep * plan.frame_period();
   }
 
   // Waits until a volume with this number has been published.
@@ -85,7 +84,7 @@ protected:
                                [&](const FaultRecord& f) { return f.kind == kind; });
   }
 
-  ScanPlan plan = slow_plan();
+  ScanPlan plan;
   hal::linux_backend::MonotonicClock clock;
   tests::PuppetCamera camera;
   tests::PuppetTrigger trigger{clock};
@@ -196,6 +195,102 @@ TEST_F(VolumeThreadTest, stops_cleanly_with_frames_on_the_way) {
   for (int b = 0; b < 5; ++b)
     camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 1);
   stop();
+}
+
+ScanPlan three_repeats() {
+  ScanPlan plan = slow_plan();
+  plan.repeats = 3;
+  plan.b_scans = 4;
+  return plan;
+}
+
+class RepeatsTest : public VolumeThreadTest {
+protected:
+  RepeatsTest() : VolumeThreadTest(three_repeats()) {}
+
+  void deliver(hal::TimePoint armed, std::initializer_list<int> sweeps) {
+    for (const int sweep : sweeps)
+      camera.deliver(static_cast<std::uint64_t>(sweep), time_of(armed, sweep),
+                     static_cast<std::uint8_t>(10 * (sweep / 3 + 1) + 3 * (sweep % 3)));
+  }
+};
+
+TEST_F(RepeatsTest, a_b_scan_is_the_average_of_its_sweeps) {
+  start();
+  deliver(trigger.wait_for_pulse(0), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->missing_b_scans(), 0);
+  for (int b = 0; b < 4; ++b) {
+    for (const std::uint8_t level : volume->b_scan(b))
+      ASSERT_EQ(level, 10 * (b + 1) + 3);
+  }
+  EXPECT_EQ(volume->ledger.lost_b_scans, 0);
+  EXPECT_EQ(volume->ledger.lost_lines, 0);
+  stop();
+}
+
+TEST_F(RepeatsTest, what_is_left_of_a_b_scan_is_shown_and_lost_sweeps_are_counted_in_lines) {
+  start();
+  // B-scan 0 lacks its middle, 1 has one only, 2 has none, 3 lacks its last.
+  deliver(trigger.wait_for_pulse(0), {0, 2, 4, 9, 10});
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->b_scan(0).front(), 13);
+  EXPECT_EQ(volume->b_scan(1).front(), 23);
+  EXPECT_EQ(volume->b_scan_states[2], BScanState::missing);
+  EXPECT_EQ(volume->b_scan(2).front(), 0);
+  EXPECT_EQ(volume->b_scan(3).front(), 42);
+  EXPECT_EQ(volume->ledger.lost_b_scans, 1);
+  EXPECT_EQ(volume->ledger.lost_lines, 7 * plan.a_scans);
+  stop();
+}
+
+TEST_F(RepeatsTest, a_sweep_that_comes_when_its_b_scan_was_made_is_refused) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  deliver(armed, {0, 1, 6}); // the sixth begins the B-scan after the next
+  deliver(armed, {2, 1, 3, 4, 5, 7, 8, 9, 10, 11});
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->b_scan(0).front(), 12) << "of 10 and 13";
+  EXPECT_TRUE(has_fault("late_frame"));
+  EXPECT_TRUE(has_fault("doubled_frame"));
+  EXPECT_EQ(volume->ledger.lost_b_scans, 0);
+  EXPECT_EQ(volume->ledger.lost_lines, plan.a_scans);
+  stop();
+}
+
+TEST_F(RepeatsTest, stops_cleanly_with_b_scans_that_wait) {
+  start();
+  deliver(trigger.wait_for_pulse(0), {0, 1, 4, 10});
+  stop();
+}
+
+ScanPlan lagging_plan() {
+  ScanPlan plan = slow_plan();
+  plan.bidirectional = true;
+  plan.turn_around_lines = 2;
+  plan.phase_offset_a_scans = 1.5;
+  return plan;
+}
+
+class BidirectionalTest : public VolumeThreadTest {
+protected:
+  BidirectionalTest() : VolumeThreadTest(lagging_plan()) {}
+};
+
+TEST_F(BidirectionalTest, a_volume_says_with_which_offset_it_was_placed) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  for (int b = 0; b < plan.b_scans; ++b)
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b),
+                   static_cast<std::uint8_t>(10 + b));
+  const Volume* volume = wait_for_volume(1);
+  for (int b = 0; b < plan.b_scans; ++b)
+    EXPECT_EQ(volume->b_scan(b).front(), 10 + b);
+  EXPECT_EQ(volume->ledger.phase_offset_a_scans, 1.5);
+  stop();
+  EXPECT_EQ(volumes->phase().in_use_a_scans, 1.5) << "nothing to be seen in these";
+  EXPECT_TRUE(volumes->phase().automatic);
+  EXPECT_EQ(volumes->phase().used, 0U);
 }
 
 } // namespace

@@ -40,7 +40,7 @@ TEST(RecordedSpectra, plays_the_recording_where_it_lies_for_ever) {
                                                .sample_type = hal::SampleType::u16,
                                                .significant_bits = 16,
                                                .right_shift = 0}));
-  EXPECT_EQ(spectra.b_scans(), 2);
+  EXPECT_EQ(spectra.sweeps(), 2);
   EXPECT_EQ(spectra.frame(7, 0).data(), std::as_bytes(original.samples).data());
   EXPECT_EQ(first_samples(spectra.frame(1'000'000, 1)), (std::vector{100, 110, 120, 130}));
   EXPECT_THAT(spectra.description(), HasSubstr("recording mirror.raw"));

@@ -25,7 +25,7 @@ public:
     return {.format = source_->format(), .line_rate_hz = 4e3, .buffers = 4};
   }
   void trigger() override { EXPECT_TRUE(trigger_.arm()); }
-  int frames_per_sweep() const override { return source_->b_scans(); }
+  int frames_per_sweep() const override { return source_->sweeps(); }
   hal::Duration sweep_duration() const override { return link_.sweep_duration(); }
   bool can_unplug() const override { return true; }
   void unplug() override { faults_.unplug(clock_.now()); }

@@ -205,7 +205,7 @@ TEST_F(SimLineCameraTest, breathing_moves_the_b_scans_and_stays_within_the_sourc
   ASSERT_EQ(frames.size(), 6U);
   EXPECT_EQ(frames[0].bytes.data(), source_->frame(0, 2).data());
   EXPECT_EQ(frames[5].bytes.data(), source_->frame(0, 5).data());
-  EXPECT_EQ(motion.met_b_scan(0, b_scans, 3 * b_scans * frame_period), 0);
+  EXPECT_EQ(motion.met_sweep(0, b_scans, 1, 1, 3 * b_scans * frame_period), 0);
 }
 
 TEST(SimGalvoTrigger, missed_pulses_are_made_and_not_seen) {

@@ -1,0 +1,124 @@
+#include "pipeline/phase_thread.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "pipeline/sweep_alignment.h"
+
+namespace octascope::pipeline {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr std::uint64_t used_to_settle = 4;
+constexpr hal::Duration pause_when_settled = 500ms;
+constexpr hal::Duration longest_wait = 100ms; // also how soon a stop is noticed
+
+// Of one line and one sweep: what a sketch of a scan that is not searched takes.
+ScanPlan plan_to_sketch(const ScanPlan& plan) {
+  return plan.bidirectional && plan.find_phase_offset
+             ? plan
+             : ScanPlan{.samples = 16, .a_scans = 1, .fly_back_lines = 0, .b_scans = 1};
+}
+
+} // namespace
+
+PhaseThread::PhaseThread(const ScanPlan& plan, hal::Clock& clock, FaultLog& faults)
+    : plan_(plan), clock_(clock), faults_(faults), sketch_(plan_to_sketch(plan)),
+      estimator_(plan_to_sketch(plan)), tracker_(plan.phase_offset_a_scans),
+      in_use_a_scans_(plan.bidirectional ? plan.phase_offset_a_scans : 0) {}
+
+PhaseThread::~PhaseThread() {
+  stop();
+}
+
+void PhaseThread::start(const ThreadSetup& setup) {
+  if (!searches())
+    return;
+  thread_ = std::thread{[this, setup] {
+    if (setup)
+      setup({"phase"});
+    run();
+  }};
+}
+
+void PhaseThread::stop() {
+  if (!thread_.joinable())
+    return;
+  stopping_.store(true, std::memory_order_release);
+  wakeup_.post();
+  thread_.join();
+}
+
+SweepSketch* PhaseThread::borrow() {
+  if (!searches() || state_.load(std::memory_order_acquire) != Sketch::free)
+    return nullptr;
+  state_.store(Sketch::drawn_on, std::memory_order_relaxed);
+  sketch_.clear();
+  return &sketch_;
+}
+
+void PhaseThread::finished() {
+  state_.store(Sketch::drawn, std::memory_order_release);
+  wakeup_.post();
+}
+
+PhaseStatus PhaseThread::status() const {
+  return {.in_use_a_scans = in_use_a_scans(),
+          .automatic = searches(),
+          .used = used_.load(),
+          .refused = refused_.load(),
+          .correlation = correlation_.load(),
+          .significance = significance_.load()};
+}
+
+void PhaseThread::run() {
+  while (!stopping_.load(std::memory_order_acquire)) {
+    wakeup_.wait_until(clock_.now() + longest_wait);
+    if (state_.load(std::memory_order_acquire) != Sketch::drawn)
+      continue;
+    look();
+    if (tracker_.used() >= used_to_settle && !wait(pause_when_settled))
+      return;
+    state_.store(Sketch::free, std::memory_order_release);
+  }
+}
+
+void PhaseThread::look() {
+  const PhaseEstimate estimate = estimator_.estimate(sketch_);
+  const bool changed = tracker_.update(estimate);
+  correlation_.store(estimate.correlation, std::memory_order_relaxed);
+  significance_.store(estimate.significance, std::memory_order_relaxed);
+  used_.store(tracker_.used(), std::memory_order_relaxed);
+  refused_.store(tracker_.refused(), std::memory_order_relaxed);
+  if (!changed)
+    return;
+  in_use_a_scans_.store(tracker_.in_use_a_scans(), std::memory_order_release);
+  complain_about_ends();
+}
+
+void PhaseThread::complain_about_ends() {
+  const SweepAlignment alignment{plan_, tracker_.in_use_a_scans()};
+  const int repeated = alignment.repeated_a_scans();
+  if (repeated <= 1)
+    return;
+  faults_.add(
+      "galvo_trigger", "phase_beyond_turn_around",
+      fmt::format("the mirror lags by {:.1f} A-scans, the {} turn-around lines do not reach "
+                  "so far: the outermost {} A-scans repeat their neighbour; set "
+                  "turn_around_lines to {}",
+                  tracker_.in_use_a_scans(), plan_.turn_around_lines, repeated,
+                  plan_.turn_around_lines + repeated),
+      clock_.now());
+}
+
+bool PhaseThread::wait(hal::Duration how_long) {
+  const hal::TimePoint until = clock_.now() + how_long;
+  while (clock_.now() < until && !stopping_.load(std::memory_order_acquire))
+    wakeup_.wait_until(std::min(until, clock_.now() + longest_wait));
+  return !stopping_.load(std::memory_order_acquire);
+}
+
+} // namespace octascope::pipeline
