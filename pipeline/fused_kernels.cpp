@@ -1,3 +1,8 @@
+#if defined(__aarch64__)
+// NEON is part of every such processor. Highway would ask for cryptography beside it, which some
+// lack, if it could look for that at run time; so it may not.
+#define TOOLCHAIN_MISS_SYS_AUXV_H
+#endif
 // Scalable vectors have no lane count to compile for, and SSSE3 adds nothing between the others.
 #define HWY_DISABLED_TARGETS                                                                       \
   (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
@@ -11,6 +16,10 @@ namespace octascope::pipeline {
 HWY_EXPORT(kernels);
 
 const FusedKernels* fused_kernels(std::string_view isa) {
+#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0 // the only instruction set there is needs no table
+  const FusedKernels* only = HWY_STATIC_DISPATCH(kernels)();
+  return only != nullptr && (isa.empty() || isa == only->isa) ? only : nullptr;
+#else
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) { // the widest first
     hwy::ChosenTarget only;
     only.Update(target);
@@ -19,6 +28,7 @@ const FusedKernels* fused_kernels(std::string_view isa) {
       return candidate;
   }
   return nullptr;
+#endif
 }
 
 } // namespace octascope::pipeline

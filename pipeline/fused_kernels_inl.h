@@ -82,7 +82,7 @@ HWY_INLINE void middle_pass(float* work, std::ptrdiff_t slots, std::ptrdiff_t si
     const float* twiddle = twiddles;
     for (std::ptrdiff_t j = 0; j < size / Radix; ++j) {
       float* at = work + (group + j) * slot;
-      Complex x[Radix];
+      Complex x[std::size_t{Radix}];
       for (int r = 0; r < Radix; ++r)
         x[r] = load(at + r * step);
       butterfly(x);
@@ -132,7 +132,7 @@ HWY_INLINE void last_pass(const FusedTables& tables, const float* work, Level* l
   for (std::ptrdiff_t group = 0; group < groups; ++group) {
     const float* at = work + group * Radix * slot;
     Level* to = levels + tables.last_offsets[static_cast<std::size_t>(group)] * lanes;
-    Complex x[Radix];
+    Complex x[std::size_t{Radix}];
     for (int r = 0; r < Radix; ++r)
       x[r] = load(at + r * slot);
     if constexpr (Radix == 8) {
