@@ -52,7 +52,7 @@ Case draw_case(std::mt19937_64& generator, int fewest_lines, bool always_dark) {
   c.config.read_noise_counts = between(1, 6);
   c.config.seed = generator();
   c.dark = always_dark || generator() % 2 == 0;
-  c.amplitude_counts = between(200, 500);
+  c.amplitude_counts = between(300, 500);
   c.lines = fewest_lines + static_cast<int>(generator() % 4);
   const double share = c.config.samples / 1024.0;
   const double near = between(50, 110) * share;
@@ -163,7 +163,7 @@ struct Worst {
 // At most 0.05 pixel and rad of what `measure` makes of the errors over the central 80 %.
 void expect_true_curves(int fewest_lines, bool always_dark,
                         double (*measure)(const std::vector<double>&)) {
-  constexpr int rounds = 40;
+  constexpr int rounds = 30;
   std::mt19937_64 generator{tests::fresh_seed()};
   Worst r;
   Worst theta;
