@@ -139,7 +139,7 @@ SmoothFit fit_smooth_curve(std::span<const double> values, std::span<const doubl
   constexpr double finest = 1e-6; // a residual below it is rounding, of any degree
   const auto cost = [&](const SmoothFit& candidate, std::size_t size) {
     return independent * std::log(candidate.rms * candidate.rms + finest * finest) +
-           static_cast<double>(size) * std::log(independent);
+           2 * static_cast<double>(size);
   };
   SmoothFit best = fit(2);
   double lowest = cost(best, 2);
