@@ -93,7 +93,7 @@ HWY_INLINE void middle_pass(float* work, std::ptrdiff_t slots, std::ptrdiff_t si
     const float* twiddle = twiddles;
     for (std::ptrdiff_t j = 0; j < size / Radix; ++j) {
       float* at = work + (group + j) * slot;
-      Complex x[Radix];
+      Complex x[std::size_t{Radix}];
 #pragma GCC unroll 8
       for (int r = 0; r < Radix; ++r)
         x[r] = load(at + r * step);
@@ -111,7 +111,7 @@ HWY_INLINE void middle_pass(float* work, std::ptrdiff_t slots, std::ptrdiff_t si
 template <int Radix, bool Mirrored>
 HWY_INLINE void last_group(const FusedTables& tables, const float* from, const float* twiddles,
                            float* row, float* mirrored_row) {
-  Complex x[Radix];
+  Complex x[std::size_t{Radix}];
 #pragma GCC unroll 8
   for (int r = 0; r < Radix; ++r)
     x[r] = load(from + r * slot);

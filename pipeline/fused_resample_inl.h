@@ -85,7 +85,7 @@ HWY_INLINE Real resample(const FusedTables& tables, const void* counts,
   auto permutation = hn::Load(
       words, reinterpret_cast<const std::int16_t*>(tables.permutations.data()) + block * 2 * lanes);
   const std::int16_t* weights = tables.weights.data() + block * 2 * lanes * Pairs;
-  auto even = hn::Neg(hn::Load(ints, background + block * lanes));
+  auto even = hn::Zero(ints); // which lane of which sum a tap adds to differs from set to set …
   auto odd = hn::Zero(ints);
   auto window = load_windows<Kind>(counts, starts, 0, tables.right_shift);
 #pragma GCC unroll 4
@@ -97,7 +97,8 @@ HWY_INLINE Real resample(const FusedTables& tables, const void* counts,
     even = hn::ReorderWidenMulAccumulate(ints, permute(window, permutation),
                                          hn::Load(words, weights + pair * 2 * lanes), even, odd);
   }
-  return hn::ConvertTo(Floats{}, hn::RearrangeToOddPlusEven(even, odd));
+  const auto sum = hn::RearrangeToOddPlusEven(even, odd); // … until here
+  return hn::ConvertTo(Floats{}, hn::Sub(sum, hn::Load(ints, background + block * lanes)));
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -75,13 +75,13 @@ std::string shortened(std::string_view text) {
   return text.size() <= longest ? std::string{text} : std::string{text.substr(0, longest)} + "…";
 }
 
-} // namespace
-
-hal::Result<std::vector<double>> read_text_curve(const fs::path& file, std::size_t expected) {
+// One number a line, at most `most`; `count` says in words how many are expected.
+hal::Result<std::vector<double>> parse_numbers(const fs::path& file, std::size_t most,
+                                               std::string_view count) {
   // Generous: a number seldom takes 30 bytes, and there may be comments.
-  const std::uintmax_t longest = 65536 + 256 * static_cast<std::uintmax_t>(expected);
+  const std::uintmax_t longest = 65536 + 256 * static_cast<std::uintmax_t>(most);
   const auto bytes =
-      read_bytes(file, longest, fmt::format("a text file of {} numbers, one a line", expected));
+      read_bytes(file, longest, fmt::format("a text file of {} numbers, one a line", count));
   if (!bytes)
     return tl::make_unexpected(bytes.error());
 
@@ -89,7 +89,6 @@ hal::Result<std::vector<double>> read_text_curve(const fs::path& file, std::size
   if (rest.starts_with("\xEF\xBB\xBF"))
     rest.remove_prefix(3);
   std::vector<double> values;
-  values.reserve(expected);
   for (std::size_t line = 1; !rest.empty(); ++line) {
     const std::size_t end = rest.find('\n');
     std::string_view text = rest.substr(0, end);
@@ -97,22 +96,33 @@ hal::Result<std::vector<double>> read_text_curve(const fs::path& file, std::size
     text = trim(text.substr(0, text.find('#')));
     if (text.empty())
       continue;
-    if (values.size() == expected)
+    if (values.size() == most)
       return hal::fail(Fault::bad_data,
-                       fmt::format("{}:{}: found one number more (\"{}\"), expected exactly {}",
-                                   file.string(), line, shortened(text), expected));
+                       fmt::format("{}:{}: found one number more (\"{}\"), expected {}",
+                                   file.string(), line, shortened(text), count));
     const auto value = finite_number(text);
     if (!value)
       return hal::fail(Fault::bad_data,
                        fmt::format("{}:{}: found \"{}\" as number {} of {}, expected one finite "
                                    "number with a decimal point",
-                                   file.string(), line, shortened(text), values.size(), expected));
+                                   file.string(), line, shortened(text), values.size(), count));
     values.push_back(*value);
   }
-  if (values.size() != expected)
-    return hal::fail(Fault::bad_data, fmt::format("{}: found {} numbers, expected {}",
-                                                  file.string(), values.size(), expected));
   return values;
+}
+
+} // namespace
+
+hal::Result<std::vector<double>> read_text_curve(const fs::path& file, std::size_t expected) {
+  auto values = parse_numbers(file, expected, fmt::format("{}", expected));
+  if (values && values->size() != expected)
+    return hal::fail(Fault::bad_data, fmt::format("{}: found {} numbers, expected {}",
+                                                  file.string(), values->size(), expected));
+  return values;
+}
+
+hal::Result<std::vector<double>> read_text_numbers(const fs::path& file, std::size_t most) {
+  return parse_numbers(file, most, fmt::format("at most {}", most));
 }
 
 hal::Result<std::vector<float>> read_float_curve(const fs::path& file, std::size_t expected) {

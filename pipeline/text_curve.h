@@ -15,6 +15,10 @@ namespace octascope::pipeline {
 hal::Result<std::vector<double>> read_text_curve(const std::filesystem::path& file,
                                                  std::size_t expected);
 
+// The same for as many numbers as there are, up to `most`.
+hal::Result<std::vector<double>> read_text_numbers(const std::filesystem::path& file,
+                                                   std::size_t most);
+
 // Reads exactly `expected` finite little-endian 32-bit floats and nothing else.
 hal::Result<std::vector<float>> read_float_curve(const std::filesystem::path& file,
                                                  std::size_t expected);

@@ -68,8 +68,10 @@ int run(CommandLine& line) {
 
 void add_mirror_options(CLI::App& command, CalibrateOptions& options) {
   command
-      .add_option("--mirror", options.mirrors,
-                  "Spectrum of a mirror; twice, at unequal depths (any order)")
+      .add_option(
+          "--mirror", options.mirrors,
+          "Spectrum of a mirror; twice, at unequal depths (any order). Raw samples, or a .txt "
+          "or .csv with one number a line, as for all spectra here")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/calibration.h"
+#include "pipeline/text_curve.h"
 
 namespace octascope::firmware_host {
 
@@ -84,7 +85,60 @@ hal::Result<> check_saturation(const std::string& place, std::span<const double>
   return {};
 }
 
+// Numbers as text, whole lines of a spectrum.
+hal::Result<std::vector<double>> read_text(const std::filesystem::path& file,
+                                           std::optional<int> samples) {
+  constexpr std::size_t most_lines = 256;
+  auto values =
+      pipeline::read_text_numbers(file, samples ? most_lines * static_cast<std::size_t>(*samples)
+                                                : static_cast<std::size_t>(pipeline::most_samples));
+  if (!values)
+    return values;
+  const std::size_t n = samples ? static_cast<std::size_t>(*samples) : values->size();
+  if (values->size() < static_cast<std::size_t>(pipeline::fewest_samples) ||
+      values->size() % n != 0)
+    return hal::fail(Fault::bad_data,
+                     fmt::format("{}: found {} numbers, expected {}", file.string(), values->size(),
+                                 samples ? fmt::format("lines of {} samples", n)
+                                         : fmt::format("at least {}", pipeline::fewest_samples)));
+  return values;
+}
+
+struct Recording {
+  std::vector<double> values; // line after line
+  std::size_t samples = 0;    // of a line
+};
+
+hal::Result<Recording> read_raw(const std::filesystem::path& file, const SpectrumInput& input,
+                                SpectrumType type) {
+  const auto shape = shape_of(file, input, type);
+  if (!shape)
+    return tl::make_unexpected(shape.error());
+  const auto spectra = pipeline::SpectraFile::open(file, *shape, type);
+  if (!spectra)
+    return tl::make_unexpected(spectra.error());
+  if (const auto fault = spectra->find_non_finite(0))
+    return hal::fail(Fault::bad_data, *fault);
+  return Recording{to_numbers(spectra->b_scan(0), type), static_cast<std::size_t>(shape->samples)};
+}
+
+hal::Result<Recording> read_recording(const std::filesystem::path& file, const SpectrumInput& input,
+                                      SpectrumType type) {
+  if (!is_text(file))
+    return read_raw(file, input, type);
+  auto values = read_text(file, input.samples);
+  if (!values)
+    return tl::make_unexpected(values.error());
+  const std::size_t samples =
+      input.samples ? static_cast<std::size_t>(*input.samples) : values->size();
+  return Recording{std::move(*values), samples};
+}
+
 } // namespace
+
+bool is_text(const std::filesystem::path& file) {
+  return file.extension() == ".txt" || file.extension() == ".csv";
+}
 
 SpectrumType spectrum_type(const std::filesystem::path& file, std::optional<SpectrumType> given) {
   if (given)
@@ -109,25 +163,19 @@ std::vector<double> to_numbers(std::span<const std::byte> bytes, SpectrumType ty
 hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file,
                                                const SpectrumInput& input, bool refuse_saturated) {
   const SpectrumType type = spectrum_type(file, input.type);
-  const auto shape = shape_of(file, input, type);
-  if (!shape)
-    return tl::make_unexpected(shape.error());
-  const auto spectra = pipeline::SpectraFile::open(file, *shape, type);
-  if (!spectra)
-    return tl::make_unexpected(spectra.error());
-  if (const auto fault = spectra->find_non_finite(0))
-    return hal::fail(Fault::bad_data, *fault);
-  const std::vector<double> values = to_numbers(spectra->b_scan(0), type);
-  const auto n = static_cast<std::size_t>(shape->samples);
-  const auto lines = static_cast<std::size_t>(shape->a_scans);
+  const auto recording = read_recording(file, input, type);
+  if (!recording)
+    return tl::make_unexpected(recording.error());
+  const std::size_t n = recording->samples;
+  const std::size_t lines = recording->values.size() / n;
   std::optional<double> full_scale;
-  if (type != SpectrumType::f32)
+  if (type != SpectrumType::f32 && (!is_text(file) || input.significant_bits))
     full_scale =
         std::ldexp(1.0, input.significant_bits.value_or(type == SpectrumType::u8 ? 8 : 16)) - 1;
 
   std::vector<double> mean(n);
   for (std::size_t a = 0; a < lines; ++a) {
-    const std::span line = std::span{values}.subspan(a * n, n);
+    const std::span line = std::span{recording->values}.subspan(a * n, n);
     const std::string place = fmt::format("{}: line {}", file.string(), a);
     if (const auto checked = check_saturation(place, line, full_scale);
         refuse_saturated && !checked)

@@ -22,8 +22,11 @@ struct SpectrumInput {
 pipeline::SpectrumType spectrum_type(const std::filesystem::path& file,
                                      std::optional<pipeline::SpectrumType> given);
 
-// The mean of the lines of a file. Fault::bad_data with line and sample: not finite; with
-// `refuse_saturated`, at full scale or flat at its highest value in several places.
+// A file that is read as numbers, one a line of text (text_curve.h), whatever its type: .txt, .csv.
+bool is_text(const std::filesystem::path& file);
+
+// The mean of the lines of a file, raw or text. Fault::bad_data with line and sample: not finite;
+// with `refuse_saturated`, at full scale or flat at its highest value in several places.
 hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file,
                                                const SpectrumInput& input, bool refuse_saturated);
 

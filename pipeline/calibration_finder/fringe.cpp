@@ -152,7 +152,8 @@ SmoothFit FringeFinder::first_phase(const Band& band) {
   std::vector<double> weights(n);
   std::transform(amplitude_.begin(), amplitude_.end(), weights.begin(),
                  [](double a) { return a * a; });
-  return fit_smooth_curve(measured_, weights, bright_.first, bright_.last, 6);
+  return fit_smooth_curve(measured_, weights, bright_.first, bright_.last, 6,
+                          static_cast<double>(n) / static_cast<double>(band.last - band.first + 1));
 }
 
 // One step of the local fits described in the header.
@@ -203,8 +204,10 @@ SmoothFit FringeFinder::refine(const SmoothCurve& phase) {
   noise_ = std::sqrt(unexplained / static_cast<double>(n));
 
   const auto peak = std::max_element(amplitude_.begin(), amplitude_.end());
-  // The local fit averages about 3.5·sigma pixels; a phase is good to a tenth of a radian.
-  const double uncertain = 10 * noise_ * std::sqrt(2 / (3.5 * sigma));
+  const double averaged = 3.5 * sigma; // pixels, by the local fit
+  // A phase that is good to a quarter of a radian is still unwrapped safely, and says more about
+  // its pixel than the curve's continuation; the weights see to it that it says it softly.
+  const double uncertain = 4 * noise_ * std::sqrt(2 / averaged);
   bright_ = bright_run(amplitude_, std::max(faintest * *peak, uncertain));
   for (std::size_t p = 0; p < n; ++p)
     measured_[p] = std::arg(local[p]);
@@ -214,7 +217,8 @@ SmoothFit FringeFinder::refine(const SmoothCurve& phase) {
     measured_[p] += predicted[p];
     weights[p] = amplitude_[p] * amplitude_[p];
   }
-  return fit_smooth_curve(measured_, weights, bright_.first, bright_.last, highest_degree);
+  return fit_smooth_curve(measured_, weights, bright_.first, bright_.last, highest_degree,
+                          averaged);
 }
 
 hal::Result<Fringe> FringeFinder::find() {

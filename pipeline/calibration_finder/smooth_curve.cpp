@@ -107,7 +107,8 @@ double SmoothCurve::slope_at(double x) const {
 }
 
 SmoothFit fit_smooth_curve(std::span<const double> values, std::span<const double> weights,
-                           std::size_t first, std::size_t last, int highest_degree) {
+                           std::size_t first, std::size_t last, int highest_degree,
+                           double correlated) {
   const auto terms = static_cast<std::size_t>(highest_degree) + 1;
   const auto low = static_cast<double>(first);
   const auto high = static_cast<double>(last);
@@ -134,11 +135,20 @@ SmoothFit fit_smooth_curve(std::span<const double> values, std::span<const doubl
     result.rms = std::sqrt(squares / std::max(total_weight, 1e-300));
     return result;
   };
-  const SmoothFit best = fit(terms);
-  for (std::size_t size = 2; size < terms; ++size) {
+  const double independent = std::max(2.0, static_cast<double>(last - first + 1) / correlated);
+  constexpr double finest = 1e-6; // a residual below it is rounding, of any degree
+  const auto cost = [&](const SmoothFit& candidate, std::size_t size) {
+    return independent * std::log(candidate.rms * candidate.rms + finest * finest) +
+           2 * static_cast<double>(size);
+  };
+  SmoothFit best = fit(2);
+  double lowest = cost(best, 2);
+  for (std::size_t size = 3; size <= terms; ++size) {
     SmoothFit candidate = fit(size);
-    if (candidate.rms <= 1.1 * best.rms + 1e-9)
-      return candidate;
+    if (cost(candidate, size) < lowest) {
+      lowest = cost(candidate, size);
+      best = std::move(candidate);
+    }
   }
   return best;
 }

@@ -42,9 +42,12 @@ struct SmoothFit {
 };
 
 // `values[i]` was measured at x = i with `weights[i]` ≥ 0; only `first` ≤ i ≤ `last` counts.
-// The degree is the smallest, from 1 to `highest_degree`, that leaves at most a tenth more than the
-// highest one does. Needs more than `highest_degree` values with a weight.
+// Neighbours that are `correlated` samples apart or more are independent. The degree, from 1 to
+// `highest_degree`, is the one of the least information criterion: n·ln(rms²) + 2·terms for n
+// independent values (H. Akaike, IEEE Transactions on Automatic Control 19, 1974). Needs more than
+// `highest_degree` values with a weight.
 SmoothFit fit_smooth_curve(std::span<const double> values, std::span<const double> weights,
-                           std::size_t first, std::size_t last, int highest_degree);
+                           std::size_t first, std::size_t last, int highest_degree,
+                           double correlated);
 
 } // namespace octascope::pipeline

@@ -36,9 +36,8 @@ protected:
   BScanBuilder builder() const {
     const std::size_t depths = static_cast<std::size_t>(plan.samples / 2);
     const std::size_t line_bytes = static_cast<std::size_t>(plan.samples) * 2;
-    return {plan, 2,
-            [=](std::size_t, std::span<const std::byte> bytes, std::span<std::uint8_t> out) {
-              return first_byte_is_level(bytes, out, line_bytes, depths);
+    return {plan, 2, [=](std::size_t, const hal::LineFrame& frame, std::span<std::uint8_t> out) {
+              return first_byte_is_level(frame.bytes, out, line_bytes, depths);
             }};
   }
   // A frame of which line l is `first + step·l`.
