@@ -110,12 +110,29 @@ HWY_INLINE void store_halves(hn::Vec<hn::Full128<std::uint8_t>> both, std::uint8
 }
 
 // Eight rows of `size` levels, from row q on → eight neighbouring bins at each offset.
+template <class Level>
+HWY_INLINE void unscramble_one_by_one(const Level* rows, int size, const std::int32_t* offsets,
+                                      Level* levels) {
+  for (int x = 0; x < size; ++x)
+    for (int q = 0; q < 8; ++q)
+      levels[offsets[x] + q] = rows[q * size + x];
+}
+
+HWY_INLINE void unscramble_rows(const float* rows, int size, const std::int32_t* offsets,
+                                float* levels) {
+  unscramble_one_by_one(rows, size, offsets, levels);
+}
+
 HWY_INLINE void unscramble_rows(const std::uint8_t* rows, int size, const std::int32_t* offsets,
                                 std::uint8_t* levels) {
   const hn::Full128<std::uint8_t> bytes;
   const hn::Full128<std::uint16_t> words;
   const hn::Full128<std::uint32_t> quads;
   using Bytes = hn::Vec<hn::Full128<std::uint8_t>>;
+  if (size < 16) { // four lanes and radix 4
+    unscramble_one_by_one(rows, size, offsets, levels);
+    return;
+  }
   for (int x = 0; x < size; x += 16) {
     Bytes pair[2][4]; // bytes of rows 2i and 2i + 1
     for (int i = 0; i < 4; ++i) {
@@ -141,13 +158,6 @@ HWY_INLINE void unscramble_rows(const std::uint8_t* rows, int size, const std::i
       }
     }
   }
-}
-
-HWY_INLINE void unscramble_rows(const float* rows, int size, const std::int32_t* offsets,
-                                float* levels) {
-  for (int x = 0; x < size; ++x)
-    for (int q = 0; q < 8; ++q)
-      levels[offsets[x] + q] = rows[q * size + x];
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)
