@@ -1,0 +1,387 @@
+// Packets of rays, front to back. For one instruction set; see ray_kernels.h.
+#if defined(OCTASCOPE_RAY_KERNELS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTASCOPE_RAY_KERNELS_INL
+#undef OCTASCOPE_RAY_KERNELS_INL
+#else
+#define OCTASCOPE_RAY_KERNELS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "ui/ray_caster/ray_kernels.h"
+
+#if HWY_TARGET == HWY_SCALAR // no permutations of bytes: GL draws on such processors
+
+HWY_BEFORE_NAMESPACE();
+namespace octascope::ui::HWY_NAMESPACE {
+
+const RayKernels* kernels() {
+  return nullptr;
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+} // namespace octascope::ui::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#else
+
+#include <algorithm>
+
+#include "ui/ray_caster/ray_sampling_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace octascope::ui::HWY_NAMESPACE {
+
+inline constexpr int packet_width = lanes >= 8 ? 4 : 2;
+inline constexpr int packet_height = lanes / packet_width;
+inline constexpr int samples_per_check = 4; // between two looks at the bricks
+
+// The samples of each lane's ray are numbered from 0 at t = first_mm.
+struct Rays {
+  Position position; // of the sample `next`
+  BrickAxes axes;
+  RealVector direction; // mm per mm
+  Real first_mm;
+  Real cosine; // between ray and view
+  Int next;
+  Int end; // behind the last sample
+
+  HWY_INLINE IntMask active() const { return hn::Lt(next, end); }
+  HWY_INLINE void step() {
+    position.z = hn::Add(position.z, axes.z.step);
+    position.a = hn::Add(position.a, axes.a.step);
+    position.b = hn::Add(position.b, axes.b.step);
+    next = hn::Add(next, whole(1));
+  }
+  HWY_INLINE void leap(Int samples) {
+    position.z = hn::Add(position.z, hn::Mul(axes.z.step, samples));
+    position.a = hn::Add(position.a, hn::Mul(axes.a.step, samples));
+    position.b = hn::Add(position.b, hn::Mul(axes.b.step, samples));
+    next = hn::Add(next, samples);
+  }
+  HWY_INLINE Real depth_mm(const RayFrame& frame, Int sample) const {
+    const Real t = hn::MulAdd(hn::ConvertTo(Floats{}, sample), real(frame.step_mm), first_mm);
+    return hn::Mul(t, cosine);
+  }
+};
+
+struct Interval {
+  Real from, to;
+};
+
+HWY_INLINE void clip(Interval& interval, float lower, float upper, float eye, Real direction) {
+  const Real safe =
+      hn::IfThenElse(hn::Lt(hn::Abs(direction), real(1e-12F)), real(1e-12F), direction);
+  const Real at_lower = hn::Div(real(lower - eye), safe);
+  const Real at_upper = hn::Div(real(upper - eye), safe);
+  interval.from = hn::Max(interval.from, hn::Min(at_lower, at_upper));
+  interval.to = hn::Min(interval.to, hn::Max(at_lower, at_upper));
+}
+
+// 0…1, evenly spread over any small neighbourhood: plane_stack.frag has the source.
+HWY_INLINE Real dither(Real x, Real y_from_bottom) {
+  const auto fraction = [](Real v) { return hn::Sub(v, hn::Floor(v)); };
+  const Real sum = hn::MulAdd(x, real(0.06711056F), hn::Mul(y_from_bottom, real(0.00583715F)));
+  return fraction(hn::Mul(fraction(sum), real(52.9829189F)));
+}
+
+HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
+  alignas(64) static constexpr std::int32_t column[16] = {0, 1, 2, 3, 0, 1, 2, 3,
+                                                          0, 1, 2, 3, 0, 1, 2, 3};
+  alignas(64) static constexpr std::int32_t row[16] = {0, 0, 0, 0, 1, 1, 1, 1,
+                                                       2, 2, 2, 2, 3, 3, 3, 3};
+  alignas(64) static constexpr std::int32_t small_column[4] = {0, 1, 0, 1};
+  alignas(64) static constexpr std::int32_t small_row[4] = {0, 0, 1, 1};
+  const Int dx = hn::Load(Ints{}, lanes >= 8 ? column : small_column);
+  const Int dy = hn::Load(Ints{}, lanes >= 8 ? row : small_row);
+  const Real px = hn::Add(hn::ConvertTo(Floats{}, hn::Add(whole(x), dx)), real(0.5F));
+  const Real py = hn::Add(hn::ConvertTo(Floats{}, hn::Add(whole(y), dy)), real(0.5F));
+  const auto half = [](int length) { return 0.5F * static_cast<float>(length); };
+  const Real right = hn::Mul(hn::Sub(px, real(half(frame.width))), real(frame.pixel_width));
+  const Real up = hn::Mul(hn::Sub(real(half(frame.height)), py), real(frame.pixel_height));
+
+  Rays rays;
+  const Real length = hn::Sqrt(hn::MulAdd(right, right, hn::MulAdd(up, up, real(1))));
+  rays.cosine = hn::Div(real(1), length);
+  const auto cells_per_mm = [&](int axis) {
+    const Real sum = hn::MulAdd(right, real(frame.right[axis]),
+                                hn::MulAdd(up, real(frame.up[axis]), real(frame.forward[axis])));
+    return hn::Mul(sum, rays.cosine);
+  };
+  const RealVector d{cells_per_mm(0), cells_per_mm(1), cells_per_mm(2)};
+  rays.direction = {hn::Mul(d.z, real(frame.mm[0])), hn::Mul(d.a, real(frame.mm[1])),
+                    hn::Mul(d.b, real(frame.mm[2]))};
+
+  Interval inside{hn::Mul(real(frame.near_mm), length), real(1e9F)};
+  clip(inside, frame.lower[0], frame.upper[0], frame.eye[0], d.z);
+  clip(inside, frame.lower[1], frame.upper[1], frame.eye[1], d.a);
+  clip(inside, frame.lower[2], frame.upper[2], frame.eye[2], d.b);
+
+  // Samples of all rays lie on the same shells around the eye, moved by each pixel's dither.
+  const Real shift = dither(px, hn::Sub(real(static_cast<float>(frame.height)), py));
+  const Real step = real(frame.step_mm);
+  const Real per_step = real(1 / frame.step_mm);
+  const Real shell = hn::Ceil(hn::Sub(hn::Mul(inside.from, per_step), shift));
+  rays.first_mm = hn::Mul(hn::Add(shell, shift), step);
+  const Real count = hn::Ceil(hn::Mul(hn::Sub(inside.to, rays.first_mm), per_step));
+  rays.end = hn::ConvertTo(Ints{}, hn::Min(hn::Max(count, real(0)), real(1 << 20)));
+  rays.next = hn::Zero(Ints{});
+
+  const auto fixed = [](Real v) { return hn::NearestInt(hn::Mul(v, real(one_cell))); };
+  const auto start = [&](int axis, Real direction) {
+    return fixed(hn::MulAdd(direction, rays.first_mm, real(frame.eye[axis])));
+  };
+  rays.position = {start(0, d.z), start(1, d.a), start(2, d.b)};
+  rays.axes = {make_brick_axis(fixed(hn::Mul(d.z, step))),
+               make_brick_axis(fixed(hn::Mul(d.a, step))),
+               make_brick_axis(fixed(hn::Mul(d.b, step)))};
+  return rays;
+}
+
+// What the lanes of a packet have become.
+struct Light {
+  Real red, green, blue; // premultiplied, 0…65535
+  Real transparency;
+  Int half_opaque; // the sample that made it so
+
+  HWY_INLINE static Light none() {
+    return {hn::Zero(Floats{}), hn::Zero(Floats{}), hn::Zero(Floats{}), real(1), hn::Zero(Ints{})};
+  }
+};
+
+HWY_INLINE Real lower_16_bits(Int v) {
+  return hn::ConvertTo(Floats{}, hn::And(v, whole(0xFFFF)));
+}
+HWY_INLINE Real upper_16_bits(Int v) {
+  using Unsigned = hn::RebindToUnsigned<Ints>;
+  return hn::ConvertTo(Floats{},
+                       hn::BitCast(Ints{}, hn::ShiftRight<16>(hn::BitCast(Unsigned{}, v))));
+}
+
+// By how much light from the eye is weakened by the slope of the surface, if there is one. The
+// gradient comes from four samples at the corners of a tetrahedron.
+HWY_INLINE Real shade(const RayFrame& frame, const Rays& rays, IntMask valid) {
+  const auto bound = [&](int axis, Int p) {
+    const auto fixed = [](float cells) { return static_cast<std::int32_t>(cells * one_cell); };
+    return hn::Min(hn::Max(p, whole(fixed(frame.lower[axis]))),
+                   whole(fixed(frame.upper[axis]) - 1));
+  };
+  const auto distance = [&](int axis) {
+    return whole(static_cast<std::int32_t>(frame.gradient_cells[axis] * one_cell));
+  };
+  const Position& p = rays.position;
+  const Position more{bound(0, hn::Add(p.z, distance(0))), bound(1, hn::Add(p.a, distance(1))),
+                      bound(2, hn::Add(p.b, distance(2)))};
+  const Position less{bound(0, hn::Sub(p.z, distance(0))), bound(1, hn::Sub(p.a, distance(1))),
+                      bound(2, hn::Sub(p.b, distance(2)))};
+  const auto level = [&](Int z, Int a, Int b) {
+    return hn::ConvertTo(Floats{}, sample_level(frame, {z, a, b}, valid));
+  };
+  const Real v0 = level(more.z, less.a, less.b);
+  const Real v1 = level(less.z, more.a, less.b);
+  const Real v2 = level(less.z, less.a, more.b);
+  const Real v3 = level(more.z, more.a, more.b);
+  const RealVector g{hn::Sub(hn::Add(v0, v3), hn::Add(v1, v2)),
+                     hn::Sub(hn::Add(v1, v3), hn::Add(v0, v2)),
+                     hn::Sub(hn::Add(v2, v3), hn::Add(v0, v1))};
+  const Real squared = hn::MulAdd(g.z, g.z, hn::MulAdd(g.a, g.a, hn::Mul(g.b, g.b)));
+  const Real along = hn::Abs(hn::MulAdd(
+      g.z, rays.direction.z, hn::MulAdd(g.a, rays.direction.a, hn::Mul(g.b, rays.direction.b))));
+  constexpr float weak = 4 * weak_gradient_counts * static_cast<float>(1 << level_shift);
+  const Real strength = hn::Div(squared, hn::Add(squared, real(weak * weak)));
+  const Real facing = hn::Div(along, hn::Sqrt(hn::Max(squared, real(1))));
+  const Real lit = hn::MulAdd(facing, real(1 - ambient_light), real(ambient_light));
+  return hn::MulAdd(strength, hn::Sub(lit, real(1)), real(1));
+}
+
+HWY_INLINE Real fade_with_depth(const RayFrame& frame, const Rays& rays) {
+  const Real depth = rays.depth_mm(frame, rays.next);
+  const Real share = hn::Mul(hn::Sub(depth, real(frame.cue_near_mm)), real(frame.cue_per_mm));
+  return hn::NegMulAdd(hn::Min(hn::Max(share, real(0)), real(1)), real(depth_cue), real(1));
+}
+
+template <bool Shaded, bool Coloured>
+HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, Light& light) {
+  const IntMask valid = rays.active();
+  const Int level = sample_level(frame, rays.position, valid);
+  const Int entry = hn::IfThenElseZero(valid, table_entry(frame.opacity_and_red, level));
+  light.half_opaque = hn::IfThenElse(hn::RebindMask(Ints{}, hn::Ge(light.transparency, real(0.5F))),
+                                     rays.next, light.half_opaque);
+  Real weight = hn::Mul(light.transparency, hn::Mul(upper_16_bits(entry), real(1.0F / 65535)));
+  light.transparency = hn::Sub(light.transparency, weight);
+  if constexpr (Shaded) {
+    const RealMask seen = hn::Gt(weight, real(0));
+    if (hn::AllFalse(Floats{}, seen))
+      return;
+    const Real lit =
+        hn::Mul(shade(frame, rays, hn::RebindMask(Ints{}, seen)), fade_with_depth(frame, rays));
+    weight = hn::Mul(weight, lit);
+  }
+  light.red = hn::MulAdd(weight, lower_16_bits(entry), light.red);
+  if constexpr (Coloured) {
+    const Int others = table_entry(frame.green_and_blue, level);
+    light.green = hn::MulAdd(weight, upper_16_bits(others), light.green);
+    light.blue = hn::MulAdd(weight, lower_16_bits(others), light.blue);
+  }
+}
+
+// Moves all active lanes on until each is in a brick that is not empty, or at its end.
+HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
+  while (true) {
+    const IntMask active = rays.active();
+    const Int distance = hn::And(brick_at(frame, rays.position, active), whole(0xFF));
+    const IntMask empty = hn::And(active, hn::Gt(distance, hn::Zero(Ints{})));
+    if (hn::AllFalse(Ints{}, empty))
+      return;
+    const Int samples = samples_to_leap(rays.axes, rays.position, hn::Sub(distance, whole(1)));
+    rays.leap(hn::IfThenElseZero(empty, samples));
+  }
+}
+
+template <bool Shaded, bool Coloured>
+HWY_INLINE Light composite_packet(const RayFrame& frame, Rays& rays) {
+  Light light = Light::none();
+  while (true) {
+    leap_empty_bricks(frame, rays);
+    if (hn::AllFalse(Ints{}, rays.active()))
+      break;
+    for (int i = 0; i < samples_per_check; ++i) {
+      add_sample<Shaded, Coloured>(frame, rays, light);
+      rays.step();
+    }
+    const RealMask opaque = hn::Lt(light.transparency, real(opaque_transparency));
+    rays.end = hn::IfThenZeroElse(hn::RebindMask(Ints{}, opaque), rays.end);
+  }
+  if constexpr (!Coloured) {
+    light.green = light.red;
+    light.blue = light.red;
+  }
+  return light;
+}
+
+// Moves active lanes on until each is in a brick with a level above `highest`.
+HWY_INLINE void leap_lower_bricks(const RayFrame& frame, Rays& rays, Int highest) {
+  const Int highest_level = hn::ShiftRight<level_shift>(highest);
+  while (true) {
+    const IntMask active = rays.active();
+    const Int brick = brick_at(frame, rays.position, active);
+    const Int distance = hn::And(brick, whole(0xFF));
+    const Int level = hn::And(hn::ShiftRight<8>(brick), whole(0xFF));
+    const IntMask lower = hn::And(
+        active, hn::Or(hn::Gt(distance, hn::Zero(Ints{})), hn::Not(hn::Gt(level, highest_level))));
+    if (hn::AllFalse(Ints{}, lower))
+      return;
+    const Int more = hn::Max(hn::Sub(distance, whole(1)), hn::Zero(Ints{}));
+    rays.leap(hn::IfThenElseZero(lower, samples_to_leap(rays.axes, rays.position, more)));
+  }
+}
+
+// The highest level along each ray and where it was.
+struct Highest {
+  Int level;
+  Int sample;
+};
+
+HWY_INLINE Highest find_highest(const RayFrame& frame, Rays& rays) {
+  Highest highest{hn::Zero(Ints{}), hn::Zero(Ints{})};
+  while (true) {
+    leap_lower_bricks(frame, rays, highest.level);
+    if (hn::AllFalse(Ints{}, rays.active()))
+      return highest;
+    for (int i = 0; i < samples_per_check; ++i) {
+      const IntMask valid = rays.active();
+      const Int level = hn::IfThenElseZero(valid, sample_level(frame, rays.position, valid));
+      highest.sample = hn::IfThenElse(hn::Gt(level, highest.level), rays.next, highest.sample);
+      highest.level = hn::Max(level, highest.level);
+      rays.step();
+    }
+  }
+}
+
+HWY_INLINE Int to_rgba(const Light& light, Real opacity) {
+  const auto to_8_bits = [](Real v, float scale) {
+    return hn::NearestInt(hn::Min(hn::Mul(v, real(scale)), real(255)));
+  };
+  constexpr float from_16_bits = 255.0F / 65535;
+  return hn::Or(hn::Or(to_8_bits(light.red, from_16_bits),
+                       hn::ShiftLeft<8>(to_8_bits(light.green, from_16_bits))),
+                hn::Or(hn::ShiftLeft<16>(to_8_bits(light.blue, from_16_bits)),
+                       hn::ShiftLeft<24>(to_8_bits(opacity, 255))));
+}
+
+// Clipped to the picture; x and y are its first pixel.
+HWY_INLINE void store(const RayFrame& frame, int x, int y, Int rgba, Real depth_mm) {
+  alignas(64) std::int32_t colours[lanes];
+  alignas(64) float depths[lanes];
+  hn::Store(rgba, Ints{}, colours);
+  hn::Store(depth_mm, Floats{}, depths);
+  const int columns = std::min(packet_width, frame.width - x);
+  const int rows = std::min(packet_height, frame.height - y);
+  for (int row = 0; row < rows; ++row) {
+    const std::size_t at =
+        static_cast<std::size_t>(y + row) * static_cast<std::size_t>(frame.width) +
+        static_cast<std::size_t>(x);
+    for (int column = 0; column < columns; ++column) {
+      const std::size_t to = at + static_cast<std::size_t>(column);
+      frame.rgba[to] = static_cast<std::uint32_t>(colours[row * packet_width + column]);
+      frame.depth_mm[to] = depths[row * packet_width + column];
+    }
+  }
+}
+
+template <class DrawPacket>
+HWY_INLINE void for_each_packet(const RayFrame& frame, Tile tile, DrawPacket draw_packet) {
+  const int right = std::min(tile.x + tile_size, frame.width);
+  const int bottom = std::min(tile.y + tile_size, frame.height);
+  for (int y = tile.y; y < bottom; y += packet_height)
+    for (int x = tile.x; x < right; x += packet_width) {
+      Rays rays = make_rays(frame, x, y);
+      if (hn::AllFalse(Ints{}, rays.active()))
+        store(frame, x, y, hn::Zero(Ints{}), real(no_depth));
+      else
+        draw_packet(x, y, rays);
+    }
+}
+
+template <bool Shaded, bool Coloured> void draw_composite(const RayFrame& frame, Tile tile) {
+  for_each_packet(frame, tile, [&](int x, int y, Rays& rays) HWY_ATTR {
+    const Light light = composite_packet<Shaded, Coloured>(frame, rays);
+    const Real depth = hn::IfThenElse(hn::Ge(light.transparency, real(0.5F)), real(no_depth),
+                                      rays.depth_mm(frame, light.half_opaque));
+    store(frame, x, y, to_rgba(light, hn::Sub(real(1), light.transparency)), depth);
+  });
+}
+
+// As opaque as it is bright.
+void draw_maximum(const RayFrame& frame, Tile tile) {
+  for_each_packet(frame, tile, [&](int x, int y, Rays& rays) HWY_ATTR {
+    const Highest highest = find_highest(frame, rays);
+    const Int entry = table_entry(frame.opacity_and_red, highest.level);
+    const Int others = table_entry(frame.green_and_blue, highest.level);
+    const RealMask seen = hn::Gt(upper_16_bits(entry), real(0));
+    Light light = Light::none();
+    light.red = hn::IfThenElseZero(seen, lower_16_bits(entry));
+    light.green = hn::IfThenElseZero(seen, upper_16_bits(others));
+    light.blue = hn::IfThenElseZero(seen, lower_16_bits(others));
+    const Real opacity =
+        hn::Mul(hn::Max(light.red, hn::Max(light.green, light.blue)), real(1.0F / 65535));
+    const Real depth = hn::IfThenElse(seen, rays.depth_mm(frame, highest.sample), real(no_depth));
+    store(frame, x, y, to_rgba(light, opacity), depth);
+  });
+}
+
+const RayKernels* kernels() {
+  static const RayKernels table{hwy::TargetName(HWY_TARGET),
+                                {&draw_composite<false, false>, &draw_composite<false, true>},
+                                {&draw_composite<true, false>, &draw_composite<true, true>},
+                                &draw_maximum};
+  return &table;
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+} // namespace octascope::ui::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif // HWY_SCALAR
+
+#endif
