@@ -103,13 +103,16 @@ void BrickGrid::update(const pipeline::Occupancy& occupancy, const StepTable& ta
   std::size_t occupied = 0;
   for (std::size_t i = 0; i < reach_.size(); ++i) {
     const int lowest = visibility == Visibility::range ? lowest_[i] : 0;
-    reach_[i] = table.empty(lowest, highest_[i]) ? 0 : 1;
+    const bool empty = visibility != Visibility::everything && table.empty(lowest, highest_[i]);
+    reach_[i] = empty ? 0 : 1;
     occupied += reach_[i];
   }
   occupied_share_ = static_cast<double>(occupied) / static_cast<double>(reach_.size());
   measure_distances();
-  for (std::size_t i = 0; i < distance_.size(); ++i)
-    bricks_[i] = static_cast<std::uint16_t>((highest_[i] << 8U) | distance_[i]);
+  for (std::size_t i = 0; i < distance_.size(); ++i) {
+    const unsigned highest = visibility == Visibility::everything ? 255 : highest_[i];
+    bricks_[i] = static_cast<std::uint16_t>((highest << 8U) | distance_[i]);
+  }
 }
 
 } // namespace octascope::ui

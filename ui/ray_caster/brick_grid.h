@@ -11,8 +11,9 @@ namespace octascope::ui {
 
 // What the picture shows, as far as emptiness is concerned.
 enum class Visibility : std::uint8_t {
-  range,  // a brick is empty where none of the levels in it can be seen
-  maximum // … where no level up to its highest can be seen: for the maximum along a ray
+  range,     // a brick is empty where none of the levels in it can be seen
+  maximum,   // … where no level up to its highest can be seen: for the maximum along a ray
+  everything // no brick is empty
 };
 
 // One number a brick, in the order [b][a][depth]: its highest level in the upper 8 bits, below it

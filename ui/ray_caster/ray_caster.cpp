@@ -102,7 +102,8 @@ void RayCaster::prepare(float steps, Visibility visibility) {
   }
 }
 
-RayFrame RayCaster::frame(const Camera& camera, const RayPicture& picture, RayImage& image) const {
+RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
+                          RayImage& image) const {
   const pipeline::VolumeGeometry& g = cells_->geometry();
   const CellAxes axes{g};
   const glm::vec3 half = box_extents_mm(g) / 2.0F;
@@ -126,9 +127,9 @@ RayFrame RayCaster::frame(const Camera& camera, const RayPicture& picture, RayIm
   set(f.mm, 1.0F / axes.per_mm);
   f.pixel_height = 2 * camera.tan_half_height / static_cast<float>(image.height);
   f.pixel_width = static_cast<float>(static_cast<double>(2 * camera.tan_half_height) *
-                                     picture.aspect / image.width);
+                                     settings.aspect / image.width);
   f.near_mm = camera.near_mm;
-  f.step_mm = picture.step_mm;
+  f.step_mm = settings.step_mm;
 
   set(f.gradient_cells, gradient_mm(g) * axes.per_mm);
   const float reach = glm::dot(glm::abs(camera.forward), half);
@@ -142,26 +143,29 @@ RayFrame RayCaster::frame(const Camera& camera, const RayPicture& picture, RayIm
   return f;
 }
 
-hal::Result<> RayCaster::draw(const Camera& camera, const RayPicture& picture, RayImage& image) {
+hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings, RayImage& image) {
   // Positions have 16 bits after the point: more samples than these would drift.
   constexpr float most_samples = 16384;
   const float diagonal = cells_ ? glm::length(box_extents_mm(geometry())) : 0;
   if (!cells_ || image.width < 1 || image.height < 1 ||
-      !(picture.step_mm * most_samples >= diagonal) || !(picture.step_mm <= diagonal) ||
-      !(picture.aspect > 0))
+      !(settings.step_mm * most_samples >= diagonal) || !(settings.step_mm <= diagonal) ||
+      !(settings.aspect > 0))
     return hal::fail(hal::Fault::invalid_argument,
                      fmt::format("ray caster: found an image of {}x{} with an aspect of {} and a "
                                  "step of {} mm, expected pixels and a step of {} to {} mm",
-                                 image.width, image.height, picture.aspect, picture.step_mm,
+                                 image.width, image.height, settings.aspect, settings.step_mm,
                                  diagonal / most_samples, diagonal));
-  prepare(picture.step_mm / reference_step_mm(box_extents_mm(geometry()) / 2.0F),
-          picture.mode == RayMode::maximum ? Visibility::maximum : Visibility::range);
+  prepare(settings.step_mm / reference_step_mm(box_extents_mm(geometry()) / 2.0F),
+          !settings.leap_empty                ? Visibility::everything
+          : settings.mode == RayMode::maximum ? Visibility::maximum
+                                              : Visibility::range);
 
   const std::size_t coloured = steps_table_->grey ? 0 : 1;
-  const RayKernels::Draw kernel = picture.mode == RayMode::maximum  ? kernels_->maximum
-                                  : picture.mode == RayMode::shaded ? kernels_->shaded[coloured]
-                                                                    : kernels_->composite[coloured];
-  const RayFrame rays = frame(camera, picture, image);
+  const RayKernels::Draw kernel = settings.mode == RayMode::maximum ? kernels_->maximum
+                                  : settings.mode == RayMode::shaded
+                                      ? kernels_->shaded[coloured]
+                                      : kernels_->composite[coloured];
+  const RayFrame rays = frame(camera, settings, image);
   const int across = (image.width + tile_size - 1) / tile_size;
   const int down = (image.height + tile_size - 1) / tile_size;
   team_->run(static_cast<std::uint32_t>(across * down), [&](std::uint32_t tile) {

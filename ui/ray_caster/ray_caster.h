@@ -2,7 +2,7 @@
 //
 // Source of the technique: M. Levoy, "Efficient ray tracing of volume data", ACM Transactions on
 // Graphics 9 (1990): early termination, and leaping over what is empty. Colour, opacity, blank
-// depths and dither are those of plane_stack.frag, so that both draw the same picture.
+// depths and dither are those of plane_stack.frag, so that both draw the same settings.
 #pragma once
 
 #include <cstdint>
@@ -38,10 +38,11 @@ struct RayImage {
   void resize(int new_width, int new_height); // allocates only to grow
 };
 
-struct RayPicture {
+struct RaySettings {
   RayMode mode = RayMode::composite;
-  float step_mm = 0; // along each ray
-  double aspect = 1; // width / height of the rectangle that the image fills
+  float step_mm = 0;      // along each ray
+  double aspect = 1;      // width / height of the rectangle that the image fills
+  bool leap_empty = true; // false changes no picture, only the time that it takes
 };
 
 // Threads: bound to one, but for its own helpers. draw() allocates nothing but the image.
@@ -60,7 +61,7 @@ public:
 
   // The camera is that of ui/camera.h for the volume's extents. Fault::invalid_argument: there is
   // no volume, the image has no pixels, or the step is not a positive share of the box.
-  hal::Result<> draw(const Camera& camera, const RayPicture& picture, RayImage& image);
+  hal::Result<> draw(const Camera& camera, const RaySettings& settings, RayImage& image);
 
   bool empty() const { return !cells_; }
   const pipeline::VolumeGeometry& geometry() const { return cells_->geometry(); }
@@ -70,7 +71,7 @@ public:
 private:
   RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team);
   void prepare(float steps, Visibility visibility);
-  RayFrame frame(const Camera& camera, const RayPicture& picture, RayImage& image) const;
+  RayFrame frame(const Camera& camera, const RaySettings& settings, RayImage& image) const;
 
   const RayKernels* kernels_;
   std::unique_ptr<WorkTeam> team_;
