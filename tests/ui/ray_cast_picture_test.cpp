@@ -14,6 +14,7 @@ namespace {
 
 constexpr int width = 320;
 constexpr int height = 200;
+constexpr std::size_t middle = width * height / 2 + width / 2;
 constexpr ui::Rect rect{0, 0, width, height};
 
 class RayCastPictureTest : public GlTest {
@@ -103,14 +104,14 @@ TEST_F(RayCastPictureTest, is_drawn_again_only_when_something_changed) {
   show(tissue_volume(small_geometry));
   ui::ViewState view = fine_view(35, 35, 2.4F, 0.5F);
   ASSERT_TRUE(rays_->update(uploads_, view, {}, rect));
-  const std::uint32_t kept = rays_->image().rgba[width * height / 2];
+  const std::uint32_t kept = rays_->image().rgba[middle];
   show(uniform_volume(small_geometry, 0));
   --uploads_; // as if the same volume were shown
   ASSERT_TRUE(rays_->update(uploads_, view, {}, rect));
-  EXPECT_EQ(rays_->image().rgba[width * height / 2], kept);
+  EXPECT_EQ(rays_->image().rgba[middle], kept);
   view.window_offset_db += 1;
   ASSERT_TRUE(rays_->update(uploads_, view, {}, rect));
-  EXPECT_EQ(rays_->image().rgba[width * height / 2], 0U) << "the volume is empty now";
+  EXPECT_EQ(rays_->image().rgba[middle], 0U) << "the volume is empty now";
   EXPECT_NE(kept, 0U);
 }
 
