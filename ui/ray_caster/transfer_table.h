@@ -3,8 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
+#include "ui/ray_caster/ray_frame.h"
 #include "ui/view_state.h"
+#include "ui/window.h"
 
 namespace octascope::ui {
 
@@ -22,6 +25,14 @@ struct TransferTable {
 
   std::array<Colour, entries> colour{}; // 0…1, not premultiplied
   std::array<float, entries> opacity{}; // 0…1, over one reference step
+
+  // Where the table is nothing but a display window: sixteen samples are looked up one by one, but
+  // a ramp is computed for all at once.
+  struct Window {
+    WindowRamp ramp;
+    float opacity;
+  };
+  std::optional<Window> window;
 };
 
 // The paper's formula (1), as the shaders have it: grey rises from 0 to 1 across the window, and
@@ -36,6 +47,13 @@ struct StepTable {
   bool grey = true;                                                   // all channels are the same
   // How many entries that can be seen lie before each: a range without any is empty.
   std::array<std::uint16_t, TransferTable::entries + 1> visible_before{};
+
+  // grey · polynomial(grey) instead of the tables, where that comes within 1e-4 of the opacity.
+  struct Ramp {
+    WindowRamp window;
+    std::array<float, ramp_terms> opacity;
+  };
+  std::optional<Ramp> ramp;
 
   bool empty(int lowest_level, int highest_level) const {
     constexpr int per_level = TransferTable::entries_per_level;
