@@ -86,7 +86,9 @@ struct Renderer::Parts {
 };
 
 hal::Result<> Renderer::Parts::update_volume_picture(const ViewState& view, const Rect& rect) {
-  return ray_picture ? ray_picture->update(volume_uploads, view, {}, rect)
+  // At twice as many steps the picture takes nearly twice as long and gains a hundredth.
+  constexpr RayLook look{RayMode::composite, 256};
+  return ray_picture ? ray_picture->update(volume_uploads, view, look, rect)
                      : volume_picture.update(volume, volume_uploads, view, rect);
 }
 

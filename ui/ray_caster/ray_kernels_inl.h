@@ -34,6 +34,8 @@ namespace octascope::ui::HWY_NAMESPACE {
 
 inline constexpr int packet_width = lanes >= 8 ? 4 : 2;
 inline constexpr int packet_height = lanes / packet_width;
+inline constexpr int square_size = 16; // pixels whose packets take turns
+static_assert(tile_size % square_size == 0 && square_size % packet_height == 0);
 inline constexpr int samples_per_check = 4; // between two looks at the bricks
 
 // The samples of each lane's ray are numbered from 0 at t = first_mm.
@@ -160,7 +162,7 @@ HWY_INLINE Real upper_16_bits(Int v) {
 
 // By how much light from the eye is weakened by the slope of the surface, if there is one. The
 // gradient comes from four samples at the corners of a tetrahedron.
-HWY_INLINE Real shade(const RayFrame& frame, const Rays& rays, IntMask valid) {
+HWY_INLINE Real shade(const RayFrame& frame, const Rays& rays, const Position& p, IntMask valid) {
   const auto bound = [&](int axis, Int p) {
     const auto fixed = [](float cells) { return static_cast<std::int32_t>(cells * one_cell); };
     return hn::Min(hn::Max(p, whole(fixed(frame.lower[axis]))),
@@ -169,13 +171,12 @@ HWY_INLINE Real shade(const RayFrame& frame, const Rays& rays, IntMask valid) {
   const auto distance = [&](int axis) {
     return whole(static_cast<std::int32_t>(frame.gradient_cells[axis] * one_cell));
   };
-  const Position& p = rays.position;
   const Position more{bound(0, hn::Add(p.z, distance(0))), bound(1, hn::Add(p.a, distance(1))),
                       bound(2, hn::Add(p.b, distance(2)))};
   const Position less{bound(0, hn::Sub(p.z, distance(0))), bound(1, hn::Sub(p.a, distance(1))),
                       bound(2, hn::Sub(p.b, distance(2)))};
   const auto level = [&](Int z, Int a, Int b) {
-    return hn::ConvertTo(Floats{}, sample_level(frame, {z, a, b}, valid));
+    return hn::ConvertTo(Floats{}, interpolate(fetch_cell(frame, {z, a, b}, valid)));
   };
   const Real v0 = level(more.z, less.a, less.b);
   const Real v1 = level(less.z, more.a, less.b);
@@ -194,8 +195,8 @@ HWY_INLINE Real shade(const RayFrame& frame, const Rays& rays, IntMask valid) {
   return hn::MulAdd(strength, hn::Sub(lit, real(1)), real(1));
 }
 
-HWY_INLINE Real fade_with_depth(const RayFrame& frame, const Rays& rays) {
-  const Real depth = rays.depth_mm(frame, rays.next);
+HWY_INLINE Real fade_with_depth(const RayFrame& frame, const Rays& rays, Int sample) {
+  const Real depth = rays.depth_mm(frame, sample);
   const Real share = hn::Mul(hn::Sub(depth, real(frame.cue_near_mm)), real(frame.cue_per_mm));
   return hn::NegMulAdd(hn::Min(hn::Max(share, real(0)), real(1)), real(depth_cue), real(1));
 }
@@ -213,9 +214,12 @@ template <Look How> HWY_INLINE Substance classify(const RayFrame& frame, Int lev
                                  real(frame.ramp_offset - rounded_up * frame.ramp_scale));
     const Real inside = hn::Min(hn::Max(ramp, real(0)), real(1));
     const Real grey = hn::IfThenElseZero(hn::RebindMask(Floats{}, valid), inside);
-    Real sum = real(frame.ramp_opacity[ramp_terms - 1]);
-    for (int power = ramp_terms - 2; power >= 0; --power)
-      sum = hn::MulAdd(sum, grey, real(frame.ramp_opacity[power]));
+    // In pairs: half as many operations wait for each other.
+    const auto pair = [&](int power) {
+      return hn::MulAdd(grey, real(frame.ramp_opacity[power + 1]), real(frame.ramp_opacity[power]));
+    };
+    const Real square = hn::Mul(grey, grey);
+    const Real sum = hn::MulAdd(hn::MulAdd(pair(4), square, pair(2)), square, pair(0));
     return {hn::Mul(sum, grey), hn::Mul(grey, real(65535)), real(0), real(0)};
   } else {
     const Int entry = hn::IfThenElseZero(valid, table_entry(frame.opacity_and_red, level));
@@ -230,21 +234,34 @@ template <Look How> HWY_INLINE Substance classify(const RayFrame& frame, Int lev
   }
 }
 
+// A sample whose loads are under way.
+struct Sample {
+  Position position;
+  Int number;
+  IntMask valid;
+  Cell cell;
+};
+
+HWY_INLINE Sample begin_sample(const RayFrame& frame, const Rays& rays, const Position& position,
+                               Int number) {
+  const IntMask valid = hn::Lt(number, rays.end);
+  return {position, number, valid, fetch_cell(frame, position, valid)};
+}
+
 template <bool Shaded, Look How>
-HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, Light& light) {
-  const IntMask valid = rays.active();
-  const Int level = sample_level(frame, rays.position, valid);
-  const Substance here = classify<How>(frame, level, valid);
+HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, const Sample& sample,
+                           Light& light) {
+  const Substance here = classify<How>(frame, interpolate(sample.cell), sample.valid);
   light.half_opaque = hn::IfThenElse(hn::RebindMask(Ints{}, hn::Ge(light.transparency, real(0.5F))),
-                                     rays.next, light.half_opaque);
+                                     sample.number, light.half_opaque);
   Real weight = hn::Mul(light.transparency, here.opacity);
   light.transparency = hn::Sub(light.transparency, weight);
   if constexpr (Shaded) {
     const RealMask seen = hn::Gt(weight, real(0));
     if (hn::AllFalse(Floats{}, seen))
       return;
-    const Real lit =
-        hn::Mul(shade(frame, rays, hn::RebindMask(Ints{}, seen)), fade_with_depth(frame, rays));
+    const Real lit = hn::Mul(shade(frame, rays, sample.position, hn::RebindMask(Ints{}, seen)),
+                             fade_with_depth(frame, rays, sample.number));
     weight = hn::Mul(weight, lit);
   }
   light.red = hn::MulAdd(weight, here.red, light.red);
@@ -267,27 +284,41 @@ HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
   }
 }
 
+// Some samples farther; false when all rays have ended.
 template <bool Shaded, Look How>
-HWY_INLINE Light composite_packet(const RayFrame& frame, Rays& rays) {
-  Light light = Light::none();
-  while (true) {
-    leap_empty_bricks(frame, rays);
-    if (hn::AllFalse(Ints{}, rays.active()))
-      break;
-    for (int i = 0; i < samples_per_check; ++i) {
-      add_sample<Shaded, How>(frame, rays, light);
-      rays.step();
-    }
-    const RealMask opaque = hn::Lt(light.transparency, real(opaque_transparency));
-    rays.end = hn::IfThenZeroElse(hn::RebindMask(Ints{}, opaque), rays.end);
+HWY_INLINE bool advance(const RayFrame& frame, Rays& rays, Light& light) {
+  leap_empty_bricks(frame, rays);
+  if (hn::AllFalse(Ints{}, rays.active()))
+    return false;
+  // The loads of a sample are under way while the one before it is worked on: the processor does
+  // not see far enough ahead to begin them by itself.
+  Light result = light;
+  Sample sample = begin_sample(frame, rays, rays.position, rays.next);
+  for (int i = 1; i < samples_per_check; ++i) {
+    const Position ahead{hn::Add(sample.position.z, rays.axes.z.step),
+                         hn::Add(sample.position.a, rays.axes.a.step),
+                         hn::Add(sample.position.b, rays.axes.b.step)};
+    const Sample next = begin_sample(frame, rays, ahead, hn::Add(sample.number, whole(1)));
+    add_sample<Shaded, How>(frame, rays, sample, result);
+    sample = next;
   }
+  add_sample<Shaded, How>(frame, rays, sample, result);
+  rays.position = sample.position;
+  rays.next = sample.number;
+  rays.step();
+  const RealMask opaque = hn::Lt(result.transparency, real(opaque_transparency));
+  rays.end = hn::IfThenZeroElse(hn::RebindMask(Ints{}, opaque), rays.end);
+  light = result;
+  return true;
+}
+
+template <Look How> HWY_INLINE void complete(Light& light) {
   const RealMask opaque = hn::Lt(light.transparency, real(opaque_transparency));
   const Real share = hn::IfThenElse(opaque, hn::Sub(real(1), light.transparency), real(1));
   light.transparency = hn::IfThenZeroElse(opaque, light.transparency);
   light.red = hn::Div(light.red, share);
   light.green = How == Look::coloured ? hn::Div(light.green, share) : light.red;
   light.blue = How == Look::coloured ? hn::Div(light.blue, share) : light.red;
-  return light;
 }
 
 // Moves active lanes on until each is in a brick with a level above `highest`.
@@ -321,7 +352,8 @@ HWY_INLINE Highest find_highest(const RayFrame& frame, Rays& rays) {
       return highest;
     for (int i = 0; i < samples_per_check; ++i) {
       const IntMask valid = rays.active();
-      const Int level = hn::IfThenElseZero(valid, sample_level(frame, rays.position, valid));
+      const Int level =
+          hn::IfThenElseZero(valid, interpolate(fetch_cell(frame, rays.position, valid)));
       highest.sample = hn::IfThenElse(hn::Gt(level, highest.level), rays.next, highest.sample);
       highest.level = hn::Max(level, highest.level);
       rays.step();
@@ -374,13 +406,45 @@ HWY_INLINE void for_each_packet(const RayFrame& frame, Tile tile, DrawPacket dra
     }
 }
 
+// Packets of a square take turns: what one has brought into the first-level cache, its neighbours
+// use while it is there.
+template <bool Shaded, Look How> void draw_square(const RayFrame& frame, int left, int top) {
+  constexpr int across = square_size / packet_width;
+  constexpr int packets = across * (square_size / packet_height);
+  Rays rays[packets];
+  Light light[packets];
+  int live[packets];
+  int lives = 0;
+  for (int i = 0; i < packets; ++i) {
+    rays[i] = make_rays(frame, left + i % across * packet_width, top + i / across * packet_height);
+    light[i] = Light::none();
+    live[lives++] = i;
+  }
+  while (lives > 0) {
+    int kept = 0;
+    for (int i = 0; i < lives; ++i)
+      if (advance<Shaded, How>(frame, rays[live[i]], light[live[i]]))
+        live[kept++] = live[i];
+    lives = kept;
+  }
+  for (int i = 0; i < packets; ++i) {
+    const int x = left + i % across * packet_width;
+    const int y = top + i / across * packet_height;
+    if (x >= frame.width || y >= frame.height)
+      continue;
+    const Real depth = hn::IfThenElse(hn::Ge(light[i].transparency, real(0.5F)), real(no_depth),
+                                      rays[i].depth_mm(frame, light[i].half_opaque));
+    complete<How>(light[i]);
+    store(frame, x, y, to_rgba(light[i], hn::Sub(real(1), light[i].transparency)), depth);
+  }
+}
+
 template <bool Shaded, Look How> void draw_composite(const RayFrame& frame, Tile tile) {
-  for_each_packet(frame, tile, [&](int x, int y, Rays& rays) HWY_ATTR {
-    const Light light = composite_packet<Shaded, How>(frame, rays);
-    const Real depth = hn::IfThenElse(hn::Ge(light.transparency, real(0.5F)), real(no_depth),
-                                      rays.depth_mm(frame, light.half_opaque));
-    store(frame, x, y, to_rgba(light, hn::Sub(real(1), light.transparency)), depth);
-  });
+  const int right = std::min(tile.x + tile_size, frame.width);
+  const int bottom = std::min(tile.y + tile_size, frame.height);
+  for (int y = tile.y; y < bottom; y += square_size)
+    for (int x = tile.x; x < right; x += square_size)
+      draw_square<Shaded, How>(frame, x, y);
 }
 
 // As opaque as it is bright.

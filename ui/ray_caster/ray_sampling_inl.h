@@ -38,7 +38,7 @@ using IntMask = hn::Mask<Ints>;
 
 inline constexpr int lanes = static_cast<int>(HWY_LANES(float));
 inline constexpr int one_cell = 1 << 16;
-inline constexpr int level_shift = 22; // of what sample_level() returns
+inline constexpr int level_shift = 22; // of what interpolate() returns
 inline constexpr int entry_shift = level_shift - 4;
 static_assert(TransferTable::entries_per_level == 1 << (level_shift - entry_shift));
 
@@ -91,32 +91,37 @@ HWY_INLINE hn::Vec<UnsignedWords> fraction_twice(Int fixed) {
                                                            hn::LoadDup128(Bytes{}, order)));
 }
 
-// The interpolated level times 2^22, rounded half an entry of the transfer table upwards. Lanes
-// that are not `valid` read the first cell.
-HWY_INLINE Int sample_level(const RayFrame& frame, const Position& p, IntMask valid) {
-  const UnsignedWords words;
+// The eight corners of each lane's cell, and where in it the sample lies.
+struct Cell {
+  Int near, far; // one B-scan and the next: [depth][fast]
+  hn::Vec<UnsignedWords> to_far, to_second, below;
+};
+
+// Lanes that are not `valid` read the first cell.
+HWY_INLINE Cell fetch_cell(const RayFrame& frame, const Position& p, IntMask valid) {
   const Int offset = hn::Add(hn::Add(hn::Mul(hn::ShiftRight<16>(p.b), whole(frame.row_bytes)),
                                      hn::Mul(hn::ShiftRight<16>(p.a), whole(frame.column_bytes))),
                              hn::And(hn::ShiftRight<15>(p.z), whole(-2)));
   const Int at = hn::IfThenElseZero(valid, offset);
-  const auto near = hn::BitCast(words, gather(frame.cells, at));
-  const auto far = hn::BitCast(words, gather(frame.cells + frame.row_bytes, at));
+  return {gather(frame.cells, at), gather(frame.cells + frame.row_bytes, at), upper_byte_twice(p.b),
+          fraction_twice(p.a), hn::ShiftRight<1>(fraction_twice(p.z))};
+}
 
-  const auto to_far = upper_byte_twice(p.b);
-  const auto to_near = hn::Sub(hn::Set(words, std::uint16_t{256}), to_far);
+// The interpolated level times 2^22, rounded half an entry of the transfer table upwards.
+HWY_INLINE Int interpolate(const Cell& cell) {
+  const UnsignedWords words;
+  const auto near = hn::BitCast(words, cell.near);
+  const auto far = hn::BitCast(words, cell.far);
+  const auto to_near = hn::Sub(hn::Set(words, std::uint16_t{256}), cell.to_far);
   const auto low_byte = hn::Set(words, std::uint16_t{0xFF});
-  const auto first =
-      hn::Add(hn::Mul(hn::And(near, low_byte), to_near), hn::Mul(hn::And(far, low_byte), to_far));
-  const auto second =
-      hn::Add(hn::Mul(hn::ShiftRight<8>(near), to_near), hn::Mul(hn::ShiftRight<8>(far), to_far));
-
-  const auto to_second = fraction_twice(p.a);
+  const auto first = hn::Add(hn::Mul(hn::And(near, low_byte), to_near),
+                             hn::Mul(hn::And(far, low_byte), cell.to_far));
+  const auto second = hn::Add(hn::Mul(hn::ShiftRight<8>(near), to_near),
+                              hn::Mul(hn::ShiftRight<8>(far), cell.to_far));
   const auto columns =
-      hn::Add(hn::MulHigh(first, hn::Not(to_second)), hn::MulHigh(second, to_second));
-
-  const auto below = hn::ShiftRight<1>(fraction_twice(p.z));
+      hn::Add(hn::MulHigh(first, hn::Not(cell.to_second)), hn::MulHigh(second, cell.to_second));
   const auto depth_weights =
-      hn::Xor(hn::BitCast(Ints{}, below), whole(0x7FFF)); // the upper bin's in the lower half
+      hn::Xor(hn::BitCast(Ints{}, cell.below), whole(0x7FFF)); // the upper bin's in the lower half
   return dot_pairs(hn::BitCast(Words{}, hn::ShiftRight<1>(columns)),
                    hn::BitCast(Words{}, depth_weights), whole(1 << (entry_shift - 1)));
 }
