@@ -36,9 +36,9 @@ void WorkTeam::take_pieces(std::uint32_t turn) {
     if (!claims_.compare_exchange_weak(claim, claim - 1, std::memory_order_acq_rel,
                                        std::memory_order_acquire))
       continue;
-    call_(work_, pieces_ - static_cast<std::uint32_t>(claim));
-    const bool last = finished_.fetch_add(1, std::memory_order_acq_rel) + 1 == pieces_;
-    if (last) {
+    const std::uint32_t pieces = pieces_; // once this piece is finished, the next turn may begin
+    call_(work_, pieces - static_cast<std::uint32_t>(claim));
+    if (finished_.fetch_add(1, std::memory_order_acq_rel) + 1 == pieces) {
       all_finished_.post();
       return;
     }
