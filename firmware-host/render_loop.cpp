@@ -60,8 +60,9 @@ bool RenderLoop::turn() {
 // What hands and feet chose, as finely as this machine can draw it.
 ui::ViewState RenderLoop::view() const {
   ui::ViewState view = controller_.state();
-  view.volume_resolution =
-      ui::affordable_resolution(software_, parts_.display.width(), parts_.display.height());
+  const bool planes_by_processor = software_ && !(renderer_ && renderer_->casts_rays());
+  view.volume_resolution = ui::affordable_resolution(planes_by_processor, parts_.display.width(),
+                                                     parts_.display.height());
   return view;
 }
 

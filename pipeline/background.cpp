@@ -16,9 +16,7 @@ template <class Count>
 void LineMean::measure(const Count* counts, int lines, int right_shift) noexcept {
   const auto samples = static_cast<int>(mean_.size());
   const auto add_all = [&](auto* sums) {
-    std::fill_n(sums, mean_.size(), 0);
-    for (std::size_t line = 0; line < static_cast<std::size_t>(lines); ++line)
-      add_line(counts + line * mean_.size(), right_shift, samples, sums);
+    sum_lines(counts, lines, right_shift, samples, sums);
     for (std::size_t p = 0; p < mean_.size(); ++p)
       mean_[p] = static_cast<double>(sums[p]) / lines;
   };

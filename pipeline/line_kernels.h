@@ -18,11 +18,13 @@ std::uint32_t load_line(const std::uint16_t* counts, const float* background, in
 std::uint32_t load_line(const float* counts, const float* background, int right_shift, int samples,
                         float* line);
 
-// sum += counts >> right_shift. Up to 65536 lines fit into the sum.
-void add_line(const std::uint8_t* counts, int right_shift, int samples, std::uint32_t* sum);
-void add_line(const std::uint16_t* counts, int right_shift, int samples, std::uint32_t* sum);
+// sum = the sum of (counts >> right_shift) over `lines` lines without gaps, at most 65536.
+void sum_lines(const std::uint8_t* counts, int lines, int right_shift, int samples,
+               std::uint32_t* sum);
+void sum_lines(const std::uint16_t* counts, int lines, int right_shift, int samples,
+               std::uint32_t* sum);
 // Floats are summed in double precision.
-void add_line(const float* counts, int right_shift, int samples, double* sum);
+void sum_lines(const float* counts, int lines, int right_shift, int samples, double* sum);
 
 // Interpolated counts times the factor of each sample: window, dispersion phase and 1/N in one.
 // `first`, `weights`: ResamplingTaps. `factors`: complex (re, im, re, im …) or real. Buffers and

@@ -40,6 +40,10 @@ public:
   // Draws everything into the bound framebuffer of width × height pixels.
   hal::Result<> draw(const ViewState& view, const Status& status, int width, int height);
 
+  // Whether the processor casts the volume's rays, which is what happens where GL is the processor,
+  // too; otherwise GL draws a stack of planes.
+  bool casts_rays() const;
+
   // False when draw() would make the picture that it made last, to the pixel.
   bool needs_redraw(const ViewState& view, const Status& status, int width, int height) const;
 

@@ -1,0 +1,176 @@
+#include "tests/ui/support/reference_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "pipeline/level_scale.h"
+
+namespace octascope::tests {
+
+namespace {
+
+using Vector = glm::dvec3;
+
+class Reference {
+public:
+  Reference(const pipeline::Volume& volume, const ui::ViewState& window,
+            const ui::RaySettings& settings)
+      : volume_{volume}, g_{volume.geometry}, window_{window}, settings_{settings},
+        extents_{g_.a_mm(), g_.depth_mm(), g_.b_mm()} {}
+
+  ReferencePixel trace(const Vector& eye, const Vector& forward, const Vector& ray, double near,
+                       double shift) const;
+
+private:
+  double voxel(int z, int a, int b) const {
+    z = std::clamp(z, 0, g_.depths - 1);
+    a = std::clamp(a, 0, g_.a_scans - 1);
+    b = std::clamp(b, 0, g_.b_scans - 1);
+    return volume_.b_scan(b)[static_cast<std::size_t>(a) * static_cast<std::size_t>(g_.depths) +
+                             static_cast<std::size_t>(z)];
+  }
+  // In millimetres around the centre, moved into the box that is shown.
+  double level(Vector p) const {
+    const Vector half = extents_ / 2.0;
+    p.x = std::clamp(p.x, -half.x, half.x);
+    p.y = std::clamp(p.y, -half.y, top());
+    p.z = std::clamp(p.z, -half.z, half.z);
+    const double z = (0.5 - p.y / extents_.y) * g_.depths - 0.5;
+    const double a = (0.5 + p.x / extents_.x) * g_.a_scans - 0.5;
+    const double b = (0.5 + p.z / extents_.z) * g_.b_scans - 0.5;
+    const double fz = z - std::floor(z);
+    const double fa = a - std::floor(a);
+    const double fb = b - std::floor(b);
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const int dz = corner & 1;
+      const int da = corner >> 1 & 1;
+      const int db = corner >> 2;
+      sum += (dz != 0 ? fz : 1 - fz) * (da != 0 ? fa : 1 - fa) * (db != 0 ? fb : 1 - fb) *
+             voxel(static_cast<int>(std::floor(z)) + dz, static_cast<int>(std::floor(a)) + da,
+                   static_cast<int>(std::floor(b)) + db);
+    }
+    return sum;
+  }
+  // Under the blank depths.
+  double top() const { return extents_.y / 2 - 2.5 * extents_.y / g_.depths; }
+  double grey(double level) const {
+    const double db = static_cast<double>(pipeline::lowest_level_db) + 0.5 * level;
+    return std::clamp((db - static_cast<double>(window_.window_offset_db)) /
+                          static_cast<double>(window_.window_size_db),
+                      0.0, 1.0);
+  }
+  double light(const Vector& p, const Vector& ray) const;
+
+  const pipeline::Volume& volume_;
+  const pipeline::VolumeGeometry& g_;
+  const ui::ViewState& window_;
+  const ui::RaySettings& settings_;
+  Vector extents_;
+};
+
+double Reference::light(const Vector& p, const Vector& ray) const {
+  const double h = static_cast<double>(ui::gradient_mm(g_));
+  const auto at = [&](double x, double y, double z) { return level(p + h * Vector{x, y, z}); };
+  // y runs against the depth.
+  const double v0 = at(-1, -1, -1);
+  const double v1 = at(1, 1, -1);
+  const double v2 = at(-1, 1, 1);
+  const double v3 = at(1, -1, 1);
+  const Vector gradient{v1 + v3 - v0 - v2, v1 + v2 - v0 - v3, v2 + v3 - v0 - v1};
+  const double size = glm::length(gradient);
+  const double weak = 4 * static_cast<double>(ui::weak_gradient_counts);
+  const double strength = size * size / (size * size + weak * weak);
+  const double ambient = static_cast<double>(ui::ambient_light);
+  const double facing = size > 0 ? std::abs(glm::dot(gradient, ray)) / size : 0;
+  return 1 - strength * (1 - ambient - (1 - ambient) * facing);
+}
+
+ReferencePixel Reference::trace(const Vector& eye, const Vector& forward, const Vector& ray,
+                                double near, double shift) const {
+  const double cosine = glm::dot(ray, forward);
+  double from = near / cosine;
+  double to = 1e9;
+  const Vector low{-extents_.x / 2, -extents_.y / 2, -extents_.z / 2};
+  const Vector high{extents_.x / 2, top(), extents_.z / 2};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = (low[axis] - eye[axis]) / ray[axis];
+    const double b = (high[axis] - eye[axis]) / ray[axis];
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  const double step = static_cast<double>(settings_.step_mm);
+  const double steps = step / (glm::length(extents_) / 192);
+  const double reach = glm::dot(glm::abs(forward), extents_ / 2.0);
+  const double centre = -glm::dot(eye, forward);
+  const double nearest = std::max(centre - reach, near);
+
+  ReferencePixel pixel{0, 0, std::numeric_limits<double>::infinity()};
+  double transparency = 1;
+  double highest = -1;
+  for (double k = std::ceil(from / step - shift); (k + shift) * step < to; ++k) {
+    const double t = (k + shift) * step;
+    const Vector p = eye + t * ray;
+    const double level_here = level(p);
+    const double g = grey(level_here);
+    if (settings_.mode == ui::RayMode::maximum) {
+      if (level_here > highest && g > 0)
+        pixel = {255 * g, 255 * g, t * cosine};
+      highest = std::max(highest, level_here);
+      continue;
+    }
+    const double alpha =
+        1 - std::pow(std::max(1 - g * static_cast<double>(window_.opacity), 1e-5), steps);
+    double shown = g;
+    if (settings_.mode == ui::RayMode::shaded) {
+      const double depth = (t * cosine - nearest) / (centre + reach - nearest);
+      shown *=
+          light(p, ray) * (1 - static_cast<double>(ui::depth_cue) * std::clamp(depth, 0.0, 1.0));
+    }
+    pixel.grey += 255 * transparency * alpha * shown;
+    const double after = transparency * (1 - alpha);
+    if (transparency >= 0.5 && after < 0.5)
+      pixel.depth_mm = t * cosine;
+    transparency = after;
+  }
+  if (settings_.mode != ui::RayMode::maximum)
+    pixel.opacity = 255 * (1 - transparency);
+  return pixel;
+}
+
+double fraction(double v) {
+  return v - std::floor(v);
+}
+
+} // namespace
+
+std::vector<ReferencePixel> reference_rays(const pipeline::Volume& volume, const ui::Camera& camera,
+                                           const ui::ViewState& window,
+                                           const ui::RaySettings& settings, int width, int height) {
+  const Reference reference{volume, window, settings};
+  std::vector<ReferencePixel> picture;
+  const double pixel_height = 2 * static_cast<double>(camera.tan_half_height) / height;
+  const double pixel_width =
+      2 * static_cast<double>(camera.tan_half_height) * settings.aspect / width;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Vector ray = Vector{camera.forward} +
+                         (x + 0.5 - width / 2.0) * pixel_width * Vector{camera.right} +
+                         (height / 2.0 - y - 0.5) * pixel_height * Vector{camera.up};
+      // The dither in single precision, as a shader has it: it is a hash, not a quantity.
+      const auto part = [](float v) { return v - std::floor(v); };
+      const float px = static_cast<float>(x) + 0.5F;
+      const float py = static_cast<float>(height - y) - 0.5F;
+      const float sum = part(std::fma(px, 0.06711056F, py * 0.00583715F));
+      const double shift = fraction(static_cast<double>(52.9829189F * sum));
+      picture.push_back(reference.trace(Vector{camera.eye}, Vector{camera.forward},
+                                        glm::normalize(ray), static_cast<double>(camera.near_mm),
+                                        shift));
+    }
+  return picture;
+}
+
+} // namespace octascope::tests

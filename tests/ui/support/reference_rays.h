@@ -1,0 +1,25 @@
+// Ray casting as one would write it down, in double precision: every sample of every ray, no lanes,
+// no leaps, no early end. The ray caster's pictures are compared with these.
+#pragma once
+
+#include <vector>
+
+#include "pipeline/volume.h"
+#include "ui/camera.h"
+#include "ui/ray_caster/ray_caster.h"
+#include "ui/view_state.h"
+
+namespace octascope::tests {
+
+struct ReferencePixel {
+  double grey = 0; // premultiplied, 0…255
+  double opacity = 0;
+  double depth_mm = 0; // infinity where less than half is hidden
+};
+
+// Rows from the top.
+std::vector<ReferencePixel> reference_rays(const pipeline::Volume& volume, const ui::Camera& camera,
+                                           const ui::ViewState& window,
+                                           const ui::RaySettings& settings, int width, int height);
+
+} // namespace octascope::tests

@@ -1,0 +1,48 @@
+// The volume as the ray caster reads it: one 4-byte load brings the corners of a cell in one
+// B-scan.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "pipeline/volume.h"
+#include "ui/ray_caster/large_buffer.h"
+
+namespace octascope::ui {
+
+// Depth bins that volume pictures leave out, and the height of the clip above the first that shows,
+// in depth bins from the middle of bin 0. Around zero delay the volume holds what is left of the
+// background, blurred by the spectral window: a bright lid over the tissue.
+inline constexpr int blank_depth_bins = 2;
+
+// Levels of two neighbouring A-scans interleaved, depth fastest: [b cell row][a cell][z][2]. Row r
+// holds B-scan r−1, the first and last are repeated; cells as pipeline/occupancy.h numbers them.
+// Twice the volume's memory and one pass of copying, for half of the loads of every sample.
+//
+// Threads: update() of different B-scans may run at the same time. Allocates when it is made.
+class CellVolume {
+public:
+  CellVolume() = default;
+  explicit CellVolume(const pipeline::VolumeGeometry& geometry);
+
+  // Offsets are 32 bits in the kernels.
+  static bool fits(const pipeline::VolumeGeometry& geometry);
+
+  // Takes the levels [a][z] of one B-scan.
+  void update(int b, std::span<const std::uint8_t> levels) noexcept;
+
+  const pipeline::VolumeGeometry& geometry() const { return geometry_; }
+  const std::uint8_t* data() const { return cells_.data(); }
+  std::int32_t column_bytes() const { return column_bytes_; }
+  std::int32_t row_bytes() const { return row_bytes_; }
+
+private:
+  void fill_row(int row, std::span<const std::uint8_t> levels) noexcept;
+
+  pipeline::VolumeGeometry geometry_;
+  std::int32_t column_bytes_ = 0;
+  std::int32_t row_bytes_ = 0;
+  LargeBuffer cells_;
+};
+
+} // namespace octascope::ui

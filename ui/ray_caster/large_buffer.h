@@ -1,0 +1,29 @@
+// Memory for what rays read all over the place.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace octascope::ui {
+
+// Zeroed bytes on pages of 2 MiB where the kernel gives them: with pages of 4 KiB, nearly every
+// load of a ray that crosses B-scans misses the translation cache, and a picture takes three times
+// as long. Without large pages it works as well, slower.
+class LargeBuffer {
+public:
+  LargeBuffer() = default;
+  explicit LargeBuffer(std::size_t size);
+
+  std::uint8_t* data() { return bytes_.get(); }
+  const std::uint8_t* data() const { return bytes_.get(); }
+
+private:
+  struct Unmap {
+    std::size_t size;
+    void operator()(std::uint8_t* bytes) const;
+  };
+  std::unique_ptr<std::uint8_t, Unmap> bytes_{nullptr, Unmap{0}};
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,184 @@
+#include "ui/ray_caster/ray_caster.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "ui/volume/plane_box.h"
+
+namespace octascope::ui {
+
+namespace {
+
+// From the world's millimetres (ui/camera.h) to cells along depth, fast and slow axis.
+struct CellAxes {
+  glm::vec3 per_mm; // (depth, fast, slow)
+  glm::vec3 origin; // the box's centre in cells
+
+  explicit CellAxes(const pipeline::VolumeGeometry& g)
+      : per_mm{1e3 / g.depth_spacing_um, 1e3 / g.a_spacing_um, 1e3 / g.b_spacing_um},
+        origin{static_cast<float>(g.depths) / 2 - 0.5F, static_cast<float>(g.a_scans) / 2 + 0.5F,
+               static_cast<float>(g.b_scans) / 2 + 0.5F} {}
+
+  glm::vec3 direction(const glm::vec3& world) const {
+    return glm::vec3{-world.y, world.x, world.z} * per_mm;
+  }
+};
+
+void set(float (&to)[3], const glm::vec3& from) {
+  for (int i = 0; i < 3; ++i)
+    to[i] = from[i];
+}
+
+} // namespace
+
+float gradient_mm(const pipeline::VolumeGeometry& g) {
+  return static_cast<float>(1.5e-3 *
+                            std::cbrt(g.depth_spacing_um * g.a_spacing_um * g.b_spacing_um));
+}
+
+void RayImage::resize(int new_width, int new_height) {
+  width = new_width;
+  height = new_height;
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  rgba.resize(pixels);
+  depth_mm.resize(pixels);
+}
+
+hal::Result<RayCaster> RayCaster::create(std::size_t helpers, const pipeline::ThreadSetup& setup,
+                                         std::string_view isa) {
+  const RayKernels* kernels = ray_kernels(isa);
+  if (kernels == nullptr)
+    return hal::fail(hal::Fault::unsupported,
+                     fmt::format("ray caster: this processor has no {}; let GL draw the volume",
+                                 isa.empty() ? "instruction set that it is compiled for" : isa));
+  return RayCaster{*kernels, std::make_unique<WorkTeam>(helpers, setup)};
+}
+
+RayCaster::RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team)
+    : kernels_{&kernels}, team_{std::move(team)}, transfer_{std::make_unique<TransferTable>()},
+      steps_table_{std::make_unique<StepTable>()} {}
+
+hal::Result<> RayCaster::show(const pipeline::Volume& volume) {
+  const pipeline::VolumeGeometry& g = volume.geometry;
+  if (!CellVolume::fits(g) || volume.levels.size() != g.voxels())
+    return hal::fail(hal::Fault::unsupported,
+                     fmt::format("ray caster: found {} levels of {} depths x {} A-scans x {} "
+                                 "B-scans, expected a whole volume below 1 GiB; scan fewer",
+                                 volume.levels.size(), g.depths, g.a_scans, g.b_scans));
+  if (!cells_ || cells_->geometry() != g) {
+    cells_.emplace(g);
+    occupancy_ = pipeline::Occupancy{g, blank_depth_bins};
+  }
+  team_->run(static_cast<std::uint32_t>(g.b_scans), [&](std::uint32_t b_scan) {
+    const int b = static_cast<int>(b_scan);
+    cells_->update(b, volume.b_scan(b));
+    occupancy_.update(b, volume.b_scan(b));
+  });
+  bricks_current_ = false;
+  return {};
+}
+
+void RayCaster::set_transfer(const TransferTable& transfer) {
+  if (transfer.opacity == transfer_->opacity && transfer.colour == transfer_->colour)
+    return;
+  *transfer_ = transfer;
+  table_current_ = false;
+}
+
+void RayCaster::prepare(float steps, Visibility visibility) {
+  if (!table_current_ || steps != steps_) {
+    make_step_table(*transfer_, steps, *steps_table_);
+    steps_ = steps;
+    bricks_current_ = bricks_current_ && table_current_; // the same levels are empty at any step
+    table_current_ = true;
+  }
+  if (!bricks_current_ || visibility != visibility_) {
+    bricks_.update(occupancy_, *steps_table_, visibility);
+    visibility_ = visibility;
+    bricks_current_ = true;
+  }
+}
+
+RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
+                          RayImage& image) const {
+  const pipeline::VolumeGeometry& g = cells_->geometry();
+  const CellAxes axes{g};
+  const glm::vec3 half = box_extents_mm(g) / 2.0F;
+  RayFrame f{};
+  f.cells = cells_->data();
+  f.column_bytes = cells_->column_bytes();
+  f.row_bytes = cells_->row_bytes();
+  f.bricks = bricks_.data();
+  f.brick_row = bricks_.counts().depth;
+  f.brick_slab = bricks_.counts().depth * bricks_.counts().a;
+  set(f.lower, {static_cast<float>(blank_depth_bins), 0.5F, 0.5F});
+  set(f.upper, {static_cast<float>(g.depths) - 0.5F, static_cast<float>(g.a_scans) + 0.5F,
+                static_cast<float>(g.b_scans) + 0.5F});
+  f.opacity_and_red = steps_table_->opacity_and_red.data();
+  f.green_and_blue = steps_table_->green_and_blue.data();
+  if (const auto& ramp = steps_table_->ramp) {
+    f.ramp_scale = ramp->window.scale / 255;
+    f.ramp_offset = ramp->window.offset;
+    std::ranges::copy(ramp->opacity, f.ramp_opacity);
+  }
+
+  set(f.eye, axes.direction(camera.eye) + axes.origin);
+  set(f.forward, axes.direction(camera.forward));
+  set(f.right, axes.direction(camera.right));
+  set(f.up, axes.direction(camera.up));
+  set(f.mm, 1.0F / axes.per_mm);
+  f.pixel_height = 2 * camera.tan_half_height / static_cast<float>(image.height);
+  f.pixel_width = static_cast<float>(static_cast<double>(2 * camera.tan_half_height) *
+                                     settings.aspect / image.width);
+  f.near_mm = camera.near_mm;
+  f.step_mm = settings.step_mm;
+
+  set(f.gradient_cells, gradient_mm(g) * axes.per_mm);
+  const float reach = glm::dot(glm::abs(camera.forward), half);
+  f.cue_near_mm = std::max(camera.depth_of(glm::vec3{0}) - reach, camera.near_mm);
+  f.cue_per_mm = 1 / (camera.depth_of(glm::vec3{0}) + reach - f.cue_near_mm);
+
+  f.width = image.width;
+  f.height = image.height;
+  f.rgba = image.rgba.data();
+  f.depth_mm = image.depth_mm.data();
+  return f;
+}
+
+hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings, RayImage& image) {
+  // Positions have 16 bits after the point: more samples than these would drift.
+  constexpr float most_samples = 16384;
+  const float diagonal = cells_ ? glm::length(box_extents_mm(geometry())) : 0;
+  if (!cells_ || image.width < 1 || image.height < 1 ||
+      !(settings.step_mm * most_samples >= diagonal) || !(settings.step_mm <= diagonal) ||
+      !(settings.aspect > 0))
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("ray caster: found an image of {}x{} with an aspect of {} and a "
+                                 "step of {} mm, expected pixels and a step of {} to {} mm",
+                                 image.width, image.height, settings.aspect, settings.step_mm,
+                                 diagonal / most_samples, diagonal));
+  prepare(settings.step_mm / reference_step_mm(box_extents_mm(geometry()) / 2.0F),
+          !settings.leap_empty                ? Visibility::everything
+          : settings.mode == RayMode::maximum ? Visibility::maximum
+                                              : Visibility::range);
+
+  const auto look = static_cast<std::size_t>(steps_table_->ramp   ? Look::ramp
+                                             : steps_table_->grey ? Look::grey
+                                                                  : Look::coloured);
+  const RayKernels::Draw kernel = settings.mode == RayMode::maximum  ? kernels_->maximum
+                                  : settings.mode == RayMode::shaded ? kernels_->shaded[look]
+                                                                     : kernels_->composite[look];
+  const RayFrame rays = frame(camera, settings, image);
+  const int across = (image.width + tile_size - 1) / tile_size;
+  const int down = (image.height + tile_size - 1) / tile_size;
+  team_->run(static_cast<std::uint32_t>(across * down), [&](std::uint32_t tile) {
+    const int index = static_cast<int>(tile);
+    kernel(rays, {index % across * tile_size, index / across * tile_size});
+  });
+  return {};
+}
+
+} // namespace octascope::ui

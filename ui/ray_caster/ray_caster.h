@@ -1,0 +1,94 @@
+// Volume pictures on the processor: rays through the volume, front to back.
+//
+// Source of the technique: M. Levoy, "Efficient ray tracing of volume data", ACM Transactions on
+// Graphics 9 (1990): early termination, and leaping over what is empty. Colour, opacity, blank
+// depths and dither are those of plane_stack.frag, so that both draw the same settings.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "hal/result.h"
+#include "pipeline/occupancy.h"
+#include "pipeline/volume.h"
+#include "ui/camera.h"
+#include "ui/ray_caster/brick_grid.h"
+#include "ui/ray_caster/cell_volume.h"
+#include "ui/ray_caster/ray_kernels.h"
+#include "ui/ray_caster/transfer_table.h"
+#include "ui/ray_caster/work_team.h"
+
+namespace octascope::ui {
+
+enum class RayMode : std::uint8_t {
+  composite, // colour and opacity, front to back
+  shaded,    // the same, with light from the eye on slopes of the level, darker with distance
+  maximum    // the highest level along each ray, as opaque as it is bright
+};
+
+// Rows from the top.
+struct RayImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint32_t> rgba; // premultiplied; red in the lowest 8 bits
+  std::vector<float> depth_mm;     // distance along the view to where half is hidden, or no_depth
+
+  void resize(int new_width, int new_height); // allocates only to grow
+};
+
+struct RaySettings {
+  RayMode mode = RayMode::composite;
+  float step_mm = 0;      // along each ray
+  double aspect = 1;      // width / height of the rectangle that the image fills
+  bool leap_empty = true; // false changes no picture, only the time that it takes
+};
+
+// Threads: bound to one, but for its own helpers. draw() allocates nothing but the image.
+class RayCaster {
+public:
+  // `helpers` threads beside the caller's. `isa` names an instruction set, else the widest is
+  // taken. Fault::unsupported: this processor has none that is compiled in.
+  static hal::Result<RayCaster> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
+                                       std::string_view isa = {});
+
+  // Copies the volume. Fault::unsupported: too large for 32-bit offsets. The last one then stays.
+  hal::Result<> show(const pipeline::Volume& volume);
+
+  // Shows in the next draw(). Compares, and forgets nothing when both are the same.
+  void set_transfer(const TransferTable& transfer);
+
+  // The camera is that of ui/camera.h for the volume's extents. Fault::invalid_argument: there is
+  // no volume, the image has no pixels, or the step is not a positive share of the box.
+  hal::Result<> draw(const Camera& camera, const RaySettings& settings, RayImage& image);
+
+  bool empty() const { return !cells_; }
+  const pipeline::VolumeGeometry& geometry() const { return cells_->geometry(); }
+  std::string_view isa() const { return kernels_->isa; }
+  double occupied_share() const { return bricks_.occupied_share(); }
+
+private:
+  RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team);
+  void prepare(float steps, Visibility visibility);
+  RayFrame frame(const Camera& camera, const RaySettings& settings, RayImage& image) const;
+
+  const RayKernels* kernels_;
+  std::unique_ptr<WorkTeam> team_;
+  std::optional<CellVolume> cells_;
+  pipeline::Occupancy occupancy_;
+  std::unique_ptr<TransferTable> transfer_;
+  std::unique_ptr<StepTable> steps_table_;
+  BrickGrid bricks_;
+  // What table and bricks were made for.
+  float steps_ = 0;
+  Visibility visibility_ = Visibility::range;
+  bool table_current_ = false;
+  bool bricks_current_ = false;
+};
+
+// The distance, along each axis, over which shading takes the gradient: one and a half mean
+// spacings, so that the same slope is lit the same from everywhere.
+float gradient_mm(const pipeline::VolumeGeometry& geometry);
+
+} // namespace octascope::ui

@@ -1,0 +1,70 @@
+// What the ray-casting kernels are told about one picture.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace octascope::ui {
+
+// Depth of pixels whose rays meet less than half an opacity.
+inline constexpr float no_depth = std::numeric_limits<float>::infinity();
+
+// Below this transparency a ray ends, and what it would have met counts as of the same colour as
+// what it has: a picture errs by at most a 128th of the difference between the two.
+inline constexpr float opaque_transparency = 1.0F / 128;
+
+// Gradient lighting by a lamp at the eye. Where the gradient is weak there is no surface, and the
+// light does not depend on its direction.
+inline constexpr float ambient_light = 0.35F;
+inline constexpr float weak_gradient_counts = 8; // over the distance of gradient_mm()
+inline constexpr float depth_cue = 0.4F;         // what the far end of the box loses
+
+// Of the polynomial that gives opacity from grey.
+inline constexpr int ramp_terms = 6;
+
+// Axes in the order depth, fast, slow; lengths along them in cells (pipeline/occupancy.h), so
+// depth bin 0 has its middle at 0, A-scan 0 and B-scan 0 have theirs at 1. Pointers are borrowed.
+struct RayFrame {
+  // The volume.
+  const std::uint8_t* cells;
+  std::int32_t column_bytes;
+  std::int32_t row_bytes;
+  const std::uint16_t* bricks;
+  std::int32_t brick_row;  // bricks from one to the next along the fast axis
+  std::int32_t brick_slab; // … along the slow axis
+  float lower[3];          // the box that is shown
+  float upper[3];
+
+  // The transfer function.
+  const std::uint32_t* opacity_and_red;
+  const std::uint32_t* green_and_blue;
+  // The same for a display window: grey = clamp(scale · level + offset), level as 1/2^22, and the
+  // opacity of one step as grey · (polynomial in grey), lowest power first.
+  float ramp_scale;
+  float ramp_offset;
+  float ramp_opacity[ramp_terms];
+
+  // The eye.
+  float eye[3];
+  float forward[3]; // cells per mm
+  float right[3];
+  float up[3];
+  float mm[3];       // of one cell
+  float pixel_width; // at distance 1
+  float pixel_height;
+  float near_mm;
+  float step_mm;
+
+  // Shading.
+  float gradient_cells[3];
+  float cue_near_mm;
+  float cue_per_mm;
+
+  // The picture, rows from the top.
+  int width;
+  int height;
+  std::uint32_t* rgba; // premultiplied, red in the lowest 8 bits
+  float* depth_mm;     // along the view; no_depth where there is nothing
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,382 @@
+// Packets of rays, front to back. For one instruction set; see ray_kernels.h.
+#if defined(OCTASCOPE_RAY_KERNELS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTASCOPE_RAY_KERNELS_INL
+#undef OCTASCOPE_RAY_KERNELS_INL
+#else
+#define OCTASCOPE_RAY_KERNELS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "ui/ray_caster/ray_kernels.h"
+
+#if HWY_TARGET == HWY_SCALAR // no permutations of bytes: GL draws on such processors
+
+HWY_BEFORE_NAMESPACE();
+namespace octascope::ui::HWY_NAMESPACE {
+
+const RayKernels* kernels() {
+  return nullptr;
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+} // namespace octascope::ui::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#else
+
+#include <algorithm>
+
+#include "ui/ray_caster/ray_packet_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace octascope::ui::HWY_NAMESPACE {
+
+inline constexpr int square_size = 16; // pixels whose packets take turns
+static_assert(tile_size % square_size == 0 && square_size % packet_height == 0);
+inline constexpr int samples_per_check = 4; // between two looks at the bricks
+
+// What the lanes of a packet have become.
+struct Light {
+  Real red, green, blue; // premultiplied, 0…65535
+  Real transparency;
+  Int half_opaque; // the sample that made it so
+
+  HWY_INLINE static Light none() {
+    return {hn::Zero(Floats{}), hn::Zero(Floats{}), hn::Zero(Floats{}), real(1), hn::Zero(Ints{})};
+  }
+};
+
+HWY_INLINE Real lower_16_bits(Int v) {
+  return hn::ConvertTo(Floats{}, hn::And(v, whole(0xFFFF)));
+}
+HWY_INLINE Real upper_16_bits(Int v) {
+  using Unsigned = hn::RebindToUnsigned<Ints>;
+  return hn::ConvertTo(Floats{},
+                       hn::BitCast(Ints{}, hn::ShiftRight<16>(hn::BitCast(Unsigned{}, v))));
+}
+
+// By how much light from the eye is weakened by the slope of the surface, if there is one. The
+// gradient comes from four samples at the corners of a tetrahedron.
+HWY_INLINE Real shade(const RayFrame& frame, const Rays& rays, const Position& p, IntMask valid) {
+  const auto bound = [&](int axis, Int p) {
+    const auto fixed = [](float cells) { return static_cast<std::int32_t>(cells * one_cell); };
+    return hn::Min(hn::Max(p, whole(fixed(frame.lower[axis]))),
+                   whole(fixed(frame.upper[axis]) - 1));
+  };
+  const auto distance = [&](int axis) {
+    return whole(static_cast<std::int32_t>(frame.gradient_cells[axis] * one_cell));
+  };
+  const Position more{bound(0, hn::Add(p.z, distance(0))), bound(1, hn::Add(p.a, distance(1))),
+                      bound(2, hn::Add(p.b, distance(2)))};
+  const Position less{bound(0, hn::Sub(p.z, distance(0))), bound(1, hn::Sub(p.a, distance(1))),
+                      bound(2, hn::Sub(p.b, distance(2)))};
+  const auto level = [&](Int z, Int a, Int b) {
+    return hn::ConvertTo(Floats{}, interpolate(fetch_cell(frame, {z, a, b}, valid)));
+  };
+  const Real v0 = level(more.z, less.a, less.b);
+  const Real v1 = level(less.z, more.a, less.b);
+  const Real v2 = level(less.z, less.a, more.b);
+  const Real v3 = level(more.z, more.a, more.b);
+  const RealVector g{hn::Sub(hn::Add(v0, v3), hn::Add(v1, v2)),
+                     hn::Sub(hn::Add(v1, v3), hn::Add(v0, v2)),
+                     hn::Sub(hn::Add(v2, v3), hn::Add(v0, v1))};
+  const Real squared = hn::MulAdd(g.z, g.z, hn::MulAdd(g.a, g.a, hn::Mul(g.b, g.b)));
+  const Real along = hn::Abs(hn::MulAdd(
+      g.z, rays.direction.z, hn::MulAdd(g.a, rays.direction.a, hn::Mul(g.b, rays.direction.b))));
+  constexpr float weak = 4 * weak_gradient_counts * static_cast<float>(1 << level_shift);
+  const Real strength = hn::Div(squared, hn::Add(squared, real(weak * weak)));
+  const Real facing = hn::Div(along, hn::Sqrt(hn::Max(squared, real(1))));
+  const Real lit = hn::MulAdd(facing, real(1 - ambient_light), real(ambient_light));
+  return hn::MulAdd(strength, hn::Sub(lit, real(1)), real(1));
+}
+
+HWY_INLINE Real fade_with_depth(const RayFrame& frame, const Rays& rays, Int sample) {
+  const Real depth = rays.depth_mm(frame, sample);
+  const Real share = hn::Mul(hn::Sub(depth, real(frame.cue_near_mm)), real(frame.cue_per_mm));
+  return hn::NegMulAdd(hn::Min(hn::Max(share, real(0)), real(1)), real(depth_cue), real(1));
+}
+
+// What one sample is: opacity 0…1, colours 0…65535.
+struct Substance {
+  Real opacity, red, green, blue;
+};
+
+template <Look How> HWY_INLINE Substance classify(const RayFrame& frame, Int level, IntMask valid) {
+  if constexpr (How == Look::ramp) {
+    constexpr float per_level = 1.0F / (1 << level_shift);
+    constexpr float rounded_up = 1.0F / (2 * TransferTable::entries_per_level);
+    const Real ramp = hn::MulAdd(hn::ConvertTo(Floats{}, level), real(frame.ramp_scale * per_level),
+                                 real(frame.ramp_offset - rounded_up * frame.ramp_scale));
+    const Real inside = hn::Min(hn::Max(ramp, real(0)), real(1));
+    const Real grey = hn::IfThenElseZero(hn::RebindMask(Floats{}, valid), inside);
+    // In pairs: half as many operations wait for each other.
+    const auto pair = [&](int power) {
+      return hn::MulAdd(grey, real(frame.ramp_opacity[power + 1]), real(frame.ramp_opacity[power]));
+    };
+    const Real square = hn::Mul(grey, grey);
+    const Real sum = hn::MulAdd(hn::MulAdd(pair(4), square, pair(2)), square, pair(0));
+    return {hn::Mul(sum, grey), hn::Mul(grey, real(65535)), real(0), real(0)};
+  } else {
+    const Int entry = hn::IfThenElseZero(valid, table_entry(frame.opacity_and_red, level));
+    Substance substance{hn::Mul(upper_16_bits(entry), real(1.0F / 65535)), lower_16_bits(entry),
+                        real(0), real(0)};
+    if constexpr (How == Look::coloured) {
+      const Int others = table_entry(frame.green_and_blue, level);
+      substance.green = upper_16_bits(others);
+      substance.blue = lower_16_bits(others);
+    }
+    return substance;
+  }
+}
+
+// A sample whose loads are under way.
+struct Sample {
+  Position position;
+  Int number;
+  IntMask valid;
+  Cell cell;
+};
+
+HWY_INLINE Sample begin_sample(const RayFrame& frame, const Rays& rays, const Position& position,
+                               Int number) {
+  const IntMask valid = hn::Lt(number, rays.end);
+  return {position, number, valid, fetch_cell(frame, position, valid)};
+}
+
+template <bool Shaded, Look How>
+HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, const Sample& sample,
+                           Light& light) {
+  const Substance here = classify<How>(frame, interpolate(sample.cell), sample.valid);
+  light.half_opaque = hn::IfThenElse(hn::RebindMask(Ints{}, hn::Ge(light.transparency, real(0.5F))),
+                                     sample.number, light.half_opaque);
+  Real weight = hn::Mul(light.transparency, here.opacity);
+  light.transparency = hn::Sub(light.transparency, weight);
+  if constexpr (Shaded) {
+    const RealMask seen = hn::Gt(weight, real(0));
+    if (hn::AllFalse(Floats{}, seen))
+      return;
+    const Real lit = hn::Mul(shade(frame, rays, sample.position, hn::RebindMask(Ints{}, seen)),
+                             fade_with_depth(frame, rays, sample.number));
+    weight = hn::Mul(weight, lit);
+  }
+  light.red = hn::MulAdd(weight, here.red, light.red);
+  if constexpr (How == Look::coloured) {
+    light.green = hn::MulAdd(weight, here.green, light.green);
+    light.blue = hn::MulAdd(weight, here.blue, light.blue);
+  }
+}
+
+// Moves all active lanes on until each is in a brick that is not empty, or at its end.
+HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
+  while (true) {
+    const IntMask active = rays.active();
+    const Int distance = hn::And(brick_at(frame, rays.position, active), whole(0xFF));
+    const IntMask empty = hn::And(active, hn::Gt(distance, hn::Zero(Ints{})));
+    if (hn::AllFalse(Ints{}, empty))
+      return;
+    const Int samples = samples_to_leap(rays.axes, rays.position, hn::Sub(distance, whole(1)));
+    rays.leap(hn::IfThenElseZero(empty, samples));
+  }
+}
+
+// Some samples farther; false when all rays have ended.
+template <bool Shaded, Look How>
+HWY_INLINE bool advance(const RayFrame& frame, Rays& rays, Light& light) {
+  leap_empty_bricks(frame, rays);
+  if (hn::AllFalse(Ints{}, rays.active()))
+    return false;
+  // The loads of a sample are under way while the one before it is worked on: the processor does
+  // not see far enough ahead to begin them by itself.
+  Light result = light;
+  Sample sample = begin_sample(frame, rays, rays.position, rays.next);
+  for (int i = 1; i < samples_per_check; ++i) {
+    const Position ahead{hn::Add(sample.position.z, rays.axes.z.step),
+                         hn::Add(sample.position.a, rays.axes.a.step),
+                         hn::Add(sample.position.b, rays.axes.b.step)};
+    const Sample next = begin_sample(frame, rays, ahead, hn::Add(sample.number, whole(1)));
+    add_sample<Shaded, How>(frame, rays, sample, result);
+    sample = next;
+  }
+  add_sample<Shaded, How>(frame, rays, sample, result);
+  rays.position = sample.position;
+  rays.next = sample.number;
+  rays.step();
+  const RealMask opaque = hn::Lt(result.transparency, real(opaque_transparency));
+  rays.end = hn::IfThenZeroElse(hn::RebindMask(Ints{}, opaque), rays.end);
+  light = result;
+  return true;
+}
+
+template <Look How> HWY_INLINE void complete(Light& light) {
+  const RealMask opaque = hn::Lt(light.transparency, real(opaque_transparency));
+  const Real share = hn::IfThenElse(opaque, hn::Sub(real(1), light.transparency), real(1));
+  light.transparency = hn::IfThenZeroElse(opaque, light.transparency);
+  light.red = hn::Div(light.red, share);
+  light.green = How == Look::coloured ? hn::Div(light.green, share) : light.red;
+  light.blue = How == Look::coloured ? hn::Div(light.blue, share) : light.red;
+}
+
+// Moves active lanes on until each is in a brick with a level above `highest`.
+HWY_INLINE void leap_lower_bricks(const RayFrame& frame, Rays& rays, Int highest) {
+  const Int highest_level = hn::ShiftRight<level_shift>(highest);
+  while (true) {
+    const IntMask active = rays.active();
+    const Int brick = brick_at(frame, rays.position, active);
+    const Int distance = hn::And(brick, whole(0xFF));
+    const Int level = hn::And(hn::ShiftRight<8>(brick), whole(0xFF));
+    const IntMask lower = hn::And(
+        active, hn::Or(hn::Gt(distance, hn::Zero(Ints{})), hn::Not(hn::Gt(level, highest_level))));
+    if (hn::AllFalse(Ints{}, lower))
+      return;
+    const Int more = hn::Max(hn::Sub(distance, whole(1)), hn::Zero(Ints{}));
+    rays.leap(hn::IfThenElseZero(lower, samples_to_leap(rays.axes, rays.position, more)));
+  }
+}
+
+// The highest level along each ray and where it was.
+struct Highest {
+  Int level;
+  Int sample;
+};
+
+HWY_INLINE Highest find_highest(const RayFrame& frame, Rays& rays) {
+  Highest highest{hn::Zero(Ints{}), hn::Zero(Ints{})};
+  while (true) {
+    leap_lower_bricks(frame, rays, highest.level);
+    if (hn::AllFalse(Ints{}, rays.active()))
+      return highest;
+    for (int i = 0; i < samples_per_check; ++i) {
+      const IntMask valid = rays.active();
+      const Int level =
+          hn::IfThenElseZero(valid, interpolate(fetch_cell(frame, rays.position, valid)));
+      highest.sample = hn::IfThenElse(hn::Gt(level, highest.level), rays.next, highest.sample);
+      highest.level = hn::Max(level, highest.level);
+      rays.step();
+    }
+  }
+}
+
+HWY_INLINE Int to_rgba(const Light& light, Real opacity) {
+  const auto to_8_bits = [](Real v, float scale) {
+    return hn::NearestInt(hn::Min(hn::Mul(v, real(scale)), real(255)));
+  };
+  constexpr float from_16_bits = 255.0F / 65535;
+  return hn::Or(hn::Or(to_8_bits(light.red, from_16_bits),
+                       hn::ShiftLeft<8>(to_8_bits(light.green, from_16_bits))),
+                hn::Or(hn::ShiftLeft<16>(to_8_bits(light.blue, from_16_bits)),
+                       hn::ShiftLeft<24>(to_8_bits(opacity, 255))));
+}
+
+// Clipped to the picture; x and y are its first pixel.
+HWY_INLINE void store(const RayFrame& frame, int x, int y, Int rgba, Real depth_mm) {
+  alignas(64) std::int32_t colours[lanes];
+  alignas(64) float depths[lanes];
+  hn::Store(rgba, Ints{}, colours);
+  hn::Store(depth_mm, Floats{}, depths);
+  const int columns = std::min(packet_width, frame.width - x);
+  const int rows = std::min(packet_height, frame.height - y);
+  for (int row = 0; row < rows; ++row) {
+    const std::size_t at =
+        static_cast<std::size_t>(y + row) * static_cast<std::size_t>(frame.width) +
+        static_cast<std::size_t>(x);
+    for (int column = 0; column < columns; ++column) {
+      const std::size_t to = at + static_cast<std::size_t>(column);
+      frame.rgba[to] = static_cast<std::uint32_t>(colours[row * packet_width + column]);
+      frame.depth_mm[to] = depths[row * packet_width + column];
+    }
+  }
+}
+
+template <class DrawPacket>
+HWY_INLINE void for_each_packet(const RayFrame& frame, Tile tile, DrawPacket draw_packet) {
+  const int right = std::min(tile.x + tile_size, frame.width);
+  const int bottom = std::min(tile.y + tile_size, frame.height);
+  for (int y = tile.y; y < bottom; y += packet_height)
+    for (int x = tile.x; x < right; x += packet_width) {
+      Rays rays = make_rays(frame, x, y);
+      if (hn::AllFalse(Ints{}, rays.active()))
+        store(frame, x, y, hn::Zero(Ints{}), real(no_depth));
+      else
+        draw_packet(x, y, rays);
+    }
+}
+
+// Packets of a square take turns: what one has brought into the first-level cache, its neighbours
+// use while it is there.
+template <bool Shaded, Look How> void draw_square(const RayFrame& frame, int left, int top) {
+  constexpr int across = square_size / packet_width;
+  constexpr int packets = across * (square_size / packet_height);
+  Rays rays[packets];
+  Light light[packets];
+  int live[packets];
+  int lives = 0;
+  for (int i = 0; i < packets; ++i) {
+    rays[i] = make_rays(frame, left + i % across * packet_width, top + i / across * packet_height);
+    light[i] = Light::none();
+    live[lives++] = i;
+  }
+  while (lives > 0) {
+    int kept = 0;
+    for (int i = 0; i < lives; ++i)
+      if (advance<Shaded, How>(frame, rays[live[i]], light[live[i]]))
+        live[kept++] = live[i];
+    lives = kept;
+  }
+  for (int i = 0; i < packets; ++i) {
+    const int x = left + i % across * packet_width;
+    const int y = top + i / across * packet_height;
+    if (x >= frame.width || y >= frame.height)
+      continue;
+    const Real depth = hn::IfThenElse(hn::Ge(light[i].transparency, real(0.5F)), real(no_depth),
+                                      rays[i].depth_mm(frame, light[i].half_opaque));
+    complete<How>(light[i]);
+    store(frame, x, y, to_rgba(light[i], hn::Sub(real(1), light[i].transparency)), depth);
+  }
+}
+
+template <bool Shaded, Look How> void draw_composite(const RayFrame& frame, Tile tile) {
+  const int right = std::min(tile.x + tile_size, frame.width);
+  const int bottom = std::min(tile.y + tile_size, frame.height);
+  for (int y = tile.y; y < bottom; y += square_size)
+    for (int x = tile.x; x < right; x += square_size)
+      draw_square<Shaded, How>(frame, x, y);
+}
+
+// As opaque as it is bright.
+void draw_maximum(const RayFrame& frame, Tile tile) {
+  for_each_packet(frame, tile, [&](int x, int y, Rays& rays) HWY_ATTR {
+    const Highest highest = find_highest(frame, rays);
+    const Int entry = table_entry(frame.opacity_and_red, highest.level);
+    const Int others = table_entry(frame.green_and_blue, highest.level);
+    const RealMask seen = hn::Gt(upper_16_bits(entry), real(0));
+    Light light = Light::none();
+    light.red = hn::IfThenElseZero(seen, lower_16_bits(entry));
+    light.green = hn::IfThenElseZero(seen, upper_16_bits(others));
+    light.blue = hn::IfThenElseZero(seen, lower_16_bits(others));
+    const Real opacity =
+        hn::Mul(hn::Max(light.red, hn::Max(light.green, light.blue)), real(1.0F / 65535));
+    const Real depth = hn::IfThenElse(seen, rays.depth_mm(frame, highest.sample), real(no_depth));
+    store(frame, x, y, to_rgba(light, opacity), depth);
+  });
+}
+
+const RayKernels* kernels() {
+#define OCTASCOPE_LOOKS(shaded)                                                                    \
+  {                                                                                                \
+    &draw_composite<shaded, Look::grey>, &draw_composite<shaded, Look::coloured>,                  \
+        &draw_composite<shaded, Look::ramp>                                                        \
+  }
+  static const RayKernels table{hwy::TargetName(HWY_TARGET), OCTASCOPE_LOOKS(false),
+                                OCTASCOPE_LOOKS(true), &draw_maximum};
+#undef OCTASCOPE_LOOKS
+  return &table;
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+} // namespace octascope::ui::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif // HWY_SCALAR
+
+#endif

@@ -1,0 +1,126 @@
+// A packet of rays: a square or oblong of neighbouring pixels in the lanes of a register. For one
+// instruction set; see ray_kernels.h.
+#if defined(OCTASCOPE_RAY_PACKET_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTASCOPE_RAY_PACKET_INL
+#undef OCTASCOPE_RAY_PACKET_INL
+#else
+#define OCTASCOPE_RAY_PACKET_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "ui/ray_caster/ray_sampling_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace octascope::ui::HWY_NAMESPACE {
+
+inline constexpr int packet_width = lanes >= 8 ? 4 : 2;
+inline constexpr int packet_height = lanes / packet_width;
+
+// The samples of each lane's ray are numbered from 0 at t = first_mm.
+struct Rays {
+  Position position; // of the sample `next`
+  BrickAxes axes;
+  RealVector direction; // mm per mm
+  Real first_mm;
+  Real cosine; // between ray and view
+  Int next;
+  Int end; // behind the last sample
+
+  HWY_INLINE IntMask active() const { return hn::Lt(next, end); }
+  HWY_INLINE void step() {
+    position.z = hn::Add(position.z, axes.z.step);
+    position.a = hn::Add(position.a, axes.a.step);
+    position.b = hn::Add(position.b, axes.b.step);
+    next = hn::Add(next, whole(1));
+  }
+  HWY_INLINE void leap(Int samples) {
+    position.z = hn::Add(position.z, hn::Mul(axes.z.step, samples));
+    position.a = hn::Add(position.a, hn::Mul(axes.a.step, samples));
+    position.b = hn::Add(position.b, hn::Mul(axes.b.step, samples));
+    next = hn::Add(next, samples);
+  }
+  HWY_INLINE Real depth_mm(const RayFrame& frame, Int sample) const {
+    const Real t = hn::MulAdd(hn::ConvertTo(Floats{}, sample), real(frame.step_mm), first_mm);
+    return hn::Mul(t, cosine);
+  }
+};
+
+struct Interval {
+  Real from, to;
+};
+
+HWY_INLINE void clip(Interval& interval, float lower, float upper, float eye, Real direction) {
+  const Real safe =
+      hn::IfThenElse(hn::Lt(hn::Abs(direction), real(1e-12F)), real(1e-12F), direction);
+  const Real at_lower = hn::Div(real(lower - eye), safe);
+  const Real at_upper = hn::Div(real(upper - eye), safe);
+  interval.from = hn::Max(interval.from, hn::Min(at_lower, at_upper));
+  interval.to = hn::Min(interval.to, hn::Max(at_lower, at_upper));
+}
+
+// 0…1, evenly spread over any small neighbourhood: plane_stack.frag has the source.
+HWY_INLINE Real dither(Real x, Real y_from_bottom) {
+  const auto fraction = [](Real v) { return hn::Sub(v, hn::Floor(v)); };
+  const Real sum = hn::MulAdd(x, real(0.06711056F), hn::Mul(y_from_bottom, real(0.00583715F)));
+  return fraction(hn::Mul(fraction(sum), real(52.9829189F)));
+}
+
+HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
+  alignas(64) static constexpr std::int32_t column[16] = {0, 1, 2, 3, 0, 1, 2, 3,
+                                                          0, 1, 2, 3, 0, 1, 2, 3};
+  alignas(64) static constexpr std::int32_t row[16] = {0, 0, 0, 0, 1, 1, 1, 1,
+                                                       2, 2, 2, 2, 3, 3, 3, 3};
+  alignas(64) static constexpr std::int32_t small_column[4] = {0, 1, 0, 1};
+  alignas(64) static constexpr std::int32_t small_row[4] = {0, 0, 1, 1};
+  const Int dx = hn::Load(Ints{}, lanes >= 8 ? column : small_column);
+  const Int dy = hn::Load(Ints{}, lanes >= 8 ? row : small_row);
+  const Real px = hn::Add(hn::ConvertTo(Floats{}, hn::Add(whole(x), dx)), real(0.5F));
+  const Real py = hn::Add(hn::ConvertTo(Floats{}, hn::Add(whole(y), dy)), real(0.5F));
+  const auto half = [](int length) { return 0.5F * static_cast<float>(length); };
+  const Real right = hn::Mul(hn::Sub(px, real(half(frame.width))), real(frame.pixel_width));
+  const Real up = hn::Mul(hn::Sub(real(half(frame.height)), py), real(frame.pixel_height));
+
+  Rays rays;
+  const Real length = hn::Sqrt(hn::MulAdd(right, right, hn::MulAdd(up, up, real(1))));
+  rays.cosine = hn::Div(real(1), length);
+  const auto cells_per_mm = [&](int axis) {
+    const Real sum = hn::MulAdd(right, real(frame.right[axis]),
+                                hn::MulAdd(up, real(frame.up[axis]), real(frame.forward[axis])));
+    return hn::Mul(sum, rays.cosine);
+  };
+  const RealVector d{cells_per_mm(0), cells_per_mm(1), cells_per_mm(2)};
+  rays.direction = {hn::Mul(d.z, real(frame.mm[0])), hn::Mul(d.a, real(frame.mm[1])),
+                    hn::Mul(d.b, real(frame.mm[2]))};
+
+  Interval inside{hn::Mul(real(frame.near_mm), length), real(1e9F)};
+  clip(inside, frame.lower[0], frame.upper[0], frame.eye[0], d.z);
+  clip(inside, frame.lower[1], frame.upper[1], frame.eye[1], d.a);
+  clip(inside, frame.lower[2], frame.upper[2], frame.eye[2], d.b);
+
+  // Samples of all rays lie on the same shells around the eye, moved by each pixel's dither.
+  const Real shift = dither(px, hn::Sub(real(static_cast<float>(frame.height)), py));
+  const Real step = real(frame.step_mm);
+  const Real per_step = real(1 / frame.step_mm);
+  const Real shell = hn::Ceil(hn::Sub(hn::Mul(inside.from, per_step), shift));
+  rays.first_mm = hn::Mul(hn::Add(shell, shift), step);
+  const Real count = hn::Ceil(hn::Mul(hn::Sub(inside.to, rays.first_mm), per_step));
+  rays.end = hn::ConvertTo(Ints{}, hn::Min(hn::Max(count, real(0)), real(1 << 20)));
+  rays.next = hn::Zero(Ints{});
+
+  const auto fixed = [](Real v) { return hn::NearestInt(hn::Mul(v, real(one_cell))); };
+  const auto start = [&](int axis, Real direction) {
+    return fixed(hn::MulAdd(direction, rays.first_mm, real(frame.eye[axis])));
+  };
+  rays.position = {start(0, d.z), start(1, d.a), start(2, d.b)};
+  rays.axes = {make_brick_axis(fixed(hn::Mul(d.z, step))),
+               make_brick_axis(fixed(hn::Mul(d.a, step))),
+               make_brick_axis(fixed(hn::Mul(d.b, step)))};
+  return rays;
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+} // namespace octascope::ui::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

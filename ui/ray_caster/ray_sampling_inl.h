@@ -1,0 +1,190 @@
+// Levels between voxels, and the way through empty bricks. For one instruction set; see
+// ray_kernels.h.
+//
+// Positions are cells with 16 bits after the point. A gather brings the four corners of a cell in
+// one B-scan; interpolation is in integers of 16 bits: 8-bit weights along the slow axis, 16-bit
+// ones along the fast one, 15-bit ones along depth. Errors stay below a thirtieth of a level along
+// the last two and below half a 256th of the difference of two B-scans along the first.
+#if defined(OCTASCOPE_RAY_SAMPLING_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTASCOPE_RAY_SAMPLING_INL
+#undef OCTASCOPE_RAY_SAMPLING_INL
+#else
+#define OCTASCOPE_RAY_SAMPLING_INL
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+#include "pipeline/occupancy.h"
+#include "ui/ray_caster/ray_frame.h"
+#include "ui/ray_caster/transfer_table.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace octascope::ui::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Floats = hn::ScalableTag<float>;
+using Ints = hn::RebindToSigned<Floats>;
+using Words = hn::Repartition<std::int16_t, Ints>;
+using UnsignedWords = hn::Repartition<std::uint16_t, Ints>;
+using Bytes = hn::Repartition<std::uint8_t, Ints>;
+using Real = hn::Vec<Floats>;
+using Int = hn::Vec<Ints>;
+using RealMask = hn::Mask<Floats>;
+using IntMask = hn::Mask<Ints>;
+
+inline constexpr int lanes = static_cast<int>(HWY_LANES(float));
+inline constexpr int one_cell = 1 << 16;
+inline constexpr int level_shift = 22; // of what interpolate() returns
+inline constexpr int entry_shift = level_shift - 4;
+static_assert(TransferTable::entries_per_level == 1 << (level_shift - entry_shift));
+
+HWY_INLINE Real real(float value) {
+  return hn::Set(Floats{}, value);
+}
+HWY_INLINE Int whole(std::int32_t value) {
+  return hn::Set(Ints{}, value);
+}
+
+// A value along depth, fast and slow axis, lane by lane.
+struct RealVector {
+  Real z, a, b;
+};
+struct Position {
+  Int z, a, b;
+};
+
+// Four bytes at base + offset.
+HWY_INLINE Int gather(const void* base, Int byte_offset) {
+  return hn::GatherOffset(Ints{}, static_cast<const std::int32_t*>(base), byte_offset);
+}
+
+// Two products of neighbouring words, added.
+HWY_INLINE Int dot_pairs(hn::Vec<Words> a, hn::Vec<Words> b, Int start) {
+#if HWY_ARCH_X86
+  Int unused = hn::Zero(Ints{});
+  return hn::ReorderWidenMulAccumulate(Ints{}, a, b, start, unused);
+#else // elsewhere that adds up other pairs
+  const Int a_both = hn::BitCast(Ints{}, a);
+  const Int b_both = hn::BitCast(Ints{}, b);
+  const auto low = [](Int v) { return hn::ShiftRight<16>(hn::ShiftLeft<16>(v)); };
+  const auto high = [](Int v) { return hn::ShiftRight<16>(v); };
+  return hn::Add(hn::Add(start, hn::Mul(low(a_both), low(b_both))),
+                 hn::Mul(high(a_both), high(b_both)));
+#endif
+}
+
+// The fraction's upper byte, or both bytes, in each half of the lane.
+HWY_INLINE hn::Vec<UnsignedWords> upper_byte_twice(Int fixed) {
+  alignas(16) static constexpr std::uint8_t order[16] = {1, 0x80, 1, 0x80, 5,  0x80, 5,  0x80,
+                                                         9, 0x80, 9, 0x80, 13, 0x80, 13, 0x80};
+  return hn::BitCast(UnsignedWords{}, hn::TableLookupBytesOr0(hn::BitCast(Bytes{}, fixed),
+                                                              hn::LoadDup128(Bytes{}, order)));
+}
+HWY_INLINE hn::Vec<UnsignedWords> fraction_twice(Int fixed) {
+  alignas(16) static constexpr std::uint8_t order[16] = {0, 1, 0, 1, 4,  5,  4,  5,
+                                                         8, 9, 8, 9, 12, 13, 12, 13};
+  return hn::BitCast(UnsignedWords{}, hn::TableLookupBytes(hn::BitCast(Bytes{}, fixed),
+                                                           hn::LoadDup128(Bytes{}, order)));
+}
+
+// The eight corners of each lane's cell, and where in it the sample lies.
+struct Cell {
+  Int near, far; // one B-scan and the next: [depth][fast]
+  hn::Vec<UnsignedWords> to_far, to_second, below;
+};
+
+// Lanes that are not `valid` read the first cell.
+HWY_INLINE Cell fetch_cell(const RayFrame& frame, const Position& p, IntMask valid) {
+  const Int offset = hn::Add(hn::Add(hn::Mul(hn::ShiftRight<16>(p.b), whole(frame.row_bytes)),
+                                     hn::Mul(hn::ShiftRight<16>(p.a), whole(frame.column_bytes))),
+                             hn::And(hn::ShiftRight<15>(p.z), whole(-2)));
+  const Int at = hn::IfThenElseZero(valid, offset);
+  return {gather(frame.cells, at), gather(frame.cells + frame.row_bytes, at), upper_byte_twice(p.b),
+          fraction_twice(p.a), hn::ShiftRight<1>(fraction_twice(p.z))};
+}
+
+// The interpolated level times 2^22, rounded half an entry of the transfer table upwards.
+HWY_INLINE Int interpolate(const Cell& cell) {
+  const UnsignedWords words;
+  const auto near = hn::BitCast(words, cell.near);
+  const auto far = hn::BitCast(words, cell.far);
+  const auto to_near = hn::Sub(hn::Set(words, std::uint16_t{256}), cell.to_far);
+  const auto low_byte = hn::Set(words, std::uint16_t{0xFF});
+  const auto first = hn::Add(hn::Mul(hn::And(near, low_byte), to_near),
+                             hn::Mul(hn::And(far, low_byte), cell.to_far));
+  const auto second = hn::Add(hn::Mul(hn::ShiftRight<8>(near), to_near),
+                              hn::Mul(hn::ShiftRight<8>(far), cell.to_far));
+  const auto columns =
+      hn::Add(hn::MulHigh(first, hn::Not(cell.to_second)), hn::MulHigh(second, cell.to_second));
+  const auto depth_weights =
+      hn::Xor(hn::BitCast(Ints{}, cell.below), whole(0x7FFF)); // the upper bin's in the lower half
+  return dot_pairs(hn::BitCast(Words{}, hn::ShiftRight<1>(columns)),
+                   hn::BitCast(Words{}, depth_weights), whole(1 << (entry_shift - 1)));
+}
+
+HWY_INLINE Int table_entry(const std::uint32_t* table, Int level) {
+  return hn::GatherIndex(Ints{}, reinterpret_cast<const std::int32_t*>(table),
+                         hn::ShiftRight<entry_shift>(level));
+}
+
+// Steps that a ray can take without leaving an empty brick and those around it: what is needed of
+// it along one axis.
+struct BrickAxis {
+  Int step;      // cells a sample
+  Int towards;   // all ones for rays that go up this axis
+  Real per_step; // 1 / |step|
+};
+
+HWY_INLINE BrickAxis make_brick_axis(Int step) {
+  BrickAxis axis;
+  axis.step = step;
+  axis.towards = hn::Not(hn::BroadcastSignBit(step));
+  const Real length = hn::ConvertTo(Floats{}, hn::Abs(step));
+  axis.per_step = hn::IfThenElse(hn::Eq(length, real(0)), real(1e9F), hn::Div(real(1), length));
+  return axis;
+}
+
+// Samples until the far side of this brick and of `more` behind it.
+template <int Shift>
+HWY_INLINE Real samples_to_side(const BrickAxis& axis, Int position, Int more) {
+  const Int inside = hn::And(hn::Xor(position, axis.towards), whole((1 << Shift) - 1));
+  const Int distance = hn::Add(hn::ShiftLeft<Shift>(more), inside);
+  return hn::Mul(hn::ConvertTo(Floats{}, distance), axis.per_step);
+}
+
+struct BrickAxes {
+  BrickAxis z, a, b;
+};
+
+inline constexpr int brick_z_shift = 16 + pipeline::brick_depth_shift;
+inline constexpr int brick_a_shift = 16 + pipeline::brick_a_shift;
+inline constexpr int brick_b_shift = 16 + pipeline::brick_b_shift;
+
+// BrickGrid's number for the brick that holds p: distance in bits 0–7, highest level in 8–15.
+HWY_INLINE Int brick_at(const RayFrame& frame, const Position& p, IntMask valid) {
+  const Int index =
+      hn::Add(hn::Add(hn::Mul(hn::ShiftRight<brick_b_shift>(p.b), whole(frame.brick_slab)),
+                      hn::Mul(hn::ShiftRight<brick_a_shift>(p.a), whole(frame.brick_row))),
+              hn::ShiftRight<brick_z_shift>(p.z));
+  return gather(frame.bricks, hn::ShiftLeft<1>(hn::IfThenElseZero(valid, index)));
+}
+
+// To the first sample outside; at least one. The hundredth of a sample that is left to rounding
+// makes sure that no sample behind the side is missed: skipping does not change the picture.
+HWY_INLINE Int samples_to_leap(const BrickAxes& axes, const Position& p, Int more) {
+  const Real samples = hn::Min(samples_to_side<brick_z_shift>(axes.z, p.z, more),
+                               hn::Min(samples_to_side<brick_a_shift>(axes.a, p.a, more),
+                                       samples_to_side<brick_b_shift>(axes.b, p.b, more)));
+  const Real bounded = hn::Min(samples, real(1 << 20)); // still a whole number as an integer
+  return hn::Max(hn::ConvertTo(Ints{}, hn::Add(bounded, real(0.99F))), whole(1));
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+} // namespace octascope::ui::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
