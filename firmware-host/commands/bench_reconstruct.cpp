@@ -11,6 +11,7 @@
 #include <numbers>
 #include <random>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -24,6 +25,7 @@ namespace octascope::firmware_host {
 
 namespace {
 
+using pipeline::BackgroundMode;
 using pipeline::Interpolation;
 using pipeline::ReconstructionPath;
 using Clock = std::chrono::steady_clock;
@@ -31,6 +33,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int samples = 1024;
 constexpr int a_scans = 300;
 constexpr int fewest_repeats = 9;
+constexpr double source_counts = 20000;
 constexpr std::size_t b_scan_counts = std::size_t{a_scans} * samples;
 constexpr std::size_t ring_b_scans = 90; // 55 MB: larger than last-level caches, or what VMs see
 
@@ -62,6 +65,9 @@ pipeline::Calibration make_calibration(const BenchCase& what) {
     if (what.dispersion)
       calibration.dispersion_rad.push_back(40 * (u - 0.5) * (u - 0.5));
   }
+  calibration.background_mode = what.background;
+  if (what.background == BackgroundMode::file)
+    calibration.background.assign(samples, static_cast<float>(source_counts));
   return calibration;
 }
 
@@ -75,7 +81,8 @@ std::vector<std::uint16_t> make_ring() {
     const double far = depth(generator);
     std::vector<double> fringes(samples);
     for (std::size_t p = 0; p < samples; ++p)
-      fringes[p] = 20000 + 4000 * std::cos(std::numbers::pi * near * static_cast<double>(p)) +
+      fringes[p] = source_counts +
+                   4000 * std::cos(std::numbers::pi * near * static_cast<double>(p)) +
                    400 * std::cos(std::numbers::pi * far * static_cast<double>(p));
     for (std::size_t i = 0; i < b_scan_counts; ++i)
       ring[b * b_scan_counts + i] =
@@ -133,8 +140,11 @@ private:
 std::vector<double> reference_levels_db(std::span<const std::uint16_t> b_scan, std::size_t a,
                                         const pipeline::Calibration& calibration) {
   std::vector<double> line(samples);
-  for (std::size_t i = 0; i < b_scan.size(); ++i)
-    line[i % samples] -= static_cast<double>(b_scan[i]) / a_scans;
+  if (calibration.background_mode == BackgroundMode::file)
+    std::ranges::transform(calibration.background, line.begin(), [](float b) { return -b; });
+  else
+    for (std::size_t i = 0; i < b_scan.size(); ++i)
+      line[i % samples] -= static_cast<double>(b_scan[i]) / a_scans;
   for (std::size_t p = 0; p < samples; ++p)
     line[p] += b_scan[a * samples + p];
   const auto taps =
@@ -277,10 +287,13 @@ std::vector<BenchCase> all_cases() {
       continue;
     for (const auto interpolation :
          {Interpolation::sinc8, Interpolation::cubic, Interpolation::linear})
-      for (const bool dispersion : {true, false})
+      for (const auto& [dispersion, background] : {std::pair{true, BackgroundMode::file},
+                                                   {true, BackgroundMode::mean},
+                                                   {false, BackgroundMode::file}})
         for (const int threads : {1, 2}) {
           what.interpolation = interpolation;
           what.dispersion = dispersion;
+          what.background = background;
           what.threads = threads;
           cases.push_back(what);
         }
@@ -301,18 +314,24 @@ const char* interpolation_name(Interpolation interpolation) {
   return "sinc8";
 }
 
+const char* background_name(BackgroundMode background) {
+  return background == BackgroundMode::file ? "recorded" : "mean";
+}
+
 void print_text(const BenchReport& report) {
   fmt::print("{}\nbare FFTW c2c {}: {:.0f} ns; raw data from a ring of {:.0f} MB; medians, "
-             "spread between the quartiles\n\npath   isa     taps    dispersion threads  lines/s   "
+             "spread between the quartiles\n\n"
+             "path   isa     taps    dispersion background threads  lines/s   "
              "x FFTW  spread  "
              "error  differing\n",
              report.cpu, samples, report.fftw_c2c_ns, report.ring_mb);
   for (const BenchResult& result : report.cases)
-    fmt::print("{:<6} {:<7} {:<7} {:<10} {:>7} {:>8.0f} k {:>7.3f} {:>6.1f} % {:>5} {:>8.3f} %\n",
-               path_name(result.what.path), result.what.isa,
-               interpolation_name(result.what.interpolation), result.what.dispersion ? "yes" : "no",
-               result.what.threads, result.lines_per_s / 1000, result.ratio_to_fftw,
-               100 * result.spread, result.max_count_error, 100 * result.share_differing);
+    fmt::print(
+        "{:<6} {:<7} {:<7} {:<10} {:<10} {:>7} {:>8.0f} k {:>7.3f} {:>6.1f} % {:>5} {:>8.3f} %\n",
+        path_name(result.what.path), result.what.isa, interpolation_name(result.what.interpolation),
+        result.what.dispersion ? "yes" : "no", background_name(result.what.background),
+        result.what.threads, result.lines_per_s / 1000, result.ratio_to_fftw, 100 * result.spread,
+        result.max_count_error, 100 * result.share_differing);
 }
 
 } // namespace
@@ -346,6 +365,7 @@ std::string to_json(const BenchReport& report) {
                     {"samples", samples},
                     {"interpolation", interpolation_name(result.what.interpolation)},
                     {"dispersion", result.what.dispersion},
+                    {"background", background_name(result.what.background)},
                     {"threads", result.what.threads},
                     {"lines_per_s", result.lines_per_s},
                     {"ratio_to_fftw", result.ratio_to_fftw},

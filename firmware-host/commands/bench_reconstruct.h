@@ -12,13 +12,15 @@
 
 namespace octascope::firmware_host {
 
-// What is measured: 300 lines of 1024 u16 samples a B-scan, mean background, Hann window, a chirp
-// of 70 pixels, 8-bit levels.
+// What is measured: 300 lines of 1024 u16 samples a B-scan, Hann window, a chirp of 70 pixels,
+// 8-bit levels. The background is recorded, or the mean of the B-scan's lines: then they are read
+// twice.
 struct BenchCase {
   pipeline::ReconstructionPath path = pipeline::ReconstructionPath::fftw;
   std::string isa;
   pipeline::Interpolation interpolation = pipeline::Interpolation::sinc8;
   bool dispersion = true;
+  pipeline::BackgroundMode background = pipeline::BackgroundMode::file;
   int threads = 1;
 };
 
@@ -39,7 +41,8 @@ struct BenchReport {
   std::vector<BenchResult> cases;
 };
 
-// Every path, instruction set, interpolation, with and without dispersion, on one thread and two.
+// Every path, instruction set, interpolation, with and without dispersion, on one thread and two;
+// with dispersion, both backgrounds.
 // `seconds` is about what all the measuring takes.
 hal::Result<BenchReport> bench_reconstruct(double seconds);
 
