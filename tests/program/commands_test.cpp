@@ -51,7 +51,7 @@ TEST(Doctor, looks_at_everything_and_says_how_to_mend_it) {
   }
   EXPECT_EQ(subjects,
             (std::set<std::string>{"processor", "memory", "real-time priority", "locked memory",
-                                   "clock", "disk", "graphics", "devices"}));
+                                   "clock", "disk", "graphics", "devices", "reconstruction"}));
   EXPECT_EQ(result.exit_status, fails ? 1 : 0);
 }
 
