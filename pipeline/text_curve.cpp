@@ -75,11 +75,13 @@ std::string shortened(std::string_view text) {
   return text.size() <= longest ? std::string{text} : std::string{text.substr(0, longest)} + "…";
 }
 
-// One number a line, at most `most`; `count` says in words how many are expected.
+// One number a line, at most `most`. Messages say "exactly" or "at most" so many are expected.
 hal::Result<std::vector<double>> parse_numbers(const fs::path& file, std::size_t most,
-                                               std::string_view count) {
+                                               std::string_view bound) {
   // Generous: a number seldom takes 30 bytes, and there may be comments.
   const std::uintmax_t longest = 65536 + 256 * static_cast<std::uintmax_t>(most);
+  const std::string count =
+      bound == "exactly" ? fmt::format("{}", most) : fmt::format("{} {}", bound, most);
   const auto bytes =
       read_bytes(file, longest, fmt::format("a text file of {} numbers, one a line", count));
   if (!bytes)
@@ -98,8 +100,8 @@ hal::Result<std::vector<double>> parse_numbers(const fs::path& file, std::size_t
       continue;
     if (values.size() == most)
       return hal::fail(Fault::bad_data,
-                       fmt::format("{}:{}: found one number more (\"{}\"), expected {}",
-                                   file.string(), line, shortened(text), count));
+                       fmt::format("{}:{}: found one number more (\"{}\"), expected {} {}",
+                                   file.string(), line, shortened(text), bound, most));
     const auto value = finite_number(text);
     if (!value)
       return hal::fail(Fault::bad_data,
@@ -114,7 +116,7 @@ hal::Result<std::vector<double>> parse_numbers(const fs::path& file, std::size_t
 } // namespace
 
 hal::Result<std::vector<double>> read_text_curve(const fs::path& file, std::size_t expected) {
-  auto values = parse_numbers(file, expected, fmt::format("{}", expected));
+  auto values = parse_numbers(file, expected, "exactly");
   if (values && values->size() != expected)
     return hal::fail(Fault::bad_data, fmt::format("{}: found {} numbers, expected {}",
                                                   file.string(), values->size(), expected));
@@ -122,7 +124,7 @@ hal::Result<std::vector<double>> read_text_curve(const fs::path& file, std::size
 }
 
 hal::Result<std::vector<double>> read_text_numbers(const fs::path& file, std::size_t most) {
-  return parse_numbers(file, most, fmt::format("at most {}", most));
+  return parse_numbers(file, most, "at most");
 }
 
 hal::Result<std::vector<float>> read_float_curve(const fs::path& file, std::size_t expected) {

@@ -51,6 +51,21 @@ TEST(ConfigDocument, says_where_the_syntax_breaks) {
   EXPECT_NE(complaint("count = \n").find("test.toml:1:9: not TOML"), std::string::npos);
 }
 
+// The library had taken each of these for what cannot be.
+TEST(ConfigDocument, tables_without_a_name_are_refused) {
+  for (const char* header : {"[=]", "[/", "[[[", "[\\", "[\n", "[\x1b]"})
+    EXPECT_NE(complaint(header).find("not TOML"), std::string::npos) << header;
+}
+
+TEST(ConfigDocument, letters_outside_of_quotes_are_refused) {
+  for (const char* letter : {"é", "µ", "\u05c1", "\u0b4d", "\u2070", "\u2d7f", "\ufb50", "\xff"}) {
+    EXPECT_NE(complaint(std::string{letter} + " = 1\n").find("not TOML"), std::string::npos);
+    EXPECT_NE(complaint(std::string{"count = 1 "} + letter).find("not TOML"), std::string::npos);
+    EXPECT_NE(complaint(std::string{"name = \"\"\"\\"} + letter + "\"\"\"\n").find("not TOML"),
+              std::string::npos);
+  }
+}
+
 TEST(ConfigDocument, missing_files_and_directories_are_named) {
   EXPECT_NE(ConfigDocument::load("/nowhere/x.toml").error().message.find("/nowhere/x.toml"),
             std::string::npos);
