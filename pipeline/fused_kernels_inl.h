@@ -120,8 +120,8 @@ HWY_INLINE void last_group(const FusedTables& tables, const float* from, const f
   for (int r = 0; r < Radix; ++r)
     x[r] = x[r] * load(twiddles + r * slot);
   transform_lanes(tables, x);
-  Complex lower[Radix / 2];
-  Complex upper[Radix / 2];
+  Complex lower[std::size_t{Radix / 2}];
+  Complex upper[std::size_t{Radix / 2}];
 #pragma GCC unroll 8
   for (int r = 0; r < Radix / 2; ++r) {
     lower[r] = x[r / 2 * 4 + r % 2];
@@ -130,7 +130,7 @@ HWY_INLINE void last_group(const FusedTables& tables, const float* from, const f
   store_power(lower, row);
   if constexpr (Mirrored) {
     constexpr int size = Radix / 2 * lanes;
-    alignas(64) float power[size];
+    alignas(64) float power[std::size_t{size}];
     store_power(upper, power);
     for (int r = 0; r < size; r += lanes)
       hn::Store(hn::Reverse(Floats{}, hn::Load(Floats{}, power + r)), Floats{},

@@ -81,18 +81,18 @@ HWY_INLINE void transform_parts(const FusedTables&, Complex*) {
 // outputs k2 = v + L/4·u. Lane i of each part: v = i with four parts, i mod 2 with two, 0 with one;
 // the rest of the position says which of the four registers: the part; the part + i/2·2; i.
 // (Four-step transforms within a register: first over the parts, then over the four lanes of each.)
-template <int Registers>
+template <std::size_t Registers>
 HWY_INLINE void transform_lanes(const FusedTables& tables, Complex (&x)[Registers]) {
 #pragma GCC unroll 2
-  for (int r = 0; r < Registers; r += 4)
+  for (std::size_t r = 0; r < Registers; r += 4)
     transform_parts(tables, x + r);
 #pragma GCC unroll 2
-  for (int r = 0; r < Registers; r += 4) {
+  for (std::size_t r = 0; r < Registers; r += 4) {
     transpose_lanes(x[r].re, x[r + 1].re, x[r + 2].re, x[r + 3].re);
     transpose_lanes(x[r].im, x[r + 1].im, x[r + 2].im, x[r + 3].im);
   }
 #pragma GCC unroll 2
-  for (int r = 0; r < Registers; r += 4)
+  for (std::size_t r = 0; r < Registers; r += 4)
     butterfly_4(x[r], x[r + 1], x[r + 2], x[r + 3]);
 }
 

@@ -16,16 +16,17 @@ HWY_BEFORE_NAMESPACE();
 namespace octascope::pipeline::HWY_NAMESPACE {
 
 // |y|² of some registers, one after the other.
-template <int Registers> HWY_INLINE void store_power(const Complex (&y)[Registers], float* power) {
+template <std::size_t Registers>
+HWY_INLINE void store_power(const Complex (&y)[Registers], float* power) {
 #pragma GCC unroll 8
-  for (int r = 0; r < Registers; ++r)
+  for (std::size_t r = 0; r < Registers; ++r)
     hn::Store(hn::MulAdd(y[r].re, y[r].re, hn::Mul(y[r].im, y[r].im)), Floats{}, power + r * lanes);
 }
 
 // per_octave·log2(power) + zero, as fast_log2() has it: the bits of a float, taken for an integer,
 // are its logarithm but for a function of the mantissa, which a polynomial adds. Step by step for
 // all registers: compilers keep this order, and one register alone would wait for itself.
-template <int Registers>
+template <std::size_t Registers>
 HWY_INLINE void load_levels(const float* power, float per_octave, float zero,
                             Real (&level)[Registers]) {
   const Floats floats;
@@ -33,7 +34,7 @@ HWY_INLINE void load_levels(const float* power, float per_octave, float zero,
   Real mantissa[Registers];
   Real exponent[Registers];
 #pragma GCC unroll 8
-  for (int r = 0; r < Registers; ++r) {
+  for (std::size_t r = 0; r < Registers; ++r) {
     const auto bits = hn::BitCast(ints, hn::Load(floats, power + r * lanes));
     exponent[r] = hn::ConvertTo(floats, bits);
     mantissa[r] = hn::BitCast(
@@ -46,12 +47,12 @@ HWY_INLINE void load_levels(const float* power, float per_octave, float zero,
         hn::Set(floats, per_octave * log2_of_mantissa[static_cast<std::size_t>(i)] +
                             (i == 0 ? zero : 0.0F));
 #pragma GCC unroll 8
-    for (int r = 0; r < Registers; ++r)
+    for (std::size_t r = 0; r < Registers; ++r)
       level[r] = hn::MulAdd(mantissa[r], level[r], coefficient);
   }
   const Real scale = hn::Set(floats, per_octave / (1 << 23));
 #pragma GCC unroll 8
-  for (int r = 0; r < Registers; ++r)
+  for (std::size_t r = 0; r < Registers; ++r)
     level[r] = hn::MulAdd(exponent[r], scale, level[r]);
 }
 
@@ -68,15 +69,15 @@ HWY_INLINE hn::Vec<Ints> nearest(Real value) {
 #endif
 }
 
-inline constexpr int registers_at_once = 4;
+inline constexpr std::size_t registers_at_once = 4;
 
 // Levels in decibels of `count` powers.
 HWY_INLINE void make_levels(const float* power, int count, float* levels) {
-  constexpr int step = registers_at_once * lanes;
+  constexpr int step = static_cast<int>(registers_at_once) * lanes;
   for (int x = 0; x < count; x += step) {
     Real level[registers_at_once];
     load_levels(power + x, db_per_octave_of_power, 0, level);
-    for (int r = 0; r < registers_at_once; ++r)
+    for (std::size_t r = 0; r < registers_at_once; ++r)
       hn::Store(level[r], Floats{}, levels + x + r * lanes);
   }
 }
@@ -86,12 +87,12 @@ HWY_INLINE void make_levels(const float* power, int count, std::uint8_t* levels)
   constexpr float counts_per_octave = db_per_octave_of_power / level_step_db;
   constexpr float zero_db = level_count(0.0F);
   const hn::Rebind<std::uint8_t, Words> bytes;
-  constexpr int step = registers_at_once * lanes;
+  constexpr int step = static_cast<int>(registers_at_once) * lanes;
   for (int x = 0; x < count; x += step) {
     Real level[registers_at_once];
     load_levels(power + x, counts_per_octave, zero_db, level);
 #pragma GCC unroll 4
-    for (int r = 0; r < registers_at_once; r += 2) {
+    for (std::size_t r = 0; r < registers_at_once; r += 2) {
       const auto words = hn::ReorderDemote2To(Words{}, nearest(level[r]), nearest(level[r + 1]));
       hn::Store(hn::DemoteTo(bytes, words), bytes, levels + x + r * lanes);
     }
