@@ -129,7 +129,8 @@ TEST_F(CalibrationFile, refuses_curves_of_the_wrong_length) {
   EXPECT_EQ(table_refusal(curve(63)),
             (folder / "k.txt").string() + ": found 63 numbers, expected 64");
   EXPECT_EQ(table_refusal(curve(64) + "\n64\n"),
-            (folder / "k.txt").string() + ":66: found one number more (\"64\"), expected 64");
+            (folder / "k.txt").string() +
+                ":66: found one number more (\"64\"), expected exactly 64");
   EXPECT_THAT(table_refusal(""), HasSubstr("k.txt: is empty, expected a text file of 64 numbers"));
   EXPECT_THAT(table_refusal("# nothing\n\n"), HasSubstr("k.txt: found 0 numbers, expected 64"));
   EXPECT_THAT(table_refusal(std::string(200'000, '\n')), HasSubstr("200000 bytes, far too many"));
