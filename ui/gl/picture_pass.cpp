@@ -19,4 +19,15 @@ void PicturePass::fill(const Rect& rect, int target_height) const {
   glBindVertexArray(0);
 }
 
+void PicturePass::blend(const Texture& picture, const Rect& rect, int target_height) const {
+  use();
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, picture.name());
+  glUniform1i(uniform("u_picture"), 0);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  fill(rect, target_height);
+  glDisable(GL_BLEND);
+}
+
 } // namespace octascope::ui::gl

@@ -22,6 +22,10 @@ public:
   GLint uniform(const char* name) const { return program_.uniform(name); }
   void fill(const Rect& rect, int target_height) const;
 
+  // Makes the program current and lays `picture`, premultiplied, over what is there. For shaders
+  // with a sampler `u_picture`.
+  void blend(const Texture& picture, const Rect& rect, int target_height) const;
+
 private:
   explicit PicturePass(Program program)
       : program_{std::move(program)}, vertex_array_{VertexArray::make()} {}

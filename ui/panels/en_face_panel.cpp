@@ -2,6 +2,7 @@
 
 #include "embedded_shaders.h"
 
+#include "ui/gl/picture_texture.h"
 #include "ui/hud/palette.h"
 #include "ui/panels/hatch.h"
 #include "ui/panels/projection.h"
@@ -25,13 +26,7 @@ void EnFacePanel::allocate(int a_scans, int b_scans) {
   b_scans_ = b_scans;
   sums_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
   grey_.resize(sums_.size());
-  projection_ = gl::Texture::make();
-  glBindTexture(GL_TEXTURE_2D, projection_.name());
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8, a_scans, b_scans);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  projection_ = gl::make_picture_texture(GL_R8, a_scans, b_scans);
   states_ = gl::Texture::make();
   glBindTexture(GL_TEXTURE_2D, states_.name());
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8UI, b_scans, 1);

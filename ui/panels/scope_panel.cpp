@@ -2,6 +2,7 @@
 
 #include "embedded_shaders.h"
 
+#include "ui/gl/picture_texture.h"
 #include "ui/panels/scope_pixels.h"
 
 namespace octascope::ui {
@@ -26,13 +27,7 @@ hal::Result<> ScopePanel::show(const hal::ScopeFrame& frame,
   if (auto ok = convert_to_rgba(frame, rgba_); !ok)
     return ok;
   if (resized) {
-    texture_ = gl::Texture::make();
-    glBindTexture(GL_TEXTURE_2D, texture_.name());
-    glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, frame.width, frame.height);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    texture_ = gl::make_picture_texture(GL_RGBA8, frame.width, frame.height);
     width_ = frame.width;
     height_ = frame.height;
   }

@@ -6,6 +6,8 @@
 
 #include "embedded_shaders.h"
 
+#include "ui/gl/picture_texture.h"
+
 namespace octascope::ui {
 
 hal::Result<RayCastPicture> RayCastPicture::create(std::size_t helpers,
@@ -26,13 +28,7 @@ RayCastPicture::RayCastPicture(RayCaster caster, gl::PicturePass pass)
 void RayCastPicture::resize(int width, int height) {
   image_.resize(width, height);
   uploader_ = gl::PixelUploader::create(image_.rgba.size() * sizeof(std::uint32_t));
-  texture_ = gl::Texture::make();
-  glBindTexture(GL_TEXTURE_2D, texture_.name());
-  glTexStorage2D(GL_TEXTURE_2D, 1, GL_RGBA8, width, height);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  texture_ = gl::make_picture_texture(GL_RGBA8, width, height);
 }
 
 hal::Result<> RayCastPicture::upload_image() {
@@ -87,14 +83,7 @@ hal::Result<> RayCastPicture::update(std::uint64_t upload, const ViewState& view
 }
 
 void RayCastPicture::composite(const Rect& rect, int target_height) const {
-  pass_.use();
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, texture_.name());
-  glUniform1i(pass_.uniform("u_picture"), 0);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  pass_.fill(rect, target_height);
-  glDisable(GL_BLEND);
+  pass_.blend(texture_, rect, target_height);
 }
 
 } // namespace octascope::ui

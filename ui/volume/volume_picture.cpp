@@ -7,6 +7,8 @@
 #include "embedded_shaders.h"
 #include <fmt/format.h>
 
+#include "ui/gl/picture_texture.h"
+
 namespace octascope::ui {
 
 namespace {
@@ -66,13 +68,7 @@ VolumePicture::VolumePicture(PlaneStack stack, gl::PicturePass pass)
     : stack_{std::move(stack)}, pass_{std::move(pass)}, format_{accumulation_format()} {}
 
 hal::Result<> VolumePicture::resize(int width, int height) {
-  colour_ = gl::Texture::make();
-  glBindTexture(GL_TEXTURE_2D, colour_.name());
-  glTexStorage2D(GL_TEXTURE_2D, 1, format_, width, height);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  colour_ = gl::make_picture_texture(format_, width, height);
   framebuffer_ = gl::Framebuffer::make();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.name(), 0);
@@ -112,14 +108,7 @@ hal::Result<> VolumePicture::update(const VolumeTexture& volume, std::uint64_t u
 }
 
 void VolumePicture::composite(const Rect& rect, int target_height) const {
-  pass_.use();
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, colour_.name());
-  glUniform1i(pass_.uniform("u_picture"), 0);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  pass_.fill(rect, target_height);
-  glDisable(GL_BLEND);
+  pass_.blend(colour_, rect, target_height);
 }
 
 } // namespace octascope::ui
