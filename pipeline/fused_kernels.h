@@ -25,20 +25,17 @@ struct FusedKernels {
   const char* isa;
   WindowShape window;
 
-  // Counts → first radix of the transform → work. Fetches `next_line` into the cache meanwhile.
-  using FirstPass = void (*)(const FusedTables& tables, const void* counts, const void* next_line,
-                             const std::int32_t* background, float* work);
+  // Counts → first radix of the transform → work. Fetches `next_line` into the cache meanwhile, and
+  // says whether a count, before the shift, is at least `threshold`, which is one that the type
+  // has.
+  using FirstPass = bool (*)(const FusedTables& tables, const void* counts, const void* next_line,
+                             std::uint32_t threshold, const std::int32_t* background, float* work);
   using FirstPasses = std::array<std::array<FirstPass, 2>, 2>;  // [one window][real input]
   std::array<std::array<FirstPasses, 3>, raw_kinds> first_pass; // [kind][log2 of the tap pairs]
 
   // The rest of the transform, bins 0 … N/2−1, and the levels.
   void (*finish_u8)(const FusedTables& tables, float* work, std::uint8_t* levels);
   void (*finish_db)(const FusedTables& tables, float* work, float* levels_db);
-
-  // Whether a count of the line, before the shift, is at least `threshold`, which is one that the
-  // type has. N is a multiple of 128.
-  bool (*reaches_u8)(const std::uint8_t* counts, int samples, std::uint32_t threshold);
-  bool (*reaches_u16)(const std::uint16_t* counts, int samples, std::uint32_t threshold);
 };
 
 // N complex numbers, and the rows of levels.

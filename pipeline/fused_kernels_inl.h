@@ -56,16 +56,38 @@ HWY_INLINE void prefetch(const void* line, std::ptrdiff_t from, std::ptrdiff_t b
     hwy::Prefetch(static_cast<const char*>(line) + at);
 }
 
+// `highest` so far, and the counts of a step of the first pass.
+template <class Count>
+HWY_INLINE hn::Vec<hn::ScalableTag<Count>> highest_of(const Count* counts, std::ptrdiff_t step,
+                                                      hn::Vec<hn::ScalableTag<Count>> highest) {
+  const hn::ScalableTag<Count> tag;
+  constexpr int share = first_radix * lanes;
+#pragma GCC unroll 4
+  for (int p = 0; p < share; p += static_cast<int>(HWY_LANES(Count)))
+    highest = hn::Max(highest, hn::LoadU(tag, counts + step * share + p));
+  return highest;
+}
+
+template <class Count>
+HWY_INLINE bool reaches(hn::Vec<hn::ScalableTag<Count>> highest, std::uint32_t threshold) {
+  const hn::ScalableTag<Count> tag;
+  const auto limit = hn::Set(tag, static_cast<Count>(threshold));
+  return !hn::AllFalse(tag, hn::Eq(hn::Max(highest, limit), highest));
+}
+
 template <RawKind Kind, int Pairs, bool OneWindow, bool RealInput>
-void first_pass(const FusedTables& tables, const void* counts, const void* next_line,
-                const std::int32_t* background, float* work) {
-  constexpr int sample_bytes = Kind == RawKind::u8 ? 1 : 2;
+bool first_pass(const FusedTables& tables, const void* counts, const void* next_line,
+                std::uint32_t threshold, const std::int32_t* background, float* work) {
+  using Count = std::conditional_t<Kind == RawKind::u8, std::uint8_t, std::uint16_t>;
+  constexpr int sample_bytes = sizeof(Count);
   constexpr int results = RealInput ? real_results : first_radix;
   const std::ptrdiff_t steps = tables.blocks / first_radix;
   const std::ptrdiff_t fetched = tables.samples * sample_bytes / steps;
   const float* twiddle = tables.pass_twiddles[0].data();
+  auto highest = hn::Zero(hn::ScalableTag<Count>{});
   for (std::ptrdiff_t j = 0; j < steps; ++j, twiddle += 2 * (first_radix - 1)) {
     prefetch(next_line, j * fetched, fetched);
+    highest = highest_of(static_cast<const Count*>(counts), j, highest);
     Real count[first_radix];
 #pragma GCC unroll 8
     for (int a = 0; a < first_radix; ++a)
@@ -82,6 +104,7 @@ void first_pass(const FusedTables& tables, const void* counts, const void* next_
     for (int q = 1; q < results; ++q)
       store(x[q] * broadcast(twiddle + 2 * (q - 1)), at + q * steps * slot);
   }
+  return reaches<Count>(highest, threshold);
 }
 
 // One pass over groups of `size` slots each.
@@ -187,20 +210,6 @@ template <class Level> void finish(const FusedTables& tables, float* work, Level
     unscramble_rows(rows + row * row_size, row_size, row_offsets<Level>(tables), levels + row);
 }
 
-template <class Count> bool reaches(const Count* counts, int samples, std::uint32_t threshold) {
-  const hn::ScalableTag<Count> tag;
-  constexpr int step = static_cast<int>(HWY_LANES(Count));
-  auto even = hn::Zero(tag); // two, for the next load not to wait for the last comparison
-  auto odd = hn::Zero(tag);
-  for (int p = 0; p < samples; p += 2 * step) {
-    even = hn::Max(even, hn::LoadU(tag, counts + p));
-    odd = hn::Max(odd, hn::LoadU(tag, counts + p + step));
-  }
-  const auto highest = hn::Max(even, odd);
-  const auto limit = hn::Set(tag, static_cast<Count>(threshold));
-  return !hn::AllFalse(tag, hn::Eq(hn::Max(highest, limit), highest));
-}
-
 template <RawKind Kind, int Pairs> constexpr FusedKernels::FirstPasses first_passes() {
   // Permutations by bytes cannot reach beyond their part.
   constexpr bool one_window = Pairs > 1 && !window_shape.byte_indices;
@@ -220,9 +229,7 @@ const FusedKernels* kernels() {
                                    all_first_passes<RawKind::u16>(),
                                    all_first_passes<RawKind::u16_shifted>()},
                                   &finish<std::uint8_t>,
-                                  &finish<float>,
-                                  &reaches<std::uint8_t>,
-                                  &reaches<std::uint16_t>};
+                                  &finish<float>};
   return &table;
 }
 

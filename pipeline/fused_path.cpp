@@ -77,14 +77,9 @@ int FusedPath::reconstruct(const std::byte* counts, int lines, std::uint32_t ful
     const std::byte* line = counts + static_cast<std::size_t>(a) * line_bytes;
     const std::byte* next =
         counts + static_cast<std::size_t>(std::min(a + lines_ahead, lines - 1)) * line_bytes;
-    const bool reached =
-        kind_ == RawKind::u8
-            ? kernels_->reaches_u8(reinterpret_cast<const std::uint8_t*>(line), tables_.samples,
-                                   full_scale)
-            : kernels_->reaches_u16(reinterpret_cast<const std::uint16_t*>(line), tables_.samples,
-                                    full_scale << tables_.right_shift);
+    const bool reached = first_pass_(tables_, line, next, full_scale << tables_.right_shift,
+                                     buffers.background.data(), buffers.work.data());
     saturated += reached ? 1 : 0;
-    first_pass_(tables_, line, next, buffers.background.data(), buffers.work.data());
     Level* profile = levels + static_cast<std::size_t>(a) * (samples / 2);
     if constexpr (std::is_same_v<Level, float>)
       kernels_->finish_db(tables_, buffers.work.data(), profile);
