@@ -57,13 +57,13 @@ bool RenderLoop::turn() {
   return go_on;
 }
 
-// What hands and feet chose, as finely as this machine can draw it.
-ui::ViewState RenderLoop::view() const {
-  ui::ViewState view = controller_.state();
+// As finely as this machine can draw it.
+ui::DrawQuality RenderLoop::quality() const {
+  ui::DrawQuality quality;
   const bool planes_by_processor = software_ && !(renderer_ && renderer_->casts_rays());
-  view.volume_resolution = ui::affordable_resolution(planes_by_processor, parts_.display.width(),
-                                                     parts_.display.height());
-  return view;
+  quality.resolution = ui::affordable_resolution(planes_by_processor, parts_.display.width(),
+                                                 parts_.display.height());
+  return quality;
 }
 
 bool RenderLoop::handle_input() {
@@ -143,13 +143,15 @@ void RenderLoop::update_status() {
 }
 
 void RenderLoop::draw_if_changed() {
-  const ui::ViewState view = this->view();
+  const ui::ViewState& view = controller_.state();
+  const ui::DrawQuality quality = this->quality();
   hal::Display& display = parts_.display;
   if (!picture_wanted_ &&
-      !renderer_->needs_redraw(view, setup_.status, display.width(), display.height()))
+      !renderer_->needs_redraw(view, setup_.status, display.width(), display.height(), quality))
     return;
   const hal::TimePoint begin = parts_.clock.now();
-  if (const auto drawn = renderer_->draw(view, setup_.status, display.width(), display.height());
+  if (const auto drawn =
+          renderer_->draw(view, setup_.status, display.width(), display.height(), quality);
       !drawn) {
     lose_display(drawn.error());
     return;
@@ -206,7 +208,7 @@ std::optional<pipeline::Image> RenderLoop::picture() {
   // As it was shown: of a display that draws slowly, a live picture is STALE when we are back here.
   const int width = parts_.display.width();
   const int height = parts_.display.height();
-  if (!renderer_->draw(view(), setup_.status, width, height))
+  if (!renderer_->draw(controller_.state(), setup_.status, width, height, quality()))
     return std::nullopt;
   return renderer_->read_back(width, height);
 }

@@ -94,7 +94,7 @@ public:
   void set_notice(std::string_view notice) { setup_.status.notice = notice; }
 
 private:
-  ui::ViewState view() const;
+  ui::DrawQuality quality() const;
   bool handle_input();
   void take_volume();
   void take_scope_picture();

@@ -30,6 +30,7 @@ struct DrawnPicture {
   int width = 0;
   int height = 0;
   ViewState view;
+  DrawQuality quality;
   HudText text;
   bool operator==(const DrawnPicture&) const = default;
 };
@@ -76,20 +77,21 @@ struct Renderer::Parts {
 
   ViewState fitted(const ViewState& view) const;
   HudScene scene(const ViewState& view) const;
-  DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height) const;
+  DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height,
+                          const DrawQuality& quality) const;
   Layout layout(int width, int height) const;
   hal::Result<> prepare_fonts(float unit);
   void draw_box(Canvas& canvas, const Camera& camera, const Rect& view, bool in_front) const;
-  hal::Result<> update_volume_picture(const ViewState& view, const Rect& rect);
+  hal::Result<> update_volume_picture(const ViewState& view, const DrawQuality& quality,
+                                      const Rect& rect);
   void composite_volume_picture(const Rect& rect, int height) const;
   hal::Result<> draw(const DrawnPicture& picture);
 };
 
-hal::Result<> Renderer::Parts::update_volume_picture(const ViewState& view, const Rect& rect) {
-  // At twice as many steps the picture takes nearly twice as long and gains a hundredth.
-  constexpr RayLook look{RayMode::composite, 256};
-  return ray_picture ? ray_picture->update(volume_uploads, view, look, rect)
-                     : volume_picture.update(volume, volume_uploads, view, rect);
+hal::Result<> Renderer::Parts::update_volume_picture(const ViewState& view,
+                                                     const DrawQuality& quality, const Rect& rect) {
+  return ray_picture ? ray_picture->update(volume_uploads, view, RayMode::composite, quality, rect)
+                     : volume_picture.update(volume, volume_uploads, view, quality, rect);
 }
 
 void Renderer::Parts::composite_volume_picture(const Rect& rect, int height) const {
@@ -122,11 +124,15 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
 }
 
 DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& status, int width,
-                                         int height) const {
+                                         int height, const DrawQuality& quality) const {
   const ViewState shown = fitted(view);
-  return {
-      volume_uploads, scope_uploads,        width,
-      height,         without_times(shown), compose_hud_text(shown, status, scene(shown).shown)};
+  return {volume_uploads,
+          scope_uploads,
+          width,
+          height,
+          without_times(shown),
+          quality,
+          compose_hud_text(shown, status, scene(shown).shown)};
 }
 
 Layout Renderer::Parts::layout(int width, int height) const {
@@ -172,7 +178,7 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   const bool has_volume = shown.shown.volume;
   Camera camera{};
   if (has_volume) {
-    if (auto ok = update_volume_picture(view, places.view); !ok)
+    if (auto ok = update_volume_picture(view, picture.quality, places.view); !ok)
       return ok;
     camera =
         make_camera(view, box_extents_mm(volume.geometry()),
@@ -264,11 +270,12 @@ void Renderer::forget_scope_picture() {
   ++parts_->scope_uploads;
 }
 
-hal::Result<> Renderer::draw(const ViewState& view, const Status& status, int width, int height) {
+hal::Result<> Renderer::draw(const ViewState& view, const Status& status, int width, int height,
+                             const DrawQuality& quality) {
   if (width < 1 || height < 1)
     return hal::fail(hal::Fault::invalid_argument,
                      fmt::format("renderer: size is {}x{}, expected at least 1x1", width, height));
-  const DrawnPicture picture = parts_->picture_of(view, status, width, height);
+  const DrawnPicture picture = parts_->picture_of(view, status, width, height, quality);
   parts_->drawn.reset();
   if (auto ok = parts_->draw(picture); !ok)
     return ok;
@@ -280,9 +287,9 @@ bool Renderer::casts_rays() const {
   return parts_->ray_picture.has_value();
 }
 
-bool Renderer::needs_redraw(const ViewState& view, const Status& status, int width,
-                            int height) const {
-  return parts_->drawn != parts_->picture_of(view, status, width, height);
+bool Renderer::needs_redraw(const ViewState& view, const Status& status, int width, int height,
+                            const DrawQuality& quality) const {
+  return parts_->drawn != parts_->picture_of(view, status, width, height, quality);
 }
 
 pipeline::Image Renderer::read_back(int width, int height) const {

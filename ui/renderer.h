@@ -8,6 +8,7 @@
 #include "hal/scope_camera.h"
 #include "pipeline/png_image.h"
 #include "pipeline/volume.h"
+#include "ui/draw_quality.h"
 #include "ui/scan_field.h"
 #include "ui/status.h"
 #include "ui/view_state.h"
@@ -38,14 +39,16 @@ public:
   void forget_scope_picture(); // the camera is gone
 
   // Draws everything into the bound framebuffer of width × height pixels.
-  hal::Result<> draw(const ViewState& view, const Status& status, int width, int height);
+  hal::Result<> draw(const ViewState& view, const Status& status, int width, int height,
+                     const DrawQuality& quality = {});
 
   // Whether the processor casts the volume's rays, which is what happens where GL is the processor,
   // too; otherwise GL draws a stack of planes.
   bool casts_rays() const;
 
   // False when draw() would make the picture that it made last, to the pixel.
-  bool needs_redraw(const ViewState& view, const Status& status, int width, int height) const;
+  bool needs_redraw(const ViewState& view, const Status& status, int width, int height,
+                    const DrawQuality& quality = {}) const;
 
   // What stands in the bound framebuffer; waits for the drawing. Allocates: for snapshots.
   pipeline::Image read_back(int width, int height) const;

@@ -16,8 +16,7 @@ ViewState ViewState::clamped() const {
   v.distance = within(v.distance, Parameter::distance);
   v.window_offset_db = within(v.window_offset_db, Parameter::window_offset);
   v.window_size_db = within(v.window_size_db, Parameter::window_size);
-  v.planes = std::clamp(v.planes, 16, 1024);
-  v.volume_resolution = std::clamp(v.volume_resolution, 0.25F, 1.0F);
+  v.parallax_deg = std::clamp(v.parallax_deg, -10.0F, 10.0F);
   v.opacity = std::clamp(v.opacity, 0.01F, 1.0F);
   v.b_scan = std::max(v.b_scan, 0);
   return v;

@@ -6,12 +6,25 @@
 #include <cstdint>
 
 #include "hal/clock.h"
+#include "ui/technique.h"
 
 namespace octascope::ui {
 
 // What a knob can turn.
 enum class Parameter : std::uint8_t { window_offset, window_size, yaw, tilt, distance, b_scan };
 inline constexpr int parameter_count = 6;
+
+// How the display is divided.
+enum class LayoutKind : std::uint8_t {
+  volume,     // large 3D view, the other pictures in a column
+  b_scan,     // large B-scan, the others small
+  microscope, // large microscope picture with the volume inset
+  quad,       // all four alike
+};
+inline constexpr int layout_count = 4;
+
+// For displays that show one picture to each eye.
+enum class StereoMode : std::uint8_t { off, side_by_side, top_bottom };
 
 struct ViewState {
   // The camera always faces the centre of the volume. Yaw turns about the depth axis, tilt raises
@@ -25,13 +38,19 @@ struct ViewState {
   float window_offset_db = 8;
   float window_size_db = 36;
 
-  int planes = 128;               // of the view-aligned plane stack
-  float volume_resolution = 1.0F; // of the volume's picture, per display pixel and axis
-  float opacity = 0.5F;           // of a voxel at the top of the window, per reference step
-  bool box_visible = true;        // the wire-frame box
-  bool frozen = false;            // the volume stays, the view still moves
-  hal::TimePoint frozen_since{};  // when `frozen` became true
-  int b_scan = 40;                // position of the B-scan panel, an index on the slow axis
+  Technique technique = Technique::rays;
+  int transfer = 0;              // which of the loaded transfer functions; 0 is the window itself
+  int colour_map = 0;            // which of the colour maps; 0 is grey
+  float opacity = 0.5F;          // of a voxel at the top of the window, per reference step
+  bool box_visible = true;       // the wire-frame box
+  bool frozen = false;           // the volume stays, the view still moves
+  hal::TimePoint frozen_since{}; // when `frozen` became true
+  LayoutKind layout = LayoutKind::volume;
+  StereoMode stereo = StereoMode::off;
+  float parallax_deg = 3;      // between the two eyes, seen from the centre of the volume
+  bool vessels_visible = true; // the vessel tree, where one is loaded
+  bool legend_visible = false; // what each control does
+  int b_scan = 40;             // position of the B-scan panel, an index on the slow axis
 
   Parameter selected = Parameter::window_offset; // what the knob turns
   hal::TimePoint echo_until{}; // until then the display shows the selected parameter and its value

@@ -16,6 +16,7 @@ constexpr int width = 320;
 constexpr int height = 200;
 constexpr std::size_t middle = width * height / 2 + width / 2;
 constexpr ui::Rect rect{0, 0, width, height};
+constexpr ui::DrawQuality fine{1, 1024};
 
 class RayCastPictureTest : public GlTest {
 protected:
@@ -58,8 +59,8 @@ protected:
 
   // Mean difference on black and on white: of colour, and of colour and opacity together.
   void expect_same(const ui::ViewState& view, const std::string& what) {
-    ASSERT_TRUE(planes_->update(texture_, uploads_, view, rect));
-    ASSERT_TRUE(rays_->update(uploads_, view, {ui::RayMode::composite, 1024}, rect));
+    ASSERT_TRUE(planes_->update(texture_, uploads_, view, fine, rect));
+    ASSERT_TRUE(rays_->update(uploads_, view, ui::RayMode::composite, fine, rect));
     for (const float ground : {0.0F, 1.0F}) {
       const pipeline::Image planes = read(*planes_, ground);
       const pipeline::Image rays = read(*rays_, ground);
@@ -79,7 +80,6 @@ ui::ViewState fine_view(float yaw_deg, float tilt_deg, float distance, float opa
   view.tilt_deg = tilt_deg;
   view.distance = distance;
   view.opacity = opacity;
-  view.planes = 1024;
   return view;
 }
 
@@ -103,14 +103,14 @@ TEST_F(RayCastPictureTest, is_the_plane_stacks_at_fine_spacing) {
 TEST_F(RayCastPictureTest, is_drawn_again_only_when_something_changed) {
   show(tissue_volume(small_geometry));
   ui::ViewState view = fine_view(35, 35, 2.4F, 0.5F);
-  ASSERT_TRUE(rays_->update(uploads_, view, {}, rect));
+  ASSERT_TRUE(rays_->update(uploads_, view, ui::RayMode::composite, {}, rect));
   const std::uint32_t kept = rays_->image().rgba[middle];
   show(uniform_volume(small_geometry, 0));
   --uploads_; // as if the same volume were shown
-  ASSERT_TRUE(rays_->update(uploads_, view, {}, rect));
+  ASSERT_TRUE(rays_->update(uploads_, view, ui::RayMode::composite, {}, rect));
   EXPECT_EQ(rays_->image().rgba[middle], kept);
   view.window_offset_db += 1;
-  ASSERT_TRUE(rays_->update(uploads_, view, {}, rect));
+  ASSERT_TRUE(rays_->update(uploads_, view, ui::RayMode::composite, {}, rect));
   EXPECT_EQ(rays_->image().rgba[middle], 0U) << "the volume is empty now";
   EXPECT_NE(kept, 0U);
 }

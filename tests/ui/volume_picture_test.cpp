@@ -49,8 +49,8 @@ protected:
     ++uploads_;
   }
 
-  void draw(const ui::ViewState& view) {
-    const auto updated = picture_->update(volume_, uploads_, view, {0, 0, size, size});
+  void draw(const ui::ViewState& view, int planes = 256) {
+    const auto updated = picture_->update(volume_, uploads_, view, {1, planes}, {0, 0, size, size});
     ASSERT_TRUE(updated) << updated.error().message;
     glViewport(0, 0, size, size);
     glClearColor(1, 1, 1, 1);
@@ -84,8 +84,7 @@ TEST_F(VolumePictureTest, uniform_slab_has_the_closed_form_opacity_for_any_numbe
     const double alpha = 1 - std::pow(1 - grey, steps);
     const double expected = 255 * (grey * alpha + 1 - alpha);
     for (const int planes : {16, 64, 256, 1000}) {
-      view.planes = planes;
-      draw(view);
+      draw(view, planes);
       EXPECT_NEAR(pixel(size / 2, size / 2), expected, 1.6) << count << " at " << planes;
     }
   }
@@ -111,7 +110,6 @@ TEST_F(VolumePictureTest, the_near_slab_hides_the_far_one_from_both_sides) {
     std::ranges::fill(volume.b_scan(b), std::uint8_t{200});
   upload(volume);
   ui::ViewState view = plain_view();
-  view.planes = 256;
   draw(view); // the eye is on the side of the last B-scan: grey (−40 + 50) / 40
   EXPECT_NEAR(pixel(size / 2, size / 2), 255 * 0.25, 2);
   view.yaw_deg = 180;
@@ -134,7 +132,6 @@ TEST_F(VolumePictureTest, nothing_is_mirrored) {
   constexpr int mid = size / 2;
   constexpr int off = size / 8;
   ui::ViewState view = plain_view();
-  view.planes = 256;
 
   upload(marked([](int, int a, int) { return a < 12; }));
   draw(view);
@@ -163,7 +160,6 @@ TEST_F(VolumePictureTest, the_box_has_its_physical_aspect) {
   ui::ViewState view = plain_view();
   view.window_size_db = 80; // … now 0.5
   view.distance = 5;
-  view.planes = 256;
   draw(view);
   const ui::Camera camera = ui::make_camera(view, ui::box_extents_mm(flat), 1);
   const glm::vec4 corner = camera.view_projection * glm::vec4{1.5F, 0.512F, 0.5F, 1};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipeline/occupancy.h"
-#include "ui/ray_caster/transfer_table.h"
+#include "ui/ray_caster/step_table.h"
 
 namespace octascope::ui {
 

@@ -1,7 +1,6 @@
 #include "ui/ray_caster/ray_cast_picture.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 #include "embedded_shaders.h"
@@ -45,15 +44,10 @@ hal::Result<> RayCastPicture::upload_image() {
   return {};
 }
 
-hal::Result<> RayCastPicture::update(std::uint64_t upload, const ViewState& view,
-                                     const RayLook& look, const Rect& rect) {
-  const auto pixels = [&](int length) {
-    return std::max(
-        1, static_cast<int>(std::lround(static_cast<float>(length) * view.volume_resolution)));
-  };
-  VolumePictureKey key = volume_picture_key(view, upload, pixels(rect.width), pixels(rect.height));
-  key.planes = 0;
-  if (drawn_ == key && drawn_look_ == look)
+hal::Result<> RayCastPicture::update(std::uint64_t upload, const ViewState& view, RayMode mode,
+                                     const DrawQuality& quality, const Rect& rect) {
+  const VolumePictureKey key = volume_picture_key(view, quality, upload, rect);
+  if (drawn_ == key && drawn_mode_ == mode)
     return {};
   const bool window_changed = !drawn_ || drawn_->window_offset_db != key.window_offset_db ||
                               drawn_->window_size_db != key.window_size_db ||
@@ -68,8 +62,9 @@ hal::Result<> RayCastPicture::update(std::uint64_t upload, const ViewState& view
   const glm::vec3 extents = caster_.empty() ? glm::vec3{0} : box_extents_mm(caster_.geometry());
   const double aspect = static_cast<double>(rect.width) / rect.height;
   RaySettings settings;
-  settings.mode = look.mode;
-  settings.step_mm = std::max({extents.x, extents.y, extents.z}) / static_cast<float>(look.steps);
+  settings.mode = mode;
+  settings.step_mm =
+      std::max({extents.x, extents.y, extents.z}) / static_cast<float>(quality.steps);
   settings.aspect = aspect;
   if (auto ok =
           caster_.draw(make_camera(view, extents, static_cast<float>(aspect)), settings, image_);
@@ -78,7 +73,7 @@ hal::Result<> RayCastPicture::update(std::uint64_t upload, const ViewState& view
   if (auto ok = upload_image(); !ok)
     return ok;
   drawn_ = key;
-  drawn_look_ = look;
+  drawn_mode_ = mode;
   return {};
 }
 

@@ -17,12 +17,6 @@
 
 namespace octascope::ui {
 
-struct RayLook {
-  RayMode mode = RayMode::composite;
-  int steps = 512; // along the longest edge of the volume's box
-  bool operator==(const RayLook&) const = default;
-};
-
 // Threads: as gl/objects.h, but for the ray caster's own helpers. Allocates when the size or the
 // geometry changes.
 class RayCastPicture {
@@ -35,9 +29,9 @@ public:
   hal::Result<> show(const pipeline::Volume& volume) { return caster_.show(volume); }
 
   // Casts and uploads if anything that the picture depends on has changed; `upload` counts the
-  // volumes shown. ViewState::planes does not matter here.
-  hal::Result<> update(std::uint64_t upload, const ViewState& view, const RayLook& look,
-                       const Rect& rect);
+  // volumes shown.
+  hal::Result<> update(std::uint64_t upload, const ViewState& view, RayMode mode,
+                       const DrawQuality& quality, const Rect& rect);
   // Blends the picture over the bound framebuffer.
   void composite(const Rect& rect, int target_height) const;
 
@@ -55,7 +49,7 @@ private:
   std::unique_ptr<TransferTable> transfer_;
   RayImage image_;
   std::optional<VolumePictureKey> drawn_;
-  RayLook drawn_look_;
+  RayMode drawn_mode_ = RayMode::composite;
 };
 
 } // namespace octascope::ui

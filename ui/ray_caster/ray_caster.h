@@ -17,7 +17,7 @@
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/cell_volume.h"
 #include "ui/ray_caster/ray_kernels.h"
-#include "ui/ray_caster/transfer_table.h"
+#include "ui/ray_caster/step_table.h"
 #include "ui/ray_caster/work_team.h"
 
 namespace octascope::ui {

@@ -19,7 +19,7 @@
 
 #include "pipeline/occupancy.h"
 #include "ui/ray_caster/ray_frame.h"
-#include "ui/ray_caster/transfer_table.h"
+#include "ui/ray_caster/step_table.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {

@@ -1,5 +1,7 @@
 #include "ui/volume/plane_stack.h"
 
+#include <algorithm>
+
 #include "embedded_shaders.h"
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -9,7 +11,7 @@
 namespace octascope::ui {
 
 namespace {
-constexpr std::size_t most_planes = 1024;      // ViewState::clamped()
+constexpr std::size_t most_planes = 1024;      // what draw() takes
 constexpr std::size_t vertices_per_plane = 12; // a hexagon is a fan of four triangles
 
 // Around zero delay the volume holds what is left of the background, blurred over two bins by the
@@ -63,11 +65,13 @@ int PlaneStack::fill_vertices(const Camera& camera, const glm::vec3& half,
   return static_cast<int>(used);
 }
 
-void PlaneStack::draw(const VolumeTexture& volume, const Camera& camera, const ViewState& view) {
+void PlaneStack::draw(const VolumeTexture& volume, const Camera& camera, const ViewState& view,
+                      int planes) {
+  planes = std::clamp(planes, 2, static_cast<int>(most_planes));
   const glm::vec3 extents = box_extents_mm(volume.geometry());
   const glm::vec3 half = extents / 2.0F;
-  const StackSpacing spacing = space_planes(camera, half, view.planes);
-  const int count = fill_vertices(camera, half, spacing, view.planes);
+  const StackSpacing spacing = space_planes(camera, half, planes);
+  const int count = fill_vertices(camera, half, spacing, planes);
   const WindowRamp window = window_ramp(view);
 
   program_.use();

@@ -22,7 +22,7 @@ public:
 
   // Draws front to back with the "under" operator into the bound framebuffer and viewport, which
   // must have an alpha channel and be cleared to zero: premultiplied colour and opacity come out.
-  void draw(const VolumeTexture& volume, const Camera& camera, const ViewState& view);
+  void draw(const VolumeTexture& volume, const Camera& camera, const ViewState& view, int planes);
 
 private:
   explicit PlaneStack(gl::Program program);

@@ -46,12 +46,25 @@ private:
 
 } // namespace
 
-VolumePictureKey volume_picture_key(const ViewState& view, std::uint64_t upload, int width,
-                                    int height) {
-  return {upload,        view.yaw_deg,          view.tilt_deg,
-          view.distance, view.window_offset_db, view.window_size_db,
-          view.opacity,  view.planes,           width,
-          height};
+VolumePictureKey volume_picture_key(const ViewState& view, const DrawQuality& quality,
+                                    std::uint64_t upload, const Rect& rect) {
+  const auto pixels = [&](int length) {
+    return std::max(1,
+                    static_cast<int>(std::lround(static_cast<float>(length) * quality.resolution)));
+  };
+  return {upload,
+          view.yaw_deg,
+          view.tilt_deg,
+          view.distance,
+          view.window_offset_db,
+          view.window_size_db,
+          view.opacity,
+          view.technique,
+          view.transfer,
+          view.colour_map,
+          quality.steps,
+          pixels(rect.width),
+          pixels(rect.height)};
 }
 
 hal::Result<VolumePicture> VolumePicture::create() {
@@ -84,13 +97,9 @@ hal::Result<> VolumePicture::resize(int width, int height) {
 }
 
 hal::Result<> VolumePicture::update(const VolumeTexture& volume, std::uint64_t upload,
-                                    const ViewState& view, const Rect& rect) {
-  const auto pixels = [&](int length) {
-    return std::max(
-        1, static_cast<int>(std::lround(static_cast<float>(length) * view.volume_resolution)));
-  };
-  const VolumePictureKey key =
-      volume_picture_key(view, upload, pixels(rect.width), pixels(rect.height));
+                                    const ViewState& view, const DrawQuality& quality,
+                                    const Rect& rect) {
+  const VolumePictureKey key = volume_picture_key(view, quality, upload, rect);
   if (drawn_ == key)
     return {};
   const KeptFramebuffer kept;
@@ -102,7 +111,8 @@ hal::Result<> VolumePicture::update(const VolumeTexture& volume, std::uint64_t u
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
   const float aspect = static_cast<float>(rect.width) / static_cast<float>(rect.height);
-  stack_.draw(volume, make_camera(view, box_extents_mm(volume.geometry()), aspect), view);
+  stack_.draw(volume, make_camera(view, box_extents_mm(volume.geometry()), aspect), view,
+              quality.steps);
   drawn_ = key;
   return {};
 }

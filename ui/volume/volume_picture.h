@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hal/result.h"
+#include "ui/draw_quality.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
 #include "ui/layout.h"
@@ -23,14 +24,17 @@ struct VolumePictureKey {
   float window_offset_db = 0;
   float window_size_db = 0;
   float opacity = 0;
-  int planes = 0;
+  Technique technique = Technique::rays;
+  int transfer = 0;
+  int colour_map = 0;
+  int steps = 0;
   int width = 0;
   int height = 0;
   bool operator==(const VolumePictureKey&) const = default;
 };
 
-VolumePictureKey volume_picture_key(const ViewState& view, std::uint64_t upload, int width,
-                                    int height);
+VolumePictureKey volume_picture_key(const ViewState& view, const DrawQuality& quality,
+                                    std::uint64_t upload, const Rect& rect);
 
 // Drawn into a texture of its own, in floating point where the GPU can, so that hundreds of faint
 // planes add up without rounding; composited from there, at any resolution.
@@ -43,7 +47,7 @@ public:
   // Draws into the texture if the key has changed; the bound framebuffer stays bound.
   // Fault::system: this GL cannot render to a texture of that size.
   hal::Result<> update(const VolumeTexture& volume, std::uint64_t upload, const ViewState& view,
-                       const Rect& rect);
+                       const DrawQuality& quality, const Rect& rect);
   // Blends the picture over the bound framebuffer.
   void composite(const Rect& rect, int target_height) const;
 

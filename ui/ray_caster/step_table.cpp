@@ -1,4 +1,4 @@
-#include "ui/ray_caster/transfer_table.h"
+#include "ui/ray_caster/step_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,17 +59,6 @@ std::optional<StepTable::Ramp> fit_ramp(const TransferTable::Window& window, flo
 }
 
 } // namespace
-
-void make_window_table(const ViewState& view, TransferTable& table) {
-  const WindowRamp window = window_ramp(view);
-  for (std::size_t i = 0; i < TransferTable::entries; ++i) {
-    const float level = static_cast<float>(i) / TransferTable::entries_per_level;
-    const float grey = std::clamp(level / 255 * window.scale + window.offset, 0.0F, 1.0F);
-    table.colour[i] = {grey, grey, grey};
-    table.opacity[i] = grey * view.opacity;
-  }
-  table.window = TransferTable::Window{window, view.opacity};
-}
 
 void make_step_table(const TransferTable& transfer, float steps, StepTable& table) {
   table.grey = true;

@@ -1,0 +1,28 @@
+// The ways of drawing a volume.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace octascope::ui {
+
+enum class Technique : std::uint8_t {
+  slices,  // object-aligned stack: the volume's own slices along the axis nearest to the view
+  planes,  // view-aligned stack: planes perpendicular to the view through the 3D texture
+  rays,    // ray casting, front to back, ended early, leaping over empty bricks
+  shaded,  // the same, with gradient lighting and depth cue
+  maximum, // maximum intensity projection
+  surface, // iso-surface, shaded
+};
+
+inline constexpr std::array all_techniques{Technique::slices,  Technique::planes,
+                                           Technique::rays,    Technique::shaded,
+                                           Technique::maximum, Technique::surface};
+
+// As on the command line, in profiles and on the display: "rays".
+std::string_view to_string(Technique technique);
+std::optional<Technique> technique_named(std::string_view name);
+
+} // namespace octascope::ui

@@ -1,0 +1,34 @@
+// What every way of drawing the volume by GL does.
+#pragma once
+
+#include "ui/camera.h"
+#include "ui/transfer/transfer_texture.h"
+#include "ui/view_state.h"
+#include "ui/volume/volume_texture.h"
+
+namespace octascope::ui {
+
+// Borrowed for one draw().
+struct VolumeScene {
+  const VolumeTexture& volume;
+  const TransferTexture& transfer; // from levels to colour and opacity
+  const Camera& camera;            // for the volume's extents and the target's aspect
+  const ViewState& view;
+  float step_mm; // distance between samples along the view
+};
+
+// Threads: as gl/objects.h. draw() allocates nothing after the first of a size.
+class VolumeTechnique {
+public:
+  virtual ~VolumeTechnique() = default;
+
+  // Draws into the bound framebuffer and viewport, which have alpha and are cleared to zero:
+  // premultiplied colour and opacity come out. Lengths are physical, opacity is corrected for the
+  // step, samples are trilinear, and the transfer function is the scene's.
+  void draw(const VolumeScene& scene) { do_draw(scene); }
+
+private:
+  virtual void do_draw(const VolumeScene& scene) = 0;
+};
+
+} // namespace octascope::ui
