@@ -12,6 +12,7 @@
 #include "firmware-host/device_choice.h"
 #include "firmware-host/notice.h"
 #include "firmware-host/picture_keeper.h"
+#include "firmware-host/process_start.h"
 #include "firmware-host/reconstruction_cache.h"
 #include "firmware-host/render_loop.h"
 #include "firmware-host/report.h"
@@ -338,6 +339,9 @@ RunReport AssembledAppliance::report() const {
   r.upload = frames.upload.summary();
   r.draw = frames.draw.summary();
   r.latency = frames.latency.summary();
+  r.control = frames.control.summary();
+  if (frames.first_picture)
+    r.first_picture_s = hal::to_seconds(*frames.first_picture - process_start(clock_));
   r.frames_drawn = frames.frames_drawn;
   r.frames_missed = frames.frames_missed;
   r.hot_path_allocations = pipeline::HotPath::allocations();

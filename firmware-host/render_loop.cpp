@@ -7,7 +7,6 @@
 
 #include "ui/auto_window.h"
 #include "ui/controls/simulated_control.h"
-#include "ui/drawing_budget.h"
 #include "ui/gl/context_info.h"
 
 namespace octascope::firmware_host {
@@ -19,7 +18,8 @@ constexpr const char* device_name = "display";
 } // namespace
 
 RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
-    : parts_(parts), setup_(std::move(setup)), controller_(setup_.view, setup_.b_scans) {}
+    : parts_(parts), setup_(std::move(setup)), controller_(setup_.view, setup_.b_scans),
+      governor_({}) {}
 
 RenderLoop::~RenderLoop() {
   renderer_.reset(); // before its context
@@ -40,6 +40,7 @@ hal::Result<> RenderLoop::open_display() {
   }
   renderer_ = std::move(*renderer);
   software_ = ui::gl::describe_context().software;
+  governor_ = ui::Governor{frame_budget()};
   if (volume_ != nullptr) // a display that came back shows what the lost one did
     return renderer_->show_volume(*volume_);
   return {};
@@ -57,13 +58,23 @@ bool RenderLoop::turn() {
   return go_on;
 }
 
-// As finely as this machine can draw it.
-ui::DrawQuality RenderLoop::quality() const {
-  ui::DrawQuality quality;
-  const bool planes_by_processor = software_ && !(renderer_ && renderer_->casts_rays());
-  quality.resolution = ui::affordable_resolution(planes_by_processor, parts_.display.width(),
-                                                 parts_.display.height());
-  return quality;
+// With a GPU every refresh of a moving view gets a frame. Where the processor draws, every second
+// one: 30 a second. A volume that comes while the view rests may take longer, as long as it is
+// shown well within the 60 ms that are allowed from its last line.
+ui::FrameBudget RenderLoop::frame_budget() const {
+  using namespace std::chrono_literals;
+  const hal::Duration refresh = parts_.display.refresh_period();
+  if (software_)
+    return {refresh * 18 / 10, std::max<hal::Duration>(refresh * 18 / 10, 45ms)};
+  return {refresh * 8 / 10, refresh * 18 / 10};
+}
+
+ui::DrawQuality RenderLoop::choose_quality() {
+  const ui::ViewState& view = controller_.state();
+  return governor_.choose({.now = setup_.status.now,
+                           .technique = view.technique,
+                           .moved = drawn_view_ && !ui::same_sight(*drawn_view_, view),
+                           .live = setup_.status.freshness.liveness == ui::Liveness::live});
 }
 
 bool RenderLoop::handle_input() {
@@ -72,18 +83,26 @@ bool RenderLoop::handle_input() {
     quit = quit || requests.quit;
     picture_wanted_ = picture_wanted_ || requests.snapshot;
   };
+  const ui::ViewState before = controller_.state();
+  std::optional<hal::TimePoint> oldest;
+  const auto seen = [&](hal::TimePoint time) { oldest = std::min(oldest.value_or(time), time); };
   std::array<hal::DisplayEvent, 32> events;
   if (renderer_) {
     for (const hal::DisplayEvent& event :
          std::span{events}.first(parts_.display.poll_events(events))) {
       quit = quit || event.kind == hal::DisplayEventKind::close_requested;
       note(controller_.handle(event));
+      seen(event.time);
       if (const auto control = ui::simulated_control(event); control && parts_.simulated_control)
         parts_.simulated_control(*control);
     }
   }
-  while (const auto event = parts_.controls.take())
+  while (const auto event = parts_.controls.take()) {
     note(controller_.handle(*event));
+    seen(event->time);
+  }
+  if (!undisplayed_control_ && oldest && before != controller_.state())
+    undisplayed_control_ = oldest;
   return !quit;
 }
 
@@ -144,18 +163,21 @@ void RenderLoop::update_status() {
 
 void RenderLoop::draw_if_changed() {
   const ui::ViewState& view = controller_.state();
-  const ui::DrawQuality quality = this->quality();
+  quality_ = choose_quality();
   hal::Display& display = parts_.display;
   if (!picture_wanted_ &&
-      !renderer_->needs_redraw(view, setup_.status, display.width(), display.height(), quality))
+      !renderer_->needs_redraw(view, setup_.status, display.width(), display.height(), quality_))
     return;
   const hal::TimePoint begin = parts_.clock.now();
   if (const auto drawn =
-          renderer_->draw(view, setup_.status, display.width(), display.height(), quality);
+          renderer_->draw(view, setup_.status, display.width(), display.height(), quality_);
       !drawn) {
     lose_display(drawn.error());
     return;
   }
+  renderer_->finish();
+  governor_.note(parts_.clock.now() - begin, renderer_->drew_volume());
+  drawn_view_ = view;
   if (picture_wanted_) { // before the flip: afterwards the frame buffer is another one
     parts_.keep_picture(renderer_->read_back(display.width(), display.height()));
     picture_wanted_ = false;
@@ -173,7 +195,13 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
   statistics_.draw.add(took);
   statistics_.frames_missed +=
       static_cast<std::uint64_t>(std::max<std::int64_t>(took / parts_.display.refresh_period(), 0));
+  if (undisplayed_control_) {
+    statistics_.control.add(flip.completed - *undisplayed_control_);
+    undisplayed_control_.reset();
+  }
   if (undisplayed_last_line_) {
+    if (!statistics_.first_picture)
+      statistics_.first_picture = flip.completed;
     statistics_.latency.add(flip.completed - *undisplayed_last_line_);
     undisplayed_last_line_.reset();
     ++statistics_.volumes_displayed;
@@ -185,6 +213,8 @@ void RenderLoop::lose_display(const hal::Error& error) {
   renderer_.reset();
   parts_.display.close();
   undisplayed_last_line_.reset();
+  undisplayed_control_.reset();
+  drawn_view_.reset();
 }
 
 bool RenderLoop::display_ready() {
@@ -208,7 +238,7 @@ std::optional<pipeline::Image> RenderLoop::picture() {
   // As it was shown: of a display that draws slowly, a live picture is STALE when we are back here.
   const int width = parts_.display.width();
   const int height = parts_.display.height();
-  if (!renderer_->draw(controller_.state(), setup_.status, width, height, quality()))
+  if (!renderer_->draw(controller_.state(), setup_.status, width, height, quality_))
     return std::nullopt;
   return renderer_->read_back(width, height);
 }

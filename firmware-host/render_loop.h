@@ -21,6 +21,7 @@
 #include "pipeline/wakeup.h"
 #include "ui/controls/view_controller.h"
 #include "ui/freshness.h"
+#include "ui/governor.h"
 #include "ui/renderer.h"
 #include "ui/scan_field.h"
 #include "ui/status.h"
@@ -58,9 +59,11 @@ struct FrameStatistics {
   pipeline::DurationStatistics upload;
   pipeline::DurationStatistics draw;
   pipeline::DurationStatistics latency;
+  pipeline::DurationStatistics control; // pedal or knob → end of the first frame that shows it
   std::uint64_t frames_drawn = 0;
   std::uint64_t frames_missed = 0;
   std::uint64_t volumes_displayed = 0;
+  std::optional<hal::TimePoint> first_picture; // of a volume
 };
 
 // Bound to one thread, the render thread. The display may vanish and return at any time.
@@ -94,7 +97,8 @@ public:
   void set_notice(std::string_view notice) { setup_.status.notice = notice; }
 
 private:
-  ui::DrawQuality quality() const;
+  ui::FrameBudget frame_budget() const;
+  ui::DrawQuality choose_quality();
   bool handle_input();
   void take_volume();
   void take_scope_picture();
@@ -108,9 +112,13 @@ private:
   RenderLoopParts parts_;
   RenderLoopSetup setup_;
   ui::ViewController controller_;
-  std::unique_ptr<ui::Renderer> renderer_;   // null while the display is gone
-  bool software_ = false;                    // the processor draws
-  const pipeline::Volume* volume_ = nullptr; // the newest taken, ours until the next take
+  std::unique_ptr<ui::Renderer> renderer_; // null while the display is gone
+  bool software_ = false;                  // the processor draws
+  ui::Governor governor_;
+  ui::DrawQuality quality_;
+  std::optional<ui::ViewState> drawn_view_;
+  const pipeline::Volume* volume_ = nullptr;          // the newest taken, ours until the next take
+  std::optional<hal::TimePoint> undisplayed_control_; // of the oldest event not shown yet
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
   std::optional<ui::ShownVolume> shown_;
   bool picture_wanted_ = false; // by a key or a pedal: the next frame is kept

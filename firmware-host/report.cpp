@@ -106,6 +106,8 @@ std::string to_json(const RunReport& r) {
         {"upload", to_json(r.upload)},
         {"draw", to_json(r.draw)}}},
       {"latency_ms", to_json(r.latency)},
+      {"control_ms", to_json(r.control)},
+      {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},
       {"frames", {{"drawn", r.frames_drawn}, {"missed", r.frames_missed}}},
       {"hot_path", {{"allocations", r.hot_path_allocations}}},
       {"faults", faults_to_json(r)},

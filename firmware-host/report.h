@@ -36,7 +36,8 @@ struct RunReport {
   std::uint64_t saturated_lines = 0;
   double duration_s = 0;
   double lines_per_s = 0, volumes_per_s = 0, frames_per_s = 0;
-  pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, latency;
+  pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, latency, control;
+  std::optional<double> first_picture_s; // since the process began
   std::uint64_t frames_drawn = 0, frames_missed = 0;
   std::uint64_t hot_path_allocations = 0;
   std::vector<pipeline::FaultRecord> faults;

@@ -74,6 +74,8 @@ struct Renderer::Parts {
   std::uint64_t scope_uploads = 0;
   bool scope_shown = false;
   std::optional<DrawnPicture> drawn{};
+  std::optional<VolumePictureKey> volume_drawn{};
+  bool drew_volume = false;
 
   ViewState fitted(const ViewState& view) const;
   HudScene scene(const ViewState& view) const;
@@ -177,7 +179,12 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   HudScene shown = scene(view);
   const bool has_volume = shown.shown.volume;
   Camera camera{};
+  drew_volume = false;
   if (has_volume) {
+    const VolumePictureKey key =
+        volume_picture_key(view, picture.quality, volume_uploads, places.view);
+    drew_volume = volume_drawn != key;
+    volume_drawn = key;
     if (auto ok = update_volume_picture(view, picture.quality, places.view); !ok)
       return ok;
     camera =
@@ -281,6 +288,14 @@ hal::Result<> Renderer::draw(const ViewState& view, const Status& status, int wi
     return ok;
   parts_->drawn = picture;
   return {};
+}
+
+bool Renderer::drew_volume() const {
+  return parts_->drew_volume;
+}
+
+void Renderer::finish() const {
+  glFinish();
 }
 
 bool Renderer::casts_rays() const {

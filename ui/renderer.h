@@ -42,6 +42,12 @@ public:
   hal::Result<> draw(const ViewState& view, const Status& status, int width, int height,
                      const DrawQuality& quality = {});
 
+  // Whether the last draw() made the volume's picture anew, which is most of what a frame costs.
+  bool drew_volume() const;
+
+  // Waits until everything is drawn.
+  void finish() const;
+
   // Whether the processor casts the volume's rays, which is what happens where GL is the processor,
   // too; otherwise GL draws a stack of planes.
   bool casts_rays() const;

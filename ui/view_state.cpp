@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace octascope::ui {
 
@@ -20,6 +21,15 @@ ViewState ViewState::clamped() const {
   v.opacity = std::clamp(v.opacity, 0.01F, 1.0F);
   v.b_scan = std::max(v.b_scan, 0);
   return v;
+}
+
+bool same_sight(const ViewState& a, const ViewState& b) {
+  const auto sight = [](const ViewState& v) {
+    return std::tie(v.yaw_deg, v.tilt_deg, v.distance, v.window_offset_db, v.window_size_db,
+                    v.opacity, v.technique, v.transfer, v.colour_map, v.layout, v.stereo,
+                    v.parallax_deg);
+  };
+  return sight(a) == sight(b);
 }
 
 ParameterRange parameter_range(Parameter parameter, int b_scans) {

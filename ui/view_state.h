@@ -60,6 +60,10 @@ struct ViewState {
   bool operator==(const ViewState&) const = default;
 };
 
+// Whether both show the volume from the same place in the same way: what a knob's turn changes of
+// its picture.
+bool same_sight(const ViewState& a, const ViewState& b);
+
 struct ParameterRange {
   float lowest;
   float highest;
