@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,11 +13,12 @@ namespace {
 
 constexpr std::uint32_t one = 65536;
 
-// The average of three B-scans, `after` and `result` may be anywhere but in each other.
+// The average of three B-scans.
 OCTASCOPE_CPU_CLONES
-void average(const std::uint8_t* before, const std::uint8_t* here, const std::uint8_t* after,
-             std::uint32_t weight_before, std::uint32_t weight_here, std::uint32_t weight_after,
-             std::size_t count, std::uint8_t* __restrict result) {
+void average_32_bit(const std::uint8_t* before, const std::uint8_t* here, const std::uint8_t* after,
+                    std::uint32_t weight_before, std::uint32_t weight_here,
+                    std::uint32_t weight_after, std::size_t count,
+                    std::uint8_t* __restrict result) {
   for (std::size_t i = 0; i < count; ++i)
     result[i] = static_cast<std::uint8_t>(
         (weight_before * before[i] + weight_here * here[i] + weight_after * after[i] + one / 2) /
@@ -63,35 +63,23 @@ NeighbourAverage::NeighbourAverage(const NeighbourWeights& weights) {
   }
 }
 
-void NeighbourAverage::apply(std::span<std::uint8_t> levels, std::span<const BScanState> states,
-                             std::size_t b_scan_voxels) noexcept {
-  const std::size_t b_scans = states.size();
-  for (std::size_t start = 0; start < b_scan_voxels; start += chunk) {
-    const std::size_t count = std::min(chunk, b_scan_voxels - start);
-    std::uint8_t* before = originals_[0].data();
-    std::uint8_t* here = originals_[1].data();
-    bool has_before = false;
-    for (std::size_t b = 0; b < b_scans; ++b) {
-      if (states[b] == BScanState::missing) {
-        has_before = false;
-        continue;
-      }
-      std::uint8_t* levels_here = levels.data() + b * b_scan_voxels + start;
-      const bool has_after = b + 1 < b_scans && states[b + 1] != BScanState::missing;
-      const FixedWeights& w = weights_[(has_before ? 1U : 0U) + (has_after ? 2U : 0U)];
-      std::copy_n(levels_here, count, here);
-      // A neighbour that does not exist has the weight 0; any readable memory stands in for it.
-      const std::uint8_t* after = has_after ? levels_here + b_scan_voxels : here;
-      if (((w.before | w.here | w.after) & 0xFFU) == 0 && w.here < one)
-        average_16_bit(before, here, after, static_cast<std::uint16_t>(w.before >> 8),
-                       static_cast<std::uint16_t>(w.here >> 8),
-                       static_cast<std::uint16_t>(w.after >> 8), count, levels_here);
-      else
-        average(before, here, after, w.before, w.here, w.after, count, levels_here);
-      std::swap(before, here);
-      has_before = true;
-    }
-  }
+void NeighbourAverage::average(std::span<const std::uint8_t> before,
+                               std::span<const std::uint8_t> here,
+                               std::span<const std::uint8_t> after,
+                               std::span<std::uint8_t> result) const noexcept {
+  const FixedWeights& w = weights_[(before.empty() ? 0U : 1U) + (after.empty() ? 0U : 2U)];
+  // A neighbour that does not exist has the weight 0; any readable memory stands in for it.
+  const std::uint8_t* first = before.empty() ? here.data() : before.data();
+  const std::uint8_t* last = after.empty() ? here.data() : after.data();
+  if (w.here == one)
+    std::ranges::copy(here, result.begin());
+  else if (((w.before | w.here | w.after) & 0xFFU) == 0)
+    average_16_bit(first, here.data(), last, static_cast<std::uint16_t>(w.before >> 8),
+                   static_cast<std::uint16_t>(w.here >> 8),
+                   static_cast<std::uint16_t>(w.after >> 8), result.size(), result.data());
+  else
+    average_32_bit(first, here.data(), last, w.before, w.here, w.after, result.size(),
+                   result.data());
 }
 
 } // namespace octascope::pipeline

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "pipeline/cpu_clones.h"
+#include "pipeline/volume.h"
 
 namespace octascope::pipeline {
 

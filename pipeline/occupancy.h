@@ -12,9 +12,11 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/volume.h"
+#include "pipeline/volume_geometry.h"
 
 namespace octascope::pipeline {
+
+struct Volume;
 
 // log2 of a brick's cells along depth, fast and slow axis. The voxels are three to ten times as
 // long along the slow axis as along depth.
@@ -50,6 +52,7 @@ public:
   void update(int b, std::span<const std::uint8_t> levels) noexcept;
   void update(const Volume& volume) noexcept;
 
+  bool empty() const { return highest_.empty(); }
   const VolumeGeometry& geometry() const { return geometry_; }
   const BrickCounts& bricks() const { return bricks_; }
 

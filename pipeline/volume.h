@@ -8,30 +8,10 @@
 #include <vector>
 
 #include "pipeline/ledger.h"
+#include "pipeline/occupancy.h"
+#include "pipeline/volume_geometry.h"
 
 namespace octascope::pipeline {
-
-// Counts and spacings of the three axes: depth z, A-scan a (fast axis), B-scan b (slow axis).
-struct VolumeGeometry {
-  int depths = 0;
-  int a_scans = 0;
-  int b_scans = 0;
-  double depth_spacing_um = 1; // of one depth bin, in the medium
-  double a_spacing_um = 1;
-  double b_spacing_um = 1;
-
-  std::size_t b_scan_voxels() const {
-    return static_cast<std::size_t>(depths) * static_cast<std::size_t>(a_scans);
-  }
-  std::size_t voxels() const { return b_scan_voxels() * static_cast<std::size_t>(b_scans); }
-
-  // Physical extents of the whole volume.
-  double depth_mm() const { return depths * depth_spacing_um * 1e-3; }
-  double a_mm() const { return a_scans * a_spacing_um * 1e-3; }
-  double b_mm() const { return b_scans * b_spacing_um * 1e-3; }
-
-  bool operator==(const VolumeGeometry&) const = default;
-};
 
 enum class BScanState : std::uint8_t {
   missing, // never came: its voxels are 0, the display hatches it
@@ -63,6 +43,8 @@ struct Volume {
   VolumeGeometry geometry;
   std::vector<std::uint8_t> levels;
   std::vector<BScanState> b_scan_states;
+  // Where there is something. Volumes of the pipeline bring it; empty() where nobody has built it.
+  Occupancy occupancy;
   VolumeLedger ledger;
 };
 

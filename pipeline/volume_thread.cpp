@@ -30,6 +30,12 @@ std::string complaint_about(std::string_view refused, std::uint64_t sequence) {
   return fmt::format("frame {} was exposed outside every sweep", sequence);
 }
 
+std::vector<Volume> make_pool(const VolumeGeometry& geometry, std::size_t size) {
+  Volume volume{geometry};
+  volume.occupancy = Occupancy{geometry, blank_depth_bins};
+  return std::vector<Volume>(size, volume);
+}
+
 } // namespace
 
 VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
@@ -37,11 +43,14 @@ VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
                            FaultLog& faults, Wakeup& arrived, Wakeup& news)
     : setup_(std::move(setup)), trigger_(trigger), acquisition_(acquisition), camera_(camera),
       clock_(clock), faults_(faults), arrived_(arrived), news_(news),
-      volumes_(pool_size, Volume{setup_.plan.geometry()}), sweeps_(setup_.plan),
+      volumes_(make_pool(setup_.plan.geometry(), pool_size)), sweeps_(setup_.plan),
       builder_(setup_.plan, setup_.workers, setup_.reconstruct),
       phase_(setup_.plan, clock, faults) {
-  for (Construction& construction : constructions_)
+  for (Construction& construction : constructions_) {
     construction.positions.resize(static_cast<std::size_t>(setup_.plan.b_scans));
+    construction.assembler =
+        std::make_unique<VolumeAssembler>(setup_.plan.geometry(), setup_.average);
+  }
   free_.reserve(pool_size);
   for (std::uint32_t index = 2; index < pool_size; ++index)
     free_.push_back(index);
@@ -188,6 +197,7 @@ void VolumeThread::open_volume(hal::TimePoint armed) {
   c.saturated_lines.store(0, std::memory_order_relaxed);
   Volume& volume = volumes_[index];
   std::fill(volume.b_scan_states.begin(), volume.b_scan_states.end(), BScanState::missing);
+  c.assembler->begin(volume);
   volume.ledger = {};
   volume.ledger.index = last_number_;
   volume.ledger.armed = armed;
@@ -280,9 +290,10 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   const int b = static_cast<int>(b_scan);
   const int saturated = builder_.build(
       worker, b, std::span{position.frames}.first(static_cast<std::size_t>(setup_.plan.repeats)),
-      c.alignment, c.sketch, volume.b_scan(b));
+      c.alignment, c.sketch, c.assembler->own_levels(b));
   volume.b_scan_states[b_scan] = saturated > 0 ? BScanState::saturated : BScanState::good;
   release(position);
+  c.assembler->built(b);
   c.saturated_lines.fetch_add(saturated, std::memory_order_relaxed);
   c.work_ns.fetch_add((clock_.now() - begin).count(), std::memory_order_relaxed);
   c.finished.fetch_add(1, std::memory_order_release);
@@ -329,11 +340,7 @@ void VolumeThread::finish(std::uint32_t index) {
     return;
   }
   const hal::TimePoint begin = clock_.now();
-  for (int b = 0; b < setup_.plan.b_scans; ++b) {
-    if (!c.positions[static_cast<std::size_t>(b)].submitted)
-      std::ranges::fill(volume.b_scan(b), std::uint8_t{0});
-  }
-  setup_.average.apply(volume);
+  c.assembler->finish();
   fill_ledger(volume, c);
   const hal::TimePoint assembled = clock_.now();
   volume.ledger.assemble = assembled - begin;

@@ -34,6 +34,7 @@
 #include "pipeline/sweep_tracker.h"
 #include "pipeline/triple_buffer.h"
 #include "pipeline/volume.h"
+#include "pipeline/volume_assembler.h"
 #include "pipeline/wakeup.h"
 #include "pipeline/worker_pool.h"
 
@@ -107,6 +108,7 @@ private:
     hal::TimePoint accept_until;
     SweepAlignment alignment; // of all its sweeps
     SweepSketch* sketch = nullptr;
+    std::unique_ptr<VolumeAssembler> assembler;
     std::vector<Position> positions; // by B-scan
     int sweeps_came = 0;
     int submitted = 0;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/occupancy.h"
+#include "pipeline/volume.h"
 
 namespace octascope::tests {
 namespace {

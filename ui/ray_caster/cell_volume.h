@@ -10,10 +10,7 @@
 
 namespace octascope::ui {
 
-// Depth bins that volume pictures leave out, and the height of the clip above the first that shows,
-// in depth bins from the middle of bin 0. Around zero delay the volume holds what is left of the
-// background, blurred by the spectral window: a bright lid over the tissue.
-inline constexpr int blank_depth_bins = 2;
+using pipeline::blank_depth_bins;
 
 // Levels of two neighbouring A-scans interleaved, depth fastest: [b cell row][a cell][z][2]. Row r
 // holds B-scan r−1, the first and last are repeated; cells as pipeline/occupancy.h numbers them.

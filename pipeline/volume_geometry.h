@@ -1,0 +1,35 @@
+// The shape of a volume.
+#pragma once
+
+#include <cstddef>
+
+namespace octascope::pipeline {
+
+// Counts and spacings of the three axes: depth z, A-scan a (fast axis), B-scan b (slow axis).
+struct VolumeGeometry {
+  int depths = 0;
+  int a_scans = 0;
+  int b_scans = 0;
+  double depth_spacing_um = 1; // of one depth bin, in the medium
+  double a_spacing_um = 1;
+  double b_spacing_um = 1;
+
+  std::size_t b_scan_voxels() const {
+    return static_cast<std::size_t>(depths) * static_cast<std::size_t>(a_scans);
+  }
+  std::size_t voxels() const { return b_scan_voxels() * static_cast<std::size_t>(b_scans); }
+
+  // Physical extents of the whole volume.
+  double depth_mm() const { return depths * depth_spacing_um * 1e-3; }
+  double a_mm() const { return a_scans * a_spacing_um * 1e-3; }
+  double b_mm() const { return b_scans * b_spacing_um * 1e-3; }
+
+  bool operator==(const VolumeGeometry&) const = default;
+};
+
+// Around zero delay there is what the background left behind, blurred over two bins by the spectral
+// window: a bright lid over the tissue. Pictures of the volume leave these bins out; B-scans and
+// exports show them.
+inline constexpr int blank_depth_bins = 2;
+
+} // namespace octascope::pipeline
