@@ -1,7 +1,7 @@
 // octascope: the command line.
 #include <string>
 
-#include "firmware-host/commands/bench_reconstruct.h"
+#include "firmware-host/commands/bench.h"
 #include "firmware-host/commands/calibrate.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/reconstruct.h"

@@ -9,6 +9,7 @@
 
 #include "ui/camera.h"
 #include "ui/gl/context_info.h"
+#include "ui/gl/framebuffer.h"
 #include "ui/hud/canvas_renderer.h"
 #include "ui/hud/hud.h"
 #include "ui/layout.h"
@@ -295,7 +296,7 @@ bool Renderer::drew_volume() const {
 }
 
 void Renderer::finish() const {
-  glFinish();
+  gl::finish();
 }
 
 bool Renderer::casts_rays() const {
@@ -308,17 +309,7 @@ bool Renderer::needs_redraw(const ViewState& view, const Status& status, int wid
 }
 
 pipeline::Image Renderer::read_back(int width, int height) const {
-  pipeline::Image image{width, height, 3};
-  const auto w = static_cast<std::size_t>(width);
-  const auto h = static_cast<std::size_t>(height);
-  std::vector<std::uint8_t> rgba(4 * w * h);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  for (std::size_t y = 0; y < h; ++y) // GL's rows run from the bottom
-    for (std::size_t x = 0; x < w; ++x)
-      std::copy_n(rgba.data() + 4 * ((h - 1 - y) * w + x), 3,
-                  image.pixels.data() + 3 * (y * w + x));
-  return image;
+  return gl::read_framebuffer(width, height);
 }
 
 } // namespace octascope::ui

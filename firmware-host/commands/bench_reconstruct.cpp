@@ -17,7 +17,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "firmware-host/commands/bench.h"
+#include "firmware-host/commands/bench_timing.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/reconstruction_cache.h"
 #include "pipeline/fft_plan.h"
 #include "pipeline/level_scale.h"
 
@@ -28,7 +31,6 @@ namespace {
 using pipeline::BackgroundMode;
 using pipeline::Interpolation;
 using pipeline::ReconstructionPath;
-using Clock = std::chrono::steady_clock;
 
 constexpr int samples = 1024;
 constexpr int a_scans = 300;
@@ -36,25 +38,6 @@ constexpr int fewest_repeats = 9;
 constexpr double source_counts = 20000;
 constexpr std::size_t b_scan_counts = std::size_t{a_scans} * samples;
 constexpr std::size_t ring_b_scans = 90; // 55 MB: larger than last-level caches, or what VMs see
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double quantile(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
-std::string cpu_name() {
-  std::ifstream in{"/proc/cpuinfo"};
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with("model name"))
-      return line.substr(std::min(line.find(": ") + 2, line.size()));
-  return "unknown";
-}
 
 pipeline::Calibration make_calibration(const BenchCase& what) {
   pipeline::Calibration calibration = pipeline::Calibration::identity(samples);
@@ -125,7 +108,7 @@ private:
                                                FFTW_FORWARD, effort)};
   }
   static double time_once(fftwf_plan plan, int transforms) {
-    const auto start = Clock::now();
+    const auto start = BenchClock::now();
     for (int i = 0; i < transforms; ++i)
       fftwf_execute(plan);
     return seconds_since(start) / transforms;
@@ -194,7 +177,7 @@ public:
     seconds_a_line(b_scans);
     std::vector<double> ratios;
     std::vector<double> rates;
-    const auto start = Clock::now();
+    const auto start = BenchClock::now();
     while (ratios.size() < fewest_repeats || seconds_since(start) < seconds) {
       const double before = bare.seconds();
       const double line = seconds_a_line(b_scans);
@@ -215,10 +198,10 @@ private:
   double seconds_a_line(std::size_t b_scans) {
     const auto threads = workspaces_.size();
     const std::size_t each = (b_scans + threads - 1) / threads;
-    Clock::time_point start;
+    BenchClock::time_point start;
     std::barrier together{static_cast<std::ptrdiff_t>(threads), [&]() noexcept {
-                            if (start == Clock::time_point{})
-                              start = Clock::now();
+                            if (start == BenchClock::time_point{})
+                              start = BenchClock::now();
                           }};
     const auto work = [&](std::size_t thread) {
       together.arrive_and_wait();
@@ -340,7 +323,7 @@ hal::Result<BenchReport> bench_reconstruct(double seconds) {
   const std::vector<std::uint16_t> ring = make_ring();
   BareTransform bare;
   BenchReport report;
-  report.cpu = cpu_name();
+  report.cpu = processor_name();
   report.ring_mb = static_cast<double>(ring.size() * sizeof ring[0]) / 1e6;
   const std::vector<BenchCase> cases = all_cases();
   std::vector<double> bare_seconds;
@@ -376,15 +359,13 @@ std::string to_json(const BenchReport& report) {
   return json.dump(2);
 }
 
-void add_bench_command(CLI::App& program, int& exit_status) {
+void add_bench_reconstruct_command(CLI::App& bench, int& exit_status) {
   struct Options {
     bool as_json = false;
     double seconds = 30;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* bench = program.add_subcommand("bench", "How fast this machine does it");
-  bench->require_subcommand(1);
-  CLI::App* command = bench->add_subcommand(
+  CLI::App* command = bench.add_subcommand(
       "reconstruct", "Lines a second of each path, relative to bare FFTW transforms");
   command->add_flag("--json", options->as_json, "One JSON object");
   command->add_option("--seconds", options->seconds, "About how long to measure (30 if not given)")

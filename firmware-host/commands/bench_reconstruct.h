@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/App.hpp>
-
 #include "hal/result.h"
 #include "pipeline/reconstructor.h"
 
@@ -47,8 +45,5 @@ struct BenchReport {
 hal::Result<BenchReport> bench_reconstruct(double seconds);
 
 std::string to_json(const BenchReport& report);
-
-// Adds "bench reconstruct"; see add_reconstruct_command().
-void add_bench_command(CLI::App& program, int& exit_status);
 
 } // namespace octascope::firmware_host

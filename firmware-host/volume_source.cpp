@@ -1,0 +1,113 @@
+#include "firmware-host/volume_source.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "firmware-host/configuration.h"
+#include "firmware-host/twins.h"
+#include "hal/linux/monotonic_clock.h"
+#include "pipeline/b_scan_builder.h"
+#include "pipeline/level_scale.h"
+#include "pipeline/nrrd.h"
+#include "pipeline/reconstructor.h"
+#include "pipeline/volume_assembler.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+hal::Result<pipeline::Volume> read_volume(const std::filesystem::path& file) {
+  const auto nrrd = pipeline::read_nrrd(file);
+  if (!nrrd)
+    return tl::make_unexpected(nrrd.error());
+  pipeline::Volume volume{nrrd->geometry};
+  std::visit(
+      [&](const auto& levels) {
+        std::ranges::transform(levels, volume.levels.begin(), [](auto level) {
+          if constexpr (std::is_same_v<decltype(level), float>)
+            return pipeline::quantise_level(level);
+          else
+            return level;
+        });
+      },
+      nrrd->levels);
+  std::ranges::fill(volume.b_scan_states, pipeline::BScanState::good);
+  return volume;
+}
+
+// The sweeps of one volume, one after the other, the way the workers take them.
+pipeline::Volume build_volume(const Twins& twins, const pipeline::Reconstructor& reconstructor,
+                              const pipeline::NeighbourAverage& average) {
+  const pipeline::ScanPlan& plan = twins.plan;
+  pipeline::Volume volume{plan.geometry()};
+  volume.occupancy = pipeline::Occupancy{plan.geometry(), pipeline::blank_depth_bins};
+  auto workspace = reconstructor.make_workspace();
+  pipeline::BScanBuilder builder{
+      plan, 1, [&](std::size_t, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
+        return reconstructor.reconstruct_b_scan(workspace, frame.bytes, levels).saturated_lines;
+      }};
+  pipeline::VolumeAssembler assembler{plan.geometry(), average};
+  assembler.begin(volume);
+  const pipeline::SweepAlignment alignment{plan, plan.phase_offset_a_scans};
+  for (int b = 0; b < plan.b_scans; ++b) {
+    std::array<hal::LineFrame, pipeline::ScanPlan::most_repeats> frames{};
+    for (int repeat = 0; repeat < plan.repeats; ++repeat) {
+      hal::LineFrame& frame = frames[static_cast<std::size_t>(repeat)];
+      frame.bytes = twins.spectra->frame(0, b * plan.repeats + repeat);
+      frame.buffer = repeat;
+    }
+    const int saturated =
+        builder.build(0, b, std::span{frames}.first(static_cast<std::size_t>(plan.repeats)),
+                      alignment, nullptr, assembler.own_levels(b));
+    volume.b_scan_states[static_cast<std::size_t>(b)] =
+        saturated > 0 ? pipeline::BScanState::saturated : pipeline::BScanState::good;
+    assembler.built(b);
+  }
+  assembler.finish();
+  return volume;
+}
+
+hal::Result<pipeline::Volume> reconstruct(const VolumeRequest& request) {
+  RunOptions options;
+  options.recording = request.recording;
+  options.calibration = request.calibration;
+  options.phantom = request.phantom;
+  Configuration configuration;
+  configuration.loop_volumes = 1;
+  hal::linux_backend::MonotonicClock clock;
+  const auto twins = make_twins(options, configuration, clock);
+  if (!twins)
+    return tl::make_unexpected(twins.error());
+  const auto reconstructor =
+      pipeline::Reconstructor::create({.calibration = twins->calibration,
+                                       .format = pipeline::SpectrumFormat{twins->format},
+                                       .a_scans = twins->plan.converted_lines()});
+  if (!reconstructor)
+    return tl::make_unexpected(reconstructor.error());
+  const auto average = pipeline::NeighbourAverage::create(configuration.neighbour_weights);
+  if (!average)
+    return tl::make_unexpected(average.error());
+  return build_volume(*twins, *reconstructor, *average);
+}
+
+} // namespace
+
+hal::Result<pipeline::Volume> load_volume(const VolumeRequest& request) {
+  const int sources =
+      (request.nrrd ? 1 : 0) + (request.recording ? 1 : 0) + (request.phantom ? 1 : 0);
+  if (sources != 1)
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("found {} volumes to draw, expected one: --volume FILE.nrrd, "
+                                 "--spectra FILE with --shape, or --phantom NAME",
+                                 sources));
+  return request.nrrd ? read_volume(*request.nrrd) : reconstruct(request);
+}
+
+} // namespace octascope::firmware_host

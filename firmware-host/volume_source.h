@@ -1,0 +1,27 @@
+// One volume, for commands that draw or measure: from a file, from spectra, or of a phantom.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "firmware-host/run_options.h"
+#include "hal/result.h"
+#include "pipeline/volume.h"
+
+namespace octascope::firmware_host {
+
+// Exactly one of `nrrd`, `recording` and `phantom`.
+struct VolumeRequest {
+  std::optional<std::filesystem::path> nrrd;
+  std::optional<RecordingOptions> recording;
+  std::optional<std::filesystem::path> calibration; // of the recording
+  std::optional<std::string> phantom;
+};
+
+// As the running appliance would have shown it: the same calibration, reconstruction and averaging
+// of neighbours for spectra and phantoms; a file's levels as they are. Fault::invalid_argument for
+// what a user can put right on the command line.
+hal::Result<pipeline::Volume> load_volume(const VolumeRequest& request);
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,17 @@
+// The framebuffer that is bound.
+#pragma once
+
+#include "pipeline/png_image.h"
+
+namespace octascope::ui::gl {
+
+// Fills it, and the viewport with it, with black.
+void clear_to_black(int width, int height);
+
+// Waits until everything is drawn.
+void finish();
+
+// What stands in it, rows from the top; waits for the drawing. Allocates.
+pipeline::Image read_framebuffer(int width, int height);
+
+} // namespace octascope::ui::gl
