@@ -10,11 +10,6 @@
 
 namespace octascope::ui {
 
-// Depth bins that volume pictures leave out, and the height of the clip above the first that shows,
-// in depth bins from the middle of bin 0. Around zero delay the volume holds what is left of the
-// background, blurred by the spectral window: a bright lid over the tissue.
-inline constexpr int blank_depth_bins = 2;
-
 // Levels of two neighbouring A-scans interleaved, depth fastest: [b cell row][a cell][z][2]. Row r
 // holds B-scan r−1, the first and last are repeated; cells as pipeline/occupancy.h numbers them.
 // Twice the volume's memory and one pass of copying, for half of the loads of every sample.
