@@ -1,12 +1,20 @@
 // How finely the volume is drawn: what the governor turns.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 namespace octascope::ui {
+
+// Who casts rays.
+enum class RayBackend : std::uint8_t { shader, processor };
 
 struct DrawQuality {
   float resolution = 1; // of the volume's picture, per display pixel and axis
   int steps = 256;      // samples along the longest edge of the volume's box; planes of a stack
                         // are as far apart
+  std::optional<RayBackend> rays{}; // else the processor where GL is software, and the shader where
+                                    // it is not
   bool operator==(const DrawQuality&) const = default;
 };
 

@@ -1,14 +1,12 @@
 #include "ui/renderer.h"
 
 #include <algorithm>
-#include <thread>
 #include <vector>
 
 #include <GLES3/gl3.h>
 #include <fmt/format.h>
 
 #include "ui/camera.h"
-#include "ui/gl/context_info.h"
 #include "ui/gl/framebuffer.h"
 #include "ui/hud/canvas_renderer.h"
 #include "ui/hud/hud.h"
@@ -16,9 +14,8 @@
 #include "ui/panels/b_scan_panel.h"
 #include "ui/panels/en_face_panel.h"
 #include "ui/panels/scope_panel.h"
-#include "ui/ray_caster/ray_cast_picture.h"
 #include "ui/volume/box_edges.h"
-#include "ui/volume/volume_picture.h"
+#include "ui/volume/volume_painter.h"
 
 namespace octascope::ui {
 
@@ -43,25 +40,10 @@ ViewState without_times(ViewState view) {
   return view;
 }
 
-// Nothing where a GPU draws, or where the ray caster knows no instruction set of this processor.
-std::optional<RayCastPicture> make_ray_picture() {
-  constexpr unsigned most_helpers = 15;
-  if (!gl::describe_context().software)
-    return std::nullopt;
-  const unsigned helpers =
-      std::clamp(std::thread::hardware_concurrency(), 1U, most_helpers + 1) - 1;
-  auto made = RayCastPicture::create(helpers, {});
-  if (!made)
-    return std::nullopt;
-  return std::move(*made);
-}
-
 } // namespace
 
 struct Renderer::Parts {
-  VolumeTexture volume;
-  VolumePicture volume_picture;
-  std::optional<RayCastPicture> ray_picture; // in its place where the processor draws
+  VolumePainter volume;
   BScanPanel b_scan_panel;
   EnFacePanel en_face_panel;
   ScopePanel scope_panel;
@@ -71,11 +53,9 @@ struct Renderer::Parts {
   std::optional<Fonts> fonts{};
   float fonts_unit = 0;
   std::vector<pipeline::BScanState> states{};
-  std::uint64_t volume_uploads = 0;
   std::uint64_t scope_uploads = 0;
   bool scope_shown = false;
   std::optional<DrawnPicture> drawn{};
-  std::optional<VolumePictureKey> volume_drawn{};
   bool drew_volume = false;
 
   ViewState fitted(const ViewState& view) const;
@@ -85,24 +65,8 @@ struct Renderer::Parts {
   Layout layout(int width, int height) const;
   hal::Result<> prepare_fonts(float unit);
   void draw_box(Canvas& canvas, const Camera& camera, const Rect& view, bool in_front) const;
-  hal::Result<> update_volume_picture(const ViewState& view, const DrawQuality& quality,
-                                      const Rect& rect);
-  void composite_volume_picture(const Rect& rect, int height) const;
   hal::Result<> draw(const DrawnPicture& picture);
 };
-
-hal::Result<> Renderer::Parts::update_volume_picture(const ViewState& view,
-                                                     const DrawQuality& quality, const Rect& rect) {
-  return ray_picture ? ray_picture->update(volume_uploads, view, RayMode::composite, quality, rect)
-                     : volume_picture.update(volume, volume_uploads, view, quality, rect);
-}
-
-void Renderer::Parts::composite_volume_picture(const Rect& rect, int height) const {
-  if (ray_picture)
-    ray_picture->composite(rect, height);
-  else
-    volume_picture.composite(rect, height);
-}
 
 ViewState Renderer::Parts::fitted(const ViewState& view) const {
   ViewState fitted = view.clamped();
@@ -115,7 +79,7 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
   HudScene scene;
   scene.shown.volume = !volume.empty();
   if (scene.shown.volume) {
-    scene.shown.geometry = volume.geometry();
+    scene.shown.geometry = volume.texture().geometry();
     scene.shown.b_scan = states[static_cast<std::size_t>(view.b_scan)];
   }
   scene.shown.scope = scope_shown;
@@ -129,7 +93,7 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
 DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& status, int width,
                                          int height, const DrawQuality& quality) const {
   const ViewState shown = fitted(view);
-  return {volume_uploads,
+  return {volume.uploads(),
           scope_uploads,
           width,
           height,
@@ -141,7 +105,7 @@ DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& st
 Layout Renderer::Parts::layout(int width, int height) const {
   PictureAspects aspects;
   if (!volume.empty()) {
-    const pipeline::VolumeGeometry& g = volume.geometry();
+    const pipeline::VolumeGeometry& g = volume.texture().geometry();
     aspects.b_scan = g.a_mm() / g.depth_mm();
     aspects.en_face = g.a_mm() / g.b_mm();
   }
@@ -166,7 +130,7 @@ void Renderer::Parts::draw_box(Canvas& canvas, const Camera& camera, const Rect&
   const Colour colour = in_front ? palette::box : palette::box_behind;
   const float width = std::max(1.0F, 1.5F * fonts_unit);
   const Canvas::Clip clip{canvas, view};
-  for (const BoxEdge& edge : project_box(camera, box_extents_mm(volume.geometry()), view))
+  for (const BoxEdge& edge : project_box(camera, box_extents_mm(volume.texture().geometry()), view))
     if (edge.visible && edge.in_front == in_front)
       canvas.line(edge.from, edge.to, colour, width);
 }
@@ -182,15 +146,13 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   Camera camera{};
   drew_volume = false;
   if (has_volume) {
-    const VolumePictureKey key =
-        volume_picture_key(view, picture.quality, volume_uploads, places.view);
-    drew_volume = volume_drawn != key;
-    volume_drawn = key;
-    if (auto ok = update_volume_picture(view, picture.quality, places.view); !ok)
-      return ok;
     camera =
-        make_camera(view, box_extents_mm(volume.geometry()),
+        make_camera(view, box_extents_mm(volume.texture().geometry()),
                     static_cast<float>(places.view.width) / static_cast<float>(places.view.height));
+    const std::uint64_t before = volume.drawings();
+    if (auto ok = volume.update(Eye::left, view, camera, picture.quality, places.view); !ok)
+      return ok;
+    drew_volume = volume.drawings() != before;
     shown.view_mm_per_pixel =
         static_cast<double>(2 * camera.tan_half_height * camera.depth_of(glm::vec3{0})) /
         places.view.height;
@@ -212,8 +174,8 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   glClear(GL_COLOR_BUFFER_BIT);
   canvas_renderer.draw(ground, picture.width, height);
   if (has_volume) {
-    composite_volume_picture(places.view, height);
-    b_scan_panel.draw(volume, shown.shown.b_scan, view, places.b_scan.picture, height);
+    volume.composite(Eye::left, places.view, height);
+    b_scan_panel.draw(volume.texture(), shown.shown.b_scan, view, places.b_scan.picture, height);
     en_face_panel.draw(places.en_face.picture, height);
   }
   if (scope_shown)
@@ -223,9 +185,9 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
 }
 
 hal::Result<std::unique_ptr<Renderer>> Renderer::create() {
-  auto volume_picture = VolumePicture::create();
-  if (!volume_picture)
-    return tl::make_unexpected(volume_picture.error());
+  auto volume = VolumePainter::create();
+  if (!volume)
+    return tl::make_unexpected(volume.error());
   auto b_scan = BScanPanel::create();
   if (!b_scan)
     return tl::make_unexpected(b_scan.error());
@@ -238,12 +200,8 @@ hal::Result<std::unique_ptr<Renderer>> Renderer::create() {
   auto canvas = CanvasRenderer::create();
   if (!canvas)
     return tl::make_unexpected(canvas.error());
-  std::unique_ptr<Parts> parts{new Parts{{},
-                                         std::move(*volume_picture),
-                                         make_ray_picture(),
-                                         std::move(*b_scan),
-                                         std::move(*en_face),
-                                         std::move(*scope),
+  std::unique_ptr<Parts> parts{new Parts{std::move(*volume), std::move(*b_scan),
+                                         std::move(*en_face), std::move(*scope),
                                          std::move(*canvas)}};
   return std::unique_ptr<Renderer>{new Renderer{std::move(parts)}};
 }
@@ -253,14 +211,10 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_{std::move(parts)} {}
 Renderer::~Renderer() = default;
 
 hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
-  if (auto ok = parts_->volume.upload(volume); !ok)
+  if (auto ok = parts_->volume.show(volume); !ok)
     return ok;
-  if (parts_->ray_picture)
-    if (auto ok = parts_->ray_picture->show(volume); !ok)
-      return ok;
   parts_->en_face_panel.show(volume);
   parts_->states.assign(volume.b_scan_states.begin(), volume.b_scan_states.end());
-  ++parts_->volume_uploads;
   return {};
 }
 
@@ -299,8 +253,8 @@ void Renderer::finish() const {
   gl::finish();
 }
 
-bool Renderer::casts_rays() const {
-  return parts_->ray_picture.has_value();
+bool Renderer::casts_rays(const DrawQuality& quality) const {
+  return parts_->volume.backend(quality) == RayBackend::processor;
 }
 
 bool Renderer::needs_redraw(const ViewState& view, const Status& status, int width, int height,

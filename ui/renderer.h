@@ -48,9 +48,9 @@ public:
   // Waits until everything is drawn.
   void finish() const;
 
-  // Whether the processor casts the volume's rays, which is what happens where GL is the processor,
-  // too; otherwise GL draws a stack of planes.
-  bool casts_rays() const;
+  // Whether the processor casts the volume's rays with that quality; from the first volume on.
+  // Other techniques than rays are drawn by GL.
+  bool casts_rays(const DrawQuality& quality = {}) const;
 
   // False when draw() would make the picture that it made last, to the pixel.
   bool needs_redraw(const ViewState& view, const Status& status, int width, int height,

@@ -9,6 +9,7 @@
 
 #include "tests/ui/support/synthetic_volume.h"
 #include "ui/ray_caster/brick_grid.h"
+#include "ui/ray_caster/step_table.h"
 #include "ui/ray_caster/work_team.h"
 
 namespace octascope::tests {
@@ -25,10 +26,10 @@ TEST(BrickGrid, distances_are_to_the_nearest_brick_that_is_not_empty) {
   ui::ViewState view;
   const auto transfer = std::make_unique<ui::TransferTable>();
   ui::make_window_table(view, *transfer);
-  const auto table = std::make_unique<ui::StepTable>();
-  ui::make_step_table(*transfer, 1, *table);
+  const auto levels = std::make_unique<ui::VisibleLevels>();
+  ui::find_visible_levels(*transfer, *levels);
   ui::BrickGrid grid;
-  grid.update(occupancy, *table, ui::Visibility::range);
+  grid.update(occupancy, *levels, ui::Visibility::range);
 
   const pipeline::BrickCounts n = grid.counts();
   struct Place {
@@ -59,9 +60,9 @@ TEST(TransferTable, is_empty_exactly_where_the_window_is) {
   ui::make_window_table(view, *transfer);
   const auto table = std::make_unique<ui::StepTable>();
   ui::make_step_table(*transfer, 0.25F, *table);
-  EXPECT_TRUE(table->empty(0, 80));
-  EXPECT_FALSE(table->empty(0, 81));
-  EXPECT_FALSE(table->empty(255, 255));
+  EXPECT_TRUE(table->visible.empty(0, 80));
+  EXPECT_FALSE(table->visible.empty(0, 81));
+  EXPECT_FALSE(table->visible.empty(255, 255));
   EXPECT_TRUE(table->grey);
   // Halfway up: grey 0.5, opacity 0.25 over a reference step.
   constexpr std::size_t middle = 100 * ui::TransferTable::entries_per_level;

@@ -13,6 +13,7 @@
 #include "tests/ui/support/reference_rays.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "ui/ray_caster/ray_caster.h"
+#include "ui/volume/blank_depths.h"
 #include "ui/volume/plane_box.h"
 
 namespace octascope::tests {
@@ -52,6 +53,13 @@ ui::RayCaster make_caster(std::string_view isa = {}, std::size_t helpers = 1) {
   auto made = ui::RayCaster::create(helpers, {}, isa);
   EXPECT_TRUE(made) << made.error().message;
   return std::move(*made);
+}
+
+hal::Result<> show(ui::RayCaster& caster, const pipeline::Volume& volume) {
+  pipeline::Occupancy occupancy{volume.geometry, ui::blank_depth_bins};
+  if (volume.levels.size() == volume.geometry.voxels())
+    occupancy.update(volume);
+  return caster.show(volume, occupancy);
 }
 
 ui::RayImage cast(ui::RayCaster& caster, const ui::ViewState& state,
@@ -100,7 +108,7 @@ TEST_P(RayCasterIsa, agrees_with_double_precision_from_everywhere) {
   const pipeline::Volume volume = tissue_volume(tissue);
   ui::RayCaster caster = make_caster(GetParam());
   ASSERT_EQ(caster.isa(), GetParam());
-  ASSERT_TRUE(caster.show(volume));
+  ASSERT_TRUE(show(caster, volume));
   for (const ui::RayMode mode : {ui::RayMode::composite, ui::RayMode::shaded, ui::RayMode::maximum})
     for (const View& view : views)
       for (const float opacity : {1.0F, 0.5F, 0.02F}) {
@@ -141,7 +149,7 @@ TEST_P(RayCasterIsa, leaping_over_empty_bricks_changes_not_one_bit) {
   for (int i = 0; i < 60; ++i)
     volume.b_scan(i)[static_cast<std::size_t>((i * 37 % 90) * 150 + i * 53 % 150)] = 255;
   ui::RayCaster caster = make_caster(GetParam());
-  ASSERT_TRUE(caster.show(volume));
+  ASSERT_TRUE(show(caster, volume));
   for (const ui::RayMode mode : {ui::RayMode::composite, ui::RayMode::shaded, ui::RayMode::maximum})
     for (const View& view : views) {
       const ui::ViewState state = view_state(view, 0.5F);
@@ -164,7 +172,7 @@ TEST(RayCaster, uniform_slab_has_the_closed_form_opacity_at_any_step) {
   const pipeline::VolumeGeometry slab{64, 64, 16, 40, 40, 10};
   ui::RayCaster caster = make_caster();
   for (const int count : {90, 110, 150}) {
-    ASSERT_TRUE(caster.show(uniform_volume(slab, static_cast<std::uint8_t>(count))));
+    ASSERT_TRUE(show(caster, uniform_volume(slab, static_cast<std::uint8_t>(count))));
     ui::ViewState state;
     state.yaw_deg = 0;
     state.tilt_deg = 0;
@@ -209,7 +217,7 @@ TEST(RayCaster, sphere_has_the_silhouette_of_its_cone_of_tangents) {
             static_cast<std::uint8_t>(std::lround(200 * share));
       }
   ui::RayCaster caster = make_caster();
-  ASSERT_TRUE(caster.show(volume));
+  ASSERT_TRUE(show(caster, volume));
   ui::ViewState state = view_state({"", 25, 40, 2}, 1);
   state.window_offset_db = pipeline::level_db(100); // begins at the surface
   state.window_size_db = 1;
@@ -237,7 +245,7 @@ TEST(RayCaster, maximum_of_a_ramp_is_its_upper_end) {
         volume.b_scan(b)[static_cast<std::size_t>(a * 32 + z)] =
             static_cast<std::uint8_t>(4 * b + a);
   ui::RayCaster caster = make_caster();
-  ASSERT_TRUE(caster.show(volume));
+  ASSERT_TRUE(show(caster, volume));
   ui::ViewState state = view_state({"", 0, 0, 8}, 0.5F);
   state.window_offset_db = pipeline::lowest_level_db;
   state.window_size_db = 100;
@@ -254,7 +262,7 @@ TEST(RayCaster, maximum_of_a_ramp_is_its_upper_end) {
 
 TEST(RayCaster, half_the_step_is_the_same_picture) {
   ui::RayCaster caster = make_caster();
-  ASSERT_TRUE(caster.show(tissue_volume(small_geometry)));
+  ASSERT_TRUE(show(caster, tissue_volume(small_geometry)));
   for (const View& view : views) {
     const ui::ViewState state = view_state(view, 0.5F);
     const auto at = [&](int steps) {
@@ -273,7 +281,7 @@ TEST(RayCaster, half_the_step_is_the_same_picture) {
 // Two channels that do not follow the grey: the same light in other colours.
 TEST(RayCaster, colours_weigh_as_grey_does) {
   ui::RayCaster caster = make_caster();
-  ASSERT_TRUE(caster.show(tissue_volume(small_geometry)));
+  ASSERT_TRUE(show(caster, tissue_volume(small_geometry)));
   const ui::ViewState state = view_state(views[0], 0.5F);
   for (const ui::RayMode mode :
        {ui::RayMode::composite, ui::RayMode::shaded, ui::RayMode::maximum}) {
@@ -302,7 +310,7 @@ TEST(RayCaster, colours_weigh_as_grey_does) {
 
 TEST(RayCaster, a_changed_window_or_volume_shows_in_the_next_picture) {
   ui::RayCaster caster = make_caster();
-  ASSERT_TRUE(caster.show(uniform_volume(cube, 100)));
+  ASSERT_TRUE(show(caster, uniform_volume(cube, 100)));
   ui::ViewState state = view_state({"", 0, 0, 3}, 1);
   state.window_offset_db = 0;
   state.window_size_db = 40;
@@ -313,7 +321,7 @@ TEST(RayCaster, a_changed_window_or_volume_shows_in_the_next_picture) {
   EXPECT_NEAR(middle(), 255 * 10.0 / 40, 1);
   state.window_offset_db = 20;
   EXPECT_EQ(middle(), 0) << "below the window all is clear";
-  ASSERT_TRUE(caster.show(uniform_volume(cube, 140)));
+  ASSERT_TRUE(show(caster, uniform_volume(cube, 140)));
   EXPECT_NEAR(middle(), 255 * 10.0 / 40, 1) << "bricks that were empty are not any more";
 }
 
@@ -327,13 +335,15 @@ TEST(RayCaster, draws_the_same_with_any_number_of_threads_and_allocates_nothing)
   std::vector<std::uint32_t> first;
   for (const std::size_t helpers : {0U, 1U, 3U}) {
     ui::RayCaster caster = make_caster({}, helpers);
-    ASSERT_TRUE(caster.show(volume));
+    ASSERT_TRUE(show(caster, volume));
     ui::RayImage image = cast(caster, state, settings);
     if (first.empty())
       first = image.rgba;
+    pipeline::Occupancy occupancy{volume.geometry, ui::blank_depth_bins};
     const std::uint64_t before = allocations_of_this_thread();
     for (int i = 0; i < 20; ++i) {
-      ASSERT_TRUE(caster.show(volume));
+      occupancy.update(volume);
+      ASSERT_TRUE(caster.show(volume, occupancy));
       table->opacity[100] = 0.001F * static_cast<float>(i); // a window that is being turned
       table->window->opacity = 0.5F + table->opacity[100];
       caster.set_transfer(*table);
@@ -356,7 +366,7 @@ TEST(RayCaster, says_what_it_cannot_draw) {
   EXPECT_EQ(early.error().fault, hal::Fault::invalid_argument);
   pipeline::Volume torn = uniform_volume(cube, 0);
   torn.levels.pop_back();
-  const auto bad = caster.show(torn);
+  const auto bad = show(caster, torn);
   ASSERT_FALSE(bad);
   EXPECT_THAT(bad.error().message, testing::HasSubstr("32767"));
   const auto unknown = ui::RayCaster::create(0, {}, "abacus");

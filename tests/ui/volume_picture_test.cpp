@@ -1,15 +1,14 @@
-// The plane stack's pictures against closed forms.
+// Pictures by GL of every technique that composites, on the screen, against closed forms.
 #include <algorithm>
-#include <cmath>
-
-#include <glm/geometric.hpp>
+#include <array>
+#include <optional>
+#include <string>
 
 #include "pipeline/level_scale.h"
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "ui/camera.h"
-#include "ui/volume/plane_box.h"
-#include "ui/volume/volume_picture.h"
+#include "ui/volume/volume_painter.h"
 
 namespace octascope::tests {
 namespace {
@@ -28,34 +27,34 @@ ui::ViewState plain_view() {
 }
 
 // Draws volumes alone onto white, so that a pixel is grey·α + 255·(1 − α).
-class VolumePictureTest : public GlTest {
+class VolumePictureTest : public GlTest, public testing::WithParamInterface<ui::Technique> {
 protected:
   void SetUp() override {
     open(size, size);
     if (IsSkipped())
       return;
-    auto made = ui::VolumePicture::create();
+    auto made = ui::VolumePainter::create();
     ASSERT_TRUE(made) << made.error().message;
-    picture_.emplace(std::move(*made));
+    painter_.emplace(std::move(*made));
   }
-  void TearDown() override {
-    picture_.reset();
-    volume_ = {};
-  }
+  void TearDown() override { painter_.reset(); }
 
   void upload(const pipeline::Volume& volume) {
-    const auto uploaded = volume_.upload(volume);
-    ASSERT_TRUE(uploaded) << uploaded.error().message;
-    ++uploads_;
+    const auto shown = painter_->show(volume);
+    ASSERT_TRUE(shown) << shown.error().message;
   }
 
-  void draw(const ui::ViewState& view, int planes = 256) {
-    const auto updated = picture_->update(volume_, uploads_, view, {1, planes}, {0, 0, size, size});
+  void draw(ui::ViewState view, int steps = 256) {
+    view.technique = GetParam();
+    const ui::Camera camera =
+        ui::make_camera(view, ui::box_extents_mm(painter_->texture().geometry()), 1);
+    const auto updated = painter_->update(ui::Eye::left, view, camera,
+                                          {1, steps, ui::RayBackend::shader}, {0, 0, size, size});
     ASSERT_TRUE(updated) << updated.error().message;
     glViewport(0, 0, size, size);
     glClearColor(1, 1, 1, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    picture_->composite({0, 0, size, size}, size);
+    painter_->composite(ui::Eye::left, {0, 0, size, size}, size);
   }
 
   // x from the left, y from the top.
@@ -67,44 +66,16 @@ protected:
     return rgba[0];
   }
 
-  std::optional<ui::VolumePicture> picture_;
-  ui::VolumeTexture volume_;
-  std::uint64_t uploads_ = 0;
+  std::optional<ui::VolumePainter> painter_;
 };
 
-// A uniform slab of thickness L has the opacity 1 − (1 − a)^(L / reference step).
-TEST_F(VolumePictureTest, uniform_slab_has_the_closed_form_opacity_for_any_number_of_planes) {
-  const pipeline::VolumeGeometry slab{64, 64, 16, 40, 40, 10}; // 2.56 × 2.56 × 0.16 mm
-  const glm::vec3 half = ui::box_extents_mm(slab) / 2.0F;
-  for (const int count : {90, 110, 150}) {
-    upload(uniform_volume(slab, static_cast<std::uint8_t>(count)));
-    ui::ViewState view = plain_view();
-    const double grey = (static_cast<double>(pipeline::level_db(static_cast<float>(count)))) / 40;
-    const double steps = 0.16 / static_cast<double>(ui::reference_step_mm(half));
-    const double alpha = 1 - std::pow(1 - grey, steps);
-    const double expected = 255 * (grey * alpha + 1 - alpha);
-    for (const int planes : {16, 64, 256, 1000}) {
-      draw(view, planes);
-      EXPECT_NEAR(pixel(size / 2, size / 2), expected, 1.6) << count << " at " << planes;
-    }
-  }
-}
-
-TEST_F(VolumePictureTest, oblique_rays_are_longer_and_so_more_opaque) {
-  const pipeline::VolumeGeometry slab{64, 64, 16, 40, 40, 10};
-  upload(uniform_volume(slab, 90));
-  ui::ViewState view = plain_view();
-  view.yaw_deg = 60; // the path through the slab doubles
-  draw(view);
-  const double grey = 5.0 / 40;
-  const double steps =
-      0.32 / static_cast<double>(ui::reference_step_mm(ui::box_extents_mm(slab) / 2.0F));
-  const double alpha = 1 - std::pow(1 - grey, steps);
-  EXPECT_NEAR(pixel(size / 2, size / 2), 255 * (grey * alpha + 1 - alpha), 3);
-}
+INSTANTIATE_TEST_SUITE_P(Techniques, VolumePictureTest,
+                         testing::Values(ui::Technique::slices, ui::Technique::planes,
+                                         ui::Technique::rays),
+                         [](const auto& each) { return std::string{ui::to_string(each.param)}; });
 
 // Half the cube is white, half dark grey; both opaque: only the near one is seen.
-TEST_F(VolumePictureTest, the_near_slab_hides_the_far_one_from_both_sides) {
+TEST_P(VolumePictureTest, the_near_slab_hides_the_far_one_from_both_sides) {
   pipeline::Volume volume = uniform_volume(cube, 100);
   for (int b = 0; b < 16; ++b)
     std::ranges::fill(volume.b_scan(b), std::uint8_t{200});
@@ -118,7 +89,7 @@ TEST_F(VolumePictureTest, the_near_slab_hides_the_far_one_from_both_sides) {
 }
 
 // Opaque and bright at the first A-scans, the first depths or the first B-scans; the rest empty.
-TEST_F(VolumePictureTest, nothing_is_mirrored) {
+TEST_P(VolumePictureTest, nothing_is_mirrored) {
   const auto marked = [](auto&& is_marked) {
     pipeline::Volume volume = uniform_volume(cube, 0);
     for (int b = 0; b < 32; ++b)
@@ -154,7 +125,7 @@ TEST_F(VolumePictureTest, nothing_is_mirrored) {
 }
 
 // Silhouette of an opaque box against the matrices.
-TEST_F(VolumePictureTest, the_box_has_its_physical_aspect) {
+TEST_P(VolumePictureTest, the_box_has_its_physical_aspect) {
   const pipeline::VolumeGeometry flat{512, 100, 50, 2, 30, 20}; // 1.024 × 3 × 1 mm
   upload(uniform_volume(flat, 160));                            // grey 1: white …
   ui::ViewState view = plain_view();
@@ -171,7 +142,7 @@ TEST_F(VolumePictureTest, the_box_has_its_physical_aspect) {
   EXPECT_EQ(pixel(size / 2, top - 3), 255);
 }
 
-TEST_F(VolumePictureTest, a_change_of_the_window_needs_no_new_volume) {
+TEST_P(VolumePictureTest, a_change_of_the_window_needs_no_new_volume) {
   upload(uniform_volume(cube, 130)); // 25 dB
   ui::ViewState view = plain_view();
   draw(view);
@@ -184,18 +155,18 @@ TEST_F(VolumePictureTest, a_change_of_the_window_needs_no_new_volume) {
   EXPECT_EQ(pixel(size / 2, size / 2), 255) << "below the window all is clear";
 }
 
-TEST_F(VolumePictureTest, refuses_volumes_that_do_not_fit_and_keeps_the_last) {
+TEST_P(VolumePictureTest, refuses_volumes_that_do_not_fit_and_keeps_the_last) {
   upload(uniform_volume(cube, 130));
   pipeline::Volume torn = uniform_volume(cube, 0);
   torn.levels.pop_back();
-  const auto bad = volume_.upload(torn);
+  const auto bad = painter_->show(torn);
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().fault, hal::Fault::bad_data);
 
   GLint largest = 0;
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
   const auto large =
-      volume_.upload(pipeline::Volume{pipeline::VolumeGeometry{largest + 1, 1, 1, 1, 1, 1}});
+      painter_->show(pipeline::Volume{pipeline::VolumeGeometry{largest + 1, 1, 1, 1, 1, 1}});
   ASSERT_FALSE(large);
   EXPECT_EQ(large.error().fault, hal::Fault::unsupported);
   EXPECT_NE(large.error().message.find(std::to_string(largest)), std::string::npos);

@@ -96,14 +96,14 @@ void BrickGrid::measure_distances() {
       break;
 }
 
-void BrickGrid::update(const pipeline::Occupancy& occupancy, const StepTable& table,
+void BrickGrid::update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
                        Visibility visibility) {
   resize(occupancy.bricks());
   merge_b_scans(occupancy);
   std::size_t occupied = 0;
   for (std::size_t i = 0; i < reach_.size(); ++i) {
     const int lowest = visibility == Visibility::range ? lowest_[i] : 0;
-    const bool empty = visibility != Visibility::everything && table.empty(lowest, highest_[i]);
+    const bool empty = visibility != Visibility::everything && levels.empty(lowest, highest_[i]);
     reach_[i] = empty ? 0 : 1;
     occupied += reach_[i];
   }

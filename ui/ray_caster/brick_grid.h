@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pipeline/occupancy.h"
-#include "ui/ray_caster/step_table.h"
+#include "ui/transfer/visible_levels.h"
 
 namespace octascope::ui {
 
@@ -25,7 +25,8 @@ class BrickGrid {
 public:
   static constexpr int most_distance = 10;
 
-  void update(const pipeline::Occupancy& occupancy, const StepTable& table, Visibility visibility);
+  void update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
+              Visibility visibility);
 
   const std::uint16_t* data() const { return bricks_.data(); }
   const pipeline::BrickCounts& counts() const { return counts_; }

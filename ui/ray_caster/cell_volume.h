@@ -10,8 +10,6 @@
 
 namespace octascope::ui {
 
-using pipeline::blank_depth_bins;
-
 // Levels of two neighbouring A-scans interleaved, depth fastest: [b cell row][a cell][z][2]. Row r
 // holds B-scan r−1, the first and last are repeated; cells as pipeline/occupancy.h numbers them.
 // Twice the volume's memory and one pass of copying, for half of the loads of every sample.

@@ -1,6 +1,5 @@
 #include "ui/ray_caster/ray_cast_picture.h"
 
-#include <algorithm>
 #include <span>
 
 #include "embedded_shaders.h"
@@ -9,20 +8,12 @@
 
 namespace octascope::ui {
 
-hal::Result<RayCastPicture> RayCastPicture::create(std::size_t helpers,
-                                                   const pipeline::ThreadSetup& setup) {
-  auto caster = RayCaster::create(helpers, setup);
-  if (!caster)
-    return tl::make_unexpected(caster.error());
+hal::Result<RayCastPicture> RayCastPicture::create() {
   auto pass = gl::PicturePass::create("ray_image", shaders::ray_image_frag);
   if (!pass)
     return tl::make_unexpected(pass.error());
-  return RayCastPicture{std::move(*caster), std::move(*pass)};
+  return RayCastPicture{std::move(*pass)};
 }
-
-RayCastPicture::RayCastPicture(RayCaster caster, gl::PicturePass pass)
-    : caster_{std::move(caster)}, pass_{std::move(pass)}, transfer_{
-                                                              std::make_unique<TransferTable>()} {}
 
 void RayCastPicture::resize(int width, int height) {
   image_.resize(width, height);
@@ -44,35 +35,24 @@ hal::Result<> RayCastPicture::upload_image() {
   return {};
 }
 
-hal::Result<> RayCastPicture::update(std::uint64_t upload, const ViewState& view, RayMode mode,
+hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                                      const DrawQuality& quality, const Rect& rect) {
-  const VolumePictureKey key = volume_picture_key(view, quality, upload, rect);
+  const VolumePictureKey key = volume_picture_key(scene, quality, rect);
   if (drawn_ == key && drawn_mode_ == mode)
     return {};
-  const bool window_changed = !drawn_ || drawn_->window_offset_db != key.window_offset_db ||
-                              drawn_->window_size_db != key.window_size_db ||
-                              drawn_->opacity != key.opacity;
   drawn_.reset();
   if (key.width != image_.width || key.height != image_.height)
     resize(key.width, key.height);
-  if (window_changed) {
-    make_window_table(view, *transfer_);
-    caster_.set_transfer(*transfer_);
-  }
-  const glm::vec3 extents = caster_.empty() ? glm::vec3{0} : box_extents_mm(caster_.geometry());
-  const double aspect = static_cast<double>(rect.width) / rect.height;
   RaySettings settings;
   settings.mode = mode;
-  settings.step_mm =
-      std::max({extents.x, extents.y, extents.z}) / static_cast<float>(quality.steps);
-  settings.aspect = aspect;
-  if (auto ok =
-          caster_.draw(make_camera(view, extents, static_cast<float>(aspect)), settings, image_);
-      !ok)
+  settings.step_mm = scene.step_mm;
+  settings.aspect = static_cast<double>(rect.width) / rect.height;
+  if (auto ok = caster.draw(scene.camera, settings, image_); !ok)
     return ok;
   if (auto ok = upload_image(); !ok)
     return ok;
   drawn_ = key;
+  ++drawings_;
   drawn_mode_ = mode;
   return {};
 }

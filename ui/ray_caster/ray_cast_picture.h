@@ -6,49 +6,41 @@
 #include <optional>
 
 #include "hal/result.h"
-#include "pipeline/volume.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
 #include "ui/gl/pixel_uploader.h"
-#include "ui/layout.h"
 #include "ui/ray_caster/ray_caster.h"
-#include "ui/view_state.h"
-#include "ui/volume/volume_picture.h"
+#include "ui/volume/picture_key.h"
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h, but for the ray caster's own helpers. Allocates when the size or the
-// geometry changes.
+// Threads: as gl/objects.h. Allocates when the size changes.
 class RayCastPicture {
 public:
-  // Fault::unsupported: this processor has no instruction set that the ray caster is compiled for.
-  static hal::Result<RayCastPicture> create(std::size_t helpers,
-                                            const pipeline::ThreadSetup& setup);
+  static hal::Result<RayCastPicture> create();
 
-  // Copies the volume. On an error (RayCaster::show() lists them) the last one stays.
-  hal::Result<> show(const pipeline::Volume& volume) { return caster_.show(volume); }
-
-  // Casts and uploads if anything that the picture depends on has changed; `upload` counts the
-  // volumes shown.
-  hal::Result<> update(std::uint64_t upload, const ViewState& view, RayMode mode,
+  // Casts and uploads if anything that the picture depends on has changed. `caster` shows the
+  // scene's volume with its transfer function, and may be shared with other pictures.
+  hal::Result<> update(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                        const DrawQuality& quality, const Rect& rect);
   // Blends the picture over the bound framebuffer.
   void composite(const Rect& rect, int target_height) const;
 
+  std::uint64_t drawings() const { return drawings_; } // counts the pictures made
+
   const RayImage& image() const { return image_; } // the last one, with its depths
 
 private:
-  RayCastPicture(RayCaster caster, gl::PicturePass pass);
+  explicit RayCastPicture(gl::PicturePass pass) : pass_{std::move(pass)} {}
   void resize(int width, int height);
   hal::Result<> upload_image();
 
-  RayCaster caster_;
   gl::PicturePass pass_;
   gl::PixelUploader uploader_;
   gl::Texture texture_;
-  std::unique_ptr<TransferTable> transfer_;
   RayImage image_;
   std::optional<VolumePictureKey> drawn_;
+  std::uint64_t drawings_ = 0;
   RayMode drawn_mode_ = RayMode::composite;
 };
 

@@ -6,26 +6,12 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "ui/ray_caster/ray_geometry.h"
 #include "ui/volume/plane_box.h"
 
 namespace octascope::ui {
 
 namespace {
-
-// From the world's millimetres (ui/camera.h) to cells along depth, fast and slow axis.
-struct CellAxes {
-  glm::vec3 per_mm; // (depth, fast, slow)
-  glm::vec3 origin; // the box's centre in cells
-
-  explicit CellAxes(const pipeline::VolumeGeometry& g)
-      : per_mm{1e3 / g.depth_spacing_um, 1e3 / g.a_spacing_um, 1e3 / g.b_spacing_um},
-        origin{static_cast<float>(g.depths) / 2 - 0.5F, static_cast<float>(g.a_scans) / 2 + 0.5F,
-               static_cast<float>(g.b_scans) / 2 + 0.5F} {}
-
-  glm::vec3 direction(const glm::vec3& world) const {
-    return glm::vec3{-world.y, world.x, world.z} * per_mm;
-  }
-};
 
 void set(float (&to)[3], const glm::vec3& from) {
   for (int i = 0; i < 3; ++i)
@@ -33,11 +19,6 @@ void set(float (&to)[3], const glm::vec3& from) {
 }
 
 } // namespace
-
-float gradient_mm(const pipeline::VolumeGeometry& g) {
-  return static_cast<float>(1.5e-3 *
-                            std::cbrt(g.depth_spacing_um * g.a_spacing_um * g.b_spacing_um));
-}
 
 void RayImage::resize(int new_width, int new_height) {
   width = new_width;
@@ -61,21 +42,26 @@ RayCaster::RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team)
     : kernels_{&kernels}, team_{std::move(team)}, transfer_{std::make_unique<TransferTable>()},
       steps_table_{std::make_unique<StepTable>()} {}
 
-hal::Result<> RayCaster::show(const pipeline::Volume& volume) {
+hal::Result<> RayCaster::show(const pipeline::Volume& volume,
+                              const pipeline::Occupancy& occupancy) {
   const pipeline::VolumeGeometry& g = volume.geometry;
   if (!CellVolume::fits(g) || volume.levels.size() != g.voxels())
     return hal::fail(hal::Fault::unsupported,
                      fmt::format("ray caster: found {} levels of {} depths x {} A-scans x {} "
                                  "B-scans, expected a whole volume below 1 GiB; scan fewer",
                                  volume.levels.size(), g.depths, g.a_scans, g.b_scans));
-  if (!cells_ || cells_->geometry() != g) {
+  if (occupancy.geometry() != g)
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("ray caster: found the occupancy of a volume of {} depths x {} "
+                                 "A-scans x {} B-scans, expected that of {} x {} x {}",
+                                 occupancy.geometry().depths, occupancy.geometry().a_scans,
+                                 occupancy.geometry().b_scans, g.depths, g.a_scans, g.b_scans));
+  if (!cells_ || cells_->geometry() != g)
     cells_.emplace(g);
-    occupancy_ = pipeline::Occupancy{g, blank_depth_bins};
-  }
+  occupancy_ = occupancy;
   team_->run(static_cast<std::uint32_t>(g.b_scans), [&](std::uint32_t b_scan) {
     const int b = static_cast<int>(b_scan);
     cells_->update(b, volume.b_scan(b));
-    occupancy_.update(b, volume.b_scan(b));
   });
   bricks_current_ = false;
   return {};
@@ -96,7 +82,7 @@ void RayCaster::prepare(float steps, Visibility visibility) {
     table_current_ = true;
   }
   if (!bricks_current_ || visibility != visibility_) {
-    bricks_.update(occupancy_, *steps_table_, visibility);
+    bricks_.update(occupancy_, steps_table_->visible, visibility);
     visibility_ = visibility;
     bricks_current_ = true;
   }
@@ -105,8 +91,7 @@ void RayCaster::prepare(float steps, Visibility visibility) {
 RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
                           RayImage& image) const {
   const pipeline::VolumeGeometry& g = cells_->geometry();
-  const CellAxes axes{g};
-  const glm::vec3 half = box_extents_mm(g) / 2.0F;
+  const RayGeometry rays = ray_geometry(g, camera);
   RayFrame f{};
   f.cells = cells_->data();
   f.column_bytes = cells_->column_bytes();
@@ -114,9 +99,8 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   f.bricks = bricks_.data();
   f.brick_row = bricks_.counts().depth;
   f.brick_slab = bricks_.counts().depth * bricks_.counts().a;
-  set(f.lower, {static_cast<float>(blank_depth_bins), 0.5F, 0.5F});
-  set(f.upper, {static_cast<float>(g.depths) - 0.5F, static_cast<float>(g.a_scans) + 0.5F,
-                static_cast<float>(g.b_scans) + 0.5F});
+  set(f.lower, rays.lower);
+  set(f.upper, rays.upper);
   f.opacity_and_red = steps_table_->opacity_and_red.data();
   f.green_and_blue = steps_table_->green_and_blue.data();
   if (const auto& ramp = steps_table_->ramp) {
@@ -125,21 +109,20 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
     std::ranges::copy(ramp->opacity, f.ramp_opacity);
   }
 
-  set(f.eye, axes.direction(camera.eye) + axes.origin);
-  set(f.forward, axes.direction(camera.forward));
-  set(f.right, axes.direction(camera.right));
-  set(f.up, axes.direction(camera.up));
-  set(f.mm, 1.0F / axes.per_mm);
+  set(f.eye, rays.eye);
+  set(f.forward, rays.forward);
+  set(f.right, rays.right);
+  set(f.up, rays.up);
+  set(f.mm, rays.mm);
   f.pixel_height = 2 * camera.tan_half_height / static_cast<float>(image.height);
   f.pixel_width = static_cast<float>(static_cast<double>(2 * camera.tan_half_height) *
                                      settings.aspect / image.width);
   f.near_mm = camera.near_mm;
   f.step_mm = settings.step_mm;
 
-  set(f.gradient_cells, gradient_mm(g) * axes.per_mm);
-  const float reach = glm::dot(glm::abs(camera.forward), half);
-  f.cue_near_mm = std::max(camera.depth_of(glm::vec3{0}) - reach, camera.near_mm);
-  f.cue_per_mm = 1 / (camera.depth_of(glm::vec3{0}) + reach - f.cue_near_mm);
+  set(f.gradient_cells, rays.gradient_cells);
+  f.cue_near_mm = rays.cue_near_mm;
+  f.cue_per_mm = rays.cue_per_mm;
 
   f.width = image.width;
   f.height = image.height;

@@ -2,7 +2,7 @@
 //
 // Source of the technique: M. Levoy, "Efficient ray tracing of volume data", ACM Transactions on
 // Graphics 9 (1990): early termination, and leaping over what is empty. Colour, opacity, blank
-// depths and dither are those of plane_stack.frag, so that both draw the same settings.
+// depths and dither are those of stack.frag, so that both draw the same settings.
 #pragma once
 
 #include <cstdint>
@@ -53,8 +53,9 @@ public:
   static hal::Result<RayCaster> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
                                        std::string_view isa = {});
 
-  // Copies the volume. Fault::unsupported: too large for 32-bit offsets. The last one then stays.
-  hal::Result<> show(const pipeline::Volume& volume);
+  // Copies both. Fault::unsupported: too large for 32-bit offsets. Fault::invalid_argument: the
+  // occupancy is of another geometry. The last volume then stays.
+  hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
 
   // Shows in the next draw(). Compares, and forgets nothing when both are the same.
   void set_transfer(const TransferTable& transfer);
@@ -86,9 +87,5 @@ private:
   bool table_current_ = false;
   bool bricks_current_ = false;
 };
-
-// The distance, along each axis, over which shading takes the gradient: one and a half mean
-// spacings, so that the same slope is lit the same from everywhere.
-float gradient_mm(const pipeline::VolumeGeometry& geometry);
 
 } // namespace octascope::ui

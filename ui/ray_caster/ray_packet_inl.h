@@ -59,7 +59,7 @@ HWY_INLINE void clip(Interval& interval, float lower, float upper, float eye, Re
   interval.to = hn::Min(interval.to, hn::Max(at_lower, at_upper));
 }
 
-// 0…1, evenly spread over any small neighbourhood: plane_stack.frag has the source.
+// 0…1, evenly spread over any small neighbourhood: transfer.glsl has the source.
 HWY_INLINE Real dither(Real x, Real y_from_bottom) {
   const auto fraction = [](Real v) { return hn::Sub(v, hn::Floor(v)); };
   const Real sum = hn::MulAdd(x, real(0.06711056F), hn::Mul(y_from_bottom, real(0.00583715F)));

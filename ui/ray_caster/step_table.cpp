@@ -75,12 +75,7 @@ void make_step_table(const TransferTable& transfer, float steps, StepTable& tabl
     table.green_and_blue[i] = (to_16_bits(colour.green) << 16U) | to_16_bits(colour.blue);
     table.grey = table.grey && colour.red == colour.green && colour.red == colour.blue;
   }
-  std::uint16_t visible = 0;
-  for (std::size_t i = 0; i < TransferTable::entries; ++i) {
-    table.visible_before[i] = visible;
-    visible = static_cast<std::uint16_t>(visible + (transfer.opacity[i] > 0 ? 1 : 0));
-  }
-  table.visible_before[TransferTable::entries] = visible;
+  find_visible_levels(transfer, table.visible);
 }
 
 } // namespace octascope::ui

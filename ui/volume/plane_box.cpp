@@ -49,6 +49,20 @@ void sort_around_centre(PlanePolygon& polygon, const glm::vec3& normal) {
   }
 }
 
+// What the stack fills, as distances from the eye along the view.
+struct Stretch {
+  float nearest_mm;
+  float length_mm;
+};
+
+Stretch stretch_along_view(const Camera& camera, const glm::vec3& half) {
+  // Half of the box's extent along the view, for a box around the origin.
+  const float reach = glm::dot(glm::abs(camera.forward), half);
+  const float centre = camera.depth_of(glm::vec3{0});
+  const float nearest = std::max(centre - reach, camera.near_mm);
+  return {nearest, centre + reach - nearest};
+}
+
 } // namespace
 
 PlanePolygon intersect_plane_box(const glm::vec3& half, const glm::vec3& normal, float offset) {
@@ -83,12 +97,15 @@ float polygon_area(const PlanePolygon& polygon) {
 }
 
 StackSpacing space_planes(const Camera& camera, const glm::vec3& half, int planes) {
-  // Half of the box's extent along the view, for a box around the origin.
-  const float reach = glm::dot(glm::abs(camera.forward), half);
-  const float centre = camera.depth_of(glm::vec3{0});
-  const float nearest = std::max(centre - reach, camera.near_mm);
-  const float spacing = (centre + reach - nearest) / static_cast<float>(planes);
-  return {nearest + spacing / 2, spacing};
+  const Stretch stretch = stretch_along_view(camera, half);
+  const float spacing = stretch.length_mm / static_cast<float>(planes);
+  return {stretch.nearest_mm + spacing / 2, spacing};
+}
+
+int count_planes(const Camera& camera, const glm::vec3& half, float step_mm, int most) {
+  // A hair more than the quotient: a step that fits exactly is not rounded to one plane more.
+  const float asked = std::ceil(stretch_along_view(camera, half).length_mm / step_mm - 1e-3F);
+  return static_cast<int>(std::clamp(asked, 2.0F, static_cast<float>(most)));
 }
 
 float reference_step_mm(const glm::vec3& half) {

@@ -37,6 +37,9 @@ struct StackSpacing {
 
 StackSpacing space_planes(const Camera& camera, const glm::vec3& half, int planes);
 
+// How many planes come no farther apart than step_mm: 2 to `most`.
+int count_planes(const Camera& camera, const glm::vec3& half, float step_mm, int most);
+
 // The length over which ViewState::opacity holds: a fixed share of the box's diagonal, so that the
 // picture depends neither on the number of planes nor on the direction of the view.
 float reference_step_mm(const glm::vec3& half);

@@ -1,42 +1,23 @@
-// The view-aligned plane stack: n planes perpendicular to the view through the 3D texture.
+// The view-aligned plane stack: planes perpendicular to the view through the 3D texture.
 #pragma once
 
-#include <vector>
-
-#include <glm/vec3.hpp>
-
-#include "hal/result.h"
-#include "ui/camera.h"
-#include "ui/gl/objects.h"
-#include "ui/gl/program.h"
-#include "ui/view_state.h"
-#include "ui/volume/plane_box.h"
-#include "ui/volume/volume_texture.h"
+#include "ui/volume/polygon_stack.h"
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h. draw() allocates nothing.
-class PlaneStack {
+// As many planes as the step asks for, spread evenly, half of their spacing from the borders of the
+// volume: ui/volume/plane_box.h has the source.
+//
+// Threads: as gl/objects.h. Allocates when it is made, never afterwards.
+class PlaneStack : public VolumeTechnique {
 public:
   static hal::Result<PlaneStack> create();
 
-  // Draws front to back with the "under" operator into the bound framebuffer and viewport, which
-  // must have an alpha channel and be cleared to zero: premultiplied colour and opacity come out.
-  void draw(const VolumeTexture& volume, const Camera& camera, const ViewState& view, int planes);
-
 private:
-  explicit PlaneStack(gl::Program program);
-  int fill_vertices(const Camera& camera, const glm::vec3& half, const StackSpacing& spacing,
-                    int planes);
+  explicit PlaneStack(PolygonStack stack) : stack_{std::move(stack)} {}
+  void do_draw(const VolumeScene& scene) override;
 
-  gl::Program program_;
-  gl::VertexArray vertex_array_;
-  gl::Buffer vertex_buffer_;
-  std::vector<glm::vec3> vertices_;
-  struct {
-    GLint view_projection, eye, forward, extents, levels, window, opacity, steps, first_depth,
-        spacing;
-  } uniforms_;
+  PolygonStack stack_;
 };
 
 } // namespace octascope::ui

@@ -1,13 +1,13 @@
 #include "ui/volume/volume_picture.h"
 
-#include <algorithm>
-#include <cmath>
+#include <array>
 #include <string_view>
 
 #include "embedded_shaders.h"
 #include <fmt/format.h>
 
 #include "ui/gl/picture_texture.h"
+#include "ui/ray_caster/ray_frame.h"
 
 namespace octascope::ui {
 
@@ -46,45 +46,29 @@ private:
 
 } // namespace
 
-VolumePictureKey volume_picture_key(const ViewState& view, const DrawQuality& quality,
-                                    std::uint64_t upload, const Rect& rect) {
-  const auto pixels = [&](int length) {
-    return std::max(1,
-                    static_cast<int>(std::lround(static_cast<float>(length) * quality.resolution)));
-  };
-  return {upload,
-          view.yaw_deg,
-          view.tilt_deg,
-          view.distance,
-          view.window_offset_db,
-          view.window_size_db,
-          view.opacity,
-          view.technique,
-          view.transfer,
-          view.colour_map,
-          quality.steps,
-          pixels(rect.width),
-          pixels(rect.height)};
-}
-
 hal::Result<VolumePicture> VolumePicture::create() {
-  auto stack = PlaneStack::create();
-  if (!stack)
-    return tl::make_unexpected(stack.error());
   auto pass = gl::PicturePass::create("composite", shaders::composite_frag);
   if (!pass)
     return tl::make_unexpected(pass.error());
-  return VolumePicture{std::move(*stack), std::move(*pass)};
+  return VolumePicture{std::move(*pass)};
 }
 
-VolumePicture::VolumePicture(PlaneStack stack, gl::PicturePass pass)
-    : stack_{std::move(stack)}, pass_{std::move(pass)}, format_{accumulation_format()} {}
+VolumePicture::VolumePicture(gl::PicturePass pass)
+    : pass_{std::move(pass)}, format_{accumulation_format()}, depth_possible_{has_extension(
+                                                                  "GL_EXT_color_buffer_float")} {}
 
 hal::Result<> VolumePicture::resize(int width, int height) {
-  colour_ = gl::make_picture_texture(format_, width, height);
   framebuffer_ = gl::Framebuffer::make();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+  colour_ = gl::make_picture_texture(format_, width, height);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.name(), 0);
+  if (depth_possible_) {
+    depth_ = gl::make_picture_texture(GL_R32F, width, height);
+    // Neither filterable everywhere nor of use between near and far.
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_TEXTURE_2D, depth_.name(), 0);
+  }
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
     return hal::fail(hal::Fault::system,
@@ -96,24 +80,36 @@ hal::Result<> VolumePicture::resize(int width, int height) {
   return {};
 }
 
-hal::Result<> VolumePicture::update(const VolumeTexture& volume, std::uint64_t upload,
-                                    const ViewState& view, const DrawQuality& quality,
-                                    const Rect& rect) {
-  const VolumePictureKey key = volume_picture_key(view, quality, upload, rect);
+void VolumePicture::clear() const {
+  constexpr std::array<GLfloat, 4> nothing{0, 0, 0, 0};
+  constexpr std::array<GLfloat, 4> far{no_depth, no_depth, no_depth, no_depth};
+  glClearBufferfv(GL_COLOR, 0, nothing.data());
+  if (depth_)
+    glClearBufferfv(GL_COLOR, 1, far.data());
+}
+
+hal::Result<> VolumePicture::update(VolumeTechniques& techniques, const VolumeScene& scene,
+                                    const DrawQuality& quality, const Rect& rect) {
+  const VolumePictureKey key = volume_picture_key(scene, quality, rect);
   if (drawn_ == key)
     return {};
+  drawn_.reset();
+  const auto technique = techniques.get(scene.view.technique);
+  if (!technique)
+    return tl::make_unexpected(technique.error());
   const KeptFramebuffer kept;
   if (key.width != width_ || key.height != height_)
     if (auto ok = resize(key.width, key.height); !ok)
       return ok;
+  constexpr std::array<GLenum, 2> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);
-  glClearColor(0, 0, 0, 0);
-  glClear(GL_COLOR_BUFFER_BIT);
-  const float aspect = static_cast<float>(rect.width) / static_cast<float>(rect.height);
-  stack_.draw(volume, make_camera(view, box_extents_mm(volume.geometry()), aspect), view,
-              quality.steps);
+  glDrawBuffers(depth_ ? 2 : 1, buffers.data());
+  clear();
+  glDrawBuffers(depth_ && (*technique)->writes_depth() ? 2 : 1, buffers.data());
+  (*technique)->draw(scene);
   drawn_ = key;
+  ++drawings_;
   return {};
 }
 

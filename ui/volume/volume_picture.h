@@ -1,40 +1,16 @@
-// The volume as the eye sees it, kept until something that it depends on changes.
+// The volume as one eye sees it, drawn by GL, kept until something that it depends on changes.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
 #include "hal/result.h"
-#include "ui/draw_quality.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
-#include "ui/layout.h"
-#include "ui/view_state.h"
-#include "ui/volume/plane_stack.h"
-#include "ui/volume/volume_texture.h"
+#include "ui/volume/picture_key.h"
+#include "ui/volume/volume_techniques.h"
 
 namespace octascope::ui {
-
-// Everything that the volume's picture depends on.
-struct VolumePictureKey {
-  std::uint64_t upload = 0; // counts volumes
-  float yaw_deg = 0;
-  float tilt_deg = 0;
-  float distance = 0;
-  float window_offset_db = 0;
-  float window_size_db = 0;
-  float opacity = 0;
-  Technique technique = Technique::rays;
-  int transfer = 0;
-  int colour_map = 0;
-  int steps = 0;
-  int width = 0;
-  int height = 0;
-  bool operator==(const VolumePictureKey&) const = default;
-};
-
-VolumePictureKey volume_picture_key(const ViewState& view, const DrawQuality& quality,
-                                    std::uint64_t upload, const Rect& rect);
 
 // Drawn into a texture of its own, in floating point where the GPU can, so that hundreds of faint
 // planes add up without rounding; composited from there, at any resolution.
@@ -44,25 +20,39 @@ class VolumePicture {
 public:
   static hal::Result<VolumePicture> create();
 
-  // Draws into the texture if the key has changed; the bound framebuffer stays bound.
-  // Fault::system: this GL cannot render to a texture of that size.
-  hal::Result<> update(const VolumeTexture& volume, std::uint64_t upload, const ViewState& view,
+  // Draws into the texture if the key has changed; the bound framebuffer stays bound. `techniques`
+  // may be shared with other pictures. Fault::system: this GL cannot render to a texture of that
+  // size.
+  hal::Result<> update(VolumeTechniques& techniques, const VolumeScene& scene,
                        const DrawQuality& quality, const Rect& rect);
   // Blends the picture over the bound framebuffer.
   void composite(const Rect& rect, int target_height) const;
 
-private:
-  VolumePicture(PlaneStack stack, gl::PicturePass pass);
-  hal::Result<> resize(int width, int height);
+  std::uint64_t drawings() const { return drawings_; } // counts the pictures made
 
-  PlaneStack stack_;
+  // Of the last update(), rows from the bottom; ours.
+  GLuint colour_texture() const { return colour_.name(); } // premultiplied
+  // R32F: mm along the view to where half is hidden. Infinity where nothing is, and everywhere for
+  // techniques that write none (slices, planes). 0, no texture, where GL renders no such format.
+  GLuint depth_texture() const { return depth_.name(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+private:
+  explicit VolumePicture(gl::PicturePass pass);
+  hal::Result<> resize(int width, int height);
+  void clear() const;
+
   gl::PicturePass pass_;
   gl::Texture colour_;
+  gl::Texture depth_;
   gl::Framebuffer framebuffer_;
   GLenum format_;
+  bool depth_possible_;
   int width_ = 0;
   int height_ = 0;
   std::optional<VolumePictureKey> drawn_;
+  std::uint64_t drawings_ = 0;
 };
 
 } // namespace octascope::ui

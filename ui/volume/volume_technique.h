@@ -1,6 +1,9 @@
 // What every way of drawing the volume by GL does.
 #pragma once
 
+#include <cstdint>
+
+#include "pipeline/occupancy.h"
 #include "ui/camera.h"
 #include "ui/transfer/transfer_texture.h"
 #include "ui/view_state.h"
@@ -15,6 +18,9 @@ struct VolumeScene {
   const Camera& camera;            // for the volume's extents and the target's aspect
   const ViewState& view;
   float step_mm; // distance between samples along the view
+  const pipeline::Occupancy* occupancy =
+      nullptr;              // of the volume; without it, nothing is leapt over
+  std::uint64_t upload = 0; // counts the volumes shown
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first of a size.
@@ -27,8 +33,14 @@ public:
   // step, samples are trilinear, and the transfer function is the scene's.
   void draw(const VolumeScene& scene) { do_draw(scene); }
 
+  // Whether draw() also writes, into the second colour attachment, the distance along the view, in
+  // mm, to where half is hidden, or no_depth (ui/ray_caster/ray_frame.h). Otherwise that attachment
+  // must not be enabled.
+  bool writes_depth() const { return do_writes_depth(); }
+
 private:
   virtual void do_draw(const VolumeScene& scene) = 0;
+  virtual bool do_writes_depth() const { return false; }
 };
 
 } // namespace octascope::ui

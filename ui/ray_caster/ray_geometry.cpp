@@ -1,0 +1,42 @@
+#include "ui/ray_caster/ray_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "ui/volume/blank_depths.h"
+
+namespace octascope::ui {
+
+float gradient_mm(const pipeline::VolumeGeometry& g) {
+  return static_cast<float>(1.5e-3 *
+                            std::cbrt(g.depth_spacing_um * g.a_spacing_um * g.b_spacing_um));
+}
+
+RayGeometry ray_geometry(const pipeline::VolumeGeometry& g, const Camera& camera) {
+  const glm::vec3 per_mm{1e3 / g.depth_spacing_um, 1e3 / g.a_spacing_um, 1e3 / g.b_spacing_um};
+  const glm::vec3 counts{g.depths, g.a_scans, g.b_scans};
+  const glm::vec3 middle = counts / 2.0F + glm::vec3{-0.5F, 0.5F, 0.5F};
+  // From the world's axes (ui/camera.h).
+  const auto cells = [&](const glm::vec3& world) {
+    return glm::vec3{-world.y, world.x, world.z} * per_mm;
+  };
+  RayGeometry rays;
+  rays.lower = {static_cast<float>(blank_depth_bins), 0.5F, 0.5F};
+  rays.upper = counts + glm::vec3{-0.5F, 0.5F, 0.5F};
+  rays.eye = cells(camera.eye) + middle;
+  rays.forward = cells(camera.forward);
+  rays.right = cells(camera.right);
+  rays.up = cells(camera.up);
+  rays.mm = 1.0F / per_mm;
+  rays.gradient_cells = gradient_mm(g) * per_mm;
+  const float reach = glm::dot(glm::abs(camera.forward), box_extents_mm(g) / 2.0F);
+  const float centre = camera.depth_of(glm::vec3{0});
+  rays.cue_near_mm = std::max(centre - reach, camera.near_mm);
+  rays.cue_per_mm = 1 / (centre + reach - rays.cue_near_mm);
+  return rays;
+}
+
+} // namespace octascope::ui

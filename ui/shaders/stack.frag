@@ -1,0 +1,21 @@
+// One sample of the volume; its opacity is corrected for the length of ray between two polygons.
+in vec3 v_texture;
+in vec3 v_ray;
+in vec3 v_step;
+
+uniform sampler3D u_levels;
+uniform float u_steps; // spacing of the polygons in reference steps
+uniform float u_dither; // 1, or 0 for samples on the polygons themselves
+uniform float u_first_depth; // above it lies what the background left behind, not tissue
+
+out vec4 o_colour; // premultiplied
+
+void main() {
+  // Each pixel's ray meets the stack a little earlier or later, all of it by the same length: the
+  // contour lines that evenly cut steep surfaces show dissolve into fine grain.
+  vec3 position = v_texture + v_step * (u_dither * (dither(gl_FragCoord.xy) - 0.5));
+  vec4 substance = look_up(textureLod(u_levels, position, 0.0).r);
+  substance.a *= step(u_first_depth, position.x);
+  float alpha = opacity_over(substance.a, u_steps * length(v_ray));
+  o_colour = vec4(substance.rgb * alpha, alpha);
+}

@@ -1,0 +1,41 @@
+// What every way of drawing the volume begins with: how a level looks. Before this stand the
+// #defines of TransferProgram.
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp sampler3D;
+precision highp usampler3D;
+
+// From a sample of the volume, 0…1, to colour and the opacity of one reference step.
+#ifdef TRANSFER_IS_WINDOW
+uniform vec3 u_window; // scale and offset of the ramp, opacity at its top
+
+vec4 look_up(float level) {
+  float grey = clamp(level * u_window.x + u_window.y, 0.0, 1.0);
+  return vec4(vec3(grey), grey * u_window.z);
+}
+#else
+uniform sampler2D u_transfer;
+
+vec4 transfer_entry(int i) {
+  return texelFetch(u_transfer, ivec2(i & ((1 << TRANSFER_ROW_BITS) - 1), i >> TRANSFER_ROW_BITS), 0);
+}
+
+vec4 look_up(float level) {
+  float entry = level * float(TRANSFER_LAST);
+  int below = int(entry);
+  return mix(transfer_entry(below), transfer_entry(min(below + 1, TRANSFER_LAST)),
+             entry - float(below));
+}
+#endif
+
+// Of so many reference steps; exactly 0 for nothing, which exp2 and log2 do not promise.
+float opacity_over(float opacity, float steps) {
+  // log2(0) is undefined: what is fully opaque keeps a transparency that no display can show.
+  float alpha = 1.0 - exp2(steps * log2(max(1.0 - opacity, 1e-5)));
+  return opacity > 0.0 ? alpha : 0.0;
+}
+
+// 0…1, evenly spread over any small neighbourhood (interleaved gradient noise, J. Jimenez, "Next
+// generation post processing in Call of Duty", SIGGRAPH 2014).
+float dither(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }

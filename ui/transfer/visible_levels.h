@@ -1,0 +1,22 @@
+// Which levels a transfer function shows at all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "ui/transfer/transfer_table.h"
+
+namespace octascope::ui {
+
+struct VisibleLevels {
+  // How many entries of the table that can be seen lie before each: a range without any is empty.
+  std::array<std::uint16_t, TransferTable::entries + 1> before{};
+  // Entries to either side that count as well, for who interpolates between entries.
+  int margin = 0;
+
+  bool empty(int lowest_level, int highest_level) const;
+};
+
+void find_visible_levels(const TransferTable& transfer, VisibleLevels& levels);
+
+} // namespace octascope::ui

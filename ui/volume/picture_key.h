@@ -1,0 +1,34 @@
+// What a picture of the volume depends on. Pure.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/mat4x4.hpp>
+
+#include "ui/draw_quality.h"
+#include "ui/layout.h"
+#include "ui/volume/volume_technique.h"
+
+namespace octascope::ui {
+
+struct VolumePictureKey {
+  std::uint64_t upload = 0;   // counts volumes
+  std::uint64_t transfer = 0; // counts transfer functions
+  glm::mat4 view_projection{0};
+  float window_offset_db = 0;
+  float window_size_db = 0;
+  float opacity = 0;
+  Technique technique = Technique::rays;
+  float step_mm = 0;
+  int width = 0;
+  int height = 0;
+  bool operator==(const VolumePictureKey&) const = default;
+};
+
+VolumePictureKey volume_picture_key(const VolumeScene& scene, const DrawQuality& quality,
+                                    const Rect& rect);
+
+// Between samples, where the longest edge of the volume's box has so many.
+float step_mm(const DrawQuality& quality, const pipeline::VolumeGeometry& geometry);
+
+} // namespace octascope::ui

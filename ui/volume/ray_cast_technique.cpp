@@ -1,0 +1,138 @@
+#include "ui/volume/ray_cast_technique.h"
+
+#include <array>
+
+#include "embedded_shaders.h"
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "ui/ray_caster/ray_frame.h"
+#include "ui/ray_caster/ray_geometry.h"
+#include "ui/volume/plane_box.h"
+
+namespace octascope::ui {
+
+namespace {
+
+constexpr GLint brick_unit = 2;
+
+VolumeShader shader_of(RayMode mode) {
+  const auto ray_cast = [](std::string_view name, std::string_view defines) {
+    return VolumeShader{name, shaders::picture_vert, shaders::ray_cast_frag, defines};
+  };
+  switch (mode) {
+  case RayMode::composite: break;
+  case RayMode::shaded: return ray_cast("ray_cast, shaded", "#define RAY_SHADED\n");
+  case RayMode::maximum: return ray_cast("ray_cast, maximum", "#define RAY_MAXIMUM\n");
+  }
+  return ray_cast("ray_cast", "");
+}
+
+void set(const gl::Program& program, const char* name, const glm::vec3& value) {
+  glUniform3fv(program.uniform(name), 1, glm::value_ptr(value));
+}
+void set(const gl::Program& program, const char* name, float value) {
+  glUniform1f(program.uniform(name), value);
+}
+
+// Half of the picture's width at distance 1: what the projection maps to 1.
+float tan_half_width(const Camera& camera) {
+  const glm::mat4& m = camera.view_projection;
+  return 1 / glm::length(glm::vec3{m[0][0], m[1][0], m[2][0]});
+}
+
+} // namespace
+
+hal::Result<RayCastTechnique> RayCastTechnique::create(RayMode mode) {
+  auto program = TransferProgram::create(shader_of(mode));
+  if (!program)
+    return tl::make_unexpected(program.error());
+  return RayCastTechnique{mode, std::move(*program)};
+}
+
+RayCastTechnique::RayCastTechnique(RayMode mode, TransferProgram program)
+    : mode_{mode}, program_{std::move(program)}, vertex_array_{gl::VertexArray::make()} {}
+
+void RayCastTechnique::prepare_bricks(const VolumeScene& scene) {
+  const BrickSource source{scene.upload, scene.transfer.version()};
+  if (brick_source_ == source)
+    return;
+  bricks_.update(*scene.occupancy, scene.transfer.visible(),
+                 mode_ == RayMode::maximum ? Visibility::maximum : Visibility::range);
+  const pipeline::BrickCounts& n = bricks_.counts();
+  glActiveTexture(GL_TEXTURE0 + brick_unit);
+  if (!brick_texture_ || n != brick_counts_) {
+    brick_texture_ = gl::Texture::make();
+    glBindTexture(GL_TEXTURE_3D, brick_texture_.name());
+    glTexStorage3D(GL_TEXTURE_3D, 1, GL_R16UI, n.depth, n.a, n.b);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    brick_counts_ = n;
+  }
+  glBindTexture(GL_TEXTURE_3D, brick_texture_.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, n.depth, n.a, n.b, GL_RED_INTEGER, GL_UNSIGNED_SHORT,
+                  bricks_.data());
+  brick_source_ = source;
+}
+
+void RayCastTechnique::set_rays(const gl::Program& program, const VolumeScene& scene) const {
+  const Camera& camera = scene.camera;
+  const pipeline::VolumeGeometry& g = scene.volume.geometry();
+  const RayGeometry rays = ray_geometry(g, camera);
+  set(program, "u_lower", rays.lower);
+  set(program, "u_upper", rays.upper);
+  set(program, "u_eye", rays.eye);
+  set(program, "u_forward", rays.forward);
+  set(program, "u_right", rays.right);
+  set(program, "u_up", rays.up);
+  set(program, "u_mm", rays.mm);
+  const glm::vec3 scale = 1.0F / glm::vec3{g.depths, g.a_scans, g.b_scans};
+  set(program, "u_to_texture_scale", scale);
+  set(program, "u_to_texture_offset", glm::vec3{0.5F, -0.5F, -0.5F} * scale);
+
+  std::array<GLint, 4> viewport{};
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  const auto at = [&](std::size_t i) { return static_cast<float>(viewport[i]); };
+  glUniform4f(program.uniform("u_viewport"), at(0), at(1), at(2), at(3));
+  glUniform2f(program.uniform("u_pixel_size"), 2 * tan_half_width(camera) / at(2),
+              2 * camera.tan_half_height / at(3));
+  set(program, "u_near_mm", camera.near_mm);
+  set(program, "u_step_mm", scene.step_mm);
+  set(program, "u_steps", scene.step_mm / reference_step_mm(box_extents_mm(g) / 2.0F));
+  set(program, "u_opaque_transparency", opaque_transparency);
+  set(program, "u_no_depth", no_depth);
+}
+
+void RayCastTechnique::set_light(const gl::Program& program, const VolumeScene& scene) const {
+  const RayGeometry rays = ray_geometry(scene.volume.geometry(), scene.camera);
+  set(program, "u_gradient_cells", rays.gradient_cells);
+  set(program, "u_ambient", ambient_light);
+  set(program, "u_weak_gradient", 4 * weak_gradient_counts / 255);
+  set(program, "u_cue_near_mm", rays.cue_near_mm);
+  set(program, "u_cue_per_mm", rays.cue_per_mm);
+  set(program, "u_depth_cue", depth_cue);
+}
+
+void RayCastTechnique::do_draw(const VolumeScene& scene) {
+  const bool leap = scene.occupancy != nullptr;
+  if (leap)
+    prepare_bricks(scene);
+  const gl::Program& program = program_.use(scene.transfer);
+  set_rays(program, scene);
+  if (mode_ == RayMode::shaded)
+    set_light(program, scene);
+  glUniform1i(program.uniform("u_leap"), leap ? 1 : 0);
+  glUniform3i(program.uniform("u_brick_shift"), pipeline::brick_depth_shift,
+              pipeline::brick_a_shift, pipeline::brick_b_shift);
+  glUniform1i(program.uniform("u_bricks"), brick_unit);
+  glActiveTexture(GL_TEXTURE0 + brick_unit);
+  glBindTexture(GL_TEXTURE_3D, leap ? brick_texture_.name() : 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_3D, scene.volume.name());
+  glBindVertexArray(vertex_array_.name());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
+} // namespace octascope::ui

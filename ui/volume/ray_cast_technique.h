@@ -1,0 +1,47 @@
+// Rays through the volume, in a fragment shader: the twin of ui/ray_caster/ray_caster.h, with the
+// same samples, constants and modes, so that both draw the same picture.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "ui/gl/objects.h"
+#include "ui/ray_caster/brick_grid.h"
+#include "ui/ray_caster/ray_caster.h"
+#include "ui/volume/transfer_program.h"
+#include "ui/volume/volume_technique.h"
+
+namespace octascope::ui {
+
+// Writes depth. Leaps over the bricks that occupancy and transfer function make empty, which
+// changes no picture, only the time that it takes.
+//
+// Threads: as gl/objects.h. draw() allocates when the volume's geometry changes.
+class RayCastTechnique : public VolumeTechnique {
+public:
+  static hal::Result<RayCastTechnique> create(RayMode mode);
+
+private:
+  RayCastTechnique(RayMode mode, TransferProgram program);
+  void do_draw(const VolumeScene& scene) override;
+  bool do_writes_depth() const override { return true; }
+  void prepare_bricks(const VolumeScene& scene);
+  void set_rays(const gl::Program& program, const VolumeScene& scene) const;
+  void set_light(const gl::Program& program, const VolumeScene& scene) const;
+
+  RayMode mode_;
+  TransferProgram program_;
+  gl::VertexArray vertex_array_; // empty: the vertices come from their index
+  BrickGrid bricks_;
+  gl::Texture brick_texture_;
+  pipeline::BrickCounts brick_counts_;
+  // What the bricks were made of.
+  struct BrickSource {
+    std::uint64_t upload;
+    std::uint64_t transfer;
+    bool operator==(const BrickSource&) const = default;
+  };
+  std::optional<BrickSource> brick_source_;
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,155 @@
+#include "ui/volume/volume_painter.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "ui/gl/context_info.h"
+#include "ui/volume/blank_depths.h"
+
+namespace octascope::ui {
+
+namespace {
+
+// How the ray casters draw a technique; nothing for those that only GL knows.
+std::optional<RayMode> ray_mode(Technique technique) {
+  switch (technique) {
+  case Technique::rays: return RayMode::composite;
+  case Technique::shaded: return RayMode::shaded;
+  case Technique::maximum: return RayMode::maximum;
+  case Technique::slices:
+  case Technique::planes:
+  case Technique::surface: break;
+  }
+  return std::nullopt;
+}
+
+} // namespace
+
+hal::Result<VolumePainter> VolumePainter::create() {
+  VolumePainter painter{gl::describe_context().software};
+  // What every view needs is made here, so that a GL that cannot do it is known at once.
+  if (auto ok = painter.pictures_of(Eye::left); !ok)
+    return tl::make_unexpected(ok.error());
+  if (auto ok = painter.techniques_.get(ViewState{}.technique); !ok)
+    return tl::make_unexpected(ok.error());
+  if (painter.software_)
+    painter.make_caster();
+  return painter;
+}
+
+VolumePainter::VolumePainter(bool software)
+    : software_{software}, transfer_{std::make_unique<TransferTable>()} {}
+
+// Leaves nothing where the ray caster knows no instruction set of this processor.
+void VolumePainter::make_caster() {
+  constexpr unsigned most_helpers = 15;
+  caster_wanted_ = true;
+  const unsigned helpers =
+      std::clamp(std::thread::hardware_concurrency(), 1U, most_helpers + 1) - 1;
+  if (auto made = RayCaster::create(helpers, {}))
+    caster_.emplace(std::move(*made));
+}
+
+hal::Result<VolumePainter::EyePictures*> VolumePainter::pictures_of(Eye eye) {
+  auto& kept = pictures_[static_cast<std::size_t>(eye)];
+  if (!kept) {
+    auto made = VolumePicture::create();
+    if (!made)
+      return tl::make_unexpected(made.error());
+    kept = EyePictures{std::move(*made), std::nullopt};
+  }
+  return &*kept;
+}
+
+hal::Result<> VolumePainter::show(const pipeline::Volume& volume) {
+  if (!volume.occupancy.empty())
+    return show(volume, volume.occupancy);
+  if (own_occupancy_.geometry() != volume.geometry)
+    own_occupancy_ = pipeline::Occupancy{volume.geometry, blank_depth_bins};
+  if (volume.levels.size() == volume.geometry.voxels()) // else refused below
+    own_occupancy_.update(volume);
+  return show(volume, own_occupancy_);
+}
+
+hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
+                                  const pipeline::Occupancy& occupancy) {
+  if (occupancy.geometry() != volume.geometry)
+    return hal::fail(hal::Fault::invalid_argument,
+                     "volume display: found the occupancy of a volume of another shape, expected "
+                     "that of the one to be shown");
+  if (auto ok = texture_.upload(volume); !ok)
+    return ok;
+  occupancy_ = occupancy;
+  ++uploads_;
+  caster_shows_ = caster_ && caster_->show(volume, occupancy_);
+  return {};
+}
+
+void VolumePainter::update_transfer(const ViewState& view) {
+  const TransferSource source{view.window_offset_db, view.window_size_db, view.opacity,
+                              view.transfer, view.colour_map};
+  if (transfer_source_ != source) {
+    make_window_table(view, *transfer_);
+    transfer_texture_.update(*transfer_);
+    transfer_source_ = source;
+  }
+  if (caster_)
+    caster_->set_transfer(*transfer_);
+}
+
+RayBackend VolumePainter::backend(const DrawQuality& quality) const {
+  const RayBackend wanted =
+      quality.rays.value_or(software_ ? RayBackend::processor : RayBackend::shader);
+  return caster_shows_ ? wanted : RayBackend::shader;
+}
+
+hal::Result<> VolumePainter::cast_rays(EyePictures& pictures, const VolumeScene& scene,
+                                       const DrawQuality& quality, const Rect& rect) {
+  if (!pictures.by_processor) {
+    auto made = RayCastPicture::create();
+    if (!made)
+      return tl::make_unexpected(made.error());
+    pictures.by_processor.emplace(std::move(*made));
+  }
+  return pictures.by_processor->update(*caster_, scene, *ray_mode(scene.view.technique), quality,
+                                       rect);
+}
+
+hal::Result<> VolumePainter::update(Eye eye, const ViewState& view, const Camera& camera,
+                                    const DrawQuality& quality, const Rect& rect) {
+  const auto pictures = pictures_of(eye);
+  if (!pictures)
+    return tl::make_unexpected(pictures.error());
+  if (quality.rays == RayBackend::processor && !caster_wanted_)
+    make_caster();
+  update_transfer(view);
+  const VolumeScene scene{
+      texture_,    transfer_texture_, camera, view, step_mm(quality, texture_.geometry()),
+      &occupancy_, uploads_};
+  (*pictures)->processor_drew =
+      ray_mode(view.technique) && backend(quality) == RayBackend::processor;
+  return (*pictures)->processor_drew ? cast_rays(**pictures, scene, quality, rect)
+                                     : (*pictures)->by_gl.update(techniques_, scene, quality, rect);
+}
+
+std::uint64_t VolumePainter::drawings() const {
+  std::uint64_t count = 0;
+  for (const auto& pictures : pictures_)
+    if (pictures)
+      count += pictures->by_gl.drawings() +
+               (pictures->by_processor ? pictures->by_processor->drawings() : 0);
+  return count;
+}
+
+void VolumePainter::composite(Eye eye, const Rect& rect, int target_height) const {
+  const auto& pictures = pictures_[static_cast<std::size_t>(eye)];
+  if (!pictures)
+    return;
+  if (pictures->processor_drew)
+    pictures->by_processor->composite(rect, target_height);
+  else
+    pictures->by_gl.composite(rect, target_height);
+}
+
+} // namespace octascope::ui

@@ -1,0 +1,95 @@
+// The volume on the display: takes volumes, keeps one picture of them an eye, and lets GL or the
+// processor draw it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "hal/result.h"
+#include "pipeline/occupancy.h"
+#include "pipeline/volume.h"
+#include "ui/draw_quality.h"
+#include "ui/layout.h"
+#include "ui/ray_caster/ray_cast_picture.h"
+#include "ui/transfer/transfer_texture.h"
+#include "ui/view_state.h"
+#include "ui/volume/volume_picture.h"
+
+namespace octascope::ui {
+
+// The picture of one eye; without stereo there is only the left.
+enum class Eye : std::uint8_t { left, right };
+
+// Threads: as gl/objects.h, but for the ray caster's own helpers. Allocates when the size or the
+// geometry changes, or a technique, an eye or a backend is used for the first time.
+class VolumePainter {
+public:
+  // Fault::unsupported: this GL cannot compile our shaders.
+  static hal::Result<VolumePainter> create();
+
+  // Copies the volume, and its occupancy where that is known already (without the blank depth
+  // bins); else works it out. Fault::invalid_argument: the occupancy is of another geometry. On
+  // that and on the errors of VolumeTexture::upload(), the last volume stays.
+  hal::Result<> show(const pipeline::Volume& volume);
+  hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
+
+  // Brings the eye's picture up to date; `camera` is that eye's, for the rectangle's aspect.
+  hal::Result<> update(Eye eye, const ViewState& view, const Camera& camera,
+                       const DrawQuality& quality, const Rect& rect);
+  // Blends it over the bound framebuffer.
+  void composite(Eye eye, const Rect& rect, int target_height) const;
+
+  bool empty() const { return texture_.empty(); }
+  const VolumeTexture& texture() const { return texture_; }
+  std::uint64_t uploads() const { return uploads_; } // counts the volumes shown
+
+  // Counts the pictures that update() made; it makes none where nothing has changed.
+  std::uint64_t drawings() const;
+
+  // Who casts rays with that quality. The processor does from the first volume on that is shown
+  // after it was first asked to, or where GL is software, always; but not volumes that are too
+  // large for the ray caster, nor where that knows no instruction set of the processor.
+  RayBackend backend(const DrawQuality& quality) const;
+
+private:
+  struct EyePictures {
+    VolumePicture by_gl;
+    std::optional<RayCastPicture> by_processor;
+    bool processor_drew = false; // the last update()
+  };
+
+  explicit VolumePainter(bool software);
+  void make_caster();
+  hal::Result<EyePictures*> pictures_of(Eye eye);
+  void update_transfer(const ViewState& view);
+  hal::Result<> cast_rays(EyePictures& pictures, const VolumeScene& scene,
+                          const DrawQuality& quality, const Rect& rect);
+
+  // What the transfer function was made of.
+  struct TransferSource {
+    float window_offset_db;
+    float window_size_db;
+    float opacity;
+    int transfer;
+    int colour_map;
+    bool operator==(const TransferSource&) const = default;
+  };
+
+  bool software_;
+  VolumeTexture texture_;
+  pipeline::Occupancy occupancy_;
+  pipeline::Occupancy own_occupancy_; // for volumes that come without
+  std::uint64_t uploads_ = 0;
+  std::unique_ptr<TransferTable> transfer_;
+  TransferTexture transfer_texture_;
+  std::optional<TransferSource> transfer_source_;
+  VolumeTechniques techniques_;
+  std::optional<RayCaster> caster_; // nothing until it is wanted
+  bool caster_wanted_ = false;
+  bool caster_shows_ = false; // the same volume as the texture
+  std::array<std::optional<EyePictures>, 2> pictures_;
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,46 @@
+#include "ui/volume/volume_techniques.h"
+
+#include <cstddef>
+
+#include "ui/volume/plane_stack.h"
+#include "ui/volume/ray_cast_technique.h"
+#include "ui/volume/slice_stack.h"
+
+namespace octascope::ui {
+
+namespace {
+
+using Made = hal::Result<std::unique_ptr<VolumeTechnique>>;
+
+template <class Kind> Made owned(hal::Result<Kind> made) {
+  if (!made)
+    return tl::make_unexpected(made.error());
+  return std::make_unique<Kind>(std::move(*made));
+}
+
+Made make(Technique technique) {
+  switch (technique) {
+  case Technique::slices: return owned(SliceStack::create());
+  case Technique::planes: return owned(PlaneStack::create());
+  case Technique::rays: break;
+  case Technique::shaded: return owned(RayCastTechnique::create(RayMode::shaded));
+  case Technique::maximum: return owned(RayCastTechnique::create(RayMode::maximum));
+  case Technique::surface: break;
+  }
+  return owned(RayCastTechnique::create(RayMode::composite));
+}
+
+} // namespace
+
+hal::Result<VolumeTechnique*> VolumeTechniques::get(Technique technique) {
+  std::unique_ptr<VolumeTechnique>& kept = made_[static_cast<std::size_t>(technique)];
+  if (!kept) {
+    auto made = make(technique);
+    if (!made)
+      return tl::make_unexpected(made.error());
+    kept = std::move(*made);
+  }
+  return kept.get();
+}
+
+} // namespace octascope::ui
