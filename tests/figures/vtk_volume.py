@@ -23,7 +23,7 @@ from vtk.util import numpy_support
 FIELD_OF_VIEW_DEG = 36  # ui/camera.h
 LOWEST_LEVEL_DB, LEVEL_STEP_DB = -40.0, 0.5  # pipeline/level_scale.h
 BLANK_DEPTH_BINS = 2  # pipeline/volume_geometry.h
-REFERENCE_STEPS_PER_DIAGONAL = 256  # ui/volume/plane_box.cpp
+REFERENCE_STEPS_PER_DIAGONAL = 192  # ui/volume/plane_box.cpp
 
 
 def read_volume(path):
