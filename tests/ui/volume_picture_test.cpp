@@ -50,7 +50,8 @@ protected:
   }
 
   void draw(const ui::ViewState& view, int planes = 256) {
-    const auto updated = picture_->update(volume_, uploads_, view, {1, planes}, {0, 0, size, size});
+    const auto updated =
+        picture_->update(volume_, uploads_, view, {1, planes}, ui::Rect{0, 0, size, size});
     ASSERT_TRUE(updated) << updated.error().message;
     glViewport(0, 0, size, size);
     glClearColor(1, 1, 1, 1);

@@ -45,8 +45,8 @@ hal::Result<> RayCastPicture::upload_image() {
 }
 
 hal::Result<> RayCastPicture::update(std::uint64_t upload, const ViewState& view, RayMode mode,
-                                     const DrawQuality& quality, const Rect& rect) {
-  const VolumePictureKey key = volume_picture_key(view, quality, upload, rect);
+                                     const DrawQuality& quality, const EyePicture& picture) {
+  const VolumePictureKey key = volume_picture_key(view, quality, upload, picture);
   if (drawn_ == key && drawn_mode_ == mode)
     return {};
   const bool window_changed = !drawn_ || drawn_->window_offset_db != key.window_offset_db ||
@@ -60,14 +60,13 @@ hal::Result<> RayCastPicture::update(std::uint64_t upload, const ViewState& view
     caster_.set_transfer(*transfer_);
   }
   const glm::vec3 extents = caster_.empty() ? glm::vec3{0} : box_extents_mm(caster_.geometry());
-  const double aspect = static_cast<double>(rect.width) / rect.height;
   RaySettings settings;
   settings.mode = mode;
   settings.step_mm =
       std::max({extents.x, extents.y, extents.z}) / static_cast<float>(quality.steps);
-  settings.aspect = aspect;
+  settings.aspect = static_cast<double>(picture.aspect);
   if (auto ok =
-          caster_.draw(make_camera(view, extents, static_cast<float>(aspect)), settings, image_);
+          caster_.draw(make_camera(view, extents, picture.aspect, picture.eye), settings, image_);
       !ok)
     return ok;
   if (auto ok = upload_image(); !ok)

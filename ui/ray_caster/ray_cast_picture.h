@@ -31,7 +31,7 @@ public:
   // Casts and uploads if anything that the picture depends on has changed; `upload` counts the
   // volumes shown.
   hal::Result<> update(std::uint64_t upload, const ViewState& view, RayMode mode,
-                       const DrawQuality& quality, const Rect& rect);
+                       const DrawQuality& quality, const EyePicture& picture);
   // Blends the picture over the bound framebuffer.
   void composite(const Rect& rect, int target_height) const;
 

@@ -47,7 +47,7 @@ private:
 } // namespace
 
 VolumePictureKey volume_picture_key(const ViewState& view, const DrawQuality& quality,
-                                    std::uint64_t upload, const Rect& rect) {
+                                    std::uint64_t upload, const EyePicture& picture) {
   const auto pixels = [&](int length) {
     return std::max(1,
                     static_cast<int>(std::lround(static_cast<float>(length) * quality.resolution)));
@@ -63,8 +63,11 @@ VolumePictureKey volume_picture_key(const ViewState& view, const DrawQuality& qu
           view.transfer,
           view.colour_map,
           quality.steps,
-          pixels(rect.width),
-          pixels(rect.height)};
+          pixels(picture.width),
+          pixels(picture.height),
+          picture.aspect,
+          picture.eye,
+          picture.eye == Eye::centre ? 0 : view.parallax_deg};
 }
 
 hal::Result<VolumePicture> VolumePicture::create() {
@@ -98,8 +101,8 @@ hal::Result<> VolumePicture::resize(int width, int height) {
 
 hal::Result<> VolumePicture::update(const VolumeTexture& volume, std::uint64_t upload,
                                     const ViewState& view, const DrawQuality& quality,
-                                    const Rect& rect) {
-  const VolumePictureKey key = volume_picture_key(view, quality, upload, rect);
+                                    const EyePicture& picture) {
+  const VolumePictureKey key = volume_picture_key(view, quality, upload, picture);
   if (drawn_ == key)
     return {};
   const KeptFramebuffer kept;
@@ -110,9 +113,9 @@ hal::Result<> VolumePicture::update(const VolumeTexture& volume, std::uint64_t u
   glViewport(0, 0, width_, height_);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
-  const float aspect = static_cast<float>(rect.width) / static_cast<float>(rect.height);
-  stack_.draw(volume, make_camera(view, box_extents_mm(volume.geometry()), aspect), view,
-              quality.steps);
+  stack_.draw(volume,
+              make_camera(view, box_extents_mm(volume.geometry()), picture.aspect, picture.eye),
+              view, quality.steps);
   drawn_ = key;
   return {};
 }

@@ -15,6 +15,20 @@
 
 namespace octascope::ui {
 
+// Which eye's picture, and how large: of a display without stereo, the rectangle that it fills.
+struct EyePicture {
+  EyePicture(const Rect& rect) // a place on the screen is what most pictures are for
+      : width{rect.width}, height{rect.height}, aspect{static_cast<float>(rect.width) /
+                                                       static_cast<float>(rect.height)} {}
+  EyePicture(const Rect& rect, float seen_aspect, Eye whose)
+      : width{rect.width}, height{rect.height}, aspect{seen_aspect}, eye{whose} {}
+
+  int width; // display pixels
+  int height;
+  float aspect; // width / height as it is seen: stereo displays stretch their pictures
+  Eye eye = Eye::centre;
+};
+
 // Everything that the volume's picture depends on.
 struct VolumePictureKey {
   std::uint64_t upload = 0; // counts volumes
@@ -30,11 +44,14 @@ struct VolumePictureKey {
   int steps = 0;
   int width = 0;
   int height = 0;
+  float aspect = 1;
+  Eye eye = Eye::centre;
+  float parallax_deg = 0; // 0 for Eye::centre
   bool operator==(const VolumePictureKey&) const = default;
 };
 
 VolumePictureKey volume_picture_key(const ViewState& view, const DrawQuality& quality,
-                                    std::uint64_t upload, const Rect& rect);
+                                    std::uint64_t upload, const EyePicture& picture);
 
 // Drawn into a texture of its own, in floating point where the GPU can, so that hundreds of faint
 // planes add up without rounding; composited from there, at any resolution.
@@ -47,7 +64,7 @@ public:
   // Draws into the texture if the key has changed; the bound framebuffer stays bound.
   // Fault::system: this GL cannot render to a texture of that size.
   hal::Result<> update(const VolumeTexture& volume, std::uint64_t upload, const ViewState& view,
-                       const DrawQuality& quality, const Rect& rect);
+                       const DrawQuality& quality, const EyePicture& picture);
   // Blends the picture over the bound framebuffer.
   void composite(const Rect& rect, int target_height) const;
 
