@@ -14,7 +14,7 @@
 #include "ui/panels/b_scan_panel.h"
 #include "ui/panels/en_face_panel.h"
 #include "ui/panels/scope_panel.h"
-#include "ui/volume/box_edges.h"
+#include "ui/stereo.h"
 #include "ui/volume/volume_painter.h"
 
 namespace octascope::ui {
@@ -25,6 +25,7 @@ namespace {
 struct DrawnPicture {
   std::uint64_t volume_uploads = 0;
   std::uint64_t scope_uploads = 0;
+  std::uint64_t level_uploads = 0;
   int width = 0;
   int height = 0;
   ViewState view;
@@ -48,11 +49,14 @@ struct Renderer::Parts {
   EnFacePanel en_face_panel;
   ScopePanel scope_panel;
   CanvasRenderer canvas_renderer;
-  Canvas ground{}; // under the pictures
+  Canvas ground{};       // under all pictures
+  Canvas under_volume{}; // which may be an inset
   Canvas overlay{};
   std::optional<Fonts> fonts{};
   float fonts_unit = 0;
   std::vector<pipeline::BScanState> states{};
+  std::optional<LevelShares> levels{};
+  std::uint64_t level_uploads = 0;
   std::uint64_t scope_uploads = 0;
   bool scope_shown = false;
   std::optional<DrawnPicture> drawn{};
@@ -62,10 +66,11 @@ struct Renderer::Parts {
   HudScene scene(const ViewState& view) const;
   DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height,
                           const DrawQuality& quality) const;
-  Layout layout(int width, int height) const;
+  Layout layout(int width, int height, LayoutKind kind) const;
   hal::Result<> prepare_fonts(float unit);
-  void draw_box(Canvas& canvas, const Camera& camera, const Rect& view, bool in_front) const;
+  void fill_canvases(const DrawnPicture& picture, const Layout& places, const HudScene& shown);
   hal::Result<> draw(const DrawnPicture& picture);
+  hal::Result<> draw_eye(const DrawnPicture& picture, const Layout& places, Eye eye);
 };
 
 ViewState Renderer::Parts::fitted(const ViewState& view) const {
@@ -81,6 +86,9 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
   if (scene.shown.volume) {
     scene.shown.geometry = volume.texture().geometry();
     scene.shown.b_scan = states[static_cast<std::size_t>(view.b_scan)];
+    scene.extents_mm = box_extents_mm(volume.texture().geometry());
+    scene.states = states;
+    scene.levels = levels ? &*levels : nullptr;
   }
   scene.shown.scope = scope_shown;
   if (scope_shown) {
@@ -95,6 +103,7 @@ DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& st
   const ViewState shown = fitted(view);
   return {volume.uploads(),
           scope_uploads,
+          level_uploads,
           width,
           height,
           without_times(shown),
@@ -102,16 +111,17 @@ DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& st
           compose_hud_text(shown, status, scene(shown).shown)};
 }
 
-Layout Renderer::Parts::layout(int width, int height) const {
+Layout Renderer::Parts::layout(int width, int height, LayoutKind kind) const {
   PictureAspects aspects;
   if (!volume.empty()) {
     const pipeline::VolumeGeometry& g = volume.texture().geometry();
     aspects.b_scan = g.a_mm() / g.depth_mm();
     aspects.en_face = g.a_mm() / g.b_mm();
   }
+  aspects.has_scope = scope_shown;
   if (scope_shown)
     aspects.scope = scope_panel.aspect();
-  return lay_out(width, height, aspects);
+  return lay_out(width, height, aspects, kind);
 }
 
 hal::Result<> Renderer::Parts::prepare_fonts(float unit) {
@@ -125,62 +135,63 @@ hal::Result<> Renderer::Parts::prepare_fonts(float unit) {
   return {};
 }
 
-void Renderer::Parts::draw_box(Canvas& canvas, const Camera& camera, const Rect& view,
-                               bool in_front) const {
-  const Colour colour = in_front ? palette::box : palette::box_behind;
-  const float width = std::max(1.0F, 1.5F * fonts_unit);
-  const Canvas::Clip clip{canvas, view};
-  for (const BoxEdge& edge : project_box(camera, box_extents_mm(volume.texture().geometry()), view))
-    if (edge.visible && edge.in_front == in_front)
-      canvas.line(edge.from, edge.to, colour, width);
+void Renderer::Parts::fill_canvases(const DrawnPicture& picture, const Layout& places,
+                                    const HudScene& shown) {
+  for (Canvas* canvas : {&ground, &under_volume, &overlay})
+    canvas->begin(*fonts, picture.width, picture.height);
+  draw_hud_ground(ground, places);
+  draw_view_ground(under_volume, places);
+  draw_box_marks(under_volume, places, picture.view, shown, false);
+  draw_box_marks(overlay, places, picture.view, shown, true);
+  draw_hud(overlay, places, picture.text, picture.view, shown);
+}
+
+hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layout& places,
+                                        Eye eye) {
+  const ViewState& view = picture.view;
+  const int height = picture.height;
+  const EyeFrame frame = eye_frame(view.stereo, eye, picture.width, height);
+  HudScene shown = scene(view);
+  const bool has_volume = shown.shown.volume;
+  const Rect view_rect = frame.place(places.view);
+  if (has_volume) {
+    const float aspect =
+        static_cast<float>(places.view.width) / static_cast<float>(places.view.height);
+    shown.camera = make_camera(view, shown.extents_mm, aspect, eye);
+    if (auto ok = volume.update(eye, view, shown.camera, picture.quality, view_rect); !ok)
+      return ok;
+  }
+  fill_canvases(picture, places, shown);
+  canvas_renderer.draw(ground, frame, height);
+  if (scope_shown && places.scope.shown())
+    scope_panel.draw(frame.place(places.scope.picture), height, picture.text.scope_stale);
+  canvas_renderer.draw(under_volume, frame, height);
+  if (has_volume) {
+    volume.composite(eye, view_rect, height);
+    if (places.b_scan.shown())
+      b_scan_panel.draw(volume.texture(), shown.shown.b_scan, view, frame.place(places.b_scan.picture),
+                        height);
+    if (places.en_face.shown())
+      en_face_panel.draw(frame.place(places.en_face.picture), height);
+  }
+  canvas_renderer.draw(overlay, frame, height);
+  return {};
 }
 
 hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
-  const ViewState& view = picture.view;
-  const int height = picture.height;
-  const Layout places = layout(picture.width, height);
+  const Layout places = layout(picture.width, picture.height, picture.view.layout);
   if (auto ok = prepare_fonts(places.unit); !ok)
     return ok;
-  HudScene shown = scene(view);
-  const bool has_volume = shown.shown.volume;
-  Camera camera{};
-  drew_volume = false;
-  if (has_volume) {
-    camera =
-        make_camera(view, box_extents_mm(volume.texture().geometry()),
-                    static_cast<float>(places.view.width) / static_cast<float>(places.view.height));
-    const std::uint64_t before = volume.drawings();
-    if (auto ok = volume.update(Eye::left, view, camera, picture.quality, places.view); !ok)
-      return ok;
-    drew_volume = volume.drawings() != before;
-    shown.view_mm_per_pixel =
-        static_cast<double>(2 * camera.tan_half_height * camera.depth_of(glm::vec3{0})) /
-        places.view.height;
-  }
-
-  ground.begin(*fonts, picture.width, height);
-  overlay.begin(*fonts, picture.width, height);
-  if (has_volume && view.box_visible) {
-    draw_box(ground, camera, places.view, false);
-    draw_box(overlay, camera, places.view, true);
-  }
-  draw_hud_ground(ground, places);
-  draw_hud(overlay, places, picture.text, view, shown);
-
   constexpr Colour back = palette::background;
-  glViewport(0, 0, picture.width, height);
+  glViewport(0, 0, picture.width, picture.height);
   glClearColor(static_cast<float>(back.r) / 255, static_cast<float>(back.g) / 255,
                static_cast<float>(back.b) / 255, 1);
   glClear(GL_COLOR_BUFFER_BIT);
-  canvas_renderer.draw(ground, picture.width, height);
-  if (has_volume) {
-    volume.composite(Eye::left, places.view, height);
-    b_scan_panel.draw(volume.texture(), shown.shown.b_scan, view, places.b_scan.picture, height);
-    en_face_panel.draw(places.en_face.picture, height);
-  }
-  if (scope_shown)
-    scope_panel.draw(places.scope.picture, height, picture.text.scope_stale);
-  canvas_renderer.draw(overlay, picture.width, height);
+  const std::uint64_t before = volume.drawings();
+  for (const Eye eye : eyes_of(picture.view.stereo))
+    if (auto ok = draw_eye(picture, places, eye); !ok)
+      return ok;
+  drew_volume = volume.drawings() != before;
   return {};
 }
 
@@ -225,6 +236,11 @@ hal::Result<> Renderer::show_scope_picture(const hal::ScopeFrame& frame,
   parts_->scope_shown = true;
   ++parts_->scope_uploads;
   return {};
+}
+
+void Renderer::show_levels(const LevelShares& shares) {
+  parts_->levels = shares;
+  ++parts_->level_uploads;
 }
 
 void Renderer::forget_scope_picture() {

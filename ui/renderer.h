@@ -9,6 +9,7 @@
 #include "pipeline/png_image.h"
 #include "pipeline/volume.h"
 #include "ui/draw_quality.h"
+#include "ui/hud/window_histogram.h"
 #include "ui/scan_field.h"
 #include "ui/status.h"
 #include "ui/view_state.h"
@@ -37,6 +38,9 @@ public:
   hal::Result<> show_scope_picture(const hal::ScopeFrame& frame,
                                    const std::optional<ScanField>& field);
   void forget_scope_picture(); // the camera is gone
+
+  // Shown while the window is being changed: how often each level occurs in the volume.
+  void show_levels(const LevelShares& shares);
 
   // Draws everything into the bound framebuffer of width × height pixels.
   hal::Result<> draw(const ViewState& view, const Status& status, int width, int height,

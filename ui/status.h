@@ -53,6 +53,9 @@ struct Status {
   int missing_b_scans = 0; // of the shown volume
   int saturated_lines = 0;
 
+  // Set while the volume is drawn more coarsely than it could be: the share of its full fineness.
+  std::optional<float> reduced_quality;
+
   std::string notice; // one line that the surgeon should read; empty: none
 };
 

@@ -1,50 +1,12 @@
 // Golden pictures: the whole display against pictures kept in tests/golden.
-//
-// Software and hardware rasterisers differ in rounding and anti-aliasing, so a mean difference of
-// up to 1.5 of 255 is accepted, and at most 0.5 % of the channels may differ by more than 40. To
-// renew the pictures after a change that is meant, run the tests with OCTASCOPE_RENEW_GOLDEN=1 and
-// look at what git shows as changed.
-#include <cstdlib>
-#include <filesystem>
-
 #include "tests/ui/support/gl_test.h"
-#include "tests/ui/support/picture_file.h"
+#include "tests/ui/support/golden.h"
 #include "tests/ui/support/scene.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "ui/renderer.h"
 
 namespace octascope::tests {
 namespace {
-
-constexpr double most_mean = 1.5;
-constexpr double most_outliers = 0.005;
-constexpr int outlier = 40;
-
-double share_of_outliers(const pipeline::Image& a, const pipeline::Image& b) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    count += std::abs(int{a.pixels[i]} - int{b.pixels[i]}) > outlier ? 1U : 0U;
-  return static_cast<double>(count) / static_cast<double>(a.pixels.size());
-}
-
-void expect_golden(const pipeline::Image& image, const std::string& name) {
-  const auto file = std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/golden" / (name + ".png");
-  if (std::getenv("OCTASCOPE_RENEW_GOLDEN") != nullptr) {
-    ASSERT_TRUE(pipeline::write_png(file, image)) << file;
-    return;
-  }
-  const auto golden = pipeline::read_png(file);
-  ASSERT_TRUE(golden) << "no " << file << "; run with OCTASCOPE_RENEW_GOLDEN=1 and look at it";
-  ASSERT_EQ(golden->width, image.width);
-  ASSERT_EQ(golden->height, image.height);
-  const PictureDifference difference = compare(image, *golden);
-  const double outliers = share_of_outliers(image, *golden);
-  const auto found = picture_folder() / (name + "_found.png");
-  if (difference.mean > most_mean || outliers > most_outliers)
-    static_cast<void>(pipeline::write_png(found, image));
-  EXPECT_LE(difference.mean, most_mean) << "largest " << difference.largest << "; see " << found;
-  EXPECT_LE(outliers, most_outliers) << "see " << found;
-}
 
 class GoldenPicture : public GlTest {
 protected:

@@ -48,61 +48,93 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
   }
 }
 
+// What must be seen at once is larger than what explains it.
+TextStyle style_of(BadgeKind kind) {
+  return kind == BadgeKind::incomplete ? TextStyle::body : TextStyle::badge;
+}
+
+float sign_size(float text_height) {
+  return text_height * 0.68F;
+}
+
+void draw_badge(Canvas& canvas, const Badge& badge, const Rect& plate, float u) {
+  const BadgeLook look = look_of(badge.kind);
+  const TextStyle style = style_of(badge.kind);
+  const float rounding = 5 * u;
+  canvas.plate(plate, look.filled ? look.colour : palette::panel, rounding);
+  if (!look.filled)
+    canvas.frame(plate, look.colour, 2 * u, rounding);
+  const Colour ink = look.filled ? palette::ink : look.colour;
+  const float text_height = canvas.text_height(style);
+  const float sign = sign_size(text_height);
+  const auto x = static_cast<float>(plate.x);
+  const float middle = static_cast<float>(plate.y) + static_cast<float>(plate.height) / 2;
+  draw_sign(canvas, badge.kind, {x + 13 * u + sign / 2, middle}, sign, ink);
+  canvas.text({x + 22 * u + sign, middle - text_height / 2}, style, ink, badge.text.view());
+}
+
 } // namespace
 
-void draw_badges(Canvas& canvas, const Layout& layout, const HudText& text) {
+// Row by row; smaller ones together, in the middle of a row's height.
+BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudText& text) {
   const float u = layout.unit;
-  const float text_height = canvas.text_height(TextStyle::badge);
-  const auto height = static_cast<int>(text_height + 14 * u);
-  const auto start = static_cast<float>(layout.view.x) + 16 * u;
-  float x = start;
-  float y = static_cast<float>(layout.view.y) + 16 * u;
+  const auto padded = [&](TextStyle style) {
+    return static_cast<int>(canvas.text_height(style) + 10 * u);
+  };
+  const auto gap = static_cast<int>(10 * u);
+  const int row = padded(TextStyle::badge);
+  int x = layout.marks.x;
+  int y = layout.marks.y;
+  int row_height = row;
+  BadgePlaces places{};
+  const auto width_of = [&](const Badge& badge) {
+    const TextStyle style = style_of(badge.kind);
+    return static_cast<int>(canvas.text_width(style, badge.text.view()) +
+                            sign_size(canvas.text_height(style)) + 36 * u);
+  };
+  int small_ones = 0;
+  for (std::size_t i = 0; i < text.badge_count; ++i)
+    if (text.badges[i].kind == BadgeKind::incomplete)
+      small_ones += width_of(text.badges[i]) + gap;
   for (std::size_t i = 0; i < text.badge_count; ++i) {
     const Badge& badge = text.badges[i];
-    const BadgeLook look = look_of(badge.kind);
-    const float sign = text_height * 0.68F;
-    const float width = canvas.text_width(TextStyle::badge, badge.text.view()) + sign + 36 * u;
-    if (x > start && x + width > static_cast<float>(layout.view.right()) - 16 * u) {
-      x = start;
-      y += static_cast<float>(height) + 8 * u;
+    const int width = width_of(badge);
+    const int height = padded(style_of(badge.kind));
+    const bool first_small = badge.kind == BadgeKind::incomplete &&
+                             (i == 0 || text.badges[i - 1].kind != BadgeKind::incomplete);
+    const int needed = first_small ? small_ones - gap : width;
+    if (x > layout.marks.x && x + needed > layout.marks.right()) {
+      x = layout.marks.x;
+      y += row_height + gap / 2;
+      row_height = height;
     }
-    const Rect plate{static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), height};
-    const float rounding = 5 * u;
-    canvas.plate(plate, look.filled ? look.colour : palette::panel, rounding);
-    if (!look.filled)
-      canvas.frame(plate, look.colour, 2 * u, rounding);
-    const Colour ink = look.filled ? palette::ink : look.colour;
-    const float middle = y + static_cast<float>(height) / 2;
-    draw_sign(canvas, badge.kind, {x + 13 * u + sign / 2, middle}, sign, ink);
-    canvas.text({x + 22 * u + sign, middle - text_height / 2}, TextStyle::badge, ink,
-                badge.text.view());
-    x += width + 10 * u;
+    places[i] = {x, y + (row_height - height) / 2, width, height};
+    x += width + gap;
   }
+  return places;
+}
+
+void draw_badges(Canvas& canvas, const Layout& layout, const HudText& text) {
+  const BadgePlaces places = place_badges(canvas, layout, text);
+  for (std::size_t i = 0; i < text.badge_count; ++i)
+    draw_badge(canvas, text.badges[i], places[i], layout.unit);
 }
 
 void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness) {
+  if (liveness == Liveness::waiting || liveness == Liveness::live)
+    return;
   const float u = layout.unit;
-  const auto veil = [&](const Rect& rect) {
-    canvas.plate(rect, palette::background.faded(205));
-    canvas.stripes(rect, palette::alarm.faded(70), 28 * u, 2 * u);
-  };
-  switch (liveness) {
-  case Liveness::waiting:
-  case Liveness::live: break;
-  case Liveness::stale:
-    for (const Rect* rect : {&layout.view, &layout.b_scan.picture, &layout.en_face.picture})
-      canvas.frame(*rect, palette::warning, 4 * u);
-    break;
-  case Liveness::veiled:
-    for (const Rect* rect : {&layout.view, &layout.b_scan.picture, &layout.en_face.picture}) {
-      veil(*rect);
-      canvas.frame(*rect, palette::alarm, 4 * u);
+  for (const Rect& rect : {layout.view, layout.b_scan.picture, layout.en_face.picture}) {
+    if (rect.empty())
+      continue;
+    if (liveness == Liveness::veiled) {
+      canvas.plate(rect, palette::background.faded(205));
+      canvas.stripes(rect, palette::alarm.faded(70), 28 * u, 2 * u);
     }
-    break;
-  case Liveness::frozen:
-    for (const Rect* rect : {&layout.view, &layout.b_scan.picture, &layout.en_face.picture})
-      canvas.frame(*rect, palette::frozen, 2 * u);
-    break;
+    const Colour colour = liveness == Liveness::frozen  ? palette::frozen
+                          : liveness == Liveness::stale ? palette::warning
+                                                        : palette::alarm;
+    canvas.frame(rect, colour, (liveness == Liveness::frozen ? 2.0F : 4.0F) * u);
   }
 }
 

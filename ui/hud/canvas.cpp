@@ -1,5 +1,7 @@
 #include "ui/hud/canvas.h"
 
+#include <algorithm>
+
 #include <glm/common.hpp>
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -51,6 +53,15 @@ float Canvas::text(glm::vec2 position, TextStyle style, Colour colour, std::stri
   return text_width(style, words);
 }
 
+void Canvas::shadowed_text(glm::vec2 position, TextStyle style, Colour colour,
+                           std::string_view words) {
+  const float reach = std::max(1.0F, text_height(style) / 16);
+  for (const glm::vec2 shift :
+       {glm::vec2{1, 1}, glm::vec2{-1, 1}, glm::vec2{1, -1}, glm::vec2{-1, -1}})
+    text(position + reach * shift, style, palette::ink.faded(200), words);
+  text(position, style, colour, words);
+}
+
 float Canvas::text_width(TextStyle style, std::string_view words) const {
   const ImFont& font = fonts_->font(style);
   return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, words.data(), words.data() + words.size()).x;
@@ -73,6 +84,15 @@ void Canvas::frame(const Rect& rect, Colour colour, float width, float rounding)
   list_->AddRect({top_left(rect).x + inset.x, top_left(rect).y + inset.y},
                  {bottom_right(rect).x - inset.x, bottom_right(rect).y - inset.y}, packed(colour),
                  rounding, 0, width);
+}
+
+void Canvas::bar(glm::vec2 top_left, glm::vec2 bottom_right, Colour colour) {
+  list_->AddRectFilled(to_im(top_left), to_im(bottom_right), packed(colour));
+}
+
+void Canvas::quad(const std::array<glm::vec2, 4>& corners, Colour colour) {
+  list_->AddQuadFilled(to_im(corners[0]), to_im(corners[1]), to_im(corners[2]), to_im(corners[3]),
+                       packed(colour));
 }
 
 void Canvas::dot(glm::vec2 centre, float radius, Colour colour) {

@@ -4,6 +4,7 @@
 // ours. Positions are pixels from the top left corner of the target.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string_view>
 
@@ -30,12 +31,18 @@ public:
 
   // `position` is the left end of the base box: text is as high as its style. Returns its width.
   float text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words);
+  // With a dark rim, legible on any picture.
+  void shadowed_text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words);
   float text_width(TextStyle style, std::string_view words) const;
   float text_height(TextStyle style) const;
 
   void line(glm::vec2 from, glm::vec2 to, Colour colour, float width);
   void plate(const Rect& rect, Colour colour, float rounding = 0);
   void frame(const Rect& rect, Colour colour, float width, float rounding = 0);
+  // Between two corners that need not lie on pixels; those side by side leave no seam.
+  void bar(glm::vec2 top_left, glm::vec2 bottom_right, Colour colour);
+  // Filled; convex, the corners in their order.
+  void quad(const std::array<glm::vec2, 4>& corners, Colour colour);
   void dot(glm::vec2 centre, float radius, Colour colour);
   void ring(glm::vec2 centre, float radius, Colour colour, float width);
   // Diagonal stripes within the rectangle.

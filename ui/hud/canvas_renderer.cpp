@@ -10,12 +10,12 @@ namespace octascope::ui {
 
 namespace {
 
-void set_scissor(const ImVec4& clip, int height) {
-  const auto left = static_cast<GLint>(std::floor(clip.x));
-  const auto top = static_cast<GLint>(std::floor(clip.y));
-  const auto right = static_cast<GLint>(std::ceil(clip.z));
-  const auto bottom = static_cast<GLint>(std::ceil(clip.w));
-  glScissor(left, height - bottom, right - left, bottom - top);
+void set_scissor(const ImVec4& clip, const EyeFrame& frame, int target_height) {
+  const auto left = static_cast<int>(std::floor(clip.x));
+  const auto top = static_cast<int>(std::floor(clip.y));
+  const Rect rect = frame.place({left, top, static_cast<int>(std::ceil(clip.z)) - left,
+                                 static_cast<int>(std::ceil(clip.w)) - top});
+  glScissor(rect.x, target_height - rect.bottom(), rect.width, rect.height);
 }
 
 const void* byte_offset(std::size_t bytes) {
@@ -47,13 +47,15 @@ CanvasRenderer::CanvasRenderer(gl::Program program)
   glBindVertexArray(0);
 }
 
-void CanvasRenderer::draw(const Canvas& canvas, int width, int height) const {
+void CanvasRenderer::draw(const Canvas& canvas, const EyeFrame& frame, int target_height) const {
   const ImDrawList& list = canvas.list();
   if (list.VtxBuffer.empty())
     return;
-  glViewport(0, 0, width, height);
+  const Rect& target = frame.target;
+  glViewport(target.x, target_height - target.bottom(), target.width, target.height);
   program_.use();
-  glUniform2f(program_.uniform("u_size"), static_cast<float>(width), static_cast<float>(height));
+  glUniform2f(program_.uniform("u_size"), static_cast<float>(frame.width),
+              static_cast<float>(frame.height));
   glUniform1i(program_.uniform("u_glyphs"), 0);
   glActiveTexture(GL_TEXTURE0);
   glBindVertexArray(vertex_array_.name());
@@ -68,7 +70,7 @@ void CanvasRenderer::draw(const Canvas& canvas, int width, int height) const {
   for (const ImDrawCmd& command : list.CmdBuffer) {
     if (command.ElemCount == 0)
       continue;
-    set_scissor(command.ClipRect, height);
+    set_scissor(command.ClipRect, frame, target_height);
     glBindTexture(GL_TEXTURE_2D,
                   static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,

@@ -5,6 +5,7 @@
 #include "ui/gl/objects.h"
 #include "ui/gl/program.h"
 #include "ui/hud/canvas.h"
+#include "ui/stereo.h"
 
 namespace octascope::ui {
 
@@ -13,8 +14,9 @@ class CanvasRenderer {
 public:
   static hal::Result<CanvasRenderer> create();
 
-  // Into the bound framebuffer, which has that size.
-  void draw(const Canvas& canvas, int width, int height) const;
+  // Into one eye's part of the bound framebuffer. The canvas was begun with the frame's width and
+  // height.
+  void draw(const Canvas& canvas, const EyeFrame& frame, int target_height) const;
 
 private:
   explicit CanvasRenderer(gl::Program program);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "embedded_fonts.h"
+#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_freetype.h>
 
@@ -22,10 +23,10 @@ struct StyleFace {
 std::array<StyleFace, text_style_count> faces() {
   constexpr std::size_t regular = sizeof(fonts::inter_medium_otf_bytes) - 1;
   constexpr std::size_t semi_bold = sizeof(fonts::inter_semibold_otf_bytes) - 1;
-  return {{{fonts::inter_medium_otf_bytes, regular, 15},
-           {fonts::inter_medium_otf_bytes, regular, 18},
-           {fonts::inter_semibold_otf_bytes, semi_bold, 24},
-           {fonts::inter_semibold_otf_bytes, semi_bold, 23}}};
+  return {{{fonts::inter_medium_otf_bytes, regular, 22},
+           {fonts::inter_medium_otf_bytes, regular, 24},
+           {fonts::inter_semibold_otf_bytes, semi_bold, 28},
+           {fonts::inter_semibold_otf_bytes, semi_bold, 34}}};
 }
 
 // Latin-1, dashes, ellipsis, minus.
@@ -57,14 +58,15 @@ hal::Result<Fonts> Fonts::create(float unit) {
   ImFontAtlas& atlas = *result.atlas_;
   atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
   atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
-  atlas.TexDesiredWidth = 1024;
+  // GLES 3 promises textures of 2048 × 2048, which a display 2160 pixels high needs.
+  atlas.TexDesiredWidth = unit > 1.2F ? 2048 : 1024;
   int next = 0;
   for (const StyleFace& face : faces()) {
     ImFontConfig config;
     config.FontDataOwnedByAtlas = false;
     config.GlyphRanges = glyph_ranges.data();
     // Below ten pixels no hinting saves a letter.
-    const float pixels = std::max(10.0F, std::round(face.pixels * unit));
+    const float pixels = std::max(10.0F, std::ceil(face.pixels * unit));
     // ImGui takes a mutable pointer and does not write to data that it does not own.
     result.fonts_[next++] = atlas.AddFontFromMemoryTTF(
         const_cast<unsigned char*>(face.bytes), static_cast<int>(face.size), pixels, &config);
@@ -76,6 +78,13 @@ hal::Result<Fonts> Fonts::create(float unit) {
   if (coverage == nullptr)
     return hal::fail(hal::Fault::system, "heads-up display: FreeType builds no glyphs from the "
                                          "embedded fonts; the program is damaged, install it anew");
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  if (width > largest || height > largest)
+    return hal::fail(hal::Fault::unsupported,
+                     fmt::format("heads-up display: found that this GL takes textures up to {}, "
+                                 "expected {}x{} for the glyphs of this size; choose a smaller one",
+                                 largest, width, height));
   result.texture_ = gl::Texture::make();
   glBindTexture(GL_TEXTURE_2D, result.texture_.name());
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8, width, height);

@@ -11,13 +11,22 @@ struct ImFontAtlas;
 
 namespace octascope::ui {
 
+// What must be seen at once (badge) is at least 16 minutes of arc high for a surgeon who is two
+// metres from a 27-inch screen, what is looked up (the others) at least 10: the heights of capital
+// letters. Sources: ISO 9241-3 and NUREG-0700 (1.3.1-4) ask for 16′, the former for less where
+// reading is incidental; 10′ is twice the letter that an eye of normal acuity just reads.
+inline constexpr double viewing_distance_mm = 2000;
+inline constexpr double screen_diagonal_mm = 27 * 25.4;
+inline constexpr double glance_arcmin = 16;
+inline constexpr double lookup_arcmin = 10;
+
 enum class TextStyle : std::uint8_t { label, body, value, badge };
 inline constexpr int text_style_count = 4;
 
 // Threads: as gl/objects.h.
 class Fonts {
 public:
-  // `unit` as in Layout: value and badge text is 22 or more pixels high on a picture of 720.
+  // `unit` as in Layout. Fault::unsupported: this GL takes no texture of that size.
   static hal::Result<Fonts> create(float unit);
   Fonts(Fonts&& other) noexcept;
   Fonts& operator=(Fonts&& other) noexcept;

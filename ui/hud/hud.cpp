@@ -1,49 +1,103 @@
 #include "ui/hud/hud.h"
 
+#include <algorithm>
+
+#include <glm/vec3.hpp>
+
 namespace octascope::ui {
 
 namespace {
 
-void draw_view_texts(Canvas& canvas, const Layout& layout, const HudText& text,
-                     const HudScene& scene) {
+// What is on record, and how finely the volume is drawn: quiet, at the foot of a large volume, else
+// beside the badges; the fineness is then in the volume's caption.
+void draw_source(Canvas& canvas, const Layout& layout, const HudText& text) {
   const float u = layout.unit;
-  const auto left = static_cast<float>(layout.view.x) + 16 * u;
-  const auto bottom = static_cast<float>(layout.view.bottom());
-  if (scene.shown.volume)
-    draw_scale_bar(canvas, {left, bottom - 16 * u}, scene.view_mm_per_pixel, 160 * u, u);
-  if (!text.source.empty()) {
-    const float width = canvas.text_width(TextStyle::label, text.source.view());
-    canvas.text({static_cast<float>(layout.view.right()) - width - 16 * u,
-                 bottom - 12 * u - canvas.text_height(TextStyle::label)},
-                TextStyle::label, palette::quiet_text, text.source.view());
+  const float height = canvas.text_height(TextStyle::label);
+  const auto draw = [&](float right, float y, std::string_view words) {
+    canvas.shadowed_text({right - canvas.text_width(TextStyle::label, words), y}, TextStyle::label,
+                         palette::quiet_text, words);
+  };
+  if (layout.view_frame.empty()) {
+    const float y = static_cast<float>(layout.view.bottom()) - 12 * u - height;
+    float right = static_cast<float>(layout.view.right()) - 16 * u;
+    draw(right, y, text.source.view());
+    if (!text.source.empty())
+      right -= canvas.text_width(TextStyle::label, text.source.view()) + 24 * u;
+    draw(right, y, text.reduced.view());
+    return;
   }
-  if (!text.notice.empty()) {
-    const float height = canvas.text_height(TextStyle::value);
-    const float y = bottom - 84 * u - height;
-    const float width = canvas.text_width(TextStyle::value, text.notice.view());
-    const Rect plate{static_cast<int>(left), static_cast<int>(y - 6 * u),
-                     static_cast<int>(width + 28 * u), static_cast<int>(height + 12 * u)};
-    canvas.plate(plate, palette::panel.faded(235), 4 * u);
-    canvas.plate({plate.x, plate.y, static_cast<int>(4 * u), plate.height}, palette::warning);
-    canvas.text({left + 16 * u, y}, TextStyle::value, palette::text, text.notice.view());
-  }
+  float taken = static_cast<float>(layout.marks.x);
+  const BadgePlaces places = place_badges(canvas, layout, text);
+  for (std::size_t i = 0; i < text.badge_count; ++i)
+    taken = std::max(taken, static_cast<float>(places[i].right()));
+  const auto right = static_cast<float>(layout.marks.right());
+  if (right - canvas.text_width(TextStyle::label, text.source.view()) > taken + 24 * u)
+    draw(right, static_cast<float>(layout.marks.y) + 12 * u, text.source.view());
+}
+
+void draw_notice(Canvas& canvas, const Layout& layout, const HudText& text) {
+  if (text.notice.empty())
+    return;
+  const float u = layout.unit;
+  const Rect& room = layout.notice;
+  // One line: a long one in smaller letters, and cut if it must be.
+  const auto width_in = [&](TextStyle style) {
+    return canvas.text_width(style, text.notice.view()) + 30 * u;
+  };
+  const auto most = static_cast<float>(room.width);
+  const TextStyle style = width_in(TextStyle::value) <= most ? TextStyle::value : TextStyle::label;
+  const Rect plate{room.x, room.y, static_cast<int>(std::min(width_in(style), most)), room.height};
+  const Canvas::Clip clip{canvas, plate};
+  canvas.plate(plate, palette::plate, 4 * u);
+  canvas.plate({plate.x, plate.y, static_cast<int>(5 * u), plate.height}, palette::warning);
+  const float y = static_cast<float>(room.y) +
+                  (static_cast<float>(room.height) - canvas.text_height(style)) / 2;
+  canvas.text({static_cast<float>(room.x) + 16 * u, y}, style, palette::text, text.notice.view());
+}
+
+void draw_view_scale(Canvas& canvas, const Layout& layout, const Camera& camera) {
+  const float u = layout.unit;
+  const float margin = (layout.view_frame.empty() ? 16 : 8) * u;
+  const double mm_per_pixel =
+      static_cast<double>(2 * camera.tan_half_height * camera.depth_of(glm::vec3{0})) /
+      layout.view.height;
+  draw_scale_bar(canvas,
+                 {static_cast<float>(layout.view.x) + margin,
+                  static_cast<float>(layout.view.bottom()) - margin},
+                 mm_per_pixel, 0.2F * static_cast<float>(layout.view.width), u);
 }
 
 } // namespace
 
 void draw_hud_ground(Canvas& canvas, const Layout& layout) {
+  const float rounding = 4 * layout.unit;
   for (const Panel* panel : {&layout.b_scan, &layout.en_face, &layout.scope})
-    canvas.plate(panel->frame, palette::panel, 4 * layout.unit);
+    if (panel->shown())
+      canvas.plate(panel->frame, palette::panel, rounding);
   canvas.plate(layout.status_bar, palette::panel);
+}
+
+void draw_view_ground(Canvas& canvas, const Layout& layout) {
+  if (layout.view_frame.empty())
+    return;
+  canvas.plate(layout.view_frame, palette::panel, 4 * layout.unit);
+  canvas.plate(layout.view, palette::background);
 }
 
 void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const ViewState& view,
               const HudScene& scene) {
   draw_panel_marks(canvas, layout, text, view, scene);
+  if (scene.shown.volume)
+    draw_orientation_cube(canvas, layout.cube, scene.camera, layout.unit);
   draw_liveness_marks(canvas, layout, text.liveness);
-  draw_view_texts(canvas, layout, text, scene);
+  if (scene.shown.volume)
+    draw_view_scale(canvas, layout, scene.camera);
+  draw_source(canvas, layout, text);
+  draw_notice(canvas, layout, text);
   draw_badges(canvas, layout, text);
   draw_status_bar(canvas, layout, text);
+  if (text.window_changing && scene.levels != nullptr)
+    draw_window_histogram(canvas, layout.histogram, *scene.levels, view, layout.unit);
   draw_echo(canvas, layout, text.echo);
 }
 

@@ -1,36 +1,62 @@
 // Lays the heads-up display out on a canvas.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 
+#include <glm/vec3.hpp>
+
+#include "ui/camera.h"
 #include "ui/hud/canvas.h"
 #include "ui/hud/hud_text.h"
+#include "ui/hud/window_histogram.h"
 #include "ui/layout.h"
 #include "ui/scan_field.h"
 
 namespace octascope::ui {
 
-// Geometry of what is on the screen, for scale bars and position lines.
+// What is on the screen: for scale bars, position lines and what is drawn into the volume's space.
+// Borrowed for one picture.
 struct HudScene {
   ShownPictures shown;
-  double view_mm_per_pixel = 0; // at the centre of the volume
+  Camera camera{}; // of the eye whose picture it is
+  glm::vec3 extents_mm{0};
+  std::span<const pipeline::BScanState> states; // of the volume's B-scans
   std::optional<ScanField> scan_field;
+  const LevelShares* levels = nullptr; // of the volume; none: no histogram
 };
 
-// Plates and titles of the panels and the status bar, drawn before the pictures.
+// Plates of the panels and of the status bar, drawn before the pictures.
 void draw_hud_ground(Canvas& canvas, const Layout& layout);
+// The volume's plate, which may lie over the microscope's picture.
+void draw_view_ground(Canvas& canvas, const Layout& layout);
 
 // Everything over the pictures.
 void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const ViewState& view,
               const HudScene& scene);
 
 // The parts of it; each in a file of its own.
+using BadgePlaces = std::array<Rect, HudText::most_badges>;
+BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_badges(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness);
 void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene);
 void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);
+
+// What stands in the volume's space: the wire-frame box, the plane of the B-scan that the panel
+// shows, and where B-scans are missing or saturated. The parts before the volume go over its
+// picture, the others under it.
+void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
+                    const HudScene& scene, bool in_front);
+
+// Which way the volume is turned: a cube with the surface side bright, a dot where the scan begins
+// (A-scan 0 of B-scan 0 at the surface), and the axes: x along a B-scan, y from B-scan to B-scan, z
+// with depth.
+void draw_orientation_cube(Canvas& canvas, const Rect& rect, const Camera& camera, float unit);
+
 // A bar of a round length (1, 2 or 5 times a power of ten of a millimetre), at most `most_pixels`
 // long, with its length; its left lower end is given.
 void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, float most_pixels,

@@ -30,47 +30,41 @@ void format_age(FixedText<48>& text, std::string_view word, hal::Duration age) {
   text.format("{} {}:{:02}", word, minutes, seconds);
 }
 
+Badge& add_badge(HudText& hud, BadgeKind kind) {
+  Badge& badge = hud.badges[hud.badge_count++];
+  badge.kind = kind;
+  return badge;
+}
+
 void add_freshness_badge(HudText& hud, const Freshness& freshness) {
-  Badge badge;
   switch (freshness.liveness) {
   case Liveness::live: return;
   case Liveness::waiting:
-    badge.kind = BadgeKind::waiting;
-    badge.text.format("WAITING FOR THE FIRST VOLUME");
-    break;
+    add_badge(hud, BadgeKind::waiting).text.format("WAITING FOR THE FIRST VOLUME");
+    return;
   case Liveness::stale:
-    badge.kind = BadgeKind::stale;
-    format_age(badge.text, "STALE", freshness.age);
-    break;
+    format_age(add_badge(hud, BadgeKind::stale).text, "STALE", freshness.age);
+    return;
   case Liveness::veiled:
-    badge.kind = BadgeKind::veiled;
-    format_age(badge.text, "NO LIVE PICTURE", freshness.age);
-    break;
+    format_age(add_badge(hud, BadgeKind::veiled).text, "NO LIVE PICTURE", freshness.age);
+    return;
   case Liveness::frozen: {
     const auto [minutes, seconds] = split(freshness.frozen_for);
-    badge.kind = BadgeKind::frozen;
-    badge.text.format("FROZEN {}:{:02}", minutes, seconds);
-    break;
+    add_badge(hud, BadgeKind::frozen).text.format("FROZEN {}:{:02}", minutes, seconds);
+    return;
   }
   }
-  hud.badges[hud.badge_count++] = badge;
 }
 
 void add_incomplete_badge(HudText& hud, int count, std::string_view one, std::string_view more) {
-  if (count <= 0)
-    return;
-  Badge& badge = hud.badges[hud.badge_count++];
-  badge.kind = BadgeKind::incomplete;
-  badge.text.format("{} {}", count, count == 1 ? one : more);
+  if (count > 0)
+    add_badge(hud, BadgeKind::incomplete).text.format("{} {}", count, count == 1 ? one : more);
 }
 
 void compose_badges(HudText& hud, const Status& status) {
   add_freshness_badge(hud, status.freshness);
-  if (status.simulated) {
-    Badge& badge = hud.badges[hud.badge_count++];
-    badge.kind = BadgeKind::simulated;
-    badge.text.format("SIMULATED");
-  }
+  if (status.simulated)
+    add_badge(hud, BadgeKind::simulated).text.format("SIMULATED");
   add_incomplete_badge(hud, status.missing_b_scans, "B-scan missing", "B-scans missing");
   add_incomplete_badge(hud, status.saturated_lines, "line saturated", "lines saturated");
 }
@@ -100,32 +94,34 @@ void compose_cells(HudText& hud, const ViewState& view, const Status& status) {
     latency.value.format("{:.0f} / {:.0f} ms", *status.latency_p50_ms, *status.latency_p95_ms);
   else
     latency.value.format("–");
-  lost.label = "Lost lines / B-scans / volumes";
+  lost.label = "Lost lines / B-scans / vol.";
   format_losses(lost, status.losses);
   window.label = "Window";
   window.value.format("{:.0f} to {:.0f} dB", view.window_offset_db,
                       view.window_offset_db + view.window_size_db);
 }
 
+std::string_view word_for(pipeline::BScanState state) {
+  switch (state) {
+  case pipeline::BScanState::missing: return " missing";
+  case pipeline::BScanState::saturated: return " saturated";
+  case pipeline::BScanState::good: return "";
+  }
+  return "";
+}
+
 void compose_captions(HudText& hud, const ViewState& view, const Status& status,
                       const ShownPictures& shown) {
+  hud.volume.title.format("Volume");
+  hud.volume.note = hud.reduced;
   hud.b_scan.title.format("B-scan");
   hud.en_face.title.format("En face");
   hud.scope.title.format("Microscope");
   if (shown.volume) {
-    switch (shown.b_scan) {
-    case pipeline::BScanState::missing:
-      hud.b_scan.note.format("{} of {} missing", view.b_scan + 1, shown.geometry.b_scans);
+    hud.b_scan.note.format("{} of {}{}", view.b_scan + 1, shown.geometry.b_scans,
+                           word_for(shown.b_scan));
+    if (shown.b_scan != pipeline::BScanState::good)
       hud.b_scan.note_tone = Tone::warning;
-      break;
-    case pipeline::BScanState::saturated:
-      hud.b_scan.note.format("{} of {} saturated", view.b_scan + 1, shown.geometry.b_scans);
-      hud.b_scan.note_tone = Tone::warning;
-      break;
-    case pipeline::BScanState::good:
-      hud.b_scan.note.format("{} of {}", view.b_scan + 1, shown.geometry.b_scans);
-      break;
-    }
     hud.en_face.note.format("mean, auto contrast");
   }
   if (!shown.scope || !shown.scope_time) {
@@ -146,6 +142,8 @@ void compose_echo(HudText& hud, const ViewState& view, const Status& status,
   echo.visible = status.now < view.echo_until;
   if (!echo.visible)
     return;
+  hud.window_changing =
+      view.selected == Parameter::window_offset || view.selected == Parameter::window_size;
   const ParameterRange range = parameter_range(view.selected, shown.geometry.b_scans);
   const float value = parameter_value(view, view.selected);
   echo.share = std::clamp((value - range.lowest) / (range.highest - range.lowest), 0.0F, 1.0F);
@@ -184,6 +182,9 @@ HudText compose_hud_text(const ViewState& view, const Status& status, const Show
   hud.liveness = status.freshness.liveness;
   compose_badges(hud, status);
   compose_cells(hud, view, status);
+  if (status.reduced_quality)
+    hud.reduced.format("quality reduced {:.0f} %",
+                       std::floor(std::clamp(*status.reduced_quality, 0.0F, 1.0F) * 100));
   compose_captions(hud, view, status, shown);
   compose_echo(hud, view, status, shown);
   hud.devices = status.devices;

@@ -58,17 +58,25 @@ struct ShownPictures {
 };
 
 struct HudText {
-  std::array<Badge, 6> badges;
+  static constexpr std::size_t most_badges = 4; // freshness, simulated, missing, saturated
+
+  // Lines, frames and volumes a second: left out in this order where the bar has no room.
+  static constexpr std::array<std::size_t, 3> dispensable_cells{1, 2, 0};
+
+  std::array<Badge, most_badges> badges;
   std::size_t badge_count = 0;
   std::array<StatusCell, 6> cells;
+  Caption volume; // where it is not the large picture
   Caption b_scan;
   Caption en_face;
   Caption scope;
   bool scope_stale = false;
   Liveness liveness = Liveness::waiting;
   ParameterEcho echo;
+  bool window_changing = false; // the echo is of the window
   std::array<DeviceStatus, Status::most_devices> devices;
   std::size_t device_count = 0;
+  FixedText<32> reduced; // how finely the volume is drawn, if not fully
   FixedText<96> source;
   FixedText<160> notice;
   bool operator==(const HudText&) const = default;

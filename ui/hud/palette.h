@@ -1,6 +1,7 @@
 // The few colours of the display, and the rule that makes them legible.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -25,13 +26,37 @@ inline constexpr Colour text{233, 238, 242};
 inline constexpr Colour quiet_text{168, 179, 189};
 inline constexpr Colour box{104, 120, 134}; // the wire frame, before the volume
 inline constexpr Colour box_behind{58, 69, 79};
+inline constexpr Colour cube_surface{150, 166, 180}; // the side of the orientation cube
+inline constexpr Colour histogram{120, 134, 148};
 inline constexpr Colour accent{102, 200, 255}; // positions and the knob's parameter
-inline constexpr Colour good{110, 214, 160};
+// States. Colour-blind people tell them apart, too, and they never differ by colour alone.
+inline constexpr Colour good{90, 190, 160};
 inline constexpr Colour warning{255, 186, 74}; // STALE, missing, saturated, lost
-inline constexpr Colour alarm{255, 142, 128};  // no live picture, failed
-inline constexpr Colour frozen{160, 222, 255};
-inline constexpr Colour simulated{205, 178, 255};
-inline constexpr Colour ink{8, 11, 14}; // text on a filled badge
+inline constexpr Colour alarm{255, 140, 106};  // no live picture, failed
+inline constexpr Colour frozen{175, 214, 255};
+inline constexpr Colour simulated{202, 152, 255};
+inline constexpr Colour ink{8, 11, 14}; // text on a filled badge, shadow of text on a picture
+inline constexpr Colour plate = panel.faded(235); // under text that lies over a picture
+
+// Every text of the display and what it stands on.
+struct TextOnGround {
+  Colour text;
+  Colour ground;
+};
+inline constexpr std::array texts_on_grounds{
+    TextOnGround{text, panel},         TextOnGround{text, background},
+    TextOnGround{text, plate},         TextOnGround{text, ink},
+    TextOnGround{quiet_text, panel},   TextOnGround{quiet_text, background},
+    TextOnGround{quiet_text, plate},   TextOnGround{quiet_text, ink},
+    TextOnGround{accent, panel},       TextOnGround{accent, plate},
+    TextOnGround{good, panel},         TextOnGround{warning, panel},
+    TextOnGround{warning, background}, TextOnGround{alarm, panel},
+    TextOnGround{alarm, background},   TextOnGround{frozen, panel},
+    TextOnGround{simulated, panel},    TextOnGround{ink, warning},
+    TextOnGround{ink, alarm},          TextOnGround{ink, frozen}};
+
+// What says in what state the picture or a device is.
+inline constexpr std::array states{text, good, warning, alarm, frozen, simulated};
 
 } // namespace palette
 

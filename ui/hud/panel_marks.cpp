@@ -11,34 +11,40 @@ Colour colour_of(Tone tone) {
   return tone == Tone::warning ? palette::warning : palette::quiet_text;
 }
 
-void draw_caption(Canvas& canvas, const Panel& panel, const Caption& caption, float unit) {
+// Where both have no room, a warning wins over the title and the title over a quiet note.
+void draw_caption(Canvas& canvas, const Rect& room, const Caption& caption, float unit) {
+  if (room.empty())
+    return;
+  const float title = canvas.text_width(TextStyle::body, caption.title.view());
+  const float note = canvas.text_width(TextStyle::label, caption.note.view());
+  const bool both = title + note + 16 * unit <= static_cast<float>(room.width);
+  const auto y = [&](TextStyle style) {
+    return static_cast<float>(room.y) +
+           (static_cast<float>(room.height) - canvas.text_height(style)) / 2;
+  };
+  if (both || caption.note_tone != Tone::warning)
+    canvas.text({static_cast<float>(room.x) + 2 * unit, y(TextStyle::body)}, TextStyle::body,
+                palette::text, caption.title.view());
+  if (both || caption.note_tone == Tone::warning)
+    canvas.text({static_cast<float>(room.right()) - 2 * unit - note, y(TextStyle::label)},
+                TextStyle::label, colour_of(caption.note_tone), caption.note.view());
+}
+
+// In the upper quarter of the picture.
+void draw_words_over(Canvas& canvas, const Rect& rect, Colour colour, std::string_view words,
+                     float unit) {
+  const float width = canvas.text_width(TextStyle::body, words);
   const float height = canvas.text_height(TextStyle::body);
-  const float y =
-      static_cast<float>(panel.title.y) + (static_cast<float>(panel.title.height) - height) / 2;
-  canvas.text({static_cast<float>(panel.title.x) + 2 * unit, y}, TextStyle::body, palette::text,
-              caption.title.view());
-  const float width = canvas.text_width(TextStyle::body, caption.note.view());
-  canvas.text({static_cast<float>(panel.title.right()) - 2 * unit - width, y}, TextStyle::body,
-              colour_of(caption.note_tone), caption.note.view());
-}
-
-void draw_words_within(Canvas& canvas, const Rect& rect, Colour colour, std::string_view words,
-                       float unit) {
-  const float width = canvas.text_width(TextStyle::badge, words);
-  const float height = canvas.text_height(TextStyle::badge);
   const float x = static_cast<float>(rect.x) + (static_cast<float>(rect.width) - width) / 2;
-  const float y = static_cast<float>(rect.y) + (static_cast<float>(rect.height) - height) / 2;
-  canvas.plate({static_cast<int>(x - 12 * unit), static_cast<int>(y - 6 * unit),
-                static_cast<int>(width + 24 * unit), static_cast<int>(height + 12 * unit)},
+  const float y = static_cast<float>(rect.y) + 10 * unit;
+  canvas.plate({static_cast<int>(x - 12 * unit), static_cast<int>(y - 4 * unit),
+                static_cast<int>(width + 24 * unit), static_cast<int>(height + 8 * unit)},
                palette::panel, 4 * unit);
-  canvas.text({x, y}, TextStyle::badge, colour, words);
+  canvas.text({x, y}, TextStyle::body, colour, words);
 }
 
-void draw_position_line(Canvas& canvas, const Rect& rect, const ViewState& view, int b_scans,
-                        float unit) {
-  const float y = static_cast<float>(rect.y) + static_cast<float>(rect.height) *
-                                                   (static_cast<float>(view.b_scan) + 0.5F) /
-                                                   static_cast<float>(b_scans);
+void draw_position_line(Canvas& canvas, const Rect& rect, float share, float unit) {
+  const float y = static_cast<float>(rect.y) + static_cast<float>(rect.height) * share;
   const auto left = static_cast<float>(rect.x);
   const auto right = static_cast<float>(rect.right());
   canvas.line({left, y}, {right, y}, palette::accent.faded(150), std::max(1.0F, 1.2F * unit));
@@ -47,21 +53,37 @@ void draw_position_line(Canvas& canvas, const Rect& rect, const ViewState& view,
   canvas.line({right - 6 * unit, y}, {right + 6 * unit, y}, palette::accent, 3 * unit);
 }
 
+glm::vec2 to_pixels(const Rect& rect, const ScanField::Corner& corner) {
+  return {static_cast<float>(rect.x) + corner.x * static_cast<float>(rect.width),
+          static_cast<float>(rect.y) + corner.y * static_cast<float>(rect.height)};
+}
+
 void draw_scan_field(Canvas& canvas, const Rect& rect, const ScanField& field, float unit) {
-  const auto pixel = [&](const ScanField::Corner& corner) {
-    return glm::vec2{static_cast<float>(rect.x) + corner.x * static_cast<float>(rect.width),
-                     static_cast<float>(rect.y) + corner.y * static_cast<float>(rect.height)};
-  };
   for (std::size_t i = 0; i < field.corners.size(); ++i)
-    canvas.line(pixel(field.corners[i]), pixel(field.corners[(i + 1) % field.corners.size()]),
-                palette::accent, 2 * unit);
-  canvas.dot(pixel(field.corners[0]), 4 * unit, palette::accent);
+    canvas.line(to_pixels(rect, field.corners[i]),
+                to_pixels(rect, field.corners[(i + 1) % field.corners.size()]), palette::accent,
+                2 * unit);
+  canvas.dot(to_pixels(rect, field.corners[0]), 4 * unit, palette::accent);
+}
+
+// Where the B-scan of the panel lies in it.
+void draw_position_in_field(Canvas& canvas, const Rect& rect, const ScanField& field, float share,
+                            float unit) {
+  const auto between = [&](std::size_t from, std::size_t to) {
+    const glm::vec2 a = to_pixels(rect, field.corners[from]);
+    return a + share * (to_pixels(rect, field.corners[to]) - a);
+  };
+  const glm::vec2 begin = between(0, 3);
+  const glm::vec2 end = between(1, 2);
+  canvas.line(begin, end, palette::accent.faded(170), std::max(1.0F, 1.5F * unit));
+  for (const glm::vec2 at : {begin, end})
+    canvas.dot(at, 3 * unit, palette::accent);
 }
 
 void draw_panel_scale(Canvas& canvas, const Rect& rect, double width_mm, float unit) {
   draw_scale_bar(
       canvas, {static_cast<float>(rect.x) + 8 * unit, static_cast<float>(rect.bottom()) - 8 * unit},
-      width_mm / rect.width, static_cast<float>(rect.width) * 0.4F, unit);
+      width_mm / rect.width, std::min(0.4F * static_cast<float>(rect.width), 240 * unit), unit);
 }
 
 } // namespace
@@ -90,33 +112,40 @@ void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, 
     words.format("{:.0f} µm", length_mm * 1000);
   else
     words.format("{:g} mm", length_mm);
-  const float y = from.y - 5 * unit - canvas.text_height(TextStyle::body);
-  // A shadow keeps it legible on bright tissue.
-  for (const glm::vec2 shift :
-       {glm::vec2{1, 1}, glm::vec2{-1, 1}, glm::vec2{1, -1}, glm::vec2{-1, -1}})
-    canvas.text({from.x + shift.x * unit, y + shift.y * unit}, TextStyle::body,
-                palette::ink.faded(200), words.view());
-  canvas.text({from.x, y}, TextStyle::body, palette::text, words.view());
+  const float y = from.y - 3 * unit - canvas.text_height(TextStyle::label);
+  canvas.shadowed_text({from.x, y}, TextStyle::label, palette::text, words.view());
 }
 
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene) {
   const float u = layout.unit;
-  draw_caption(canvas, layout.b_scan, text.b_scan, u);
-  draw_caption(canvas, layout.en_face, text.en_face, u);
-  draw_caption(canvas, layout.scope, text.scope, u);
+  draw_caption(canvas, layout.view_title, text.volume, u);
+  draw_caption(canvas, layout.b_scan.title, text.b_scan, u);
+  draw_caption(canvas, layout.en_face.title, text.en_face, u);
+  draw_caption(canvas, layout.scope.title, text.scope, u);
   const ShownPictures& shown = scene.shown;
-  if (shown.volume) {
+  const float share = (static_cast<float>(view.b_scan) + 0.5F) /
+                      static_cast<float>(std::max(shown.geometry.b_scans, 1));
+  if (shown.volume && layout.b_scan.shown()) {
+    const Rect& picture = layout.b_scan.picture;
     if (shown.b_scan == pipeline::BScanState::missing)
-      draw_words_within(canvas, layout.b_scan.picture, palette::warning, "B-scan missing", u);
+      draw_words_over(canvas, picture, palette::warning, "B-scan missing", u);
     if (shown.b_scan == pipeline::BScanState::saturated)
-      canvas.frame(layout.b_scan.picture, palette::warning, 2 * u);
-    draw_panel_scale(canvas, layout.b_scan.picture, shown.geometry.a_mm(), u);
-    draw_panel_scale(canvas, layout.en_face.picture, shown.geometry.a_mm(), u);
-    draw_position_line(canvas, layout.en_face.picture, view, shown.geometry.b_scans, u);
+      canvas.frame(picture, palette::warning, 2 * u);
+    draw_panel_scale(canvas, picture, shown.geometry.a_mm(), u);
   }
-  if (shown.scope && scene.scan_field && !text.scope_stale)
+  if (shown.volume && layout.en_face.shown()) {
+    draw_position_line(canvas, layout.en_face.picture, share, u);
+    draw_panel_scale(canvas, layout.en_face.picture, shown.geometry.a_mm(), u);
+  }
+  if (shown.scope && layout.scope.shown() && text.scope_stale)
+    canvas.frame(layout.scope.picture, palette::warning, 4 * u);
+  if (shown.scope && layout.scope.shown() && scene.scan_field && !text.scope_stale) {
+    const Canvas::Clip clip{canvas, layout.scope.picture};
     draw_scan_field(canvas, layout.scope.picture, *scene.scan_field, u);
+    if (shown.volume)
+      draw_position_in_field(canvas, layout.scope.picture, *scene.scan_field, share, u);
+  }
 }
 
 } // namespace octascope::ui

@@ -1,10 +1,15 @@
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 #include "ui/hud/hud.h"
 
 namespace octascope::ui {
 
 namespace {
+
+constexpr float sign_width = 20; // before a device's name, at unit 1
+constexpr std::size_t text_cell_count = std::tuple_size_v<decltype(HudText::cells)>;
 
 Colour colour_of(Tone tone) {
   switch (tone) {
@@ -39,59 +44,79 @@ Colour device_colour(hal::DeviceState state) {
 }
 
 // Two rows, in as many columns as it takes, at the right end of the bar.
-void draw_devices(Canvas& canvas, const Layout& layout, const HudText& text) {
-  if (text.device_count == 0)
-    return;
-  const float u = layout.unit;
-  const float sign = 18 * u;
-  float column = 0;
+struct DeviceColumns {
+  float left;
+  float width; // of one
+};
+
+DeviceColumns device_columns(const Canvas& canvas, const Layout& layout, const HudText& text) {
+  float width = 0;
   for (std::size_t i = 0; i < text.device_count; ++i)
-    column = std::max(column, canvas.text_width(TextStyle::label, text.devices[i].name));
-  column += sign + 18 * u;
-  const std::size_t columns = (text.device_count + 1) / 2;
-  const float left =
-      static_cast<float>(layout.status_bar.right()) - static_cast<float>(columns) * column - 4 * u;
-  const float row_height = 24 * u;
-  const float top = static_cast<float>(layout.status_bar.y) + 9 * u;
+    width = std::max(width, canvas.text_width(TextStyle::label, text.devices[i].name));
+  width += (sign_width + 16) * layout.unit;
+  const auto columns = static_cast<float>((text.device_count + 1) / 2);
+  return {static_cast<float>(layout.status_bar.right()) - columns * width - 4 * layout.unit, width};
+}
+
+void draw_devices(Canvas& canvas, const Layout& layout, const HudText& text,
+                  const DeviceColumns& columns) {
+  const float u = layout.unit;
+  const float row_height = 32 * u;
+  const float top = static_cast<float>(layout.status_bar.y) + 6 * u;
   for (std::size_t i = 0; i < text.device_count; ++i) {
     const DeviceStatus& device = text.devices[i];
-    const float x = left + static_cast<float>(i / 2) * column;
-    const float y = top + static_cast<float>(i % 2) * row_height;
-    const float middle = y + row_height / 2;
-    draw_device_sign(canvas, device.state, {x + 5 * u, middle}, 5 * u);
-    canvas.text({x + sign, middle - canvas.text_height(TextStyle::label) / 2}, TextStyle::label,
-                device_colour(device.state), device.name);
+    const float x = columns.left + static_cast<float>(i / 2) * columns.width;
+    const float middle = top + (static_cast<float>(i % 2) + 0.5F) * row_height;
+    draw_device_sign(canvas, device.state, {x + 6 * u, middle}, 6 * u);
+    canvas.text({x + sign_width * u, middle - canvas.text_height(TextStyle::label) / 2},
+                TextStyle::label, device_colour(device.state), device.name);
   }
+}
+
+float cell_width(const Canvas& canvas, const StatusCell& cell) {
+  return std::max(canvas.text_width(TextStyle::label, cell.label),
+                  canvas.text_width(TextStyle::value, cell.value.view()));
 }
 
 } // namespace
 
 void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text) {
   const float u = layout.unit;
+  const float gap = 24 * u;
   const auto top = static_cast<float>(layout.status_bar.y);
+  const DeviceColumns columns = device_columns(canvas, layout, text);
   float x = static_cast<float>(layout.status_bar.x) + 16 * u;
-  for (const StatusCell& cell : text.cells) {
-    const float label =
-        canvas.text({x, top + 9 * u}, TextStyle::label, palette::quiet_text, cell.label);
-    const float value =
-        canvas.text({x, top + 30 * u}, TextStyle::value, colour_of(cell.tone), cell.value.view());
-    x += std::max(label, value) + 26 * u;
+
+  float needed = x;
+  for (const StatusCell& cell : text.cells)
+    needed += cell_width(canvas, cell) + gap;
+  std::array<bool, text_cell_count> shown;
+  shown.fill(true);
+  for (const std::size_t dispensable : HudText::dispensable_cells)
+    if (needed > columns.left) {
+      shown[dispensable] = false;
+      needed -= cell_width(canvas, text.cells[dispensable]) + gap;
+    }
+  for (std::size_t i = 0; i < text.cells.size(); ++i) {
+    if (!shown[i])
+      continue;
+    const StatusCell& cell = text.cells[i];
+    canvas.text({x, top + 8 * u}, TextStyle::label, palette::quiet_text, cell.label);
+    canvas.text({x, top + 36 * u}, TextStyle::value, colour_of(cell.tone), cell.value.view());
+    x += cell_width(canvas, cell) + gap;
   }
-  draw_devices(canvas, layout, text);
+  draw_devices(canvas, layout, text, columns);
 }
 
 void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo) {
   if (!echo.visible)
     return;
   const float u = layout.unit;
-  const float height = 64 * u;
-  const float width = 320 * u;
-  const float x =
-      static_cast<float>(layout.view.x) + (static_cast<float>(layout.view.width) - width) / 2;
-  const float y = static_cast<float>(layout.view.bottom()) - height - 14 * u;
-  canvas.plate(
-      {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)},
-      palette::panel.faded(235), 6 * u);
+  const auto x = static_cast<float>(layout.echo.x);
+  const auto y = static_cast<float>(layout.echo.y);
+  const auto width = static_cast<float>(layout.echo.width);
+  const auto height = static_cast<float>(layout.echo.height);
+  canvas.plate(layout.echo, palette::plate, 6 * u);
   canvas.text({x + 16 * u, y + 10 * u}, TextStyle::value, palette::text, echo.name);
   const float value = canvas.text_width(TextStyle::value, echo.value.view());
   canvas.text({x + width - 16 * u - value, y + 10 * u}, TextStyle::value, palette::accent,

@@ -19,7 +19,7 @@ hal::Result<BScanPanel> BScanPanel::create() {
 BScanPanel::BScanPanel(gl::PicturePass pass)
     : pass_{std::move(pass)}, uniforms_{pass_.uniform("u_levels"), pass_.uniform("u_window"),
                                         pass_.uniform("u_slow"), pass_.uniform("u_missing"),
-                                        pass_.uniform("u_hatch_pitch")} {}
+                                        pass_.uniform("u_hatch")} {}
 
 void BScanPanel::draw(const VolumeTexture& volume, pipeline::BScanState state,
                       const ViewState& view, const Rect& rect, int target_height) const {
@@ -32,7 +32,7 @@ void BScanPanel::draw(const VolumeTexture& volume, pipeline::BScanState state,
   glUniform2f(uniforms_.window, window.scale, window.offset);
   glUniform1f(uniforms_.slow, (static_cast<float>(view.b_scan) + 0.5F) / count);
   glUniform1i(uniforms_.missing, state == pipeline::BScanState::missing ? 1 : 0);
-  glUniform1f(uniforms_.hatch_pitch, hatch_pitch(target_height));
+  set_hatch(uniforms_.hatch, rect, target_height);
   pass_.fill(rect, target_height);
 }
 

@@ -24,7 +24,7 @@ private:
   explicit BScanPanel(gl::PicturePass pass);
   gl::PicturePass pass_;
   struct {
-    GLint levels, window, slow, missing, hatch_pitch;
+    GLint levels, window, slow, missing, hatch;
   } uniforms_;
 };
 

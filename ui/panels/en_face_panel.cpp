@@ -18,8 +18,8 @@ hal::Result<EnFacePanel> EnFacePanel::create() {
 
 EnFacePanel::EnFacePanel(gl::PicturePass pass)
     : pass_{std::move(pass)}, uniforms_{pass_.uniform("u_projection"), pass_.uniform("u_states"),
-                                        pass_.uniform("u_hatch_pitch"),
-                                        pass_.uniform("u_mark_width"), pass_.uniform("u_mark")} {}
+                                        pass_.uniform("u_hatch"), pass_.uniform("u_mark_width"),
+                                        pass_.uniform("u_mark")} {}
 
 void EnFacePanel::allocate(int a_scans, int b_scans) {
   a_scans_ = a_scans;
@@ -57,7 +57,7 @@ void EnFacePanel::draw(const Rect& rect, int target_height) const {
   glBindTexture(GL_TEXTURE_2D, projection_.name());
   glUniform1i(uniforms_.projection, 0);
   glUniform1i(uniforms_.states, 1);
-  glUniform1f(uniforms_.hatch_pitch, hatch_pitch(target_height));
+  set_hatch(uniforms_.hatch, rect, target_height);
   glUniform1f(uniforms_.mark_width, 0.04F);
   constexpr Colour mark = palette::warning;
   glUniform3f(uniforms_.mark, static_cast<float>(mark.r) / 255, static_cast<float>(mark.g) / 255,

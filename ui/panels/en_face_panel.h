@@ -37,7 +37,7 @@ private:
   int a_scans_ = 0;
   int b_scans_ = 0;
   struct {
-    GLint projection, states, hatch_pitch, mark_width, mark;
+    GLint projection, states, hatch, mark_width, mark;
   } uniforms_;
 };
 

@@ -5,6 +5,9 @@
 #include <string_view>
 
 #include "embedded_shaders.h"
+#include <GLES3/gl3.h>
+
+#include "ui/layout.h"
 
 namespace octascope::ui {
 
@@ -14,9 +17,12 @@ inline std::string with_hatch(std::string_view fragment_source) {
          std::string{fragment_source};
 }
 
-// Pixels between two stripes on a target of that height.
-inline float hatch_pitch(int target_height) {
-  return static_cast<float>(target_height) / 60;
+// Sets the uniform that says where the hatching of a picture in `rect` begins and how fine it is:
+// sixty stripes on a target's height.
+inline void set_hatch(GLint uniform, const Rect& rect, int target_height) {
+  glUniform3f(uniform, static_cast<float>(rect.x),
+              static_cast<float>(target_height - rect.bottom()),
+              static_cast<float>(target_height) / 60);
 }
 
 } // namespace octascope::ui

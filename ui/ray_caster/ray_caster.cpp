@@ -117,6 +117,7 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   f.pixel_height = 2 * camera.tan_half_height / static_cast<float>(image.height);
   f.pixel_width = static_cast<float>(static_cast<double>(2 * camera.tan_half_height) *
                                      settings.aspect / image.width);
+  f.centre_shift = camera.centre_shift;
   f.near_mm = camera.near_mm;
   f.step_mm = settings.step_mm;
 

@@ -52,6 +52,7 @@ struct RayFrame {
   float mm[3];       // of one cell
   float pixel_width; // at distance 1
   float pixel_height;
+  float centre_shift; // of the picture's middle to the right of `forward`, at distance 1
   float near_mm;
   float step_mm;
 

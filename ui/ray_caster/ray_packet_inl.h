@@ -78,7 +78,8 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
   const Real px = hn::Add(hn::ConvertTo(Floats{}, hn::Add(whole(x), dx)), real(0.5F));
   const Real py = hn::Add(hn::ConvertTo(Floats{}, hn::Add(whole(y), dy)), real(0.5F));
   const auto half = [](int length) { return 0.5F * static_cast<float>(length); };
-  const Real right = hn::Mul(hn::Sub(px, real(half(frame.width))), real(frame.pixel_width));
+  const Real right = hn::MulAdd(hn::Sub(px, real(half(frame.width))), real(frame.pixel_width),
+                                real(frame.centre_shift));
   const Real up = hn::Mul(hn::Sub(real(half(frame.height)), py), real(frame.pixel_height));
 
   Rays rays;

@@ -5,7 +5,7 @@ in vec2 v_unit;
 
 uniform sampler2D u_projection;
 uniform usampler2D u_states; // one texel a B-scan: 0 missing, 1 good, 2 saturated
-uniform float u_hatch_pitch;
+uniform vec3 u_hatch;
 uniform float u_mark_width; // of the saturation mark, as a share of the width
 uniform vec3 u_mark;
 
@@ -20,6 +20,6 @@ void main() {
   if (state == 2u && v_unit.x > 1.0 - u_mark_width)
     colour = u_mark;
   if (state == 0u)
-    colour = hatch(gl_FragCoord.xy, u_hatch_pitch);
+    colour = hatch(gl_FragCoord.xy, u_hatch);
   o_colour = vec4(colour, 1.0);
 }

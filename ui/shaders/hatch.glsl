@@ -1,5 +1,8 @@
-// What stands where no data came: never black, never tissue.
-vec3 hatch(vec2 pixel, float pitch) {
-  float stripe = step(0.5, fract((pixel.x + pixel.y) / pitch));
+// What stands where no data came: never black, never tissue. `place` has the picture's lower left
+// corner, from which the stripes count, so that both eyes of a stereo display see the same ones, and
+// the pixels between two of them.
+vec3 hatch(vec2 pixel, vec3 place) {
+  vec2 from = pixel - place.xy;
+  float stripe = step(0.5, fract((from.x + from.y) / place.z));
   return mix(vec3(0.055, 0.067, 0.082), vec3(0.29, 0.22, 0.10), stripe);
 }

@@ -19,6 +19,7 @@ uniform vec3 u_up;
 uniform vec3 u_mm;         // of one cell
 uniform vec4 u_viewport;   // x, y, width, height
 uniform vec2 u_pixel_size; // at distance 1
+uniform float u_centre_shift; // of the picture's middle, likewise
 uniform float u_near_mm;
 uniform float u_step_mm;
 uniform float u_steps; // of the step, in reference steps
@@ -41,7 +42,7 @@ struct Ray {
 
 Ray make_ray() {
   vec2 pixel = gl_FragCoord.xy - u_viewport.xy;
-  vec2 side = (pixel - 0.5 * u_viewport.zw) * u_pixel_size;
+  vec2 side = (pixel - 0.5 * u_viewport.zw) * u_pixel_size + vec2(u_centre_shift, 0.0);
   float reach = sqrt(dot(side, side) + 1.0);
   Ray ray;
   ray.cosine = 1.0 / reach;

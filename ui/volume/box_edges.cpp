@@ -60,4 +60,40 @@ std::array<BoxEdge, 12> project_box(const Camera& camera, const glm::vec3& exten
   return edges;
 }
 
+std::array<BoxEdge, 4> project_slice(const Camera& camera, const glm::vec3& extents_mm, float share,
+                                     const Rect& view) {
+  const glm::vec3 half = extents_mm / 2.0F;
+  const float z = (share - 0.5F) * extents_mm.z;
+  std::array<BoxEdge, 4> edges;
+  std::size_t next = 0;
+  for (const int face : {0, 1})
+    for (const float sign : {-1.0F, 1.0F}) {
+      glm::vec3 from{-half.x, -half.y, z};
+      glm::vec3 to{half.x, half.y, z};
+      from[face] = to[face] = sign * half[face];
+      BoxEdge edge = project_edge(camera, from, to, view);
+      edge.in_front = sees_face(camera, half, face, sign);
+      edges[next++] = edge;
+    }
+  return edges;
+}
+
+std::array<BoxEdge, 4> project_slow_edges(const Camera& camera, const glm::vec3& extents_mm,
+                                          float from, float to, const Rect& view) {
+  const glm::vec3 half = extents_mm / 2.0F;
+  std::array<BoxEdge, 4> edges;
+  std::size_t next = 0;
+  for (const float x : {-1.0F, 1.0F})
+    for (const float y : {-1.0F, 1.0F}) {
+      const glm::vec3 corner{x * half.x, y * half.y, 0};
+      const auto at = [&](float share) {
+        return corner + glm::vec3{0, 0, (share - 0.5F) * extents_mm.z};
+      };
+      BoxEdge edge = project_edge(camera, at(from), at(to), view);
+      edge.in_front = sees_face(camera, half, 0, x) || sees_face(camera, half, 1, y);
+      edges[next++] = edge;
+    }
+  return edges;
+}
+
 } // namespace octascope::ui

@@ -21,4 +21,13 @@ struct BoxEdge {
 std::array<BoxEdge, 12> project_box(const Camera& camera, const glm::vec3& extents_mm,
                                     const Rect& view);
 
+// The outline of a B-scan's plane; `share` is its place along the slow axis, 0…1. Its lines lie in
+// faces of the box, so they too are wholly before or behind everything inside.
+std::array<BoxEdge, 4> project_slice(const Camera& camera, const glm::vec3& extents_mm, float share,
+                                     const Rect& view);
+
+// The parts of the box's four edges along the slow axis that lie between two such places.
+std::array<BoxEdge, 4> project_slow_edges(const Camera& camera, const glm::vec3& extents_mm,
+                                          float from, float to, const Rect& view);
+
 } // namespace octascope::ui

@@ -35,12 +35,6 @@ void set(const gl::Program& program, const char* name, float value) {
   glUniform1f(program.uniform(name), value);
 }
 
-// Half of the picture's width at distance 1: what the projection maps to 1.
-float tan_half_width(const Camera& camera) {
-  const glm::mat4& m = camera.view_projection;
-  return 1 / glm::length(glm::vec3{m[0][0], m[1][0], m[2][0]});
-}
-
 } // namespace
 
 hal::Result<RayCastTechnique> RayCastTechnique::create(RayMode mode) {
@@ -95,8 +89,9 @@ void RayCastTechnique::set_rays(const gl::Program& program, const VolumeScene& s
   glGetIntegerv(GL_VIEWPORT, viewport.data());
   const auto at = [&](std::size_t i) { return static_cast<float>(viewport[i]); };
   glUniform4f(program.uniform("u_viewport"), at(0), at(1), at(2), at(3));
-  glUniform2f(program.uniform("u_pixel_size"), 2 * tan_half_width(camera) / at(2),
+  glUniform2f(program.uniform("u_pixel_size"), 2 * camera.tan_half_height * camera.aspect / at(2),
               2 * camera.tan_half_height / at(3));
+  glUniform1f(program.uniform("u_centre_shift"), camera.centre_shift);
   set(program, "u_near_mm", camera.near_mm);
   set(program, "u_step_mm", scene.step_mm);
   set(program, "u_steps", scene.step_mm / reference_step_mm(box_extents_mm(g) / 2.0F));

@@ -24,6 +24,10 @@ std::optional<RayMode> ray_mode(Technique technique) {
   return std::nullopt;
 }
 
+std::size_t index_of(Eye eye) {
+  return eye == Eye::right ? 1 : 0;
+}
+
 } // namespace
 
 hal::Result<VolumePainter> VolumePainter::create() {
@@ -52,7 +56,7 @@ void VolumePainter::make_caster() {
 }
 
 hal::Result<VolumePainter::EyePictures*> VolumePainter::pictures_of(Eye eye) {
-  auto& kept = pictures_[static_cast<std::size_t>(eye)];
+  auto& kept = pictures_[index_of(eye)];
   if (!kept) {
     auto made = VolumePicture::create();
     if (!made)
@@ -143,7 +147,7 @@ std::uint64_t VolumePainter::drawings() const {
 }
 
 void VolumePainter::composite(Eye eye, const Rect& rect, int target_height) const {
-  const auto& pictures = pictures_[static_cast<std::size_t>(eye)];
+  const auto& pictures = pictures_[index_of(eye)];
   if (!pictures)
     return;
   if (pictures->processor_drew)

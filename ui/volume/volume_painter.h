@@ -19,9 +19,6 @@
 
 namespace octascope::ui {
 
-// The picture of one eye; without stereo there is only the left.
-enum class Eye : std::uint8_t { left, right };
-
 // Threads: as gl/objects.h, but for the ray caster's own helpers. Allocates when the size or the
 // geometry changes, or a technique, an eye or a backend is used for the first time.
 class VolumePainter {
@@ -89,7 +86,7 @@ private:
   std::optional<RayCaster> caster_; // nothing until it is wanted
   bool caster_wanted_ = false;
   bool caster_shows_ = false; // the same volume as the texture
-  std::array<std::optional<EyePictures>, 2> pictures_;
+  std::array<std::optional<EyePictures>, 2> pictures_; // the second is the right eye's
 };
 
 } // namespace octascope::ui

@@ -158,9 +158,11 @@ std::vector<ReferencePixel> reference_rays(const pipeline::Volume& volume, const
       2 * static_cast<double>(camera.tan_half_height) * settings.aspect / width;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const Vector ray = Vector{camera.forward} +
-                         (x + 0.5 - width / 2.0) * pixel_width * Vector{camera.right} +
-                         (height / 2.0 - y - 0.5) * pixel_height * Vector{camera.up};
+      const Vector ray =
+          Vector{camera.forward} +
+          ((x + 0.5 - width / 2.0) * pixel_width + static_cast<double>(camera.centre_shift)) *
+              Vector{camera.right} +
+          (height / 2.0 - y - 0.5) * pixel_height * Vector{camera.up};
       // The dither in single precision, as a shader has it: it is a hash, not a quantity.
       const auto part = [](float v) { return v - std::floor(v); };
       const float px = static_cast<float>(x) + 0.5F;

@@ -67,6 +67,13 @@ pipeline::Volume uniform_volume(const pipeline::VolumeGeometry& geometry, std::u
   return volume;
 }
 
+ui::LevelShares level_shares(const pipeline::Volume& volume) {
+  ui::LevelShares shares{};
+  for (const std::uint8_t level : volume.levels)
+    shares[level / 2U] += 1 / static_cast<float>(volume.levels.size());
+  return shares;
+}
+
 pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& g) {
   pipeline::Volume volume = uniform_volume(g, 0);
   auto voxel = volume.levels.begin();

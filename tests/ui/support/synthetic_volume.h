@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pipeline/volume.h"
+#include "ui/hud/window_histogram.h"
 
 namespace octascope::tests {
 
@@ -12,6 +13,9 @@ pipeline::Volume uniform_volume(const pipeline::VolumeGeometry& geometry, std::u
 // sphere on it and the noise floor above, with speckle from a fixed seed. The same on every
 // machine.
 pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& geometry);
+
+// How often its levels occur.
+ui::LevelShares level_shares(const pipeline::Volume& volume);
 
 // 300 × 80 × 512 as the instrument's, and a smaller one of the same extents for quick tests.
 inline constexpr pipeline::VolumeGeometry full_geometry{512, 300, 80, 3.5, 10, 37.5};

@@ -1,0 +1,108 @@
+// Golden pictures of every layout, in and out of order, and of stereo.
+#include "tests/ui/support/gl_test.h"
+#include "tests/ui/support/golden.h"
+#include "tests/ui/support/scene.h"
+#include "tests/ui/support/synthetic_volume.h"
+#include "ui/renderer.h"
+
+namespace octascope::tests {
+namespace {
+
+using namespace ui;
+
+class GoldenLayout : public GlTest {
+protected:
+  static Status troubled() {
+    Status status = live_status();
+    status.freshness = {Liveness::stale, std::chrono::milliseconds{1250}, {}};
+    status.missing_b_scans = 3;
+    status.saturated_lines = 41;
+    status.losses = {379, 3, 1};
+    status.devices[0].state = hal::DeviceState::failed;
+    status.reduced_quality = 0.67F;
+    status.notice = "Camera lost: looking for it again";
+    return status;
+  }
+  static ViewState window_turned(LayoutKind layout, const Status& status) {
+    ViewState view;
+    view.layout = layout;
+    view.b_scan = 20;
+    view.selected = Parameter::window_size;
+    view.echo_until = status.now + std::chrono::seconds{1};
+    return view;
+  }
+
+  pipeline::Image draw(const ViewState& view, const Status& status, int width, int height,
+                       bool incomplete = false, bool has_scope = true) {
+    open(width, height);
+    auto renderer = Renderer::create();
+    EXPECT_TRUE(renderer) << renderer.error().message;
+    auto volume = tissue_volume(small_geometry);
+    if (incomplete)
+      mark_incomplete(volume);
+    EXPECT_TRUE((*renderer)->show_volume(volume));
+    (*renderer)->show_levels(level_shares(volume));
+    const ScopePicture scope{320, 240};
+    if (has_scope) {
+      EXPECT_TRUE((*renderer)->show_scope_picture(scope.frame(status.now), scope.field()));
+    }
+    const auto drawn = (*renderer)->draw(view, status, width, height);
+    EXPECT_TRUE(drawn) << drawn.error().message;
+    return (*renderer)->read_back(width, height);
+  }
+};
+
+TEST_F(GoldenLayout, b_scan) {
+  const Status status = live_status();
+  expect_golden(draw(window_turned(LayoutKind::b_scan, status), status, 1280, 720),
+                "b_scan_1280x720");
+}
+
+TEST_F(GoldenLayout, microscope) {
+  ViewState view;
+  view.layout = LayoutKind::microscope;
+  view.b_scan = 12;
+  expect_golden(draw(view, live_status(), 1280, 720), "microscope_1280x720");
+}
+
+TEST_F(GoldenLayout, quad_in_trouble) {
+  const Status status = troubled();
+  ViewState view = window_turned(LayoutKind::quad, status);
+  view.b_scan = 12;
+  expect_golden(draw(view, status, 1280, 720, true), "quad_1280x720");
+}
+
+TEST_F(GoldenLayout, volume_in_trouble_at_1024x768) {
+  const Status status = troubled();
+  expect_golden(draw(window_turned(LayoutKind::volume, status), status, 1024, 768, true),
+                "volume_1024x768");
+}
+
+TEST_F(GoldenLayout, a_recording_without_a_microscope) {
+  ViewState view;
+  view.b_scan = 20;
+  expect_golden(draw(view, live_status(), 640, 360, false, false), "recording_640x360");
+}
+
+TEST_F(GoldenLayout, side_by_side) {
+  ViewState view;
+  view.b_scan = 20;
+  view.stereo = StereoMode::side_by_side;
+  expect_golden(draw(view, live_status(), 1280, 720), "side_by_side_1280x720");
+}
+
+TEST_F(GoldenLayout, top_bottom) {
+  const Status status = troubled();
+  ViewState view = window_turned(LayoutKind::volume, status);
+  view.stereo = StereoMode::top_bottom;
+  expect_golden(draw(view, status, 640, 360, true), "top_bottom_640x360");
+}
+
+TEST_F(GoldenLayout, upright) {
+  ViewState view;
+  view.b_scan = 20;
+  expect_golden(draw(view, live_status(), 540, 960), "volume_540x960");
+}
+
+} // namespace
+} // namespace octascope::tests

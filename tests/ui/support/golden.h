@@ -1,0 +1,19 @@
+// Pictures against those kept in tests/golden.
+//
+// Software and hardware rasterisers differ in rounding and anti-aliasing, so a mean difference of
+// up to 1.5 of 255 is accepted, and at most 0.5 % of the channels may differ by more than 40. To
+// renew the pictures after a change that is meant, run the tests with OCTASCOPE_RENEW_GOLDEN=1 and
+// look at what git shows as changed.
+#pragma once
+
+#include <string>
+
+#include "pipeline/png_image.h"
+
+namespace octascope::tests {
+
+// Fails the running test, and says where the picture is to be seen, unless it is as in
+// tests/golden/<name>.png.
+void expect_golden(const pipeline::Image& image, const std::string& name);
+
+} // namespace octascope::tests

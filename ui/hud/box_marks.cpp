@@ -1,0 +1,65 @@
+#include <algorithm>
+
+#include "ui/hud/hud.h"
+#include "ui/volume/box_edges.h"
+
+namespace octascope::ui {
+
+namespace {
+
+struct Pen {
+  Canvas& canvas;
+  bool in_front;
+
+  void draw(const auto& edges, Colour colour, float width) const {
+    for (const BoxEdge& edge : edges)
+      if (edge.visible && edge.in_front == in_front)
+        canvas.line(edge.from, edge.to, in_front ? colour : colour.faded(colour.a / 2), width);
+  }
+};
+
+// Runs of B-scans that did not come, as slabs; of saturated ones, along the box's edges only.
+void draw_state_marks(const Pen& pen, const Rect& view, const HudScene& scene, float unit) {
+  const auto count = static_cast<float>(scene.states.size());
+  std::size_t begin = 0;
+  while (begin < scene.states.size()) {
+    const pipeline::BScanState state = scene.states[begin];
+    std::size_t end = begin + 1;
+    while (end < scene.states.size() && scene.states[end] == state)
+      ++end;
+    const float from = static_cast<float>(begin) / count;
+    const float to = static_cast<float>(end) / count;
+    begin = end;
+    if (state == pipeline::BScanState::good)
+      continue;
+    const bool missing = state == pipeline::BScanState::missing;
+    pen.draw(project_slow_edges(scene.camera, scene.extents_mm, from, to, view), palette::warning,
+             (missing ? 6.0F : 3.0F) * unit);
+    if (missing)
+      for (const float share : {from, to})
+        pen.draw(project_slice(scene.camera, scene.extents_mm, share, view),
+                 palette::warning.faded(150), 1.5F * unit);
+  }
+}
+
+} // namespace
+
+void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
+                    const HudScene& scene, bool in_front) {
+  if (!scene.shown.volume)
+    return;
+  const float u = layout.unit;
+  const float thin = std::max(1.0F, 1.5F * u);
+  const Canvas::Clip clip{canvas, layout.view};
+  const Pen pen{canvas, in_front};
+  if (view.box_visible) {
+    pen.draw(project_box(scene.camera, scene.extents_mm, layout.view), palette::box, thin);
+    const float share = (static_cast<float>(view.b_scan) + 0.5F) /
+                        static_cast<float>(std::max(scene.shown.geometry.b_scans, 1));
+    pen.draw(project_slice(scene.camera, scene.extents_mm, share, layout.view),
+             palette::accent.faded(190), thin);
+  }
+  draw_state_marks(pen, layout.view, scene, u);
+}
+
+} // namespace octascope::ui
