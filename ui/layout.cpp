@@ -251,13 +251,15 @@ Layout Plan::finish() {
   layout_.echo = {stage.x + (stage.width - echo_width) / 2, stage.bottom() - foot - echo_height,
                   echo_width, echo_height};
 
-  // Above the echo where both fit into the lower quarter, else at the lower left of the body.
+  // Above the echo where both fit into the lower quarter, else at the foot of a small picture.
   const int line = length(44);
   const int small_gap = length(6);
   layout_.notice = {stage.x + margin, layout_.echo.y - small_gap - line,
                     std::max(1, stage.width - quarter_width - 2 * margin), line};
   if (layout_.notice.y < stage.bottom() - quarter_height) {
-    const Rect& cell = layout_.en_face.shown() ? layout_.en_face.frame : stage;
+    const Rect& cell = layout_.en_face.shown()  ? layout_.en_face.frame
+                       : layout_.b_scan.shown() ? layout_.b_scan.frame
+                                                : layout_.view_frame;
     layout_.notice = {cell.x + margin, cell.bottom() - margin - line,
                       std::max(1, cell.width - 2 * margin), line};
   }
