@@ -137,9 +137,11 @@ TEST(Layout, what_lies_over_the_large_picture_leaves_its_middle_free) {
           << over->x << " " << over->y << " " << over->width << " " << over->height;
     }
     ASSERT_FALSE(l.inset && overlap(l.view_frame, middle));
-    for (const Rect* over : {&l.echo, &l.histogram, &l.legend})
+    for (const Rect* over : {&l.echo, &l.histogram, &l.notice})
       ASSERT_FALSE(overlap(*over, l.status_bar));
     ASSERT_FALSE(overlap(l.echo, l.histogram));
+    for (const Rect* beside : {&l.histogram, &l.echo, &l.status_bar, &l.marks})
+      ASSERT_FALSE(overlap(l.legend, *beside));
     ASSERT_FALSE(overlap(l.echo, l.notice));
     ASSERT_TRUE(l.cube.empty() || within(l.cube, l.view));
     ASSERT_FALSE(overlap(l.cube, l.marks));
