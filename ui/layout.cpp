@@ -138,6 +138,7 @@ void Plan::volume() {
             std::max(1, strip.height - 2 * gap)};
   if (tall())
     room = inner(strip);
+  layout_.legend = room;
   const int count = aspects_.has_scope ? 3 : 2;
   const auto next = [&](int index, double aspect) {
     return make_panel(part(room, index, count, gap, !tall()), layout_.unit, aspect);
@@ -162,6 +163,7 @@ void Plan::b_scan() {
     room.x -= gap;
     room.width += gap;
   }
+  layout_.legend = room;
   const int count = aspects_.has_scope ? 3 : 2;
   const auto next = [&](int index) { return part(room, index, count, gap, !tall()); };
   place_view(next(0));
@@ -192,6 +194,7 @@ void Plan::microscope() {
   const double free_share = tall() ? static_cast<double>(free.height) / whole.height
                                    : static_cast<double>(free.width) / whole.width;
   if (free_share >= 0.22) {
+    layout_.legend = free;
     layout_.b_scan = make_panel(part(free, 0, 2, gap, !tall()), layout_.unit, aspects_.b_scan);
     place_view(part(free, 1, 2, gap, !tall()));
   } else {
@@ -233,6 +236,7 @@ void Plan::quad() {
     layout_.b_scan = make_panel(part(rest, 0, 2, gap, !tall()), layout_.unit, aspects_.b_scan);
     layout_.en_face = make_panel(part(rest, 1, 2, gap, !tall()), layout_.unit, aspects_.en_face);
   }
+  layout_.legend = aspects_.has_scope ? layout_.scope.frame : layout_.b_scan.frame;
   layout_.large = layout_.view;
   layout_.stage = layout_.view;
 }
@@ -251,13 +255,15 @@ Layout Plan::finish() {
   layout_.echo = {stage.x + (stage.width - echo_width) / 2, stage.bottom() - foot - echo_height,
                   echo_width, echo_height};
 
-  // Above the echo where both fit into the lower quarter, else at the lower left of the body.
+  // Above the echo where both fit into the lower quarter, else at the foot of a small picture.
   const int line = length(44);
   const int small_gap = length(6);
   layout_.notice = {stage.x + margin, layout_.echo.y - small_gap - line,
                     std::max(1, stage.width - quarter_width - 2 * margin), line};
   if (layout_.notice.y < stage.bottom() - quarter_height) {
-    const Rect& cell = layout_.en_face.shown() ? layout_.en_face.frame : stage;
+    const Rect& cell = layout_.en_face.shown()  ? layout_.en_face.frame
+                       : layout_.b_scan.shown() ? layout_.b_scan.frame
+                                                : layout_.view_frame;
     layout_.notice = {cell.x + margin, cell.bottom() - margin - line,
                       std::max(1, cell.width - 2 * margin), line};
   }
@@ -276,15 +282,11 @@ Layout Plan::finish() {
     layout_.marks = {stage.x + margin, stage.y + margin,
                      std::max(1, stage.width - layout_.cube.width - 3 * margin),
                      std::max(1, quarter_height - margin)};
-  const bool cube_on_stage = layout_.large == layout_.view;
-  const int top =
-      stage.y + (cube_on_stage ? std::max(layout_.cube.height, margin) : margin) +
-      (layout_.kind == LayoutKind::volume ? std::max(0, quarter_height - layout_.cube.height) : 0);
-  layout_.legend = {layout_.histogram.x, top, side,
-                    std::max(0, layout_.histogram.y - small_gap - top)};
-  if (layout_.inset) // the volume is there
-    layout_.histogram =
-        layout_.legend = {stage.x + margin, stage.y + margin, side, std::max(1, stage.height / 2)};
+  if (layout_.inset) { // the volume is there
+    layout_.histogram = {stage.x + margin, stage.y + margin, side, histogram_height};
+    layout_.legend = {stage.x + margin, layout_.histogram.bottom() + small_gap, side,
+                      std::max(0, stage.height / 2 - histogram_height)};
+  }
   return layout_;
 }
 

@@ -59,7 +59,8 @@ struct Layout {
   Rect marks;     // the badges, row by row from the left
   Rect notice;    // one line
   Rect echo;      // what a control just did: at the lower border of the stage
-  Rect legend;    // what each control does: at a side of the stage
+  Rect legend;    // what each control does: in place of the small pictures beside the large one, of
+                  // the last of four alike, or at the side over a picture with an inset
   Rect histogram; // of the levels: in the stage's lower right corner
   Rect cube;      // which way the volume is turned: in the view's upper right corner
 };

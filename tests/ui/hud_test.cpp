@@ -12,43 +12,11 @@ namespace {
 
 using namespace ui;
 
-TEST(Palette, every_text_colour_has_a_contrast_of_seven) {
-  for (const Colour ground : {palette::panel, palette::background})
-    for (const Colour text : {palette::text, palette::quiet_text, palette::warning, palette::alarm,
-                              palette::frozen, palette::simulated, palette::accent, palette::good})
-      EXPECT_GE(contrast(text, ground), 7)
-          << int{text.r} << " " << int{text.g} << " " << int{text.b};
-  for (const Colour badge : {palette::warning, palette::alarm, palette::frozen})
-    EXPECT_GE(contrast(palette::ink, badge), 7);
-  EXPECT_NEAR(contrast({255, 255, 255}, {0, 0, 0}), 21, 1e-9);
-}
-
 TEST(ScaleBar, lengths_are_round) {
   EXPECT_DOUBLE_EQ(round_scale_length_mm(1.9), 1);
   EXPECT_DOUBLE_EQ(round_scale_length_mm(2), 2);
   EXPECT_DOUBLE_EQ(round_scale_length_mm(0.7), 0.5);
   EXPECT_NEAR(round_scale_length_mm(0.049), 0.02, 1e-12);
-}
-
-TEST(Layout, parts_lie_within_the_picture_and_beside_each_other) {
-  for (const auto& [w, h] :
-       {std::pair{640, 360}, {1280, 720}, {1920, 1080}, {3840, 2160}, {1024, 768}, {320, 200}}) {
-    const Layout l = lay_out(w, h, {1.67, 1, 4.0 / 3});
-    EXPECT_GE(l.view.width, w * 6 / 10);
-    EXPECT_LE(l.view.bottom(), l.status_bar.y);
-    EXPECT_EQ(l.status_bar.bottom(), h);
-    int y = 0;
-    for (const Panel* panel : {&l.b_scan, &l.en_face, &l.scope}) {
-      EXPECT_GE(panel->frame.y, y);
-      EXPECT_GE(panel->frame.x, l.view.right());
-      EXPECT_LE(panel->frame.right(), w);
-      EXPECT_LE(panel->frame.bottom(), l.status_bar.y);
-      EXPECT_GE(panel->picture.y, panel->title.bottom());
-      EXPECT_LE(panel->picture.bottom(), panel->frame.bottom());
-      y = panel->frame.bottom();
-    }
-    EXPECT_NEAR(static_cast<double>(l.b_scan.picture.width) / l.b_scan.picture.height, 1.67, 0.05);
-  }
 }
 
 std::vector<std::string> badges_of(const Status& status) {

@@ -33,7 +33,7 @@ protected:
   }
 
   pipeline::Image draw(const ViewState& view, const Status& status, int width, int height,
-                       bool incomplete = false, bool has_scope = true) {
+                       bool incomplete = false, bool has_scope = true, int scope_width = 320) {
     open(width, height);
     auto renderer = Renderer::create();
     EXPECT_TRUE(renderer) << renderer.error().message;
@@ -42,7 +42,7 @@ protected:
       mark_incomplete(volume);
     EXPECT_TRUE((*renderer)->show_volume(volume));
     (*renderer)->show_levels(level_shares(volume));
-    const ScopePicture scope{320, 240};
+    const ScopePicture scope{scope_width, 240};
     if (has_scope) {
       EXPECT_TRUE((*renderer)->show_scope_picture(scope.frame(status.now), scope.field()));
     }
@@ -63,6 +63,14 @@ TEST_F(GoldenLayout, microscope) {
   view.layout = LayoutKind::microscope;
   view.b_scan = 12;
   expect_golden(draw(view, live_status(), 1280, 720), "microscope_1280x720");
+}
+
+TEST_F(GoldenLayout, a_wide_microscope_picture_with_the_volume_inset) {
+  Status status = live_status();
+  status.freshness = {Liveness::frozen, std::chrono::seconds{12}, std::chrono::seconds{12}};
+  ViewState view = window_turned(LayoutKind::microscope, status);
+  view.frozen = true;
+  expect_golden(draw(view, status, 640, 360, false, true, 480), "inset_640x360");
 }
 
 TEST_F(GoldenLayout, quad_in_trouble) {

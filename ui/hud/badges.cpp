@@ -134,7 +134,7 @@ void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness
     const Colour colour = liveness == Liveness::frozen  ? palette::frozen
                           : liveness == Liveness::stale ? palette::warning
                                                         : palette::alarm;
-    canvas.frame(rect, colour, (liveness == Liveness::frozen ? 2.0F : 4.0F) * u);
+    canvas.frame(rect, colour, (liveness == Liveness::frozen ? 3.0F : 4.0F) * u);
   }
 }
 

@@ -36,7 +36,7 @@ inline constexpr Colour alarm{255, 140, 106};  // no live picture, failed
 inline constexpr Colour frozen{175, 214, 255};
 inline constexpr Colour simulated{202, 152, 255};
 inline constexpr Colour ink{8, 11, 14}; // text on a filled badge, shadow of text on a picture
-inline constexpr Colour plate = panel.faded(235); // under text that lies over a picture
+inline constexpr Colour plate = panel.faded(242); // under text that lies over a picture
 
 // Every text of the display and what it stands on.
 struct TextOnGround {

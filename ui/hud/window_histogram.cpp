@@ -23,13 +23,14 @@ struct Chart {
 };
 
 void draw_shares(Canvas& canvas, const Chart& chart, const LevelShares& shares) {
-  const float most = *std::ranges::max_element(shares);
+  // The lowest level is also what missing B-scans have, and not of interest.
+  const float most = *std::max_element(shares.begin() + 1, shares.end());
   if (most <= 0)
     return;
   const float width = (chart.right - chart.left) / static_cast<float>(shares.size());
   float x = chart.left;
   for (const float share : shares) {
-    const float y = chart.y(std::sqrt(std::max(share, 0.0F) / most));
+    const float y = chart.y(std::sqrt(std::clamp(share / most, 0.0F, 1.0F)));
     canvas.bar({x, y}, {x + width, chart.bottom}, palette::histogram);
     x += width;
   }
@@ -52,10 +53,12 @@ void draw_ramp(Canvas& canvas, const Chart& chart, const ViewState& view, float 
 
 // Only those that have room beside their neighbours.
 void draw_levels(Canvas& canvas, const Chart& chart, float unit) {
+  canvas.text({chart.left + 8 * unit, chart.top - 6 * unit}, TextStyle::label, palette::quiet_text,
+              "dB");
   float taken = chart.left - 20 * unit;
   for (const int db : {-40, 0, 40, 80}) {
     FixedText<16> words;
-    words.format("{}{}", db, db == 80 ? " dB" : "");
+    words.format("{}", db);
     const float width = canvas.text_width(TextStyle::label, words.view());
     const float at = chart.x(static_cast<float>(db));
     canvas.line({at, chart.bottom}, {at, chart.bottom + 5 * unit}, palette::quiet_text, unit);
