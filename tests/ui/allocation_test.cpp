@@ -40,5 +40,30 @@ TEST_F(Allocation, a_running_display_makes_none) {
   EXPECT_EQ(allocations_of_this_thread(), before);
 }
 
+TEST_F(Allocation, no_technique_makes_any_once_it_was_used) {
+  auto renderer = ui::Renderer::create();
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const auto volume = tissue_volume(small_geometry);
+  const ui::Status status = live_status();
+  ui::ViewState view;
+  const auto one_turn = [&](int i) {
+    for (const ui::Technique technique : ui::all_techniques)
+      for (const ui::RayBackend rays : {ui::RayBackend::shader, ui::RayBackend::processor}) {
+        view.technique = technique;
+        view.yaw_deg = static_cast<float>(50 * i); // slices along more than one axis
+        view.window_offset_db = static_cast<float>(i);
+        EXPECT_TRUE((*renderer)->show_volume(volume));
+        EXPECT_TRUE((*renderer)->draw(view, status, 320, 180, {1, 100, rays}));
+      }
+    EXPECT_TRUE(display_.present());
+  };
+  for (int i = 0; i < 4; ++i)
+    one_turn(i);
+  const std::uint64_t before = allocations_of_this_thread();
+  for (int i = 4; i < 8; ++i)
+    one_turn(i);
+  EXPECT_EQ(allocations_of_this_thread(), before);
+}
+
 } // namespace
 } // namespace octascope::tests

@@ -78,6 +78,20 @@ TEST(PlaneStackSpacing, half_a_spacing_from_both_borders) {
   EXPECT_NEAR(camera.eye.z - (spacing.first_mm + 9 * spacing.spacing_mm), -1.2 + 0.12, 1e-5);
 }
 
+TEST(PlaneStackSpacing, no_farther_apart_than_the_step) {
+  ViewState view;
+  view.yaw_deg = 0;
+  view.tilt_deg = 0;
+  const Camera camera = make_camera(view, 2.0F * half, 1.5F);
+  EXPECT_EQ(count_planes(camera, half, 0.24F, 1000), 10);
+  EXPECT_EQ(count_planes(camera, half, 0.2399F, 1000), 11);
+  EXPECT_EQ(count_planes(camera, half, 0.001F, 1000), 1000);
+  EXPECT_EQ(count_planes(camera, half, 5, 1000), 2);
+  for (const float step_mm : {0.5F, 0.07F, 0.011F})
+    EXPECT_LE(space_planes(camera, half, count_planes(camera, half, step_mm, 1000)).spacing_mm,
+              step_mm);
+}
+
 TEST(PlaneStackSpacing, begins_at_the_near_plane_when_the_eye_is_inside) {
   ViewState view;
   view.distance = 0.6F;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -94,7 +95,6 @@ TEST_F(VolumeTechniquesTest, processor_and_shader_cast_the_same_rays) {
                                  std::to_string(opacity);
         EXPECT_GT(mean_opacity(processor), 5) << what;
         EXPECT_LE(mean_difference(shader, processor), 1) << what;
-        RecordProperty(what, std::to_string(mean_difference(shader, processor)));
         if (shader.depth_mm.empty())
           continue;
         std::size_t other = 0;
@@ -105,9 +105,47 @@ TEST_F(VolumeTechniquesTest, processor_and_shader_cast_the_same_rays) {
               std::isinf(b) ? std::isinf(a) : std::abs(a - b) < 1.5F * settings.step_mm;
           other += same ? 0 : 1;
         }
-        EXPECT_LE(static_cast<double>(other) / static_cast<double>(shader.depth_mm.size()), 0.04)
+        // Half of an opacity may fall one sample on; of equal maxima, rounding chooses.
+        EXPECT_LE(static_cast<double>(other) / static_cast<double>(shader.depth_mm.size()),
+                  technique == Technique::maximum ? 0.1 : 0.02)
             << what;
       }
+}
+
+// Two levels from nothing to white, between B-scans far apart: filtering has to be finer than them.
+TEST_F(VolumeTechniquesTest, narrow_windows_keep_their_ramp) {
+  const pipeline::VolumeGeometry geometry{40, 40, 3, 25, 25, 500};
+  pipeline::Volume volume = uniform_volume(geometry, 100);
+  std::ranges::fill(volume.b_scan(1), std::uint8_t{101});
+  std::ranges::fill(volume.b_scan(2), std::uint8_t{102});
+  stage_->show(volume);
+  StageSettings settings;
+  settings.width = 256;
+  settings.height = 256;
+  settings.step_mm = 0.002F;
+  ui::ViewState view = view_from({"", 90, 0, 3}, Technique::rays, 1);
+  view.window_offset_db = pipeline::level_db(100);
+  view.window_size_db = 1;
+  for (const bool as_table : {false, true}) {
+    settings.as_table = as_table;
+    const StagePicture picture = stage_->draw(view, settings);
+    // From B-scan to B-scan grey rises evenly: more values than levels or quarters of them.
+    std::vector<float> greys;
+    for (int x = 0; x < settings.width; ++x)
+      if (picture.at(x, 128).opacity > 0.05F)
+        greys.push_back(picture.at(x, 128).red);
+    std::ranges::sort(greys);
+    float widest = 0;
+    for (std::size_t i = 1; i < greys.size(); ++i)
+      widest = std::max(widest, greys[i] - greys[i - 1]);
+    ASSERT_GT(greys.size(), 80U);
+    EXPECT_LE(widest, 0.05F) << as_table;
+  }
+  for (const Technique technique : ray_techniques)
+    EXPECT_LE(mean_difference(
+                  stage_->draw(view_from(places[0], technique), settings),
+                  stage_->cast(view_from(places[0], technique), mode_of(technique), settings)),
+              1);
 }
 
 TEST_F(VolumeTechniquesTest, rays_are_the_plane_stacks_at_fine_spacing) {
@@ -119,8 +157,6 @@ TEST_F(VolumeTechniquesTest, rays_are_the_plane_stacks_at_fine_spacing) {
       const StagePicture planes =
           stage_->draw(view_from(place, Technique::planes, opacity), settings);
       EXPECT_LE(mean_difference(rays, planes), 2) << place.name << ' ' << opacity;
-      RecordProperty(place.name + std::to_string(opacity),
-                     std::to_string(mean_difference(rays, planes)));
     }
 }
 
@@ -134,8 +170,6 @@ TEST_F(VolumeTechniquesTest, slices_are_the_rays_of_a_smooth_volume) {
       const StagePicture slices =
           stage_->draw(view_from(place, Technique::slices, opacity), settings);
       EXPECT_LE(mean_difference(rays, slices), 4) << place.name << ' ' << opacity;
-      RecordProperty(place.name + std::to_string(opacity),
-                     std::to_string(mean_difference(rays, slices)));
     }
 }
 
@@ -149,8 +183,6 @@ TEST_F(VolumeTechniquesTest, half_the_step_is_the_same_picture) {
       const StagePicture fine = stage_->draw(view, steps(small_geometry, 1024));
       EXPECT_LE(mean_difference(coarse, fine), 0.01 * 255)
           << ui::to_string(technique) << ' ' << place.name;
-      RecordProperty(std::string{ui::to_string(technique)} + place.name,
-                     std::to_string(mean_difference(coarse, fine)));
     }
 }
 
@@ -210,6 +242,8 @@ TEST_F(VolumeTechniquesTest, leaping_over_empty_bricks_changes_not_one_bit) {
       for (const Place& place : places)
         for (const bool as_table : {false, true}) {
           StageSettings settings = steps(volume.geometry, 700);
+          settings.width = 96;
+          settings.height = 64;
           settings.as_table = as_table;
           ui::ViewState view = view_from(place, technique);
           view.window_offset_db = 20; // exactly a level: where a brick may just begin to show

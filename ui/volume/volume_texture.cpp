@@ -36,7 +36,10 @@ void VolumeTexture::allocate(const pipeline::VolumeGeometry& geometry) {
     glTexStorage3D(GL_TEXTURE_3D, 1, GL_R8, geometry.depths, geometry.a_scans, geometry.b_scans);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    // The same at the border as clamping. Mesa's software rasteriser filters textures of 8 bits
+    // that are clamped or repeated along all axes to whole levels, which leaves steps of narrow
+    // windows; any other way of wrapping it filters in floating point, in the same time.
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_MIRRORED_REPEAT);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
   }
