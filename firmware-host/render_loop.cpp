@@ -33,7 +33,7 @@ hal::Result<> RenderLoop::open() {
 hal::Result<> RenderLoop::open_display() {
   if (auto opened = parts_.display.open(setup_.display); !opened)
     return opened;
-  auto renderer = ui::Renderer::create();
+  auto renderer = ui::Renderer::create(setup_.transfers);
   if (!renderer) {
     parts_.display.close();
     return tl::make_unexpected(renderer.error());

@@ -43,13 +43,13 @@ ViewState without_times(ViewState view) {
 }
 
 // Nothing where a GPU draws, or where the ray caster knows no instruction set of this processor.
-std::optional<RayCastPicture> make_ray_picture() {
+std::optional<RayCastPicture> make_ray_picture(const TransferSet& transfers) {
   constexpr unsigned most_helpers = 15;
   if (!gl::describe_context().software)
     return std::nullopt;
   const unsigned helpers =
       std::clamp(std::thread::hardware_concurrency(), 1U, most_helpers + 1) - 1;
-  auto made = RayCastPicture::create(helpers, {});
+  auto made = RayCastPicture::create(helpers, {}, transfers);
   if (!made)
     return std::nullopt;
   return std::move(*made);
@@ -214,7 +214,7 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   return {};
 }
 
-hal::Result<std::unique_ptr<Renderer>> Renderer::create() {
+hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& transfers) {
   auto volume_picture = VolumePicture::create();
   if (!volume_picture)
     return tl::make_unexpected(volume_picture.error());
@@ -232,7 +232,7 @@ hal::Result<std::unique_ptr<Renderer>> Renderer::create() {
     return tl::make_unexpected(canvas.error());
   std::unique_ptr<Parts> parts{new Parts{{},
                                          std::move(*volume_picture),
-                                         make_ray_picture(),
+                                         make_ray_picture(transfers),
                                          std::move(*b_scan),
                                          std::move(*en_face),
                                          std::move(*scope),

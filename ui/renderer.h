@@ -11,6 +11,7 @@
 #include "ui/draw_quality.h"
 #include "ui/scan_field.h"
 #include "ui/status.h"
+#include "ui/transfer/transfer_set.h"
 #include "ui/view_state.h"
 
 namespace octascope::ui {
@@ -25,7 +26,7 @@ namespace octascope::ui {
 class Renderer {
 public:
   // Fault::unsupported: this GL cannot compile our shaders.
-  static hal::Result<std::unique_ptr<Renderer>> create();
+  static hal::Result<std::unique_ptr<Renderer>> create(const TransferSet& transfers = {});
   ~Renderer();
 
   // Copies the volume before it returns and shows it from the next draw() on. On an error the last

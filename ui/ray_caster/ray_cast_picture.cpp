@@ -10,19 +10,20 @@
 namespace octascope::ui {
 
 hal::Result<RayCastPicture> RayCastPicture::create(std::size_t helpers,
-                                                   const pipeline::ThreadSetup& setup) {
+                                                   const pipeline::ThreadSetup& setup,
+                                                   TransferSet transfers) {
   auto caster = RayCaster::create(helpers, setup);
   if (!caster)
     return tl::make_unexpected(caster.error());
   auto pass = gl::PicturePass::create("ray_image", shaders::ray_image_frag);
   if (!pass)
     return tl::make_unexpected(pass.error());
-  return RayCastPicture{std::move(*caster), std::move(*pass)};
+  return RayCastPicture{std::move(*caster), std::move(*pass), std::move(transfers)};
 }
 
-RayCastPicture::RayCastPicture(RayCaster caster, gl::PicturePass pass)
-    : caster_{std::move(caster)}, pass_{std::move(pass)}, transfer_{
-                                                              std::make_unique<TransferTable>()} {}
+RayCastPicture::RayCastPicture(RayCaster caster, gl::PicturePass pass, TransferSet transfers)
+    : caster_{std::move(caster)}, pass_{std::move(pass)},
+      transfers_{std::move(transfers)}, transfer_{std::make_unique<TransferTable>()} {}
 
 void RayCastPicture::resize(int width, int height) {
   image_.resize(width, height);
@@ -49,14 +50,15 @@ hal::Result<> RayCastPicture::update(std::uint64_t upload, const ViewState& view
   const VolumePictureKey key = volume_picture_key(view, quality, upload, rect);
   if (drawn_ == key && drawn_mode_ == mode)
     return {};
-  const bool window_changed = !drawn_ || drawn_->window_offset_db != key.window_offset_db ||
-                              drawn_->window_size_db != key.window_size_db ||
-                              drawn_->opacity != key.opacity;
+  const bool transfer_changed =
+      !drawn_ || drawn_->window_offset_db != key.window_offset_db ||
+      drawn_->window_size_db != key.window_size_db || drawn_->opacity != key.opacity ||
+      drawn_->transfer != key.transfer || drawn_->colour_map != key.colour_map;
   drawn_.reset();
   if (key.width != image_.width || key.height != image_.height)
     resize(key.width, key.height);
-  if (window_changed) {
-    make_window_table(view, *transfer_);
+  if (transfer_changed) {
+    make_transfer_table(view, transfers_, *transfer_);
     caster_.set_transfer(*transfer_);
   }
   const glm::vec3 extents = caster_.empty() ? glm::vec3{0} : box_extents_mm(caster_.geometry());

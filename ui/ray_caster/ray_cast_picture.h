@@ -12,6 +12,7 @@
 #include "ui/gl/pixel_uploader.h"
 #include "ui/layout.h"
 #include "ui/ray_caster/ray_caster.h"
+#include "ui/transfer/transfer_set.h"
 #include "ui/view_state.h"
 #include "ui/volume/volume_picture.h"
 
@@ -22,8 +23,8 @@ namespace octascope::ui {
 class RayCastPicture {
 public:
   // Fault::unsupported: this processor has no instruction set that the ray caster is compiled for.
-  static hal::Result<RayCastPicture> create(std::size_t helpers,
-                                            const pipeline::ThreadSetup& setup);
+  static hal::Result<RayCastPicture> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
+                                            TransferSet transfers = {});
 
   // Copies the volume. On an error (RayCaster::show() lists them) the last one stays.
   hal::Result<> show(const pipeline::Volume& volume) { return caster_.show(volume); }
@@ -38,7 +39,7 @@ public:
   const RayImage& image() const { return image_; } // the last one, with its depths
 
 private:
-  RayCastPicture(RayCaster caster, gl::PicturePass pass);
+  RayCastPicture(RayCaster caster, gl::PicturePass pass, TransferSet transfers);
   void resize(int width, int height);
   hal::Result<> upload_image();
 
@@ -46,6 +47,7 @@ private:
   gl::PicturePass pass_;
   gl::PixelUploader uploader_;
   gl::Texture texture_;
+  TransferSet transfers_;
   std::unique_ptr<TransferTable> transfer_;
   RayImage image_;
   std::optional<VolumePictureKey> drawn_;
