@@ -220,6 +220,11 @@ void AssembledAppliance::make_render_loop() {
     setup.view.window_offset_db = configuration_.window->offset_db;
     setup.view.window_size_db = configuration_.window->size_db;
   }
+  setup.transfers = configuration_.look.transfers;
+  setup.view.transfer = configuration_.look.transfer;
+  setup.view.colour_map = configuration_.look.colour_map;
+  setup.view.technique = configuration_.look.technique;
+  setup.view.opacity = configuration_.look.opacity;
   setup.view.b_scan = twins_.plan.b_scans / 2;
   setup.freshness = {twins_.plan.tick_period(), configuration_.veil_after};
   setup.b_scans = twins_.plan.b_scans;

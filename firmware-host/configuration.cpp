@@ -96,7 +96,9 @@ hal::Result<Configuration> load_configuration(const std::filesystem::path& file)
   read_scan(root, configuration);
   configuration.calibration = root.table("calibration").path("file");
   read_pipeline(root.table("pipeline"), configuration);
-  read_display(root.table("display"), configuration);
+  ConfigTable display = root.table("display");
+  read_display(display, configuration);
+  configuration.look = read_look(root, display);
   read_sim(root.table("sim"), configuration);
   if (const auto finished = document->finish(); !finished)
     return tl::make_unexpected(finished.error());

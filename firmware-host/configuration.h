@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware-host/look_configuration.h"
 #include "hal/clock.h"
 #include "hal/result.h"
 #include "pipeline/neighbour_average.h"
@@ -30,6 +31,8 @@ struct Configuration {
   bool fullscreen = false;
   std::optional<ui::DisplayWindow> window; // empty: what suits the first volume
   hal::Duration veil_after = std::chrono::seconds{5};
+  // [[transfer]] and [display]
+  LookConfiguration look;
   // [sim]
   std::string phantom = "anterior_eye";
   int loop_volumes = 6;

@@ -33,7 +33,7 @@ hal::Result<> RenderLoop::open() {
 hal::Result<> RenderLoop::open_display() {
   if (auto opened = parts_.display.open(setup_.display); !opened)
     return opened;
-  auto renderer = ui::Renderer::create();
+  auto renderer = ui::Renderer::create(setup_.transfers);
   if (!renderer) {
     parts_.display.close();
     return tl::make_unexpected(renderer.error());
@@ -175,6 +175,8 @@ void RenderLoop::draw_if_changed() {
     lose_display(drawn.error());
     return;
   }
+  if (renderer_->wants_volume(view) && volume_ != nullptr)
+    static_cast<void>(renderer_->show_volume(*volume_)); // that it can be shown, it has proved
   renderer_->finish();
   governor_.note(parts_.clock.now() - begin, renderer_->drew_volume());
   drawn_view_ = view;

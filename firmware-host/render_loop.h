@@ -25,6 +25,7 @@
 #include "ui/renderer.h"
 #include "ui/scan_field.h"
 #include "ui/status.h"
+#include "ui/transfer/transfer_set.h"
 
 namespace octascope::firmware_host {
 
@@ -47,6 +48,7 @@ struct RenderLoopParts {
 struct RenderLoopSetup {
   hal::DisplayConfig display;
   ui::ViewState view;
+  ui::TransferSet transfers;            // what view.transfer and view.colour_map choose from
   bool window_from_first_volume = true; // else the view's
   ui::FreshnessLimits freshness;
   int b_scans = 80;

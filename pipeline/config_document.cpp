@@ -64,6 +64,25 @@ struct ConfigTable::Node {
     complain_at(&found, fmt::format("{} is {}, expected {}", key, describe(found), expected));
   }
 
+  std::vector<double> numbers_in(std::string_view place, const toml::node& list) {
+    const toml::array* array = list.as_array();
+    if (array == nullptr) {
+      complain_value(place, list, "a list of numbers, [..]");
+      return {};
+    }
+    std::vector<double> values;
+    values.reserve(array->size());
+    for (const toml::node& element : *array) {
+      const auto value = element.is_number() ? element.value<double>() : std::nullopt;
+      if (!value || !std::isfinite(*value)) {
+        complain_value(fmt::format("{}[{}]", place, values.size()), element, "a finite number");
+        return {};
+      }
+      values.push_back(*value);
+    }
+    return values;
+  }
+
   std::shared_ptr<Node> child(const toml::table* child_table, std::string child_name) {
     auto node = std::make_shared<Node>();
     node->shared = shared;
@@ -150,24 +169,29 @@ std::size_t ConfigTable::choice(std::string_view key, std::size_t fallback,
 
 std::vector<double> ConfigTable::numbers(std::string_view key) {
   const toml::node* found = node_->find(key);
+  return found == nullptr ? std::vector<double>{} : node_->numbers_in(key, *found);
+}
+
+std::vector<std::vector<double>> ConfigTable::rows(std::string_view key, std::size_t columns) {
+  const toml::node* found = node_->find(key);
   if (found == nullptr)
     return {};
+  const std::string expected = fmt::format("a list of lists of {} numbers, [[..], ..]", columns);
   const toml::array* array = found->as_array();
   if (array == nullptr) {
-    node_->complain_value(key, *found, "a list of numbers, [..]");
+    node_->complain_value(key, *found, expected);
     return {};
   }
-  std::vector<double> values;
-  values.reserve(array->size());
+  std::vector<std::vector<double>> rows;
   for (const toml::node& element : *array) {
-    const auto value = element.is_number() ? element.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value)) {
-      node_->complain_value(fmt::format("{}[{}]", key, values.size()), element, "a finite number");
-      return {};
-    }
-    values.push_back(*value);
+    const std::string place = fmt::format("{}[{}]", key, rows.size());
+    rows.push_back(node_->numbers_in(place, element));
+    if (rows.back().size() == columns)
+      continue;
+    node_->complain_value(place, element, fmt::format("{} numbers", columns));
+    return {};
   }
-  return values;
+  return rows;
 }
 
 std::optional<fs::path> ConfigTable::path(std::string_view key) {

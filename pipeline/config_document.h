@@ -6,6 +6,7 @@
 // each line, only finish() at the end.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <initializer_list>
 #include <memory>
@@ -35,6 +36,8 @@ public:
                      std::initializer_list<std::string_view> choices);
   // Finite numbers; an empty vector when the key is not there.
   std::vector<double> numbers(std::string_view key);
+  // Lists of `columns` finite numbers each, [[0, 0], [1, 0.5]]; empty when the key is not there.
+  std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns);
   // A path, relative to the document's folder.
   std::optional<std::filesystem::path> path(std::string_view key);
 

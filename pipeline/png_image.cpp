@@ -29,6 +29,21 @@ struct PngRecord {
   png_image png = {};
 };
 
+hal::Result<Image> read(const fs::path& file, bool with_opacity) {
+  PngRecord record;
+  if (png_image_begin_read_from_file(&record.png, file.c_str()) == 0)
+    return record.failure(file, fs::exists(file) ? Fault::bad_data : Fault::absent);
+  const bool grey = (record.png.format & PNG_FORMAT_FLAG_COLOR) == 0;
+  const bool opacity = with_opacity && (record.png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
+  record.png.format = opacity ? PNG_FORMAT_RGBA : (grey ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB);
+  Image image{static_cast<int>(record.png.width), static_cast<int>(record.png.height),
+              opacity ? 4 : (grey ? 1 : 3)};
+  const png_color black = {0, 0, 0};
+  if (png_image_finish_read(&record.png, &black, image.pixels.data(), 0, nullptr) == 0)
+    return record.failure(file, Fault::bad_data);
+  return image;
+}
+
 } // namespace
 
 hal::Result<> write_png(const fs::path& file, const Image& image) {
@@ -58,17 +73,11 @@ hal::Result<> write_png(const fs::path& file, const Image& image) {
 }
 
 hal::Result<Image> read_png(const fs::path& file) {
-  PngRecord record;
-  if (png_image_begin_read_from_file(&record.png, file.c_str()) == 0)
-    return record.failure(file, fs::exists(file) ? Fault::bad_data : Fault::absent);
-  const bool grey = (record.png.format & PNG_FORMAT_FLAG_COLOR) == 0;
-  record.png.format = grey ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB;
-  Image image{static_cast<int>(record.png.width), static_cast<int>(record.png.height),
-              grey ? 1 : 3};
-  const png_color black = {0, 0, 0};
-  if (png_image_finish_read(&record.png, &black, image.pixels.data(), 0, nullptr) == 0)
-    return record.failure(file, Fault::bad_data);
-  return image;
+  return read(file, false);
+}
+
+hal::Result<Image> read_png_with_opacity(const fs::path& file) {
+  return read(file, true);
 }
 
 } // namespace octascope::pipeline

@@ -15,7 +15,7 @@ namespace octascope::pipeline {
 struct Image {
   int width = 0;
   int height = 0;
-  int channels = 3; // 1 grey, 3 RGB
+  int channels = 3; // 1 grey, 3 RGB, 4 RGB and opacity
   std::vector<std::uint8_t> pixels;
 
   Image() = default;
@@ -33,10 +33,13 @@ struct Image {
   bool operator==(const Image&) const = default;
 };
 
-// The file appears complete or not at all.
+// Grey and RGB. The file appears complete or not at all.
 hal::Result<> write_png(const std::filesystem::path& file, const Image& image);
 
 // Grey files become grey, all others RGB; transparency is put on black.
 hal::Result<Image> read_png(const std::filesystem::path& file);
+
+// The same, but files with transparency get the fourth channel; colours are not premultiplied.
+hal::Result<Image> read_png_with_opacity(const std::filesystem::path& file);
 
 } // namespace octascope::pipeline

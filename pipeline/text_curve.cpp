@@ -1,5 +1,6 @@
 #include "pipeline/text_curve.h"
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <charconv>
@@ -9,8 +10,10 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace octascope::pipeline {
 
@@ -75,6 +78,42 @@ std::string shortened(std::string_view text) {
   return text.size() <= longest ? std::string{text} : std::string{text.substr(0, longest)} + "…";
 }
 
+// Calls take(line number from 1, text) for every line that holds more than blanks and a comment,
+// until it returns an Error.
+template <typename Take> hal::Result<> for_each_line(std::string_view rest, Take take) {
+  if (rest.starts_with("\xEF\xBB\xBF"))
+    rest.remove_prefix(3);
+  for (std::size_t line = 1; !rest.empty(); ++line) {
+    const std::size_t end = rest.find('\n');
+    std::string_view text = rest.substr(0, end);
+    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
+    text = trim(text.substr(0, text.find('#')));
+    if (text.empty())
+      continue;
+    if (auto taken = take(line, text); !taken)
+      return taken;
+  }
+  return {};
+}
+
+// The numbers of a line with separators between them; empty when one is no finite number.
+std::vector<double> split_numbers(std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t end = text.find_first_of(",; \t");
+    const auto value = finite_number(text.substr(0, end));
+    if (!value)
+      return {};
+    numbers.push_back(*value);
+    if (end == std::string_view::npos)
+      return numbers;
+    // One comma or semicolon at most between two numbers, with blanks around it.
+    text = trim(text.substr(end));
+    if (text.front() == ',' || text.front() == ';')
+      text = trim(text.substr(1));
+  }
+}
+
 // One number a line, at most `most`. Messages say "exactly" or "at most" so many are expected.
 hal::Result<std::vector<double>> parse_numbers(const fs::path& file, std::size_t most,
                                                std::string_view bound) {
@@ -87,29 +126,26 @@ hal::Result<std::vector<double>> parse_numbers(const fs::path& file, std::size_t
   if (!bytes)
     return tl::make_unexpected(bytes.error());
 
-  std::string_view rest{*bytes};
-  if (rest.starts_with("\xEF\xBB\xBF"))
-    rest.remove_prefix(3);
   std::vector<double> values;
-  for (std::size_t line = 1; !rest.empty(); ++line) {
-    const std::size_t end = rest.find('\n');
-    std::string_view text = rest.substr(0, end);
-    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
-    text = trim(text.substr(0, text.find('#')));
-    if (text.empty())
-      continue;
-    if (values.size() == most)
-      return hal::fail(Fault::bad_data,
-                       fmt::format("{}:{}: found one number more (\"{}\"), expected {} {}",
-                                   file.string(), line, shortened(text), bound, most));
-    const auto value = finite_number(text);
-    if (!value)
-      return hal::fail(Fault::bad_data,
-                       fmt::format("{}:{}: found \"{}\" as number {} of {}, expected one finite "
-                                   "number with a decimal point",
-                                   file.string(), line, shortened(text), values.size(), count));
-    values.push_back(*value);
-  }
+  if (auto read = for_each_line(
+          *bytes,
+          [&](std::size_t line, std::string_view text) -> hal::Result<> {
+            if (values.size() == most)
+              return hal::fail(Fault::bad_data,
+                               fmt::format("{}:{}: found one number more (\"{}\"), expected {} {}",
+                                           file.string(), line, shortened(text), bound, most));
+            const auto value = finite_number(text);
+            if (!value)
+              return hal::fail(
+                  Fault::bad_data,
+                  fmt::format("{}:{}: found \"{}\" as number {} of {}, expected one finite "
+                              "number with a decimal point",
+                              file.string(), line, shortened(text), values.size(), count));
+            values.push_back(*value);
+            return {};
+          });
+      !read)
+    return tl::make_unexpected(read.error());
   return values;
 }
 
@@ -125,6 +161,38 @@ hal::Result<std::vector<double>> read_text_curve(const fs::path& file, std::size
 
 hal::Result<std::vector<double>> read_text_numbers(const fs::path& file, std::size_t most) {
   return parse_numbers(file, most, "at most");
+}
+
+hal::Result<std::vector<TextRow>> read_text_rows(const fs::path& file, std::size_t most,
+                                                 std::initializer_list<std::size_t> counts) {
+  const std::string wanted =
+      fmt::format("{} finite numbers with decimal points", fmt::join(counts, " or "));
+  const std::uintmax_t longest = 65536 + 256 * static_cast<std::uintmax_t>(most);
+  const auto bytes =
+      read_bytes(file, longest, fmt::format("a text file of at most {} lines of {}", most, wanted));
+  if (!bytes)
+    return tl::make_unexpected(bytes.error());
+  std::vector<TextRow> rows;
+  const auto take = [&](std::size_t line, std::string_view text) -> hal::Result<> {
+    const auto refuse = [&](std::string_view expected) {
+      return hal::fail(Fault::bad_data,
+                       fmt::format("{}:{}: found \"{}\", expected {}", file.string(), line,
+                                   shortened(text), expected));
+    };
+    if (rows.size() == most)
+      return refuse(fmt::format("the end: {} lines are the most", most));
+    std::vector<double> numbers = split_numbers(text);
+    if (std::ranges::find(counts, numbers.size()) == counts.end())
+      return refuse(wanted);
+    if (!rows.empty() && numbers.size() != rows.front().numbers.size())
+      return refuse(
+          fmt::format("{} numbers as in line {}", rows.front().numbers.size(), rows.front().line));
+    rows.push_back({line, std::move(numbers)});
+    return {};
+  };
+  if (auto read = for_each_line(*bytes, take); !read)
+    return tl::make_unexpected(read.error());
+  return rows;
 }
 
 hal::Result<std::vector<float>> read_float_curve(const fs::path& file, std::size_t expected) {

@@ -1,8 +1,9 @@
-// Curves as people write them: one number a line.
+// Curves as people write them: one number, or a few, a line.
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <vector>
 
 #include "hal/result.h"
@@ -18,6 +19,17 @@ hal::Result<std::vector<double>> read_text_curve(const std::filesystem::path& fi
 // The same for as many numbers as there are, up to `most`.
 hal::Result<std::vector<double>> read_text_numbers(const std::filesystem::path& file,
                                                    std::size_t most);
+
+// The same for lines of several numbers with commas, semicolons, blanks or tabs between them: up to
+// `most` lines, all with the same count of numbers, which is one of `counts`. `line` is where in
+// the file each stands, from 1.
+struct TextRow {
+  std::size_t line = 0;
+  std::vector<double> numbers;
+};
+hal::Result<std::vector<TextRow>> read_text_rows(const std::filesystem::path& file,
+                                                 std::size_t most,
+                                                 std::initializer_list<std::size_t> counts);
 
 // Reads exactly `expected` finite little-endian 32-bit floats and nothing else.
 hal::Result<std::vector<float>> read_float_curve(const std::filesystem::path& file,

@@ -1,7 +1,7 @@
 #include "ui/auto_window.h"
 
 #include <algorithm>
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <span>
@@ -12,27 +12,26 @@ namespace octascope::ui {
 
 namespace {
 
-using Histogram = std::array<std::uint64_t, 256>;
-
-constexpr int b_scan_stride = 4;
 constexpr double brightest_share = 0.001; // of all voxels, beyond the window's upper end
 constexpr float noise_spreads = 2.0F;     // how many spreads of the noise lie below the window
 constexpr float smallest_size_db = 15;
 
-Histogram histogram_of(const pipeline::Volume& volume) {
-  Histogram histogram{};
-  for (int b = 0; b < volume.geometry.b_scans; b += b_scan_stride) {
-    if (volume.b_scan_states[static_cast<std::size_t>(b)] == pipeline::BScanState::missing)
-      continue;
-    for (const std::uint8_t level : volume.b_scan(b))
-      ++histogram[level];
+// The lowest of the high peaks. Where tissue fills most of the volume, its peak is as high as the
+// noise's, or higher.
+std::size_t noise_level(std::span<const std::uint32_t> counts) {
+  constexpr std::size_t reach = 8; // counts to either side that a peak stands out from
+  const std::uint32_t high = std::max(*std::ranges::max_element(counts) / 4, 1U);
+  for (std::size_t level = 0; level < counts.size(); ++level) {
+    const std::size_t first = level > reach ? level - reach : 0;
+    const auto around = counts.subspan(first, std::min(level + reach + 1, counts.size()) - first);
+    if (counts[level] >= high && counts[level] == *std::ranges::max_element(around))
+      return level;
   }
-  histogram.front() = 0; // "nothing at all" is no noise
-  return histogram;
+  return 0;
 }
 
 // The lowest level that `share` of the counts do not exceed.
-std::size_t quantile(std::span<const std::uint64_t> counts, double share) {
+std::size_t quantile(std::span<const std::uint32_t> counts, double share) {
   const auto total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   const auto rank = static_cast<std::uint64_t>(share * static_cast<double>(total));
   std::uint64_t below = 0;
@@ -47,16 +46,20 @@ std::size_t quantile(std::span<const std::uint64_t> counts, double share) {
 } // namespace
 
 std::optional<DisplayWindow> suggest_window(const pipeline::Volume& volume) {
-  const Histogram histogram = histogram_of(volume);
-  const auto peak = std::max_element(histogram.begin(), histogram.end());
-  if (*peak == 0)
+  return suggest_window(make_level_histogram(volume));
+}
+
+std::optional<DisplayWindow> suggest_window(const LevelHistogram& histogram) {
+  auto counts = histogram.counts;
+  counts.front() = 0; // "nothing at all" is no noise
+  if (*std::ranges::max_element(counts) == 0)
     return std::nullopt;
-  const auto noise = static_cast<std::size_t>(peak - histogram.begin());
+  const std::size_t noise = noise_level(counts);
   // Tissue only adds to the upper side: the lower half shows the noise alone.
-  const std::size_t one_sigma_below = quantile(std::span{histogram}.first(noise + 1), 0.32);
+  const std::size_t one_sigma_below = quantile(std::span{counts}.first(noise + 1), 0.32);
   const auto spread = static_cast<float>(std::max<std::size_t>(noise - one_sigma_below, 1));
   const float lower = static_cast<float>(noise) + noise_spreads * spread;
-  const auto upper = static_cast<float>(quantile(histogram, 1 - brightest_share));
+  const auto upper = static_cast<float>(quantile(counts, 1 - brightest_share));
   const float offset_db = pipeline::level_db(lower);
   return DisplayWindow{offset_db,
                        std::max(pipeline::level_db(upper) - offset_db, smallest_size_db)};

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "pipeline/volume.h"
+#include "ui/histogram.h"
 
 namespace octascope::ui {
 
@@ -12,10 +13,10 @@ struct DisplayWindow {
   float size_db = 1;
 };
 
-// Most voxels of a volume hold noise, so the histogram's peak is the noise floor, and what is below
-// the peak shows how far the noise spreads. The window begins above nearly all of the noise and
-// ends where but a few voxels are brighter. Looks at every fourth B-scan: some milliseconds for a
-// live volume. Empty when no B-scan is there. Pure.
+// The lowest high peak of a volume's histogram is the noise floor, and what is below the peak shows
+// how far the noise spreads. The window begins above nearly all of the noise and
+// ends where but a few voxels are brighter. Empty when no B-scan is there. Pure.
+std::optional<DisplayWindow> suggest_window(const LevelHistogram& histogram);
 std::optional<DisplayWindow> suggest_window(const pipeline::Volume& volume);
 
 } // namespace octascope::ui

@@ -195,8 +195,8 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   return {};
 }
 
-hal::Result<std::unique_ptr<Renderer>> Renderer::create() {
-  auto volume = VolumePainter::create();
+hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& transfers) {
+  auto volume = VolumePainter::create(transfers);
   if (!volume)
     return tl::make_unexpected(volume.error());
   auto b_scan = BScanPanel::create();
@@ -273,9 +273,14 @@ bool Renderer::casts_rays(const DrawQuality& quality) const {
   return parts_->volume.backend(quality) == RayBackend::processor;
 }
 
+bool Renderer::wants_volume(const ViewState& view) const {
+  return parts_->volume.wants_volume(view);
+}
+
 bool Renderer::needs_redraw(const ViewState& view, const Status& status, int width, int height,
                             const DrawQuality& quality) const {
-  return parts_->drawn != parts_->picture_of(view, status, width, height, quality);
+  return parts_->volume.has_newer(view) ||
+         parts_->drawn != parts_->picture_of(view, status, width, height, quality);
 }
 
 pipeline::Image Renderer::read_back(int width, int height) const {

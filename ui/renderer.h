@@ -12,6 +12,7 @@
 #include "ui/hud/window_histogram.h"
 #include "ui/scan_field.h"
 #include "ui/status.h"
+#include "ui/transfer/transfer_set.h"
 #include "ui/view_state.h"
 
 namespace octascope::ui {
@@ -26,7 +27,7 @@ namespace octascope::ui {
 class Renderer {
 public:
   // Fault::unsupported: this GL cannot compile our shaders.
-  static hal::Result<std::unique_ptr<Renderer>> create();
+  static hal::Result<std::unique_ptr<Renderer>> create(const TransferSet& transfers = {});
   ~Renderer();
 
   // Copies the volume before it returns and shows it from the next draw() on. On an error the last
@@ -59,6 +60,10 @@ public:
   // False when draw() would make the picture that it made last, to the pixel.
   bool needs_redraw(const ViewState& view, const Status& status, int width, int height,
                     const DrawQuality& quality = {}) const;
+
+  // The view asks for something that was not made of the shown volume: call show_volume() with it
+  // once more.
+  bool wants_volume(const ViewState& view) const;
 
   // What stands in the bound framebuffer; waits for the drawing. Allocates: for snapshots.
   pipeline::Image read_back(int width, int height) const;

@@ -100,6 +100,51 @@ TEST_F(ConfigurationFile, a_plan_that_names_little_keeps_the_other_defaults) {
   EXPECT_EQ(c->plan, expected);
 }
 
+TEST_F(ConfigurationFile, sets_how_a_volume_looks) {
+  folder_.write("bone.csv", "0, 0, 0, 0\n1, 0.5, 0.25, 0.75\n");
+  const auto c = load(R"([display]
+technique = "surface"
+transfer = "bone"
+colours = "dawn"
+opacity = 0.25
+[[transfer]]
+name = "veins"
+kind = "spline"
+points = [[0, 0], [0.5, 1], [1, 0.5]]
+colours = "amber"
+[[transfer]]
+name = "bone"
+kind = "table"
+file = "bone.csv"
+)");
+  ASSERT_TRUE(c) << c.error().message;
+  const LookConfiguration& look = c->look;
+  const auto built_in = static_cast<int>(ui::TransferSet{}.functions().size());
+  EXPECT_EQ(look.technique, ui::Technique::surface);
+  EXPECT_EQ(look.transfer, built_in + 1);
+  EXPECT_EQ(look.colour_map, look.transfers.colour_map_named("dawn"));
+  EXPECT_EQ(look.opacity, 0.25F);
+  ASSERT_EQ(look.transfers.functions().size(), static_cast<std::size_t>(built_in + 2));
+  const ui::TransferFunction& veins =
+      look.transfers.functions()[static_cast<std::size_t>(built_in)];
+  EXPECT_EQ(veins.name, "veins");
+  EXPECT_EQ(veins.curve.opacity(0.5F), 1);
+  ASSERT_TRUE(veins.colours);
+  EXPECT_EQ(veins.colours->name(), "amber");
+  const ui::TransferFunction& bone = look.transfers.functions().back();
+  EXPECT_EQ(bone.curve.opacity(1), 0.75F);
+  ASSERT_TRUE(bone.colours) << "the file brings its own";
+  EXPECT_EQ(bone.colours->at(1), (ui::TransferTable::Colour{1, 0.5F, 0.25F}));
+}
+
+TEST_F(ConfigurationFile, a_look_up_table_in_error_is_told_with_both_places) {
+  folder_.write("bad.csv", "0\n0.5\n2\n");
+  const auto c = load("\n[[transfer]]\nname = \"bad\"\nkind = \"table\"\nfile = \"bad.csv\"\n");
+  ASSERT_FALSE(c);
+  EXPECT_THAT(c.error().message, HasSubstr("c.toml:2: [transfer]"));
+  EXPECT_THAT(c.error().message, HasSubstr("bad.csv:3: found 2"));
+}
+
 TEST_F(ConfigurationFile, that_is_missing_is_named) {
   const auto c = load_configuration(folder_ / "nowhere.toml");
   ASSERT_FALSE(c);
@@ -143,6 +188,31 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"two_weights", "[pipeline]\nneighbour_weights = [1, 2]\n", "three numbers"},
         Refused{"no_own_weight", "[pipeline]\nneighbour_weights = [1, 0, 1]\n", "own (> 0)"},
         Refused{"a_table_for_a_number", "[display.width]\nx = 1\ny = 2\n", "width is"},
+        Refused{"no_such_technique", "[display]\ntechnique = \"ray\"\n", "\"slices\", \"planes\""},
+        Refused{"no_such_transfer", "[display]\ntransfer = \"x\"\n", "expected one of \"window\""},
+        Refused{"no_such_colours", "[display]\ncolours = \"red\"\n", "\"grey\", \"amber\""},
+        Refused{"no_opacity", "[display]\nopacity = 0\n", "opacity is 0"},
+        Refused{"transfer_without_name", "[[transfer]]\npoints = [[0, 0], [1, 1]]\n",
+                "name is missing"},
+        Refused{"transfer_of_unknown_kind", "[[transfer]]\nname = \"x\"\nkind = \"bezier\"\n",
+                "\"piecewise\", \"spline\", \"table\""},
+        Refused{"transfer_without_points", "[[transfer]]\nname = \"x\"\n", "found 0 points"},
+        Refused{"transfer_that_turns_back",
+                "[[transfer]]\nname = \"x\"\npoints = [[0, 0], [0.5, 1], [0.4, 1]]\n",
+                "point 3 is at u = 0.4"},
+        Refused{"point_of_three", "[[transfer]]\nname = \"x\"\npoints = [[0, 0], [0.5, 1, 2]]\n",
+                "points[1]"},
+        Refused{"point_of_text", "[[transfer]]\nname = \"x\"\npoints = [[0, \"a\"], [1, 1]]\n",
+                "points[0][1]"},
+        Refused{"points_flat", "[[transfer]]\nname = \"x\"\npoints = [0, 0, 1, 1]\n", "points[0]"},
+        Refused{"transfer_without_file", "[[transfer]]\nname = \"x\"\nkind = \"table\"\n",
+                "file is missing"},
+        Refused{"file_that_is_not_there",
+                "[[transfer]]\nname = \"x\"\nkind = \"table\"\nfile = \"no.csv\"\n",
+                "there is no such file"},
+        Refused{"transfer_named_as_another",
+                "[[transfer]]\nname = \"smooth\"\npoints = [[0, 0], [1, 1]]\n",
+                "\"smooth\" is there already"},
         Refused{"no_toml", "[scan\n", "not TOML"}),
     [](const auto& test) { return test.param.name; });
 

@@ -13,6 +13,7 @@ VolumePictureKey volume_picture_key(const VolumeScene& scene, const DrawQuality&
   };
   const ViewState& view = scene.view;
   return {scene.upload,
+          scene.mesh,
           scene.transfer.version(),
           scene.camera.view_projection,
           view.window_offset_db,

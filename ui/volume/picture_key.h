@@ -13,6 +13,7 @@ namespace octascope::ui {
 
 struct VolumePictureKey {
   std::uint64_t upload = 0;   // counts volumes
+  std::uint64_t mesh = 0;     // counts iso-surfaces
   std::uint64_t transfer = 0; // counts transfer functions
   glm::mat4 view_projection{0};
   float window_offset_db = 0;

@@ -30,8 +30,8 @@ std::size_t index_of(Eye eye) {
 
 } // namespace
 
-hal::Result<VolumePainter> VolumePainter::create() {
-  VolumePainter painter{gl::describe_context().software};
+hal::Result<VolumePainter> VolumePainter::create(const TransferSet& transfers) {
+  VolumePainter painter{gl::describe_context().software, transfers};
   // What every view needs is made here, so that a GL that cannot do it is known at once.
   if (auto ok = painter.pictures_of(Eye::left); !ok)
     return tl::make_unexpected(ok.error());
@@ -42,8 +42,9 @@ hal::Result<VolumePainter> VolumePainter::create() {
   return painter;
 }
 
-VolumePainter::VolumePainter(bool software)
-    : software_{software}, transfer_{std::make_unique<TransferTable>()} {}
+VolumePainter::VolumePainter(bool software, const TransferSet& transfers)
+    : software_{software}, transfers_{transfers}, transfer_{std::make_unique<TransferTable>()},
+      techniques_{transfers} {}
 
 // Leaves nothing where the ray caster knows no instruction set of this processor.
 void VolumePainter::make_caster() {
@@ -87,6 +88,9 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
   occupancy_ = occupancy;
   ++uploads_;
   caster_shows_ = caster_ && caster_->show(volume, occupancy_);
+  surface_shows_ = techniques_.surface() != nullptr;
+  if (surface_shows_)
+    techniques_.surface()->show(volume);
   return {};
 }
 
@@ -94,7 +98,7 @@ void VolumePainter::update_transfer(const ViewState& view) {
   const TransferSource source{view.window_offset_db, view.window_size_db, view.opacity,
                               view.transfer, view.colour_map};
   if (transfer_source_ != source) {
-    make_window_table(view, *transfer_);
+    make_transfer_table(view, transfers_, *transfer_);
     transfer_texture_.update(*transfer_);
     transfer_source_ = source;
   }
@@ -128,13 +132,39 @@ hal::Result<> VolumePainter::update(Eye eye, const ViewState& view, const Camera
   if (quality.rays == RayBackend::processor && !caster_wanted_)
     make_caster();
   update_transfer(view);
-  const VolumeScene scene{
-      texture_,    transfer_texture_, camera, view, step_mm(quality, texture_.geometry()),
-      &occupancy_, uploads_};
+  VolumeScene scene{texture_,    transfer_texture_, camera, view,
+                    step_mm(quality, texture_.geometry()),
+                    &occupancy_, uploads_};
+  if (view.technique == Technique::surface) {
+    if (auto made = techniques_.get(view.technique); !made)
+      return tl::make_unexpected(made.error());
+    scene.mesh = techniques_.surface()->prepare(view);
+  }
   (*pictures)->processor_drew =
       ray_mode(view.technique) && backend(quality) == RayBackend::processor;
   return (*pictures)->processor_drew ? cast_rays(**pictures, scene, quality, rect)
                                      : (*pictures)->by_gl.update(techniques_, scene, quality, rect);
+}
+
+bool VolumePainter::wants_volume(const ViewState& view) const {
+  return !empty() && view.technique == Technique::surface && !surface_shows_;
+}
+
+bool VolumePainter::has_newer(const ViewState& view) const {
+  return view.technique == Technique::surface && techniques_.surface() != nullptr &&
+         techniques_.surface()->has_newer();
+}
+
+hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewState& view) {
+  if (view.technique != Technique::surface)
+    return {};
+  if (auto made = techniques_.get(view.technique); !made)
+    return tl::make_unexpected(made.error());
+  if (!surface_shows_)
+    if (auto shown = show(volume); !shown)
+      return shown;
+  techniques_.surface()->finish(view);
+  return {};
 }
 
 std::uint64_t VolumePainter::drawings() const {

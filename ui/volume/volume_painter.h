@@ -13,6 +13,7 @@
 #include "ui/draw_quality.h"
 #include "ui/layout.h"
 #include "ui/ray_caster/ray_cast_picture.h"
+#include "ui/transfer/transfer_set.h"
 #include "ui/transfer/transfer_texture.h"
 #include "ui/view_state.h"
 #include "ui/volume/volume_picture.h"
@@ -24,7 +25,7 @@ namespace octascope::ui {
 class VolumePainter {
 public:
   // Fault::unsupported: this GL cannot compile our shaders.
-  static hal::Result<VolumePainter> create();
+  static hal::Result<VolumePainter> create(const TransferSet& transfers = {});
 
   // Copies the volume, and its occupancy where that is known already (without the blank depth
   // bins); else works it out. Fault::invalid_argument: the occupancy is of another geometry. On
@@ -37,6 +38,13 @@ public:
                        const DrawQuality& quality, const Rect& rect);
   // Blends it over the bound framebuffer.
   void composite(Eye eye, const Rect& rect, int target_height) const;
+
+  // The view asks for something that was not made of the shown volume: show() it once more.
+  bool wants_volume(const ViewState& view) const;
+  // update() would make another picture of the same volume and view: a mesh has been finished.
+  bool has_newer(const ViewState& view) const;
+  // Waits until update() has all that it needs for the view: for commands and tests.
+  hal::Result<> finish(const pipeline::Volume& volume, const ViewState& view);
 
   bool empty() const { return texture_.empty(); }
   const VolumeTexture& texture() const { return texture_; }
@@ -57,7 +65,7 @@ private:
     bool processor_drew = false; // the last update()
   };
 
-  explicit VolumePainter(bool software);
+  VolumePainter(bool software, const TransferSet& transfers);
   void make_caster();
   hal::Result<EyePictures*> pictures_of(Eye eye);
   void update_transfer(const ViewState& view);
@@ -75,6 +83,7 @@ private:
   };
 
   bool software_;
+  TransferSet transfers_;
   VolumeTexture texture_;
   pipeline::Occupancy occupancy_;
   pipeline::Occupancy own_occupancy_; // for volumes that come without
@@ -86,6 +95,7 @@ private:
   std::optional<RayCaster> caster_; // nothing until it is wanted
   bool caster_wanted_ = false;
   bool caster_shows_ = false; // the same volume as the texture
+  bool surface_shows_ = false;
   std::array<std::optional<EyePictures>, 2> pictures_; // the second is the right eye's
 };
 

@@ -46,6 +46,7 @@ private:
   gl::PicturePass pass_;
   gl::Texture colour_;
   gl::Texture depth_;
+  gl::Texture nearest_; // for techniques that let GL find what is in front
   gl::Framebuffer framebuffer_;
   GLenum format_;
   bool depth_possible_;

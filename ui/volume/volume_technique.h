@@ -21,6 +21,7 @@ struct VolumeScene {
   const pipeline::Occupancy* occupancy =
       nullptr;              // of the volume; without it, nothing is leapt over
   std::uint64_t upload = 0; // counts the volumes shown
+  std::uint64_t mesh = 0;   // counts the iso-surfaces
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first of a size.

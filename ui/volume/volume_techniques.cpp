@@ -18,14 +18,14 @@ template <class Kind> Made owned(hal::Result<Kind> made) {
   return std::make_unique<Kind>(std::move(*made));
 }
 
-Made make(Technique technique) {
+Made make(Technique technique, const TransferSet& transfers) {
   switch (technique) {
   case Technique::slices: return owned(SliceStack::create());
   case Technique::planes: return owned(PlaneStack::create());
   case Technique::rays: break;
   case Technique::shaded: return owned(RayCastTechnique::create(RayMode::shaded));
   case Technique::maximum: return owned(RayCastTechnique::create(RayMode::maximum));
-  case Technique::surface: break;
+  case Technique::surface: return SurfaceTechnique::create(transfers);
   }
   return owned(RayCastTechnique::create(RayMode::composite));
 }
@@ -35,12 +35,17 @@ Made make(Technique technique) {
 hal::Result<VolumeTechnique*> VolumeTechniques::get(Technique technique) {
   std::unique_ptr<VolumeTechnique>& kept = made_[static_cast<std::size_t>(technique)];
   if (!kept) {
-    auto made = make(technique);
+    auto made = make(technique, transfers_);
     if (!made)
       return tl::make_unexpected(made.error());
     kept = std::move(*made);
   }
   return kept.get();
+}
+
+SurfaceTechnique* VolumeTechniques::surface() const {
+  return static_cast<SurfaceTechnique*>(
+      made_[static_cast<std::size_t>(Technique::surface)].get());
 }
 
 } // namespace octascope::ui

@@ -3,9 +3,12 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 
 #include "hal/result.h"
 #include "ui/technique.h"
+#include "ui/transfer/transfer_set.h"
+#include "ui/volume/surface_technique.h"
 #include "ui/volume/volume_technique.h"
 
 namespace octascope::ui {
@@ -13,10 +16,15 @@ namespace octascope::ui {
 // Threads: as gl/objects.h.
 class VolumeTechniques {
 public:
+  explicit VolumeTechniques(TransferSet transfers) : transfers_{std::move(transfers)} {}
+
   // Stays ours. Fault::unsupported: this GL cannot compile its shaders.
   hal::Result<VolumeTechnique*> get(Technique technique);
+  // Of Technique::surface, which lives on meshes of its own; null before it was first got.
+  SurfaceTechnique* surface() const;
 
 private:
+  TransferSet transfers_;
   std::array<std::unique_ptr<VolumeTechnique>, all_techniques.size()> made_;
 };
 

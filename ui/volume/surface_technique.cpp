@@ -1,0 +1,126 @@
+#include "ui/volume/surface_technique.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "embedded_shaders.h"
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "pipeline/level_scale.h"
+#include "ui/ray_caster/ray_frame.h"
+
+namespace octascope::ui {
+
+namespace {
+
+// Where in the window's colours a surface's own colour is taken from: bright, but not white, so
+// that its light and shade can be seen.
+constexpr float colour_place = 0.8F;
+
+float surface_level(const ViewState& view) {
+  return pipeline::level_count(view.window_offset_db + view.window_size_db / 2);
+}
+
+const void* offset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
+
+} // namespace
+
+hal::Result<std::unique_ptr<SurfaceTechnique>> SurfaceTechnique::create(TransferSet transfers) {
+  auto program = gl::Program::build("surface", shaders::surface_vert, shaders::surface_frag);
+  if (!program)
+    return tl::make_unexpected(program.error());
+  return std::unique_ptr<SurfaceTechnique>{
+      new SurfaceTechnique{std::move(*program), std::move(transfers)}};
+}
+
+SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers)
+    : thread_{pipeline::blank_depth_bins}, transfers_{std::move(transfers)}, program_{std::move(program)},
+      vertex_array_{gl::VertexArray::make()}, vertices_{gl::Buffer::make()},
+      indices_{gl::Buffer::make()}, uniforms_{program_.uniform("u_view_projection"),
+                                              program_.uniform("u_eye"),
+                                              program_.uniform("u_forward"),
+                                              program_.uniform("u_extents"),
+                                              program_.uniform("u_colour"),
+                                              program_.uniform("u_ambient"),
+                                              program_.uniform("u_cue"),
+                                              program_.uniform("u_cue_loss")} {
+  using pipeline::IsoVertex;
+  glBindVertexArray(vertex_array_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(IsoVertex),
+                        offset(offsetof(IsoVertex, position_mm)));
+  glEnableVertexAttribArray(1);
+  glVertexAttribPointer(1, 3, GL_SHORT, GL_TRUE, sizeof(IsoVertex),
+                        offset(offsetof(IsoVertex, normal)));
+  glBindVertexArray(0);
+}
+
+void SurfaceTechnique::finish(const ViewState& view) {
+  thread_.request(surface_level(view));
+  thread_.wait();
+}
+
+std::uint64_t SurfaceTechnique::prepare(const ViewState& view) {
+  thread_.request(surface_level(view));
+  if (const pipeline::IsoMesh* mesh = thread_.take_newest()) {
+    upload(*mesh);
+    ++mesh_;
+  }
+  return mesh_;
+}
+
+void SurfaceTechnique::upload(const pipeline::IsoMesh& mesh) {
+  const auto bytes_of = [](const auto& items) {
+    return static_cast<GLsizeiptr>(items.size() * sizeof(items.front()));
+  };
+  glBindVertexArray(vertex_array_.name());
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
+  glBufferData(GL_ARRAY_BUFFER, bytes_of(mesh.vertices), mesh.vertices.data(), GL_DYNAMIC_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, bytes_of(mesh.corners), mesh.corners.data(),
+               GL_DYNAMIC_DRAW);
+  glBindVertexArray(0);
+  corners_ = mesh.corners.size();
+  extents_mm_ = {mesh.extents_mm[1], mesh.extents_mm[0], mesh.extents_mm[2]};
+}
+
+void SurfaceTechnique::set_uniforms(const Camera& camera, const ViewState& view) const {
+  const TransferTable::Colour colour = transfers_.colours(view).at(colour_place);
+  const float middle = camera.depth_of(glm::vec3{0});
+  const float reach = glm::dot(glm::abs(camera.forward), extents_mm_ / 2.0F);
+  const float near = std::max(middle - reach, camera.near_mm);
+  glUniformMatrix4fv(uniforms_.view_projection, 1, GL_FALSE,
+                     glm::value_ptr(camera.view_projection));
+  glUniform3fv(uniforms_.eye, 1, glm::value_ptr(camera.eye));
+  glUniform3fv(uniforms_.forward, 1, glm::value_ptr(camera.forward));
+  glUniform3fv(uniforms_.extents, 1, glm::value_ptr(extents_mm_));
+  glUniform3f(uniforms_.colour, colour.red, colour.green, colour.blue);
+  glUniform1f(uniforms_.ambient, ambient_light);
+  glUniform2f(uniforms_.cue, near, 1 / (middle + reach - near));
+  glUniform1f(uniforms_.cue_loss, depth_cue);
+}
+
+void SurfaceTechnique::do_draw(const VolumeScene& scene) {
+  prepare(scene.view);
+  if (corners_ == 0)
+    return;
+  program_.use();
+  set_uniforms(scene.camera, scene.view);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glClearDepthf(1);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glBindVertexArray(vertex_array_.name());
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners_), GL_UNSIGNED_INT, nullptr);
+  glBindVertexArray(0);
+  glDisable(GL_DEPTH_TEST);
+}
+
+} // namespace octascope::ui

@@ -1,0 +1,66 @@
+// The iso-surface: where the level rises through the middle of the display window, as a solid.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "hal/result.h"
+#include "pipeline/iso_surface_thread.h"
+#include "ui/gl/objects.h"
+#include "ui/gl/program.h"
+#include "ui/transfer/transfer_set.h"
+#include "ui/volume/volume_technique.h"
+
+namespace octascope::ui {
+
+// The mesh is made beside the render thread (pipeline/iso_surface_thread.h). While a new one is
+// being made, for a new volume or a turn of the window's knobs, the last one is drawn; before the
+// first, nothing. A picture depends on the number that prepare() returns, and has to be drawn again
+// when has_newer() turns true.
+//
+// The framebuffer needs a depth attachment of at least 16 bits, which draw() clears; without one,
+// far parts are drawn over near ones.
+//
+// Threads: as gl/objects.h, but for the thread of its own. draw() allocates nothing of ours.
+class SurfaceTechnique final : public VolumeTechnique {
+public:
+  // Fault::unsupported: this GL cannot compile our shaders.
+  static hal::Result<std::unique_ptr<SurfaceTechnique>> create(TransferSet transfers = {});
+
+  // Copies what it needs before it returns: two milliseconds for a live volume.
+  void show(const pipeline::Volume& volume) { thread_.show(volume); }
+
+  // Asks for the view's surface of the newest volume, takes the newest mesh that is finished, and
+  // returns its number: draw() will draw that one. draw() does the same.
+  std::uint64_t prepare(const ViewState& view);
+  // Would prepare() take another mesh?
+  bool has_newer() const { return thread_.has_newer(); }
+  // Waits until draw() will show the view's surface of the newest volume: for commands and tests.
+  void finish(const ViewState& view);
+
+  // Of the mesh that was taken last.
+  std::size_t triangles() const { return corners_ / 3; }
+
+private:
+  SurfaceTechnique(gl::Program program, TransferSet transfers);
+  void do_draw(const VolumeScene& scene) override;
+  bool do_writes_depth() const override { return true; }
+  void upload(const pipeline::IsoMesh& mesh);
+  void set_uniforms(const Camera& camera, const ViewState& view) const;
+
+  pipeline::IsoSurfaceThread thread_;
+  TransferSet transfers_;
+  gl::Program program_;
+  gl::VertexArray vertex_array_;
+  gl::Buffer vertices_;
+  gl::Buffer indices_;
+  std::size_t corners_ = 0;
+  std::uint64_t mesh_ = 0;  // counts those taken
+  glm::vec3 extents_mm_{0}; // of the mesh's volume: fast, depth, slow
+  struct {
+    GLint view_projection, eye, forward, extents, colour, ambient, cue, cue_loss;
+  } uniforms_;
+};
+
+} // namespace octascope::ui
