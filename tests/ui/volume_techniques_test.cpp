@@ -232,8 +232,9 @@ TEST_F(VolumeTechniquesTest, colours_weigh_as_grey_does) {
 }
 
 TEST_F(VolumeTechniquesTest, leaping_over_empty_bricks_changes_not_one_bit) {
-  // A few specks in much air: most bricks are empty, and some specks lie on the bricks' sides.
-  pipeline::Volume specks = uniform_volume({150, 90, 60, 20, 33, 50}, 40);
+  // A few specks in much air, just below the window (level 120), so that all of a speck's cells
+  // show up to their sides: most bricks are empty, and some specks lie on the bricks' sides.
+  pipeline::Volume specks = uniform_volume({150, 90, 60, 20, 33, 50}, 119);
   for (int i = 0; i < 60; ++i)
     specks.b_scan(i)[static_cast<std::size_t>((i * 37 % 90) * 150 + i * 53 % 150)] = 255;
   for (const pipeline::Volume& volume : {specks, tissue_volume(small_geometry)}) {
