@@ -70,7 +70,7 @@ ui::RayImage cast(ui::RayCaster& caster, const ui::ViewState& state,
   ui::RayImage image;
   image.resize(columns, rows);
   const ui::Camera camera = ui::make_camera(state, ui::box_extents_mm(caster.geometry()),
-                                            static_cast<float>(settings.aspect));
+                                            static_cast<float>(columns) / static_cast<float>(rows));
   const auto drawn = caster.draw(camera, settings, image);
   EXPECT_TRUE(drawn) << drawn.error().message;
   return image;
@@ -113,7 +113,7 @@ TEST_P(RayCasterIsa, agrees_with_double_precision_from_everywhere) {
     for (const View& view : views)
       for (const float opacity : {1.0F, 0.5F, 0.02F}) {
         const ui::ViewState state = view_state(view, opacity);
-        const ui::RaySettings settings{mode, step_for(tissue, 300), aspect, true};
+        const ui::RaySettings settings{mode, step_for(tissue, 300), true};
         const ui::RayImage image = cast(caster, state, settings);
         const ui::Camera camera =
             ui::make_camera(state, ui::box_extents_mm(tissue), static_cast<float>(aspect));
@@ -153,7 +153,7 @@ TEST_P(RayCasterIsa, leaping_over_empty_bricks_changes_not_one_bit) {
   for (const ui::RayMode mode : {ui::RayMode::composite, ui::RayMode::shaded, ui::RayMode::maximum})
     for (const View& view : views) {
       const ui::ViewState state = view_state(view, 0.5F);
-      ui::RaySettings settings{mode, step_for(volume.geometry, 700), aspect, true};
+      ui::RaySettings settings{mode, step_for(volume.geometry, 700), true};
       const ui::RayImage leapt = cast(caster, state, settings);
       EXPECT_LT(caster.occupied_share(), 0.1);
       settings.leap_empty = false;
@@ -186,7 +186,7 @@ TEST(RayCaster, uniform_slab_has_the_closed_form_opacity_at_any_step) {
     const double expected = 255 * (1 - std::pow(1 - grey, steps));
     for (const float step_mm : {0.016F, 0.004F, 0.001F}) {
       const ui::RayImage image =
-          cast(caster, state, {ui::RayMode::composite, step_mm, aspect, true});
+          cast(caster, state, {ui::RayMode::composite, step_mm, true});
       double opacity = 0;
       double shade = 0;
       int pixels = 0;
@@ -222,7 +222,7 @@ TEST(RayCaster, sphere_has_the_silhouette_of_its_cone_of_tangents) {
   state.window_offset_db = pipeline::level_db(100); // begins at the surface
   state.window_size_db = 1;
   const ui::RayImage image =
-      cast(caster, state, {ui::RayMode::composite, 0.004F, 1, true}, 200, 200);
+      cast(caster, state, {ui::RayMode::composite, 0.004F, true}, 200, 200);
   const ui::Camera camera = ui::make_camera(state, ui::box_extents_mm(volume.geometry), 1);
   const double eye_mm = static_cast<double>(glm::length(camera.eye));
   const double tangent = radius_mm / std::sqrt(eye_mm * eye_mm - radius_mm * radius_mm);
@@ -249,7 +249,7 @@ TEST(RayCaster, maximum_of_a_ramp_is_its_upper_end) {
   ui::ViewState state = view_state({"", 0, 0, 8}, 0.5F);
   state.window_offset_db = pipeline::lowest_level_db;
   state.window_size_db = 100;
-  const ui::RayImage image = cast(caster, state, {ui::RayMode::maximum, 0.005F, 1, true}, 64, 64);
+  const ui::RayImage image = cast(caster, state, {ui::RayMode::maximum, 0.005F, true}, 64, 64);
   // Straight through the middle: the nearest B-scan, between A-scans 15 and 16.
   const double expected = 255 * (124 + 15.5) * 0.5 / 100;
   for (const std::size_t row : {31U, 32U}) {
@@ -267,7 +267,7 @@ TEST(RayCaster, half_the_step_is_the_same_picture) {
     const ui::ViewState state = view_state(view, 0.5F);
     const auto at = [&](int steps) {
       return cast(caster, state,
-                  {ui::RayMode::composite, step_for(small_geometry, steps), aspect, true});
+                  {ui::RayMode::composite, step_for(small_geometry, steps), true});
     };
     const ui::RayImage coarse = at(512);
     const ui::RayImage fine = at(1024);
@@ -285,7 +285,7 @@ TEST(RayCaster, colours_weigh_as_grey_does) {
   const ui::ViewState state = view_state(views[0], 0.5F);
   for (const ui::RayMode mode :
        {ui::RayMode::composite, ui::RayMode::shaded, ui::RayMode::maximum}) {
-    const ui::RaySettings settings{mode, step_for(small_geometry, 400), aspect, true};
+    const ui::RaySettings settings{mode, step_for(small_geometry, 400), true};
     const ui::RayImage grey = cast(caster, state, settings);
     const auto table = std::make_unique<ui::TransferTable>();
     ui::make_window_table(state, *table);
@@ -314,7 +314,7 @@ TEST(RayCaster, a_changed_window_or_volume_shows_in_the_next_picture) {
   ui::ViewState state = view_state({"", 0, 0, 3}, 1);
   state.window_offset_db = 0;
   state.window_size_db = 40;
-  const ui::RaySettings settings{ui::RayMode::composite, 0.01F, 1, true};
+  const ui::RaySettings settings{ui::RayMode::composite, 0.01F, true};
   const auto middle = [&] {
     return grey_of(cast(caster, state, settings, 64, 64).rgba[32 * 64 + 32]);
   };
@@ -330,8 +330,7 @@ TEST(RayCaster, draws_the_same_with_any_number_of_threads_and_allocates_nothing)
   ui::ViewState state = view_state(views[0], 0.5F);
   const auto table = std::make_unique<ui::TransferTable>();
   ui::make_window_table(state, *table);
-  const ui::RaySettings settings{ui::RayMode::composite, step_for(small_geometry, 400), aspect,
-                                 true};
+  const ui::RaySettings settings{ui::RayMode::composite, step_for(small_geometry, 400), true};
   std::vector<std::uint32_t> first;
   for (const std::size_t helpers : {0U, 1U, 3U}) {
     ui::RayCaster caster = make_caster({}, helpers);
@@ -361,7 +360,7 @@ TEST(RayCaster, says_what_it_cannot_draw) {
   ui::RayCaster caster = make_caster();
   ui::RayImage image;
   image.resize(8, 8);
-  const auto early = caster.draw({}, {ui::RayMode::composite, 0.01F, 1, true}, image);
+  const auto early = caster.draw({}, {ui::RayMode::composite, 0.01F, true}, image);
   ASSERT_FALSE(early);
   EXPECT_EQ(early.error().fault, hal::Fault::invalid_argument);
   pipeline::Volume torn = uniform_volume(cube, 0);

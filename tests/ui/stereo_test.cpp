@@ -125,7 +125,9 @@ TEST(Stereo, rays_are_cast_from_each_eye) {
   constexpr int width = 96;
   constexpr int height = 72;
   const auto volume = tissue_volume(small_geometry);
-  ASSERT_TRUE(made->show(volume));
+  pipeline::Occupancy occupancy{small_geometry, pipeline::blank_depth_bins};
+  occupancy.update(volume);
+  ASSERT_TRUE(made->show(volume, occupancy));
   ViewState view;
   view.parallax_deg = 10;
   const auto table = std::make_unique<TransferTable>();
@@ -134,7 +136,6 @@ TEST(Stereo, rays_are_cast_from_each_eye) {
   const glm::vec3 box = box_extents_mm(volume.geometry);
   RaySettings settings;
   settings.step_mm = glm::length(box) / 300;
-  settings.aspect = 4.0 / 3;
   RayImage image;
   image.resize(width, height);
   for (const Eye eye : {Eye::left, Eye::right}) {

@@ -46,7 +46,6 @@ hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene
   RaySettings settings;
   settings.mode = mode;
   settings.step_mm = scene.step_mm;
-  settings.aspect = static_cast<double>(scene.camera.aspect);
   if (auto ok = caster.draw(scene.camera, settings, image_); !ok)
     return ok;
   if (auto ok = upload_image(); !ok)

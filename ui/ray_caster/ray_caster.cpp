@@ -115,8 +115,8 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   set(f.up, rays.up);
   set(f.mm, rays.mm);
   f.pixel_height = 2 * camera.tan_half_height / static_cast<float>(image.height);
-  f.pixel_width = static_cast<float>(static_cast<double>(2 * camera.tan_half_height) *
-                                     settings.aspect / image.width);
+  f.pixel_width =
+      2 * camera.tan_half_height * camera.aspect / static_cast<float>(image.width);
   f.centre_shift = camera.centre_shift;
   f.near_mm = camera.near_mm;
   f.step_mm = settings.step_mm;
@@ -138,11 +138,11 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
   const float diagonal = cells_ ? glm::length(box_extents_mm(geometry())) : 0;
   if (!cells_ || image.width < 1 || image.height < 1 ||
       !(settings.step_mm * most_samples >= diagonal) || !(settings.step_mm <= diagonal) ||
-      !(settings.aspect > 0))
+      !(camera.aspect > 0))
     return hal::fail(hal::Fault::invalid_argument,
                      fmt::format("ray caster: found an image of {}x{} with an aspect of {} and a "
                                  "step of {} mm, expected pixels and a step of {} to {} mm",
-                                 image.width, image.height, settings.aspect, settings.step_mm,
+                                 image.width, image.height, camera.aspect, settings.step_mm,
                                  diagonal / most_samples, diagonal));
   prepare(settings.step_mm / reference_step_mm(box_extents_mm(geometry()) / 2.0F),
           !settings.leap_empty                ? Visibility::everything

@@ -41,7 +41,6 @@ struct RayImage {
 struct RaySettings {
   RayMode mode = RayMode::composite;
   float step_mm = 0;      // along each ray
-  double aspect = 1;      // width / height of the rectangle that the image fills
   bool leap_empty = true; // false changes no picture, only the time that it takes
 };
 

@@ -155,7 +155,7 @@ std::vector<ReferencePixel> reference_rays(const pipeline::Volume& volume, const
   std::vector<ReferencePixel> picture;
   const double pixel_height = 2 * static_cast<double>(camera.tan_half_height) / height;
   const double pixel_width =
-      2 * static_cast<double>(camera.tan_half_height) * settings.aspect / width;
+      2 * static_cast<double>(camera.tan_half_height) * static_cast<double>(camera.aspect) / width;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Vector ray =

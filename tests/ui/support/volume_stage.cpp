@@ -127,8 +127,7 @@ StagePicture VolumeStage::cast(const ui::ViewState& view, ui::RayMode mode,
   image.resize(settings.width, settings.height);
   const auto drawn =
       caster_.draw(camera(view, settings),
-                   {mode, settings.step_mm, static_cast<double>(settings.width) / settings.height,
-                    settings.leap_empty},
+                   {mode, settings.step_mm, settings.leap_empty},
                    image);
   EXPECT_TRUE(drawn) << drawn.error().message;
   StagePicture picture{settings.width, settings.height, {}, image.depth_mm};

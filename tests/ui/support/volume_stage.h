@@ -63,7 +63,7 @@ private:
   pipeline::Occupancy occupancy_;
   ui::TransferTexture transfer_;
   std::unique_ptr<ui::TransferTable> table_;
-  ui::VolumeTechniques techniques_;
+  ui::VolumeTechniques techniques_{ui::TransferSet{}};
   ui::VolumePicture picture_;
   ui::RayCaster caster_;
   std::uint64_t uploads_ = 0;
