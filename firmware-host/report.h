@@ -15,6 +15,7 @@
 #include "pipeline/path_choice.h"
 #include "pipeline/phase_thread.h"
 #include "pipeline/scan_plan.h"
+#include "ui/view_state.h"
 
 namespace octascope::firmware_host {
 
@@ -39,6 +40,8 @@ struct RunReport {
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, latency;
   std::uint64_t frames_drawn = 0, frames_missed = 0;
   std::uint64_t hot_path_allocations = 0;
+  ui::ViewState view;                                    // as it was left
+  std::array<std::uint64_t, ui::action_count> actions{}; // how often each was done
   std::vector<pipeline::FaultRecord> faults;
   hal::TimePoint started; // fault times are relative to it
 };

@@ -35,10 +35,14 @@ public:
                      std::initializer_list<std::string_view> choices);
   // Finite numbers; an empty vector when the key is not there.
   std::vector<double> numbers(std::string_view key);
+  // A text, or a list of texts; an empty vector when the key is not there.
+  std::vector<std::string> texts(std::string_view key);
   // A path, relative to the document's folder.
   std::optional<std::filesystem::path> path(std::string_view key);
 
   bool has(std::string_view key) const;
+  // Is it there, and a whole number? For keys that take numbers as well as names.
+  bool has_integer(std::string_view key) const;
   // An empty table when it is not there.
   ConfigTable table(std::string_view key);
   // Entries of an array of tables ([[key]]), empty when it is not there.

@@ -10,6 +10,7 @@
 
 #include "hal/clock.h"
 #include "hal/device.h"
+#include "ui/controls/legend_lines.h"
 #include "ui/freshness.h"
 
 namespace octascope::ui {
@@ -52,6 +53,10 @@ struct Status {
   Freshness freshness;
   int missing_b_scans = 0; // of the shown volume
   int saturated_lines = 0;
+
+  // What pedal and knob do, and what keys do; null: nothing to show. They outlive every draw().
+  const Legend* legend = nullptr;
+  const Legend* key_legend = nullptr;
 
   std::string notice; // one line that the surgeon should read; empty: none
 };

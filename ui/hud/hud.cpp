@@ -1,5 +1,7 @@
 #include "ui/hud/hud.h"
 
+#include "ui/hud/legend.h"
+
 namespace octascope::ui {
 
 namespace {
@@ -44,6 +46,8 @@ void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const V
   draw_view_texts(canvas, layout, text, scene);
   draw_badges(canvas, layout, text);
   draw_status_bar(canvas, layout, text);
+  if (text.legend != nullptr)
+    draw_legend(canvas, layout, *text.legend, text.selected);
   draw_echo(canvas, layout, text.echo);
 }
 

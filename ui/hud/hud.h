@@ -30,7 +30,6 @@ void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness
 void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene);
-void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);
 // A bar of a round length (1, 2 or 5 times a power of ten of a millimetre), at most `most_pixels`
 // long, with its length; its left lower end is given.
 void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, float most_pixels,
