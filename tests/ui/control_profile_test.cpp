@@ -139,7 +139,7 @@ per_second = -12.5
     controls.push_back(line.control);
   EXPECT_EQ(controls,
             (std::vector<std::string>{"K, turned", "Puck tipped forth", "B key, long press",
-                                      "A + b keys together", "A key held, k turned"}));
+                                      "A + b together", "A key held, k turned"}));
   EXPECT_TRUE(legend.lines[2].back);
 }
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/ui/support/gl_test.h"
-#include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/scene.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "ui/controls/built_in_profiles.h"
@@ -44,15 +43,23 @@ TEST(Echo, says_what_a_control_did) {
 
 class LegendPicture : public GlTest {
 protected:
-  pipeline::Image draw(const ViewState& view, const Status& status, int width, int height) {
+  void TearDown() override { renderer_.reset(); }
+
+  void show(int width, int height) {
+    renderer_.reset();
     open(width, height);
+    width_ = width;
+    height_ = height;
     auto renderer = Renderer::create();
-    EXPECT_TRUE(renderer) << renderer.error().message;
-    EXPECT_TRUE((*renderer)->show_volume(tissue_volume(small_geometry)));
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    renderer_ = std::move(*renderer);
+    ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
     const ScopePicture scope{320, 240};
-    EXPECT_TRUE((*renderer)->show_scope_picture(scope.frame(status.now), scope.field()));
-    EXPECT_TRUE((*renderer)->draw(view, status, width, height));
-    return (*renderer)->read_back(width, height);
+    ASSERT_TRUE(renderer_->show_scope_picture(scope.frame(live_status().now), scope.field()));
+  }
+  pipeline::Image draw(const ViewState& view, const Status& status) {
+    EXPECT_TRUE(renderer_->draw(view, status, width_, height_));
+    return renderer_->read_back(width_, height_);
   }
   static int changed(const pipeline::Image& a, const pipeline::Image& b, const Rect& rect) {
     int count = 0;
@@ -61,13 +68,18 @@ protected:
         count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
     return count;
   }
+
+  std::unique_ptr<Renderer> renderer_;
+  int width_ = 0;
+  int height_ = 0;
 };
 
 TEST_F(LegendPicture, stands_beside_the_volumes_centre_for_every_profile) {
   for (const auto& [width, height] : {std::pair{1280, 720}, {1024, 768}, {640, 360}}) {
+    show(width, height);
     Status status = live_status();
     ViewState view;
-    const pipeline::Image without = draw(view, status, width, height);
+    const pipeline::Image without = draw(view, status);
     view.legend_visible = true;
     const Layout layout = lay_out(width, height, {});
     const Rect centre{layout.view.width * 3 / 8, layout.view.height * 3 / 8, layout.view.width / 4,
@@ -78,11 +90,7 @@ TEST_F(LegendPicture, stands_beside_the_volumes_centre_for_every_profile) {
       ASSERT_TRUE(profile);
       const Legend legend = built.name == "keyboard" ? make_key_legend() : make_legend(*profile);
       status.legend = &legend;
-      const pipeline::Image with = draw(view, status, width, height);
-      static_cast<void>(
-          pipeline::write_png(picture_folder() / ("legend_" + std::string{built.name} + "_" +
-                                                  std::to_string(height) + ".png"),
-                              with));
+      const pipeline::Image with = draw(view, status);
       EXPECT_GT(changed(without, with, side), 2000) << built.name;
       EXPECT_EQ(changed(without, with, centre), 0) << built.name << " at " << width;
     }
@@ -96,15 +104,16 @@ TEST_F(LegendPicture, is_drawn_when_asked_for_and_says_what_the_knob_turns) {
   Status status = live_status();
   status.legend = &legend;
   ViewState view;
+  show(640, 360);
   const Rect whole{0, 0, 640, 360};
-  const pipeline::Image hidden = draw(view, status, 640, 360);
+  const pipeline::Image hidden = draw(view, status);
   view.legend_visible = true;
-  const pipeline::Image shown = draw(view, status, 640, 360);
+  const pipeline::Image shown = draw(view, status);
   EXPECT_GT(changed(hidden, shown, whole), 2000);
   view.selected = Action::tilt;
-  EXPECT_GT(changed(shown, draw(view, status, 640, 360), whole), 20);
+  EXPECT_GT(changed(shown, draw(view, status), whole), 20);
   view.legend_of_keys = true;
-  EXPECT_EQ(changed(hidden, draw(view, status, 640, 360), whole), 0) << "there is none of keys";
+  EXPECT_EQ(changed(hidden, draw(view, status), whole), 0) << "there is none of keys";
 }
 
 } // namespace

@@ -22,15 +22,17 @@ std::string capitalised(std::string words) {
   return words;
 }
 
-// "left + right pedals"
+// "left pedal", "button 3", "left + right"
 std::string words_for(const ControlProfile& profile, SwitchSet switches) {
-  std::string words;
+  std::string names;
   for (std::size_t i = 0; i < profile.switches.size(); ++i)
     if ((switches >> i & 1U) != 0)
-      words += (words.empty() ? "" : " + ") + profile.switches[i];
-  if (!profile.switch_word.empty())
-    words += " " + profile.switch_word + (std::has_single_bit(switches) ? "" : "s");
-  return words;
+      names += (names.empty() ? "" : " + ") + profile.switches[i];
+  if (profile.switch_word.empty() || !std::has_single_bit(switches))
+    return names;
+  const bool numbered = std::isdigit(static_cast<unsigned char>(names[0])) != 0;
+  return numbered ? fmt::format("{} {}", profile.switch_word, names)
+                  : fmt::format("{} {}", names, profile.switch_word);
 }
 
 std::string_view words_for(GestureKind gesture) {

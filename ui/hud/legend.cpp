@@ -20,7 +20,8 @@ FixedText<64> words_of(const LegendLine& line, Action selected) {
   if (line.action == Action::adjust)
     words.format("{}: {}", label_of(line.action), label_of(selected));
   else
-    words.format("{}", label_of(line.action));
+    words.format("{}{}", label_of(line.action),
+                 kind_of(line.action) == ActionKind::toggle ? " on, off" : "");
   if (line.back) {
     FixedText<64> back;
     back.format("{}, back", words.view());
@@ -73,7 +74,7 @@ void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Act
       title + 2 * margin + m.row * static_cast<float>(cut ? shown + 1 : shown) - 5 * u;
   const Rect plate{static_cast<int>(right - width), static_cast<int>(top), static_cast<int>(width),
                    static_cast<int>(height)};
-  canvas.plate(plate, palette::panel.faded(245), 6 * u);
+  canvas.plate(plate, palette::panel, 6 * u);
   canvas.frame(plate, palette::hairline, std::max(1.0F, u), 6 * u);
 
   const float left = right - width + margin;
