@@ -97,6 +97,28 @@ TEST_F(LegendPicture, stands_beside_the_volumes_centre_for_every_profile) {
   }
 }
 
+TEST_F(LegendPicture, says_what_does_not_fit) {
+  show(640, 360);
+  Legend legend{"A device of forty buttons", {}};
+  for (int i = 0; i < 20; ++i)
+    legend.lines.push_back({"Button", Action::freeze, false});
+  Status status = live_status();
+  status.legend = &legend;
+  ViewState view;
+  view.legend_visible = true;
+  const auto orange = [&] {
+    const pipeline::Image picture = draw(view, status);
+    int count = 0;
+    for (int y = 0; y < 320; ++y)
+      for (int x = 440; x < 640; ++x)
+        count += picture.pixel(x, y)[0] > 2 * picture.pixel(x, y)[2] + 40;
+    return count;
+  };
+  EXPECT_EQ(orange(), 0);
+  legend.lines.resize(40, legend.lines.front());
+  EXPECT_GT(orange(), 10);
+}
+
 TEST_F(LegendPicture, is_drawn_when_asked_for_and_says_what_the_knob_turns) {
   const auto profile = built_in_profile(default_profile);
   ASSERT_TRUE(profile);

@@ -53,7 +53,7 @@ void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Act
   const float most_height = static_cast<float>(layout.status_bar.y) - 2 * top;
   const float title = canvas.text_height(TextStyle::badge) + 16 * u;
   const float room = most_height - title - 2 * margin;
-  // Half of the picture at most, or the volume's middle would be hidden.
+  // More, and the volume's middle would be hidden.
   const float most_width =
       right - static_cast<float>(layout.view.x) - static_cast<float>(layout.view.width) * 0.62F;
 
@@ -69,7 +69,10 @@ void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Act
   const bool cut = legend.lines.size() > m.rows;
   const std::size_t shown = cut ? std::max<std::size_t>(m.rows, 1) - 1 : legend.lines.size();
   const float title_width = canvas.text_width(TextStyle::badge, legend.title) + 2 * margin;
-  const float width = std::max(width_of(m), title_width);
+  FixedText<64> more;
+  more.format("{} more do not fit here", legend.lines.size() - shown);
+  const float more_width = cut ? canvas.text_width(style, more.view()) + 2 * margin : 0;
+  const float width = std::max({width_of(m), title_width, more_width});
   const float height =
       title + 2 * margin + m.row * static_cast<float>(cut ? shown + 1 : shown) - 5 * u;
   const Rect plate{static_cast<int>(right - width), static_cast<int>(top), static_cast<int>(width),
@@ -90,11 +93,8 @@ void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Act
                 words_of(line, selected).view());
     y += m.row;
   }
-  if (cut) {
-    FixedText<64> more;
-    more.format("{} more do not fit here", legend.lines.size() - shown);
+  if (cut)
     canvas.text({left, y}, style, palette::warning, more.view());
-  }
 }
 
 } // namespace octascope::ui
