@@ -48,6 +48,10 @@ public:
   hal::Result<> assemble() {
     if (auto checked = check_outputs().and_then([this] { return choose_display(); }); !checked)
       return checked;
+    auto controls = load_controls(configuration_);
+    if (!controls)
+      return tl::make_unexpected(controls.error());
+    control_profile_ = std::move(*controls);
     auto twins = make_twins(options_, configuration_, clock_);
     if (!twins)
       return tl::make_unexpected(twins.error());
@@ -95,6 +99,7 @@ private:
 
   RunOptions options_;
   Configuration configuration_;
+  ui::ControlProfile control_profile_;
   hal::linux_backend::MonotonicClock clock_;
   pipeline::FaultLog faults_;
   PictureKeeper pictures_{".", clock_, faults_};
@@ -226,6 +231,7 @@ void AssembledAppliance::make_render_loop() {
   setup.view.technique = configuration_.look.technique;
   setup.view.opacity = configuration_.look.opacity;
   setup.view.b_scan = twins_.plan.b_scans / 2;
+  setup.controls = control_profile_;
   setup.freshness = {twins_.plan.tick_period(), configuration_.veil_after};
   setup.b_scans = twins_.plan.b_scans;
   setup.lines_per_frame = twins_.plan.lines_per_frame();
@@ -242,7 +248,8 @@ void AssembledAppliance::make_render_loop() {
           .controls = *controls_,
           .faults = faults_,
           .news = news_,
-          .keep_picture = [this](pipeline::Image picture) { pictures_.keep(std::move(picture)); },
+          .keep_picture =
+              [this](pipeline::Image picture) { return pictures_.keep(std::move(picture)); },
           .simulated_control =
               [this](const hal::ControlEvent& event) { twins_.control_input->inject(event); }},
       std::move(setup));
@@ -349,6 +356,8 @@ RunReport AssembledAppliance::report() const {
     r.first_picture_s = hal::to_seconds(*frames.first_picture - process_start(clock_));
   r.frames_drawn = frames.frames_drawn;
   r.frames_missed = frames.frames_missed;
+  r.view = loop_->actions().state();
+  r.actions = loop_->actions().counts();
   r.hot_path_allocations = pipeline::HotPath::allocations();
   r.faults = faults_.records();
   r.started = started_;

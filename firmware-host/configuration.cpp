@@ -77,6 +77,16 @@ void read_display(ConfigTable table, Configuration& configuration) {
       table.number("veil_after_s", hal::to_seconds(configuration.veil_after), {0.5, 3600}));
 }
 
+void read_controls(ConfigTable table, Configuration& configuration) {
+  if (table.has("profile") && table.has("file"))
+    table.complain("profile and file are both there, expected one: the name of a profile that the "
+                   "program brings with it, or the file of your own");
+  configuration.control_profile = table.text("profile", configuration.control_profile);
+  configuration.control_file = table.path("file");
+  if (const auto known = ui::built_in_profile(configuration.control_profile); !known)
+    table.complain(known.error().message);
+}
+
 void read_sim(ConfigTable table, Configuration& configuration) {
   configuration.phantom = table.text("phantom", configuration.phantom);
   configuration.loop_volumes = table.integer("loop_volumes", configuration.loop_volumes, {1, 64});
@@ -99,10 +109,16 @@ hal::Result<Configuration> load_configuration(const std::filesystem::path& file)
   ConfigTable display = root.table("display");
   read_display(display, configuration);
   configuration.look = read_look(root, display);
+  read_controls(root.table("controls"), configuration);
   read_sim(root.table("sim"), configuration);
   if (const auto finished = document->finish(); !finished)
     return tl::make_unexpected(finished.error());
   return configuration;
+}
+
+hal::Result<ui::ControlProfile> load_controls(const Configuration& configuration) {
+  return configuration.control_file ? ui::ControlProfile::load(*configuration.control_file)
+                                    : ui::built_in_profile(configuration.control_profile);
 }
 
 } // namespace octascope::firmware_host

@@ -13,6 +13,7 @@
 #include "pipeline/neighbour_average.h"
 #include "pipeline/scan_plan.h"
 #include "ui/auto_window.h"
+#include "ui/controls/built_in_profiles.h"
 
 namespace octascope::firmware_host {
 
@@ -33,6 +34,9 @@ struct Configuration {
   hal::Duration veil_after = std::chrono::seconds{5};
   // [[transfer]] and [display]
   LookConfiguration look;
+  // [controls]
+  std::string control_profile{ui::default_profile};  // one that the program brings with it
+  std::optional<std::filesystem::path> control_file; // in its place
   // [sim]
   std::string phantom = "anterior_eye";
   int loop_volumes = 6;
@@ -43,5 +47,8 @@ struct Configuration {
 
 // Paths in the file are relative to it.
 hal::Result<Configuration> load_configuration(const std::filesystem::path& file);
+
+// What pedals and knobs do, from where the configuration says.
+hal::Result<ui::ControlProfile> load_controls(const Configuration& configuration);
 
 } // namespace octascope::firmware_host

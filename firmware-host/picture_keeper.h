@@ -18,10 +18,12 @@ public:
       : folder_(std::move(folder)), clock_(clock), faults_(faults) {}
 
   // Returns at once. A picture that is asked for while the last is still being written is not kept,
-  // and that is recorded.
-  void keep(pipeline::Image picture);
+  // and that is recorded; false.
+  bool keep(pipeline::Image picture);
 
 private:
+  std::filesystem::path free_name() const;
+
   std::filesystem::path folder_;
   hal::Clock& clock_;
   pipeline::FaultLog& faults_;

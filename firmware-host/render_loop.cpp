@@ -15,11 +15,25 @@ namespace {
 
 constexpr const char* device_name = "display";
 
+ui::ChoiceNames choices_of(const ui::TransferSet& transfers) {
+  ui::ChoiceNames names{{}, {}};
+  for (const ui::TransferFunction& function : transfers.functions())
+    names.transfers.push_back(function.name);
+  for (const ui::ColourMap& map : transfers.colour_maps())
+    names.colours.emplace_back(map.name());
+  return names;
+}
+
 } // namespace
 
 RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
-    : parts_(parts), setup_(std::move(setup)), controller_(setup_.view, setup_.b_scans),
-      governor_({}) {}
+    : parts_(parts), setup_(std::move(setup)), legend_(ui::make_legend(setup_.controls)),
+      key_legend_(ui::make_key_legend()),
+      controller_(setup_.view, setup_.b_scans, setup_.controls), governor_({}) {
+  controller_.actions().set_choices(choices_of(setup_.transfers));
+  setup_.status.legend = &legend_;
+  setup_.status.key_legend = &key_legend_;
+}
 
 RenderLoop::~RenderLoop() {
   renderer_.reset(); // before its context
@@ -54,7 +68,8 @@ bool RenderLoop::turn() {
   update_status();
   if (display_ready())
     draw_if_changed();
-  parts_.news.wait_until(next); // at once when something came meanwhile
+  // At once when something came meanwhile; a long press is due when it is.
+  parts_.news.wait_until(std::min(next, controller_.next_deadline().value_or(next)));
   return go_on;
 }
 
@@ -78,11 +93,7 @@ ui::DrawQuality RenderLoop::choose_quality() {
 }
 
 bool RenderLoop::handle_input() {
-  bool quit = false;
-  const auto note = [&](const ui::ControlRequests& requests) {
-    quit = quit || requests.quit;
-    picture_wanted_ = picture_wanted_ || requests.snapshot;
-  };
+  ui::ControlRequests requests;
   const ui::ViewState before = controller_.state();
   std::optional<hal::TimePoint> oldest;
   const auto seen = [&](hal::TimePoint time) { oldest = std::min(oldest.value_or(time), time); };
@@ -90,20 +101,47 @@ bool RenderLoop::handle_input() {
   if (renderer_) {
     for (const hal::DisplayEvent& event :
          std::span{events}.first(parts_.display.poll_events(events))) {
-      quit = quit || event.kind == hal::DisplayEventKind::close_requested;
-      note(controller_.handle(event));
+      requests.add(controller_.handle(event));
       seen(event.time);
       if (const auto control = ui::simulated_control(event); control && parts_.simulated_control)
         parts_.simulated_control(*control);
     }
   }
   while (const auto event = parts_.controls.take()) {
-    note(controller_.handle(*event));
+    requests.add(controller_.handle(*event));
     seen(event->time);
   }
-  if (!undisplayed_control_ && oldest && before != controller_.state())
+  requests.add(controller_.advance(parts_.clock.now()));
+  if (!undisplayed_control_ && oldest && !(before == controller_.state()))
     undisplayed_control_ = oldest;
-  return !quit;
+  answer(requests);
+  return !requests.quit;
+}
+
+void RenderLoop::answer(const ui::ControlRequests& requests) {
+  picture_wanted_ = picture_wanted_ || requests.snapshot;
+  if (requests.auto_window)
+    find_window();
+  if (requests.record)
+    controller_.actions().tell(ui::Action::record, "not available in this version",
+                               parts_.clock.now());
+}
+
+void RenderLoop::find_window() {
+  const auto window = volume_ != nullptr ? ui::suggest_window(*volume_) : std::nullopt;
+  if (window)
+    controller_.actions().show_window(window->offset_db, window->size_db, parts_.clock.now());
+  else
+    controller_.actions().tell(ui::Action::auto_window, "no volume yet", parts_.clock.now());
+}
+
+// As the display shows it; that it was kept is said afterwards.
+void RenderLoop::keep_picture() {
+  const bool kept =
+      parts_.keep_picture(renderer_->read_back(parts_.display.width(), parts_.display.height()));
+  controller_.actions().tell(ui::Action::snapshot, kept ? "kept" : "not kept: one is being written",
+                             parts_.clock.now());
+  picture_wanted_ = false;
 }
 
 void RenderLoop::take_volume() {
@@ -121,7 +159,7 @@ void RenderLoop::take_volume() {
   statistics_.upload.add(parts_.clock.now() - begin);
   if (setup_.window_from_first_volume && !shown_) {
     if (const auto window = ui::suggest_window(*newest))
-      controller_.set_window(window->offset_db, window->size_db);
+      controller_.actions().set_window(window->offset_db, window->size_db);
   }
   undisplayed_last_line_ = newest->ledger.last_line;
   shown_ = ui::ShownVolume{newest->ledger.last_line, newest->ledger.published};
@@ -180,10 +218,8 @@ void RenderLoop::draw_if_changed() {
   renderer_->finish();
   governor_.note(parts_.clock.now() - begin, renderer_->drew_volume());
   drawn_view_ = view;
-  if (picture_wanted_) { // before the flip: afterwards the frame buffer is another one
-    parts_.keep_picture(renderer_->read_back(display.width(), display.height()));
-    picture_wanted_ = false;
-  }
+  if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
+    keep_picture();
   const auto flip = display.present();
   if (!flip)
     lose_display(flip.error());

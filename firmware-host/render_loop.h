@@ -19,6 +19,7 @@
 #include "pipeline/scope_thread.h"
 #include "pipeline/volume_thread.h"
 #include "pipeline/wakeup.h"
+#include "ui/controls/legend_lines.h"
 #include "ui/controls/view_controller.h"
 #include "ui/freshness.h"
 #include "ui/governor.h"
@@ -40,7 +41,8 @@ struct RenderLoopParts {
   pipeline::FaultLog& faults;
   pipeline::Wakeup& news; // posted by the three threads above
   // A picture that the surgeon asked for; called on the render thread, so it must not take long.
-  std::function<void(pipeline::Image)> keep_picture;
+  // False: it could not be kept.
+  std::function<bool(pipeline::Image)> keep_picture;
   // Keys that stand for the simulated pedal; empty where the pedal is real.
   std::function<void(const hal::ControlEvent&)> simulated_control;
 };
@@ -49,6 +51,7 @@ struct RenderLoopSetup {
   hal::DisplayConfig display;
   ui::ViewState view;
   ui::TransferSet transfers;            // what view.transfer and view.colour_map choose from
+  ui::ControlProfile controls;
   bool window_from_first_volume = true; // else the view's
   ui::FreshnessLimits freshness;
   int b_scans = 80;
@@ -89,6 +92,7 @@ public:
   // Draws the newest state and returns the picture. Empty when the display is gone.
   std::optional<pipeline::Image> picture();
 
+  const ui::ViewActions& actions() const { return controller_.actions(); }
   const FrameStatistics& statistics() const { return statistics_; }
   const ui::Status& status() const { return setup_.status; }
 
@@ -102,6 +106,9 @@ private:
   ui::FrameBudget frame_budget() const;
   ui::DrawQuality choose_quality();
   bool handle_input();
+  void answer(const ui::ControlRequests& requests);
+  void find_window();
+  void keep_picture();
   void take_volume();
   void take_scope_picture();
   void update_status();
@@ -113,6 +120,8 @@ private:
 
   RenderLoopParts parts_;
   RenderLoopSetup setup_;
+  const ui::Legend legend_; // of the profile
+  const ui::Legend key_legend_;
   ui::ViewController controller_;
   std::unique_ptr<ui::Renderer> renderer_; // null while the display is gone
   bool software_ = false;                  // the processor draws

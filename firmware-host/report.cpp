@@ -1,5 +1,6 @@
 #include "firmware-host/report.h"
 
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -71,6 +72,45 @@ Json scan_to_json(const RunReport& report) {
   return scan;
 }
 
+std::string_view name_of(ui::LayoutKind layout) {
+  constexpr std::array<std::string_view, ui::layout_count> names{"volume", "b_scan", "microscope",
+                                                                 "quad"};
+  return names[static_cast<std::size_t>(layout)];
+}
+
+std::string_view name_of(ui::StereoMode mode) {
+  constexpr std::array<std::string_view, ui::stereo_count> names{"off", "side_by_side",
+                                                                 "top_bottom"};
+  return names[static_cast<std::size_t>(mode)];
+}
+
+Json view_to_json(const ui::ViewState& view) {
+  return {{"window_offset_db", rounded(view.window_offset_db)},
+          {"window_size_db", rounded(view.window_size_db)},
+          {"yaw_deg", rounded(view.yaw_deg)},
+          {"tilt_deg", rounded(view.tilt_deg)},
+          {"distance", rounded(view.distance)},
+          {"b_scan", view.b_scan},
+          {"parallax_deg", rounded(view.parallax_deg)},
+          {"technique", to_string(view.technique)},
+          {"transfer", view.transfer},
+          {"colours", view.colour_map},
+          {"layout", name_of(view.layout)},
+          {"stereo", name_of(view.stereo)},
+          {"frozen", view.frozen},
+          {"vessels", view.vessels_visible},
+          {"box", view.box_visible},
+          {"legend", view.legend_visible},
+          {"selected", to_string(view.selected)}};
+}
+
+Json actions_to_json(const RunReport& report) {
+  Json actions;
+  for (const ui::Action action : ui::all_actions())
+    actions[std::string{to_string(action)}] = report.actions[ui::index_of(action)];
+  return actions;
+}
+
 } // namespace
 
 std::string to_json(const RunReport& r) {
@@ -110,6 +150,8 @@ std::string to_json(const RunReport& r) {
       {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},
       {"frames", {{"drawn", r.frames_drawn}, {"missed", r.frames_missed}}},
       {"hot_path", {{"allocations", r.hot_path_allocations}}},
+      {"view", view_to_json(r.view)},
+      {"actions", actions_to_json(r)},
       {"faults", faults_to_json(r)},
   };
   return json.dump(2) + "\n";

@@ -15,6 +15,7 @@
 #include "pipeline/path_choice.h"
 #include "pipeline/phase_thread.h"
 #include "pipeline/scan_plan.h"
+#include "ui/view_state.h"
 
 namespace octascope::firmware_host {
 
@@ -40,6 +41,8 @@ struct RunReport {
   std::optional<double> first_picture_s; // since the process began
   std::uint64_t frames_drawn = 0, frames_missed = 0;
   std::uint64_t hot_path_allocations = 0;
+  ui::ViewState view;                                    // as it was left
+  std::array<std::uint64_t, ui::action_count> actions{}; // how often each was done
   std::vector<pipeline::FaultRecord> faults;
   hal::TimePoint started; // fault times are relative to it
 };

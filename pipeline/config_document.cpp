@@ -194,6 +194,30 @@ std::vector<std::vector<double>> ConfigTable::rows(std::string_view key, std::si
   return rows;
 }
 
+std::vector<std::string> ConfigTable::texts(std::string_view key) {
+  const toml::node* found = node_->find(key);
+  if (found == nullptr)
+    return {};
+  if (const auto one = found->value_exact<std::string>())
+    return {*one};
+  const toml::array* array = found->as_array();
+  if (array == nullptr) {
+    node_->complain_value(key, *found, "a text in quotes, or a list of them, [..]");
+    return {};
+  }
+  std::vector<std::string> values;
+  values.reserve(array->size());
+  for (const toml::node& element : *array) {
+    const auto value = element.value_exact<std::string>();
+    if (!value) {
+      node_->complain_value(fmt::format("{}[{}]", key, values.size()), element, "a text in quotes");
+      return {};
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
 std::optional<fs::path> ConfigTable::path(std::string_view key) {
   if (!has(key)) {
     node_->find(key);
@@ -207,6 +231,11 @@ std::optional<fs::path> ConfigTable::path(std::string_view key) {
 
 bool ConfigTable::has(std::string_view key) const {
   return node_->table != nullptr && node_->table->contains(key);
+}
+
+bool ConfigTable::has_integer(std::string_view key) const {
+  return node_->table != nullptr && node_->table->get(key) != nullptr &&
+         node_->table->get(key)->is_integer();
 }
 
 ConfigTable ConfigTable::table(std::string_view key) {

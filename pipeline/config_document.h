@@ -38,10 +38,14 @@ public:
   std::vector<double> numbers(std::string_view key);
   // Lists of `columns` finite numbers each, [[0, 0], [1, 0.5]]; empty when the key is not there.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns);
+  // A text, or a list of texts; an empty vector when the key is not there.
+  std::vector<std::string> texts(std::string_view key);
   // A path, relative to the document's folder.
   std::optional<std::filesystem::path> path(std::string_view key);
 
   bool has(std::string_view key) const;
+  // Is it there, and a whole number? For keys that take numbers as well as names.
+  bool has_integer(std::string_view key) const;
   // An empty table when it is not there.
   ConfigTable table(std::string_view key);
   // Entries of an array of tables ([[key]]), empty when it is not there.

@@ -50,6 +50,7 @@ void ControlThread::run() {
     if (!count) {
       faults_.add(device_name, to_string(count.error().fault), count.error().message, clock_.now());
       input_.close();
+      centre_axes();
       continue;
     }
     for (const hal::ControlEvent& event : std::span{events}.first(*count))
@@ -63,8 +64,18 @@ void ControlThread::run() {
 
 void ControlThread::receive(const hal::ControlEvent& event) {
   held_.note(event);
+  if (event.kind == hal::ControlKind::axis && event.index < pushed_.size())
+    pushed_[event.index] = event.value != 0;
   if (!queue_.push(event))
     faults_.add(device_name, "overflow", "more events than the display could take", event.time);
+}
+
+// A puck that is gone pushes no more; nobody else would say so.
+void ControlThread::centre_axes() {
+  for (std::size_t i = 0; i < pushed_.size(); ++i)
+    if (pushed_[i])
+      receive({clock_.now(), hal::ControlKind::axis, static_cast<std::uint8_t>(i), 0});
+  news_.post();
 }
 
 void ControlThread::look_for_bad_contacts() {

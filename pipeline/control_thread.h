@@ -1,6 +1,7 @@
 // The control thread: fetches what pedals and knobs say and queues it for the render thread.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <optional>
 #include <thread>
@@ -33,6 +34,7 @@ private:
   void run();
   bool open();
   void receive(const hal::ControlEvent& event);
+  void centre_axes();
   void look_for_bad_contacts();
 
   hal::ControlInput& input_;
@@ -42,7 +44,8 @@ private:
   EventQueue<hal::ControlEvent, 256> queue_;
   RetryDelay retry_;
   HeldSwitches held_;
-  std::uint64_t bounces_ = 0; // told so far
+  std::array<bool, 6> pushed_{}; // axes that are not at their middle
+  std::uint64_t bounces_ = 0;    // told so far
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

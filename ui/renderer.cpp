@@ -34,9 +34,9 @@ struct DrawnPicture {
   bool operator==(const DrawnPicture&) const = default;
 };
 
-// The echo's deadline shows only through the text.
+// The echo shows only through the text.
 ViewState without_times(ViewState view) {
-  view.echo_until = {};
+  view.echo = {};
   view.frozen_since = {};
   return view;
 }

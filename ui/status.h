@@ -10,6 +10,7 @@
 
 #include "hal/clock.h"
 #include "hal/device.h"
+#include "ui/controls/legend_lines.h"
 #include "ui/freshness.h"
 
 namespace octascope::ui {
@@ -55,6 +56,10 @@ struct Status {
 
   // Set while the volume is drawn more coarsely than it could be: the share of its full fineness.
   std::optional<float> reduced_quality;
+
+  // What pedal and knob do, and what keys do; null: nothing to show. They outlive every draw().
+  const Legend* legend = nullptr;
+  const Legend* key_legend = nullptr;
 
   std::string notice; // one line that the surgeon should read; empty: none
 };

@@ -17,7 +17,7 @@ ViewState ViewState::clamped() const {
   v.distance = within(v.distance, Parameter::distance);
   v.window_offset_db = within(v.window_offset_db, Parameter::window_offset);
   v.window_size_db = within(v.window_size_db, Parameter::window_size);
-  v.parallax_deg = std::clamp(v.parallax_deg, -10.0F, 10.0F);
+  v.parallax_deg = within(v.parallax_deg, Parameter::parallax);
   v.opacity = std::clamp(v.opacity, 0.01F, 1.0F);
   v.b_scan = std::max(v.b_scan, 0);
   return v;
@@ -40,6 +40,7 @@ ParameterRange parameter_range(Parameter parameter, int b_scans) {
   case Parameter::tilt: return {-89, 89, 3};
   case Parameter::distance: return {0.6F, 8, 0.05F};
   case Parameter::b_scan: return {0, static_cast<float>(std::max(b_scans - 1, 1)), 1};
+  case Parameter::parallax: return {-10, 10, 0.25F};
   }
   return {0, 1, 1};
 }
@@ -52,8 +53,34 @@ float parameter_value(const ViewState& view, Parameter parameter) {
   case Parameter::tilt: return view.tilt_deg;
   case Parameter::distance: return view.distance;
   case Parameter::b_scan: return static_cast<float>(view.b_scan);
+  case Parameter::parallax: return view.parallax_deg;
   }
   return 0;
+}
+
+void set_parameter(ViewState& view, Parameter parameter, float value) {
+  switch (parameter) {
+  case Parameter::window_offset: view.window_offset_db = value; break;
+  case Parameter::window_size: view.window_size_db = value; break;
+  case Parameter::yaw: view.yaw_deg = value; break;
+  case Parameter::tilt: view.tilt_deg = value; break;
+  case Parameter::distance: view.distance = value; break;
+  case Parameter::b_scan: view.b_scan = static_cast<int>(std::lround(value)); break;
+  case Parameter::parallax: view.parallax_deg = value; break;
+  }
+}
+
+std::optional<Parameter> parameter_of(Action action) {
+  switch (action) {
+  case Action::window_offset: return Parameter::window_offset;
+  case Action::window_size: return Parameter::window_size;
+  case Action::rotate: return Parameter::yaw;
+  case Action::tilt: return Parameter::tilt;
+  case Action::distance: return Parameter::distance;
+  case Action::b_scan: return Parameter::b_scan;
+  case Action::parallax: return Parameter::parallax;
+  default: return std::nullopt;
+  }
 }
 
 } // namespace octascope::ui

@@ -4,15 +4,26 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "hal/clock.h"
+#include "ui/controls/action.h"
+#include "ui/hud/fixed_text.h"
 #include "ui/technique.h"
 
 namespace octascope::ui {
 
 // What a knob can turn.
-enum class Parameter : std::uint8_t { window_offset, window_size, yaw, tilt, distance, b_scan };
-inline constexpr int parameter_count = 6;
+enum class Parameter : std::uint8_t {
+  window_offset,
+  window_size,
+  yaw,
+  tilt,
+  distance,
+  b_scan,
+  parallax,
+};
+inline constexpr int parameter_count = 7;
 
 // How the display is divided.
 enum class LayoutKind : std::uint8_t {
@@ -25,6 +36,17 @@ inline constexpr int layout_count = 4;
 
 // For displays that show one picture to each eye.
 enum class StereoMode : std::uint8_t { off, side_by_side, top_bottom };
+inline constexpr int stereo_count = 3;
+
+// What a control just did, for the display to say.
+struct Echo {
+  Action action = Action::window_offset;
+  bool chosen = false;    // the knob turns it from now on
+  FixedText<48> words;    // what became of it; empty for a parameter, whose value says it
+  hal::TimePoint until{}; // shown until then
+
+  bool operator==(const Echo&) const = default;
+};
 
 struct ViewState {
   // The camera always faces the centre of the volume. Yaw turns about the depth axis, tilt raises
@@ -50,10 +72,11 @@ struct ViewState {
   float parallax_deg = 3;      // between the two eyes, seen from the centre of the volume
   bool vessels_visible = true; // the vessel tree, where one is loaded
   bool legend_visible = false; // what each control does
+  bool legend_of_keys = false; // what each key does, in its place
   int b_scan = 40;             // position of the B-scan panel, an index on the slow axis
 
-  Parameter selected = Parameter::window_offset; // what the knob turns
-  hal::TimePoint echo_until{}; // until then the display shows the selected parameter and its value
+  Action selected = Action::window_offset; // what the knob turns
+  Echo echo;
 
   ViewState clamped() const; // every value brought into its range
 
@@ -73,5 +96,9 @@ struct ParameterRange {
 // The ranges of clamped(); the last B-scan is b_scans − 1.
 ParameterRange parameter_range(Parameter parameter, int b_scans);
 float parameter_value(const ViewState& view, Parameter parameter);
+void set_parameter(ViewState& view, Parameter parameter, float value);
+
+// The parameter that an action turns; empty for all others.
+std::optional<Parameter> parameter_of(Action action);
 
 } // namespace octascope::ui

@@ -114,8 +114,10 @@ void add_run_command(CLI::App& program, int& exit_status) {
       "  octascope run --spectra s.raw --shape 100,100,1024 --calibration c.toml "
       "--display offscreen --volumes 5 --snapshot t.png --report t.json\n"
       "Keys in a window: arrows turn and tilt; page up, page down closer and farther; o O "
-      "window offset; s S window size; b box; [ ] B-scan; space freezes; p keeps the "
-      "picture; home first view; 1 2 3 , . the simulated pedal and knob; q ends.");
+      "window offset; s S window size; w automatic window; [ ] B-scan; space freezes; t "
+      "technique; f transfer; c colours; l layout; d stereo (shift: back); x X parallax; v "
+      "vessels; b box; p keeps the picture; home first view; tab next function; h, F1 what each "
+      "control does; 1 2 3 , . the simulated pedal and knob; q ends.");
   command->add_option("--config", a.configuration, "Configuration (TOML)");
   command->add_option("--display", a.display, "Where the picture goes")
       ->check(CLI::IsMember({"auto", "kms", "window", "offscreen"}))

@@ -145,6 +145,22 @@ TEST_F(ConfigurationFile, a_look_up_table_in_error_is_told_with_both_places) {
   EXPECT_THAT(c.error().message, HasSubstr("bad.csv:3: found 2"));
 }
 
+TEST_F(ConfigurationFile, chooses_what_the_controls_do) {
+  const auto named = load("[controls]\nprofile = \"powermate\"\n");
+  ASSERT_TRUE(named) << named.error().message;
+  EXPECT_EQ(load_controls(*named)->name, "PowerMate");
+  EXPECT_EQ(load_controls(Configuration{})->name, "Three-switch pedal and knob");
+  folder_.write("mine.toml", "name = \"Mine\"\n");
+  const auto own = load("[controls]\nfile = \"mine.toml\"\n");
+  ASSERT_TRUE(own) << own.error().message;
+  EXPECT_EQ(load_controls(*own)->name, "Mine");
+  EXPECT_THAT(load("[controls]\nprofile = \"pedal\"\n").error().message,
+              testing::AllOf(HasSubstr("c.toml:1: [controls]"), HasSubstr("\"pedal\""),
+                             HasSubstr("shuttle_pro")));
+  EXPECT_THAT(load("[controls]\nprofile = \"powermate\"\nfile = \"mine.toml\"\n").error().message,
+              HasSubstr("expected one"));
+}
+
 TEST_F(ConfigurationFile, that_is_missing_is_named) {
   const auto c = load_configuration(folder_ / "nowhere.toml");
   ASSERT_FALSE(c);

@@ -51,6 +51,12 @@ RunReport example() {
   r.frames_drawn = 45;
   r.frames_missed = 3;
   r.hot_path_allocations = 4;
+  r.view.yaw_deg = -12.5F;
+  r.view.technique = ui::Technique::shaded;
+  r.view.layout = ui::LayoutKind::b_scan;
+  r.view.stereo = ui::StereoMode::top_bottom;
+  r.view.selected = ui::Action::tilt;
+  r.actions[ui::index_of(ui::Action::freeze)] = 3;
   r.started = hal::TimePoint{100s};
   r.faults = {
       {"line_camera", "disconnected", "it went away", 2, r.started + 1s, r.started + 2500ms}};
@@ -93,6 +99,26 @@ TEST(Report, says_every_figure_under_its_key) {
   EXPECT_EQ(j["latency_ms"], (json{{"p50", 12.346}, {"p95", 20.0}, {"max", 21.0}}));
   EXPECT_EQ(j["frames"], (json{{"drawn", 45}, {"missed", 3}}));
   EXPECT_EQ(j["hot_path"], (json{{"allocations", 4}}));
+  EXPECT_EQ(j["view"], (json{{"window_offset_db", 8.0},
+                             {"window_size_db", 36.0},
+                             {"yaw_deg", -12.5},
+                             {"tilt_deg", 35.0},
+                             {"distance", 3.1},
+                             {"b_scan", 40},
+                             {"parallax_deg", 3.0},
+                             {"technique", "shaded"},
+                             {"transfer", 0},
+                             {"colours", 0},
+                             {"layout", "b_scan"},
+                             {"stereo", "top_bottom"},
+                             {"frozen", false},
+                             {"vessels", true},
+                             {"box", true},
+                             {"legend", false},
+                             {"selected", "tilt"}}));
+  EXPECT_EQ(j["actions"].size(), ui::action_count);
+  EXPECT_EQ(j["actions"]["freeze"], 3);
+  EXPECT_EQ(j["actions"]["tilt"], 0);
   for (const char* stage : {"reconstruct", "assemble", "publish", "upload", "draw"})
     EXPECT_EQ(j["stage_ms"][stage].size(), 3U) << stage;
 }

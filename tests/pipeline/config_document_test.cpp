@@ -40,6 +40,27 @@ TEST(ConfigDocument, refuses_with_place_found_and_expected) {
             "test.toml:2: [inner] list[1] is 'x', expected a finite number");
 }
 
+TEST(ConfigDocument, reads_one_text_or_several) {
+  const auto document =
+      ConfigDocument::parse("one = \"a\"\nmore = [\"b\", \"c\"]\nindex = 2\n", "c");
+  ASSERT_TRUE(document);
+  ConfigTable root = document->root();
+  EXPECT_EQ(root.texts("one"), std::vector<std::string>{"a"});
+  EXPECT_EQ(root.texts("more"), (std::vector<std::string>{"b", "c"}));
+  EXPECT_EQ(root.texts("none"), std::vector<std::string>{});
+  EXPECT_TRUE(root.has_integer("index"));
+  EXPECT_FALSE(root.has_integer("one"));
+  EXPECT_FALSE(root.has_integer("none"));
+  root.integer("index", 0, {0, 9});
+  EXPECT_TRUE(document->finish());
+  for (const char* wrong : {"key = 3", "key = [\"a\", 3]"}) {
+    const auto refused = ConfigDocument::parse(wrong, "c");
+    ASSERT_TRUE(refused);
+    EXPECT_TRUE(refused->root().texts("key").empty());
+    EXPECT_FALSE(refused->finish()) << wrong;
+  }
+}
+
 TEST(ConfigDocument, refuses_unknown_keys_anywhere) {
   EXPECT_EQ(complaint("[inner]\nlevl = 1"),
             "test.toml:2: [inner] unknown key \"levl\"; known here: kind, level, list");

@@ -22,7 +22,9 @@ TEST_F(Allocation, a_running_display_makes_none) {
   const auto one_frame = [&](int i) {
     view.yaw_deg = static_cast<float>(7 * i);
     view.b_scan = i % 40;
-    view.echo_until = status.now + std::chrono::seconds{1};
+    view.echo = {ui::Action::tilt, i % 2 == 0, {}, status.now + std::chrono::seconds{1}};
+    view.legend_visible = true;
+    view.legend_of_keys = i % 2 == 0;
     status.frames_per_s = i;
     status.freshness = {
         i % 2 == 0 ? ui::Liveness::live : ui::Liveness::stale, std::chrono::seconds{i}, {}};

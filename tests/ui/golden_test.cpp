@@ -58,9 +58,8 @@ TEST_F(GoldenPicture, frozen_seen_from_above_while_the_window_is_turned) {
   view.tilt_deg = 80;
   view.b_scan = 20;
   view.frozen = true;
-  view.selected = ui::Parameter::window_size;
   ui::Status status = live_status();
-  view.echo_until = status.now + std::chrono::seconds{1};
+  view.echo = {ui::Action::window_size, false, {}, status.now + std::chrono::seconds{1}};
   status.freshness = {ui::Liveness::frozen, std::chrono::seconds{12}, std::chrono::seconds{12}};
   expect_golden(draw(&volume, view, status, 1280, 720), "frozen_1280x720");
 }

@@ -133,8 +133,8 @@ TEST_F(HudInAllLayouts, nothing_hides_the_middle_of_the_large_picture) {
                       large.width / 2 - 1, large.height / 2 - 1};
     const pipeline::Image plain = draw(view, clean);
     Status worst = worst_status();
-    view.selected = Parameter::window_size;
-    view.echo_until = worst.now + std::chrono::seconds{1};
+    view.echo.action = Action::window_size;
+    view.echo.until = worst.now + std::chrono::seconds{1};
     for (const Liveness liveness : {Liveness::stale, Liveness::frozen}) {
       worst.freshness = {liveness, std::chrono::seconds{3000}, std::chrono::seconds{3000}};
       EXPECT_EQ(changed(plain, draw(view, worst), middle), 0) << static_cast<int>(kind);
@@ -215,10 +215,10 @@ TEST_F(HudInAllLayouts, the_histogram_shows_while_the_window_is_turned_and_only_
   const Status status = live_status();
   ViewState view;
   const pipeline::Image plain = draw(view, status);
-  view.echo_until = status.now + std::chrono::seconds{1};
-  view.selected = Parameter::tilt;
+  view.echo.until = status.now + std::chrono::seconds{1};
+  view.echo.action = Action::tilt;
   EXPECT_EQ(changed(plain, draw(view, status), rect), 0);
-  view.selected = Parameter::window_offset;
+  view.echo.action = Action::window_offset;
   const pipeline::Image shown = draw(view, status);
   EXPECT_GT(changed(plain, shown, rect), rect.width * rect.height / 2);
   view.window_offset_db += 10;

@@ -83,13 +83,12 @@ TEST(HudText, an_old_microscope_picture_is_stale) {
 TEST(HudText, the_echo_lasts_for_a_moment) {
   Status status = live_status();
   ViewState view;
-  view.selected = Parameter::tilt;
-  view.echo_until = status.now + std::chrono::milliseconds{1};
+  view.echo = {Action::tilt, false, {}, status.now + std::chrono::milliseconds{1}};
   const HudText hud = compose_hud_text(view, status, {});
   EXPECT_TRUE(hud.echo.visible);
   EXPECT_EQ(hud.echo.name, "Tilt");
   EXPECT_EQ(hud.echo.value.view(), "35°");
-  status.now = view.echo_until;
+  status.now = view.echo.until;
   EXPECT_FALSE(compose_hud_text(view, status, {}).echo.visible);
 }
 

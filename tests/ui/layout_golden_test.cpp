@@ -27,8 +27,8 @@ protected:
     ViewState view;
     view.layout = layout;
     view.b_scan = 20;
-    view.selected = Parameter::window_size;
-    view.echo_until = status.now + std::chrono::seconds{1};
+    view.echo.action = Action::window_size;
+    view.echo.until = status.now + std::chrono::seconds{1};
     return view;
   }
 

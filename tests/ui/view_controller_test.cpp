@@ -1,5 +1,8 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "ui/controls/built_in_profiles.h"
 #include "ui/controls/simulated_control.h"
 #include "ui/controls/view_controller.h"
 
@@ -11,6 +14,7 @@ using hal::ControlKind;
 using hal::DisplayEvent;
 using hal::DisplayEventKind;
 using hal::Key;
+using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr hal::TimePoint now{seconds{50}};
@@ -22,11 +26,64 @@ DisplayEvent press(Key key) {
   return press(static_cast<std::uint16_t>(key));
 }
 
+ControlProfile profile_of(std::string_view name) {
+  auto profile = built_in_profile(name);
+  EXPECT_TRUE(profile) << profile.error().message;
+  return std::move(*profile);
+}
+
+ControlProfile parsed(std::string_view text) {
+  auto profile = ControlProfile::parse(text, "test.toml");
+  EXPECT_TRUE(profile) << profile.error().message;
+  return std::move(*profile);
+}
+
+// The default profile: three switches and a knob.
 class Controller : public testing::Test {
 protected:
   const ViewState first_;
-  ViewController controller_{first_, 80};
+  ViewController controller_{first_, 80, profile_of(default_profile)};
+  hal::TimePoint now_ = now;
+
   const ViewState& state() const { return controller_.state(); }
+  ViewActions& actions() { return controller_.actions(); }
+  std::uint64_t count(Action action) const {
+    return controller_.actions().counts()[index_of(action)];
+  }
+
+  ControlRequests move(std::uint8_t index, int value) {
+    return controller_.handle(ControlEvent{now_, ControlKind::pedal_switch, index, value});
+  }
+  ControlRequests turn(int detents) {
+    return controller_.handle(ControlEvent{now_, ControlKind::knob, 0, detents});
+  }
+  ControlRequests wait(hal::Duration time) {
+    now_ += time;
+    return controller_.advance(now_);
+  }
+  // Down together, and up after so long; then at rest for long.
+  ControlRequests tread(std::initializer_list<std::uint8_t> switches,
+                        hal::Duration held = milliseconds{150}) {
+    ControlRequests requests;
+    for (const std::uint8_t index : switches)
+      requests.add(move(index, 1));
+    requests.add(wait(held));
+    for (const std::uint8_t index : switches)
+      requests.add(move(index, 0));
+    requests.add(wait(seconds{1}));
+    return requests;
+  }
+  void turn_while_held(std::initializer_list<std::uint8_t> switches, int detents) {
+    for (const std::uint8_t index : switches)
+      move(index, 1);
+    wait(seconds{1});
+    turn(detents);
+    wait(seconds{1});
+    for (const std::uint8_t index : switches)
+      move(index, 0);
+    wait(seconds{1});
+  }
+  std::string_view echo() const { return state().echo.words.view(); }
 };
 
 TEST_F(Controller, keys_steer_each_parameter_both_ways) {
@@ -45,6 +102,7 @@ TEST_F(Controller, keys_steer_each_parameter_both_ways) {
   moved(press('o', true), press('o'), &ViewState::window_offset_db, 1);
   moved(press('s', true), press('s'), &ViewState::window_size_db, 1);
   moved(press(']'), press('['), &ViewState::b_scan, 1);
+  moved(press('x', true), press('x'), &ViewState::parallax_deg, 0.25F);
 }
 
 TEST_F(Controller, values_stop_at_their_ends_and_yaw_goes_round) {
@@ -56,7 +114,7 @@ TEST_F(Controller, values_stop_at_their_ends_and_yaw_goes_round) {
   EXPECT_EQ(state().b_scan, 79);
   EXPECT_FLOAT_EQ(state().tilt_deg, 89);
   EXPECT_LE(std::abs(state().yaw_deg), 180);
-  controller_.set_b_scans(20);
+  actions().set_b_scans(20);
   EXPECT_EQ(state().b_scan, 19);
 }
 
@@ -64,29 +122,234 @@ TEST_F(Controller, space_and_the_centre_switch_freeze_with_their_time) {
   controller_.handle(press(Key::space));
   EXPECT_TRUE(state().frozen);
   EXPECT_EQ(state().frozen_since, now);
+  EXPECT_EQ(state().echo.action, Action::freeze);
+  EXPECT_EQ(echo(), "frozen");
   controller_.handle(press(static_cast<std::uint16_t>(Key::space), false, true));
   EXPECT_TRUE(state().frozen) << "a key held down does not flicker";
-  controller_.handle(ControlEvent{now + seconds{3}, ControlKind::pedal_switch, 1, 1});
+  tread({1});
   EXPECT_FALSE(state().frozen);
-  controller_.handle(ControlEvent{now + seconds{4}, ControlKind::pedal_switch, 1, 0});
-  EXPECT_FALSE(state().frozen) << "letting go does nothing";
+  EXPECT_EQ(echo(), "live");
+  const hal::TimePoint let_go = now_ + milliseconds{150};
+  tread({1});
+  EXPECT_EQ(state().frozen_since, let_go);
 }
 
 TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) {
-  EXPECT_EQ(state().selected, Parameter::window_offset);
-  controller_.handle(ControlEvent{now, ControlKind::pedal_switch, 2, 1});
-  EXPECT_EQ(state().selected, Parameter::window_size);
-  EXPECT_GT(state().echo_until, now);
-  controller_.handle(ControlEvent{now + seconds{9}, ControlKind::knob, 0, 4});
+  EXPECT_EQ(state().selected, Action::window_offset);
+  tread({2});
+  EXPECT_EQ(state().selected, Action::window_size);
+  EXPECT_EQ(state().echo.action, Action::window_size);
+  EXPECT_TRUE(state().echo.chosen);
+  EXPECT_GT(state().echo.until, now_);
+  turn(4);
   EXPECT_FLOAT_EQ(state().window_size_db, first_.window_size_db + 4);
-  EXPECT_GT(state().echo_until, now + seconds{9});
-  for (int i = 0; i < parameter_count - 1; ++i)
-    controller_.handle(ControlEvent{now, ControlKind::pedal_switch, 2, 1});
-  EXPECT_EQ(state().selected, Parameter::window_offset) << "round again";
-  controller_.handle(ControlEvent{now, ControlKind::pedal_switch, 0, 1});
-  EXPECT_EQ(state().selected, Parameter::b_scan);
-  controller_.handle(ControlEvent{now, ControlKind::knob, 0, -2});
+  EXPECT_FALSE(state().echo.chosen);
+  for (int i = 0; i < parameter_count - 2; ++i)
+    tread({2});
+  EXPECT_EQ(state().selected, Action::window_offset) << "round again, past the unseen parallax";
+  tread({0});
+  EXPECT_EQ(state().selected, Action::b_scan);
+  turn(-2);
   EXPECT_EQ(state().b_scan, first_.b_scan - 2);
+  EXPECT_EQ(count(Action::adjust), 2U);
+  EXPECT_EQ(count(Action::b_scan), 1U);
+}
+
+TEST_F(Controller, parallax_can_be_chosen_in_stereo) {
+  controller_.handle(press('d'));
+  EXPECT_EQ(state().stereo, StereoMode::side_by_side);
+  tread({0});
+  EXPECT_EQ(state().selected, Action::parallax);
+  turn(2);
+  EXPECT_FLOAT_EQ(state().parallax_deg, first_.parallax_deg + 0.5F);
+}
+
+TEST_F(Controller, long_presses_reset_the_view_keep_a_picture_and_find_the_window) {
+  controller_.handle(press(Key::right));
+  EXPECT_EQ(tread({0}, milliseconds{700}), ControlRequests{});
+  EXPECT_EQ(state().yaw_deg, first_.yaw_deg);
+  EXPECT_EQ(count(Action::reset_view), 1U);
+  EXPECT_TRUE(tread({1}, milliseconds{700}).snapshot);
+  EXPECT_FALSE(state().frozen) << "a long press is no press";
+  EXPECT_TRUE(tread({2}, milliseconds{700}).auto_window);
+  actions().show_window(12, 30, now_);
+  EXPECT_FLOAT_EQ(state().window_offset_db, 12);
+  EXPECT_EQ(echo(), "12 to 42 dB");
+  controller_.handle(press(Key::home));
+  EXPECT_FLOAT_EQ(state().window_offset_db, first_.window_offset_db);
+}
+
+TEST_F(Controller, chords_toggle_what_is_shown_and_record) {
+  tread({0, 1});
+  EXPECT_FALSE(state().vessels_visible);
+  EXPECT_EQ(echo(), "none loaded");
+  actions().set_vessels_loaded(true);
+  tread({0, 1});
+  EXPECT_TRUE(state().vessels_visible);
+  EXPECT_EQ(echo(), "shown");
+  tread({1, 2});
+  EXPECT_FALSE(state().box_visible);
+  EXPECT_EQ(echo(), "hidden");
+  tread({0, 2});
+  EXPECT_TRUE(state().legend_visible);
+  EXPECT_FALSE(state().legend_of_keys);
+  EXPECT_TRUE(tread({0, 1, 2}).record);
+  actions().tell(Action::record, "not available in this version", now_);
+  EXPECT_EQ(echo(), "not available in this version");
+  EXPECT_FALSE(state().frozen) << "no part of a chord acts alone";
+  EXPECT_EQ(state().selected, first_.selected);
+}
+
+TEST_F(Controller, a_held_switch_lends_the_knob_another_meaning) {
+  actions().set_choices({{"window", "steep", "soft"}, {"grey", "viridis"}});
+  turn_while_held({0}, 1);
+  EXPECT_EQ(state().technique, Technique::shaded);
+  EXPECT_EQ(echo(), "shaded rays");
+  turn_while_held({0}, -2);
+  EXPECT_EQ(state().technique, Technique::planes);
+  turn_while_held({1}, 2);
+  EXPECT_FLOAT_EQ(state().yaw_deg, first_.yaw_deg + 6);
+  turn_while_held({2}, -1);
+  EXPECT_EQ(state().layout, LayoutKind::quad) << "round the other way";
+  EXPECT_EQ(echo(), "quad");
+  turn_while_held({0, 1}, 2);
+  EXPECT_EQ(state().transfer, 2);
+  EXPECT_EQ(echo(), "soft");
+  turn_while_held({1, 2}, 1);
+  EXPECT_EQ(state().colour_map, 1);
+  EXPECT_EQ(echo(), "viridis");
+  turn_while_held({0, 2}, 2);
+  EXPECT_EQ(state().stereo, StereoMode::top_bottom);
+  EXPECT_EQ(echo(), "top and bottom");
+  EXPECT_EQ(state().selected, first_.selected) << "the pedals meant nothing else";
+  EXPECT_FALSE(state().frozen);
+}
+
+TEST_F(Controller, spun_fast_the_knob_goes_farther_but_a_choice_goes_step_by_step) {
+  for (int i = 0; i < 20; ++i) {
+    now_ += milliseconds{5};
+    turn(1);
+  }
+  EXPECT_GT(state().window_offset_db, first_.window_offset_db + 60);
+  EXPECT_EQ(state().window_offset_db, std::round(state().window_offset_db));
+  move(2, 1);
+  for (int i = 0; i < 6; ++i) {
+    now_ += milliseconds{5};
+    turn(1);
+  }
+  EXPECT_EQ(state().layout, LayoutKind::microscope) << "six steps of four";
+}
+
+TEST(Puck, turns_at_a_rate_and_stops_when_it_is_let_go) {
+  ViewController controller{{}, 80, profile_of("space_mouse")};
+  const float before = controller.state().yaw_deg;
+  controller.advance(now);
+  const auto push = [&](int axis, int value, hal::Duration after) {
+    return controller.handle(
+        ControlEvent{now + after, ControlKind::axis, static_cast<std::uint8_t>(axis), value});
+  };
+  push(5, 60, milliseconds{0});
+  controller.advance(now + milliseconds{100});
+  EXPECT_EQ(controller.state().yaw_deg, before) << "the dead zone";
+  push(5, 1000, milliseconds{100});
+  for (int ms = 110; ms <= 600; ms += 10)
+    controller.advance(now + milliseconds{ms});
+  EXPECT_NEAR(controller.state().yaw_deg, before + 60, 0.01) << "0.5 s at 40 detents of 3°";
+  push(5, 0, milliseconds{600});
+  controller.advance(now + seconds{2});
+  EXPECT_NEAR(controller.state().yaw_deg, before + 60, 0.01);
+  EXPECT_EQ(controller.actions().counts()[index_of(Action::rotate)], 1U) << "one push";
+  push(5, -1000, seconds{3});
+  controller.advance(now + seconds{60});
+  EXPECT_NEAR(controller.state().yaw_deg, before + 60 - 12, 0.01)
+      << "a display that stood still does not leap";
+}
+
+TEST(SingleKnob, goes_through_all_functions_and_does_each) {
+  ViewController controller{{}, 80, profile_of("powermate")};
+  hal::TimePoint t = now;
+  const auto button = [&](int value) {
+    t += milliseconds{20};
+    return controller.handle(ControlEvent{t, ControlKind::pedal_switch, 0, value});
+  };
+  const auto turn = [&](int detents) { // slowly: a unit is four of them
+    for (int i = 0; i < std::abs(detents); ++i) {
+      t += milliseconds{200};
+      controller.handle(ControlEvent{t, ControlKind::knob, 0, detents > 0 ? 1 : -1});
+    }
+  };
+  const auto select = [&](Action action) {
+    for (int i = 0; i < 30 && controller.state().selected != action; ++i) {
+      button(1);
+      turn(4);
+      button(0);
+    }
+    ASSERT_EQ(controller.state().selected, action);
+  };
+  const auto long_press = [&] {
+    ControlRequests requests = button(1);
+    t += milliseconds{700};
+    requests.add(controller.advance(t));
+    requests.add(button(0));
+    return requests;
+  };
+  select(Action::snapshot);
+  turn(8);
+  EXPECT_EQ(controller.state().echo.words.view(), "press to do it");
+  EXPECT_TRUE(long_press().snapshot);
+  select(Action::box);
+  turn(-4);
+  EXPECT_FALSE(controller.state().box_visible) << "left is off";
+  turn(-4);
+  EXPECT_FALSE(controller.state().box_visible) << "and stays so";
+  turn(5);
+  EXPECT_TRUE(controller.state().box_visible);
+  long_press();
+  EXPECT_FALSE(controller.state().box_visible);
+  select(Action::tilt);
+  turn(8);
+  EXPECT_FLOAT_EQ(controller.state().tilt_deg, ViewState{}.tilt_deg + 6);
+}
+
+TEST(HeldSwitch, repeats_what_it_does) {
+  ViewController controller{{},
+                            80,
+                            parsed("name = \"x\"\n[[bind]]\nswitch = 0\ngesture = \"hold\"\n"
+                                   "action = \"tilt\"\nstep = -1\n")};
+  controller.handle(ControlEvent{now, ControlKind::pedal_switch, 0, 1});
+  EXPECT_FLOAT_EQ(controller.state().tilt_deg, ViewState{}.tilt_deg - 3);
+  controller.advance(now + milliseconds{399});
+  EXPECT_FLOAT_EQ(controller.state().tilt_deg, ViewState{}.tilt_deg - 3);
+  EXPECT_EQ(controller.next_deadline(), now + milliseconds{400});
+  controller.advance(now + milliseconds{500});
+  EXPECT_FLOAT_EQ(controller.state().tilt_deg, ViewState{}.tilt_deg - 9);
+}
+
+TEST_F(Controller, each_key_of_a_choice_goes_on_and_with_shift_back) {
+  actions().set_choices({{"window", "steep", "soft"}, {"grey", "viridis", "hot"}});
+  const auto there_and_back = [&](char key, auto member) {
+    const auto before = state().*member;
+    controller_.handle(press(static_cast<std::uint16_t>(key)));
+    EXPECT_NE(state().*member, before) << key;
+    controller_.handle(press(static_cast<std::uint16_t>(key), true));
+    EXPECT_EQ(state().*member, before) << key;
+  };
+  there_and_back('t', &ViewState::technique);
+  there_and_back('f', &ViewState::transfer);
+  there_and_back('c', &ViewState::colour_map);
+  there_and_back('l', &ViewState::layout);
+  there_and_back('d', &ViewState::stereo);
+  controller_.handle(press('v'));
+  EXPECT_FALSE(state().vessels_visible);
+  controller_.handle(press(Key::f1));
+  EXPECT_TRUE(state().legend_visible);
+  EXPECT_TRUE(state().legend_of_keys);
+  controller_.handle(press('h'));
+  EXPECT_FALSE(state().legend_visible);
+  controller_.handle(press(Key::tab));
+  EXPECT_EQ(state().selected, Action::window_size);
+  EXPECT_TRUE(controller_.handle(press('w')).auto_window);
+  EXPECT_TRUE(controller_.handle(press('r')).record);
 }
 
 TEST_F(Controller, home_restores_the_view_but_does_not_thaw) {

@@ -3,129 +3,140 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/controls/key_bindings.h"
+
 namespace octascope::ui {
 
 namespace {
 
-constexpr hal::Duration echo_duration = std::chrono::milliseconds{2500};
-constexpr std::uint8_t left_switch = 0;
-constexpr std::uint8_t centre_switch = 1;
-constexpr std::uint8_t right_switch = 2;
+constexpr std::size_t most_told_at_once = 64; // more would only cost an allocation
 
-constexpr std::uint16_t code(hal::Key key) {
-  return static_cast<std::uint16_t>(key);
-}
+// A display that stands still for longer must not let the view leap afterwards.
+constexpr hal::Duration longest_frame = std::chrono::milliseconds{100};
 
-void set_parameter(ViewState& view, Parameter parameter, float value) {
-  switch (parameter) {
-  case Parameter::window_offset: view.window_offset_db = value; break;
-  case Parameter::window_size: view.window_size_db = value; break;
-  case Parameter::yaw: view.yaw_deg = value; break;
-  case Parameter::tilt: view.tilt_deg = value; break;
-  case Parameter::distance: view.distance = value; break;
-  case Parameter::b_scan: view.b_scan = static_cast<int>(std::lround(value)); break;
-  }
+bool is_quit(const hal::DisplayEvent& event) {
+  return event.kind == hal::DisplayEventKind::close_requested ||
+         (event.kind == hal::DisplayEventKind::key_pressed && !event.repeated &&
+          (event.key == 'q' || event.key == static_cast<std::uint16_t>(hal::Key::escape)));
 }
 
 } // namespace
 
-ViewController::ViewController(const ViewState& initial, int b_scans)
-    : initial_{initial.clamped()}, state_{initial_}, b_scans_{b_scans} {
-  set_b_scans(b_scans);
-}
-
-void ViewController::set_b_scans(int b_scans) {
-  b_scans_ = std::max(b_scans, 1);
-  state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
-}
-
-void ViewController::set_window(float offset_db, float size_db) {
-  for (ViewState* view : {&initial_, &state_}) {
-    view->window_offset_db = offset_db;
-    view->window_size_db = size_db;
-    *view = view->clamped();
-  }
-}
-
-void ViewController::turn(Parameter parameter, float detents, hal::TimePoint time) {
-  const ParameterRange range = parameter_range(parameter, b_scans_);
-  set_parameter(state_, parameter, parameter_value(state_, parameter) + detents * range.detent);
-  state_ = state_.clamped();
-  state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
-  state_.selected = parameter;
-  state_.echo_until = time + echo_duration;
-}
-
-void ViewController::select_next(int step, hal::TimePoint time) {
-  const int next = (static_cast<int>(state_.selected) + step + parameter_count) % parameter_count;
-  state_.selected = static_cast<Parameter>(next);
-  state_.echo_until = time + echo_duration;
-}
-
-void ViewController::toggle_freeze(hal::TimePoint time) {
-  state_.frozen = !state_.frozen;
-  state_.frozen_since = state_.frozen ? time : hal::TimePoint{};
-}
-
-// A frozen picture stays frozen: looking at it afresh must not let it run away.
-void ViewController::go_home() {
-  const ViewState old = state_;
-  state_ = initial_;
-  state_.frozen = old.frozen;
-  state_.frozen_since = old.frozen_since;
-  state_.selected = old.selected;
-  state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
+ViewController::ViewController(const ViewState& initial, int b_scans, ControlProfile profile)
+    : profile_{std::move(profile)}, actions_{initial, b_scans, profile_.menu},
+      recogniser_{profile_.switch_bindings(), profile_.times} {
+  told_.reserve(most_told_at_once);
 }
 
 ControlRequests ViewController::handle(const hal::DisplayEvent& event) {
   ControlRequests requests;
-  if (event.kind == hal::DisplayEventKind::close_requested)
-    requests.quit = true;
+  requests.quit = is_quit(event);
   if (event.kind != hal::DisplayEventKind::key_pressed)
     return requests;
-  const float up_with_shift = event.shift ? 1.0F : -1.0F;
-  switch (event.key) {
-  case code(hal::Key::left): turn(Parameter::yaw, -1, event.time); break;
-  case code(hal::Key::right): turn(Parameter::yaw, 1, event.time); break;
-  case code(hal::Key::up): turn(Parameter::tilt, 1, event.time); break;
-  case code(hal::Key::down): turn(Parameter::tilt, -1, event.time); break;
-  case code(hal::Key::page_up):
-  case '+':
-  case '=': turn(Parameter::distance, -1, event.time); break;
-  case code(hal::Key::page_down):
-  case '-': turn(Parameter::distance, 1, event.time); break;
-  case 'o': turn(Parameter::window_offset, up_with_shift, event.time); break;
-  case 's': turn(Parameter::window_size, up_with_shift, event.time); break;
-  case '[': turn(Parameter::b_scan, -1, event.time); break;
-  case ']': turn(Parameter::b_scan, 1, event.time); break;
-  default: break;
-  }
-  if (event.repeated) // switches act once a press
+  const auto bound = binding_of(event.key);
+  if (!bound || (event.repeated && !bound->repeats))
     return requests;
-  switch (event.key) {
-  case 'b': state_.box_visible = !state_.box_visible; break;
-  case code(hal::Key::space): toggle_freeze(event.time); break;
-  case code(hal::Key::home): go_home(); break;
-  case 'p': requests.snapshot = true; break;
-  case code(hal::Key::escape):
-  case 'q': requests.quit = true; break;
-  default: break;
-  }
+  if (bound->action == Action::legend)
+    actions_.show_keys_in_legend(true);
+  requests.add(actions_.perform(bound->action, event.shift ? bound->shifted : bound->step,
+                                Done::pressed, event.time));
   return requests;
 }
 
 ControlRequests ViewController::handle(const hal::ControlEvent& event) {
-  if (event.kind == hal::ControlKind::knob)
-    turn(state_.selected, static_cast<float>(event.value), event.time);
-  if (event.kind == hal::ControlKind::pedal_switch && event.value != 0) {
-    switch (event.index) {
-    case left_switch: select_next(-1, event.time); break;
-    case centre_switch: toggle_freeze(event.time); break;
-    case right_switch: select_next(1, event.time); break;
-    default: break;
-    }
+  switch (event.kind) {
+  case hal::ControlKind::pedal_switch:
+    recogniser_.handle(event.index, event.value != 0, event.time, told_);
+    return perform_told();
+  case hal::ControlKind::knob: return turn(event);
+  case hal::ControlKind::axis: return push(event);
   }
   return {};
+}
+
+ControlRequests ViewController::perform_told() {
+  ControlRequests requests;
+  for (const Gesture& gesture : told_)
+    for (const SwitchAction& bound : profile_.switch_actions) {
+      if (bound.switches != gesture.switches || bound.gesture != gesture.kind)
+        continue;
+      if (target(bound.action) == Action::legend)
+        actions_.show_keys_in_legend(false);
+      requests.add(actions_.perform(bound.action, bound.step, Done::pressed, gesture.time));
+    }
+  told_.clear();
+  return requests;
+}
+
+Action ViewController::target(Action action) const {
+  return action == Action::adjust ? state().selected : action;
+}
+
+// A knob that is not bound with the switches that are held does what it does without them.
+ControlRequests ViewController::turn(const hal::ControlEvent& event) {
+  if (event.index >= most_knobs || event.value == 0)
+    return {};
+  const SwitchSet held = recogniser_.modify(event.time, told_);
+  ControlRequests requests = perform_told();
+  const KnobAction* plain = nullptr;
+  const KnobAction* modified = nullptr;
+  for (const KnobAction& bound : profile_.knob_actions) {
+    if (bound.knob != event.index)
+      continue;
+    if (bound.while_held == 0)
+      plain = &bound;
+    else if (bound.while_held == held)
+      modified = &bound;
+  }
+  if (const KnobAction* bound = modified != nullptr ? modified : plain)
+    requests.add(turn(knobs_[event.index], *bound, event));
+  return requests;
+}
+
+// Only whole units act, so that values stay round. What is not continuous goes by detents: nobody
+// can choose among four at eight times the speed.
+ControlRequests ViewController::turn(Knob& knob, const KnobAction& bound,
+                                     const hal::ControlEvent& event) {
+  const Action action = target(bound.action);
+  const std::int8_t direction = event.value > 0 ? std::int8_t{1} : std::int8_t{-1};
+  if (knob.action != action || knob.motion.direction != direction)
+    knob.rest = 0;
+  knob.action = action;
+  knob.motion = knob.motion.turned(event.value, profile_.detents_per_turn, event.time);
+  const bool accelerates = kind_of(action) == ActionKind::continuous;
+  knob.rest += accelerates ? knob.motion.units : slow_units(event.value, profile_.detents_per_turn);
+  const double whole = std::trunc(knob.rest);
+  knob.rest -= whole;
+  if (whole == 0)
+    return {};
+  if (action == Action::legend)
+    actions_.show_keys_in_legend(false);
+  return actions_.perform(bound.action, whole * bound.step, Done::turned, event.time);
+}
+
+// As far as it was pushed until now, it has moved the view.
+ControlRequests ViewController::push(const hal::ControlEvent& event) {
+  if (event.index >= axis_count)
+    return {};
+  const ControlRequests requests = advance(event.time);
+  const bool begins = axis_response(axes_[event.index]) == 0 && axis_response(event.value) != 0;
+  axes_[event.index] = event.value;
+  for (const AxisAction& bound : profile_.axis_actions)
+    if (begins && bound.axis == event.index)
+      actions_.begin_driving(bound.action, event.time);
+  return requests;
+}
+
+ControlRequests ViewController::advance(hal::TimePoint now) {
+  recogniser_.advance(now, told_);
+  const ControlRequests requests = perform_told();
+  const hal::Duration passed =
+      std::clamp(now - advanced_.value_or(now), hal::Duration{}, longest_frame);
+  advanced_ = std::max(advanced_.value_or(now), now);
+  for (const AxisAction& bound : profile_.axis_actions)
+    if (const double response = axis_response(axes_[bound.axis]); response != 0)
+      actions_.drive(bound.action, response * bound.per_second * hal::to_seconds(passed), now);
+  return requests;
 }
 
 } // namespace octascope::ui

@@ -1,47 +1,64 @@
 // Turns what hands and feet do into view states. Pure: no clock, no device, no thread of its own.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
 #include "hal/control_input.h"
 #include "hal/display.h"
+#include "ui/controls/control_profile.h"
+#include "ui/controls/gesture_recogniser.h"
+#include "ui/controls/knob_acceleration.h"
+#include "ui/controls/view_actions.h"
 #include "ui/view_state.h"
 
 namespace octascope::ui {
 
-// What an event asks of the host, beside the new view.
-struct ControlRequests {
-  bool quit = false;
-  bool snapshot = false;
-  bool operator==(const ControlRequests&) const = default;
-};
-
-// Keys: arrows orbit (left, right) and tilt (up, down) · page up, + closer · page down, − farther ·
-// o, O window offset down, up · s, S window size down, up · b box · space freeze · [ ] B-scan ·
-// p snapshot · home first view and window again · escape, q quit.
-// Pedal: left and right choose what the knob turns, centre freezes. Knob: turns it.
+// Keys: ui/controls/key_bindings.h, and escape, q quit. Pedals, knobs and sticks: the profile.
 //
-// Threads: one at a time. The host hands state() on as an immutable snapshot.
+// Threads: one at a time. The host hands state() on as an immutable snapshot. Call advance() every
+// frame: long presses, repetitions and sticks live by it.
 class ViewController {
 public:
-  // `initial` is what the key "home" goes back to; `b_scans` bounds the B-scan's position.
-  ViewController(const ViewState& initial, int b_scans);
+  // `initial` is what reset_view goes back to; `b_scans` bounds the B-scan's position.
+  ViewController(const ViewState& initial, int b_scans, ControlProfile profile);
 
-  const ViewState& state() const { return state_; }
-  void set_b_scans(int b_scans);
-  // Also what "home" goes back to.
-  void set_window(float offset_db, float size_db);
+  const ViewState& state() const { return actions_.state(); }
+
+  // What the host knows and does: choices, window, echoes of what became of a request.
+  ViewActions& actions() { return actions_; }
+  const ViewActions& actions() const { return actions_; }
 
   ControlRequests handle(const hal::DisplayEvent& event);
   ControlRequests handle(const hal::ControlEvent& event);
+  ControlRequests advance(hal::TimePoint now);
+
+  // When advance() will do something, if nothing happens before; a stick that is pushed does
+  // something always.
+  std::optional<hal::TimePoint> next_deadline() const { return recogniser_.next_deadline(); }
 
 private:
-  void turn(Parameter parameter, float detents, hal::TimePoint time);
-  void select_next(int step, hal::TimePoint time);
-  void toggle_freeze(hal::TimePoint time);
-  void go_home();
+  struct Knob {
+    KnobMotion motion;
+    std::optional<Action> action; // that it turned last
+    double rest = 0;              // units beyond the whole ones
+  };
 
-  ViewState initial_;
-  ViewState state_;
-  int b_scans_;
+  ControlRequests perform_told();
+  ControlRequests turn(const hal::ControlEvent& event);
+  ControlRequests turn(Knob& knob, const KnobAction& bound, const hal::ControlEvent& event);
+  ControlRequests push(const hal::ControlEvent& event);
+  Action target(Action action) const;
+
+  ControlProfile profile_;
+  ViewActions actions_;
+  GestureRecogniser recogniser_;
+  std::vector<Gesture> told_;
+  std::array<Knob, most_knobs> knobs_{};
+  std::array<std::int32_t, axis_count> axes_{}; // how far each is pushed
+  std::optional<hal::TimePoint> advanced_;
 };
 
 } // namespace octascope::ui

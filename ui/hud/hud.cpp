@@ -4,6 +4,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "ui/hud/legend.h"
+
 namespace octascope::ui {
 
 namespace {
@@ -98,6 +100,8 @@ void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const V
   draw_status_bar(canvas, layout, text);
   if (text.window_changing && scene.levels != nullptr)
     draw_window_histogram(canvas, layout.histogram, *scene.levels, view, layout.unit);
+  if (text.legend != nullptr)
+    draw_legend(canvas, layout, *text.legend, text.selected);
   draw_echo(canvas, layout, text.echo);
 }
 

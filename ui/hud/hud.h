@@ -44,7 +44,6 @@ void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness
 void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene);
-void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);
 
 // What stands in the volume's space: the wire-frame box, the plane of the B-scan that the panel
 // shows, and where B-scans are missing or saturated. The parts before the volume go over its

@@ -136,43 +136,9 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
   }
 }
 
-void compose_echo(HudText& hud, const ViewState& view, const Status& status,
-                  const ShownPictures& shown) {
-  ParameterEcho& echo = hud.echo;
-  echo.visible = status.now < view.echo_until;
-  if (!echo.visible)
-    return;
-  hud.window_changing =
-      view.selected == Parameter::window_offset || view.selected == Parameter::window_size;
-  const ParameterRange range = parameter_range(view.selected, shown.geometry.b_scans);
-  const float value = parameter_value(view, view.selected);
-  echo.share = std::clamp((value - range.lowest) / (range.highest - range.lowest), 0.0F, 1.0F);
-  switch (view.selected) {
-  case Parameter::window_offset:
-    echo.name = "Window offset";
-    echo.value.format("{:.0f} dB", value);
-    break;
-  case Parameter::window_size:
-    echo.name = "Window size";
-    echo.value.format("{:.0f} dB", value);
-    break;
-  case Parameter::yaw:
-    echo.name = "Rotation";
-    echo.value.format("{:.0f}°", value);
-    break;
-  case Parameter::tilt:
-    echo.name = "Tilt";
-    echo.value.format("{:.0f}°", value);
-    break;
-  case Parameter::distance:
-    echo.name = "Distance";
-    echo.value.format("{:.2f}", value);
-    break;
-  case Parameter::b_scan:
-    echo.name = "B-scan";
-    echo.value.format("{}", view.b_scan + 1);
-    break;
-  }
+bool changes_window(Action action) {
+  return action == Action::window_offset || action == Action::window_size ||
+         action == Action::auto_window;
 }
 
 } // namespace
@@ -186,7 +152,11 @@ HudText compose_hud_text(const ViewState& view, const Status& status, const Show
     hud.reduced.format("quality reduced {:.0f} %",
                        std::floor(std::clamp(*status.reduced_quality, 0.0F, 1.0F) * 100));
   compose_captions(hud, view, status, shown);
-  compose_echo(hud, view, status, shown);
+  hud.window_changing = status.now < view.echo.until && changes_window(view.echo.action);
+  hud.echo = compose_echo(view, status.now, shown.geometry.b_scans);
+  if (view.legend_visible)
+    hud.legend = view.legend_of_keys ? status.key_legend : status.legend;
+  hud.selected = view.selected;
   hud.devices = status.devices;
   hud.device_count = std::min(status.device_count, Status::most_devices);
   hud.source.format("{}", status.source_description);

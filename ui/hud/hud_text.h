@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "pipeline/volume.h"
+#include "ui/hud/echo.h"
 #include "ui/hud/fixed_text.h"
 #include "ui/status.h"
 #include "ui/view_state.h"
@@ -39,15 +40,6 @@ struct Caption {
   bool operator==(const Caption&) const = default;
 };
 
-// What a control just did.
-struct ParameterEcho {
-  bool visible = false;
-  std::string_view name;
-  FixedText<24> value;
-  float share = 0; // of its range, 0…1
-  bool operator==(const ParameterEcho&) const = default;
-};
-
 // What the renderer shows.
 struct ShownPictures {
   bool volume = false;
@@ -74,6 +66,8 @@ struct HudText {
   Liveness liveness = Liveness::waiting;
   ParameterEcho echo;
   bool window_changing = false; // the echo is of the window
+  const Legend* legend = nullptr;          // null: hidden; the host's, see Status
+  Action selected = Action::window_offset; // what the knob turns, for the legend
   std::array<DeviceStatus, Status::most_devices> devices;
   std::size_t device_count = 0;
   FixedText<32> reduced; // how finely the volume is drawn, if not fully

@@ -108,24 +108,4 @@ void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text) 
   draw_devices(canvas, layout, text, columns);
 }
 
-void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo) {
-  if (!echo.visible)
-    return;
-  const float u = layout.unit;
-  const auto x = static_cast<float>(layout.echo.x);
-  const auto y = static_cast<float>(layout.echo.y);
-  const auto width = static_cast<float>(layout.echo.width);
-  const auto height = static_cast<float>(layout.echo.height);
-  canvas.plate(layout.echo, palette::plate, 6 * u);
-  canvas.text({x + 16 * u, y + 10 * u}, TextStyle::value, palette::text, echo.name);
-  const float value = canvas.text_width(TextStyle::value, echo.value.view());
-  canvas.text({x + width - 16 * u - value, y + 10 * u}, TextStyle::value, palette::accent,
-              echo.value.view());
-  const float bar_y = y + height - 14 * u;
-  const float bar_width = width - 32 * u;
-  canvas.line({x + 16 * u, bar_y}, {x + 16 * u + bar_width, bar_y}, palette::hairline, 4 * u);
-  canvas.line({x + 16 * u, bar_y}, {x + 16 * u + bar_width * echo.share, bar_y}, palette::accent,
-              4 * u);
-}
-
 } // namespace octascope::ui

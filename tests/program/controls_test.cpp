@@ -1,0 +1,116 @@
+// Every action, done by the twin's pedal and knob: what becomes of the view, and of the picture.
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/program/program_support.h"
+#include "ui/controls/action.h"
+
+namespace octascope::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string script() {
+  return (fs::path{OCTASCOPE_SOURCE_DIR} / "sim" / "controls" / "every_action.toml").string();
+}
+
+// As the small one, with a window that the first volume does not change.
+fs::path write_configuration(const ScratchFolder& folder, std::string_view more) {
+  std::ostringstream text;
+  text << std::ifstream{write_small_configuration(folder)}.rdbuf()
+       << "[display]\nwindow_offset_db = 4\nwindow_size_db = 60\n"
+       << more;
+  return folder.write("controls.toml", text.str());
+}
+
+// Runs in `folder`, where snapshots then lie.
+ProgramResult run_in(const ScratchFolder& folder, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{"sh", "-c", "cd \"$0\" && exec \"$@\"", folder.path().string()};
+  const std::vector<std::string> program = octascope_command(arguments);
+  words.insert(words.end(), program.begin(), program.end());
+  return run_program(words);
+}
+
+// The pictures that the surgeon kept, the first one first.
+std::vector<pipeline::Image> kept_pictures(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator{folder})
+    if (entry.path().filename().string().starts_with("octascope-"))
+      files.push_back(entry.path());
+  std::ranges::sort(files, {}, [](const fs::path& file) { return fs::last_write_time(file); });
+  std::vector<pipeline::Image> pictures;
+  for (const fs::path& file : files)
+    pictures.push_back(read_snapshot(file));
+  return pictures;
+}
+
+// The middle of the volume's picture: no badge, no echo, no figure of the status bar.
+int changed_in_the_middle(const pipeline::Image& a, const pipeline::Image& b) {
+  const ui::Rect view = layout_of(a).view;
+  return count_different(
+      a, b, {view.width / 5, view.height / 5, view.width * 3 / 5, view.height * 3 / 5}, 8);
+}
+
+TEST(Controls, a_pedal_and_a_knob_do_everything) {
+  const ScratchFolder folder;
+  const fs::path report_file = folder / "report.json";
+  const fs::path last_file = folder / "last.png";
+  const ProgramResult result =
+      run_in(folder, {"run", "--sim", "--config", write_configuration(folder, ""), "--display",
+                      "offscreen", "--size", "640x360", "--controls", script(), "--duration",
+                      "13.3", "--report", report_file, "--snapshot", last_file});
+  ASSERT_EQ(result.exit_status, 0) << result.describe();
+
+  const json report = read_report(report_file);
+  const json& actions = report.at("actions");
+  EXPECT_EQ(actions.size(), ui::action_count);
+  for (const auto& [name, count] : actions.items())
+    EXPECT_GE(count.get<int>(), 1) << name;
+  EXPECT_EQ(actions["snapshot"], 4);
+  EXPECT_EQ(actions["adjust"], 7);
+  EXPECT_EQ(actions["next_parameter"], 7);
+
+  const json& view = report.at("view");
+  EXPECT_EQ(view["window_offset_db"], 6);
+  EXPECT_EQ(view["window_size_db"], 58);
+  EXPECT_EQ(view["yaw_deg"], 41);
+  EXPECT_EQ(view["tilt_deg"], 38);
+  EXPECT_EQ(view["distance"], 3);
+  EXPECT_EQ(view["b_scan"], small_b_scans / 2 + 2);
+  EXPECT_EQ(view["parallax_deg"], 3.5);
+  EXPECT_EQ(view["technique"], "shaded");
+  EXPECT_EQ(view["layout"], "quad");
+  EXPECT_EQ(view["stereo"], "side_by_side");
+  EXPECT_EQ(view["frozen"], true);
+  EXPECT_EQ(view["vessels"], false);
+  EXPECT_EQ(view["box"], false);
+  EXPECT_EQ(view["legend"], true);
+  EXPECT_EQ(view["selected"], "parallax");
+
+  const std::vector<pipeline::Image> kept = kept_pictures(folder.path());
+  ASSERT_EQ(kept.size(), 4U) << "as it was, rotated, without the box, with another window";
+  for (std::size_t i = 1; i < kept.size(); ++i)
+    EXPECT_GT(changed_in_the_middle(kept[i - 1], kept[i]), 50) << "picture " << i + 1;
+  const pipeline::Image last = read_snapshot(last_file);
+  const ui::Rect right{last.width * 2 / 3, 0, last.width / 3, last.height * 2 / 3};
+  EXPECT_GT(count_different(kept.back(), last, right, 8), 2000) << "the legend";
+}
+
+TEST(Controls, a_profile_of_ones_own_is_read_or_refused_with_its_line) {
+  const ScratchFolder folder;
+  folder.write("mine.toml", "name = \"Mine\"\n[[bind]]\nswitch = \"lefty\"\naction = \"box\"\n");
+  const ProgramResult result =
+      run_octascope({"run", "--sim", "--config",
+                     write_configuration(folder, "[controls]\nfile = \"mine.toml\"\n"), "--display",
+                     "offscreen", "--volumes", "1"});
+  EXPECT_NE(result.exit_status, 0);
+  EXPECT_NE(result.err.find("mine.toml:2: [bind] switch is \"lefty\""), std::string::npos)
+      << result.err;
+}
+
+} // namespace
+} // namespace octascope::tests

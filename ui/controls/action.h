@@ -1,0 +1,76 @@
+// Everything that hands and feet can ask for, by the names that profiles use.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace octascope::ui {
+
+enum class Action : std::uint8_t {
+  window_offset,
+  window_size,
+  auto_window,
+  rotate,
+  tilt,
+  distance,
+  reset_view,
+  next_parameter,
+  previous_parameter,
+  adjust, // turns or does whatever was chosen with next_parameter
+  freeze,
+  technique,
+  transfer,
+  colours,
+  layout,
+  stereo,
+  parallax,
+  b_scan,
+  vessels,
+  box,
+  snapshot,
+  record,
+  legend,
+};
+inline constexpr std::size_t action_count = 23;
+
+constexpr std::size_t index_of(Action action) {
+  return static_cast<std::size_t>(action);
+}
+
+// Every action, in the order of the enumeration.
+constexpr std::array<Action, action_count> all_actions() {
+  std::array<Action, action_count> all{};
+  for (std::size_t i = 0; i < action_count; ++i)
+    all[i] = static_cast<Action>(i);
+  return all;
+}
+
+enum class ActionKind : std::uint8_t {
+  continuous, // takes detents, the more the farther
+  choice,     // one of several: a step goes to the next, a negative one back
+  toggle,     // a press changes it over; turned, right is on and left is off
+  momentary,  // happens once; cannot be turned
+};
+
+ActionKind kind_of(Action action);
+
+// May a knob do it?
+constexpr bool takes_detents(ActionKind kind) {
+  return kind != ActionKind::momentary;
+}
+// Does a negative step differ from a positive one when a switch does it?
+constexpr bool has_direction(ActionKind kind) {
+  return kind == ActionKind::continuous || kind == ActionKind::choice;
+}
+
+// As in profiles and reports: "window_offset".
+std::string_view to_string(Action action);
+std::optional<Action> action_named(std::string_view name);
+
+// As on the display: "Window offset".
+std::string_view label_of(Action action);
+
+} // namespace octascope::ui

@@ -1,0 +1,42 @@
+#include "ui/controls/built_in_profiles.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "embedded_profiles.h"
+#include <fmt/format.h>
+
+namespace octascope::ui {
+
+std::span<const BuiltInProfile> built_in_profiles() {
+  static const std::array all{
+      BuiltInProfile{"three_switch_pedal", profiles::three_switch_pedal_toml},
+      BuiltInProfile{"philips_pedal", profiles::philips_pedal_toml},
+      BuiltInProfile{"pcsensor_single", profiles::pcsensor_single_toml},
+      BuiltInProfile{"pcsensor_triple", profiles::pcsensor_triple_toml},
+      BuiltInProfile{"powermate", profiles::powermate_toml},
+      BuiltInProfile{"shuttle_xpress", profiles::shuttle_xpress_toml},
+      BuiltInProfile{"shuttle_pro", profiles::shuttle_pro_toml},
+      BuiltInProfile{"space_mouse", profiles::space_mouse_toml},
+      BuiltInProfile{"surface_dial", profiles::surface_dial_toml},
+      BuiltInProfile{"keyboard", profiles::keyboard_toml},
+  };
+  return all;
+}
+
+hal::Result<ControlProfile> built_in_profile(std::string_view name) {
+  const auto all = built_in_profiles();
+  const auto found = std::ranges::find(all, name, &BuiltInProfile::name);
+  if (found != all.end())
+    return ControlProfile::parse(found->text, std::string{name} + ".toml");
+  std::string known;
+  for (const BuiltInProfile& profile : all)
+    known += (known.empty() ? "" : ", ") + std::string{profile.name};
+  return hal::fail(hal::Fault::invalid_argument,
+                   fmt::format("control profile \"{}\" is not known, expected one of {}; for one "
+                               "of your own, give its file",
+                               name, known));
+}
+
+} // namespace octascope::ui

@@ -1,0 +1,25 @@
+// The profiles that the program brings with it: ui/controls/profiles/*.toml.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "hal/result.h"
+#include "ui/controls/control_profile.h"
+
+namespace octascope::ui {
+
+// Every function with three switches and a knob.
+inline constexpr std::string_view default_profile = "three_switch_pedal";
+
+struct BuiltInProfile {
+  std::string_view name; // as in the configuration
+  std::string_view text; // TOML
+};
+std::span<const BuiltInProfile> built_in_profiles();
+
+// Fault::invalid_argument: there is none of that name; the message lists those that there are.
+hal::Result<ControlProfile> built_in_profile(std::string_view name);
+
+} // namespace octascope::ui

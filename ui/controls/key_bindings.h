@@ -1,0 +1,34 @@
+// What each key of a keyboard does.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "hal/display.h"
+#include "ui/controls/action.h"
+
+namespace octascope::ui {
+
+struct KeyBinding {
+  std::uint16_t key = 0; // hal::DisplayEvent::key
+  Action action = Action::freeze;
+  int step = 1;
+  int shifted = 1;      // the step with shift
+  bool repeats = false; // while the key is held down
+};
+
+// Arrows turn and tilt · page up, + closer · page down, − farther · o, O window offset down, up ·
+// s, S window size · x, X parallax · [ ] B-scan · w automatic window · home first view ·
+// tab next function · space freezes · t technique · f transfer · c colours · l layout · d stereo
+// (with shift: the one before) · v vessels · b box · p snapshot · r recording · h, F1 legend.
+std::span<const KeyBinding> key_bindings();
+
+// Empty: the key does nothing.
+std::optional<KeyBinding> binding_of(std::uint16_t key);
+
+// "page up", "o".
+std::string key_name(std::uint16_t key);
+
+} // namespace octascope::ui

@@ -1,0 +1,28 @@
+// What each control does, in words for people: the lines of the legend.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ui/controls/control_profile.h"
+
+namespace octascope::ui {
+
+struct LegendLine {
+  std::string control; // "Left pedal, long press"
+  Action action = Action::freeze;
+  bool back = false; // the other way round: a negative step
+};
+
+struct Legend {
+  std::string title;
+  std::vector<LegendLine> lines;
+};
+
+// Of the profile's device; in the profile's order.
+Legend make_legend(const ControlProfile& profile);
+
+// Of the keyboard, one line an action.
+Legend make_key_legend();
+
+} // namespace octascope::ui

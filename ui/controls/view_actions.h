@@ -1,0 +1,93 @@
+// What each action does to the view.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/clock.h"
+#include "ui/controls/action.h"
+#include "ui/view_state.h"
+
+namespace octascope::ui {
+
+// What an event asks of the host, beside the new view.
+struct ControlRequests {
+  bool quit = false;
+  bool snapshot = false;
+  bool auto_window = false; // what suits the shown volume
+  bool record = false;
+  bool operator==(const ControlRequests&) const = default;
+
+  void add(const ControlRequests& more) {
+    quit = quit || more.quit;
+    snapshot = snapshot || more.snapshot;
+    auto_window = auto_window || more.auto_window;
+    record = record || more.record;
+  }
+};
+
+// Names of what can be chosen, as the display says them; never empty.
+struct ChoiceNames {
+  std::vector<std::string> transfers{"window"};
+  std::vector<std::string> colours{"grey"};
+};
+
+enum class Done : std::uint8_t { pressed, turned };
+
+// Threads: one at a time. Pure: no clock.
+class ViewActions {
+public:
+  // `initial` is what reset_view goes back to; `b_scans` bounds the B-scan's position; `menu` is
+  // what next_parameter goes through, never empty.
+  ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu);
+
+  const ViewState& state() const { return state_; }
+
+  // How often each action was done, by index_of(). What adjust did counts for both.
+  const std::array<std::uint64_t, action_count>& counts() const { return counts_; }
+
+  void set_b_scans(int b_scans);
+  void set_window(float offset_db, float size_db); // also what reset_view goes back to
+  void set_choices(ChoiceNames names);
+  void set_vessels_loaded(bool loaded) { vessels_loaded_ = loaded; }
+
+  // Does it once. `amount`: detents for what is continuous, else steps, of which the whole ones
+  // count; a toggle that is turned goes on to the right and off to the left.
+  ControlRequests perform(Action action, double amount, Done done, hal::TimePoint time);
+
+  // A stick is pushed: counted once, and then a little more of something continuous, again and
+  // again.
+  void begin_driving(Action action, hal::TimePoint time);
+  void drive(Action action, double amount, hal::TimePoint time);
+
+  // Which page the next legend shows.
+  void show_keys_in_legend(bool keys) { state_.legend_of_keys = keys; }
+
+  // Puts up what became of an action that the host did.
+  void tell(Action action, std::string_view words, hal::TimePoint time);
+  // The host found this window.
+  void show_window(float offset_db, float size_db, hal::TimePoint time);
+
+private:
+  void turn(Parameter parameter, double detents);
+  void select_next(int step, hal::TimePoint time);
+  void toggle(Action action, double amount, Done done, hal::TimePoint time);
+  void choose(Action action, int step, hal::TimePoint time);
+  void reset_view();
+  bool can_be_selected(Action action) const;
+  ControlRequests adjust(double amount, Done done, hal::TimePoint time);
+
+  ViewState initial_;
+  ViewState state_;
+  int b_scans_;
+  double b_scan_rest_ = 0; // what was turned beyond the whole ones
+  std::vector<Action> menu_;
+  ChoiceNames names_;
+  bool vessels_loaded_ = false;
+  std::array<std::uint64_t, action_count> counts_{};
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,79 @@
+#include "ui/hud/echo.h"
+
+#include <algorithm>
+
+namespace octascope::ui {
+
+namespace {
+
+constexpr std::string_view chosen_words = "The knob turns";
+
+} // namespace
+
+FixedText<48> format_value(const ViewState& view, Action action) {
+  FixedText<48> value;
+  switch (action) {
+  case Action::window_offset: value.format("{:.0f} dB", view.window_offset_db); break;
+  case Action::window_size: value.format("{:.0f} dB", view.window_size_db); break;
+  case Action::rotate: value.format("{:.0f}°", view.yaw_deg); break;
+  case Action::tilt: value.format("{:.0f}°", view.tilt_deg); break;
+  case Action::distance: value.format("{:.2f}", view.distance); break;
+  case Action::b_scan: value.format("{}", view.b_scan + 1); break;
+  case Action::parallax: value.format("{:.2f}°", view.parallax_deg); break;
+  default: break;
+  }
+  return value;
+}
+
+ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scans) {
+  ParameterEcho echo;
+  echo.visible = now < view.echo.until;
+  if (!echo.visible)
+    return echo;
+  const Action action = view.echo.action;
+  echo.chosen = view.echo.chosen;
+  echo.name = label_of(action);
+  echo.value = view.echo.words.empty() ? format_value(view, action) : view.echo.words;
+  if (const auto parameter = parameter_of(action)) {
+    const ParameterRange range = parameter_range(*parameter, b_scans);
+    const float value = parameter_value(view, *parameter);
+    echo.ranged = true;
+    echo.share = std::clamp((value - range.lowest) / (range.highest - range.lowest), 0.0F, 1.0F);
+  }
+  return echo;
+}
+
+void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo) {
+  if (!echo.visible)
+    return;
+  const float u = layout.unit;
+  const float margin = 16 * u;
+  const float value_width = canvas.text_width(TextStyle::value, echo.value.view());
+  const float words = canvas.text_width(TextStyle::value, echo.name) + 24 * u + value_width;
+  const float width = std::max(320 * u, words + 2 * margin);
+  const float line = canvas.text_height(TextStyle::value);
+  const float heading =
+      echo.chosen ? canvas.text_height(TextStyle::body) + 4 * u : 0; // above the words
+  const float height = 10 * u + heading + line + (echo.ranged ? 28 * u : 14 * u);
+  const float x =
+      static_cast<float>(layout.echo.x) + (static_cast<float>(layout.echo.width) - width) / 2;
+  const float y = static_cast<float>(layout.echo.bottom()) - height;
+  canvas.plate(
+      {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)},
+      palette::plate, 6 * u);
+  if (echo.chosen)
+    canvas.text({x + margin, y + 8 * u}, TextStyle::body, palette::quiet_text, chosen_words);
+  const float text_y = y + 10 * u + heading;
+  canvas.text({x + margin, text_y}, TextStyle::value, palette::text, echo.name);
+  canvas.text({x + width - margin - value_width, text_y}, TextStyle::value, palette::accent,
+              echo.value.view());
+  if (!echo.ranged)
+    return;
+  const float bar_y = y + height - 14 * u;
+  const float bar_width = width - 2 * margin;
+  canvas.line({x + margin, bar_y}, {x + margin + bar_width, bar_y}, palette::hairline, 4 * u);
+  canvas.line({x + margin, bar_y}, {x + margin + bar_width * echo.share, bar_y}, palette::accent,
+              4 * u);
+}
+
+} // namespace octascope::ui

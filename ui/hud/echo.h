@@ -1,0 +1,32 @@
+// What a control just did, said on the display for a moment.
+#pragma once
+
+#include <string_view>
+
+#include "ui/hud/canvas.h"
+#include "ui/hud/fixed_text.h"
+#include "ui/layout.h"
+#include "ui/view_state.h"
+
+namespace octascope::ui {
+
+struct ParameterEcho {
+  bool visible = false;
+  bool chosen = false; // the knob turns it from now on
+  std::string_view name;
+  FixedText<48> value;
+  bool ranged = false; // has a bar
+  float share = 0;     // of its range, 0…1
+  bool operator==(const ParameterEcho&) const = default;
+};
+
+// `b_scans` of the shown volume. Pure.
+ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scans);
+
+// At the foot of its place in the layout, as wide as its words need.
+void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);
+
+// The value of what a knob turns, with its unit: "36 dB". Empty for what has none.
+FixedText<48> format_value(const ViewState& view, Action action);
+
+} // namespace octascope::ui
