@@ -27,6 +27,8 @@ constexpr double steps_of_a_ray = 180;
 
 // Finer only with so much of the budget to spare; coarser when it is exceeded.
 constexpr double finer_share = 0.8;
+// No step of the ladder costs more than 1.6 times the next coarser one: from here it still fits.
+constexpr double idle_share = 0.55;
 
 hal::Duration from_ms(double ms) {
   return hal::from_seconds(ms * 1e-3);
@@ -81,22 +83,36 @@ double Governor::budget_ms() const {
   return hal::to_ms(moving_ ? budget_.moving : budget_.resting);
 }
 
+// Not what was tried already, unless costs are quite different by now.
+bool Governor::worth_trying(const Knowledge& knowledge, std::size_t rung) {
+  constexpr double quite = 0.3;
+  const double then = knowledge.learnt_at_ms[rung];
+  return std::abs(knowledge.full_ms.value() - then) > quite * then || then == 0;
+}
+
+void Governor::enter(Place& place, std::size_t rung) {
+  place = Place{};
+  place.rung = rung;
+}
+
 // To the finest quality that fits. One that was just entered is given a few frames first, so that
 // its own cost is known before it is judged.
 void Governor::settle(Place& place, Knowledge& knowledge, double budget_ms) const {
   if (knowledge.full_ms.empty() || (place.frames > 0 && place.frames < kept))
     return;
-  const std::size_t before = place.rung;
-  while (place.rung + 1 < ladder.size() && predict_ms(knowledge, place.rung) > budget_ms)
-    ++place.rung;
-  if (place.rung == before)
-    while (place.rung > 0 && predict_ms(knowledge, place.rung - 1) <= finer_share * budget_ms)
-      --place.rung;
-  if (place.rung != before) {
-    place.frames = 0;
-    place.sampling_ms.clear();
-    knowledge.compared = true;
-  }
+  std::size_t rung = place.rung;
+  while (rung + 1 < ladder.size() && predict_ms(knowledge, rung) > budget_ms)
+    ++rung;
+  if (rung == place.rung)
+    while (rung > 0 && predict_ms(knowledge, rung - 1) <= finer_share * budget_ms)
+      --rung;
+  const bool half_idle = place.frames >= kept && place.frame_ms.value() <= idle_share * budget_ms;
+  if (rung == place.rung && rung > 0 && half_idle && worth_trying(knowledge, rung - 1))
+    --rung;
+  if (rung == place.rung)
+    return;
+  enter(place, rung);
+  knowledge.compared = true;
 }
 
 DrawQuality Governor::choose(const Situation& situation) {
@@ -130,6 +146,7 @@ void Governor::learn(Place& place, Knowledge& knowledge, double sampling_ms,
   if (place.frames == kept || far_over) {
     constexpr double most = 4;
     correction = std::clamp(measured / (knowledge.full_ms.value() * share), 1 / most, most);
+    knowledge.learnt_at_ms[place.rung] = knowledge.full_ms.value();
     place.frames = kept;
   }
 }
@@ -144,8 +161,9 @@ void Governor::note(hal::Duration cost, bool volume_drawn) {
     return;
   constexpr double least_ms = 0.01;
   const double fixed = fixed_ms_.empty() ? 0 : fixed_ms_.value();
-  learn(places_[technique_][moving_ ? 1 : 0], knowledge_[technique_],
-        std::max(ms - fixed, least_ms), budget_ms());
+  Place& place = places_[technique_][moving_ ? 1 : 0];
+  place.frame_ms.add(ms);
+  learn(place, knowledge_[technique_], std::max(ms - fixed, least_ms), budget_ms());
 }
 
 } // namespace octascope::ui

@@ -5,7 +5,8 @@
 // step of the ladder of qualities, as medians of the last few: one interrupted frame changes
 // nothing. A finer quality is taken only where it is predicted to stay well below the budget, a
 // coarser one only where the budget is exceeded, and what a quality has cost is remembered: the
-// choice cannot swing between two neighbours.
+// choice cannot swing between two neighbours. Where a quality takes but half of the budget, the
+// next finer one is tried once, whatever is predicted.
 #pragma once
 
 #include <array>
@@ -60,7 +61,7 @@ public:
   hal::Duration predict(Technique technique, const DrawQuality& quality) const;
 
 private:
-  static constexpr std::size_t kept = 5;
+  static constexpr std::size_t kept = 7;
   static constexpr std::size_t most_rungs = 16;
 
   // Of the last few values.
@@ -80,7 +81,8 @@ private:
   struct Knowledge {
     Median full_ms;
     std::array<double, most_rungs> correction;
-    bool compared = false; // more than one quality was drawn
+    std::array<double, most_rungs> learnt_at_ms{}; // full_ms then; 0: never
+    bool compared = false;                         // more than one quality was drawn
     Knowledge() { correction.fill(1); }
   };
 
@@ -89,10 +91,13 @@ private:
     std::size_t rung = 4;   // until something is known
     std::size_t frames = 0; // drawn there since it came there
     Median sampling_ms;
+    Median frame_ms;
   };
 
   double predict_ms(const Knowledge& knowledge, std::size_t rung) const;
   void settle(Place& place, Knowledge& knowledge, double budget_ms) const;
+  static void enter(Place& place, std::size_t rung);
+  static bool worth_trying(const Knowledge& knowledge, std::size_t rung);
   void learn(Place& place, Knowledge& knowledge, double sampling_ms, double budget_ms) const;
   double budget_ms() const;
 

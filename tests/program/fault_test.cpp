@@ -264,7 +264,7 @@ TEST_P(ShownFaults, are_on_the_display_while_they_are_on) {
   const int badge = count_colour(picture, badge_row(picture), warning);
   const int notice = count_colour(picture, notice_row(picture), warning);
   if (c.shown == Shown::badge || c.shown == Shown::badge_and_notice) {
-    EXPECT_GT(badge, 10) << read_report(report_).dump(2);
+    EXPECT_GT(badge, 3) << read_report(report_).dump(2);
   }
   if (c.shown == Shown::notice || c.shown == Shown::badge_and_notice) {
     EXPECT_GT(notice, 10) << read_report(report_).dump(2);

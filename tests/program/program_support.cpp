@@ -104,19 +104,16 @@ ui::Layout layout_of(const pipeline::Image& picture) {
   return ui::lay_out(picture.width, picture.height, {});
 }
 
-// Badges lie 16 units from the corner of the view; the frame of a stale view is outside.
+// The frame of a stale view is outside.
 ui::Rect badge_row(const pipeline::Image& picture) {
-  const ui::Layout layout = layout_of(picture);
-  const int margin = static_cast<int>(10 * layout.unit);
-  return {layout.view.x + margin, layout.view.y + margin, layout.view.width - 2 * margin,
-          static_cast<int>(50 * layout.unit)};
+  return layout_of(picture).marks;
 }
 
 ui::Rect notice_row(const pipeline::Image& picture) {
   const ui::Layout layout = layout_of(picture);
-  const int margin = static_cast<int>(10 * layout.unit);
-  return {layout.view.x + margin, layout.view.bottom() - static_cast<int>(130 * layout.unit),
-          static_cast<int>(20 * layout.unit), static_cast<int>(60 * layout.unit)};
+  ui::Rect row = layout.notice;
+  row.width = std::min(row.width, static_cast<int>(20 * layout.unit));
+  return row;
 }
 
 std::vector<std::string> listing(const fs::path& folder) {

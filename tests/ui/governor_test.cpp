@@ -21,13 +21,14 @@ constexpr ui::FrameBudget budget{30ms, 45ms};
 // What drawing costs on a made-up machine: not the governor's own model.
 struct Machine {
   double fixed_ms = 4;
+  double volume_ms = 0; // for a picture of the volume, of any quality
   double full_ms = 60;
   double exponent = 1; // of the share of samples: 1 is the governor's model
   double noise = 0;    // standard deviation of the logarithm
   double spikes = 0;   // share of frames that are interrupted, for ten times as long
 
   double true_ms(const ui::DrawQuality& quality) const {
-    return fixed_ms + full_ms * std::pow(ui::sample_share(quality), exponent);
+    return fixed_ms + volume_ms + full_ms * std::pow(ui::sample_share(quality), exponent);
   }
   template <class Generator>
   double frame_ms(const ui::DrawQuality& quality, Generator& generator) const {
@@ -107,6 +108,17 @@ TEST_F(GovernorTest, holds_the_budget_on_machines_of_any_speed_and_wastes_little
     }
     EXPECT_LE(changes(drawn), 4) << "it swings";
   }
+}
+
+// What does not grow with the samples makes coarse qualities look dear: from there the governor
+// must not believe that finer ones are dearer by as much.
+TEST_F(GovernorTest, comes_back_from_the_coarsest_quality) {
+  Machine machine{.volume_ms = 6, .full_ms = 400, .noise = 0.05};
+  draw(machine, 4, true);
+  machine.full_ms = 40;
+  draw(machine, 4, true);
+  EXPECT_GT(machine.true_ms(draw(machine, 0.5, true).back()), 15);
+  EXPECT_LE(changes(draw(machine, 10, true)), 3);
 }
 
 TEST_F(GovernorTest, interrupted_frames_change_nothing) {

@@ -230,8 +230,8 @@ TEST(HudText, reduced_quality_is_said_quietly) {
   EXPECT_TRUE(compose_hud_text({}, status, {}).reduced.empty());
   status.reduced_quality = 0.678F;
   const HudText text = compose_hud_text({}, status, {});
-  EXPECT_EQ(text.reduced.view(), "quality reduced 67 %") << "rounded down";
-  EXPECT_EQ(text.volume.note.view(), "quality reduced 67 %");
+  EXPECT_EQ(text.reduced.view(), "quality reduced to 67 %") << "rounded down";
+  EXPECT_EQ(text.volume.note.view(), "quality reduced to 67 %");
   EXPECT_EQ(text.volume.note_tone, Tone::quiet);
 }
 

@@ -144,7 +144,7 @@ HudText compose_hud_text(const ViewState& view, const Status& status, const Show
   compose_badges(hud, status);
   compose_cells(hud, view, status);
   if (status.reduced_quality)
-    hud.reduced.format("quality reduced {:.0f} %",
+    hud.reduced.format("quality reduced to {:.0f} %",
                        std::floor(std::clamp(*status.reduced_quality, 0.0F, 1.0F) * 100));
   compose_captions(hud, view, status, shown);
   hud.window_changing = status.now < view.echo.until && changes_window(view.echo.action);
