@@ -132,9 +132,9 @@ hal::Result<> VolumePainter::update(Eye eye, const ViewState& view, const Camera
   if (quality.rays == RayBackend::processor && !caster_wanted_)
     make_caster();
   update_transfer(view);
-  VolumeScene scene{texture_,    transfer_texture_, camera, view,
-                    step_mm(quality, texture_.geometry()),
-                    &occupancy_, uploads_};
+  VolumeScene scene{
+      texture_,    transfer_texture_, camera, view, step_mm(quality, texture_.geometry()),
+      &occupancy_, uploads_};
   if (view.technique == Technique::surface) {
     if (auto made = techniques_.get(view.technique); !made)
       return tl::make_unexpected(made.error());
@@ -155,7 +155,13 @@ bool VolumePainter::has_newer(const ViewState& view) const {
          techniques_.surface()->has_newer();
 }
 
-hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewState& view) {
+hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewState& view,
+                                    const DrawQuality& quality) {
+  if (quality.rays == RayBackend::processor && !caster_wanted_) {
+    make_caster();
+    if (auto shown = show(volume); !shown)
+      return shown;
+  }
   if (view.technique != Technique::surface)
     return {};
   if (auto made = techniques_.get(view.technique); !made)
