@@ -52,7 +52,6 @@ protected:
   static RenderOptions options_for(ui::Technique technique, int width, int height) {
     RenderOptions options;
     options.view.technique = technique;
-    options.view.distance = 2.4F;
     options.view.box_visible = false;
     options.width = width;
     options.height = height;
