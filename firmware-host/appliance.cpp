@@ -352,6 +352,7 @@ RunReport AssembledAppliance::report() const {
   r.draw = frames.draw.summary();
   r.latency = frames.latency.summary();
   r.control = frames.control.summary();
+  r.rays = frames.rays;
   if (frames.first_picture)
     r.first_picture_s = hal::to_seconds(*frames.first_picture - process_start(clock_));
   r.frames_drawn = frames.frames_drawn;

@@ -8,6 +8,7 @@
 #include "ui/auto_window.h"
 #include "ui/controls/simulated_control.h"
 #include "ui/gl/context_info.h"
+#include "ui/histogram.h"
 
 namespace octascope::firmware_host {
 
@@ -28,8 +29,8 @@ ui::ChoiceNames choices_of(const ui::TransferSet& transfers) {
 
 RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
     : parts_(parts), setup_(std::move(setup)), legend_(ui::make_legend(setup_.controls)),
-      key_legend_(ui::make_key_legend()),
-      controller_(setup_.view, setup_.b_scans, setup_.controls), governor_({}) {
+      key_legend_(ui::make_key_legend()), controller_(setup_.view, setup_.b_scans, setup_.controls),
+      governor_({}) {
   controller_.actions().set_choices(choices_of(setup_.transfers));
   setup_.status.legend = &legend_;
   setup_.status.key_legend = &key_legend_;
@@ -66,8 +67,10 @@ bool RenderLoop::turn() {
   take_volume();
   take_scope_picture();
   update_status();
-  if (display_ready())
+  if (display_ready()) {
     draw_if_changed();
+    choose_ray_backend();
+  }
   // At once when something came meanwhile; a long press is due when it is.
   parts_.news.wait_until(std::min(next, controller_.next_deadline().value_or(next)));
   return go_on;
@@ -86,10 +89,34 @@ ui::FrameBudget RenderLoop::frame_budget() const {
 
 ui::DrawQuality RenderLoop::choose_quality() {
   const ui::ViewState& view = controller_.state();
-  return governor_.choose({.now = setup_.status.now,
-                           .technique = view.technique,
-                           .moved = drawn_view_ && !ui::same_sight(*drawn_view_, view),
-                           .live = setup_.status.freshness.liveness == ui::Liveness::live});
+  ui::DrawQuality quality =
+      governor_.choose({.now = setup_.status.now,
+                        .technique = view.technique,
+                        .moved = drawn_view_ && !ui::same_sight(*drawn_view_, view),
+                        .live = setup_.status.freshness.liveness == ui::Liveness::live});
+  quality.rays = rays_;
+  return quality;
+}
+
+// While the first volume is awaited: later, it would take its time from the picture.
+void RenderLoop::choose_ray_backend() {
+  if (rays_tried_ || !renderer_ || statistics_.frames_drawn == 0 || volume_ != nullptr)
+    return;
+  rays_tried_ = true;
+  if (const auto trial = ui::try_ray_backends(parts_.clock)) {
+    statistics_.rays = *trial;
+    rays_ = trial->faster();
+  }
+}
+
+// How often each level occurs, for the histogram that is shown while the window changes.
+void RenderLoop::show_levels() {
+  const ui::ViewState& view = controller_.state();
+  if (volume_ == nullptr || setup_.status.now >= view.echo.until ||
+      !ui::changes_window(view.echo.action) || levels_of_ == volume_->ledger.index)
+    return;
+  renderer_->show_levels(ui::make_level_histogram(*volume_).shares());
+  levels_of_ = volume_->ledger.index;
 }
 
 bool RenderLoop::handle_input() {
@@ -202,6 +229,8 @@ void RenderLoop::update_status() {
 void RenderLoop::draw_if_changed() {
   const ui::ViewState& view = controller_.state();
   quality_ = choose_quality();
+  setup_.status.reduced_quality = ui::visible_reduction(quality_);
+  show_levels();
   hal::Display& display = parts_.display;
   if (!picture_wanted_ &&
       !renderer_->needs_redraw(view, setup_.status, display.width(), display.height(), quality_))
@@ -253,6 +282,7 @@ void RenderLoop::lose_display(const hal::Error& error) {
   undisplayed_last_line_.reset();
   undisplayed_control_.reset();
   drawn_view_.reset();
+  levels_of_ = 0;
 }
 
 bool RenderLoop::display_ready() {

@@ -27,6 +27,7 @@
 #include "ui/scan_field.h"
 #include "ui/status.h"
 #include "ui/transfer/transfer_set.h"
+#include "ui/volume/ray_trial.h"
 
 namespace octascope::firmware_host {
 
@@ -50,7 +51,7 @@ struct RenderLoopParts {
 struct RenderLoopSetup {
   hal::DisplayConfig display;
   ui::ViewState view;
-  ui::TransferSet transfers;            // what view.transfer and view.colour_map choose from
+  ui::TransferSet transfers; // what view.transfer and view.colour_map choose from
   ui::ControlProfile controls;
   bool window_from_first_volume = true; // else the view's
   ui::FreshnessLimits freshness;
@@ -69,6 +70,7 @@ struct FrameStatistics {
   std::uint64_t frames_missed = 0;
   std::uint64_t volumes_displayed = 0;
   std::optional<hal::TimePoint> first_picture; // of a volume
+  std::optional<ui::RayTrial> rays;            // where there was something to choose
 };
 
 // Bound to one thread, the render thread. The display may vanish and return at any time.
@@ -105,6 +107,8 @@ public:
 private:
   ui::FrameBudget frame_budget() const;
   ui::DrawQuality choose_quality();
+  void choose_ray_backend();
+  void show_levels();
   bool handle_input();
   void answer(const ui::ControlRequests& requests);
   void find_window();
@@ -127,6 +131,9 @@ private:
   bool software_ = false;                  // the processor draws
   ui::Governor governor_;
   ui::DrawQuality quality_;
+  bool rays_tried_ = false;
+  std::optional<ui::RayBackend> rays_; // the faster one, once it is known
+  std::uint64_t levels_of_ = 0;        // of which volume the histogram is
   std::optional<ui::ViewState> drawn_view_;
   const pipeline::Volume* volume_ = nullptr;          // the newest taken, ours until the next take
   std::optional<hal::TimePoint> undisplayed_control_; // of the oldest event not shown yet

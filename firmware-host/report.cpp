@@ -52,6 +52,15 @@ Json reconstruction_to_json(const RunReport& report) {
   return json;
 }
 
+// Null where there was no choice to make.
+Json rays_to_json(const RunReport& report) {
+  if (!report.rays)
+    return {};
+  return {{"cast_by", report.rays->faster() == ui::RayBackend::processor ? "processor" : "shader"},
+          {"processor_ms", rounded(hal::to_ms(report.rays->processor))},
+          {"shader_ms", rounded(hal::to_ms(report.rays->shader))}};
+}
+
 Json scan_to_json(const RunReport& report) {
   const pipeline::ScanPlan& plan = report.plan;
   Json scan = {{"bidirectional", plan.bidirectional},
@@ -147,6 +156,7 @@ std::string to_json(const RunReport& r) {
         {"draw", to_json(r.draw)}}},
       {"latency_ms", to_json(r.latency)},
       {"control_ms", to_json(r.control)},
+      {"rays", rays_to_json(r)},
       {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},
       {"frames", {{"drawn", r.frames_drawn}, {"missed", r.frames_missed}}},
       {"hot_path", {{"allocations", r.hot_path_allocations}}},

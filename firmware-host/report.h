@@ -16,6 +16,7 @@
 #include "pipeline/phase_thread.h"
 #include "pipeline/scan_plan.h"
 #include "ui/view_state.h"
+#include "ui/volume/ray_trial.h"
 
 namespace octascope::firmware_host {
 
@@ -38,6 +39,7 @@ struct RunReport {
   double duration_s = 0;
   double lines_per_s = 0, volumes_per_s = 0, frames_per_s = 0;
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, latency, control;
+  std::optional<ui::RayTrial> rays;
   std::optional<double> first_picture_s; // since the process began
   std::uint64_t frames_drawn = 0, frames_missed = 0;
   std::uint64_t hot_path_allocations = 0;

@@ -48,6 +48,12 @@ double sample_share(const DrawQuality& quality) {
          (full_quality.steps + steps_of_a_ray);
 }
 
+std::optional<float> visible_reduction(const DrawQuality& quality) {
+  // Half of the steps differ by less than 1 % of the picture (docs/DISPLAY.md).
+  const bool seen = quality.resolution < 1 || quality.steps < full_quality.steps / 2;
+  return seen ? std::optional{static_cast<float>(sample_share(quality))} : std::nullopt;
+}
+
 double Governor::Median::value() const {
   const std::size_t count = std::min(count_, kept);
   std::array<double, kept> sorted = values_;

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "hal/clock.h"
@@ -23,6 +24,9 @@ std::span<const DrawQuality> quality_ladder();
 
 // Of the samples that full quality takes; what a quality costs beyond the fixed part, relatively.
 double sample_share(const DrawQuality& quality);
+
+// That share where it is so small that one sees it, for the display to say so.
+std::optional<float> visible_reduction(const DrawQuality& quality);
 
 struct FrameBudget {
   hal::Duration moving;  // while the view or the window changes: the rate of frames matters

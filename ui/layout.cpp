@@ -251,7 +251,7 @@ Layout Plan::finish() {
   const int echo_width = std::min(length(360), stage.width / 2);
   // A large volume has a line of text at its foot.
   const int foot = layout_.kind == LayoutKind::volume ? length(40) : margin;
-  const int echo_height = std::min(length(64), std::max(0, quarter_height - foot));
+  const int echo_height = std::min(length(80), std::max(0, quarter_height - foot));
   layout_.echo = {stage.x + (stage.width - echo_width) / 2, stage.bottom() - foot - echo_height,
                   echo_width, echo_height};
 

@@ -32,11 +32,11 @@ struct DisplayBenchCase {
 
 struct DisplayBenchResult {
   DisplayBenchCase what;
-  int frames = 0; // at least one from each of eight directions, each drawn anew
+  int frames = 0; // each drawn anew, from eight directions in turn; at least 4
   double ms_p50 = 0;
   double ms_p95 = 0;
   // Mean absolute difference of 255, over the picture, from the same technique drawn by the other
-  // backend, or, of slices and planes, from cast rays. Nothing where there is nothing to compare.
+  // backend, or, of slices and planes, from cast rays; at the smallest size.
   std::optional<double> difference;
 };
 

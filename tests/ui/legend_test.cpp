@@ -100,7 +100,7 @@ TEST_F(LegendPicture, stands_beside_the_volumes_centre_for_every_profile) {
 TEST_F(LegendPicture, says_what_does_not_fit) {
   show(640, 360);
   Legend legend{"A device of forty buttons", {}};
-  for (int i = 0; i < 20; ++i)
+  for (int i = 0; i < 12; ++i)
     legend.lines.push_back({"Button", Action::freeze, false});
   Status status = live_status();
   status.legend = &legend;

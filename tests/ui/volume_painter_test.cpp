@@ -47,8 +47,15 @@ protected:
                            static_cast<float>(width) / height);
   }
 
+  hal::Result<> show(const pipeline::Volume& volume) {
+    shown_ = volume;
+    return painter_->show(volume);
+  }
+
   pipeline::Image draw(const ui::ViewState& view, const ui::DrawQuality& quality, float ground = 0,
                        ui::Eye eye = ui::Eye::left) {
+    const auto ready = painter_->finish(shown_, view);
+    EXPECT_TRUE(ready) << ready.error().message;
     const auto updated = painter_->update(eye, view, camera(view), quality, rect);
     EXPECT_TRUE(updated) << updated.error().message;
     return composite(ground, eye);
@@ -73,6 +80,7 @@ protected:
   }
 
   std::optional<ui::VolumePainter> painter_;
+  pipeline::Volume shown_;
 };
 
 TEST_F(VolumePainterTest, processor_shader_and_planes_make_the_same_picture) {
@@ -80,7 +88,7 @@ TEST_F(VolumePainterTest, processor_shader_and_planes_make_the_same_picture) {
   for (const bool incomplete : {false, true}) {
     if (incomplete)
       mark_incomplete(volume);
-    ASSERT_TRUE(painter_->show(volume));
+    ASSERT_TRUE(show(volume));
     for (ui::ViewState view : {view_from(35, 35, 2.4F, 0.5F), view_from(80, 10, 0.7F, 0.03F)})
       for (const float ground : {0.0F, 1.0F}) { // colour, and colour and opacity together
         const std::string what = std::string{incomplete ? "incomplete" : "whole"} + ", yaw " +
@@ -101,7 +109,7 @@ TEST_F(VolumePainterTest, processor_shader_and_planes_make_the_same_picture) {
 TEST_F(VolumePainterTest, draws_again_only_when_something_changed) {
   for (const ui::Technique technique : ui::all_techniques)
     for (const ui::DrawQuality& quality : {by_shader, by_processor}) {
-      ASSERT_TRUE(painter_->show(tissue_volume(small_geometry)));
+      ASSERT_TRUE(show(tissue_volume(small_geometry)));
       ui::ViewState view = view_from(35, 35, 2.4F);
       view.technique = technique;
       const pipeline::Image first = draw(view, quality);
@@ -120,13 +128,13 @@ TEST_F(VolumePainterTest, draws_again_only_when_something_changed) {
       changed([](ui::ViewState& v) { v.distance += 0.2F; });
       changed([](ui::ViewState& v) { v.window_offset_db += 3; });
       changed([](ui::ViewState& v) { v.window_size_db += 5; });
-      ASSERT_TRUE(painter_->show(uniform_volume(small_geometry, 0)));
+      ASSERT_TRUE(show(uniform_volume(small_geometry, 0)));
       EXPECT_EQ(brightest(draw(view, quality)), 0) << "the volume is empty now";
     }
 }
 
 TEST_F(VolumePainterTest, eyes_have_their_own_pictures) {
-  ASSERT_TRUE(painter_->show(tissue_volume(small_geometry)));
+  ASSERT_TRUE(show(tissue_volume(small_geometry)));
   const ui::ViewState left = view_from(33, 35, 2.4F);
   const ui::ViewState right = view_from(37, 35, 2.4F);
   for (const ui::DrawQuality& quality : {by_shader, by_processor}) {
@@ -140,7 +148,7 @@ TEST_F(VolumePainterTest, eyes_have_their_own_pictures) {
 
 TEST_F(VolumePainterTest, takes_an_occupancy_that_is_ready) {
   const pipeline::Volume volume = tissue_volume(small_geometry);
-  ASSERT_TRUE(painter_->show(volume));
+  ASSERT_TRUE(show(volume));
   const ui::ViewState view = view_from(35, 35, 2.4F);
   const pipeline::Image own = draw(view, by_shader);
   pipeline::Occupancy occupancy{small_geometry, ui::blank_depth_bins};
@@ -160,10 +168,10 @@ TEST_F(VolumePainterTest, takes_an_occupancy_that_is_ready) {
 
 TEST_F(VolumePainterTest, says_who_casts_the_rays) {
   EXPECT_EQ(painter_->backend(by_processor), ui::RayBackend::shader) << "nothing to draw yet";
-  ASSERT_TRUE(painter_->show(tissue_volume(small_geometry)));
+  ASSERT_TRUE(show(tissue_volume(small_geometry)));
   EXPECT_EQ(painter_->backend(by_shader), ui::RayBackend::shader);
   draw(view_from(0, 0, 3), by_processor); // asks for it
-  ASSERT_TRUE(painter_->show(tissue_volume(small_geometry)));
+  ASSERT_TRUE(show(tissue_volume(small_geometry)));
   EXPECT_EQ(painter_->backend(by_processor), ui::RayBackend::processor);
 }
 

@@ -47,6 +47,11 @@ std::string_view to_string(Action action) {
   return descriptions[index_of(action)].name;
 }
 
+bool changes_window(Action action) {
+  return action == Action::window_offset || action == Action::window_size ||
+         action == Action::auto_window;
+}
+
 std::string_view label_of(Action action) {
   return descriptions[index_of(action)].label;
 }

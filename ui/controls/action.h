@@ -73,4 +73,7 @@ std::optional<Action> action_named(std::string_view name);
 // As on the display: "Window offset".
 std::string_view label_of(Action action);
 
+// Whether it changes the display window.
+bool changes_window(Action action);
+
 } // namespace octascope::ui

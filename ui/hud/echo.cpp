@@ -52,22 +52,28 @@ void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo) 
   const float words = canvas.text_width(TextStyle::value, echo.name) + 24 * u + value_width;
   const float width = std::max(320 * u, words + 2 * margin);
   const float line = canvas.text_height(TextStyle::value);
-  const float heading =
-      echo.chosen ? canvas.text_height(TextStyle::body) + 4 * u : 0; // above the words
-  const float height = 10 * u + heading + line + (echo.ranged ? 28 * u : 14 * u);
+  const auto room = static_cast<float>(layout.echo.height);
+  const float words_height = line + 24 * u;
+  const float heading_height = canvas.text_height(TextStyle::body) + 4 * u; // above the words
+  const float bar_height = 14 * u;
+  // Where the place is low, the bar goes first.
+  const bool heading = echo.chosen && words_height + heading_height <= room;
+  const bool bar =
+      echo.ranged && words_height + (heading ? heading_height : 0) + bar_height <= room;
+  const float height = words_height + (heading ? heading_height : 0) + (bar ? bar_height : 0);
   const float x =
       static_cast<float>(layout.echo.x) + (static_cast<float>(layout.echo.width) - width) / 2;
   const float y = static_cast<float>(layout.echo.bottom()) - height;
   canvas.plate(
       {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width), static_cast<int>(height)},
       palette::plate, 6 * u);
-  if (echo.chosen)
+  if (heading)
     canvas.text({x + margin, y + 8 * u}, TextStyle::body, palette::quiet_text, chosen_words);
-  const float text_y = y + 10 * u + heading;
+  const float text_y = y + 10 * u + (heading ? heading_height : 0);
   canvas.text({x + margin, text_y}, TextStyle::value, palette::text, echo.name);
   canvas.text({x + width - margin - value_width, text_y}, TextStyle::value, palette::accent,
               echo.value.view());
-  if (!echo.ranged)
+  if (!bar)
     return;
   const float bar_y = y + height - 14 * u;
   const float bar_width = width - 2 * margin;

@@ -136,11 +136,6 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
   }
 }
 
-bool changes_window(Action action) {
-  return action == Action::window_offset || action == Action::window_size ||
-         action == Action::auto_window;
-}
-
 } // namespace
 
 HudText compose_hud_text(const ViewState& view, const Status& status, const ShownPictures& shown) {

@@ -39,7 +39,8 @@ hal::Result<std::unique_ptr<SurfaceTechnique>> SurfaceTechnique::create(Transfer
 }
 
 SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers)
-    : thread_{pipeline::blank_depth_bins}, transfers_{std::move(transfers)}, program_{std::move(program)},
+    : thread_{pipeline::blank_depth_bins}, transfers_{std::move(transfers)}, program_{std::move(
+                                                                                 program)},
       vertex_array_{gl::VertexArray::make()}, vertices_{gl::Buffer::make()},
       indices_{gl::Buffer::make()}, uniforms_{program_.uniform("u_view_projection"),
                                               program_.uniform("u_eye"),

@@ -56,6 +56,11 @@ void VolumePainter::make_caster() {
     caster_.emplace(std::move(*made));
 }
 
+void VolumePainter::want_processor() {
+  if (!caster_wanted_)
+    make_caster();
+}
+
 hal::Result<VolumePainter::EyePictures*> VolumePainter::pictures_of(Eye eye) {
   auto& kept = pictures_[index_of(eye)];
   if (!kept) {
@@ -129,8 +134,8 @@ hal::Result<> VolumePainter::update(Eye eye, const ViewState& view, const Camera
   const auto pictures = pictures_of(eye);
   if (!pictures)
     return tl::make_unexpected(pictures.error());
-  if (quality.rays == RayBackend::processor && !caster_wanted_)
-    make_caster();
+  if (quality.rays == RayBackend::processor)
+    want_processor();
   update_transfer(view);
   VolumeScene scene{
       texture_,    transfer_texture_, camera, view, step_mm(quality, texture_.geometry()),

@@ -33,6 +33,9 @@ public:
   hal::Result<> show(const pipeline::Volume& volume);
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
 
+  // Has the processor ready to cast the rays of volumes that are shown from now on.
+  void want_processor();
+
   // Brings the eye's picture up to date; `camera` is that eye's, for the rectangle's aspect.
   hal::Result<> update(Eye eye, const ViewState& view, const Camera& camera,
                        const DrawQuality& quality, const Rect& rect);

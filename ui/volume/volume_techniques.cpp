@@ -44,8 +44,7 @@ hal::Result<VolumeTechnique*> VolumeTechniques::get(Technique technique) {
 }
 
 SurfaceTechnique* VolumeTechniques::surface() const {
-  return static_cast<SurfaceTechnique*>(
-      made_[static_cast<std::size_t>(Technique::surface)].get());
+  return static_cast<SurfaceTechnique*>(made_[static_cast<std::size_t>(Technique::surface)].get());
 }
 
 } // namespace octascope::ui
