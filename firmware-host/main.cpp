@@ -5,6 +5,7 @@
 #include "firmware-host/commands/calibrate.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/reconstruct.h"
+#include "firmware-host/commands/render.h"
 #include "firmware-host/version.h"
 
 int main(int argc, char** argv) {
@@ -26,6 +27,7 @@ int main(int argc, char** argv) {
   host::add_devices_command(program, exit_status);
   host::add_doctor_command(program, exit_status);
   host::add_reconstruct_command(program, exit_status);
+  host::add_render_command(program, exit_status);
   host::add_bench_command(program, exit_status);
   host::add_calibrate_command(program, exit_status);
 

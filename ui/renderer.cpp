@@ -34,6 +34,33 @@ struct DrawnPicture {
   bool operator==(const DrawnPicture&) const = default;
 };
 
+void clear(int width, int height) {
+  constexpr Colour back = palette::background;
+  glViewport(0, 0, width, height);
+  glClearColor(static_cast<float>(back.r) / 255, static_cast<float>(back.g) / 255,
+               static_cast<float>(back.b) / 255, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+hal::Result<> check_size(int width, int height) {
+  if (width >= 1 && height >= 1)
+    return {};
+  return hal::fail(hal::Fault::invalid_argument,
+                   fmt::format("renderer: size is {}x{}, expected at least 1x1", width, height));
+}
+
+float aspect_of(const Rect& rect) {
+  return static_cast<float>(rect.width) / static_cast<float>(rect.height);
+}
+
+// The volume all over the picture. Lines stay visible in the smallest.
+Layout lay_out_alone(int width, int height) {
+  Layout places;
+  places.unit = std::max(0.5F, lay_out(width, height, {}).unit);
+  places.view = {0, 0, width, height};
+  return places;
+}
+
 // The echo shows only through the text.
 ViewState without_times(ViewState view) {
   view.echo = {};
@@ -71,6 +98,8 @@ struct Renderer::Parts {
   void fill_canvases(const DrawnPicture& picture, const Layout& places, const HudScene& shown);
   hal::Result<> draw(const DrawnPicture& picture);
   hal::Result<> draw_eye(const DrawnPicture& picture, const Layout& places, Eye eye);
+  hal::Result<> draw_eye_alone(const ViewState& view, const Layout& places,
+                               const DrawQuality& quality, Eye eye);
 };
 
 ViewState Renderer::Parts::fitted(const ViewState& view) const {
@@ -151,9 +180,7 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   const bool has_volume = shown.shown.volume;
   const Rect view_rect = frame.place(places.view);
   if (has_volume) {
-    const float aspect =
-        static_cast<float>(places.view.width) / static_cast<float>(places.view.height);
-    shown.camera = make_camera(view, shown.extents_mm, aspect, eye);
+    shown.camera = make_camera(view, shown.extents_mm, aspect_of(places.view), eye);
     if (auto ok = volume.update(eye, view, shown.camera, picture.quality, view_rect); !ok)
       return ok;
   }
@@ -174,15 +201,32 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   return {};
 }
 
+hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& view, const Layout& places,
+                                              const DrawQuality& quality, Eye eye) {
+  const int height = places.view.height;
+  const EyeFrame frame = eye_frame(view.stereo, eye, places.view.width, height);
+  const Rect rect = frame.place(places.view);
+  HudScene shown = scene(view);
+  shown.camera = make_camera(view, shown.extents_mm, aspect_of(places.view), eye);
+  if (auto ok = volume.update(eye, view, shown.camera, quality, rect); !ok)
+    return ok;
+  for (Canvas* canvas : {&under_volume, &overlay}) {
+    canvas->begin(*fonts, places.view.width, height);
+    if (view.box_visible)
+      draw_wire_frame(*canvas, places.view, shown, places.unit, canvas == &overlay);
+  }
+  draw_view_scale(overlay, places, shown.camera);
+  canvas_renderer.draw(under_volume, frame, height);
+  volume.composite(eye, rect, height);
+  canvas_renderer.draw(overlay, frame, height);
+  return {};
+}
+
 hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   const Layout places = layout(picture.width, picture.height, picture.view.layout);
   if (auto ok = prepare_fonts(places.unit); !ok)
     return ok;
-  constexpr Colour back = palette::background;
-  glViewport(0, 0, picture.width, picture.height);
-  glClearColor(static_cast<float>(back.r) / 255, static_cast<float>(back.g) / 255,
-               static_cast<float>(back.b) / 255, 1);
-  glClear(GL_COLOR_BUFFER_BIT);
+  clear(picture.width, picture.height);
   const std::uint64_t before = volume.drawings();
   for (const Eye eye : eyes_of(picture.view.stereo))
     if (auto ok = draw_eye(picture, places, eye); !ok)
@@ -246,15 +290,38 @@ void Renderer::forget_scope_picture() {
 
 hal::Result<> Renderer::draw(const ViewState& view, const Status& status, int width, int height,
                              const DrawQuality& quality) {
-  if (width < 1 || height < 1)
-    return hal::fail(hal::Fault::invalid_argument,
-                     fmt::format("renderer: size is {}x{}, expected at least 1x1", width, height));
+  if (auto ok = check_size(width, height); !ok)
+    return ok;
   const DrawnPicture picture = parts_->picture_of(view, status, width, height, quality);
   parts_->drawn.reset();
   if (auto ok = parts_->draw(picture); !ok)
     return ok;
   parts_->drawn = picture;
   return {};
+}
+
+hal::Result<> Renderer::draw_volume_alone(const ViewState& view, int width, int height,
+                                          const DrawQuality& quality) {
+  if (auto ok = check_size(width, height); !ok)
+    return ok;
+  if (parts_->volume.empty())
+    return hal::fail(hal::Fault::invalid_argument,
+                     "renderer: found no volume to draw alone, expected show_volume() before");
+  const ViewState fitted = parts_->fitted(view);
+  const Layout places = lay_out_alone(width, height);
+  parts_->drawn.reset(); // what draw() made is not what stands there now
+  if (auto ok = parts_->prepare_fonts(places.unit); !ok)
+    return ok;
+  clear(width, height);
+  for (const Eye eye : eyes_of(fitted.stereo))
+    if (auto ok = parts_->draw_eye_alone(fitted, places, quality, eye); !ok)
+      return ok;
+  return {};
+}
+
+hal::Result<> Renderer::prepare(const pipeline::Volume& volume, const ViewState& view,
+                                const DrawQuality& quality) {
+  return parts_->volume.finish(volume, parts_->fitted(view), quality);
 }
 
 bool Renderer::drew_volume() const {

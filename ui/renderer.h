@@ -47,6 +47,17 @@ public:
   hal::Result<> draw(const ViewState& view, const Status& status, int width, int height,
                      const DrawQuality& quality = {});
 
+  // Draws the volume alone over the whole of the bound framebuffer: with a scale bar, and with the
+  // wire-frame box where the view has it. Fault::invalid_argument: no volume was shown, or the size
+  // is nothing.
+  hal::Result<> draw_volume_alone(const ViewState& view, int width, int height,
+                                  const DrawQuality& quality = full_quality);
+
+  // Waits until a picture of that view and quality has all that it needs, such as a mesh, which
+  // the running display draws when it comes. `volume` is the one that was shown last.
+  hal::Result<> prepare(const pipeline::Volume& volume, const ViewState& view,
+                        const DrawQuality& quality = full_quality);
+
   // Whether the last draw() made the volume's picture anew, which is most of what a frame costs.
   bool drew_volume() const;
 

@@ -21,6 +21,12 @@ inline constexpr std::array all_techniques{Technique::slices,  Technique::planes
                                            Technique::rays,    Technique::shaded,
                                            Technique::maximum, Technique::surface};
 
+// Rays are cast by a shader or by the processor; everything else is drawn by GL.
+constexpr bool casts_rays(Technique technique) {
+  return technique == Technique::rays || technique == Technique::shaded ||
+         technique == Technique::maximum;
+}
+
 // As on the command line, in profiles and on the display: "rays".
 std::string_view to_string(Technique technique);
 std::optional<Technique> technique_named(std::string_view name);

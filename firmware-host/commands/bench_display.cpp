@@ -32,11 +32,6 @@ constexpr int fewest_frames = 4;      // where a frame takes seconds
 constexpr float opaque_tissue = 0.5F; // of a voxel at the top of the window, per reference step
 constexpr float translucent_tissue = 0.03F;
 
-bool casts_rays(ui::Technique technique) {
-  return technique == ui::Technique::rays || technique == ui::Technique::shaded ||
-         technique == ui::Technique::maximum;
-}
-
 std::string name_of(const DisplayBenchCase& what) {
   return fmt::format("{}{}_{}x{}_{}_{}", to_string(what.technique),
                      !casts_rays(what.technique)                 ? ""

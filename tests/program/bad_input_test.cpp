@@ -65,6 +65,12 @@ std::vector<std::string> play(std::vector<std::string> more) {
   return words;
 }
 
+std::vector<std::string> draw(std::vector<std::string> more) {
+  std::vector<std::string> words{"render", "--phantom", "cap", "--out", "@r.png"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 std::vector<BadInput> bad_inputs() {
   return {
       {"missing_spectra",
@@ -213,6 +219,66 @@ std::vector<BadInput> bad_inputs() {
         "--bscan", "4", "--png", "@b.png"},
        2,
        {"--bscan is 4", "expected 0 to 3"}},
+      {"render_of_nothing",
+       {"render", "--out", "@r.png"},
+       2,
+       {"found 0 volumes", "expected one", "--volume"}},
+      {"render_of_two_volumes",
+       {"render", "--volume", "@v.nrrd", "--phantom", "cap", "--out", "@r.png"},
+       2,
+       {"found 2 volumes", "expected one"}},
+      {"render_to_nowhere", {"render", "--phantom", "cap"}, 2, {"--out", "required"}},
+      {"render_of_a_missing_volume",
+       {"render", "--volume", "@nowhere.nrrd", "--out", "@r.png"},
+       1,
+       {"nowhere.nrrd", "no such file"}},
+      {"render_of_what_is_no_volume",
+       {"render", "--volume", "@spectra.raw", "--out", "@r.png"},
+       1,
+       {"spectra.raw", "expected"}},
+      {"render_of_spectra_without_shape",
+       {"render", "--spectra", "@spectra.raw", "--out", "@r.png"},
+       2,
+       {"--spectra", "--shape"}},
+      {"render_into_no_folder",
+       {"render", "--phantom", "cap", "--out", "@nowhere/r.png"},
+       1,
+       {"nowhere/r.png", "No such file"}},
+      {"render_into_a_folder",
+       {"render", "--phantom", "cap", "--out", "@folder"},
+       2,
+       {"folder", "is a directory", "expected the name of a file"}},
+      {"render_with_an_unknown_technique", draw({"--technique", "oils"}), 2, {"oils", "shaded"}},
+      {"render_of_an_unknown_phantom",
+       {"render", "--phantom", "teapot", "--out", "@r.png"},
+       2,
+       {"teapot", "anterior_eye"}},
+      {"render_with_an_unknown_transfer_function",
+       draw({"--transfer", "oils"}),
+       2,
+       {"--transfer is \"oils\"", "window, smooth"}},
+      {"render_with_an_unknown_colour_map",
+       draw({"--colours", "oils"}),
+       2,
+       {"--colours is \"oils\"", "grey, amber"}},
+      {"render_with_a_garbage_window",
+       draw({"--window", "8"}),
+       2,
+       {"--window is \"8\"", "expected L,S", "8,36"}},
+      {"render_with_a_window_of_nothing", draw({"--window", "8,0"}), 2, {"\"8,0\"", "1 to 128"}},
+      {"render_with_a_garbage_size", draw({"--size", "big"}), 2, {"--size", "\"big\"", "1280x720"}},
+      {"render_over_the_top", draw({"--tilt", "95"}), 2, {"--tilt", "95", "-89 to 89"}},
+      {"render_from_no_direction", draw({"--yaw", "nan"}), 2, {"--yaw", "nan", "-180 to 180"}},
+      {"render_from_within", draw({"--distance", "0"}), 2, {"--distance", "0", "0.6 to 8"}},
+      {"render_without_steps", draw({"--steps", "0"}), 2, {"--steps", "0"}},
+      {"render_a_surface_by_the_processor",
+       draw({"--technique", "surface", "--drawn-by", "processor"}),
+       2,
+       {"--drawn-by is processor", "surface", "rays, shaded or maximum"}},
+      {"render_with_a_broken_configuration",
+       draw({"--config", "@configuration.toml"}),
+       2,
+       {"configuration.toml:2", "unknown key \"widht\""}},
   };
 }
 

@@ -42,22 +42,32 @@ void draw_state_marks(const Pen& pen, const Rect& view, const HudScene& scene, f
   }
 }
 
+float thin_line(float unit) {
+  return std::max(1.0F, 1.5F * unit);
+}
+
 } // namespace
+
+void draw_wire_frame(Canvas& canvas, const Rect& view, const HudScene& scene, float unit,
+                     bool in_front) {
+  const Canvas::Clip clip{canvas, view};
+  Pen{canvas, in_front}.draw(project_box(scene.camera, scene.extents_mm, view), palette::box,
+                             thin_line(unit));
+}
 
 void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
                     const HudScene& scene, bool in_front) {
   if (!scene.shown.volume)
     return;
   const float u = layout.unit;
-  const float thin = std::max(1.0F, 1.5F * u);
   const Canvas::Clip clip{canvas, layout.view};
   const Pen pen{canvas, in_front};
   if (view.box_visible) {
-    pen.draw(project_box(scene.camera, scene.extents_mm, layout.view), palette::box, thin);
+    draw_wire_frame(canvas, layout.view, scene, u, in_front);
     const float share = (static_cast<float>(view.b_scan) + 0.5F) /
                         static_cast<float>(std::max(scene.shown.geometry.b_scans, 1));
     pen.draw(project_slice(scene.camera, scene.extents_mm, share, layout.view),
-             palette::accent.faded(190), thin);
+             palette::accent.faded(190), thin_line(u));
   }
   draw_state_marks(pen, layout.view, scene, u);
 }

@@ -57,6 +57,8 @@ void draw_notice(Canvas& canvas, const Layout& layout, const HudText& text) {
   canvas.text({static_cast<float>(room.x) + 16 * u, y}, style, palette::text, text.notice.view());
 }
 
+} // namespace
+
 void draw_view_scale(Canvas& canvas, const Layout& layout, const Camera& camera) {
   const float u = layout.unit;
   const float margin = (layout.view_frame.empty() ? 16 : 8) * u;
@@ -68,8 +70,6 @@ void draw_view_scale(Canvas& canvas, const Layout& layout, const Camera& camera)
                   static_cast<float>(layout.view.bottom()) - margin},
                  mm_per_pixel, 0.2F * static_cast<float>(layout.view.width), u);
 }
-
-} // namespace
 
 void draw_hud_ground(Canvas& canvas, const Layout& layout) {
   const float rounding = 4 * layout.unit;

@@ -51,6 +51,13 @@ void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
 void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
                     const HudScene& scene, bool in_front);
 
+// The wire-frame box alone, within `view`; the edges before the volume or those behind it.
+void draw_wire_frame(Canvas& canvas, const Rect& view, const HudScene& scene, float unit,
+                     bool in_front);
+
+// How long a millimetre at the volume's centre is, at the view's lower left.
+void draw_view_scale(Canvas& canvas, const Layout& layout, const Camera& camera);
+
 // Which way the volume is turned: a cube with the surface side bright, a dot where the scan begins
 // (A-scan 0 of B-scan 0 at the surface), and the axes: x along a B-scan, y from B-scan to B-scan, z
 // with depth.

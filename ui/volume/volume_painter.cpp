@@ -160,7 +160,13 @@ bool VolumePainter::has_newer(const ViewState& view) const {
          techniques_.surface()->has_newer();
 }
 
-hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewState& view) {
+hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewState& view,
+                                    const DrawQuality& quality) {
+  if (quality.rays == RayBackend::processor && !caster_wanted_) {
+    make_caster();
+    if (auto shown = show(volume); !shown)
+      return shown;
+  }
   if (view.technique != Technique::surface)
     return {};
   if (auto made = techniques_.get(view.technique); !made)

@@ -46,8 +46,11 @@ public:
   bool wants_volume(const ViewState& view) const;
   // update() would make another picture of the same volume and view: a mesh has been finished.
   bool has_newer(const ViewState& view) const;
-  // Waits until update() has all that it needs for the view: for commands and tests.
-  hal::Result<> finish(const pipeline::Volume& volume, const ViewState& view);
+  // Waits until update() has all that it needs for the view at that quality (a mesh, the
+  // processor's copy of the volume): for commands and tests. `volume` is the one that was shown
+  // last.
+  hal::Result<> finish(const pipeline::Volume& volume, const ViewState& view,
+                       const DrawQuality& quality = {});
 
   bool empty() const { return texture_.empty(); }
   const VolumeTexture& texture() const { return texture_; }

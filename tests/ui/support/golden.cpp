@@ -1,11 +1,13 @@
 #include "tests/ui/support/golden.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "tests/ui/support/picture_file.h"
+#include "tests/ui/support/structural_similarity.h"
 
 namespace octascope::tests {
 
@@ -24,7 +26,7 @@ double share_of_outliers(const pipeline::Image& a, const pipeline::Image& b) {
 
 } // namespace
 
-void expect_golden(const pipeline::Image& image, const std::string& name) {
+void expect_golden(const pipeline::Image& image, const std::string& name, double least_similarity) {
   const auto file = std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/golden" / (name + ".png");
   if (std::getenv("OCTASCOPE_RENEW_GOLDEN") != nullptr) {
     ASSERT_TRUE(pipeline::write_png(file, image)) << file;
@@ -36,11 +38,15 @@ void expect_golden(const pipeline::Image& image, const std::string& name) {
   ASSERT_EQ(golden->height, image.height);
   const PictureDifference difference = compare(image, *golden);
   const double outliers = share_of_outliers(image, *golden);
-  const auto found = picture_folder() / (name + "_found.png");
-  if (difference.mean > most_mean || outliers > most_outliers)
+  const double similarity = least_similarity > 0 ? structural_similarity(image, *golden) : 1;
+  std::string flat_name = name;
+  std::ranges::replace(flat_name, '/', '_');
+  const auto found = picture_folder() / (flat_name + "_found.png");
+  if (difference.mean > most_mean || outliers > most_outliers || similarity < least_similarity)
     static_cast<void>(pipeline::write_png(found, image));
   EXPECT_LE(difference.mean, most_mean) << "largest " << difference.largest << "; see " << found;
   EXPECT_LE(outliers, most_outliers) << "see " << found;
+  EXPECT_GE(similarity, least_similarity) << "see " << found;
 }
 
 } // namespace octascope::tests

@@ -1,0 +1,72 @@
+#include "firmware-host/commands/render.h"
+
+#include <fmt/format.h>
+
+#include "hal/linux/monotonic_clock.h"
+#include "sim/offscreen_display.h"
+#include "ui/renderer.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+ui::ViewState windowed(const RenderOptions& options, const pipeline::Volume& volume) {
+  ui::ViewState view = options.view;
+  const auto window = options.window ? options.window : ui::suggest_window(volume);
+  if (window) {
+    view.window_offset_db = window->offset_db;
+    view.window_size_db = window->size_db;
+  }
+  return view;
+}
+
+// Whoever asks for the processor shall not be shown what GL draws.
+hal::Result<> check_processor(const ui::Renderer& renderer, const RenderOptions& options) {
+  if (options.quality.rays != ui::RayBackend::processor || renderer.casts_rays(options.quality))
+    return {};
+  return hal::fail(hal::Fault::unsupported,
+                   "the processor cannot cast this volume's rays: found one that is too large, or "
+                   "a processor without a vector unit that the ray caster knows; let GL draw it "
+                   "(--drawn-by gl)");
+}
+
+hal::Result<pipeline::Image> draw(const pipeline::Volume& volume, const RenderOptions& options) {
+  const auto renderer = ui::Renderer::create(options.transfers);
+  if (!renderer)
+    return tl::make_unexpected(renderer.error());
+  if (auto shown = (*renderer)->show_volume(volume); !shown)
+    return tl::make_unexpected(shown.error());
+  const ui::ViewState view = windowed(options, volume);
+  if (auto ready = (*renderer)->prepare(volume, view, options.quality); !ready)
+    return tl::make_unexpected(ready.error());
+  if (auto right = check_processor(**renderer, options); !right)
+    return tl::make_unexpected(right.error());
+  if (auto drawn =
+          (*renderer)->draw_volume_alone(view, options.width, options.height, options.quality);
+      !drawn)
+    return tl::make_unexpected(drawn.error());
+  return (*renderer)->read_back(options.width, options.height);
+}
+
+} // namespace
+
+hal::Result<pipeline::Image> render_volume(const pipeline::Volume& volume,
+                                           const RenderOptions& options) {
+  if (options.quality.rays == ui::RayBackend::processor && !casts_rays(options.view.technique))
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("--drawn-by is processor for the technique {}, which GL draws; "
+                                 "expected rays, shaded or maximum with it",
+                                 to_string(options.view.technique)));
+  hal::linux_backend::MonotonicClock clock;
+  sim::OffscreenDisplay display{clock};
+  hal::DisplayConfig config;
+  config.width = options.width;
+  config.height = options.height;
+  if (auto opened = display.open(config); !opened)
+    return tl::make_unexpected(opened.error());
+  auto picture = draw(volume, options);
+  display.close();
+  return picture;
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,309 @@
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "firmware-host/commands/arguments.h"
+#include "firmware-host/commands/command.h"
+#include "firmware-host/commands/render.h"
+#include "firmware-host/configuration.h"
+#include "firmware-host/volume_source.h"
+#include "pipeline/atomic_file.h"
+#include "sim/phantom.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+// As text, the way CLI11 collects it; what is not given stays as RenderOptions and ViewState begin.
+struct Arguments {
+  std::string configuration, volume, spectra, shape, calibration, phantom;
+  std::string technique, size, window, transfer, colours;
+  std::string stereo = "off", drawn_by = "auto", out;
+  ui::ViewState view = [] {
+    ui::ViewState begin;
+    begin.box_visible = false;
+    return begin;
+  }();
+  int steps = ui::full_quality.steps;
+  CLI::Option* opacity = nullptr; // the configuration may say another
+};
+
+const std::map<std::string, ui::StereoMode>& stereo_modes() {
+  static const std::map<std::string, ui::StereoMode> all{
+      {"off", ui::StereoMode::off},
+      {"side-by-side", ui::StereoMode::side_by_side},
+      {"top-bottom", ui::StereoMode::top_bottom}};
+  return all;
+}
+
+const std::map<std::string, std::optional<ui::RayBackend>>& drawers() {
+  static const std::map<std::string, std::optional<ui::RayBackend>> all{
+      {"auto", std::nullopt},
+      {"processor", ui::RayBackend::processor},
+      {"gl", ui::RayBackend::shader}};
+  return all;
+}
+
+// The whole text as a number of the range; "nan" is in none.
+bool read_number(std::string_view text, float& value, const ui::ParameterRange& range) {
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc{} && at == end && value >= range.lowest && value <= range.highest;
+}
+
+CLI::Validator within(const ui::ParameterRange& range) {
+  return CLI::Validator{[range](std::string& text) {
+                          float value = 0;
+                          return read_number(text, value, range)
+                                     ? std::string{}
+                                     : fmt::format("found {}, expected a number from {} to {}",
+                                                   text, range.lowest, range.highest);
+                        },
+                        fmt::format("{} to {}", range.lowest, range.highest)};
+}
+
+CLI::Validator within(ui::Parameter parameter) {
+  return within(parameter_range(parameter, 1));
+}
+
+hal::Result<ui::DisplayWindow> parse_window(std::string_view text) {
+  const ui::ParameterRange offset = parameter_range(ui::Parameter::window_offset, 1);
+  const ui::ParameterRange size = parameter_range(ui::Parameter::window_size, 1);
+  ui::DisplayWindow window;
+  const std::size_t comma = text.find(',');
+  if (comma != std::string_view::npos &&
+      read_number(text.substr(0, comma), window.offset_db, offset) &&
+      read_number(text.substr(comma + 1), window.size_db, size))
+    return window;
+  return hal::fail(hal::Fault::invalid_argument,
+                   fmt::format("--window is \"{}\", expected L,S: the level in dB where it begins "
+                               "({} to {}) and its size in dB ({} to {}), as in 8,36",
+                               text, offset.lowest, offset.highest, size.lowest, size.highest));
+}
+
+hal::Result<VolumeRequest> request_of(const Arguments& a) {
+  VolumeRequest request;
+  if (!a.volume.empty())
+    request.nrrd = a.volume;
+  if (!a.phantom.empty())
+    request.phantom = a.phantom;
+  if (!a.calibration.empty())
+    request.calibration = a.calibration;
+  if (a.spectra.empty())
+    return request;
+  return pipeline::SpectraShape::parse(a.shape).map([&](const pipeline::SpectraShape& shape) {
+    request.recording = RecordingOptions{a.spectra, shape};
+    return request;
+  });
+}
+
+// The place of the item with that name.
+template <typename Items>
+hal::Result<int> index_named(std::string_view option, const std::string& name, const Items& items,
+                             auto&& name_of) {
+  std::string names;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (name_of(items[i]) == name)
+      return static_cast<int>(i);
+    names += fmt::format("{}{}", i == 0 ? "" : ", ", name_of(items[i]));
+  }
+  return hal::fail(hal::Fault::invalid_argument,
+                   fmt::format("{} is \"{}\", expected one of {}", option, name, names));
+}
+
+// The look of the configuration, and over it what the command line says.
+hal::Result<> read_look(const Arguments& a, RenderOptions& options) {
+  if (!a.configuration.empty()) {
+    const auto configuration = load_configuration(a.configuration);
+    if (!configuration)
+      return tl::make_unexpected(configuration.error());
+    const LookConfiguration& look = configuration->look;
+    options.transfers = look.transfers;
+    options.view.transfer = look.transfer;
+    options.view.colour_map = look.colour_map;
+    options.view.technique = look.technique;
+    if (a.opacity->empty())
+      options.view.opacity = look.opacity;
+    options.window = configuration->window;
+  }
+  if (!a.technique.empty())
+    options.view.technique = *ui::technique_named(a.technique);
+  if (!a.transfer.empty()) {
+    const auto index = index_named("--transfer", a.transfer, options.transfers.functions(),
+                                   [](const ui::TransferFunction& f) { return f.name; });
+    if (!index)
+      return tl::make_unexpected(index.error());
+    options.view.transfer = *index;
+  }
+  if (!a.colours.empty()) {
+    const auto index = index_named("--colours", a.colours, options.transfers.colour_maps(),
+                                   [](const ui::ColourMap& m) { return m.name(); });
+    if (!index)
+      return tl::make_unexpected(index.error());
+    options.view.colour_map = *index;
+  }
+  return {};
+}
+
+hal::Result<RenderOptions> options_of(const Arguments& a) {
+  RenderOptions options;
+  options.view = a.view;
+  if (auto ok = read_look(a, options); !ok)
+    return tl::make_unexpected(ok.error());
+  options.view.stereo = stereo_modes().at(a.stereo);
+  options.quality.steps = a.steps;
+  options.quality.rays = drawers().at(a.drawn_by);
+  if (!a.window.empty()) {
+    const auto window = parse_window(a.window);
+    if (!window)
+      return tl::make_unexpected(window.error());
+    options.window = *window;
+  }
+  if (!a.size.empty()) {
+    const auto size = parse_size(a.size);
+    if (!size)
+      return tl::make_unexpected(size.error());
+    options.width = (*size)[0];
+    options.height = (*size)[1];
+  }
+  return options;
+}
+
+hal::Result<> render(const Arguments& arguments) {
+  const auto options = options_of(arguments);
+  if (!options)
+    return tl::make_unexpected(options.error());
+  const auto request = request_of(arguments);
+  if (!request)
+    return tl::make_unexpected(request.error());
+  // Said before the work, not after it.
+  if (const auto writable = pipeline::AtomicFile::create(arguments.out); !writable)
+    return tl::make_unexpected(writable.error());
+  const auto volume = load_volume(*request);
+  if (!volume)
+    return tl::make_unexpected(volume.error());
+  const auto picture = render_volume(*volume, *options);
+  if (!picture)
+    return tl::make_unexpected(picture.error());
+  return pipeline::write_png(arguments.out, *picture);
+}
+
+int run(const Arguments& arguments) {
+  const auto done = render(arguments);
+  if (done)
+    return exit_done;
+  fmt::print(stderr, "octascope render: {}\n", done.error().message);
+  return done.error().fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
+}
+
+void add_volume_options(CLI::App& command, Arguments& a) {
+  command.add_option("--volume", a.volume, "Volume to draw: levels in dB, depth fastest")
+      ->type_name("FILE.nrrd");
+  CLI::Option* spectra =
+      command
+          .add_option("--spectra", a.spectra,
+                      "Or raw spectra (u16, little-endian, [B][A][N]), reconstructed as run does")
+          ->type_name("FILE");
+  CLI::Option* shape =
+      command
+          .add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024")
+          ->type_name("B,A,N")
+          ->needs(spectra);
+  spectra->needs(shape);
+  command.add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)")
+      ->type_name("FILE.toml")
+      ->needs(spectra);
+  command.add_option("--phantom", a.phantom, "Or what a simulated camera sees")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(sim::phantom_names.begin(), sim::phantom_names.end())));
+}
+
+void add_look_options(CLI::App& command, Arguments& a) {
+  std::vector<std::string> techniques;
+  for (const ui::Technique technique : ui::all_techniques)
+    techniques.emplace_back(to_string(technique));
+  command.add_option("--technique", a.technique, "How the volume is drawn (rays if not given)")
+      ->check(CLI::IsMember(techniques));
+  command.add_option("--yaw", a.view.yaw_deg, "Degrees about the depth axis")
+      ->check(within(ui::Parameter::yaw))
+      ->capture_default_str();
+  command.add_option("--tilt", a.view.tilt_deg, "Degrees above the surface's plane")
+      ->check(within(ui::Parameter::tilt))
+      ->capture_default_str();
+  command.add_option("--distance", a.view.distance, "In half-diagonals of the volume")
+      ->check(within(ui::Parameter::distance))
+      ->capture_default_str();
+  command
+      .add_option("--window", a.window,
+                  "Where the display window begins and its size, in dB, as 8,36; what suits the "
+                  "volume if not given")
+      ->type_name("L,S");
+  a.opacity = command
+                  .add_option("--opacity", a.view.opacity,
+                              "Of a voxel at the top of the window (0.5 if not given)")
+                  ->check(within({0.01F, 1, 0}));
+  command.add_option("--transfer", a.transfer,
+                     "Transfer function: window, smooth, surface or the configuration's own");
+  command.add_option("--colours", a.colours, "Colour map: grey, amber, blue-green or dawn");
+  command
+      .add_option("--config", a.configuration,
+                  "Configuration with transfer functions; its technique, opacity, colours and "
+                  "window hold where the command line does not say otherwise")
+      ->type_name("FILE.toml");
+}
+
+void add_picture_options(CLI::App& command, Arguments& a) {
+  const auto words = [](const auto& named) {
+    std::vector<std::string> all;
+    for (const auto& [word, value] : named)
+      all.push_back(word);
+    return all;
+  };
+  command.add_option("--size", a.size, "Size of the picture in pixels (1280x720 if not given)")
+      ->type_name("WxH");
+  CLI::Option* stereo = command.add_option("--stereo", a.stereo, "A picture for each eye")
+                            ->check(CLI::IsMember(words(stereo_modes())))
+                            ->capture_default_str();
+  command.add_option("--parallax", a.view.parallax_deg, "Degrees between the eyes")
+      ->check(within(ui::Parameter::parallax))
+      ->needs(stereo);
+  command.add_option("--steps", a.steps, "Samples along the longest edge of the volume")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command
+      .add_option("--drawn-by", a.drawn_by,
+                  "Who casts rays: auto takes the processor where GL is software")
+      ->check(CLI::IsMember(words(drawers())))
+      ->capture_default_str();
+  command.add_flag("--box", a.view.box_visible, "Draw the wire-frame box");
+  command.add_option("--out", a.out, "Picture to write")->required()->type_name("FILE.png");
+}
+
+} // namespace
+
+void add_render_command(CLI::App& program, int& exit_status) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = program.add_subcommand("render", "A picture of a volume (PNG)");
+  add_volume_options(*command, *arguments);
+  add_look_options(*command, *arguments);
+  add_picture_options(*command, *arguments);
+  command->footer("Examples:\n"
+                  "  octascope render --volume volume.nrrd --technique shaded --size 1920x1080 \\\n"
+                  "    --yaw 30 --tilt 40 --distance 2.5 --window 8,36 --out volume.png\n"
+                  "  octascope render --phantom anterior_eye --technique maximum --out eye.png\n"
+                  "  octascope render --spectra spectra.raw --shape 100,100,1024 \\\n"
+                  "    --calibration spectrometer.toml --stereo side-by-side --out tissue.png");
+  command->callback([arguments, &exit_status] { exit_status = run(*arguments); });
+}
+
+} // namespace octascope::firmware_host
