@@ -28,8 +28,8 @@ ui::ChoiceNames choices_of(const ui::TransferSet& transfers) {
 
 RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
     : parts_(parts), setup_(std::move(setup)), legend_(ui::make_legend(setup_.controls)),
-      key_legend_(ui::make_key_legend()),
-      controller_(setup_.view, setup_.b_scans, setup_.controls), governor_({}) {
+      key_legend_(ui::make_key_legend()), controller_(setup_.view, setup_.b_scans, setup_.controls),
+      governor_({}) {
   controller_.actions().set_choices(choices_of(setup_.transfers));
   setup_.status.legend = &legend_;
   setup_.status.key_legend = &key_legend_;
@@ -47,7 +47,7 @@ hal::Result<> RenderLoop::open() {
 hal::Result<> RenderLoop::open_display() {
   if (auto opened = parts_.display.open(setup_.display); !opened)
     return opened;
-  auto renderer = ui::Renderer::create(setup_.transfers);
+  auto renderer = ui::Renderer::create(setup_.transfers, parts_.threads);
   if (!renderer) {
     parts_.display.close();
     return tl::make_unexpected(renderer.error());
@@ -55,9 +55,15 @@ hal::Result<> RenderLoop::open_display() {
   renderer_ = std::move(*renderer);
   software_ = ui::gl::describe_context().software;
   governor_ = ui::Governor{frame_budget()};
-  if (volume_ != nullptr) // a display that came back shows what the lost one did
-    return renderer_->show_volume(*volume_);
-  return {};
+  return show_again();
+}
+
+// A display that came back shows what the lost one did. Nothing else brings it: of a frozen picture
+// no volume is taken, and a microscope camera that is gone sends no other picture.
+hal::Result<> RenderLoop::show_again() {
+  if (scope_picture_ != nullptr)
+    show_scope_picture();
+  return volume_ != nullptr ? renderer_->show_volume(*volume_) : hal::Result<>{};
 }
 
 bool RenderLoop::turn() {
@@ -171,10 +177,15 @@ void RenderLoop::take_scope_picture() {
   if (!renderer_ || parts_.scope == nullptr)
     return;
   if (const hal::ScopeFrame* picture = parts_.scope->take_newest()) {
-    if (const auto shown = renderer_->show_scope_picture(*picture, setup_.scan_field); !shown)
-      parts_.faults.add("scope_camera", to_string(shown.error().fault), shown.error().message,
-                        parts_.clock.now());
+    scope_picture_ = picture;
+    show_scope_picture();
   }
+}
+
+void RenderLoop::show_scope_picture() {
+  if (const auto shown = renderer_->show_scope_picture(*scope_picture_, setup_.scan_field); !shown)
+    parts_.faults.add("scope_camera", to_string(shown.error().fault), shown.error().message,
+                      parts_.clock.now());
 }
 
 void RenderLoop::update_status() {

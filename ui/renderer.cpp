@@ -101,14 +101,10 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
 DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& status, int width,
                                          int height, const DrawQuality& quality) const {
   const ViewState shown = fitted(view);
-  return {volume.uploads(),
-          scope_uploads,
-          level_uploads,
-          width,
-          height,
-          without_times(shown),
-          quality,
-          compose_hud_text(shown, status, scene(shown).shown)};
+  return {volume.uploads(), scope_uploads,
+          level_uploads,    width,
+          height,           without_times(shown),
+          quality,          compose_hud_text(shown, status, scene(shown).shown)};
 }
 
 Layout Renderer::Parts::layout(int width, int height, LayoutKind kind) const {
@@ -169,8 +165,8 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   if (has_volume) {
     volume.composite(eye, view_rect, height);
     if (places.b_scan.shown())
-      b_scan_panel.draw(volume.texture(), shown.shown.b_scan, view, frame.place(places.b_scan.picture),
-                        height);
+      b_scan_panel.draw(volume.texture(), shown.shown.b_scan, view,
+                        frame.place(places.b_scan.picture), height);
     if (places.en_face.shown())
       en_face_panel.draw(frame.place(places.en_face.picture), height);
   }
@@ -195,8 +191,9 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   return {};
 }
 
-hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& transfers) {
-  auto volume = VolumePainter::create(transfers);
+hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& transfers,
+                                                        const pipeline::ThreadSetup& threads) {
+  auto volume = VolumePainter::create(transfers, threads);
   if (!volume)
     return tl::make_unexpected(volume.error());
   auto b_scan = BScanPanel::create();
