@@ -90,12 +90,15 @@ ui::FrameBudget RenderLoop::frame_budget() const {
   return {refresh * 8 / 10, refresh * 18 / 10};
 }
 
+// The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
+// it: the badge does not wait for a picture that takes its time.
 ui::DrawQuality RenderLoop::choose_quality() {
   const ui::ViewState& view = controller_.state();
   return governor_.choose({.now = setup_.status.now,
                            .technique = view.technique,
                            .moved = drawn_view_ && !ui::same_sight(*drawn_view_, view),
-                           .live = setup_.status.freshness.liveness == ui::Liveness::live});
+                           .live = setup_.status.freshness.liveness == ui::Liveness::live ||
+                                   drawn_liveness_ == ui::Liveness::live});
 }
 
 bool RenderLoop::handle_input() {
@@ -229,6 +232,7 @@ void RenderLoop::draw_if_changed() {
   renderer_->finish();
   governor_.note(parts_.clock.now() - begin, renderer_->drew_volume());
   drawn_view_ = view;
+  drawn_liveness_ = setup_.status.freshness.liveness;
   if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
     keep_picture();
   const auto flip = display.present();
@@ -264,6 +268,7 @@ void RenderLoop::lose_display(const hal::Error& error) {
   undisplayed_last_line_.reset();
   undisplayed_control_.reset();
   drawn_view_.reset();
+  drawn_liveness_ = ui::Liveness::waiting;
 }
 
 bool RenderLoop::display_ready() {

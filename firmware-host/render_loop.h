@@ -134,6 +134,7 @@ private:
   ui::Governor governor_;
   ui::DrawQuality quality_;
   std::optional<ui::ViewState> drawn_view_;
+  ui::Liveness drawn_liveness_ = ui::Liveness::waiting;
   const pipeline::Volume* volume_ = nullptr;          // the newest taken, ours until the next take
   const hal::ScopeFrame* scope_picture_ = nullptr;    // likewise
   std::optional<hal::TimePoint> undisplayed_control_; // of the oldest event not shown yet

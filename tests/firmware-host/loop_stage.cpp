@@ -224,6 +224,7 @@ void LoopStage::send_volume(Tissue tissue) {
   const hal::TimePoint end = armed + plan().tick_period();
   while (clock_.now() + longest_turn_ < end)
     turn();
+  ASSERT_LE(clock_.now(), end) << "the last frame took longer than a volume";
   clock_.advance(end - clock_.now());
   const std::uint64_t published = volumes_->counters().published;
   for (int b = 0; b < small_geometry.b_scans; ++b)
@@ -233,7 +234,7 @@ void LoopStage::send_volume(Tissue tissue) {
     real_clock_.sleep_for(1ms);
 }
 
-void LoopStage::replug_camera() {
+void LoopStage::resume_sweeps() {
   next_pulse_ = trigger_.pulses();
   camera_.replug();
   while (camera_.state() != hal::DeviceState::streaming)

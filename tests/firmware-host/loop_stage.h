@@ -115,7 +115,8 @@ protected:
 
   // Turns while the time of a volume passes, and then one comes. It is not in a frame yet.
   void send_volume(Tissue tissue);
-  void replug_camera();
+  // After a pause, or a camera that was unplugged: the next volume can come.
+  void resume_sweeps();
   void send_controls(const std::vector<hal::ControlEvent>& events);
   void turn_knob(std::uint8_t knob, int detents);
   void press_freeze();

@@ -83,8 +83,9 @@ protected:
   void draw_slowly(hal::Duration full) {
     display_.cost = [this, full, drawn = Drawn{}]() mutable {
       const Drawn now{loop_->quality(), view(), volumes_->counters().published};
-      const bool anew = now.quality != drawn.quality || now.published != drawn.published ||
-                        !ui::same_sight(now.view, drawn.view);
+      const bool anew =
+          now.published > 0 && (now.quality != drawn.quality || now.published != drawn.published ||
+                                !ui::same_sight(now.view, drawn.view));
       drawn = now;
       constexpr hal::Duration rest = 2ms;
       return anew ? rest + hal::from_seconds(hal::to_seconds(full) * ui::sample_share(now.quality))
@@ -123,6 +124,8 @@ protected:
     hal::TimePoint arrived;
     for (int i = 0; i < volumes; ++i) {
       send_volume(i % 2 == 0 ? Tissue::usual : Tissue::reversed);
+      if (HasFatalFailure())
+        return {};
       arrived = clock_.now();
       if (detents_each != 0)
         turn_knob(1, detents_each);
@@ -153,7 +156,7 @@ TEST_F(Staleness, is_told_one_and_a_half_periods_after_the_last_volume_and_not_b
 
 TEST_F(Staleness, does_not_wait_for_a_finer_picture) {
   start({});
-  draw_slowly(600ms);
+  draw_slowly(300ms);
   longest_turn_ = 130ms;
   const hal::TimePoint last = run_live(12, 0);
   const ui::DrawQuality live = loop_->quality();
@@ -168,7 +171,7 @@ TEST_F(Staleness, does_not_wait_for_a_finer_picture) {
 
 TEST_F(Staleness, is_told_while_the_view_moves_and_frames_are_slow) {
   start({});
-  draw_slowly(600ms);
+  draw_slowly(300ms);
   longest_turn_ = 130ms;
   const hal::TimePoint last = run_live(12, 1);
   turn_knob(1, 1);
@@ -181,14 +184,14 @@ TEST_F(Staleness, is_told_while_the_view_moves_and_frames_are_slow) {
 TEST_F(Staleness, ends_with_the_next_volume) {
   start({});
   first_stale_frame(run_live(2, 0));
-  replug_camera();
+  resume_sweeps();
   EXPECT_GT(badge_pixels(), 10);
   run_live(2, 0);
 }
 
 TEST_F(Staleness, freezing_is_told_before_the_picture_gets_finer) {
   start({});
-  draw_slowly(600ms);
+  draw_slowly(300ms);
   longest_turn_ = 130ms;
   run_live(12, 0);
   press_freeze();
@@ -299,6 +302,7 @@ TEST_P(LostDisplay, is_live_again_with_the_next_volume) {
   const pipeline::Image before = display_.picture;
   lose_for(20ms);
   rest_with_tissue();
+  resume_sweeps();
   send_volume(Tissue::reversed);
   turn();
   EXPECT_EQ(loop_->status().freshness.liveness, Liveness::live);
