@@ -251,7 +251,8 @@ void AssembledAppliance::make_render_loop() {
           .keep_picture =
               [this](pipeline::Image picture) { return pictures_.keep(std::move(picture)); },
           .simulated_control =
-              [this](const hal::ControlEvent& event) { twins_.control_input->inject(event); }},
+              [this](const hal::ControlEvent& event) { twins_.control_input->inject(event); },
+          .threads = make_thread_setup(clock_, faults_, *worker_cores_)},
       std::move(setup));
 }
 

@@ -48,7 +48,7 @@ hal::Result<> RenderLoop::open() {
 hal::Result<> RenderLoop::open_display() {
   if (auto opened = parts_.display.open(setup_.display); !opened)
     return opened;
-  auto renderer = ui::Renderer::create(setup_.transfers);
+  auto renderer = ui::Renderer::create(setup_.transfers, parts_.threads);
   if (!renderer) {
     parts_.display.close();
     return tl::make_unexpected(renderer.error());
@@ -56,9 +56,15 @@ hal::Result<> RenderLoop::open_display() {
   renderer_ = std::move(*renderer);
   software_ = ui::gl::describe_context().software;
   governor_ = ui::Governor{frame_budget()};
-  if (volume_ != nullptr) // a display that came back shows what the lost one did
-    return renderer_->show_volume(*volume_);
-  return {};
+  return show_again();
+}
+
+// A display that came back shows what the lost one did. Nothing else brings it: of a frozen picture
+// no volume is taken, and a microscope camera that is gone sends no other picture.
+hal::Result<> RenderLoop::show_again() {
+  if (scope_picture_ != nullptr)
+    show_scope_picture();
+  return volume_ != nullptr ? renderer_->show_volume(*volume_) : hal::Result<>{};
 }
 
 bool RenderLoop::turn() {
@@ -87,13 +93,16 @@ ui::FrameBudget RenderLoop::frame_budget() const {
   return {refresh * 8 / 10, refresh * 18 / 10};
 }
 
+// The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
+// it: the badge does not wait for a picture that takes its time.
 ui::DrawQuality RenderLoop::choose_quality() {
   const ui::ViewState& view = controller_.state();
   ui::DrawQuality quality =
       governor_.choose({.now = setup_.status.now,
                         .technique = view.technique,
                         .moved = drawn_view_ && !ui::same_sight(*drawn_view_, view),
-                        .live = setup_.status.freshness.liveness == ui::Liveness::live});
+                        .live = setup_.status.freshness.liveness == ui::Liveness::live ||
+                                drawn_liveness_ == ui::Liveness::live});
   quality.rays = rays_;
   return quality;
 }
@@ -198,10 +207,15 @@ void RenderLoop::take_scope_picture() {
   if (!renderer_ || parts_.scope == nullptr)
     return;
   if (const hal::ScopeFrame* picture = parts_.scope->take_newest()) {
-    if (const auto shown = renderer_->show_scope_picture(*picture, setup_.scan_field); !shown)
-      parts_.faults.add("scope_camera", to_string(shown.error().fault), shown.error().message,
-                        parts_.clock.now());
+    scope_picture_ = picture;
+    show_scope_picture();
   }
+}
+
+void RenderLoop::show_scope_picture() {
+  if (const auto shown = renderer_->show_scope_picture(*scope_picture_, setup_.scan_field); !shown)
+    parts_.faults.add("scope_camera", to_string(shown.error().fault), shown.error().message,
+                      parts_.clock.now());
 }
 
 void RenderLoop::update_status() {
@@ -247,6 +261,7 @@ void RenderLoop::draw_if_changed() {
   renderer_->finish();
   governor_.note(parts_.clock.now() - begin, renderer_->drew_volume());
   drawn_view_ = view;
+  drawn_liveness_ = setup_.status.freshness.liveness;
   if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
     keep_picture();
   const auto flip = display.present();
@@ -283,6 +298,7 @@ void RenderLoop::lose_display(const hal::Error& error) {
   undisplayed_control_.reset();
   drawn_view_.reset();
   levels_of_ = 0;
+  drawn_liveness_ = ui::Liveness::waiting;
 }
 
 bool RenderLoop::display_ready() {

@@ -46,6 +46,7 @@ struct RenderLoopParts {
   std::function<bool(pipeline::Image)> keep_picture;
   // Keys that stand for the simulated pedal; empty where the pedal is real.
   std::function<void(const hal::ControlEvent&)> simulated_control;
+  pipeline::ThreadSetup threads; // of those that help drawing
 };
 
 struct RenderLoopSetup {
@@ -104,6 +105,9 @@ public:
   // A notice for the surgeon; empty for none.
   void set_notice(std::string_view notice) { setup_.status.notice = notice; }
 
+  // Of the newest frame's volume.
+  const ui::DrawQuality& quality() const { return quality_; }
+
 private:
   ui::FrameBudget frame_budget() const;
   ui::DrawQuality choose_quality();
@@ -120,6 +124,8 @@ private:
   void flip_done(const hal::Flip& flip, hal::TimePoint begin);
   void lose_display(const hal::Error& error);
   hal::Result<> open_display();
+  hal::Result<> show_again();
+  void show_scope_picture();
   bool display_ready();
 
   RenderLoopParts parts_;
@@ -135,7 +141,9 @@ private:
   std::optional<ui::RayBackend> rays_; // the faster one, once it is known
   std::uint64_t levels_of_ = 0;        // of which volume the histogram is
   std::optional<ui::ViewState> drawn_view_;
+  ui::Liveness drawn_liveness_ = ui::Liveness::waiting;
   const pipeline::Volume* volume_ = nullptr;          // the newest taken, ours until the next take
+  const hal::ScopeFrame* scope_picture_ = nullptr;    // likewise
   std::optional<hal::TimePoint> undisplayed_control_; // of the oldest event not shown yet
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
   std::optional<ui::ShownVolume> shown_;

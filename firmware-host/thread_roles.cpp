@@ -12,20 +12,21 @@ namespace {
 
 struct Role {
   std::string_view name;
-  int priority; // SCHED_FIFO; 0: ordinary
+  int priority;            // SCHED_FIFO; 0: ordinary
+  bool background = false; // ordinary, and after everything else
 };
 
 constexpr std::array roles{
-    Role{"camera", 42}, Role{"volumes", 41}, Role{"controls", 40},
-    Role{"worker", 30}, Role{"scope", 0},    Role{"phase", 0},
+    Role{"camera", 42}, Role{"volumes", 41}, Role{"controls", 40}, Role{"worker", 30},
+    Role{"scope", 0},   Role{"phase", 0},    Role{"rays", 0},      Role{"surface", 0, true},
 };
 
-int priority_of(std::string_view name) {
+Role role_of(std::string_view name) {
   for (const Role& role : roles) {
     if (role.name == name)
-      return role.priority;
+      return role;
   }
-  return 0;
+  return {name, 0};
 }
 
 } // namespace
@@ -64,10 +65,12 @@ pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& f
       else
         faults.add("host", "not_pinned", pinned.error().message, clock.now());
     }
-    const int priority = priority_of(role.name);
-    if (priority == 0)
+    const Role known = role_of(role.name);
+    if (known.background)
+      hal::linux_backend::make_this_thread_background();
+    if (known.priority == 0)
       return;
-    if (const auto made = hal::linux_backend::make_this_thread_realtime(priority); !made)
+    if (const auto made = hal::linux_backend::make_this_thread_realtime(known.priority); !made)
       faults.add("host", "no_realtime", made.error().message, clock.now());
   };
 }

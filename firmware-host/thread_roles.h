@@ -32,9 +32,10 @@ private:
   std::vector<std::atomic<int>> pinned_;
 };
 
-// What the pipeline's threads call first. Camera and volume threads come before the workers, the
-// workers before everything else. Where the system refuses, that is one record in `faults` (which
-// like `cores` outlives the threads) and the appliance goes on.
+// What the pipeline's and the display's threads call first. Camera and volume threads come before
+// the workers, the workers before everything else; the iso-surface comes last. Where the system
+// refuses, that is one record in `faults` (which like `cores` outlives the threads) and the
+// appliance goes on.
 pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& faults,
                                         WorkerCores& cores);
 

@@ -235,8 +235,9 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   return {};
 }
 
-hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& transfers) {
-  auto volume = VolumePainter::create(transfers);
+hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& transfers,
+                                                        const pipeline::ThreadSetup& threads) {
+  auto volume = VolumePainter::create(transfers, threads);
   if (!volume)
     return tl::make_unexpected(volume.error());
   auto b_scan = BScanPanel::create();

@@ -8,6 +8,7 @@
 #include "hal/scope_camera.h"
 #include "pipeline/png_image.h"
 #include "pipeline/volume.h"
+#include "pipeline/worker_pool.h"
 #include "ui/draw_quality.h"
 #include "ui/hud/window_histogram.h"
 #include "ui/scan_field.h"
@@ -26,8 +27,10 @@ namespace octascope::ui {
 // size nothing of ours is allocated.
 class Renderer {
 public:
+  // `threads` sets up the threads that help drawing: VolumePainter::create() names them.
   // Fault::unsupported: this GL cannot compile our shaders.
-  static hal::Result<std::unique_ptr<Renderer>> create(const TransferSet& transfers = {});
+  static hal::Result<std::unique_ptr<Renderer>> create(const TransferSet& transfers = {},
+                                                       const pipeline::ThreadSetup& threads = {});
   ~Renderer();
 
   // Copies the volume before it returns and shows it from the next draw() on. On an error the last

@@ -1,8 +1,12 @@
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "firmware-host/thread_roles.h"
 #include "hal/linux/monotonic_clock.h"
@@ -63,6 +67,27 @@ TEST(ThreadSetup, pins_workers_and_nobody_else) {
   EXPECT_EQ(cores_after(setup, {"worker", 1}), std::vector{allowed.back()});
   EXPECT_EQ(cores_after(setup, {"volumes"}), allowed);
   EXPECT_EQ(cores.pinned(), (std::vector{-1, allowed.back()}));
+}
+
+// The nice value that the setup leaves a thread with this role, and its scheduling.
+std::pair<int, int> niceness_after(const pipeline::ThreadSetup& setup, pipeline::ThreadRole role) {
+  std::pair<int, int> left;
+  std::thread{[&] {
+    setup(role);
+    left = {getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())), sched_getscheduler(0)};
+  }}.join();
+  return left;
+}
+
+TEST(ThreadSetup, those_that_help_drawing_are_ordinary_and_the_surface_comes_last) {
+  hal::linux_backend::MonotonicClock clock;
+  pipeline::FaultLog faults;
+  WorkerCores cores{1, {}, allowed_cores()};
+  const auto setup = make_thread_setup(clock, faults, cores);
+  const int ours = getpriority(PRIO_PROCESS, 0);
+  EXPECT_EQ(niceness_after(setup, {"rays", 0}), (std::pair{ours, SCHED_OTHER}));
+  EXPECT_EQ(niceness_after(setup, {"surface"}), (std::pair{19, SCHED_OTHER}));
+  EXPECT_EQ(cores.pinned(), std::vector{-1}) << "a helper is no worker";
 }
 
 TEST(ThreadSetup, a_core_that_is_not_there_is_a_fault_and_no_more) {

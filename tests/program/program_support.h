@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/png_image.h"
+#include "tests/support/picture_counts.h"
 #include "tests/support/program_run.h"
 #include "tests/support/scratch_folder.h"
 #include "ui/hud/palette.h"
@@ -38,15 +39,6 @@ nlohmann::json find_fault(const nlohmann::json& report, std::string_view device,
 
 // The snapshot that a run left; empty, and a failed test, where there is none.
 pipeline::Image read_snapshot(const std::filesystem::path& file);
-
-// Pixels of `where` (within the picture) whose channels are all within `tolerance` of `colour`.
-int count_colour(const pipeline::Image& picture, const ui::Rect& where, ui::Colour colour,
-                 int tolerance = 6);
-
-// Pixels of `where` of which a channel differs by more than `tolerance`; the pictures are of one
-// size.
-int count_different(const pipeline::Image& a, const pipeline::Image& b, const ui::Rect& where,
-                    int tolerance);
 
 ui::Layout layout_of(const pipeline::Image& picture);
 ui::Rect badge_row(const pipeline::Image& picture);  // top of the view

@@ -67,5 +67,38 @@ TEST_F(Allocation, no_technique_makes_any_once_it_was_used) {
   EXPECT_EQ(allocations_of_this_thread(), before);
 }
 
+// Surfaces too: a new mesh allocates in its own thread and in the driver, which copies it, but not
+// here.
+TEST_F(Allocation, no_layout_nor_stereo_makes_any_once_it_was_used) {
+  auto renderer = ui::Renderer::create();
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const auto volume = tissue_volume(small_geometry);
+  const ScopePicture scope{64, 48};
+  const ui::Status status = live_status();
+  ASSERT_TRUE((*renderer)->show_scope_picture(scope.frame(status.now), scope.field()));
+  ui::ViewState view;
+  const auto one_turn = [&](int i) {
+    for (const ui::LayoutKind layout : {ui::LayoutKind::volume, ui::LayoutKind::b_scan,
+                                        ui::LayoutKind::microscope, ui::LayoutKind::quad})
+      for (const ui::StereoMode stereo :
+           {ui::StereoMode::off, ui::StereoMode::side_by_side, ui::StereoMode::top_bottom})
+        for (const ui::Technique technique : ui::all_techniques) {
+          view.layout = layout;
+          view.stereo = stereo;
+          view.technique = technique;
+          view.yaw_deg = static_cast<float>(50 * i);
+          EXPECT_TRUE((*renderer)->show_volume(volume));
+          EXPECT_TRUE((*renderer)->draw(view, status, 320, 180, {0.5F, 60, {}}));
+        }
+    EXPECT_TRUE(display_.present());
+  };
+  for (int i = 0; i < 3; ++i)
+    one_turn(i);
+  const std::uint64_t before = allocations_of_this_thread();
+  for (int i = 3; i < 5; ++i)
+    one_turn(i);
+  EXPECT_EQ(allocations_of_this_thread(), before);
+}
+
 } // namespace
 } // namespace octascope::tests

@@ -1,7 +1,10 @@
 // The volume on the display: whoever draws it, it is the same picture, kept while it holds.
 #include <algorithm>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "pipeline/png_image.h"
@@ -173,6 +176,29 @@ TEST_F(VolumePainterTest, says_who_casts_the_rays) {
   draw(view_from(0, 0, 3), by_processor); // asks for it
   ASSERT_TRUE(show(tissue_volume(small_geometry)));
   EXPECT_EQ(painter_->backend(by_processor), ui::RayBackend::processor);
+}
+
+TEST_F(VolumePainterTest, sets_up_every_thread_that_it_starts) {
+  std::mutex mutex;
+  std::multiset<std::string> roles;
+  const auto note = [&](pipeline::ThreadRole role) {
+    const std::lock_guard lock{mutex};
+    roles.emplace(role.name);
+  };
+  auto made = ui::VolumePainter::create({}, note);
+  ASSERT_TRUE(made) << made.error().message;
+  painter_.emplace(std::move(*made));
+  const auto volume = tissue_volume(small_geometry);
+  ASSERT_TRUE(painter_->show(volume));
+  draw({}, by_processor); // the helpers are wanted
+  ui::ViewState view;
+  view.technique = ui::Technique::surface;
+  ASSERT_TRUE(painter_->finish(volume, view));
+  painter_.reset(); // its threads have ended
+  const std::size_t helpers = std::min(std::max(std::thread::hardware_concurrency(), 1U) - 1, 15U);
+  EXPECT_EQ(roles.count("rays"), helpers);
+  EXPECT_EQ(roles.count("surface"), 1U);
+  EXPECT_EQ(roles.size(), helpers + 1);
 }
 
 } // namespace

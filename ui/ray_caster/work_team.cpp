@@ -8,10 +8,18 @@ namespace {
 // So many calls can wait for helpers that were held up; more are not needed, for each of them works
 // on until nothing is left.
 constexpr std::size_t most_calls = 64;
+
+// The pool's threads are "worker"s, which is the role of those that reconstruct.
+pipeline::ThreadSetup as_rays(const pipeline::ThreadSetup& setup) {
+  if (!setup)
+    return {};
+  return [setup](pipeline::ThreadRole role) { setup({"rays", role.number}); };
+}
+
 } // namespace
 
 WorkTeam::WorkTeam(std::size_t helpers, const pipeline::ThreadSetup& setup)
-    : helpers_{helpers, most_calls, setup,
+    : helpers_{helpers, most_calls, as_rays(setup),
                [this](std::size_t, std::uint32_t turn) { take_pieces(turn); }} {}
 
 void WorkTeam::run(std::uint32_t pieces, Call call, const void* work) {

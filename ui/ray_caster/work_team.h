@@ -17,7 +17,8 @@ namespace octascope::ui {
 // Threads: run() from one thread at a time. Allocates when it is made, never afterwards.
 class WorkTeam {
 public:
-  // `helpers` threads are started besides the one that will call run(); 0 is good.
+  // `helpers` threads are started besides the one that will call run(); 0 is good. Their role is
+  // "rays".
   WorkTeam(std::size_t helpers, const pipeline::ThreadSetup& setup);
 
   std::size_t helpers() const { return helpers_.workers(); }

@@ -30,17 +30,19 @@ const void* offset(std::size_t bytes) {
 
 } // namespace
 
-hal::Result<std::unique_ptr<SurfaceTechnique>> SurfaceTechnique::create(TransferSet transfers) {
+hal::Result<std::unique_ptr<SurfaceTechnique>>
+SurfaceTechnique::create(TransferSet transfers, pipeline::ThreadSetup threads) {
   auto program = gl::Program::build("surface", shaders::surface_vert, shaders::surface_frag);
   if (!program)
     return tl::make_unexpected(program.error());
   return std::unique_ptr<SurfaceTechnique>{
-      new SurfaceTechnique{std::move(*program), std::move(transfers)}};
+      new SurfaceTechnique{std::move(*program), std::move(transfers), std::move(threads)}};
 }
 
-SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers)
-    : thread_{pipeline::blank_depth_bins}, transfers_{std::move(transfers)}, program_{std::move(
-                                                                                 program)},
+SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers,
+                                   pipeline::ThreadSetup threads)
+    : thread_{pipeline::blank_depth_bins, std::move(threads)},
+      transfers_{std::move(transfers)}, program_{std::move(program)},
       vertex_array_{gl::VertexArray::make()}, vertices_{gl::Buffer::make()},
       indices_{gl::Buffer::make()}, uniforms_{program_.uniform("u_view_projection"),
                                               program_.uniform("u_eye"),

@@ -25,8 +25,10 @@ namespace octascope::ui {
 // Threads: as gl/objects.h, but for the thread of its own. draw() allocates nothing of ours.
 class SurfaceTechnique final : public VolumeTechnique {
 public:
+  // `threads` is called on the thread that makes the meshes.
   // Fault::unsupported: this GL cannot compile our shaders.
-  static hal::Result<std::unique_ptr<SurfaceTechnique>> create(TransferSet transfers = {});
+  static hal::Result<std::unique_ptr<SurfaceTechnique>> create(TransferSet transfers = {},
+                                                               pipeline::ThreadSetup threads = {});
 
   // Copies what it needs before it returns: two milliseconds for a live volume.
   void show(const pipeline::Volume& volume) { thread_.show(volume); }
@@ -43,7 +45,7 @@ public:
   std::size_t triangles() const { return corners_ / 3; }
 
 private:
-  SurfaceTechnique(gl::Program program, TransferSet transfers);
+  SurfaceTechnique(gl::Program program, TransferSet transfers, pipeline::ThreadSetup threads);
   void do_draw(const VolumeScene& scene) override;
   bool do_writes_depth() const override { return true; }
   void upload(const pipeline::IsoMesh& mesh);

@@ -30,8 +30,9 @@ std::size_t index_of(Eye eye) {
 
 } // namespace
 
-hal::Result<VolumePainter> VolumePainter::create(const TransferSet& transfers) {
-  VolumePainter painter{gl::describe_context().software, transfers};
+hal::Result<VolumePainter> VolumePainter::create(const TransferSet& transfers,
+                                                 const pipeline::ThreadSetup& threads) {
+  VolumePainter painter{gl::describe_context().software, transfers, threads};
   // What every view needs is made here, so that a GL that cannot do it is known at once.
   if (auto ok = painter.pictures_of(Eye::left); !ok)
     return tl::make_unexpected(ok.error());
@@ -42,9 +43,10 @@ hal::Result<VolumePainter> VolumePainter::create(const TransferSet& transfers) {
   return painter;
 }
 
-VolumePainter::VolumePainter(bool software, const TransferSet& transfers)
-    : software_{software}, transfers_{transfers}, transfer_{std::make_unique<TransferTable>()},
-      techniques_{transfers} {}
+VolumePainter::VolumePainter(bool software, const TransferSet& transfers,
+                             const pipeline::ThreadSetup& threads)
+    : software_{software}, transfers_{transfers}, threads_{threads},
+      transfer_{std::make_unique<TransferTable>()}, techniques_{transfers, threads} {}
 
 // Leaves nothing where the ray caster knows no instruction set of this processor.
 void VolumePainter::make_caster() {
@@ -52,7 +54,7 @@ void VolumePainter::make_caster() {
   caster_wanted_ = true;
   const unsigned helpers =
       std::clamp(std::thread::hardware_concurrency(), 1U, most_helpers + 1) - 1;
-  if (auto made = RayCaster::create(helpers, {}))
+  if (auto made = RayCaster::create(helpers, threads_))
     caster_.emplace(std::move(*made));
 }
 

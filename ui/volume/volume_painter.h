@@ -10,6 +10,7 @@
 #include "hal/result.h"
 #include "pipeline/occupancy.h"
 #include "pipeline/volume.h"
+#include "pipeline/worker_pool.h"
 #include "ui/draw_quality.h"
 #include "ui/layout.h"
 #include "ui/ray_caster/ray_cast_picture.h"
@@ -24,8 +25,11 @@ namespace octascope::ui {
 // geometry changes, or a technique, an eye or a backend is used for the first time.
 class VolumePainter {
 public:
+  // `threads` is called on each thread that is started here, at once or later: "rays" (several:
+  // the ray caster's helpers) and "surface" (the iso-surface's), and is kept.
   // Fault::unsupported: this GL cannot compile our shaders.
-  static hal::Result<VolumePainter> create(const TransferSet& transfers = {});
+  static hal::Result<VolumePainter> create(const TransferSet& transfers = {},
+                                           const pipeline::ThreadSetup& threads = {});
 
   // Copies the volume, and its occupancy where that is known already (without the blank depth
   // bins); else works it out. Fault::invalid_argument: the occupancy is of another geometry. On
@@ -71,7 +75,7 @@ private:
     bool processor_drew = false; // the last update()
   };
 
-  VolumePainter(bool software, const TransferSet& transfers);
+  VolumePainter(bool software, const TransferSet& transfers, const pipeline::ThreadSetup& threads);
   void make_caster();
   hal::Result<EyePictures*> pictures_of(Eye eye);
   void update_transfer(const ViewState& view);
@@ -90,6 +94,7 @@ private:
 
   bool software_;
   TransferSet transfers_;
+  pipeline::ThreadSetup threads_;
   VolumeTexture texture_;
   pipeline::Occupancy occupancy_;
   pipeline::Occupancy own_occupancy_; // for volumes that come without

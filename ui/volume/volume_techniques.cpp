@@ -18,14 +18,14 @@ template <class Kind> Made owned(hal::Result<Kind> made) {
   return std::make_unique<Kind>(std::move(*made));
 }
 
-Made make(Technique technique, const TransferSet& transfers) {
+Made make(Technique technique, const TransferSet& transfers, const pipeline::ThreadSetup& threads) {
   switch (technique) {
   case Technique::slices: return owned(SliceStack::create());
   case Technique::planes: return owned(PlaneStack::create());
   case Technique::rays: break;
   case Technique::shaded: return owned(RayCastTechnique::create(RayMode::shaded));
   case Technique::maximum: return owned(RayCastTechnique::create(RayMode::maximum));
-  case Technique::surface: return SurfaceTechnique::create(transfers);
+  case Technique::surface: return SurfaceTechnique::create(transfers, threads);
   }
   return owned(RayCastTechnique::create(RayMode::composite));
 }
@@ -35,7 +35,7 @@ Made make(Technique technique, const TransferSet& transfers) {
 hal::Result<VolumeTechnique*> VolumeTechniques::get(Technique technique) {
   std::unique_ptr<VolumeTechnique>& kept = made_[static_cast<std::size_t>(technique)];
   if (!kept) {
-    auto made = make(technique, transfers_);
+    auto made = make(technique, transfers_, threads_);
     if (!made)
       return tl::make_unexpected(made.error());
     kept = std::move(*made);

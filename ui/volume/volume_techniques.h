@@ -16,7 +16,9 @@ namespace octascope::ui {
 // Threads: as gl/objects.h.
 class VolumeTechniques {
 public:
-  explicit VolumeTechniques(TransferSet transfers) : transfers_{std::move(transfers)} {}
+  // `threads` is called on the surface's thread.
+  explicit VolumeTechniques(TransferSet transfers, pipeline::ThreadSetup threads = {})
+      : transfers_{std::move(transfers)}, threads_{std::move(threads)} {}
 
   // Stays ours. Fault::unsupported: this GL cannot compile its shaders.
   hal::Result<VolumeTechnique*> get(Technique technique);
@@ -25,6 +27,7 @@ public:
 
 private:
   TransferSet transfers_;
+  pipeline::ThreadSetup threads_;
   std::array<std::unique_ptr<VolumeTechnique>, all_techniques.size()> made_;
 };
 
