@@ -5,6 +5,7 @@
 
 #include "tests/firmware-host/loop_stage.h"
 #include "tests/support/picture_counts.h"
+#include "ui/histogram.h"
 #include "ui/hud/palette.h"
 #include "ui/stereo.h"
 
@@ -30,6 +31,7 @@ protected:
     EXPECT_TRUE(renderer);
     EXPECT_TRUE((*renderer)->show_volume(volume));
     EXPECT_TRUE((*renderer)->show_scope_picture(scope_picture_.frame(clock_.now()), std::nullopt));
+    (*renderer)->show_levels(ui::make_level_histogram(volume).shares());
     EXPECT_TRUE((*renderer)->draw(view(), loop_->status(), display_.width(), display_.height(),
                                   loop_->quality()));
     return (*renderer)->read_back(display_.width(), display_.height());
