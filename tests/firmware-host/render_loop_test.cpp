@@ -260,6 +260,22 @@ protected:
     }
     ASSERT_TRUE(shows_tissue());
     rest();
+    if (GetParam().technique == Technique::surface)
+      await_the_last_mesh();
+  }
+
+  // The window that is found in the first volume asks for another mesh, which comes in its own
+  // time.
+  void await_the_last_mesh() {
+    constexpr int still = 40; // turns, some ten milliseconds each
+    int frames = display_.frames;
+    for (int turns = 0; turns < still; ++turns) {
+      real_clock_.sleep_for(10ms);
+      turn();
+      if (display_.frames != frames)
+        turns = 0;
+      frames = display_.frames;
+    }
   }
 
   void lose_for(hal::Duration duration) {
