@@ -267,14 +267,14 @@ protected:
   // The window that is found in the first volume asks for another mesh, which comes in its own
   // time.
   void await_the_last_mesh() {
-    constexpr int still = 40; // turns, some ten milliseconds each
-    int frames = display_.frames;
+    constexpr int still = 30; // turns, ten milliseconds and more each
+    pipeline::Image last = display_.picture;
     for (int turns = 0; turns < still; ++turns) {
       real_clock_.sleep_for(10ms);
       turn();
-      if (display_.frames != frames)
+      if (count_different(last, display_.picture, pictures()[0], 2) > 0)
         turns = 0;
-      frames = display_.frames;
+      last = display_.picture;
     }
   }
 
