@@ -26,7 +26,6 @@ namespace octascope::firmware_host {
 
 namespace {
 
-constexpr std::array sizes{std::array{640, 360}, std::array{1280, 720}, std::array{1920, 1080}};
 constexpr int directions = 8;
 constexpr int fewest_frames = 4;      // where a frame takes seconds
 constexpr float opaque_tissue = 0.5F; // of a voxel at the top of the window, per reference step
@@ -40,7 +39,7 @@ std::string name_of(const DisplayBenchCase& what) {
                      what.width, what.height, what.steps, what.opaque ? "opaque" : "translucent");
 }
 
-std::vector<DisplayBenchCase> all_cases() {
+std::vector<DisplayBenchCase> all_cases(const std::vector<std::array<int, 2>>& sizes) {
   std::vector<DisplayBenchCase> cases;
   for (const auto& [width, height] : sizes)
     for (const ui::Technique technique : ui::all_techniques)
@@ -203,8 +202,8 @@ hal::Result<DisplayBenchReport> bench_display(const pipeline::Volume& volume,
   hal::linux_backend::MonotonicClock clock;
   sim::OffscreenDisplay display{clock};
   hal::DisplayConfig config;
-  config.width = sizes.back()[0];
-  config.height = sizes.back()[1];
+  config.width = options.sizes.back()[0];
+  config.height = options.sizes.back()[1];
   if (auto opened = display.open(config); !opened)
     return tl::make_unexpected(opened.error());
   report.gl_renderer = ui::gl::describe_context().renderer;
@@ -221,7 +220,7 @@ hal::Result<DisplayBenchReport> bench_display(const pipeline::Volume& volume,
     if (!upload)
       return tl::make_unexpected(upload.error());
     report.upload_ms_p50 = *upload;
-    const auto cases = all_cases();
+    const auto cases = all_cases(options.sizes);
     for (const DisplayBenchCase& what : cases) {
       auto result = bench.measure(what, options.seconds / static_cast<double>(cases.size()));
       if (!result)
@@ -230,7 +229,7 @@ hal::Result<DisplayBenchReport> bench_display(const pipeline::Volume& volume,
       if (!picture)
         return tl::make_unexpected(picture.error());
       // Pictures differ alike at every size.
-      const bool smallest = what.width == sizes.front()[0];
+      const bool smallest = what.width == options.sizes.front()[0];
       if (const auto other = smallest ? other_way(what) : std::nullopt) {
         const auto compared = bench.picture(*other);
         if (!compared)

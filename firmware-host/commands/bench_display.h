@@ -2,6 +2,7 @@
 // that the pictures are right, and what the whole appliance makes of it.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@
 namespace octascope::firmware_host {
 
 struct DisplayBenchOptions {
+  // Width and height, from the smallest to the largest.
+  std::vector<std::array<int, 2>> sizes{{640, 360}, {1280, 720}, {1920, 1080}};
   double seconds = 90;                       // about how long the drawing is measured
   std::optional<std::filesystem::path> dump; // folder for pictures and the volume
   bool live = true;                          // also run the appliance

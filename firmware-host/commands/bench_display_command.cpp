@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/bench.h"
 #include "firmware-host/commands/bench_display.h"
 #include "firmware-host/commands/command.h"
@@ -18,6 +19,7 @@ struct Arguments {
   bool as_json = false;
   double seconds = 90;
   std::string volume;
+  std::string size;
   std::string dump;
   bool no_live = false;
 };
@@ -48,17 +50,23 @@ void print_text(const DisplayBenchReport& report) {
 int run(const Arguments& arguments) {
   const auto complain = [](const hal::Error& error) {
     fmt::print(stderr, "octascope bench display: {}\n", error.message);
-    return exit_failed;
+    return error.fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
   };
   VolumeRequest request;
   if (arguments.volume.empty())
     request.phantom = "anterior_eye";
   else
     request.nrrd = arguments.volume;
+  DisplayBenchOptions options;
+  if (!arguments.size.empty()) {
+    const auto size = parse_size(arguments.size);
+    if (!size)
+      return complain(size.error());
+    options.sizes = {*size};
+  }
   const auto volume = load_volume(request);
   if (!volume)
     return complain(volume.error());
-  DisplayBenchOptions options;
   options.seconds = arguments.seconds;
   options.live = !arguments.no_live;
   if (!arguments.dump.empty())
@@ -82,6 +90,8 @@ void add_bench_display_command(CLI::App& bench, int& exit_status) {
   command->add_flag("--json", arguments->as_json, "One JSON object");
   command->add_option("--volume", arguments->volume,
                       "Volume to draw (NRRD); else the simulated eye, 512 x 300 x 80");
+  command->add_option("--size", arguments->size,
+                      "Of the pictures, as 1280x720; else 640x360, 1280x720 and 1920x1080");
   command
       ->add_option("--seconds", arguments->seconds,
                    "About how long the drawing is measured (90 if not given)")

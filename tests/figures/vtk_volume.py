@@ -144,11 +144,12 @@ def main():
     parser.add_argument("--tilt", type=float, default=35)
     parser.add_argument("--distance", type=float, default=2.4)
     parser.add_argument("--repeats", type=int, default=1, help="of the eight angles")
+    parser.add_argument("--mappers", type=numbers(",", str), default=["cpu", "gpu"])
     parser.add_argument("--dump", help="folder for pictures")
     arguments = parser.parse_args()
     levels, spacings = read_volume(arguments.volume)
     cases = [time_mapper(kind, arguments, levels, spacings, opacity)
-             for kind in ("cpu", "gpu") for opacity in (0.5, 0.03)]
+             for kind in arguments.mappers for opacity in (0.5, 0.03)]
     print(json.dumps({"vtk": vtk.vtkVersion().GetVTKVersion(), "cases": cases}, indent=2))
 
 
