@@ -120,8 +120,8 @@ TEST_F(Window, shows_what_offscreen_shows) {
   const pipeline::Image offscreen = picture_on("offscreen");
   ASSERT_EQ(window.width, offscreen.width);
   ASSERT_EQ(window.height, offscreen.height);
-  // Above the status bar, whose figures are of the moment: in the panels, no channel of any pixel is
-  // off by more than two counts of 255. How finely the volume is drawn is of the moment, too.
+  // Above the status bar, whose figures are of the moment: in the panels, no channel of any pixel
+  // is off by more than two counts of 255. How finely the volume is drawn is of the moment, too.
   const ui::Layout layout = layout_of(window);
   const int height = layout.status_bar.y;
   const ui::Rect panels{layout.view.right(), 0, window.width - layout.view.right(), height};

@@ -185,8 +185,7 @@ TEST(RayCaster, uniform_slab_has_the_closed_form_opacity_at_any_step) {
         0.16 / static_cast<double>(ui::reference_step_mm(ui::box_extents_mm(slab) / 2.0F));
     const double expected = 255 * (1 - std::pow(1 - grey, steps));
     for (const float step_mm : {0.016F, 0.004F, 0.001F}) {
-      const ui::RayImage image =
-          cast(caster, state, {ui::RayMode::composite, step_mm, true});
+      const ui::RayImage image = cast(caster, state, {ui::RayMode::composite, step_mm, true});
       double opacity = 0;
       double shade = 0;
       int pixels = 0;
@@ -221,8 +220,7 @@ TEST(RayCaster, sphere_has_the_silhouette_of_its_cone_of_tangents) {
   ui::ViewState state = view_state({"", 25, 40, 2}, 1);
   state.window_offset_db = pipeline::level_db(100); // begins at the surface
   state.window_size_db = 1;
-  const ui::RayImage image =
-      cast(caster, state, {ui::RayMode::composite, 0.004F, true}, 200, 200);
+  const ui::RayImage image = cast(caster, state, {ui::RayMode::composite, 0.004F, true}, 200, 200);
   const ui::Camera camera = ui::make_camera(state, ui::box_extents_mm(volume.geometry), 1);
   const double eye_mm = static_cast<double>(glm::length(camera.eye));
   const double tangent = radius_mm / std::sqrt(eye_mm * eye_mm - radius_mm * radius_mm);
@@ -266,8 +264,7 @@ TEST(RayCaster, half_the_step_is_the_same_picture) {
   for (const View& view : views) {
     const ui::ViewState state = view_state(view, 0.5F);
     const auto at = [&](int steps) {
-      return cast(caster, state,
-                  {ui::RayMode::composite, step_for(small_geometry, steps), true});
+      return cast(caster, state, {ui::RayMode::composite, step_for(small_geometry, steps), true});
     };
     const ui::RayImage coarse = at(512);
     const ui::RayImage fine = at(1024);

@@ -65,7 +65,7 @@ struct HudText {
   bool scope_stale = false;
   Liveness liveness = Liveness::waiting;
   ParameterEcho echo;
-  bool window_changing = false; // the echo is of the window
+  bool window_changing = false;            // the echo is of the window
   const Legend* legend = nullptr;          // null: hidden; the host's, see Status
   Action selected = Action::window_offset; // what the knob turns, for the legend
   std::array<DeviceStatus, Status::most_devices> devices;

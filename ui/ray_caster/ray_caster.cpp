@@ -115,8 +115,7 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   set(f.up, rays.up);
   set(f.mm, rays.mm);
   f.pixel_height = 2 * camera.tan_half_height / static_cast<float>(image.height);
-  f.pixel_width =
-      2 * camera.tan_half_height * camera.aspect / static_cast<float>(image.width);
+  f.pixel_width = 2 * camera.tan_half_height * camera.aspect / static_cast<float>(image.width);
   f.centre_shift = camera.centre_shift;
   f.near_mm = camera.near_mm;
   f.step_mm = settings.step_mm;

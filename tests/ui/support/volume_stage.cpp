@@ -126,9 +126,7 @@ StagePicture VolumeStage::cast(const ui::ViewState& view, ui::RayMode mode,
   ui::RayImage image;
   image.resize(settings.width, settings.height);
   const auto drawn =
-      caster_.draw(camera(view, settings),
-                   {mode, settings.step_mm, settings.leap_empty},
-                   image);
+      caster_.draw(camera(view, settings), {mode, settings.step_mm, settings.leap_empty}, image);
   EXPECT_TRUE(drawn) << drawn.error().message;
   StagePicture picture{settings.width, settings.height, {}, image.depth_mm};
   const auto share = [](std::uint32_t rgba, int channel) {
