@@ -39,14 +39,19 @@ std::string name_of(const DisplayBenchCase& what) {
                      what.width, what.height, what.steps, what.opaque ? "opaque" : "translucent");
 }
 
-std::vector<DisplayBenchCase> all_cases(const std::vector<std::array<int, 2>>& sizes) {
+std::vector<DisplayBenchCase> all_cases(const DisplayBenchOptions& options) {
   std::vector<DisplayBenchCase> cases;
-  for (const auto& [width, height] : sizes)
+  for (const auto& [width, height] : options.sizes)
     for (const ui::Technique technique : ui::all_techniques)
       for (const auto backend : {ui::RayBackend::processor, ui::RayBackend::shader})
         for (const int steps : {512, 256})
           for (const bool opaque : {true, false}) {
             if (!casts_rays(technique) && backend == ui::RayBackend::processor)
+              continue;
+            const bool asked =
+                options.technique.value_or(technique) == technique &&
+                (!casts_rays(technique) || options.rays.value_or(backend) == backend);
+            if (!asked)
               continue;
             const bool opacity_matters =
                 technique != ui::Technique::maximum && technique != ui::Technique::surface;
@@ -220,7 +225,7 @@ hal::Result<DisplayBenchReport> bench_display(const pipeline::Volume& volume,
     if (!upload)
       return tl::make_unexpected(upload.error());
     report.upload_ms_p50 = *upload;
-    const auto cases = all_cases(options.sizes);
+    const auto cases = all_cases(options);
     for (const DisplayBenchCase& what : cases) {
       auto result = bench.measure(what, options.seconds / static_cast<double>(cases.size()));
       if (!result)

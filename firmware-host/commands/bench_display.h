@@ -19,6 +19,8 @@ namespace octascope::firmware_host {
 struct DisplayBenchOptions {
   // Width and height, from the smallest to the largest.
   std::vector<std::array<int, 2>> sizes{{640, 360}, {1280, 720}, {1920, 1080}};
+  std::optional<ui::Technique> technique;    // none: all
+  std::optional<ui::RayBackend> rays;        // of techniques that cast them, who does; none: both
   double seconds = 90;                       // about how long the drawing is measured
   std::optional<std::filesystem::path> dump; // folder for pictures and the volume
   bool live = true;                          // also run the appliance

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,6 +21,8 @@ struct Arguments {
   double seconds = 90;
   std::string volume;
   std::string size;
+  std::string technique;
+  std::string drawn_by;
   std::string dump;
   bool no_live = false;
 };
@@ -64,6 +67,10 @@ int run(const Arguments& arguments) {
       return complain(size.error());
     options.sizes = {*size};
   }
+  options.technique = ui::technique_named(arguments.technique);
+  if (!arguments.drawn_by.empty())
+    options.rays =
+        arguments.drawn_by == "processor" ? ui::RayBackend::processor : ui::RayBackend::shader;
   const auto volume = load_volume(request);
   if (!volume)
     return complain(volume.error());
@@ -92,6 +99,14 @@ void add_bench_display_command(CLI::App& bench, int& exit_status) {
                       "Volume to draw (NRRD); else the simulated eye, 512 x 300 x 80");
   command->add_option("--size", arguments->size,
                       "Of the pictures, as 1280x720; else 640x360, 1280x720 and 1920x1080");
+  std::vector<std::string> names;
+  for (const ui::Technique technique : ui::all_techniques)
+    names.emplace_back(to_string(technique));
+  command->add_option("--technique", arguments->technique, "Only this one")
+      ->check(CLI::IsMember(names));
+  command
+      ->add_option("--drawn-by", arguments->drawn_by, "Rays cast by the processor, or by GL, only")
+      ->check(CLI::IsMember({"processor", "gl"}));
   command
       ->add_option("--seconds", arguments->seconds,
                    "About how long the drawing is measured (90 if not given)")
