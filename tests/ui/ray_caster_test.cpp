@@ -9,11 +9,11 @@
 #include <hwy/highway.h>
 
 #include "pipeline/level_scale.h"
+#include "pipeline/volume_geometry.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/ui/support/reference_rays.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "ui/ray_caster/ray_caster.h"
-#include "ui/volume/blank_depths.h"
 #include "ui/volume/plane_box.h"
 
 namespace octascope::tests {
@@ -56,7 +56,7 @@ ui::RayCaster make_caster(std::string_view isa = {}, std::size_t helpers = 1) {
 }
 
 hal::Result<> show(ui::RayCaster& caster, const pipeline::Volume& volume) {
-  pipeline::Occupancy occupancy{volume.geometry, ui::blank_depth_bins};
+  pipeline::Occupancy occupancy{volume.geometry, pipeline::blank_depth_bins};
   if (volume.levels.size() == volume.geometry.voxels())
     occupancy.update(volume);
   return caster.show(volume, occupancy);
@@ -335,7 +335,7 @@ TEST(RayCaster, draws_the_same_with_any_number_of_threads_and_allocates_nothing)
     ui::RayImage image = cast(caster, state, settings);
     if (first.empty())
       first = image.rgba;
-    pipeline::Occupancy occupancy{volume.geometry, ui::blank_depth_bins};
+    pipeline::Occupancy occupancy{volume.geometry, pipeline::blank_depth_bins};
     const std::uint64_t before = allocations_of_this_thread();
     for (int i = 0; i < 20; ++i) {
       occupancy.update(volume);

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "pipeline/png_image.h"
+#include "pipeline/volume_geometry.h"
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/scene.h"
 #include "tests/ui/support/synthetic_volume.h"
-#include "ui/volume/blank_depths.h"
 #include "ui/volume/volume_painter.h"
 
 namespace octascope::tests {
@@ -154,7 +154,7 @@ TEST_F(VolumePainterTest, takes_an_occupancy_that_is_ready) {
   ASSERT_TRUE(show(volume));
   const ui::ViewState view = view_from(35, 35, 2.4F);
   const pipeline::Image own = draw(view, by_shader);
-  pipeline::Occupancy occupancy{small_geometry, ui::blank_depth_bins};
+  pipeline::Occupancy occupancy{small_geometry, pipeline::blank_depth_bins};
   occupancy.update(volume);
   ASSERT_TRUE(painter_->show(volume, occupancy));
   EXPECT_EQ(draw(view, by_shader).pixels, own.pixels);

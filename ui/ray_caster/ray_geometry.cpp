@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "ui/volume/blank_depths.h"
+#include "pipeline/volume_geometry.h"
 
 namespace octascope::ui {
 
@@ -24,7 +24,7 @@ RayGeometry ray_geometry(const pipeline::VolumeGeometry& g, const Camera& camera
     return glm::vec3{-world.y, world.x, world.z} * per_mm;
   };
   RayGeometry rays;
-  rays.lower = {static_cast<float>(blank_depth_bins), 0.5F, 0.5F};
+  rays.lower = {static_cast<float>(pipeline::blank_depth_bins), 0.5F, 0.5F};
   rays.upper = counts + glm::vec3{-0.5F, 0.5F, 0.5F};
   rays.eye = cells(camera.eye) + middle;
   rays.forward = cells(camera.forward);

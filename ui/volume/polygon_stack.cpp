@@ -3,7 +3,7 @@
 #include "embedded_shaders.h"
 #include <glm/gtc/type_ptr.hpp>
 
-#include "ui/volume/blank_depths.h"
+#include "pipeline/volume_geometry.h"
 
 namespace octascope::ui {
 
@@ -13,7 +13,7 @@ constexpr std::size_t vertices_per_polygon = 12; // a hexagon is a fan of four t
 
 // As a share of the depth, up to the middle of the first bin that is shown.
 float first_depth_share(int depths) {
-  return (blank_depth_bins + 0.5F) / static_cast<float>(depths);
+  return (pipeline::blank_depth_bins + 0.5F) / static_cast<float>(depths);
 }
 
 } // namespace

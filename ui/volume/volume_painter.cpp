@@ -4,8 +4,8 @@
 #include <thread>
 #include <utility>
 
+#include "pipeline/volume_geometry.h"
 #include "ui/gl/context_info.h"
-#include "ui/volume/blank_depths.h"
 
 namespace octascope::ui {
 
@@ -78,7 +78,7 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume) {
   if (!volume.occupancy.empty())
     return show(volume, volume.occupancy);
   if (own_occupancy_.geometry() != volume.geometry)
-    own_occupancy_ = pipeline::Occupancy{volume.geometry, blank_depth_bins};
+    own_occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
   if (volume.levels.size() == volume.geometry.voxels()) // else refused below
     own_occupancy_.update(volume);
   return show(volume, own_occupancy_);

@@ -6,7 +6,7 @@
 #include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 
-#include "ui/volume/blank_depths.h"
+#include "pipeline/volume_geometry.h"
 
 namespace octascope::tests {
 
@@ -52,7 +52,7 @@ VolumeStage::VolumeStage()
       caster_{must(ui::RayCaster::create(1, {}))} {}
 
 void VolumeStage::show(const pipeline::Volume& volume) {
-  occupancy_ = pipeline::Occupancy{volume.geometry, ui::blank_depth_bins};
+  occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
   occupancy_.update(volume);
   EXPECT_TRUE(texture_.upload(volume));
   EXPECT_TRUE(caster_.show(volume, occupancy_));
