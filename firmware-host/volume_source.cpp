@@ -85,10 +85,12 @@ hal::Result<pipeline::Volume> reconstruct(const VolumeRequest& request) {
   const auto twins = make_twins(options, configuration, clock);
   if (!twins)
     return tl::make_unexpected(twins.error());
-  const auto reconstructor =
-      pipeline::Reconstructor::create({.calibration = twins->calibration,
-                                       .format = pipeline::SpectrumFormat{twins->format},
-                                       .a_scans = twins->plan.converted_lines()});
+  const auto reconstructor = pipeline::Reconstructor::create(
+      {.calibration = twins->calibration,
+       .format = pipeline::SpectrumFormat{twins->format},
+       .a_scans = twins->plan.converted_lines(),
+       // Not whichever is faster just now: the same levels each time.
+       .path = pipeline::ReconstructionPath::fftw});
   if (!reconstructor)
     return tl::make_unexpected(reconstructor.error());
   const auto average = pipeline::NeighbourAverage::create(configuration.neighbour_weights);
