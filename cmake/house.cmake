@@ -24,6 +24,9 @@ function(octascope_house name)
   endforeach()
 
   add_library(octascope_${name} STATIC ${HOUSE_SOURCES})
+  if(HOUSE_FOLDER MATCHES "^hal") # few files each: nothing is gained by compiling them as one
+    set_target_properties(octascope_${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
   target_include_directories(octascope_${name} PUBLIC ${include_root})
   target_link_libraries(octascope_${name} PUBLIC ${HOUSE_USES}
                                           PRIVATE ${HOUSE_PRIVATE_USES} octascope_compiler)

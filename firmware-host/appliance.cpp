@@ -9,7 +9,11 @@
 #include <fmt/format.h>
 
 #include "firmware-host/configuration.h"
+#include "firmware-host/configuration_choice.h"
+#include "firmware-host/configuration_keeper.h"
+#include "firmware-host/configuration_watch.h"
 #include "firmware-host/device_choice.h"
+#include "firmware-host/devices.h"
 #include "firmware-host/notice.h"
 #include "firmware-host/picture_keeper.h"
 #include "firmware-host/process_start.h"
@@ -18,15 +22,16 @@
 #include "firmware-host/report.h"
 #include "firmware-host/status_line.h"
 #include "firmware-host/stop_signal.h"
+#include "firmware-host/supervision/supervision.h"
 #include "firmware-host/thread_roles.h"
-#include "firmware-host/twins.h"
+#include "firmware-host/version.h"
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/realtime.h"
-#include "hal/linux/window_display.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/hot_path.h"
 #include "pipeline/png_image.h"
 #include "pipeline/reconstructor.h"
+#include "ui/splash.h"
 
 namespace octascope::firmware_host {
 
@@ -40,30 +45,64 @@ int camera_buffers(const pipeline::ScanPlan& plan) {
   return std::clamp(plan.sweeps() * 7 / 6, 96, 512);
 }
 
+// What another configuration could mend.
+bool is_about_configuration(const hal::Error& error) {
+  return error.fault == hal::Fault::invalid_argument || error.fault == hal::Fault::bad_data;
+}
+
+// A service has a place for what the surgeon keeps; else it goes where the program was started.
+std::filesystem::path picture_folder() {
+  const auto state = service_folders().state;
+  if (!state)
+    return ".";
+  std::error_code ignored; // a picture that cannot be kept is a fault of its own
+  std::filesystem::create_directories(*state / "pictures", ignored);
+  return *state / "pictures";
+}
+
 class AssembledAppliance final : public Appliance {
 public:
-  AssembledAppliance(RunOptions options, Configuration configuration)
-      : options_(std::move(options)), configuration_(std::move(configuration)) {}
+  AssembledAppliance(RunOptions options, const ChosenConfiguration& chosen,
+                     CrashReport& crash_report)
+      : options_(std::move(options)), configuration_(chosen.configuration),
+        supervision_({.folders = service_folders(),
+                      .configuration = chosen.used,
+                      .configuration_state = chosen.state,
+                      .metrics = configuration_.metrics,
+                      .journal = stderr_is_journal()},
+                     crash_report, clock_, faults_),
+        keeper_(chosen, options_, service_folders().state, clock_, faults_) {}
+
+  // The trigger goes, and crashes are reported on.
+  ~AssembledAppliance() override { supervision_.crash_report().set_last_act(nullptr, nullptr); }
 
   hal::Result<> assemble() {
-    if (auto checked = check_outputs().and_then([this] { return choose_display(); }); !checked)
+    if (auto checked = check_outputs(); !checked)
       return checked;
     auto controls = load_controls(configuration_);
     if (!controls)
       return tl::make_unexpected(controls.error());
     control_profile_ = std::move(*controls);
-    auto twins = make_twins(options_, configuration_, clock_);
-    if (!twins)
-      return tl::make_unexpected(twins.error());
-    twins_ = std::move(*twins);
-    if (window_ && twins_.concern_display())
-      return hal::fail(hal::Fault::invalid_argument,
-                       "--faults: a window cannot be made to fail; display faults need --display "
-                       "offscreen");
+    auto real = std::make_unique<RealDevices>(configuration_.devices,
+                                              plan_of(options_, configuration_), clock_);
+    const DeviceChoices choices =
+        choose_devices(real->find_for(options_), options_, configuration_.devices);
+    devices_ = std::make_unique<Devices>(std::move(real), choices, clock_);
+    show_splash();
+    if (auto made = devices_->make_others(choices, options_, configuration_, clock_); !made)
+      return made;
+    supervision_.crash_report().set_last_act(
+        [](void* made) { static_cast<Devices*>(made)->make_trigger_safe(); }, devices_.get());
+    if (auto registered = load_registration(); !registered)
+      return registered;
     return make_reconstruction().map([this] {
       make_threads();
       make_render_loop();
     });
+  }
+
+  void follow_configuration(std::unique_ptr<ConfigurationWatch> watch) {
+    keeper_.follow(std::move(watch));
   }
 
   hal::Result<> run(StopSignal& stop_signal) override {
@@ -72,19 +111,24 @@ public:
     if (const auto locked = hal::linux_backend::lock_memory(); !locked)
       faults_.add("host", "memory_not_locked", locked.error().message, clock_.now());
     started_ = clock_.now();
+    supervision_.start(process_start(clock_));
     if (auto started = start_threads(); !started)
       return started;
     show_until_done(stop_signal);
+    supervision_.stop();
     const std::optional<pipeline::Image> picture =
         options_.snapshot ? loop_->picture() : std::optional<pipeline::Image>{};
     ended_ = clock_.now();
+    keeper_.finish(*loop_);
     stop_threads();
     return leave_behind(picture);
   }
 
 private:
   hal::Result<> check_outputs() const;
-  hal::Result<> choose_display();
+  hal::DisplayConfig display_config() const;
+  void show_splash();
+  hal::Result<> load_registration();
   hal::Result<> make_reconstruction();
   void make_threads();
   void make_render_loop();
@@ -92,8 +136,10 @@ private:
   void stop_threads();
   void show_until_done(StopSignal& stop_signal);
   bool done() const;
+  void follow_controls();
+  void listen_to_scanner();
   void update_status();
-  bool simulated() const;
+  void tell_supervision();
   RunReport report() const;
   hal::Result<> leave_behind(const std::optional<pipeline::Image>& picture) const;
 
@@ -102,27 +148,27 @@ private:
   ui::ControlProfile control_profile_;
   hal::linux_backend::MonotonicClock clock_;
   pipeline::FaultLog faults_;
-  PictureKeeper pictures_{".", clock_, faults_};
+  Supervision supervision_; // outlives every thread
+  ConfigurationKeeper keeper_;
+  PictureKeeper pictures_{picture_folder(), clock_, faults_};
   ReconstructionCache cache_; // before whatever plans a transform: it brings FFTW's wisdom
-  Twins twins_;
+  std::unique_ptr<Devices> devices_;
   std::unique_ptr<pipeline::Reconstructor> reconstructor_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
   std::optional<pipeline::FrameBackgrounds> backgrounds_;      // running ones
   std::unique_ptr<WorkerCores> worker_cores_;
   std::optional<pipeline::NeighbourAverage> average_;
-  std::unique_ptr<sim::OffscreenDisplay> offscreen_; // one of the two
-  std::unique_ptr<hal::Display> window_;
   pipeline::Wakeup arrived_; // B-scans, for the fixed-rate thread
   pipeline::Wakeup news_;    // anything new to show, for the render thread
   std::unique_ptr<pipeline::Acquisition> acquisition_;
   std::unique_ptr<pipeline::VolumeThread> volumes_;
   std::unique_ptr<pipeline::ScopeThread> scope_;
   std::unique_ptr<pipeline::ControlThread> controls_;
+  std::optional<pipeline::Registration> registration_;
+  std::unique_ptr<VesselDisplay> vessels_;
   std::unique_ptr<RenderLoop> loop_;
   hal::TimePoint started_;
   hal::TimePoint ended_;
-
-  hal::Display& display() const { return offscreen_ ? *offscreen_ : *window_; }
 };
 
 // What cannot be written is found out now, not after the run; nothing stays behind.
@@ -141,25 +187,31 @@ hal::Result<> AssembledAppliance::check_outputs() const {
   return {};
 }
 
-// Before anything that takes time.
-hal::Result<> AssembledAppliance::choose_display() {
-  const DeviceChoice choice = choose_devices(survey_hardware(), options_).display;
-  if (choice.backend == "offscreen")
-    offscreen_ = std::make_unique<sim::OffscreenDisplay>(clock_);
-  else if (choice.backend == "window")
-    window_ = std::make_unique<hal::linux_backend::WindowDisplay>(clock_);
-  else
-    return hal::fail(hal::Fault::unsupported,
-                     "--display kms: this version cannot drive a console display yet; use "
-                     "--display window or --display offscreen");
-  return {};
+hal::DisplayConfig AssembledAppliance::display_config() const {
+  hal::DisplayConfig config;
+  config.width = options_.size ? (*options_.size)[0] : configuration_.width;
+  config.height = options_.size ? (*options_.size)[1] : configuration_.height;
+  config.fullscreen = configuration_.fullscreen;
+  return config;
+}
+
+// Finding the faster reconstruction and making the twins' loop take seconds. What fails here fails
+// again, and is told, when the render loop opens the display.
+void AssembledAppliance::show_splash() {
+  hal::Display& display = devices_->display();
+  if (!display.open(display_config()))
+    return;
+  if (!ui::draw_splash(display.width(), display.height(), version(), "starting") ||
+      !display.present())
+    display.close();
 }
 
 hal::Result<> AssembledAppliance::make_reconstruction() {
-  auto made = pipeline::Reconstructor::create({.calibration = twins_.calibration,
-                                               .format = pipeline::SpectrumFormat{twins_.format},
-                                               .a_scans = twins_.plan.converted_lines(),
-                                               .memory = &cache_});
+  auto made =
+      pipeline::Reconstructor::create({.calibration = devices_->calibration(),
+                                       .format = pipeline::SpectrumFormat{devices_->format()},
+                                       .a_scans = devices_->plan().converted_lines(),
+                                       .memory = &cache_});
   if (!made)
     return tl::make_unexpected(made.error());
   static_cast<void>(cache_.save()); // what was not kept is measured again; the doctor says why
@@ -179,16 +231,16 @@ hal::Result<> AssembledAppliance::make_reconstruction() {
 }
 
 void AssembledAppliance::make_threads() {
-  const hal::LineCameraConfig camera{.format = twins_.format,
-                                     .line_rate_hz = twins_.plan.line_rate_hz,
-                                     .buffers = camera_buffers(twins_.plan)};
-  acquisition_ = std::make_unique<pipeline::Acquisition>(*twins_.line_camera, camera, clock_,
+  const hal::LineCameraConfig camera{.format = devices_->format(),
+                                     .line_rate_hz = devices_->plan().line_rate_hz,
+                                     .buffers = camera_buffers(devices_->plan())};
+  acquisition_ = std::make_unique<pipeline::Acquisition>(devices_->line_camera(), camera, clock_,
                                                          faults_, arrived_);
   if (auto running = reconstructor_->make_running_background())
     backgrounds_.emplace(std::move(*running), reconstructor_->samples(), camera.buffers);
   pipeline::VolumeThreadSetup setup{
-      .plan = twins_.plan,
-      .trigger = {},
+      .plan = devices_->plan(),
+      .trigger = {.pulse_width = configuration_.devices.pulse_width},
       .workers = workspaces_.size(),
       .reconstruct =
           [this](std::size_t worker, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
@@ -205,42 +257,50 @@ void AssembledAppliance::make_threads() {
       .average = *average_,
       .most_volumes = options_.volumes,
   };
-  volumes_ = std::make_unique<pipeline::VolumeThread>(std::move(setup), *twins_.galvo_trigger,
-                                                      *acquisition_, *twins_.line_camera, clock_,
-                                                      faults_, arrived_, news_);
-  if (twins_.scope_camera)
-    scope_ = std::make_unique<pipeline::ScopeThread>(*twins_.scope_camera, hal::ScopeCameraConfig{},
-                                                     clock_, faults_, news_);
+  volumes_ = std::make_unique<pipeline::VolumeThread>(std::move(setup), devices_->galvo_trigger(),
+                                                      *acquisition_, devices_->line_camera(),
+                                                      clock_, faults_, arrived_, news_);
+  if (hal::ScopeCamera* const scope = devices_->scope_camera())
+    scope_ = std::make_unique<pipeline::ScopeThread>(*scope, hal::ScopeCameraConfig{}, clock_,
+                                                     faults_, news_);
   controls_ =
-      std::make_unique<pipeline::ControlThread>(*twins_.control_input, clock_, faults_, news_);
+      std::make_unique<pipeline::ControlThread>(devices_->control_input(), clock_, faults_, news_);
+}
+
+// A tree in a wrong place would mislead: without its registration nothing runs. The tree itself is
+// loaded beside the display.
+hal::Result<> AssembledAppliance::load_registration() {
+  if (!options_.registration)
+    return {};
+  auto loaded = pipeline::Registration::load(*options_.registration);
+  if (!loaded)
+    return tl::make_unexpected(loaded.error());
+  registration_ = std::move(*loaded);
+  return {};
 }
 
 void AssembledAppliance::make_render_loop() {
+  if (options_.vessels)
+    vessels_ = std::make_unique<VesselDisplay>(
+        VesselDisplaySetup{*options_.vessels, options_.registration, registration_}, clock_,
+        faults_, news_);
   RenderLoopSetup setup;
-  setup.display.width = options_.size ? (*options_.size)[0] : configuration_.width;
-  setup.display.height = options_.size ? (*options_.size)[1] : configuration_.height;
-  setup.display.fullscreen = configuration_.fullscreen;
-  if (configuration_.window) {
-    setup.window_from_first_volume = false;
-    setup.view.window_offset_db = configuration_.window->offset_db;
-    setup.view.window_size_db = configuration_.window->size_db;
-  }
-  setup.transfers = configuration_.look.transfers;
-  setup.view.transfer = configuration_.look.transfer;
-  setup.view.colour_map = configuration_.look.colour_map;
-  setup.view.technique = configuration_.look.technique;
-  setup.view.opacity = configuration_.look.opacity;
-  setup.view.b_scan = twins_.plan.b_scans / 2;
+  setup.display = display_config();
+  setup.view.b_scan = devices_->plan().b_scans / 2;
   setup.controls = control_profile_;
-  setup.freshness = {twins_.plan.tick_period(), configuration_.veil_after};
-  setup.b_scans = twins_.plan.b_scans;
-  setup.lines_per_frame = twins_.plan.lines_per_frame();
-  setup.scan_field = twins_.scan_field;
-  setup.status.simulated = simulated();
-  setup.status.source_description = twins_.source;
+  setup.freshness = {devices_->plan().tick_period(), configuration_.veil_after};
+  setup.b_scans = devices_->plan().b_scans;
+  setup.lines_per_frame = devices_->plan().lines_per_frame();
+  setup.scan_field = devices_->scan_field();
+  setup.status.simulated = devices_->simulated();
+  setup.status.source_description = devices_->source();
+  if (configuration_.objective)
+    setup.status.source_description += ", objective " + configuration_.objective->name;
+  keeper_.configure(setup);
+  sim::SimControlInput* const controls = devices_->simulated_controls();
   loop_ = std::make_unique<RenderLoop>(
       RenderLoopParts{
-          .display = display(),
+          .display = devices_->display(),
           .clock = clock_,
           .volumes = *volumes_,
           .acquisition = *acquisition_,
@@ -251,14 +311,19 @@ void AssembledAppliance::make_render_loop() {
           .keep_picture =
               [this](pipeline::Image picture) { return pictures_.keep(std::move(picture)); },
           .simulated_control =
-              [this](const hal::ControlEvent& event) { twins_.control_input->inject(event); },
-          .threads = make_thread_setup(clock_, faults_, *worker_cores_)},
+              controls == nullptr
+                  ? std::function<void(const hal::ControlEvent&)>{}
+                  : [controls](const hal::ControlEvent& event) { controls->inject(event); },
+          .threads = make_thread_setup(clock_, faults_, *worker_cores_, &supervision_.threads()),
+          .vessels = vessels_.get(),
+          .proof = &supervision_.picture()},
       std::move(setup));
 }
 
 hal::Result<> AssembledAppliance::start_threads() {
-  twins_.faults->start(started_);
-  const pipeline::ThreadSetup setup = make_thread_setup(clock_, faults_, *worker_cores_);
+  devices_->start_faults(started_);
+  const pipeline::ThreadSetup setup =
+      make_thread_setup(clock_, faults_, *worker_cores_, &supervision_.threads());
   if (auto started = acquisition_->start(setup); !started)
     return started;
   volumes_->start(setup);
@@ -280,11 +345,29 @@ void AssembledAppliance::stop_threads() {
 void AssembledAppliance::show_until_done(StopSignal& stop_signal) {
   StatusLine line{started_};
   do {
-    twins_.apply_faults(clock_.now(), offscreen_.get());
+    devices_->apply_faults(clock_.now());
+    follow_controls();
+    listen_to_scanner();
+    keeper_.advance(*loop_);
     update_status();
+    tell_supervision();
     line.update(loop_->status());
   } while (loop_->turn() && !done() && !stop_signal.requested());
   line.finish();
+}
+
+// Where the configuration names no profile, the leading device's is used.
+void AssembledAppliance::follow_controls() {
+  if (auto profile = devices_->new_control_profile())
+    keeper_.lead_with(std::move(*profile), *loop_);
+}
+
+void AssembledAppliance::listen_to_scanner() {
+  if (devices_->new_missed_answers() > 0)
+    faults_.add("galvo_trigger", "unanswered_pulse",
+                "the scanner did not answer a pulse on its sync line: is it on, and is the line "
+                "connected?",
+                clock_.now());
 }
 
 bool AssembledAppliance::done() const {
@@ -294,49 +377,82 @@ bool AssembledAppliance::done() const {
          loop_->shows_newest();
 }
 
-bool AssembledAppliance::simulated() const {
-  return twins_.line_camera->simulated() ||
-         (twins_.scope_camera && twins_.scope_camera->simulated());
-}
-
 void AssembledAppliance::update_status() {
   ui::Status& status = loop_->editable_status();
-  status.devices = {{{"camera", twins_.line_camera->backend(), twins_.line_camera->state()},
-                     {"trigger", twins_.galvo_trigger->backend(), twins_.galvo_trigger->state()},
-                     {"pedal", twins_.control_input->backend(), twins_.control_input->state()},
-                     {"display", display().backend(), display().state()}}};
+  status.devices = {
+      {{"camera", devices_->line_camera().backend(), devices_->line_camera().state()},
+       {"trigger", devices_->galvo_trigger().backend(), devices_->galvo_trigger().state()},
+       {"pedal", devices_->control_input().backend(), devices_->control_input().state()},
+       {"display", devices_->display().backend(), devices_->display().state()}}};
   status.device_count = 4;
-  if (twins_.scope_camera)
-    status.devices[status.device_count++] = {"scope", twins_.scope_camera->backend(),
-                                             twins_.scope_camera->state()};
+  if (const hal::ScopeCamera* const camera = devices_->scope_camera())
+    status.devices[status.device_count++] = {"scope", camera->backend(), camera->state()};
   const hal::TimePoint now = clock_.now();
   const auto devices = std::span<const ui::DeviceStatus>{status.devices}.first(status.device_count);
-  loop_->set_notice(compose_notice(faults_.records(), devices, now));
+  std::string_view notice = compose_notice(faults_.records(), devices, now);
+  if (notice.empty())
+    notice = keeper_.notice();
+  loop_->set_notice(notice.empty() && vessels_ ? vessels_->notice(now) : notice);
+}
+
+void AssembledAppliance::tell_supervision() {
+  const ui::Status& s = loop_->status();
+  const hal::TimePoint now = clock_.now();
+  if (!supervision_.wants_status(now))
+    return;
+  const pipeline::VolumeCounters counters = volumes_->counters();
+  const FrameStatistics& frames = loop_->statistics();
+  PictureStatus told{.told = now,
+                     .simulated = devices_->simulated(),
+                     .source = devices_->source(),
+                     .freshness = s.freshness,
+                     .lines_per_s = s.lines_per_s,
+                     .volumes_per_s = s.volumes_per_s,
+                     .frames_per_s = s.frames_per_s,
+                     .acquired = counters.acquired,
+                     .published = counters.published,
+                     .displayed = frames.volumes_displayed,
+                     .skipped = counters.skipped,
+                     .lost_lines = counters.lost_lines,
+                     .lost_b_scans = counters.lost_b_scans,
+                     .lost_volumes = counters.lost_volumes,
+                     .saturated_lines = counters.saturated_lines,
+                     .frames_drawn = frames.frames_drawn,
+                     .frames_missed = frames.frames_missed,
+                     .latency = frames.latency.summary(),
+                     .notice = s.notice};
+  for (const ui::DeviceStatus& device : std::span{s.devices}.first(s.device_count))
+    told.devices.push_back({std::string{device.name}, std::string{device.backend}, device.state});
+  supervision_.tell(std::move(told));
 }
 
 RunReport AssembledAppliance::report() const {
   RunReport r;
   const pipeline::VolumeCounters counters = volumes_->counters();
   const FrameStatistics& frames = loop_->statistics();
-  r.simulated = simulated();
-  r.source = twins_.source;
+  r.simulated = devices_->simulated();
+  r.source = devices_->source();
   r.reconstruction_path =
       reconstructor_->path() == pipeline::ReconstructionPath::fused ? "fused" : "fftw";
   r.reconstruction_isa = reconstructor_->isa();
   r.reconstruction_reason = name_of(reconstructor_->path_decision().reason);
   r.reconstruction_times = reconstructor_->path_decision().times;
-  r.line_camera = twins_.line_camera->backend();
-  r.galvo_trigger = twins_.galvo_trigger->backend();
-  r.control_input = twins_.control_input->backend();
-  r.scope_camera = twins_.scope_camera ? twins_.scope_camera->backend() : "none";
-  r.display = display().backend();
-  r.plan = twins_.plan;
+  r.line_camera = devices_->line_camera().backend();
+  r.galvo_trigger = devices_->galvo_trigger().backend();
+  r.control_input = devices_->control_input().backend();
+  r.scope_camera = devices_->scope_camera() ? devices_->scope_camera()->backend() : "none";
+  r.display = devices_->display().backend();
+  r.plan = devices_->plan();
   r.phase = volumes_->phase();
   r.worker_cores = worker_cores_->pinned();
   r.acquired = counters.acquired;
   r.published = counters.published;
   r.displayed = frames.volumes_displayed;
-  r.skipped = counters.skipped;
+  // What waits for the renderer at the end is never taken either.
+  r.skipped = counters.skipped + (volumes_->has_newer() ? 1 : 0);
+  r.undisplayed = frames.volumes_taken - frames.volumes_displayed;
+  r.planned = counters.planned;
+  r.unfinished = counters.unfinished;
   r.lost_lines = counters.lost_lines;
   r.lost_b_scans = counters.lost_b_scans;
   r.lost_volumes = counters.lost_volumes;
@@ -344,7 +460,7 @@ RunReport AssembledAppliance::report() const {
   r.duration_s = hal::to_seconds(ended_ - started_);
   r.volumes_per_s = static_cast<double>(counters.published) / r.duration_s;
   r.lines_per_s = static_cast<double>(acquisition_->counters().frames) *
-                  twins_.plan.lines_per_frame() / r.duration_s;
+                  devices_->plan().lines_per_frame() / r.duration_s;
   r.frames_per_s = static_cast<double>(frames.frames_drawn) / r.duration_s;
   r.reconstruct = volumes_->statistics().reconstruct.summary();
   r.assemble = volumes_->statistics().assemble.summary();
@@ -389,17 +505,30 @@ AssembledAppliance::leave_behind(const std::optional<pipeline::Image>& picture) 
 
 } // namespace
 
-hal::Result<std::unique_ptr<Appliance>> Appliance::assemble(const RunOptions& options) {
-  Configuration configuration;
-  if (options.configuration) {
-    auto loaded = load_configuration(*options.configuration);
-    if (!loaded)
-      return tl::make_unexpected(loaded.error());
-    configuration = std::move(*loaded);
+hal::Result<std::unique_ptr<Appliance>> Appliance::assemble(const RunOptions& options,
+                                                            CrashReport& crash_report) {
+  const auto state = service_folders().state;
+  // Before any thread: it blocks a signal.
+  auto watch = std::make_unique<ConfigurationWatch>(
+      wanted_file(options, state).value_or(std::filesystem::path{}),
+      state ? ReloadSignal::heeded : ReloadSignal::ignored);
+  auto chosen = choose_configuration(options, state);
+  if (!chosen)
+    return tl::make_unexpected(chosen.error());
+  auto appliance = std::make_unique<AssembledAppliance>(options, *chosen, crash_report);
+  auto assembled = appliance->assemble();
+  const auto first = assembled;
+  while (!assembled) {
+    auto next = is_about_configuration(assembled.error()) && state
+                    ? next_choice(*chosen, assembled.error().message, options, *state)
+                    : std::nullopt;
+    if (!next)
+      return tl::make_unexpected(first.error());
+    chosen = std::move(*next);
+    appliance = std::make_unique<AssembledAppliance>(options, *chosen, crash_report);
+    assembled = appliance->assemble();
   }
-  auto appliance = std::make_unique<AssembledAppliance>(options, std::move(configuration));
-  if (const auto assembled = appliance->assemble(); !assembled)
-    return tl::make_unexpected(assembled.error());
+  appliance->follow_configuration(std::move(watch));
   return appliance;
 }
 

@@ -8,14 +8,16 @@
 
 namespace octascope::firmware_host {
 
+class CrashReport;
 class StopSignal;
 
 // Bound to the thread that makes it; that thread becomes the render thread.
 class Appliance {
 public:
   // Reads every file that the options name and makes all devices; starts nothing, writes nothing.
-  // The Error's message is for the user.
-  static hal::Result<std::unique_ptr<Appliance>> assemble(const RunOptions& options);
+  // The Error's message is for the user. `crash_report` outlives the appliance.
+  static hal::Result<std::unique_ptr<Appliance>> assemble(const RunOptions& options,
+                                                          CrashReport& crash_report);
   virtual ~Appliance() = default;
 
   // Until the duration or the volumes are done, the display is closed, or a stop is requested.

@@ -1,7 +1,14 @@
 #include "firmware-host/configuration.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "firmware-host/control_device_file.h"
 #include "pipeline/config_document.h"
 
 namespace octascope::firmware_host {
@@ -10,8 +17,6 @@ namespace {
 
 using pipeline::ConfigTable;
 using pipeline::NumberRange;
-
-constexpr NumberRange level_range_db{-40, 88};
 
 void read_scan(ConfigTable root, Configuration& configuration) {
   const bool present = root.has("scan");
@@ -63,16 +68,51 @@ void read_pipeline(ConfigTable table, Configuration& configuration) {
   configuration.neighbour_weights = {weights[0], weights[1], weights[2]};
 }
 
+enum class OtherWords { refused, allowed }; // allowed: a node's name, an id
+
+std::string read_wish(ConfigTable& table, const char* key, std::string_view fallback,
+                      std::initializer_list<std::string_view> known, OtherWords others) {
+  std::string wish = table.text(key, std::string{fallback});
+  const bool is_known = std::ranges::find(known, wish) != known.end();
+  if (!is_known && (others == OtherWords::refused || wish.empty()))
+    table.complain(
+        fmt::format("{} is \"{}\", expected one of: {}", key, wish, fmt::join(known, ", ")));
+  return wish;
+}
+
+void read_devices(ConfigTable table, DeviceWishes& wishes) {
+  wishes.line_camera = read_wish(table, "line_camera", wishes.line_camera, {"auto", "sim", "v4l2"},
+                                 OtherWords::allowed);
+  wishes.galvo_trigger = read_wish(table, "galvo_trigger", wishes.galvo_trigger,
+                                   {"auto", "sim", "gpio"}, OtherWords::refused);
+  wishes.control_input = read_wish(table, "control_input", wishes.control_input,
+                                   {"auto", "sim", "hid"}, OtherWords::refused);
+  wishes.scope_camera = read_wish(table, "scope_camera", wishes.scope_camera,
+                                  {"auto", "sim", "none", "libcamera"}, OtherWords::allowed);
+  wishes.trigger_line = table.text("trigger_line", wishes.trigger_line);
+  wishes.sync_line = table.text("sync_line", wishes.sync_line);
+  wishes.pulse_width = hal::from_seconds(
+      table.number("pulse_width_us", hal::to_seconds(wishes.pulse_width) * 1e6, {1, 1e5}) * 1e-6);
+  wishes.connector = table.text("connector", wishes.connector);
+  wishes.mode = table.text("mode", wishes.mode);
+  wishes.overscan_percent = table.number("overscan_percent", wishes.overscan_percent, {0, 20});
+  wishes.seat = table.boolean("seat", wishes.seat);
+  if (table.has("exposure_us"))
+    wishes.exposure_us = table.number("exposure_us", 1, {0.01, 1e6});
+  if (table.has("gain"))
+    wishes.gain = table.integer("gain", 0, {-1000000, 1000000});
+  if (table.has("camera_input"))
+    wishes.camera_input = table.integer("camera_input", 0, {0, 255});
+  if (table.has("significant_bits"))
+    wishes.significant_bits = table.integer("significant_bits", 12, {8, 16});
+  wishes.right_shift = table.integer("right_shift", wishes.right_shift, {0, 8});
+}
+
 void read_display(ConfigTable table, Configuration& configuration) {
   configuration.width = table.integer("width", configuration.width, {320, 16384});
   configuration.height = table.integer("height", configuration.height, {180, 16384});
   configuration.fullscreen = table.boolean("fullscreen", configuration.fullscreen);
-  if (table.has("window_offset_db") != table.has("window_size_db"))
-    table.complain("window_offset_db and window_size_db go together: give both or neither");
-  const double offset_db = table.number("window_offset_db", 0, level_range_db);
-  const double size_db = table.number("window_size_db", 1, {1, 128});
-  if (table.has("window_offset_db"))
-    configuration.window = {static_cast<float>(offset_db), static_cast<float>(size_db)};
+  configuration.window = read_window(table);
   configuration.veil_after = hal::from_seconds(
       table.number("veil_after_s", hal::to_seconds(configuration.veil_after), {0.5, 3600}));
 }
@@ -81,9 +121,16 @@ void read_controls(ConfigTable table, Configuration& configuration) {
   if (table.has("profile") && table.has("file"))
     table.complain("profile and file are both there, expected one: the name of a profile that the "
                    "program brings with it, or the file of your own");
-  configuration.control_profile = table.text("profile", configuration.control_profile);
   configuration.control_file = table.path("file");
-  if (const auto known = ui::built_in_profile(configuration.control_profile); !known)
+  configuration.devices.control_device = table.path("device");
+  if (const auto& device = configuration.devices.control_device)
+    if (const auto learned = load_control_device(*device); !learned)
+      table.complain(learned.error().message);
+  const std::string profile = table.text("profile", "auto");
+  if (profile == "auto")
+    return;
+  configuration.control_profile = profile;
+  if (const auto known = ui::built_in_profile(profile); !known)
     table.complain(known.error().message);
 }
 
@@ -95,30 +142,75 @@ void read_sim(ConfigTable table, Configuration& configuration) {
   configuration.controls = table.path("controls");
 }
 
+// What the lens decides comes before what is said of every lens.
+void read_optics(ConfigTable root, Configuration& configuration) {
+  configuration.objectives = read_objectives(root);
+  configuration.objective = chosen_objective(root.table("microscope"), configuration.objectives);
+  if (!configuration.objective)
+    return;
+  if (configuration.objective->calibration)
+    configuration.calibration = configuration.objective->calibration;
+  if (configuration.objective->window)
+    configuration.window = configuration.objective->window;
+}
+
 } // namespace
 
+void override_plan(const RunOptions& options, const Configuration& configuration,
+                   pipeline::ScanPlan& plan) {
+  if (configuration.objective)
+    configuration.objective->scale(plan);
+  plan.bidirectional |= options.bidirectional;
+  plan.repeats = options.repeats.value_or(plan.repeats);
+}
+
+std::optional<std::filesystem::path> configuration_file(const RunOptions& options) {
+  if (options.configuration || options.simulate || options.recording)
+    return options.configuration;
+  std::error_code error;
+  if (!std::filesystem::exists(machine_configuration, error))
+    return std::nullopt;
+  return machine_configuration;
+}
+
 hal::Result<Configuration> load_configuration(const std::filesystem::path& file) {
-  const auto document = pipeline::ConfigDocument::load(file);
-  if (!document)
-    return tl::make_unexpected(document.error());
+  return pipeline::ConfigDocument::load(file).and_then(read_configuration);
+}
+
+hal::Result<Configuration> read_configuration(const pipeline::ConfigDocument& document) {
   Configuration configuration;
-  ConfigTable root = document->root();
+  ConfigTable root = document.root();
   read_scan(root, configuration);
   configuration.calibration = root.table("calibration").path("file");
   read_pipeline(root.table("pipeline"), configuration);
+  read_devices(root.table("devices"), configuration.devices);
   ConfigTable display = root.table("display");
   read_display(display, configuration);
   configuration.look = read_look(root, display);
   read_controls(root.table("controls"), configuration);
+  configuration.metrics = root.table("observation").output_path("metrics");
   read_sim(root.table("sim"), configuration);
-  if (const auto finished = document->finish(); !finished)
+  read_optics(root, configuration);
+  if (const auto finished = document.finish(); !finished)
     return tl::make_unexpected(finished.error());
   return configuration;
 }
 
+hal::Result<Configuration> configuration_of(const RunOptions& options) {
+  const auto file = configuration_file(options);
+  return file ? load_configuration(*file) : Configuration{};
+}
+
+pipeline::ScanPlan plan_of(const RunOptions& options, const Configuration& configuration) {
+  pipeline::ScanPlan plan = configuration.plan.value_or(pipeline::ScanPlan{});
+  override_plan(options, configuration, plan);
+  return plan;
+}
+
 hal::Result<ui::ControlProfile> load_controls(const Configuration& configuration) {
   return configuration.control_file ? ui::ControlProfile::load(*configuration.control_file)
-                                    : ui::built_in_profile(configuration.control_profile);
+                                    : ui::built_in_profile(configuration.control_profile.value_or(
+                                          std::string{ui::default_profile}));
 }
 
 } // namespace octascope::firmware_host

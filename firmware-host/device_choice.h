@@ -6,14 +6,15 @@
 #include <string_view>
 #include <vector>
 
-#include "firmware-host/hardware_survey.h"
+#include "firmware-host/device_findings.h"
+#include "firmware-host/device_wishes.h"
 #include "firmware-host/run_options.h"
 
 namespace octascope::firmware_host {
 
 struct DeviceChoice {
   std::string_view device;  // "line_camera" …
-  std::string_view backend; // "sim", "window", "offscreen" …
+  std::string_view backend; // "v4l2", "sim", "window" …; "none"
   std::string reason;       // for people
 };
 
@@ -25,6 +26,10 @@ struct DeviceChoices {
   }
 };
 
-DeviceChoices choose_devices(const HardwareSurvey& survey, const RunOptions& options);
+// A twin never stands beside a real line camera in what the picture shows: where the spectra are
+// the patient's, the microscope's picture is, too, or there is none. A real line camera is
+// triggered by a real line, a simulated one by its twin; a pedal serves with either.
+DeviceChoices choose_devices(const DeviceFindings& findings, const RunOptions& options,
+                             const DeviceWishes& wishes = {});
 
 } // namespace octascope::firmware_host

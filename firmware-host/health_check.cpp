@@ -9,8 +9,12 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
+#include "firmware-host/configuration_check.h"
 #include "firmware-host/device_choice.h"
+#include "firmware-host/hardware_checks.h"
+#include "firmware-host/real_devices.h"
 #include "firmware-host/reconstruction_cache.h"
 #include "hal/linux/realtime.h"
 #include "pipeline/reconstructor.h"
@@ -24,6 +28,10 @@ namespace octascope::firmware_host {
 using namespace std::chrono_literals;
 
 namespace {
+
+constexpr const char* allow_realtime_command =
+    "printf '@video - rtprio 49\\n@video - memlock unlimited\\n' | sudo tee "
+    "/etc/security/limits.d/octascope.conf";
 
 constexpr double gib = 1024.0 * 1024.0 * 1024.0;
 
@@ -45,7 +53,17 @@ HealthCheck check_realtime() {
   std::thread{[&made] { made = hal::linux_backend::make_this_thread_realtime(1); }}.join();
   if (made)
     return good("real-time priority", "SCHED_FIFO is allowed");
-  return {"real-time priority", Verdict::limited, "not allowed", made.error().message};
+  rlimit limit{};
+  ::getrlimit(RLIMIT_RTPRIO, &limit);
+  constexpr rlim_t needed = 49;
+  const std::string found =
+      limit.rlim_cur >= needed
+          ? std::string{"not allowed, though this user's limit is high enough (a container?)"}
+          : fmt::format("not allowed: this user's limit is {}, {} is needed", limit.rlim_cur,
+                        needed);
+  return {"real-time priority", Verdict::limited, found,
+          fmt::format("{}, then log out and in again; in the service unit LimitRTPRIO={}",
+                      allow_realtime_command, needed)};
 }
 
 HealthCheck check_locked_memory() {
@@ -53,7 +71,9 @@ HealthCheck check_locked_memory() {
   munlockall();
   if (locked)
     return good("locked memory", "mlockall is allowed");
-  return {"locked memory", Verdict::limited, "not allowed", locked.error().message};
+  return {"locked memory", Verdict::limited, "not allowed: " + locked.error().message,
+          fmt::format("{}, then log out and in again; in the service unit LimitMEMLOCK=infinity",
+                      allow_realtime_command)};
 }
 
 HealthCheck check_memory() {
@@ -164,10 +184,12 @@ HealthCheck check_reconstruction() {
                                    cache.file().string()));
 }
 
-HealthCheck check_devices() {
-  const DeviceChoices choices = choose_devices(survey_hardware(), RunOptions{});
+HealthCheck check_devices(hal::Clock& clock) {
+  const auto choices = choices_of_run({}, clock);
+  if (!choices)
+    return {"configuration", Verdict::fails, "refused", choices.error().message};
   std::string twins;
-  for (const DeviceChoice& choice : choices.all()) {
+  for (const DeviceChoice& choice : choices->all()) {
     if (choice.backend == "sim")
       twins += (twins.empty() ? "" : ", ") + std::string{choice.device};
   }
@@ -180,9 +202,30 @@ HealthCheck check_devices() {
 } // namespace
 
 std::vector<HealthCheck> check_health(hal::Clock& clock) {
-  return {check_cores(),          check_memory(),        check_realtime(),
-          check_locked_memory(),  check_clock(clock),    check_disk(),
-          check_reconstruction(), check_graphics(clock), check_devices()};
+  std::vector<HealthCheck> checks{check_cores(),          check_memory(),       check_realtime(),
+                                  check_locked_memory(),  check_clock(clock),   check_disk(),
+                                  check_reconstruction(), check_graphics(clock)};
+  for (HealthCheck& check : check_hardware(survey_hardware()))
+    checks.push_back(std::move(check));
+  checks.push_back(check_devices(clock));
+  return checks;
+}
+
+std::vector<HealthCheck> check_configuration(const std::optional<std::filesystem::path>& file) {
+  RunOptions options;
+  options.configuration = file;
+  const auto used = configuration_file(options);
+  if (!used)
+    return {{"configuration", Verdict::limited,
+             fmt::format("{} is not there: what is built in", machine_configuration),
+             "copy deploy/example.toml there and say what this machine has"}};
+  std::vector<HealthCheck> checks;
+  for (std::string& complaint : configuration_complaints(*used))
+    checks.push_back({"configuration", Verdict::fails, std::move(complaint),
+                      "mend it; docs/CONFIGURATION.md has every key"});
+  if (checks.empty())
+    checks.push_back(good("configuration", used->string()));
+  return checks;
 }
 
 } // namespace octascope::firmware_host

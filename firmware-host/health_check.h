@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,5 +26,10 @@ struct HealthCheck {
 
 // Tries everything for real, on threads and contexts of its own; takes under two seconds.
 std::vector<HealthCheck> check_health(hal::Clock& clock);
+
+// One a complaint about the configuration file, or one that says which is used. Without `file` the
+// machine's, where there is one.
+std::vector<HealthCheck>
+check_configuration(const std::optional<std::filesystem::path>& file = std::nullopt);
 
 } // namespace octascope::firmware_host

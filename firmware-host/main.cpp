@@ -6,6 +6,8 @@
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/reconstruct.h"
 #include "firmware-host/commands/render.h"
+#include "firmware-host/commands/status.h"
+#include "firmware-host/commands/vessels.h"
 #include "firmware-host/version.h"
 
 int main(int argc, char** argv) {
@@ -26,10 +28,12 @@ int main(int argc, char** argv) {
   host::add_run_command(program, exit_status);
   host::add_devices_command(program, exit_status);
   host::add_doctor_command(program, exit_status);
+  host::add_status_command(program, exit_status);
   host::add_reconstruct_command(program, exit_status);
   host::add_render_command(program, exit_status);
   host::add_bench_command(program, exit_status);
   host::add_calibrate_command(program, exit_status);
+  host::add_vessels_command(program, exit_status);
 
   try {
     program.parse(argc, argv);

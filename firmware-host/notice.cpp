@@ -27,13 +27,20 @@ struct FaultNotice {
   std::string_view device;
   std::string_view kind;
   std::string_view words;
+  hal::Duration lasts = shown_for;
 };
 
-// Gravest first; what concerns neither the picture nor the hands is left to the report.
+// Gravest first; what concerns neither pictures nor hands is left to the report.
 constexpr std::array fault_notices{
+    FaultNotice{"line_camera", "stuck_thread", "Line camera does not answer: its driver hangs"},
+    FaultNotice{"pipeline", "stuck_thread", "Reconstruction hangs: restart the system"},
+    FaultNotice{"control_input", "stuck_thread", "Pedal does not answer: its driver hangs"},
+    FaultNotice{"scope_camera", "stuck_thread", "Microscope camera does not answer"},
     FaultNotice{"pipeline", "overrun", "Reconstruction is too slow: volumes are lost"},
     FaultNotice{"pipeline", "late_tick", "The computer is busy: volumes are lost"},
+    FaultNotice{"line_camera", "silent", "Line camera is silent: is the scanner on?"},
     FaultNotice{"galvo_trigger", "missed_pulse", "The scanner misses pulses: volumes are lost"},
+    FaultNotice{"galvo_trigger", "unanswered_pulse", "The scanner does not answer: is it on?"},
     FaultNotice{"line_camera", "overflow", "Reconstruction is too slow: B-scans are missing"},
     FaultNotice{"line_camera", "dropped_frames", "Line camera loses frames: B-scans are missing"},
     FaultNotice{"line_camera", "corrupted_frame",
@@ -44,7 +51,14 @@ constexpr std::array fault_notices{
     FaultNotice{"line_camera", "unplaced_frame", "Line camera is out of step: B-scans are missing"},
     FaultNotice{"line_camera", "doubled_frame", "Line camera sends B-scans twice"},
     FaultNotice{"line_camera", "saturation", "Too much light: lines are saturated"},
+    FaultNotice{"host", "throttled", "The computer is too hot: it slows itself down"},
+    FaultNotice{"host", "low_memory", "The computer is short of memory"},
+    FaultNotice{"host", "disk_full", "The disk is full: pictures may be lost"},
+    FaultNotice{"host", "picture_not_kept", "The picture was not kept"},
     FaultNotice{"control_input", "stuck_switch", "A pedal switch stays down: is it stuck?"},
+    FaultNotice{"host", "restarted_after_crash",
+                "The program crashed and was restarted: check the settings",
+                std::chrono::minutes{1}},
 };
 
 bool is_away(hal::DeviceState state) {
@@ -68,7 +82,7 @@ std::string_view compose_notice(std::span<const pipeline::FaultRecord> faults,
   for (const FaultNotice& notice : fault_notices) {
     if (std::ranges::any_of(faults, [&](const pipeline::FaultRecord& fault) {
           return fault.device == notice.device && fault.kind == notice.kind &&
-                 now - fault.last <= shown_for;
+                 now - fault.last <= notice.lasts;
         }))
       return notice.words;
   }

@@ -11,8 +11,9 @@
 namespace octascope::firmware_host {
 
 // Pure; returns a literal, empty when nothing is wrong. A device that went away is named for as
-// long as it is away, any other fault until two seconds after it last struck. Of several the
-// gravest is named, not the newest, so that the line does not flicker between them.
+// long as it is away, a restart after a crash for a minute, any other fault until two seconds after
+// it last struck. Of several the gravest is named, not the newest, so that the line does not
+// flicker between them.
 std::string_view compose_notice(std::span<const pipeline::FaultRecord> faults,
                                 std::span<const ui::DeviceStatus> devices, hal::TimePoint now);
 

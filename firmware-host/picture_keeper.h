@@ -13,7 +13,8 @@ namespace octascope::firmware_host {
 // One thread asks; a thread of its own compresses and writes, one picture at a time.
 class PictureKeeper {
 public:
-  // Pictures go into `folder`, named by date and time.
+  // Pictures go into `folder`, named by date and time; they show a patient, so that nobody but
+  // their owner may read them.
   PictureKeeper(std::filesystem::path folder, hal::Clock& clock, pipeline::FaultLog& faults)
       : folder_(std::move(folder)), clock_(clock), faults_(faults) {}
 
@@ -22,8 +23,6 @@ public:
   bool keep(pipeline::Image picture);
 
 private:
-  std::filesystem::path free_name() const;
-
   std::filesystem::path folder_;
   hal::Clock& clock_;
   pipeline::FaultLog& faults_;

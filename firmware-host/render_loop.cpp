@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "ui/auto_window.h"
 #include "ui/controls/simulated_control.h"
@@ -15,6 +16,12 @@ namespace octascope::firmware_host {
 namespace {
 
 constexpr const char* device_name = "display";
+
+// A picture that does not change is shown again so often: that it is still true has to be proved.
+constexpr std::chrono::milliseconds longest_rest{900};
+
+// For so long a display that is there and fails is opened anew before a restart is called for.
+constexpr std::chrono::seconds patience_with_display{30};
 
 ui::ChoiceNames choices_of(const ui::TransferSet& transfers) {
   ui::ChoiceNames names{{}, {}};
@@ -32,6 +39,8 @@ RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
       key_legend_(ui::make_key_legend()), controller_(setup_.view, setup_.b_scans, setup_.controls),
       governor_({}) {
   controller_.actions().set_choices(choices_of(setup_.transfers));
+  if (setup_.restored_view)
+    controller_.actions().replace(controller_.actions().initial(), *setup_.restored_view);
   setup_.status.legend = &legend_;
   setup_.status.key_legend = &key_legend_;
 }
@@ -41,13 +50,39 @@ RenderLoop::~RenderLoop() {
   parts_.display.close();
 }
 
+void RenderLoop::change_controls(ui::ControlProfile profile) {
+  legend_ = ui::make_legend(profile);
+  controller_.change_profile(std::move(profile));
+}
+
+// Every picture that the renderer holds was made with the old ones.
+void RenderLoop::change_transfers(ui::TransferSet transfers) {
+  setup_.transfers = std::move(transfers);
+  controller_.actions().set_choices(choices_of(setup_.transfers));
+  if (!renderer_)
+    return;
+  renderer_.reset();
+  auto renderer = ui::Renderer::create(setup_.transfers, parts_.threads);
+  if (!renderer) {
+    lose_display(renderer.error());
+    return;
+  }
+  renderer_ = std::move(*renderer);
+  levels_of_ = 0;
+  if (const auto shown = show_again(); !shown)
+    lose_display(shown.error());
+}
+
 hal::Result<> RenderLoop::open() {
   return open_display();
 }
 
 hal::Result<> RenderLoop::open_display() {
-  if (auto opened = parts_.display.open(setup_.display); !opened)
-    return opened;
+  if (parts_.display.state() != hal::DeviceState::ready) // else it shows the splash
+    if (auto opened = parts_.display.open(setup_.display); !opened)
+      return opened;
+  last_flip_ = 0;
+  presented_.reset();
   auto renderer = ui::Renderer::create(setup_.transfers, parts_.threads);
   if (!renderer) {
     parts_.display.close();
@@ -64,6 +99,9 @@ hal::Result<> RenderLoop::open_display() {
 hal::Result<> RenderLoop::show_again() {
   if (scope_picture_ != nullptr)
     show_scope_picture();
+  if (parts_.vessels != nullptr)
+    if (auto shown = parts_.vessels->show_again(*renderer_); !shown)
+      return shown;
   return volume_ != nullptr ? renderer_->show_volume(*volume_) : hal::Result<>{};
 }
 
@@ -72,6 +110,8 @@ bool RenderLoop::turn() {
   const bool go_on = handle_input();
   take_volume();
   take_scope_picture();
+  if (parts_.vessels != nullptr)
+    parts_.vessels->advance(renderer_.get(), controller_.actions(), setup_.status.vessels);
   update_status();
   if (display_ready()) {
     draw_if_changed();
@@ -97,13 +137,16 @@ ui::FrameBudget RenderLoop::frame_budget() const {
 // it: the badge does not wait for a picture that takes its time.
 ui::DrawQuality RenderLoop::choose_quality() {
   const ui::ViewState& view = controller_.state();
+  const bool moved = drawn_view_ && !ui::same_sight(*drawn_view_, view);
   ui::DrawQuality quality =
       governor_.choose({.now = setup_.status.now,
                         .technique = view.technique,
-                        .moved = drawn_view_ && !ui::same_sight(*drawn_view_, view),
+                        .moved = moved,
                         .live = setup_.status.freshness.liveness == ui::Liveness::live ||
                                 drawn_liveness_ == ui::Liveness::live});
   quality.rays = rays_;
+  if (parts_.vessels != nullptr)
+    quality.vessel_detail_px = parts_.vessels->detail_px(setup_.status.now, moved);
   return quality;
 }
 
@@ -158,6 +201,8 @@ void RenderLoop::answer(const ui::ControlRequests& requests) {
   picture_wanted_ = picture_wanted_ || requests.snapshot;
   if (requests.auto_window)
     find_window();
+  if (requests.keep_registration && parts_.vessels != nullptr && volume_ != nullptr)
+    parts_.vessels->keep_registration(volume_->geometry, controller_.actions());
   if (requests.record)
     controller_.actions().tell(ui::Action::record, "not available in this version",
                                parts_.clock.now());
@@ -187,6 +232,8 @@ void RenderLoop::take_volume() {
   if (newest == nullptr)
     return;
   volume_ = newest;
+  ++statistics_.volumes_taken;
+  volume_undisplayed_ = false; // of the one before: if it was, it is lost
   const hal::TimePoint begin = parts_.clock.now();
   if (const auto shown = renderer_->show_volume(*newest); !shown) {
     parts_.faults.add(device_name, to_string(shown.error().fault), shown.error().message, begin);
@@ -195,12 +242,21 @@ void RenderLoop::take_volume() {
   statistics_.upload.add(parts_.clock.now() - begin);
   if (setup_.window_from_first_volume && !shown_) {
     if (const auto window = ui::suggest_window(*newest))
-      controller_.actions().set_window(window->offset_db, window->size_db);
+      set_first_window(*window);
   }
+  volume_undisplayed_ = true;
   undisplayed_last_line_ = newest->ledger.last_line;
   shown_ = ui::ShownVolume{newest->ledger.last_line, newest->ledger.published};
   setup_.status.missing_b_scans = newest->missing_b_scans();
   setup_.status.saturated_lines = newest->ledger.saturated_lines;
+}
+
+void RenderLoop::set_first_window(const ui::DisplayWindow& window) {
+  ui::ViewActions& actions = controller_.actions();
+  const ui::ViewState state = actions.state();
+  actions.set_window(window.offset_db, window.size_db);
+  if (setup_.window_restored)
+    actions.replace(actions.initial(), state);
 }
 
 void RenderLoop::take_scope_picture() {
@@ -246,7 +302,8 @@ void RenderLoop::draw_if_changed() {
   setup_.status.reduced_quality = ui::visible_reduction(quality_);
   show_levels();
   hal::Display& display = parts_.display;
-  if (!picture_wanted_ &&
+  const bool rested = presented_ && setup_.status.now - *presented_ >= longest_rest;
+  if (!picture_wanted_ && !rested &&
       !renderer_->needs_redraw(view, setup_.status, display.width(), display.height(), quality_))
     return;
   const hal::TimePoint begin = parts_.clock.now();
@@ -259,7 +316,10 @@ void RenderLoop::draw_if_changed() {
   if (renderer_->wants_volume(view) && volume_ != nullptr)
     static_cast<void>(renderer_->show_volume(*volume_)); // that it can be shown, it has proved
   renderer_->finish();
-  governor_.note(parts_.clock.now() - begin, renderer_->drew_volume());
+  const auto vessels = renderer_->vessel_report();
+  governor_.note(parts_.clock.now() - begin - vessels.cost, renderer_->drew_volume());
+  if (parts_.vessels != nullptr)
+    parts_.vessels->note(vessels, frame_budget().moving, setup_.status.vessels);
   drawn_view_ = view;
   drawn_liveness_ = setup_.status.freshness.liveness;
   if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
@@ -272,6 +332,11 @@ void RenderLoop::draw_if_changed() {
 }
 
 void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
+  presented_ = flip.completed;
+  if (flip.sequence == last_flip_) // another console is in front: nobody saw it
+    return;
+  last_flip_ = flip.sequence;
+  prove_picture(flip);
   const hal::Duration took = flip.completed - begin;
   ++statistics_.frames_drawn;
   statistics_.draw.add(took);
@@ -286,11 +351,32 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
       statistics_.first_picture = flip.completed;
     statistics_.latency.add(flip.completed - *undisplayed_last_line_);
     undisplayed_last_line_.reset();
-    ++statistics_.volumes_displayed;
   }
+  // Also one that a lost display showed only when it was back; that delay is no latency of ours.
+  if (std::exchange(volume_undisplayed_, false))
+    ++statistics_.volumes_displayed;
+}
+
+// What the frame says was judged in this turn, so it is true, unless drawing and showing it took so
+// long that the picture would have had to be covered meanwhile.
+void RenderLoop::prove_picture(const hal::Flip& flip) {
+  if (parts_.proof != nullptr && flip.completed - setup_.status.now <= setup_.freshness.veil_after)
+    parts_.proof->shown();
+}
+
+// Without a monitor a restart would bring none, and it would cost a frozen picture and the view:
+// the loop waits for as long as that takes. A display that is there and cannot be opened may be a
+// driver's state in this process: after a while that is left to a restart.
+void RenderLoop::look_for_display(const hal::Error& error, hal::TimePoint now) {
+  if (parts_.proof == nullptr)
+    return;
+  if (error.fault == hal::Fault::absent ||
+      (display_lost_ && now - *display_lost_ <= patience_with_display))
+    parts_.proof->looked_for_display();
 }
 
 void RenderLoop::lose_display(const hal::Error& error) {
+  display_lost_ = parts_.clock.now();
   parts_.faults.add(device_name, to_string(error.fault), error.message, parts_.clock.now());
   renderer_.reset();
   parts_.display.close();
@@ -309,9 +395,11 @@ bool RenderLoop::display_ready() {
     return false;
   if (const auto opened = open_display(); !opened) {
     parts_.faults.add(device_name, to_string(opened.error().fault), opened.error().message, now);
+    look_for_display(opened.error(), now);
     retry_.failure(now);
     return false;
   }
+  display_lost_.reset();
   retry_.success();
   return true;
 }

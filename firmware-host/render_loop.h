@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "firmware-host/rate_meter.h"
+#include "firmware-host/supervision/picture_proof.h"
+#include "firmware-host/vessel_display.h"
 #include "hal/clock.h"
 #include "hal/control_input.h"
 #include "hal/display.h"
@@ -19,6 +21,7 @@
 #include "pipeline/scope_thread.h"
 #include "pipeline/volume_thread.h"
 #include "pipeline/wakeup.h"
+#include "ui/auto_window.h"
 #include "ui/controls/legend_lines.h"
 #include "ui/controls/view_controller.h"
 #include "ui/freshness.h"
@@ -46,7 +49,9 @@ struct RenderLoopParts {
   std::function<bool(pipeline::Image)> keep_picture;
   // Keys that stand for the simulated pedal; empty where the pedal is real.
   std::function<void(const hal::ControlEvent&)> simulated_control;
-  pipeline::ThreadSetup threads; // of those that help drawing
+  pipeline::ThreadSetup threads;    // of those that help drawing
+  VesselDisplay* vessels = nullptr; // null: no vessels
+  PictureProof* proof = nullptr;    // null: nobody asks whether the picture is true
 };
 
 struct RenderLoopSetup {
@@ -55,6 +60,9 @@ struct RenderLoopSetup {
   ui::TransferSet transfers; // what view.transfer and view.colour_map choose from
   ui::ControlProfile controls;
   bool window_from_first_volume = true; // else the view's
+  // What an earlier run had set; reset_view goes back to `view`.
+  std::optional<ui::ViewState> restored_view;
+  bool window_restored = false; // so the first volume decides only over what to go back to
   ui::FreshnessLimits freshness;
   int b_scans = 80;
   int lines_per_frame = 379;
@@ -69,7 +77,8 @@ struct FrameStatistics {
   pipeline::DurationStatistics control; // pedal or knob → end of the first frame that shows it
   std::uint64_t frames_drawn = 0;
   std::uint64_t frames_missed = 0;
-  std::uint64_t volumes_displayed = 0;
+  std::uint64_t volumes_taken = 0;             // out of the triple buffer
+  std::uint64_t volumes_displayed = 0;         // of those, in a frame that reached the glass
   std::optional<hal::TimePoint> first_picture; // of a volume
   std::optional<ui::RayTrial> rays;            // where there was something to choose
 };
@@ -80,7 +89,8 @@ public:
   RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup);
   ~RenderLoop();
 
-  // Opens the display; an Error here is final (there is nothing to show anything on).
+  // Opens the display unless it is open; an Error here is final (there is nothing to show anything
+  // on).
   hal::Result<> open();
 
   // One round: input, newest volume, a frame if something changed. Waits at most one refresh.
@@ -101,6 +111,16 @@ public:
 
   // Set by the host from time to time: what the display shows as devices' states.
   ui::Status& editable_status() { return setup_.status; }
+
+  ui::ViewActions& editable_actions() { return controller_.actions(); }
+
+  // Other functions and colour maps to choose from; the picture is drawn anew. The view's indices
+  // are the caller's to bring into line.
+  void change_transfers(ui::TransferSet transfers);
+  void change_veil(hal::Duration veil_after) { setup_.freshness.veil_after = veil_after; }
+
+  // Another pedal or knob leads.
+  void change_controls(ui::ControlProfile profile);
 
   // A notice for the surgeon; empty for none.
   void set_notice(std::string_view notice) { setup_.status.notice = notice; }
@@ -123,14 +143,17 @@ private:
   void draw_if_changed();
   void flip_done(const hal::Flip& flip, hal::TimePoint begin);
   void lose_display(const hal::Error& error);
+  void prove_picture(const hal::Flip& flip);
+  void look_for_display(const hal::Error& error, hal::TimePoint now);
   hal::Result<> open_display();
   hal::Result<> show_again();
+  void set_first_window(const ui::DisplayWindow& window);
   void show_scope_picture();
   bool display_ready();
 
   RenderLoopParts parts_;
   RenderLoopSetup setup_;
-  const ui::Legend legend_; // of the profile
+  ui::Legend legend_; // of the profile
   const ui::Legend key_legend_;
   ui::ViewController controller_;
   std::unique_ptr<ui::Renderer> renderer_; // null while the display is gone
@@ -146,8 +169,12 @@ private:
   const hal::ScopeFrame* scope_picture_ = nullptr;    // likewise
   std::optional<hal::TimePoint> undisplayed_control_; // of the oldest event not shown yet
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
+  bool volume_undisplayed_ = false; // no frame has shown volume_ yet, however long it takes
   std::optional<ui::ShownVolume> shown_;
-  bool picture_wanted_ = false; // by a key or a pedal: the next frame is kept
+  std::uint64_t last_flip_ = 0;                // its number, of this opening of the display
+  std::optional<hal::TimePoint> presented_;    // last time, whether it was seen or not
+  std::optional<hal::TimePoint> display_lost_; // empty while it is there
+  bool picture_wanted_ = false;                // by a key or a pedal: the next frame is kept
   pipeline::RetryDelay retry_;
   RateMeter volume_rate_, line_rate_, frame_rate_;
   FrameStatistics statistics_;

@@ -93,6 +93,12 @@ std::string_view name_of(ui::StereoMode mode) {
   return names[static_cast<std::size_t>(mode)];
 }
 
+std::string_view name_of(ui::VesselColouring colouring) {
+  constexpr std::array<std::string_view, ui::vessel_colouring_count> names{"branch", "order",
+                                                                           "diagnostic"};
+  return names[static_cast<std::size_t>(colouring)];
+}
+
 Json view_to_json(const ui::ViewState& view) {
   return {{"window_offset_db", rounded(view.window_offset_db)},
           {"window_size_db", rounded(view.window_size_db)},
@@ -108,6 +114,10 @@ Json view_to_json(const ui::ViewState& view) {
           {"stereo", name_of(view.stereo)},
           {"frozen", view.frozen},
           {"vessels", view.vessels_visible},
+          {"vessel_opacity", rounded(view.vessel_opacity)},
+          {"vessel_colours", name_of(view.vessel_colouring)},
+          {"vessel_shift_mm", view.vessel_nudge.shift_mm},
+          {"vessel_turn_deg", view.vessel_nudge.turn_deg},
           {"box", view.box_visible},
           {"legend", view.legend_visible},
           {"selected", to_string(view.selected)}};
@@ -138,10 +148,13 @@ std::string to_json(const RunReport& r) {
       {"scan", scan_to_json(r)},
       {"workers", {{"count", r.worker_cores.size()}, {"cores", r.worker_cores}}},
       {"volumes",
-       {{"acquired", r.acquired},
+       {{"planned", r.planned},
+        {"acquired", r.acquired},
         {"published", r.published},
         {"displayed", r.displayed},
-        {"skipped", r.skipped}}},
+        {"skipped", r.skipped},
+        {"lost", r.undisplayed},
+        {"unfinished", r.unfinished}}},
       {"lost", {{"lines", r.lost_lines}, {"b_scans", r.lost_b_scans}, {"volumes", r.lost_volumes}}},
       {"saturated_lines", r.saturated_lines},
       {"rates",

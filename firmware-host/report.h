@@ -33,7 +33,16 @@ struct RunReport {
   pipeline::PhaseStatus phase;
   std::vector<int> worker_cores; // by worker; −1 where the system chooses
 
-  std::uint64_t acquired = 0, published = 0, displayed = 0, skipped = 0;
+  // The books balance (ARCHITECTURE.md, "What counts as lost"):
+  //   planned = acquired + lost_volumes + unfinished
+  //   acquired = displayed + skipped + undisplayed
+  std::uint64_t planned = 0;   // ticks since the camera first streamed
+  std::uint64_t acquired = 0;  // of which at least one B-scan came
+  std::uint64_t published = 0; // the same, when they were ready to be shown
+  std::uint64_t displayed = 0; // in a frame that reached the glass
+  std::uint64_t skipped = 0;   // never taken by the renderer: a newer one came, FROZEN, or the end
+  std::uint64_t undisplayed = 0; // taken, and then the display failed: "lost" of the volumes
+  std::uint64_t unfinished = 0;  // under way when the run ended
   std::uint64_t lost_lines = 0, lost_b_scans = 0, lost_volumes = 0;
   std::uint64_t saturated_lines = 0;
   double duration_s = 0;

@@ -32,8 +32,10 @@ struct RunOptions {
   std::optional<std::filesystem::path> faults;   // fault script for the twins
   std::optional<std::filesystem::path> controls; // what the pedal's twin does, and when
   std::optional<std::string> phantom;
-  bool bidirectional = false; // whatever the plan says otherwise
-  std::optional<int> repeats; // likewise
+  std::optional<std::filesystem::path> vessels;      // a tree, shown in the volume
+  std::optional<std::filesystem::path> registration; // of it to the volume
+  bool bidirectional = false;                        // whatever the plan says otherwise
+  std::optional<int> repeats;                        // likewise
 };
 
 } // namespace octascope::firmware_host

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "firmware-host/supervision/crash_report.h"
 #include "hal/linux/realtime.h"
 
 namespace octascope::firmware_host {
@@ -56,8 +57,11 @@ std::vector<int> WorkerCores::pinned() const {
 }
 
 pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& faults,
-                                        WorkerCores& cores) {
-  return [&clock, &faults, &cores](pipeline::ThreadRole role) {
+                                        WorkerCores& cores, ThreadWatch* watch) {
+  return [&clock, &faults, &cores, watch](pipeline::ThreadRole role) {
+    CrashReport::prepare_this_thread();
+    if (watch != nullptr)
+      watch->enlist(role, clock.now());
     hal::linux_backend::name_this_thread("octa-" + std::string{role.name});
     if (const auto core = role.name == "worker" ? cores.planned(role.number) : std::nullopt) {
       if (const auto pinned = hal::linux_backend::pin_this_thread(*core); pinned)

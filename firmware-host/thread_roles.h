@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "firmware-host/supervision/thread_watch.h"
 #include "hal/clock.h"
 #include "pipeline/fault_log.h"
 #include "pipeline/worker_pool.h"
@@ -35,8 +36,8 @@ private:
 // What the pipeline's and the display's threads call first. Camera and volume threads come before
 // the workers, the workers before everything else; the iso-surface comes last. Where the system
 // refuses, that is one record in `faults` (which like `cores` outlives the threads) and the
-// appliance goes on.
+// appliance goes on. `watch`, which outlives them too, notices those that hang; null: nobody does.
 pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& faults,
-                                        WorkerCores& cores);
+                                        WorkerCores& cores, ThreadWatch* watch = nullptr);
 
 } // namespace octascope::firmware_host

@@ -28,19 +28,13 @@ std::optional<std::filesystem::path> calibration_file(const RunOptions& options,
   return options.calibration ? options.calibration : configuration.calibration;
 }
 
-void override_plan(const RunOptions& options, pipeline::ScanPlan& plan) {
-  plan.bidirectional |= options.bidirectional;
-  plan.repeats = options.repeats.value_or(plan.repeats);
-}
-
 // What the recording says (counts) and what its calibration says (spacings). A recording has no
 // fly-back; of a bidirectional scan it has the turn-around lines, and of repeats every sweep.
-hal::Result<pipeline::ScanPlan> plan_of(const pipeline::SpectraShape& shape,
-                                        const pipeline::Calibration& calibration,
-                                        const RunOptions& options,
-                                        const Configuration& configuration) {
-  pipeline::ScanPlan plan = configuration.plan.value_or(pipeline::ScanPlan{});
-  override_plan(options, plan);
+hal::Result<pipeline::ScanPlan> recorded_plan(const pipeline::SpectraShape& shape,
+                                              const pipeline::Calibration& calibration,
+                                              const RunOptions& options,
+                                              const Configuration& configuration) {
+  pipeline::ScanPlan plan = plan_of(options, configuration);
   plan.samples = shape.samples;
   plan.fly_back_lines = 0;
   plan.a_scans = shape.a_scans - (plan.bidirectional ? plan.turn_around_lines : 0);
@@ -48,6 +42,8 @@ hal::Result<pipeline::ScanPlan> plan_of(const pipeline::SpectraShape& shape,
   plan.depth_spacing_um = calibration.depth_spacing_um;
   plan.a_spacing_um = calibration.a_spacing_um;
   plan.b_spacing_um = calibration.b_spacing_um;
+  if (configuration.objective)
+    configuration.objective->scale(plan);
   if (plan.sweeps() != shape.b_scans)
     return hal::fail(hal::Fault::invalid_argument,
                      fmt::format("--shape has {} sweeps, expected a multiple of the {} repeats of "
@@ -77,7 +73,7 @@ hal::Result<> play_recording(const RunOptions& options, const Configuration& con
       return pass_on(loaded.error());
     twins.calibration = std::move(*loaded);
   }
-  auto plan = plan_of(recording.shape, twins.calibration, options, configuration);
+  auto plan = recorded_plan(recording.shape, twins.calibration, options, configuration);
   if (!plan)
     return pass_on(plan.error());
   twins.plan = *plan;
@@ -109,7 +105,7 @@ hal::Result<> play_phantom(const RunOptions& options, const Configuration& confi
   loop->seed = phantom_seed;
   if (configuration.plan)
     loop->plan = *configuration.plan;
-  override_plan(options, loop->plan);
+  override_plan(options, configuration, loop->plan);
   const auto calibration = calibration_file(options, configuration);
   if (calibration) { // before the loop, which takes its time
     auto loaded = pipeline::Calibration::load(*calibration, loop->plan.samples);
@@ -204,15 +200,25 @@ void Twins::apply_faults(hal::TimePoint now, sim::OffscreenDisplay* display) {
     display->restore();
 }
 
-hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& configuration,
-                              hal::Clock& clock) {
+hal::Result<Twins> make_script_twins(const RunOptions& options, const Configuration& configuration,
+                                     hal::Clock& clock) {
   Twins twins;
   auto made = load_faults(options, configuration, twins);
   if (made)
     made = make_control_input(options, configuration, clock, twins);
-  if (made)
-    made = options.recording ? play_recording(options, configuration, twins)
-                             : play_phantom(options, configuration, twins);
+  if (!made)
+    return pass_on(made.error());
+  return twins;
+}
+
+hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& configuration,
+                              hal::Clock& clock) {
+  auto scripted = make_script_twins(options, configuration, clock);
+  if (!scripted)
+    return scripted;
+  Twins& twins = *scripted;
+  auto made = options.recording ? play_recording(options, configuration, twins)
+                                : play_phantom(options, configuration, twins);
   twins.plan.zero_padding = twins.calibration.zero_padding;
   if (made && !options.recording)
     made = make_scope_camera(options, configuration, clock, twins);
@@ -225,7 +231,7 @@ hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& co
       std::make_unique<sim::SimLineCamera>(*twins.spectra, *twins.link, clock, twins.faults.get());
   twins.galvo_trigger =
       std::make_unique<sim::SimGalvoTrigger>(*twins.link, clock, twins.faults.get());
-  return twins;
+  return scripted;
 }
 
 } // namespace octascope::firmware_host

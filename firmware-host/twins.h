@@ -23,7 +23,8 @@
 
 namespace octascope::firmware_host {
 
-// Members are in the order in which they need each other.
+// Members are in the order in which they need each other. Where the line camera is a real one,
+// those from `plan` on are empty but for `faults` and `control_input`.
 struct Twins {
   pipeline::ScanPlan plan;
   pipeline::Calibration calibration;
@@ -46,6 +47,10 @@ struct Twins {
   // the render loop.
   void apply_faults(hal::TimePoint now, sim::OffscreenDisplay* display);
 };
+
+// What no line camera is needed for: the fault script, and the pedal with its script.
+hal::Result<Twins> make_script_twins(const RunOptions& options, const Configuration& configuration,
+                                     hal::Clock& clock);
 
 // Reads the recording or makes the phantom, the calibration and the scripts that the options name.
 hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& configuration,

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/heartbeat.h"
 #include "pipeline/hot_path.h"
 
 namespace octascope::pipeline {
@@ -14,6 +15,8 @@ namespace {
 
 constexpr const char* device_name = "line_camera";
 constexpr hal::Duration frame_timeout = 50ms; // also how soon a stop is noticed
+constexpr hal::Duration first_patience = 3s;
+constexpr hal::Duration most_patience = 24s;
 
 } // namespace
 
@@ -21,7 +24,7 @@ Acquisition::Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& c
                          hal::Clock& clock, FaultLog& faults, Wakeup& arrived)
     : camera_(camera), config_(config), clock_(clock), faults_(faults), arrived_(arrived),
       frames_(static_cast<std::size_t>(config.buffers)),
-      queue_(static_cast<std::size_t>(config.buffers)) {}
+      queue_(static_cast<std::size_t>(config.buffers)), patience_(first_patience) {}
 
 Acquisition::~Acquisition() {
   stop();
@@ -65,6 +68,7 @@ AcquisitionCounters Acquisition::counters() const {
 
 void Acquisition::run() {
   while (!stopping_.load(std::memory_order_acquire)) {
+    Heartbeat::beat_here(clock_.now());
     if (camera_.state() != hal::DeviceState::streaming && !open_and_start()) {
       wait_before_retry();
       continue;
@@ -76,10 +80,13 @@ void Acquisition::run() {
       close_when_returned();
     } else if (*frame) {
       receive(**frame);
+    } else {
+      mend_silence();
     }
   }
   camera_.stop();
   close_when_returned();
+  Heartbeat::rest_here();
 }
 
 bool Acquisition::open_and_start() {
@@ -93,6 +100,8 @@ bool Acquisition::open_and_start() {
   }
   last_sequence_.reset();
   repeated_ = 0;
+  silent_since_.reset();
+  unanswered_.store(false, std::memory_order_relaxed);
   retry_.success();
   return true;
 }
@@ -109,7 +118,24 @@ void Acquisition::close_when_returned() {
   camera_.close();
 }
 
+void Acquisition::mend_silence() {
+  const hal::TimePoint now = clock_.now();
+  if (unanswered_.exchange(false, std::memory_order_relaxed) && !silent_since_)
+    silent_since_ = now;
+  if (!silent_since_ || now - *silent_since_ < patience_)
+    return;
+  faults_.add(device_name, "silent",
+              "the camera streams and sends nothing although the scanner is pulsed; it is opened "
+              "anew. Is the scanner on, and its trigger wired to the camera?",
+              now);
+  patience_ = std::min(2 * patience_, most_patience);
+  close_when_returned();
+}
+
 void Acquisition::receive(const hal::LineFrame& frame) {
+  silent_since_.reset();
+  patience_ = first_patience;
+  unanswered_.store(false, std::memory_order_relaxed);
   check_sequence(frame.sequence);
   const bool sized = frame.bytes.size() == config_.format.frame_bytes();
   if (frame.integrity != hal::FrameIntegrity::good || !sized) {
@@ -164,8 +190,10 @@ void Acquisition::give_back(int buffer) {
 
 void Acquisition::wait_before_retry() {
   retry_.failure(clock_.now());
-  while (!retry_.due(clock_.now()) && !stopping_.load(std::memory_order_acquire))
+  while (!retry_.due(clock_.now()) && !stopping_.load(std::memory_order_acquire)) {
+    Heartbeat::beat_here(clock_.now());
     clock_.sleep_until(std::min(retry_.next(), clock_.now() + frame_timeout));
+  }
 }
 
 } // namespace octascope::pipeline

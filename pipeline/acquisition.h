@@ -26,7 +26,9 @@ struct AcquisitionCounters {
 
 // Frames are borrowed from the camera and travel by number, without a copy. The queue is bounded
 // by the camera's buffers and drops the oldest, counted. The camera may vanish and come back at
-// any time: it is reopened with a back-off of 0.1 s to 2 s.
+// any time: it is reopened with a back-off of 0.1 s to 2 s. One that streams and falls silent
+// without an error, although the scanner is pulsed, is opened anew after 3 s, then 6, 12 and 24: it
+// may as well be the scanner that is off.
 class Acquisition {
 public:
   // `camera`, `clock` and `faults` outlive this. `arrived` is posted after each queued frame.
@@ -47,6 +49,9 @@ public:
   // Any thread.
   void release(int buffer);
 
+  // Any thread, wait-free: a pulse should have brought frames, and brought none.
+  void note_unanswered_pulse() { unanswered_.store(true, std::memory_order_relaxed); }
+
   // Any thread.
   AcquisitionCounters counters() const;
 
@@ -55,6 +60,7 @@ private:
   bool open_and_start();
   void close_when_returned();
   void receive(const hal::LineFrame& frame);
+  void mend_silence();
   void check_sequence(std::uint64_t sequence);
   void give_back(int buffer);
   void wait_before_retry();
@@ -71,8 +77,11 @@ private:
   std::optional<std::uint64_t> last_sequence_; // of this stream
   std::uint64_t repeated_ = 0;                 // frames since then with the same number
   RetryDelay retry_;
+  std::optional<hal::TimePoint> silent_since_; // pulses go out, and no frame comes
+  hal::Duration patience_;                     // with that
 
   std::atomic<std::uint64_t> good_{0}, unusable_{0}, gaps_{0}, overflowed_{0};
+  std::atomic<bool> unanswered_{false};
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

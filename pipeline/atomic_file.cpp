@@ -28,7 +28,20 @@ tl::unexpected<hal::Error> system_failure(const fs::path& file, std::string_view
 
 } // namespace
 
-hal::Result<AtomicFile> AtomicFile::create(const fs::path& destination) {
+// A file system that cannot do it (EINVAL) has nothing to be written.
+hal::Result<> sync_folder_of(const fs::path& file) {
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path{"."};
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0)
+    return errno == EACCES ? hal::Result<>{} : system_failure(file, "be found in its folder");
+  const bool synced = ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS;
+  const int reason = errno;
+  ::close(descriptor);
+  errno = reason;
+  return synced ? hal::Result<>{} : system_failure(file, "be kept in its folder on the disk");
+}
+
+hal::Result<AtomicFile> AtomicFile::create(const fs::path& destination, Readers readers) {
   std::error_code error;
   const fs::file_status status = fs::status(destination, error);
   if (fs::exists(status) && !fs::is_regular_file(status))
@@ -46,9 +59,8 @@ hal::Result<AtomicFile> AtomicFile::create(const fs::path& destination) {
                               : destination;
   fs::path temporary = target;
   temporary.replace_filename(fmt::format(".{}.part-{}", target.filename().string(), ::getpid()));
-  constexpr int everyone_as_the_umask_allows = 0666;
-  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC,
-                                everyone_as_the_umask_allows);
+  const mode_t mode = readers == Readers::owner ? 0600 : 0666; // and less, if the umask says so
+  const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
   if (descriptor < 0)
     return system_failure(destination, "be written, no file can be made in its folder");
   return AtomicFile{descriptor, target, std::move(temporary)};
@@ -92,7 +104,16 @@ hal::Result<> AtomicFile::commit() {
   if (::rename(temporary_.c_str(), destination_.c_str()) != 0)
     return system_failure(destination_, "be put in place");
   temporary_.clear();
-  return {};
+  return sync_folder_of(destination_);
+}
+
+hal::Result<> write_atomically(const fs::path& file, std::string_view text) {
+  auto made = AtomicFile::create(file);
+  if (!made)
+    return tl::make_unexpected(made.error());
+  if (auto written = made->write_at(0, std::as_bytes(std::span{text})); !written)
+    return written;
+  return made->commit();
 }
 
 } // namespace octascope::pipeline

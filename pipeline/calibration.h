@@ -62,4 +62,10 @@ struct Calibration {
   hal::Result<> validate() const;
 };
 
+class ConfigDocument;
+
+// The file's text, asked for every file that it names and for nothing else: for copies that keep
+// them together (ConfigDocument::text_naming()).
+hal::Result<ConfigDocument> calibration_document(const std::filesystem::path& file);
+
 } // namespace octascope::pipeline

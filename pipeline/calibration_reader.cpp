@@ -312,4 +312,18 @@ hal::Result<Calibration> Calibration::load(const fs::path& file, int expected_sa
   return CalibrationReader{*document, file}.read(expected_samples);
 }
 
+hal::Result<ConfigDocument> calibration_document(const fs::path& file) {
+  auto document = ConfigDocument::load(file);
+  if (!document)
+    return document;
+  ConfigTable root = document->root();
+  root.table("k_linear").path("table");
+  root.table("dispersion").path("table");
+  root.table("background").path("file");
+  ConfigTable window = root.table("window");
+  window.path("source");
+  window.path("dark");
+  return document;
+}
+
 } // namespace octascope::pipeline

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "pipeline/atomic_file.h"
+#include "pipeline/toml_text.h"
 
 namespace octascope::pipeline {
 
@@ -18,31 +18,6 @@ std::string curve_text(std::string_view meaning, const std::vector<double>& curv
   for (const double value : curve)
     text += fmt::format("{:.17g}\n", value);
   return text;
-}
-
-// A TOML basic string: quotes, backslashes and control characters are escaped.
-std::string toml_text(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      result += fmt::format("\\{}", c);
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      result += c;
-  }
-  return result + "\"";
-}
-
-std::string numbers(const std::vector<double>& values) {
-  std::vector<std::string> texts;
-  for (const double value : values) {
-    std::string text = fmt::format("{:.17g}", value);
-    if (text.find_first_of(".e") == std::string::npos)
-      text += ".0";
-    texts.push_back(std::move(text));
-  }
-  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 std::string_view name_of(Interpolation interpolation) {
@@ -115,12 +90,12 @@ std::string toml(const FoundCalibration& found, const CurveNames& names) {
                                  "[spectrometer]\nsamples = {}\n\n[k_linear]\n",
                                  c.samples);
   text += names.k_linear.empty() ? fmt::format("wavelength_polynomial_nm = {}\n",
-                                               numbers(found.wavelength_polynomial_nm))
+                                               toml_numbers(found.wavelength_polynomial_nm))
                                  : fmt::format("table = {}\n", toml_text(names.k_linear));
   text += fmt::format("interpolation = \"{}\"\n\n", name_of(c.interpolation));
   if (!found.dispersion_polynomial_rad.empty())
     text += fmt::format("[dispersion]\npolynomial = {}\nsign = 1\n\n",
-                        numbers(found.dispersion_polynomial_rad));
+                        toml_numbers(found.dispersion_polynomial_rad));
   else if (!names.dispersion.empty())
     text += fmt::format("[dispersion]\ntable = {}\nsign = 1\n\n", toml_text(names.dispersion));
   text += options_toml(c, names.background, names.source);

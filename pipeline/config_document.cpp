@@ -11,6 +11,8 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include "pipeline/toml_text.h"
+
 namespace octascope::pipeline {
 
 namespace fs = std::filesystem;
@@ -22,7 +24,9 @@ namespace {
 struct Shared {
   toml::table table; // owns all nodes
   fs::path file;
-  std::optional<std::string> complaint;
+  std::string text;
+  std::vector<NamedFile> named;
+  std::vector<std::string> complaints;
 };
 
 std::string describe(const toml::node& node) {
@@ -36,6 +40,36 @@ std::string describe(const toml::node& node) {
   return words;
 }
 
+bool begins_code_point(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+}
+
+std::size_t offset_of(std::string_view text, unsigned line, unsigned column) {
+  std::size_t offset = 0;
+  for (unsigned i = 1; i < line; ++i)
+    offset = std::min(text.find('\n', offset), text.size() - 1) + 1;
+  for (unsigned i = 1; i < column && offset < text.size(); ++i)
+    do
+      ++offset;
+    while (offset < text.size() && !begins_code_point(text[offset]));
+  return offset;
+}
+
+// How long the text in quotes is that begins there; 0 where none does. Names of files have neither
+// line breaks nor, so far, needed three quotes.
+std::size_t quoted_length(std::string_view text) {
+  if (text.empty() || (text[0] != '"' && text[0] != '\'') || text.starts_with("\"\"\"") ||
+      text.starts_with("'''"))
+    return 0;
+  for (std::size_t i = 1; i < text.size() && text[i] != '\n'; ++i) {
+    if (text[i] == text[0])
+      return i + 1;
+    if (text[i] == '\\' && text[0] == '"')
+      ++i;
+  }
+  return 0;
+}
+
 } // namespace
 
 struct ConfigTable::Node {
@@ -43,21 +77,21 @@ struct ConfigTable::Node {
   const toml::table* table = nullptr; // null: not in the file
   std::string name;                   // "" for the root
   std::set<std::string, std::less<>> asked;
+  std::set<std::string, std::less<>> known; // those, and what would be asked for if it were there
   std::vector<std::shared_ptr<Node>> children;
 
   const toml::node* find(std::string_view key) {
     asked.emplace(key);
+    known.emplace(key);
     return table == nullptr ? nullptr : table->get(key);
   }
 
   void complain_at(const toml::node* where, std::string_view message) {
-    if (shared->complaint)
-      return;
     const std::string place = name.empty() ? "" : fmt::format("[{}] ", name);
     const unsigned line = where == nullptr ? 0U : where->source().begin.line;
-    shared->complaint =
+    shared->complaints.push_back(
         line == 0 ? fmt::format("{}: {}{}", shared->file.string(), place, message)
-                  : fmt::format("{}:{}: {}{}", shared->file.string(), line, place, message);
+                  : fmt::format("{}:{}: {}{}", shared->file.string(), line, place, message));
   }
 
   void complain_value(std::string_view key, const toml::node& found, std::string_view expected) {
@@ -98,7 +132,7 @@ struct ConfigTable::Node {
       for (const auto& [key, value] : *table) {
         if (!asked.contains(key.str()))
           complain_at(&value, fmt::format("unknown key \"{}\"; known here: {}", key.str(),
-                                          fmt::join(asked, ", ")));
+                                          fmt::join(known, ", ")));
       }
     }
     for (const auto& c : children)
@@ -219,10 +253,15 @@ std::vector<std::string> ConfigTable::texts(std::string_view key) {
 }
 
 std::optional<fs::path> ConfigTable::path(std::string_view key) {
-  if (!has(key)) {
-    node_->find(key);
-    return std::nullopt;
+  auto file = output_path(key);
+  if (file) {
+    const toml::source_position place = node_->find(key)->source().begin;
+    node_->shared->named.push_back({*file, place.line, place.column});
   }
+  return file;
+}
+
+std::optional<fs::path> ConfigTable::output_path(std::string_view key) {
   const std::string name = text(key, "");
   if (name.empty())
     return std::nullopt;
@@ -230,12 +269,17 @@ std::optional<fs::path> ConfigTable::path(std::string_view key) {
 }
 
 bool ConfigTable::has(std::string_view key) const {
+  node_->known.emplace(key);
   return node_->table != nullptr && node_->table->contains(key);
 }
 
 bool ConfigTable::has_integer(std::string_view key) const {
   return node_->table != nullptr && node_->table->get(key) != nullptr &&
          node_->table->get(key)->is_integer();
+}
+
+bool ConfigTable::has_text(std::string_view key) const {
+  return has(key) && node_->table->get(key)->is_string();
 }
 
 ConfigTable ConfigTable::table(std::string_view key) {
@@ -293,17 +337,48 @@ hal::Result<ConfigDocument> ConfigDocument::parse(std::string_view text, const f
   auto shared = std::make_shared<Shared>();
   shared->table = std::move(parsed).table();
   shared->file = name;
+  shared->text = text;
   auto node = std::make_shared<ConfigTable::Node>();
   node->table = &shared->table;
   node->shared = std::move(shared);
   return ConfigDocument{ConfigTable{std::move(node)}};
 }
 
+std::vector<NamedFile> ConfigDocument::named_files() const {
+  return root_.node_->shared->named;
+}
+
+hal::Result<std::string> ConfigDocument::text_naming(std::span<const std::string> names) const {
+  const Shared& shared = *root_.node_->shared;
+  std::vector<std::pair<std::size_t, std::string>> places;
+  for (std::size_t i = 0; i < shared.named.size(); ++i)
+    places.emplace_back(offset_of(shared.text, shared.named[i].line, shared.named[i].column),
+                        names[i]);
+  std::ranges::sort(places);
+  std::string text;
+  std::size_t taken = 0;
+  for (const auto& [offset, name] : places) {
+    const std::size_t length = quoted_length(std::string_view{shared.text}.substr(offset));
+    if (length == 0 || offset < taken)
+      return hal::fail(Fault::bad_data,
+                       fmt::format("{}: cannot be copied with its files: expected \"{}\" in simple "
+                                   "quotes",
+                                   shared.file.string(), name));
+    text += shared.text.substr(taken, offset - taken) + toml_text(name);
+    taken = offset + length;
+  }
+  return text + shared.text.substr(taken);
+}
+
 hal::Result<> ConfigDocument::finish() const {
   root_.node_->complain_about_unknown_keys();
-  if (const auto& complaint = root_.node_->shared->complaint)
-    return hal::fail(Fault::invalid_argument, *complaint);
-  return {};
+  const auto& complaints = root_.node_->shared->complaints;
+  return complaints.empty() ? hal::Result<>{}
+                            : hal::fail(Fault::invalid_argument, complaints.front());
+}
+
+std::vector<std::string> ConfigDocument::complaints() const {
+  return root_.node_->shared->complaints;
 }
 
 } // namespace octascope::pipeline

@@ -11,6 +11,7 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,12 +41,15 @@ public:
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns);
   // A text, or a list of texts; an empty vector when the key is not there.
   std::vector<std::string> texts(std::string_view key);
-  // A path, relative to the document's folder.
+  // The path of a file that is read, relative to the document's folder: one of named_files().
   std::optional<std::filesystem::path> path(std::string_view key);
+  // The path of one that is written: none of them.
+  std::optional<std::filesystem::path> output_path(std::string_view key);
 
   bool has(std::string_view key) const;
   // Is it there, and a whole number? For keys that take numbers as well as names.
   bool has_integer(std::string_view key) const;
+  bool has_text(std::string_view key) const; // likewise
   // An empty table when it is not there.
   ConfigTable table(std::string_view key);
   // Entries of an array of tables ([[key]]), empty when it is not there.
@@ -61,6 +65,13 @@ private:
   std::shared_ptr<Node> node_;
 };
 
+// A file that a document names.
+struct NamedFile {
+  std::filesystem::path file; // as ConfigTable::path() gave it
+  unsigned line = 0;          // where its name stands in the text: code points, from 1
+  unsigned column = 0;
+};
+
 class ConfigDocument {
 public:
   static hal::Result<ConfigDocument> load(const std::filesystem::path& file);
@@ -71,6 +82,18 @@ public:
 
   // The first complaint, or the first key that nobody asked for; call it when all was read.
   hal::Result<> finish() const;
+
+  // All of them, after finish(): for people who mend a file. What comes late may follow from what
+  // came first.
+  std::vector<std::string> complaints() const;
+
+  // What was asked for with path() and is there, in the order of asking.
+  std::vector<NamedFile> named_files() const;
+
+  // The text with other names for those files: `names` has one for each of named_files(). For
+  // copies that keep a document and its files together. Fault::bad_data: a name could not be found
+  // in the text.
+  hal::Result<std::string> text_naming(std::span<const std::string> names) const;
 
 private:
   explicit ConfigDocument(ConfigTable root) : root_(std::move(root)) {}

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/heartbeat.h"
+
 namespace octascope::pipeline {
 
 using namespace std::chrono_literals;
@@ -42,6 +44,7 @@ void ControlThread::stop() {
 void ControlThread::run() {
   std::array<hal::ControlEvent, 32> events;
   while (!stopping_.load(std::memory_order_acquire)) {
+    Heartbeat::beat_here(clock_.now());
     if (input_.state() != hal::DeviceState::ready && !open()) {
       clock_.sleep_for(read_timeout);
       continue;
@@ -60,6 +63,7 @@ void ControlThread::run() {
       news_.post();
   }
   input_.close();
+  Heartbeat::rest_here();
 }
 
 void ControlThread::receive(const hal::ControlEvent& event) {

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <utility>
 
 namespace octascope::pipeline {
 
@@ -25,6 +26,18 @@ public:
       counter().fetch_add(1, std::memory_order_relaxed);
   }
   static std::uint64_t allocations() { return counter().load(std::memory_order_relaxed); }
+
+  // A stretch within it that is not: opening a device, which happens when one was lost.
+  class Pause {
+  public:
+    Pause() : depth_{std::exchange(depth(), 0)} {}
+    ~Pause() { depth() = depth_; }
+    Pause(const Pause&) = delete;
+    Pause& operator=(const Pause&) = delete;
+
+  private:
+    int depth_;
+  };
 
 private:
   // The program's allocation functions are global, and so must be what they count with.

@@ -65,7 +65,6 @@ OCTASCOPE_INLINE void sum_shifted_counts(const Count* counts, int lines, int rig
 // Four lanes everywhere: a tap window of 8 is two of them, and adding up the lanes of four windows
 // at once takes three shuffled additions, fewer than with wider registers.
 using Lanes = float __attribute__((vector_size(16)));
-using LaneIndices = std::int32_t __attribute__((vector_size(16)));
 
 OCTASCOPE_INLINE void load(Lanes& lanes, const float* from) {
   std::memcpy(&lanes, from, sizeof lanes);
@@ -73,15 +72,11 @@ OCTASCOPE_INLINE void load(Lanes& lanes, const float* from) {
 
 // result[i] = the sum of the lanes of sums[i].
 OCTASCOPE_INLINE void add_lanes(const Lanes (&sums)[4], Lanes& result) {
-  const LaneIndices low{0, 4, 1, 5};
-  const LaneIndices high{2, 6, 3, 7};
-  const Lanes a = __builtin_shuffle(sums[0], sums[1], low) +
-                  __builtin_shuffle(sums[0], sums[1], high); // s0 s1 s0 s1, half sums
-  const Lanes b =
-      __builtin_shuffle(sums[2], sums[3], low) + __builtin_shuffle(sums[2], sums[3], high);
-  const LaneIndices front{0, 1, 4, 5};
-  const LaneIndices back{2, 3, 6, 7};
-  result = __builtin_shuffle(a, b, front) + __builtin_shuffle(a, b, back);
+  const Lanes a = __builtin_shufflevector(sums[0], sums[1], 0, 4, 1, 5) +
+                  __builtin_shufflevector(sums[0], sums[1], 2, 6, 3, 7); // s0 s1 s0 s1, half sums
+  const Lanes b = __builtin_shufflevector(sums[2], sums[3], 0, 4, 1, 5) +
+                  __builtin_shufflevector(sums[2], sums[3], 2, 6, 3, 7);
+  result = __builtin_shufflevector(a, b, 0, 1, 4, 5) + __builtin_shufflevector(a, b, 2, 3, 6, 7);
 }
 
 template <int Width>
@@ -119,12 +114,10 @@ OCTASCOPE_INLINE void shape(const float* line, const std::int32_t* first, const 
       interpolate<Width>(line, first + m, weights + static_cast<std::ptrdiff_t>(m) * Width, counts);
     Lanes factor;
     if constexpr (Complex) {
-      const LaneIndices front{0, 0, 1, 1};
-      const LaneIndices back{2, 2, 3, 3};
       load(factor, factors + 2 * m);
-      const Lanes left = __builtin_shuffle(counts, front) * factor;
+      const Lanes left = __builtin_shufflevector(counts, counts, 0, 0, 1, 1) * factor;
       load(factor, factors + 2 * m + 4);
-      const Lanes right = __builtin_shuffle(counts, back) * factor;
+      const Lanes right = __builtin_shufflevector(counts, counts, 2, 2, 3, 3) * factor;
       std::memcpy(shaped + 2 * m, &left, sizeof left);
       std::memcpy(shaped + 2 * m + 4, &right, sizeof right);
     } else {

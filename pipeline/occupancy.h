@@ -20,9 +20,9 @@ struct Volume;
 
 // log2 of a brick's cells along depth, fast and slow axis. The voxels are three to ten times as
 // long along the slow axis as along depth.
-inline constexpr int brick_depth_shift = 4;
-inline constexpr int brick_a_shift = 3;
-inline constexpr int brick_b_shift = 2;
+inline constexpr int brick_depth_shift = 3;
+inline constexpr int brick_a_shift = 2;
+inline constexpr int brick_b_shift = 1;
 
 // Bricks along each axis.
 struct BrickCounts {

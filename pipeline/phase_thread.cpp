@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/heartbeat.h"
 #include "pipeline/sweep_alignment.h"
 
 namespace octascope::pipeline {
@@ -76,14 +77,16 @@ PhaseStatus PhaseThread::status() const {
 
 void PhaseThread::run() {
   while (!stopping_.load(std::memory_order_acquire)) {
+    Heartbeat::beat_here(clock_.now());
     wakeup_.wait_until(clock_.now() + longest_wait);
     if (state_.load(std::memory_order_acquire) != Sketch::drawn)
       continue;
     look();
     if (tracker_.used() >= used_to_settle && !wait(pause_when_settled))
-      return;
+      break;
     state_.store(Sketch::free, std::memory_order_release);
   }
+  Heartbeat::rest_here();
 }
 
 void PhaseThread::look() {

@@ -46,7 +46,7 @@ hal::Result<Image> read(const fs::path& file, bool with_opacity) {
 
 } // namespace
 
-hal::Result<> write_png(const fs::path& file, const Image& image) {
+hal::Result<> write_png(const fs::path& file, const Image& image, Readers readers) {
   if (image.width < 1 || image.height < 1 || (image.channels != 1 && image.channels != 3) ||
       image.pixels.size() != Image{image.width, image.height, image.channels}.pixels.size())
     return hal::fail(
@@ -64,7 +64,7 @@ hal::Result<> write_png(const fs::path& file, const Image& image) {
   if (png_image_write_to_memory(&record.png, encoded.data(), &size, 0, image.pixels.data(), 0,
                                 nullptr) == 0)
     return record.failure(file, Fault::system);
-  auto out = AtomicFile::create(file);
+  auto out = AtomicFile::create(file, readers);
   if (!out)
     return tl::make_unexpected(out.error());
   if (auto written = out->write_at(0, std::span{encoded}.first(size)); !written)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/result.h"
+#include "pipeline/atomic_file.h"
 
 namespace octascope::pipeline {
 
@@ -34,7 +35,8 @@ struct Image {
 };
 
 // Grey and RGB. The file appears complete or not at all.
-hal::Result<> write_png(const std::filesystem::path& file, const Image& image);
+hal::Result<> write_png(const std::filesystem::path& file, const Image& image,
+                        Readers readers = Readers::as_the_umask_allows);
 
 // Grey files become grey, all others RGB; transparency is put on black.
 hal::Result<Image> read_png(const std::filesystem::path& file);

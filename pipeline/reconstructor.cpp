@@ -103,10 +103,10 @@ struct Reconstructor::Workspace::Buffers {
 };
 
 std::unique_ptr<Reconstructor::Workspace::Buffers> Reconstructor::Plan::make_buffers() const {
-  auto buffers = std::make_unique<Workspace::Buffers>(
-      LineMean{format.samples}, std::nullopt,
-      std::vector<float>(static_cast<std::size_t>(format.samples)), fftw.make_buffers(),
-      std::nullopt);
+  std::unique_ptr<Workspace::Buffers> buffers{
+      new Workspace::Buffers{LineMean{format.samples}, std::nullopt,
+                             std::vector<float>(static_cast<std::size_t>(format.samples)),
+                             fftw.make_buffers(), std::nullopt}};
   if (background_mode == BackgroundMode::running)
     buffers->running.emplace(format, a_scans);
   if (background_mode == BackgroundMode::file)

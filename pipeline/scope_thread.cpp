@@ -1,5 +1,7 @@
 #include "pipeline/scope_thread.h"
 
+#include "pipeline/heartbeat.h"
+
 namespace octascope::pipeline {
 
 using namespace std::chrono_literals;
@@ -40,6 +42,7 @@ const hal::ScopeFrame* ScopeThread::take_newest() {
 
 void ScopeThread::run() {
   while (!stopping_.load(std::memory_order_acquire)) {
+    Heartbeat::beat_here(clock_.now());
     if (camera_.state() != hal::DeviceState::streaming && !open_and_start()) {
       clock_.sleep_for(frame_timeout);
       continue;
@@ -55,6 +58,7 @@ void ScopeThread::run() {
   }
   camera_.stop();
   camera_.close();
+  Heartbeat::rest_here();
 }
 
 bool ScopeThread::open_and_start() {

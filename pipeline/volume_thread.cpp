@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/heartbeat.h"
 #include "pipeline/hot_path.h"
 
 namespace octascope::pipeline {
@@ -19,6 +20,9 @@ constexpr const char* trigger_name = "galvo_trigger";
 
 // How long after its sweep's end a volume waits for late B-scans, as a divisor of the sweep.
 constexpr int grace_divisor = 6;
+
+// However slow a scan is: a thread that shows no life for longer is taken for stuck.
+constexpr hal::Duration longest_wait = 500ms;
 
 constexpr std::uint32_t none = ~0U;
 
@@ -88,8 +92,16 @@ const Volume* VolumeThread::take_newest() {
 }
 
 VolumeCounters VolumeThread::counters() const {
-  return {counts_.triggered,  counts_.acquired,     counts_.published,    counts_.skipped,
-          counts_.lost_lines, counts_.lost_b_scans, counts_.lost_volumes, counts_.saturated_lines};
+  return {.planned = counts_.planned,
+          .triggered = counts_.triggered,
+          .acquired = counts_.acquired,
+          .published = counts_.published,
+          .skipped = counts_.skipped,
+          .lost_lines = counts_.lost_lines,
+          .lost_b_scans = counts_.lost_b_scans,
+          .lost_volumes = counts_.lost_volumes,
+          .unfinished = counts_.unfinished,
+          .saturated_lines = counts_.saturated_lines};
 }
 
 void VolumeThread::run() {
@@ -97,6 +109,7 @@ void VolumeThread::run() {
   while (!stopping_.load(std::memory_order_acquire)) {
     {
       const HotPath hot;
+      Heartbeat::beat_here(clock_.now());
       if (clock_.now() >= next_tick_)
         tick();
       while (const auto frame = acquisition_.take())
@@ -107,6 +120,7 @@ void VolumeThread::run() {
   }
   // The workers' last jobs hold loans of the camera; those not begun are given back here.
   workers_.reset();
+  counts_.unfinished.store(under_way(), std::memory_order_relaxed);
   for (Construction& construction : constructions_) {
     for (Position& position : construction.positions)
       release(position);
@@ -114,6 +128,7 @@ void VolumeThread::run() {
   while (const auto frame = acquisition_.take())
     acquisition_.release(frame->buffer);
   trigger_.close();
+  Heartbeat::rest_here();
 }
 
 void VolumeThread::tick() {
@@ -126,6 +141,7 @@ void VolumeThread::tick() {
                 "the fixed-rate thread was held up for a whole volume: is something else running, "
                 "without real-time priority for us?",
                 now);
+    counts_.planned.fetch_add(1, std::memory_order_relaxed);
     count_lost_volume();
   }
 
@@ -133,10 +149,13 @@ void VolumeThread::tick() {
     return;
   // Without a camera there is nothing to sweep for. Before its first frame nothing is lost either.
   if (camera_.state() != hal::DeviceState::streaming || !trigger_ready()) {
-    if (was_running)
+    if (was_running) {
+      counts_.planned.fetch_add(1, std::memory_order_relaxed);
       count_lost_volume();
+    }
     return;
   }
+  counts_.planned.fetch_add(1, std::memory_order_relaxed);
   if (const auto armed = trigger_.arm()) {
     open_volume(*armed);
   } else {
@@ -147,12 +166,14 @@ void VolumeThread::tick() {
   }
 }
 
-bool VolumeThread::enough_triggered() const {
-  if (!setup_.most_volumes)
-    return false;
-  const auto under_way = static_cast<std::uint64_t>(
+std::uint64_t VolumeThread::under_way() const {
+  return static_cast<std::uint64_t>(
       std::ranges::count_if(constructions_, [](const Construction& c) { return c.open; }));
-  return counts_.published.load(std::memory_order_relaxed) + under_way >= *setup_.most_volumes;
+}
+
+bool VolumeThread::enough_triggered() const {
+  return setup_.most_volumes &&
+         counts_.published.load(std::memory_order_relaxed) + under_way() >= *setup_.most_volumes;
 }
 
 bool VolumeThread::trigger_ready() {
@@ -161,6 +182,7 @@ bool VolumeThread::trigger_ready() {
   const hal::TimePoint now = clock_.now();
   if (!trigger_retry_.due(now))
     return false;
+  const HotPath::Pause opening;
   if (const auto opened = trigger_.open(setup_.trigger); !opened) {
     faults_.add(trigger_name, to_string(opened.error().fault), opened.error().message, now);
     trigger_retry_.failure(now);
@@ -287,6 +309,7 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   Volume& volume = volumes_[job / b_scans];
   Position& position = c.positions[b_scan];
   const hal::TimePoint begin = clock_.now();
+  Heartbeat::beat_here(begin);
   const int b = static_cast<int>(b_scan);
   const int saturated = builder_.build(
       worker, b, std::span{position.frames}.first(static_cast<std::size_t>(setup_.plan.repeats)),
@@ -330,11 +353,13 @@ void VolumeThread::finish(std::uint32_t index) {
   if (c.sketch != nullptr)
     phase_.finished();
   if (c.sweeps_came == 0) {
-    if (camera_.state() == hal::DeviceState::streaming)
+    if (camera_.state() == hal::DeviceState::streaming) {
       faults_.add(trigger_name, "missed_pulse",
                   "a pulse brought no usable sweep: the scanner missed it, or the camera lost all "
                   "of its frames",
                   clock_.now());
+      acquisition_.note_unanswered_pulse();
+    }
     count_lost_volume();
     free_.push_back(index);
     return;
@@ -377,7 +402,7 @@ void VolumeThread::fill_ledger(Volume& volume, const Construction& c) {
 }
 
 hal::TimePoint VolumeThread::next_deadline() const {
-  hal::TimePoint deadline = next_tick_;
+  hal::TimePoint deadline = std::min(next_tick_, clock_.now() + longest_wait);
   if (const std::uint32_t i = oldest_open(); i != none)
     deadline = std::min(deadline, constructions_[i].accept_until);
   return std::max(deadline, clock_.now() + 100us);

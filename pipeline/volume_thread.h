@@ -54,7 +54,10 @@ struct VolumeThreadSetup {
   std::optional<std::uint64_t> most_volumes; // then no more are triggered
 };
 
+// Double-entry: what is counted at the beginning of a volume must be found again at its end, once
+// the thread has stopped: planned = acquired + lost_volumes + unfinished.
 struct VolumeCounters {
+  std::uint64_t planned = 0; // ticks, each of which should bring a volume
   std::uint64_t triggered = 0;
   std::uint64_t acquired = 0; // at least one B-scan came
   std::uint64_t published = 0;
@@ -62,6 +65,7 @@ struct VolumeCounters {
   std::uint64_t lost_lines = 0;   // kept lines of every sweep that did not come whole and in time
   std::uint64_t lost_b_scans = 0; // of which no sweep did
   std::uint64_t lost_volumes = 0; // ticks of which nothing came
+  std::uint64_t unfinished = 0;   // under way when the thread was stopped
   std::uint64_t saturated_lines = 0;
 };
 
@@ -82,7 +86,7 @@ public:
 
   void start(const ThreadSetup& setup);
 
-  // Ends thread and workers and closes the trigger; volumes under way are forgotten, not counted.
+  // Ends thread and workers and closes the trigger; volumes under way are counted as unfinished.
   void stop();
 
   // The renderer's side of the triple buffer (one thread): the newest volume if one came since the
@@ -118,14 +122,15 @@ private:
     std::atomic<int> saturated_lines{0};
   };
   struct Counts {
-    std::atomic<std::uint64_t> triggered{0}, acquired{0}, published{0}, skipped{0}, lost_lines{0},
-        lost_b_scans{0}, lost_volumes{0}, saturated_lines{0};
+    std::atomic<std::uint64_t> planned{0}, triggered{0}, acquired{0}, published{0}, skipped{0},
+        lost_lines{0}, lost_b_scans{0}, lost_volumes{0}, unfinished{0}, saturated_lines{0};
   };
 
   static constexpr std::uint32_t pool_size = 5; // middle, renderer's, and three to build in
 
   void run();
   void tick();
+  std::uint64_t under_way() const;
   bool enough_triggered() const;
   bool trigger_ready();
   void open_volume(hal::TimePoint armed);

@@ -1,5 +1,6 @@
 #include "pipeline/worker_pool.h"
 
+#include "pipeline/heartbeat.h"
 #include "pipeline/hot_path.h"
 
 namespace octascope::pipeline {
@@ -33,6 +34,7 @@ bool WorkerPool::submit(std::uint32_t job) {
 }
 
 void WorkerPool::run(std::size_t worker) {
+  Heartbeat::rest_here();
   while (true) {
     wakeup_.wait();
     if (stopping_.load(std::memory_order_acquire))
@@ -40,6 +42,7 @@ void WorkerPool::run(std::size_t worker) {
     if (const auto job = jobs_.pop()) {
       const HotPath hot;
       work_(worker, *job);
+      Heartbeat::rest_here();
     }
   }
 }

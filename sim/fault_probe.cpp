@@ -45,7 +45,7 @@ bool FaultProbe::chooses(const ScriptedFault& fault, const Tally& tally) {
   if (tally.seen % static_cast<std::uint64_t>(fault.every) != 0)
     return false;
   const std::uint64_t number = mixed(fault.seed ^ mixed(tally.occurrence) ^ tally.seen);
-  return unit_interval(number) < fault.probability;
+  return even_number(number) < fault.probability;
 }
 
 bool FaultProbe::expects(FaultKind kind) const {

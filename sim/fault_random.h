@@ -15,7 +15,7 @@ constexpr std::uint64_t mixed(std::uint64_t x) {
 }
 
 // From all 64-bit numbers evenly to [0, 1).
-constexpr double unit_interval(std::uint64_t x) {
+constexpr double even_number(std::uint64_t x) {
   return static_cast<double>(x >> 11) * 0x1.0p-53;
 }
 

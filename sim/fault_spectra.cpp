@@ -30,7 +30,7 @@ int saturate_lines(const hal::LineFormat& format, std::span<std::byte> frame, do
       static_cast<std::uint16_t>(((1U << format.significant_bits) - 1U) << format.right_shift);
   int lines = 0;
   for (int line = 0; line < format.lines_per_frame; ++line) {
-    if (unit_interval(mixed(seed + static_cast<std::uint64_t>(line))) >= line_share)
+    if (even_number(mixed(seed + static_cast<std::uint64_t>(line))) >= line_share)
       continue;
     ++lines;
     const auto bytes =

@@ -97,10 +97,10 @@ void SimLineCamera::allocate_buffers() {
   const bool altering = probe_.expects(FaultKind::corrupted_frames) ||
                         probe_.expects(FaultKind::wrong_size) ||
                         probe_.expects(FaultKind::saturation);
-  // Twice a frame: wrong sizes go up to that. Untouched pages of it cost nothing.
+  // Twice a frame: wrong sizes go up to that. All of it is touched here, as a driver's buffers are:
+  // pages that came one by one, as faults strike, would look like a leak in the program.
   scratch_bytes_ = altering ? 2 * config_.format.frame_bytes() : 0;
-  scratch_ =
-      altering ? std::make_unique_for_overwrite<std::byte[]>(scratch_bytes_ * buffers) : nullptr;
+  scratch_ = altering ? std::make_unique<std::byte[]>(scratch_bytes_ * buffers) : nullptr;
 }
 
 hal::Result<> SimLineCamera::do_start() {

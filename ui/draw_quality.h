@@ -15,6 +15,7 @@ struct DrawQuality {
                         // are as far apart
   std::optional<RayBackend> rays{}; // else the processor where GL is software, and the shader where
                                     // it is not
+  float vessel_detail_px = 0;       // vessels of a smaller radius are merged (ui/vessels/splatter)
   bool operator==(const DrawQuality&) const = default;
 };
 

@@ -26,6 +26,7 @@ struct DrawnPicture {
   std::uint64_t volume_uploads = 0;
   std::uint64_t scope_uploads = 0;
   std::uint64_t level_uploads = 0;
+  std::uint64_t vessel_uploads = 0;
   int width = 0;
   int height = 0;
   ViewState view;
@@ -85,6 +86,8 @@ struct Renderer::Parts {
   std::optional<LevelShares> levels{};
   std::uint64_t level_uploads = 0;
   std::uint64_t scope_uploads = 0;
+  std::uint64_t vessel_uploads = 0;
+  hal::Duration vessel_cost{}; // of the last draw()
   bool scope_shown = false;
   std::optional<DrawnPicture> drawn{};
   bool drew_volume = false;
@@ -93,6 +96,7 @@ struct Renderer::Parts {
   HudScene scene(const ViewState& view) const;
   DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height,
                           const DrawQuality& quality) const;
+  hal::Duration spent_on_vessels() const;
   Layout layout(int width, int height, LayoutKind kind) const;
   hal::Result<> prepare_fonts(float unit);
   void fill_canvases(const DrawnPicture& picture, const Layout& places, const HudScene& shown);
@@ -130,10 +134,13 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
 DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& status, int width,
                                          int height, const DrawQuality& quality) const {
   const ViewState shown = fitted(view);
-  return {volume.uploads(), scope_uploads,
-          level_uploads,    width,
-          height,           without_times(shown),
-          quality,          compose_hud_text(shown, status, scene(shown).shown)};
+  return {volume.uploads(),     scope_uploads, level_uploads,
+          vessel_uploads,       width,         height,
+          without_times(shown), quality,       compose_hud_text(shown, status, scene(shown).shown)};
+}
+
+hal::Duration Renderer::Parts::spent_on_vessels() const {
+  return volume.vessels() != nullptr ? volume.vessels()->spent() : hal::Duration{};
 }
 
 Layout Renderer::Parts::layout(int width, int height, LayoutKind kind) const {
@@ -216,6 +223,9 @@ hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& view, const Layou
       draw_wire_frame(*canvas, places.view, shown, places.unit, canvas == &overlay);
   }
   draw_view_scale(overlay, places, shown.camera);
+  if (volume.vessels() != nullptr && volume.vessels()->shows_unregistered(view))
+    overlay.shadowed_text({16 * places.unit, 12 * places.unit}, TextStyle::label, palette::warning,
+                          "Vessels not registered");
   canvas_renderer.draw(under_volume, frame, height);
   volume.composite(eye, rect, height);
   canvas_renderer.draw(overlay, frame, height);
@@ -228,10 +238,12 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
     return ok;
   clear(picture.width, picture.height);
   const std::uint64_t before = volume.drawings();
+  const hal::Duration spent_before = spent_on_vessels();
   for (const Eye eye : eyes_of(picture.view.stereo))
     if (auto ok = draw_eye(picture, places, eye); !ok)
       return ok;
   drew_volume = volume.drawings() != before;
+  vessel_cost = spent_on_vessels() - spent_before;
   return {};
 }
 
@@ -282,6 +294,17 @@ hal::Result<> Renderer::show_scope_picture(const hal::ScopeFrame& frame,
 void Renderer::show_levels(const LevelShares& shares) {
   parts_->levels = shares;
   ++parts_->level_uploads;
+}
+
+hal::Result<> Renderer::show_vessels(const PlacedVessels& vessels, const hal::Clock& clock) {
+  ++parts_->vessel_uploads;
+  return parts_->volume.show_vessels(vessels, clock);
+}
+
+Renderer::VesselReport Renderer::vessel_report() const {
+  const VesselOverlay* vessels = parts_->volume.vessels();
+  return vessels != nullptr ? VesselReport{vessels->account(), parts_->vessel_cost}
+                            : VesselReport{};
 }
 
 void Renderer::forget_scope_picture() {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "hal/clock.h"
 #include "hal/result.h"
 #include "hal/scope_camera.h"
 #include "pipeline/png_image.h"
@@ -14,6 +15,8 @@
 #include "ui/scan_field.h"
 #include "ui/status.h"
 #include "ui/transfer/transfer_set.h"
+#include "ui/vessels/overlay/vessel_placement.h"
+#include "ui/vessels/vessel_scene.h"
 #include "ui/view_state.h"
 
 namespace octascope::ui {
@@ -41,6 +44,17 @@ public:
   // stale by its time.
   hal::Result<> show_scope_picture(const hal::ScopeFrame& frame,
                                    const std::optional<ScanField>& field);
+  // From the next draw() on, in the volume. The tree stays borrowed until another is shown or the
+  // renderer is destroyed; `clock`, which measures what drawing it costs, outlives the renderer.
+  // Fault::unsupported: this processor cannot draw vessels.
+  hal::Result<> show_vessels(const PlacedVessels& vessels, const hal::Clock& clock);
+  // Of the last draw().
+  struct VesselReport {
+    VesselAccount account;
+    hal::Duration cost{}; // 0: no picture of them was made
+  };
+  VesselReport vessel_report() const;
+
   void forget_scope_picture(); // the camera is gone
 
   // Shown while the window is being changed: how often each level occurs in the volume.

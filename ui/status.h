@@ -12,6 +12,7 @@
 #include "hal/device.h"
 #include "ui/controls/legend_lines.h"
 #include "ui/freshness.h"
+#include "ui/vessels/vessel_scene.h"
 
 namespace octascope::ui {
 
@@ -29,6 +30,24 @@ struct Losses {
   std::uint64_t volumes = 0;
   bool any() const { return lines != 0 || b_scans != 0 || volumes != 0; }
   bool operator==(const Losses&) const = default;
+};
+
+// The vessel tree that is shown in the volume.
+struct VesselStatus {
+  enum class State : std::uint8_t { none, loading, shown, failed };
+  State state = State::none;
+  float progress = 0;      // 0…1, while it is loaded
+  bool registered = false; // to the volume; else its place in the picture means nothing
+  std::array<bool, pipeline::vessel_branch_count> branches{}; // which ones it has
+  VesselAccount account;                                      // of the newest frame that drew it
+  bool operator==(const VesselStatus&) const = default;
+};
+
+// Whether the configuration is the one that was asked for.
+enum class ConfigurationState : std::uint8_t {
+  own,
+  last_good, // an older one, because that one cannot be used
+  built_in,  // the program's own: scale and calibration may be another device's
 };
 
 struct Status {
@@ -50,12 +69,16 @@ struct Status {
   bool simulated = false;         // any part of the picture is not the patient's
   std::string source_description; // "phantom eye, loop of 2.3 s"; short
 
+  ConfigurationState configuration = ConfigurationState::own;
+
   Freshness freshness;
   int missing_b_scans = 0; // of the shown volume
   int saturated_lines = 0;
 
   // Set while the volume is drawn more coarsely than it could be: the share of its full fineness.
   std::optional<float> reduced_quality;
+
+  VesselStatus vessels;
 
   // What pedal and knob do, and what keys do; null: nothing to show. They outlive every draw().
   const Legend* legend = nullptr;

@@ -10,6 +10,8 @@
 #include "ui/controls/action.h"
 #include "ui/hud/fixed_text.h"
 #include "ui/technique.h"
+#include "ui/vessels/overlay/vessel_placement.h"
+#include "ui/vessels/vessel_look.h"
 
 namespace octascope::ui {
 
@@ -22,8 +24,15 @@ enum class Parameter : std::uint8_t {
   distance,
   b_scan,
   parallax,
+  vessel_opacity,
+  vessel_shift_x,
+  vessel_shift_y,
+  vessel_shift_z,
+  vessel_turn_x,
+  vessel_turn_y,
+  vessel_turn_z,
 };
-inline constexpr int parameter_count = 7;
+inline constexpr int parameter_count = 14;
 
 // How the display is divided.
 enum class LayoutKind : std::uint8_t {
@@ -71,6 +80,10 @@ struct ViewState {
   StereoMode stereo = StereoMode::off;
   float parallax_deg = 3;      // between the two eyes, seen from the centre of the volume
   bool vessels_visible = true; // the vessel tree, where one is loaded
+  float vessel_opacity = 1;
+  VesselColouring vessel_colouring = VesselColouring::branch;
+  VesselNudge vessel_nudge;    // since it was registered
+  bool vessel_account = false; // how many of its segments were drawn, and how
   bool legend_visible = false; // what each control does
   bool legend_of_keys = false; // what each key does, in its place
   int b_scan = 40;             // position of the B-scan panel, an index on the slow axis

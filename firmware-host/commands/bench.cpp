@@ -8,6 +8,7 @@ void add_bench_command(CLI::App& program, int& exit_status) {
   bench->footer("Example: octascope bench display --json");
   add_bench_reconstruct_command(*bench, exit_status);
   add_bench_display_command(*bench, exit_status);
+  add_bench_vessels_command(*bench, exit_status);
 }
 
 } // namespace octascope::firmware_host

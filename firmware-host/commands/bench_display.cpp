@@ -10,12 +10,11 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware-host/commands/bench_timing.h"
+#include "firmware-host/commands/offscreen_gl.h"
 #include "firmware-host/reconstruction_cache.h"
-#include "hal/linux/monotonic_clock.h"
 #include "pipeline/nrrd.h"
 #include "pipeline/occupancy.h"
 #include "pipeline/png_image.h"
-#include "sim/offscreen_display.h"
 #include "ui/auto_window.h"
 #include "ui/camera.h"
 #include "ui/gl/context_info.h"
@@ -153,13 +152,6 @@ private:
   ui::ViewState view_;
 };
 
-double mean_difference(const pipeline::Image& a, const pipeline::Image& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    sum += std::abs(int{a.pixels[i]} - int{b.pixels[i]});
-  return sum / static_cast<double>(a.pixels.size());
-}
-
 // What the same picture is if somebody else draws it; nothing where nobody does.
 std::optional<DisplayBenchCase> other_way(const DisplayBenchCase& what) {
   DisplayBenchCase other = what;
@@ -204,13 +196,9 @@ hal::Result<DisplayBenchReport> bench_display(const pipeline::Volume& volume,
   if (options.dump)
     if (auto dumped = dump(volume, *options.dump); !dumped)
       return tl::make_unexpected(dumped.error());
-  hal::linux_backend::MonotonicClock clock;
-  sim::OffscreenDisplay display{clock};
-  hal::DisplayConfig config;
-  config.width = options.sizes.back()[0];
-  config.height = options.sizes.back()[1];
-  if (auto opened = display.open(config); !opened)
-    return tl::make_unexpected(opened.error());
+  auto gl = OffscreenGl::open(options.sizes.back()[0], options.sizes.back()[1]);
+  if (!gl)
+    return tl::make_unexpected(gl.error());
   report.gl_renderer = ui::gl::describe_context().renderer;
   {
     auto painter = ui::VolumePainter::create();
@@ -248,7 +236,7 @@ hal::Result<DisplayBenchReport> bench_display(const pipeline::Volume& volume,
       report.cases.push_back(*result);
     }
   }
-  display.close();
+  gl->reset();
   report.occupancy_ms_per_b_scan = occupancy_ms(volume);
   if (options.live) {
     const auto live = probe_live(1280, 720, 6);

@@ -1,6 +1,11 @@
 // octascope doctor: what would fail on this machine, and the mend.
 #include <algorithm>
+#include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -45,14 +50,21 @@ void print_json(const std::vector<HealthCheck>& checks) {
 
 void add_doctor_command(CLI::App& program, int& exit_status) {
   auto as_json = std::make_shared<bool>(false);
+  auto file = std::make_shared<std::string>();
   CLI::App* command =
       program.add_subcommand("doctor", "What would fail on this machine, and the mend");
   command->footer("Exit status 1 when the appliance would not run at all.\n"
-                  "Example: octascope doctor");
+                  "Examples:\n"
+                  "  octascope doctor\n"
+                  "  octascope doctor --config octascope.toml");
+  command->add_option("--config", *file, "Check this configuration and nothing else (TOML)");
   command->add_flag("--json", *as_json, "One JSON object");
-  command->callback([as_json, &exit_status] {
+  command->callback([as_json, file, &exit_status] {
     hal::linux_backend::MonotonicClock clock;
-    const auto checks = check_health(clock);
+    auto checks = file->empty() ? check_health(clock) : std::vector<HealthCheck>{};
+    for (HealthCheck& check :
+         check_configuration(file->empty() ? std::optional<std::filesystem::path>{} : *file))
+      checks.push_back(std::move(check));
     if (*as_json)
       print_json(checks);
     else

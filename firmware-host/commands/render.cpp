@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "hal/linux/monotonic_clock.h"
-#include "sim/offscreen_display.h"
+#include "firmware-host/commands/offscreen_gl.h"
 #include "ui/renderer.h"
 
 namespace octascope::firmware_host {
@@ -30,12 +29,16 @@ hal::Result<> check_processor(const ui::Renderer& renderer, const RenderOptions&
                    "(--drawn-by gl)");
 }
 
-hal::Result<pipeline::Image> draw(const pipeline::Volume& volume, const RenderOptions& options) {
+hal::Result<pipeline::Image> draw(const pipeline::Volume& volume, const RenderOptions& options,
+                                  const hal::Clock& clock) {
   const auto renderer = ui::Renderer::create(options.transfers);
   if (!renderer)
     return tl::make_unexpected(renderer.error());
   if (auto shown = (*renderer)->show_volume(volume); !shown)
     return tl::make_unexpected(shown.error());
+  if (options.vessels)
+    if (auto shown = (*renderer)->show_vessels(*options.vessels, clock); !shown)
+      return tl::make_unexpected(shown.error());
   const ui::ViewState view = windowed(options, volume);
   if (auto ready = (*renderer)->prepare(volume, view, options.quality); !ready)
     return tl::make_unexpected(ready.error());
@@ -57,16 +60,10 @@ hal::Result<pipeline::Image> render_volume(const pipeline::Volume& volume,
                      fmt::format("--drawn-by is processor for the technique {}, which GL draws; "
                                  "expected rays, shaded or maximum with it",
                                  to_string(options.view.technique)));
-  hal::linux_backend::MonotonicClock clock;
-  sim::OffscreenDisplay display{clock};
-  hal::DisplayConfig config;
-  config.width = options.width;
-  config.height = options.height;
-  if (auto opened = display.open(config); !opened)
-    return tl::make_unexpected(opened.error());
-  auto picture = draw(volume, options);
-  display.close();
-  return picture;
+  const auto gl = OffscreenGl::open(options.width, options.height);
+  if (!gl)
+    return tl::make_unexpected(gl.error());
+  return draw(volume, options, (*gl)->clock());
 }
 
 } // namespace octascope::firmware_host

@@ -11,6 +11,7 @@
 #include "ui/auto_window.h"
 #include "ui/draw_quality.h"
 #include "ui/transfer/transfer_set.h"
+#include "ui/vessels/overlay/vessel_placement.h"
 #include "ui/view_state.h"
 
 namespace octascope::firmware_host {
@@ -23,6 +24,7 @@ struct RenderOptions {
   int width = 1280;
   int height = 720;
   ui::DrawQuality quality = ui::full_quality;
+  std::optional<ui::PlacedVessels> vessels; // borrowed
 };
 
 // The volume alone on the display's background, with its scale, RGB. Opens an offscreen GL context

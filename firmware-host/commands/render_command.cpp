@@ -15,9 +15,12 @@
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/render.h"
+#include "firmware-host/commands/tree_options.h"
 #include "firmware-host/configuration.h"
+#include "firmware-host/vessel_place.h"
 #include "firmware-host/volume_source.h"
 #include "pipeline/atomic_file.h"
+#include "pipeline/vessels/registration.h"
 #include "sim/phantom.h"
 
 namespace octascope::firmware_host {
@@ -27,7 +30,7 @@ namespace {
 // As text, the way CLI11 collects it; what is not given stays as RenderOptions and ViewState begin.
 struct Arguments {
   std::string configuration, volume, spectra, shape, calibration, phantom;
-  std::string technique, size, window, transfer, colours;
+  std::string technique, size, window, transfer, colours, vessels, registration;
   std::string stereo = "off", drawn_by = "auto", out;
   ui::ViewState view = [] {
     ui::ViewState begin;
@@ -35,6 +38,8 @@ struct Arguments {
     return begin;
   }();
   int steps = ui::full_quality.steps;
+  std::string vessel_colours = "branch";
+  TreeArguments tree;
   CLI::Option* opacity = nullptr; // the configuration may say another
 };
 
@@ -51,6 +56,12 @@ const std::map<std::string, std::optional<ui::RayBackend>>& drawers() {
       {"auto", std::nullopt},
       {"processor", ui::RayBackend::processor},
       {"gl", ui::RayBackend::shader}};
+  return all;
+}
+
+const std::map<std::string, ui::VesselColouring>& vessel_colourings() {
+  static const std::map<std::string, ui::VesselColouring> all{
+      {"branch", ui::VesselColouring::branch}, {"order", ui::VesselColouring::order}};
   return all;
 }
 
@@ -161,6 +172,7 @@ hal::Result<RenderOptions> options_of(const Arguments& a) {
   if (auto ok = read_look(a, options); !ok)
     return tl::make_unexpected(ok.error());
   options.view.stereo = stereo_modes().at(a.stereo);
+  options.view.vessel_colouring = vessel_colourings().at(a.vessel_colours);
   options.quality.steps = a.steps;
   options.quality.rays = drawers().at(a.drawn_by);
   if (!a.window.empty()) {
@@ -179,8 +191,32 @@ hal::Result<RenderOptions> options_of(const Arguments& a) {
   return options;
 }
 
+struct RenderVessels {
+  std::optional<LoadedVessels> tree;
+  std::optional<ui::PlacedVessels> placed; // borrows from it
+};
+
+hal::Result<RenderVessels> vessels_of(const Arguments& a) {
+  RenderVessels vessels;
+  if (a.vessels.empty())
+    return vessels;
+  std::optional<pipeline::RigidTransform> registered;
+  if (!a.registration.empty()) {
+    const auto registration = pipeline::Registration::load(a.registration);
+    if (!registration)
+      return tl::make_unexpected(registration.error());
+    registered = registration->volume_from_tree;
+  }
+  auto loaded = load_vessels(a.vessels, a.tree.options());
+  if (!loaded)
+    return tl::make_unexpected(loaded.error());
+  vessels.tree.emplace(std::move(*loaded));
+  vessels.placed = place_vessels(*vessels.tree, registered);
+  return vessels;
+}
+
 hal::Result<> render(const Arguments& arguments) {
-  const auto options = options_of(arguments);
+  auto options = options_of(arguments);
   if (!options)
     return tl::make_unexpected(options.error());
   const auto request = request_of(arguments);
@@ -192,6 +228,15 @@ hal::Result<> render(const Arguments& arguments) {
   const auto volume = load_volume(*request);
   if (!volume)
     return tl::make_unexpected(volume.error());
+  const auto vessels = vessels_of(arguments);
+  if (!vessels)
+    return tl::make_unexpected(vessels.error());
+  if (vessels->placed && !vessels->placed->volume_from_tree)
+    fmt::print(stderr,
+               "octascope render: {} is not registered: it lies in the middle of the "
+               "volume (--registration)\n",
+               arguments.vessels);
+  options->vessels = vessels->placed;
   const auto picture = render_volume(*volume, *options);
   if (!picture)
     return tl::make_unexpected(picture.error());
@@ -262,6 +307,31 @@ void add_look_options(CLI::App& command, Arguments& a) {
       ->type_name("FILE.toml");
 }
 
+void add_vessel_options(CLI::App& command, Arguments& a) {
+  CLI::Option* vessels =
+      command
+          .add_option("--vessels", a.vessels, "Vessel tree to draw in the volume: ours, SWC or VTP")
+          ->type_name("FILE");
+  command
+      .add_option("--registration", a.registration,
+                  "Where the tree lies in the volume; in its middle if not given")
+      ->type_name("FILE.toml")
+      ->needs(vessels);
+  command
+      .add_option("--vessel-opacity", a.view.vessel_opacity, "0 shows none, 1 hides what is behind")
+      ->check(within(ui::Parameter::vessel_opacity))
+      ->needs(vessels)
+      ->capture_default_str();
+  std::vector<std::string> colourings;
+  for (const auto& [word, value] : vessel_colourings())
+    colourings.push_back(word);
+  command.add_option("--vessel-colours", a.vessel_colours, "By main branch or by order")
+      ->check(CLI::IsMember(colourings))
+      ->needs(vessels)
+      ->capture_default_str();
+  add_tree_options(command, a.tree);
+}
+
 void add_picture_options(CLI::App& command, Arguments& a) {
   const auto words = [](const auto& named) {
     std::vector<std::string> all;
@@ -296,13 +366,16 @@ void add_render_command(CLI::App& program, int& exit_status) {
   CLI::App* command = program.add_subcommand("render", "A picture of a volume (PNG)");
   add_volume_options(*command, *arguments);
   add_look_options(*command, *arguments);
+  add_vessel_options(*command, *arguments);
   add_picture_options(*command, *arguments);
   command->footer("Examples:\n"
                   "  octascope render --volume volume.nrrd --technique shaded --size 1920x1080 \\\n"
                   "    --yaw 30 --tilt 40 --distance 2.5 --window 8,36 --out volume.png\n"
                   "  octascope render --phantom anterior_eye --technique maximum --out eye.png\n"
                   "  octascope render --spectra spectra.raw --shape 100,100,1024 \\\n"
-                  "    --calibration spectrometer.toml --stereo side-by-side --out tissue.png");
+                  "    --calibration spectrometer.toml --stereo side-by-side --out tissue.png\n"
+                  "  octascope render --volume volume.nrrd --vessels heart.vessels \\\n"
+                  "    --registration registration.toml --vessel-opacity 0.7 --out vessels.png");
   command->callback([arguments, &exit_status] { exit_status = run(*arguments); });
 }
 

@@ -11,6 +11,8 @@
 #include "firmware-host/commands/command.h"
 #include "firmware-host/run_options.h"
 #include "firmware-host/stop_signal.h"
+#include "firmware-host/supervision/crash_report.h"
+#include "firmware-host/supervision/service_manager.h"
 #include "pipeline/scan_plan.h"
 
 namespace octascope::firmware_host {
@@ -20,7 +22,7 @@ namespace {
 // As text, the way CLI11 collects it.
 struct RunArguments {
   std::string configuration, display = "auto", size, spectra, shape, calibration, snapshot, report,
-                             faults, controls, phantom;
+                             faults, controls, phantom, vessels, registration;
   bool simulate = false;
   bool bidirectional = false;
   int repeats = 0;
@@ -49,6 +51,8 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
   o.report = path_of(a.report);
   o.faults = path_of(a.faults);
   o.controls = path_of(a.controls);
+  o.vessels = path_of(a.vessels);
+  o.registration = path_of(a.registration);
   o.simulate = a.simulate;
   if (a.display == "kms")
     o.display = DisplayChoice::kms;
@@ -93,7 +97,11 @@ int run(const RunArguments& arguments) {
   if (!options)
     return complain(options.error());
   StopSignal stop_signal; // before the first thread
-  auto appliance = Appliance::assemble(*options);
+  CrashReport crash_report;
+  if (const auto state = service_folders().state)
+    if (const auto kept = crash_report.keep_in(crash_folder(*state)); !kept)
+      fmt::print(stderr, "octascope run: {}\n", kept.error().message);
+  auto appliance = Appliance::assemble(*options, crash_report);
   if (!appliance)
     return complain(appliance.error());
   if (const auto ran = (*appliance)->run(stop_signal); !ran)
@@ -116,7 +124,9 @@ void add_run_command(CLI::App& program, int& exit_status) {
       "Keys in a window: arrows turn and tilt; page up, page down closer and farther; o O "
       "window offset; s S window size; w automatic window; [ ] B-scan; space freezes; t "
       "technique; f transfer; c colours; l layout; d stereo (shift: back); x X parallax; v "
-      "vessels; b box; p keeps the picture; home first view; tab next function; h, F1 what each "
+      "vessels; a A their opacity; e their colours; i I j J k K shift and u U y Y z Z turn them; m "
+      "keeps their place; g undoes it; n their account; b box; p keeps the picture; home first "
+      "view; tab next function; h, F1 what each "
       "control does; 1 2 3 , . the simulated pedal and knob; q ends.");
   command->add_option("--config", a.configuration, "Configuration (TOML)");
   command->add_option("--display", a.display, "Where the picture goes")
@@ -134,6 +144,16 @@ void add_run_command(CLI::App& program, int& exit_status) {
   command->add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024");
   command->add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)");
   command->add_option("--phantom", a.phantom, "What the simulated camera sees");
+  CLI::Option* vessels =
+      command
+          ->add_option("--vessels", a.vessels,
+                       "Vessel tree to show in the volume: ours, SWC (in µm) or VTP (in mm)")
+          ->type_name("FILE");
+  command
+      ->add_option("--registration", a.registration,
+                   "Where it lies in the volume; else in its middle, marked as not registered")
+      ->type_name("FILE.toml")
+      ->needs(vessels);
   command->add_flag("--bidirectional", a.bidirectional,
                     "Scan there and back, without fly-back, whatever the configuration says");
   command->add_option("--repeats", a.repeats, "Sweeps of each B-scan, averaged (1 to 4)")

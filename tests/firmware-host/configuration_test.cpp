@@ -92,6 +92,54 @@ controls = "/etc/controls.toml"
   EXPECT_EQ(c->controls, "/etc/controls.toml");
 }
 
+TEST_F(ConfigurationFile, says_which_devices_serve) {
+  const auto c = load(R"([devices]
+line_camera = "/dev/video7"
+significant_bits = 10
+right_shift = 2
+exposure_us = 4.5
+gain = -3
+camera_input = 1
+galvo_trigger = "gpio"
+trigger_line = "gpiochip1:7"
+sync_line = "scanner-ready"
+pulse_width_us = 120
+control_input = "hid"
+scope_camera = "none"
+connector = "HDMI-A-2"
+mode = "1920x1080@50"
+overscan_percent = 2.5
+seat = false
+)");
+  ASSERT_TRUE(c) << c.error().message;
+  const DeviceWishes& d = c->devices;
+  EXPECT_EQ(d.line_camera, "/dev/video7");
+  EXPECT_EQ(d.significant_bits, 10);
+  EXPECT_EQ(d.right_shift, 2);
+  EXPECT_EQ(d.exposure_us, 4.5);
+  EXPECT_EQ(d.gain, -3);
+  EXPECT_EQ(d.camera_input, 1);
+  EXPECT_EQ(d.galvo_trigger, "gpio");
+  EXPECT_EQ(d.trigger_line, "gpiochip1:7");
+  EXPECT_EQ(d.sync_line, "scanner-ready");
+  EXPECT_EQ(d.pulse_width, std::chrono::microseconds{120});
+  EXPECT_EQ(d.control_input, "hid");
+  EXPECT_EQ(d.scope_camera, "none");
+  EXPECT_EQ(d.connector, "HDMI-A-2");
+  EXPECT_EQ(d.mode, "1920x1080@50");
+  EXPECT_EQ(d.overscan_percent, 2.5);
+  EXPECT_FALSE(d.seat);
+}
+
+TEST(MachineConfiguration, is_for_real_devices_alone) {
+  RunOptions options;
+  options.configuration = "mine.toml";
+  EXPECT_EQ(configuration_file(options), "mine.toml");
+  RunOptions simulated;
+  simulated.simulate = true;
+  EXPECT_FALSE(configuration_file(simulated));
+}
+
 TEST_F(ConfigurationFile, a_plan_that_names_little_keeps_the_other_defaults) {
   const auto c = load("[scan]\nb_scans = 10\n");
   ASSERT_TRUE(c);
@@ -229,6 +277,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"transfer_named_as_another",
                 "[[transfer]]\nname = \"smooth\"\npoints = [[0, 0], [1, 1]]\n",
                 "\"smooth\" is there already"},
+        Refused{"no_such_trigger", "[devices]\ngalvo_trigger = \"usb\"\n",
+                "galvo_trigger is \"usb\", expected one of: auto, sim, gpio"},
+        Refused{"no_such_scope_camera", "[devices]\nscope_camera = \"\"\n", "scope_camera is"},
+        Refused{"pulse_of_a_second", "[devices]\npulse_width_us = 1e6\n", "pulse_width_us is"},
         Refused{"no_toml", "[scan\n", "not TOML"}),
     [](const auto& test) { return test.param.name; });
 

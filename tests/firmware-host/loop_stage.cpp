@@ -33,12 +33,15 @@ int GlassDisplay::do_height() const {
 }
 
 hal::Result<hal::Flip> GlassDisplay::do_present() {
+  if (covered)
+    return hal::Flip{clock_.now(), last_flip_};
   pipeline::Image drawn = ui::gl::read_framebuffer(inner_.width(), inner_.height());
   auto flip = inner_.present();
   if (flip) {
     ++frames;
     picture = std::move(drawn);
     completed = flip->completed;
+    last_flip_ = flip->sequence;
   }
   return flip;
 }
@@ -195,7 +198,8 @@ void LoopStage::start(ui::ViewState view) {
                                      .news = news_,
                                      .keep_picture = [](const pipeline::Image&) { return true; },
                                      .simulated_control = {},
-                                     .threads = {}},
+                                     .threads = {},
+                                     .proof = &proof_},
       std::move(setup));
   const auto opened = loop_->open();
   ASSERT_TRUE(opened) << opened.error().message;

@@ -33,6 +33,11 @@ public:
   // What drawing costs; called between a frame's beginning and its end.
   std::function<hal::Duration()> cost;
 
+  // Another console is in front: what is presented is seen by nobody.
+  bool covered = false;
+  // Opening it fails for this reason.
+  std::optional<hal::Error> refusal;
+
   int frames = 0;
   pipeline::Image picture; // of the last frame
   hal::TimePoint completed;
@@ -40,7 +45,11 @@ public:
 private:
   std::string_view do_backend() const override { return inner_.backend(); }
   bool do_simulated() const override { return true; }
-  hal::Result<> do_open(const hal::DisplayConfig& config) override { return inner_.open(config); }
+  hal::Result<> do_open(const hal::DisplayConfig& config) override {
+    if (refusal)
+      return tl::make_unexpected(*refusal);
+    return inner_.open(config);
+  }
   int do_width() const override { return inner_.width(); }
   int do_height() const override;
   hal::Duration do_refresh_period() const override { return inner_.refresh_period(); }
@@ -51,6 +60,7 @@ private:
   sim::VirtualClock& clock_;
   sim::OffscreenDisplay inner_;
   mutable int sizes_asked_ = 0; // in this turn
+  std::uint64_t last_flip_ = 0;
 };
 
 class PuppetControls final : public hal::ControlInput {
@@ -135,6 +145,7 @@ protected:
   const ScopePicture scope_picture_{64, 48};
   const std::array<pipeline::Volume, 2> tissues_;
   pipeline::FaultLog faults_;
+  firmware_host::PictureProof proof_;
   pipeline::Wakeup arrived_, news_;
   std::unique_ptr<pipeline::Acquisition> acquisition_;
   std::unique_ptr<pipeline::VolumeThread> volumes_;

@@ -53,6 +53,24 @@ TEST_F(Notice, names_any_other_fault_until_two_seconds_after_it) {
   EXPECT_EQ(of({fault("line_camera", "dropped_frames", 2001ms)}), "");
 }
 
+TEST_F(Notice, tells_of_a_restart_after_a_crash_for_a_minute) {
+  EXPECT_NE(of({fault("host", "restarted_after_crash", 60s)}), "");
+  EXPECT_EQ(of({fault("host", "restarted_after_crash", 61s)}), "");
+  const auto drops = fault("line_camera", "dropped_frames", 0s);
+  EXPECT_EQ(of({fault("host", "restarted_after_crash", 0s), drops}), of({drops}))
+      << "and not in the place of what goes wrong now";
+}
+
+TEST_F(Notice, names_threads_that_hang) {
+  for (const char* device : {"line_camera", "pipeline", "control_input", "scope_camera"})
+    EXPECT_NE(of({fault(device, "stuck_thread", 0s)}), "") << device;
+}
+
+TEST_F(Notice, names_what_befalls_the_machine) {
+  for (const char* kind : {"throttled", "low_memory", "disk_full"})
+    EXPECT_NE(of({fault("host", kind, 0s)}), "") << kind;
+}
+
 TEST_F(Notice, of_several_names_the_gravest) {
   const auto light = fault("line_camera", "saturation", 0s);
   const auto drops = fault("line_camera", "dropped_frames", 1s);
@@ -67,6 +85,10 @@ TEST_F(Notice, leaves_to_the_report_what_a_surgeon_cannot_use) {
   EXPECT_EQ(of({fault("host", "no_realtime", 0s), fault("line_camera", "stuck_sequence", 0s),
                 fault("control_input", "bounce", 0s)}),
             "");
+}
+
+TEST_F(Notice, a_picture_that_could_not_be_kept_is_told) {
+  EXPECT_NE(of({fault("host", "picture_not_kept", 0s)}), "");
 }
 
 TEST_F(Notice, has_words_for_every_fault_that_costs_volumes_or_b_scans) {

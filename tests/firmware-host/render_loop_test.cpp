@@ -340,6 +340,27 @@ std::vector<Loss> all_losses() {
   return all;
 }
 
+// ---- What became of a volume.
+
+class VolumeBooks : public LoopStage {};
+
+TEST_F(VolumeBooks, a_volume_counts_as_displayed_when_a_frame_with_it_reached_the_glass) {
+  start({});
+  send_volume(Tissue::usual);
+  const int frames = display_.frames; // without a volume
+  display_.cable().lose();            // the loop takes the volume, draws it, and cannot show it
+  turn();
+  EXPECT_EQ(loop_->statistics().volumes_taken, 1U);
+  EXPECT_EQ(loop_->statistics().volumes_displayed, 0U);
+  EXPECT_EQ(display_.frames, frames);
+  display_.cable().restore();
+  for (int i = 0; i < 300 && display_.frames == frames; ++i)
+    turn();
+  EXPECT_EQ(loop_->statistics().volumes_displayed, 1U);
+  turn();
+  EXPECT_EQ(loop_->statistics().volumes_displayed, 1U) << "once";
+}
+
 INSTANTIATE_TEST_SUITE_P(Techniques, LostDisplay, testing::ValuesIn(all_losses()),
                          [](const auto& test) {
                            return std::string{ui::to_string(test.param.technique)} +

@@ -39,6 +39,9 @@ RunReport example() {
   r.published = 9;
   r.displayed = 7;
   r.skipped = 2;
+  r.undisplayed = 1;
+  r.planned = 14;
+  r.unfinished = 3;
   r.lost_lines = 600;
   r.lost_b_scans = 2;
   r.lost_volumes = 1;
@@ -91,8 +94,13 @@ TEST(Report, says_every_figure_under_its_key) {
                                {"correlation", 0.5},
                                {"significance", 9.0}}}}));
   EXPECT_EQ(j["workers"], (json{{"count", 2}, {"cores", {2, -1}}}));
-  EXPECT_EQ(j["volumes"],
-            (json{{"acquired", 10}, {"published", 9}, {"displayed", 7}, {"skipped", 2}}));
+  EXPECT_EQ(j["volumes"], (json{{"planned", 14},
+                                {"acquired", 10},
+                                {"published", 9},
+                                {"displayed", 7},
+                                {"skipped", 2},
+                                {"lost", 1},
+                                {"unfinished", 3}}));
   EXPECT_EQ(j["lost"], (json{{"lines", 600}, {"b_scans", 2}, {"volumes", 1}}));
   EXPECT_EQ(j["rates"],
             (json{{"lines_per_s", 215000.123}, {"volumes_per_s", 7.1}, {"frames_per_s", 30.0}}));
@@ -113,6 +121,10 @@ TEST(Report, says_every_figure_under_its_key) {
                              {"stereo", "top_bottom"},
                              {"frozen", false},
                              {"vessels", true},
+                             {"vessel_opacity", 1.0},
+                             {"vessel_colours", "branch"},
+                             {"vessel_shift_mm", {0.0, 0.0, 0.0}},
+                             {"vessel_turn_deg", {0.0, 0.0, 0.0}},
                              {"box", true},
                              {"legend", false},
                              {"selected", "tilt"}}));

@@ -91,5 +91,28 @@ TEST_F(AcquisitionTest, a_counter_that_begins_anew_is_told_once) {
   EXPECT_EQ(count_of("dropped_frames"), 0U);
 }
 
+TEST_F(AcquisitionTest, a_silent_stream_is_opened_anew_while_the_scanner_is_pulsed) {
+  deliver({0, 1});
+  const hal::TimePoint begin = clock_.now();
+  while (camera_.opened() == 1 && clock_.now() < begin + 20s) {
+    acquisition_->note_unanswered_pulse();
+    clock_.sleep_for(20ms);
+  }
+  EXPECT_EQ(camera_.opened(), 2);
+  EXPECT_GE(clock_.now() - begin, 3s);
+  EXPECT_EQ(count_of("silent"), 1U);
+  while (camera_.state() != hal::DeviceState::streaming)
+    clock_.sleep_for(1ms);
+  deliver({0, 1}); // and it serves again, with numbers of its own
+  EXPECT_EQ(count_of("stuck_sequence"), 0U);
+}
+
+TEST_F(AcquisitionTest, a_camera_that_nobody_triggers_may_be_silent) {
+  deliver({0, 1});
+  clock_.sleep_for(3500ms);
+  EXPECT_EQ(camera_.opened(), 1);
+  EXPECT_TRUE(faults_.records().empty());
+}
+
 } // namespace
 } // namespace octascope::pipeline

@@ -1,6 +1,7 @@
 // Every type of input, any number of samples, both paths, with input that is new in each run,
 // against the double-precision reference.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -18,7 +19,11 @@
 namespace octascope::pipeline {
 namespace {
 
+#ifdef OCTASCOPE_SANITIZED
+constexpr int lines = 3;
+#else
 constexpr int lines = 12;
+#endif
 
 struct Input {
   const char* name;
@@ -157,8 +162,12 @@ TEST_P(InputTypes, agree_with_the_reference_for_any_number_of_samples) {
   std::uniform_int_distribution<int> any{16, 3000};
   for (const int samples : {16, 17, 97, 1000, 1009, 1023, 2047})
     ASSERT_NO_FATAL_FAILURE(check(samples, generator));
-  for (int i = 0; i < 6; ++i)
-    ASSERT_NO_FATAL_FAILURE(check(any(generator), generator));
+  for (int i = 0; i < 6; ++i) {
+    const int samples = any(generator);
+    // One in 370 is a power of two, which both paths take: the next test's.
+    ASSERT_NO_FATAL_FAILURE(
+        check(samples + (std::has_single_bit(static_cast<unsigned>(samples)) ? 1 : 0), generator));
+  }
   tell("fftw", fftw_);
   EXPECT_EQ(fused_.counts, 0U);
 }

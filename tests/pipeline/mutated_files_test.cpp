@@ -5,6 +5,7 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,6 +16,7 @@
 #include "pipeline/png_image.h"
 #include "pipeline/spectra_file.h"
 #include "pipeline/text_curve.h"
+#include "pipeline/vessels/point_registration.h"
 #include "tests/support/fresh_seed.h"
 #include "tests/support/mutation.h"
 #include "tests/support/scratch_folder.h"
@@ -52,6 +54,30 @@ protected:
 
   tests::ScratchFolder folder;
 };
+
+TEST_F(MutatedFiles, point_pairs) {
+  std::string good = "# tree x, y, z, volume x, y, z\n";
+  for (int i = 0; i < 12; ++i)
+    good += fmt::format("{}, {};\t{} {:.3f},{},{}{}\n", i, i % 3, i * i % 7, i + 0.125, i % 3 - 4,
+                        i * i % 7 + 2e-1, i % 5 == 0 ? " # here\r" : "");
+  try_all(good, "pairs.csv", [](const fs::path& file) -> std::string {
+    const auto rows = read_text_rows(file, 20, {6});
+    if (!rows)
+      return rows.error().message;
+    std::vector<PointPair> pairs;
+    for (const auto& [line, n] : *rows) {
+      EXPECT_EQ(n.size(), 6U);
+      pairs.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
+    }
+    const auto found = register_points(pairs);
+    if (!found)
+      return file.string() + found.error().message;
+    EXPECT_TRUE(std::isfinite(found->rms_mm));
+    for (const auto& row : found->volume_from_tree.rotation)
+      EXPECT_NEAR(row[0] * row[0] + row[1] * row[1] + row[2] * row[2], 1, 1e-9);
+    return {};
+  });
+}
 
 TEST_F(MutatedFiles, text_curves) {
   std::string good = "# pixels\n";

@@ -36,16 +36,21 @@ TEST_P(OccupancyOf, each_brick_has_the_extremes_of_the_voxels_that_touch_its_cel
   Occupancy occupancy{g, first_depth};
   occupancy.update(volume);
   const auto bricks = occupancy.bricks();
-  EXPECT_EQ(bricks.depth, (g.depths + 15) / 16);
-  EXPECT_EQ(bricks.a, (g.a_scans + 1 + 7) / 8);
-  EXPECT_EQ(bricks.b, (g.b_scans + 1 + 3) / 4);
+  constexpr int brick_depths = 1 << pipeline::brick_depth_shift;
+  constexpr int brick_a_scans = 1 << pipeline::brick_a_shift;
+  constexpr int brick_b_scans = 1 << pipeline::brick_b_shift;
+  EXPECT_EQ(bricks.depth, (g.depths + brick_depths - 1) / brick_depths);
+  EXPECT_EQ(bricks.a, (g.a_scans + brick_a_scans) / brick_a_scans);
+  EXPECT_EQ(bricks.b, (g.b_scans + brick_b_scans) / brick_b_scans);
   for (int b = 0; b < g.b_scans; ++b)
     for (int brick_a = 0; brick_a < bricks.a; ++brick_a)
       for (int brick_z = 0; brick_z < bricks.depth; ++brick_z) {
         int highest = -1;
         int lowest = 256;
-        for (int a_cell = 8 * brick_a; a_cell < std::min(8 * brick_a + 8, g.a_scans + 1); ++a_cell)
-          for (int z_cell = 16 * brick_z; z_cell < std::min(16 * brick_z + 16, g.depths); ++z_cell)
+        for (int a_cell = brick_a_scans * brick_a;
+             a_cell < std::min(brick_a_scans * (brick_a + 1), g.a_scans + 1); ++a_cell)
+          for (int z_cell = brick_depths * brick_z;
+               z_cell < std::min(brick_depths * (brick_z + 1), g.depths); ++z_cell)
             for (const int a : {a_cell - 1, a_cell})
               for (const int z : {z_cell, z_cell + 1}) {
                 if (a < 0 || a >= g.a_scans || z < first_depth || z >= g.depths)

@@ -64,6 +64,9 @@ protected:
     volumes->stop();
     acquisition->stop();
     EXPECT_EQ(camera.on_loan(), 0U);
+    const VolumeCounters c = volumes->counters();
+    EXPECT_EQ(c.planned, c.acquired + c.lost_volumes + c.unfinished);
+    EXPECT_EQ(c.acquired, c.published);
   }
 
   hal::TimePoint time_of(hal::TimePoint armed, int sweep) const {
@@ -195,6 +198,7 @@ TEST_F(VolumeThreadTest, stops_cleanly_with_frames_on_the_way) {
   for (int b = 0; b < 5; ++b)
     camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 1);
   stop();
+  EXPECT_GE(volumes->counters().planned, 1U);
 }
 
 ScanPlan three_repeats() {

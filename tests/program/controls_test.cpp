@@ -1,10 +1,13 @@
 // Every action, done by the twin's pedal and knob: what becomes of the view, and of the picture.
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "pipeline/vessels/registration.h"
 #include "tests/program/program_support.h"
 #include "ui/controls/action.h"
 
@@ -48,6 +51,13 @@ std::vector<pipeline::Image> kept_pictures(const fs::path& folder) {
   return pictures;
 }
 
+fs::path kept_registration(const fs::path& folder) {
+  for (const auto& entry : fs::directory_iterator{folder})
+    if (entry.path().filename().string().starts_with("registration-"))
+      return entry.path();
+  return {};
+}
+
 // The middle of the volume's picture: no badge, no echo, no figure of the status bar.
 int changed_in_the_middle(const pipeline::Image& a, const pipeline::Image& b) {
   const ui::Rect view = layout_of(a).view;
@@ -59,10 +69,11 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   const ScratchFolder folder;
   const fs::path report_file = folder / "report.json";
   const fs::path last_file = folder / "last.png";
-  const ProgramResult result =
-      run_in(folder, {"run", "--sim", "--config", write_configuration(folder, ""), "--display",
-                      "offscreen", "--size", "640x360", "--controls", script(), "--duration",
-                      "13.3", "--report", report_file, "--snapshot", last_file});
+  folder.write("tree.swc", "1 18 -300 0 0 200 -1\n2 18 300 0 0 200 1\n");
+  const ProgramResult result = run_in(
+      folder, {"run", "--sim", "--config", write_configuration(folder, ""), "--display",
+               "offscreen", "--size", "640x360", "--controls", script(), "--duration", "17.2",
+               "--vessels", "tree.swc", "--report", report_file, "--snapshot", last_file});
   ASSERT_EQ(result.exit_status, 0) << result.describe();
 
   const json report = read_report(report_file);
@@ -71,8 +82,8 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   for (const auto& [name, count] : actions.items())
     EXPECT_GE(count.get<int>(), 1) << name;
   EXPECT_EQ(actions["snapshot"], 4);
-  EXPECT_EQ(actions["adjust"], 7);
-  EXPECT_EQ(actions["next_parameter"], 7);
+  EXPECT_EQ(actions["adjust"], 18);
+  EXPECT_EQ(actions["next_parameter"], 18);
 
   const json& view = report.at("view");
   EXPECT_EQ(view["window_offset_db"], 6);
@@ -89,7 +100,20 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   EXPECT_EQ(view["vessels"], false);
   EXPECT_EQ(view["box"], false);
   EXPECT_EQ(view["legend"], true);
-  EXPECT_EQ(view["selected"], "parallax");
+  EXPECT_EQ(view["selected"], "reset_registration");
+  EXPECT_NEAR(view["vessel_opacity"].get<double>(), 0.7, 1e-3);
+  EXPECT_EQ(view["vessel_colours"], "order");
+  EXPECT_EQ(view["vessel_shift_mm"], (json{0.0, 0.0, 0.0})) << "kept: registered there";
+
+  // The tree lay with its middle in the volume's; then it was turned and shifted.
+  const fs::path kept_place = kept_registration(folder.path());
+  const auto registration = pipeline::Registration::load(kept_place);
+  ASSERT_TRUE(registration) << registration.error().message;
+  EXPECT_EQ(registration->provenance.method, "moved by hand on the display");
+  EXPECT_EQ(registration->provenance.source, "tree.swc, before: not registered");
+  const auto& turned = registration->volume_from_tree.rotation;
+  EXPECT_NEAR(turned[2][1], std::sin(4 * 0.5 * std::numbers::pi / 180), 2e-3);
+  EXPECT_NEAR(turned[0][2], std::sin(-4 * 0.5 * std::numbers::pi / 180), 2e-3);
 
   const std::vector<pipeline::Image> kept = kept_pictures(folder.path());
   ASSERT_EQ(kept.size(), 4U) << "as it was, rotated, without the box, with another window";

@@ -35,6 +35,8 @@ public:
 
   void send_signal(int number) const;
 
+  pid_t process() const { return child_; }
+
   bool running() const;
 
   // Waits until it has a thread of this name; false when it ends, and after `most`.

@@ -1,6 +1,8 @@
 // Drawing allocates nothing of ours once it runs. Counts operator new, which the C code of the
 // driver does not use.
+#include "pipeline/vessels/cluster_builder.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/vessel_trees.h"
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/scene.h"
 #include "tests/ui/support/synthetic_volume.h"
@@ -39,6 +41,37 @@ TEST_F(Allocation, a_running_display_makes_none) {
   const std::uint64_t before = allocations_of_this_thread();
   for (int i = 6; i < 16; ++i)
     one_frame(i);
+  EXPECT_EQ(allocations_of_this_thread(), before);
+}
+
+TEST_F(Allocation, vessels_in_the_volume_make_none) {
+  auto renderer = ui::Renderer::create();
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  const auto volume = tissue_volume(small_geometry);
+  const auto tree = pipeline::build_clusters(chain_tree(2000, 5));
+  ASSERT_TRUE((*renderer)->show_vessels({tree.view(), {}, std::nullopt}, clock_));
+  ui::Status status = live_status();
+  status.vessels.state = ui::VesselStatus::State::shown;
+  ui::ViewState view;
+  view.vessel_account = true;
+  const auto one_turn = [&](int i) {
+    for (const ui::Technique technique : ui::all_techniques)
+      for (const ui::RayBackend rays : {ui::RayBackend::shader, ui::RayBackend::processor})
+        for (const float opacity : {1.0F, 0.5F}) {
+          view.technique = technique;
+          view.vessel_opacity = opacity;
+          view.yaw_deg = static_cast<float>(50 * i);
+          EXPECT_TRUE((*renderer)->show_volume(volume));
+          EXPECT_TRUE((*renderer)->draw(view, status, 320, 180, {1, 100, rays}));
+          status.vessels.account = (*renderer)->vessel_report().account;
+        }
+    EXPECT_TRUE(display_.present());
+  };
+  for (int i = 0; i < 3; ++i)
+    one_turn(i);
+  const std::uint64_t before = allocations_of_this_thread();
+  for (int i = 3; i < 6; ++i)
+    one_turn(i);
   EXPECT_EQ(allocations_of_this_thread(), before);
 }
 

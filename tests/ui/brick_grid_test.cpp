@@ -4,13 +4,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "tests/ui/support/synthetic_volume.h"
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/step_table.h"
-#include "ui/ray_caster/work_team.h"
+#include "ui/work_team.h"
 
 namespace octascope::tests {
 namespace {
@@ -37,8 +38,12 @@ TEST(BrickGrid, distances_are_to_the_nearest_brick_that_is_not_empty) {
   };
   // Cells that touch a speck: along depth the bin's and the one above, else the voxel's and the
   // next.
-  const Place specks[] = {{90 / 16, 20 / 8, 3 / 4}, {90 / 16, 21 / 8, 3 / 4}, {90 / 16, 20 / 8, 1},
-                          {0, 55 / 8, 30 / 4},      {0, 56 / 8, 30 / 4},      {0, 56 / 8, 31 / 4}};
+  std::vector<Place> specks;
+  for (const Place& voxel : {Place{90, 20, 3}, Place{7, 55, 30}})
+    for (int cell = 0; cell < 8; ++cell)
+      specks.push_back({(voxel.z - (cell & 1)) >> pipeline::brick_depth_shift,
+                        (voxel.a + (cell >> 1 & 1)) >> pipeline::brick_a_shift,
+                        (voxel.b + (cell >> 2)) >> pipeline::brick_b_shift});
   for (int b = 0; b < n.b; ++b)
     for (int a = 0; a < n.a; ++a)
       for (int z = 0; z < n.depth; ++z) {

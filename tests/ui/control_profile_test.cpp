@@ -212,6 +212,15 @@ TEST(ControlProfile, mutated_ones_are_read_or_refused_with_their_name) {
   EXPECT_GT(refused, 100);
 }
 
+TEST(ControlProfile, is_found_by_device_and_number_of_switches) {
+  EXPECT_EQ(built_in_profile_for("05f3:00ff", 3)->name, built_in("three_switch_pedal").name);
+  EXPECT_EQ(built_in_profile_for("0c45:7404", 1)->name, built_in("pcsensor_single").name);
+  EXPECT_EQ(built_in_profile_for("0c45:7404", 3)->name, built_in("pcsensor_triple").name);
+  EXPECT_EQ(built_in_profile_for("1a86:e026", 3)->name, built_in("pcsensor_single").name)
+      << "better than none";
+  EXPECT_FALSE(built_in_profile_for("dead:beef", 3).has_value());
+}
+
 TEST(Action, names_are_found_and_unlike) {
   std::set<std::string_view> labels;
   for (const Action action : all_actions()) {

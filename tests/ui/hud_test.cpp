@@ -68,6 +68,45 @@ TEST(HudText, figures_have_their_units_and_losses_warn) {
   EXPECT_EQ(hud.cells[4].tone, Tone::warning);
 }
 
+TEST(HudText, vessels_say_whether_they_are_where_they_seem_to_be) {
+  Status status = live_status();
+  status.simulated = false;
+  status.vessels.state = VesselStatus::State::loading;
+  status.vessels.progress = 0.437F;
+  HudText hud = compose_hud_text({}, status, {});
+  EXPECT_EQ(hud.cells[6].label, "Vessels");
+  EXPECT_EQ(hud.cells[6].value.view(), "loading 43 %");
+  EXPECT_EQ(badges_of(status), std::vector<std::string>{});
+  status.vessels.state = VesselStatus::State::failed;
+  hud = compose_hud_text({}, status, {});
+  EXPECT_EQ(hud.cells[6].value.view(), "not loaded");
+  EXPECT_EQ(hud.cells[6].tone, Tone::warning);
+  status.vessels.state = VesselStatus::State::shown;
+  EXPECT_EQ(compose_hud_text({}, status, {}).cells[6].label, "");
+  EXPECT_EQ(badges_of(status), std::vector<std::string>{"VESSELS NOT REGISTERED"});
+  ViewState hidden;
+  hidden.vessels_visible = false;
+  EXPECT_EQ(compose_hud_text(hidden, status, {}).badge_count, 0U);
+  status.vessels.registered = true;
+  EXPECT_EQ(badges_of(status), std::vector<std::string>{});
+}
+
+TEST(HudText, merged_vessels_and_their_account_are_told) {
+  Status status = live_status();
+  status.vessels.state = VesselStatus::State::shown;
+  status.vessels.account = {1, 20, 300, 4000};
+  ViewState view;
+  EXPECT_FALSE(compose_hud_text(view, status, {}).vessels.account) << "on request";
+  view.vessel_account = true;
+  EXPECT_EQ(compose_hud_text(view, status, {}).vessels.account->total(), 4321U);
+  EXPECT_EQ(compose_hud_text(view, status, {}).reduced.view(), "thinnest vessels merged");
+  status.reduced_quality = 0.5F;
+  EXPECT_EQ(compose_hud_text(view, status, {}).reduced.view(),
+            "quality reduced to 50 %, thinnest vessels merged");
+  status.vessels.account.merged = 0;
+  EXPECT_EQ(compose_hud_text(view, status, {}).reduced.view(), "quality reduced to 50 %");
+}
+
 TEST(HudText, an_old_microscope_picture_is_stale) {
   const Status status = live_status();
   ShownPictures shown;
@@ -134,6 +173,24 @@ protected:
 
   std::unique_ptr<Renderer> renderer_;
 };
+
+TEST_F(HudPicture, the_colours_of_vessels_are_explained_beside_the_centre) {
+  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
+  Status status = live_status();
+  status.vessels.registered = true;
+  ViewState view;
+  view.vessel_account = true;
+  const auto before = draw(view, status);
+  status.vessels.state = VesselStatus::State::shown;
+  status.vessels.branches = {false, true, true, true};
+  const auto after = draw(view, status);
+  EXPECT_GT(changed(before, after, {0, 0, width, height}), 500);
+  const Rect large = lay_out(width, height, {}).view;
+  EXPECT_EQ(changed(before, after,
+                    {large.x + large.width / 4, large.y + large.height / 4, large.width / 2,
+                     large.height / 2}),
+            0);
+}
 
 TEST_F(HudPicture, badges_change_the_corner_and_never_the_centre) {
   ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));

@@ -4,6 +4,7 @@
 
 #include "tests/ui/support/colour_vision.h"
 #include "ui/hud/palette.h"
+#include "ui/vessels/vessel_look.h"
 
 namespace octascope::tests {
 namespace {
@@ -46,6 +47,20 @@ TEST(Palette, states_are_told_apart_by_every_kind_of_eye) {
         EXPECT_GE(seen_difference(palette::states[i], palette::states[k], vision), least)
             << words(palette::states[i]) << " and " << words(palette::states[k]) << ", "
             << vision.name;
+}
+
+TEST(Palette, main_branches_of_vessels_are_told_apart_by_every_kind_of_eye) {
+  const auto shown = [](std::size_t branch) {
+    const VesselColour& colour = branch_colours[branch];
+    const auto bits = [](float v) { return static_cast<std::uint8_t>(v * 255 + 0.5F); };
+    return Colour{bits(colour[0]), bits(colour[1]), bits(colour[2])};
+  };
+  for (std::size_t i = 1; i < branch_colours.size(); ++i) {
+    EXPECT_GE(contrast(shown(i), palette::panel), 3) << i;
+    for (const Vision& vision : all_visions)
+      for (std::size_t k = i + 1; k < branch_colours.size(); ++k)
+        EXPECT_GE(seen_difference(shown(i), shown(k), vision), 18) << vision.name;
+  }
 }
 
 TEST(Palette, the_simulation_confuses_what_colour_blind_people_confuse) {

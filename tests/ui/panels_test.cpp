@@ -7,7 +7,6 @@
 #include "ui/panels/b_scan_panel.h"
 #include "ui/panels/en_face_panel.h"
 #include "ui/panels/projection.h"
-#include "ui/panels/scope_pixels.h"
 #include "ui/volume/volume_texture.h"
 
 namespace octascope::tests {
@@ -142,39 +141,6 @@ TEST(Projection, contrast_ignores_missing_b_scans_and_outliers) {
   EXPECT_LT(grey[5], 6);
   EXPECT_GT(grey[295], 249);
   EXPECT_NEAR(grey[150], 127, 4);
-}
-
-TEST(ScopePixels, every_format_gives_the_same_colour) {
-  // A 2 × 2 picture of BT.601 red: Y 81, Cb 90, Cr 240.
-  const auto convert = [](hal::PixelFormat format, int stride, std::vector<int> values) {
-    std::vector<std::byte> bytes;
-    for (const int value : values)
-      bytes.push_back(static_cast<std::byte>(value));
-    std::vector<std::uint8_t> out(16);
-    const auto ok = ui::convert_to_rgba({0, 2, 2, stride, format, bytes, 0, {}}, out);
-    EXPECT_TRUE(ok) << ok.error().message;
-    return out;
-  };
-  using enum hal::PixelFormat;
-  const auto rgb = convert(rgb8, 7, {254, 0, 0, 254, 0, 0, 9, 254, 0, 0, 254, 0, 0});
-  const auto rgba = convert(rgba8, 8, {254, 0, 0, 7, 254, 0, 0, 7, 254, 0, 0, 7, 254, 0, 0, 7});
-  const auto packed = convert(yuyv, 4, {81, 90, 81, 240, 81, 90, 81, 240});
-  const auto planar = convert(nv12, 2, {81, 81, 81, 81, 90, 240});
-  EXPECT_EQ(rgb, rgba);
-  EXPECT_EQ(packed, planar);
-  for (std::size_t i = 0; i < 16; ++i)
-    EXPECT_NEAR(packed[i], rgb[i], 1.5) << i;
-}
-
-TEST(ScopePixels, a_short_frame_is_refused_with_both_lengths) {
-  const std::vector<std::byte> bytes(11);
-  std::vector<std::uint8_t> out(16);
-  const auto short_frame =
-      ui::convert_to_rgba({0, 2, 2, 6, hal::PixelFormat::rgb8, bytes, 0, {}}, out);
-  ASSERT_FALSE(short_frame);
-  EXPECT_NE(short_frame.error().message.find("11 bytes"), std::string::npos);
-  EXPECT_NE(short_frame.error().message.find("expected 12"), std::string::npos);
-  EXPECT_FALSE(ui::convert_to_rgba({0, 2, 2, 5, hal::PixelFormat::rgb8, bytes, 0, {}}, out));
 }
 
 } // namespace

@@ -144,7 +144,7 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   turn(4);
   EXPECT_FLOAT_EQ(state().window_size_db, first_.window_size_db + 4);
   EXPECT_FALSE(state().echo.chosen);
-  for (int i = 0; i < parameter_count - 2; ++i)
+  for (int i = 0; i < 7 - 2; ++i) // without vessels, nothing of theirs
     tread({2});
   EXPECT_EQ(state().selected, Action::window_offset) << "round again, past the unseen parallax";
   tread({0});
@@ -153,6 +153,58 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   EXPECT_EQ(state().b_scan, first_.b_scan - 2);
   EXPECT_EQ(count(Action::adjust), 2U);
   EXPECT_EQ(count(Action::b_scan), 1U);
+}
+
+TEST_F(Controller, vessels_are_steered_by_the_knob_where_they_are_shown) {
+  actions().set_vessels_loaded(true);
+  for (int i = 0; i < 6; ++i)
+    tread({2});
+  EXPECT_EQ(state().selected, Action::vessel_opacity) << "behind the B-scan, past the parallax";
+  turn(-6);
+  EXPECT_FLOAT_EQ(state().vessel_opacity, 0.7F);
+  tread({2});
+  turn(1);
+  EXPECT_EQ(state().vessel_colouring, VesselColouring::order);
+  EXPECT_EQ(echo(), "orders");
+  tread({2});
+  turn(5);
+  EXPECT_NEAR(state().vessel_nudge.shift_mm[0], 0.1F, 1e-6);
+  for (int i = 0; i < 5; ++i)
+    tread({2});
+  EXPECT_EQ(state().selected, Action::vessel_turn_z);
+  turn(-4);
+  EXPECT_FLOAT_EQ(state().vessel_nudge.turn_deg[2], -2);
+  controller_.handle(press(Key::home));
+  EXPECT_TRUE(state().vessel_nudge.any()) << "where vessels lie is no matter of the view";
+  EXPECT_FLOAT_EQ(state().vessel_opacity, 0.7F);
+  controller_.handle(press('v'));
+  tread({2});
+  EXPECT_EQ(state().selected, Action::window_offset) << "hidden vessels are not steered";
+}
+
+TEST_F(Controller, the_vessels_place_is_kept_or_undone_by_a_turn_to_the_right) {
+  EXPECT_FALSE(controller_.handle(press('m')).keep_registration);
+  EXPECT_EQ(echo(), "none loaded");
+  actions().set_vessels_loaded(true);
+  EXPECT_FALSE(controller_.handle(press('m')).keep_registration);
+  EXPECT_EQ(echo(), "not moved");
+  const VesselNudge none;
+  for (int i = 0; i < 6 + 9; ++i)
+    tread({2});
+  EXPECT_EQ(state().selected, Action::keep_registration);
+  controller_.handle(press('k', true));
+  const VesselNudge moved = state().vessel_nudge;
+  EXPECT_NE(moved, none);
+  EXPECT_FALSE(turn(-1).keep_registration);
+  EXPECT_EQ(echo(), "turn right to do it");
+  EXPECT_TRUE(turn(1).keep_registration);
+  EXPECT_EQ(state().vessel_nudge, moved) << "until the host has kept it";
+  actions().forget_nudge();
+  EXPECT_FALSE(turn(1).keep_registration) << "once is enough";
+  controller_.handle(press('u'));
+  controller_.handle(press('g'));
+  EXPECT_EQ(state().vessel_nudge, none);
+  EXPECT_EQ(echo(), "as it was registered");
 }
 
 TEST_F(Controller, parallax_can_be_chosen_in_stereo) {
@@ -373,6 +425,32 @@ TEST_F(Controller, asks_the_host_to_quit_and_to_keep_a_picture) {
   DisplayEvent released = press('q');
   released.kind = DisplayEventKind::key_released;
   EXPECT_EQ(controller_.handle(released), ControlRequests{});
+}
+
+TEST_F(Controller, another_device_brings_its_own_profile_and_finds_the_view_as_it_was) {
+  turn(3);
+  move(0, 1); // held while it is pulled out
+  const ViewState before = state();
+  controller_.change_profile(parsed(R"(
+name = "Wheel"
+menu = ["tilt"]
+[device]
+switches = ["top"]
+[[bind]]
+switch = "top"
+gesture = "press"
+action = "freeze"
+[[bind]]
+knob = 0
+action = "adjust"
+)"));
+  EXPECT_EQ(state().window_offset_db, before.window_offset_db);
+  EXPECT_EQ(state().selected, Action::tilt) << "the old menu's choice is not in the new one";
+  EXPECT_FALSE(state().frozen);
+  wait(seconds{2});
+  EXPECT_EQ(count(Action::technique), 0U) << "what was held on the old device means nothing";
+  tread({0});
+  EXPECT_TRUE(state().frozen);
 }
 
 TEST(SimulatedControl, digits_are_switches_and_comma_and_stop_turn_the_knob) {

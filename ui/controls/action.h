@@ -29,12 +29,23 @@ enum class Action : std::uint8_t {
   parallax,
   b_scan,
   vessels,
+  vessel_opacity,
+  vessel_colours,
+  vessel_shift_x, // in the volume's frame, x along a B-scan, y from B-scan to B-scan, z with depth
+  vessel_shift_y,
+  vessel_shift_z,
+  vessel_turn_x,
+  vessel_turn_y,
+  vessel_turn_z,
+  vessel_account,
+  keep_registration,  // what the shifts and turns have made of it, in a file
+  reset_registration, // undoes them
   box,
   snapshot,
   record,
   legend,
 };
-inline constexpr std::size_t action_count = 23;
+inline constexpr std::size_t action_count = 34;
 
 constexpr std::size_t index_of(Action action) {
   return static_cast<std::size_t>(action);
@@ -53,6 +64,7 @@ enum class ActionKind : std::uint8_t {
   choice,     // one of several: a step goes to the next, a negative one back
   toggle,     // a press changes it over; turned, right is on and left is off
   momentary,  // happens once; cannot be turned
+  deliberate, // happens once; turned, right does it
 };
 
 ActionKind kind_of(Action action);

@@ -39,4 +39,18 @@ hal::Result<ControlProfile> built_in_profile(std::string_view name) {
                                name, known));
 }
 
+std::optional<ControlProfile> built_in_profile_for(std::string_view usb_id, int switches) {
+  std::optional<ControlProfile> made_for_it;
+  for (const BuiltInProfile& built_in : built_in_profiles()) {
+    auto profile = ControlProfile::parse(built_in.text, std::string{built_in.name} + ".toml");
+    if (!profile || std::ranges::find(profile->usb, usb_id) == profile->usb.end())
+      continue;
+    if (static_cast<int>(profile->switches.size()) == switches)
+      return std::move(*profile);
+    if (!made_for_it)
+      made_for_it = std::move(*profile);
+  }
+  return made_for_it;
+}
+
 } // namespace octascope::ui

@@ -28,6 +28,18 @@ ViewActions::ViewActions(const ViewState& initial, int b_scans, std::vector<Acti
   set_choices({});
 }
 
+void ViewActions::change_menu(std::vector<Action> menu) {
+  menu_ = std::move(menu);
+  if (std::ranges::find(menu_, state_.selected) == menu_.end())
+    state_.selected = menu_.front();
+}
+
+void ViewActions::replace(const ViewState& initial, const ViewState& state) {
+  initial_ = initial.clamped();
+  state_ = state.clamped();
+  set_b_scans(b_scans_);
+}
+
 void ViewActions::set_b_scans(int b_scans) {
   b_scans_ = std::max(b_scans, 1);
   state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
@@ -92,8 +104,11 @@ void ViewActions::drive(Action action, double amount, hal::TimePoint time) {
   tell(driven, "", time);
 }
 
-// The parallax of a picture that is not in stereo cannot be seen.
+// The parallax of a picture that is not in stereo cannot be seen, nor what becomes of vessels that
+// are not shown.
 bool ViewActions::can_be_selected(Action action) const {
+  if (action > Action::vessels && action <= Action::reset_registration)
+    return vessels_loaded_ && state_.vessels_visible;
   return action != Action::parallax || state_.stereo != StereoMode::off;
 }
 
@@ -123,6 +138,7 @@ void ViewActions::toggle(Action action, double amount, Done done, hal::TimePoint
     break;
   }
   case Action::vessels: change(state_.vessels_visible); break;
+  case Action::vessel_account: change(state_.vessel_account); break;
   case Action::box: change(state_.box_visible); break;
   case Action::legend: change(state_.legend_visible); break;
   default: break;
@@ -145,6 +161,9 @@ void ViewActions::choose(Action action, int step, hal::TimePoint time) {
     state_.colour_map = wrapped(state_.colour_map + step, static_cast<int>(names_.colours.size()));
     break;
   case Action::layout: state_.layout = stepped(state_.layout, step, layout_count); break;
+  case Action::vessel_colours:
+    state_.vessel_colouring = stepped(state_.vessel_colouring, step, vessel_colouring_count);
+    break;
   case Action::stereo: state_.stereo = stepped(state_.stereo, step, stereo_count); break;
   default: break;
   }
@@ -152,7 +171,7 @@ void ViewActions::choose(Action action, int step, hal::TimePoint time) {
 }
 
 // A frozen picture stays frozen: looking at it afresh must not let it run away. How the glasses
-// take their pictures is not a matter of the view.
+// take their pictures is not a matter of the view, nor where the vessels lie in the volume.
 void ViewActions::reset_view() {
   const ViewState old = state_;
   state_ = initial_;
@@ -160,10 +179,36 @@ void ViewActions::reset_view() {
   state_.frozen_since = old.frozen_since;
   state_.stereo = old.stereo;
   state_.parallax_deg = old.parallax_deg;
+  state_.vessel_opacity = old.vessel_opacity;
+  state_.vessel_colouring = old.vessel_colouring;
+  state_.vessel_nudge = old.vessel_nudge;
+  state_.vessel_account = old.vessel_account;
   state_.legend_visible = old.legend_visible;
   state_.legend_of_keys = old.legend_of_keys;
   state_.selected = old.selected;
   state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
+}
+
+void ViewActions::forget_nudge() {
+  state_.vessel_nudge = {};
+}
+
+// More detents of the same turn find nothing left to do.
+ControlRequests ViewActions::move_vessels_for_good(Action action, double amount, Done done,
+                                                   hal::TimePoint time) {
+  if (!vessels_loaded_) {
+    tell(action, "none loaded", time);
+    return {};
+  }
+  if (!state_.vessel_nudge.any() || (done == Done::turned && amount <= 0)) {
+    tell(action, words_of(state_, names_, action), time);
+    return {};
+  }
+  if (action == Action::keep_registration)
+    return {.keep_registration = true};
+  forget_nudge();
+  tell(action, "as it was registered", time);
+  return {};
 }
 
 ControlRequests ViewActions::adjust(double amount, Done done, hal::TimePoint time) {
@@ -189,6 +234,8 @@ ControlRequests ViewActions::perform(Action action, double amount, Done done, ha
   case Action::auto_window: return {.auto_window = true};
   case Action::snapshot: return {.snapshot = true};
   case Action::record: return {.record = true};
+  case Action::keep_registration:
+  case Action::reset_registration: return move_vessels_for_good(action, amount, done, time);
   case Action::reset_view:
     reset_view();
     tell(action, "restored", time);

@@ -19,6 +19,7 @@ struct ControlRequests {
   bool snapshot = false;
   bool auto_window = false; // what suits the shown volume
   bool record = false;
+  bool keep_registration = false; // as the view's nudge has it
   bool operator==(const ControlRequests&) const = default;
 
   void add(const ControlRequests& more) {
@@ -26,6 +27,7 @@ struct ControlRequests {
     snapshot = snapshot || more.snapshot;
     auto_window = auto_window || more.auto_window;
     record = record || more.record;
+    keep_registration = keep_registration || more.keep_registration;
   }
 };
 
@@ -44,15 +46,26 @@ public:
   // what next_parameter goes through, never empty.
   ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu);
 
+  // What is selected stays so if the new menu has it, else its first becomes it.
+  void change_menu(std::vector<Action> menu);
+
   const ViewState& state() const { return state_; }
 
   // How often each action was done, by index_of(). What adjust did counts for both.
   const std::array<std::uint64_t, action_count>& counts() const { return counts_; }
 
+  // What reset_view goes back to.
+  const ViewState& initial() const { return initial_; }
+  // Both at once, brought into their ranges: what was kept of an earlier run, or configured anew.
+  void replace(const ViewState& initial, const ViewState& state);
+
   void set_b_scans(int b_scans);
   void set_window(float offset_db, float size_db); // also what reset_view goes back to
   void set_choices(ChoiceNames names);
   void set_vessels_loaded(bool loaded) { vessels_loaded_ = loaded; }
+
+  // The vessels' place as it is now was kept: from here on they are nudged.
+  void forget_nudge();
 
   // Does it once. `amount`: detents for what is continuous, else steps, of which the whole ones
   // count; a toggle that is turned goes on to the right and off to the left.
@@ -78,6 +91,8 @@ private:
   void choose(Action action, int step, hal::TimePoint time);
   void reset_view();
   bool can_be_selected(Action action) const;
+  ControlRequests move_vessels_for_good(Action action, double amount, Done done,
+                                        hal::TimePoint time);
   ControlRequests adjust(double amount, Done done, hal::TimePoint time);
 
   ViewState initial_;

@@ -28,6 +28,15 @@ ViewController::ViewController(const ViewState& initial, int b_scans, ControlPro
   told_.reserve(most_told_at_once);
 }
 
+void ViewController::change_profile(ControlProfile profile) {
+  profile_ = std::move(profile);
+  actions_.change_menu(profile_.menu);
+  recogniser_ = GestureRecogniser{profile_.switch_bindings(), profile_.times};
+  told_.clear();
+  knobs_ = {};
+  axes_ = {};
+}
+
 ControlRequests ViewController::handle(const hal::DisplayEvent& event) {
   ControlRequests requests;
   requests.quit = is_quit(event);

@@ -25,6 +25,10 @@ public:
   // `initial` is what reset_view goes back to; `b_scans` bounds the B-scan's position.
   ViewController(const ViewState& initial, int b_scans, ControlProfile profile);
 
+  // Another device leads: what it does from now on. The view stays as it is, nothing counts as
+  // held.
+  void change_profile(ControlProfile profile);
+
   const ViewState& state() const { return actions_.state(); }
 
   // What the host knows and does: choices, window, echoes of what became of a request.

@@ -33,6 +33,15 @@ std::string_view words_for(StereoMode mode) {
   return "off";
 }
 
+std::string_view words_for(VesselColouring colouring) {
+  switch (colouring) {
+  case VesselColouring::branch: return "main branches";
+  case VesselColouring::order: return "orders";
+  case VesselColouring::diagnostic: return "who drew them";
+  }
+  return "main branches";
+}
+
 std::string_view words_of(const ViewState& view, const ChoiceNames& names, Action action) {
   const auto shown = [](bool visible) { return visible ? "shown" : "hidden"; };
   switch (action) {
@@ -42,6 +51,11 @@ std::string_view words_of(const ViewState& view, const ChoiceNames& names, Actio
   case Action::layout: return words_for(view.layout);
   case Action::stereo: return words_for(view.stereo);
   case Action::freeze: return view.frozen ? "frozen" : "live";
+  case Action::vessel_colours: return words_for(view.vessel_colouring);
+  case Action::vessel_account: return shown(view.vessel_account);
+  case Action::keep_registration:
+  case Action::reset_registration:
+    return view.vessel_nudge.any() ? "turn right to do it" : "not moved";
   case Action::vessels: return shown(view.vessels_visible);
   case Action::box: return shown(view.box_visible);
   case Action::legend: return shown(view.legend_visible);

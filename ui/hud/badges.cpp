@@ -17,6 +17,8 @@ BadgeLook look_of(BadgeKind kind) {
   case BadgeKind::stale: return {palette::warning, true};
   case BadgeKind::veiled: return {palette::alarm, true};
   case BadgeKind::frozen: return {palette::frozen, true};
+  case BadgeKind::configuration:
+  case BadgeKind::unregistered: return {palette::warning, false};
   case BadgeKind::incomplete: return {palette::warning, false};
   }
   return {palette::text, false};
@@ -41,6 +43,20 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
     canvas.dot(centre, half * 0.4F, ink);
     break;
   case BadgeKind::waiting: canvas.ring(centre, half, ink, size * 0.15F); break;
+  case BadgeKind::configuration: // a page, with a line struck
+    canvas.frame({static_cast<int>(centre.x - half * 0.75F), static_cast<int>(centre.y - half),
+                  static_cast<int>(size * 0.75F), static_cast<int>(size)},
+                 ink, size * 0.13F, 0);
+    canvas.line({centre.x - half, centre.y + half}, {centre.x + half, centre.y - half}, ink,
+                size * 0.13F);
+    break;
+  case BadgeKind::unregistered: // two crosses that do not meet
+    for (const float side : {-1.0F, 1.0F}) {
+      const glm::vec2 at{centre.x + side * half * 0.42F, centre.y + side * half * 0.42F};
+      canvas.line({at.x - half * 0.6F, at.y}, {at.x + half * 0.6F, at.y}, ink, size * 0.13F);
+      canvas.line({at.x, at.y - half * 0.6F}, {at.x, at.y + half * 0.6F}, ink, size * 0.13F);
+    }
+    break;
   case BadgeKind::incomplete:
     canvas.line({centre.x, centre.y - half}, {centre.x, centre.y + half * 0.35F}, ink, size * 0.2F);
     canvas.dot({centre.x, centre.y + half * 0.85F}, size * 0.13F, ink);
@@ -48,9 +64,13 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
   }
 }
 
+bool is_small(BadgeKind kind) {
+  return kind == BadgeKind::incomplete || kind == BadgeKind::configuration;
+}
+
 // What must be seen at once is larger than what explains it.
 TextStyle style_of(BadgeKind kind) {
-  return kind == BadgeKind::incomplete ? TextStyle::body : TextStyle::badge;
+  return is_small(kind) ? TextStyle::body : TextStyle::badge;
 }
 
 float sign_size(float text_height) {
@@ -94,14 +114,17 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
   };
   int small_ones = 0;
   for (std::size_t i = 0; i < text.badge_count; ++i)
-    if (text.badges[i].kind == BadgeKind::incomplete)
+    if (is_small(text.badges[i].kind))
       small_ones += width_of(text.badges[i]) + gap;
   for (std::size_t i = 0; i < text.badge_count; ++i) {
     const Badge& badge = text.badges[i];
+    if (badge.kind == BadgeKind::unregistered && !layout.view_frame.empty()) {
+      places[i] = {x, y, 0, 0}; // said in the small volume itself: vessel_marks.cpp
+      continue;
+    }
     const int width = width_of(badge);
     const int height = padded(style_of(badge.kind));
-    const bool first_small = badge.kind == BadgeKind::incomplete &&
-                             (i == 0 || text.badges[i - 1].kind != BadgeKind::incomplete);
+    const bool first_small = is_small(badge.kind) && (i == 0 || !is_small(text.badges[i - 1].kind));
     const int needed = first_small ? small_ones - gap : width;
     if (x > layout.marks.x && x + needed > layout.marks.right()) {
       x = layout.marks.x;
@@ -117,7 +140,8 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
 void draw_badges(Canvas& canvas, const Layout& layout, const HudText& text) {
   const BadgePlaces places = place_badges(canvas, layout, text);
   for (std::size_t i = 0; i < text.badge_count; ++i)
-    draw_badge(canvas, text.badges[i], places[i], layout.unit);
+    if (!places[i].empty())
+      draw_badge(canvas, text.badges[i], places[i], layout.unit);
 }
 
 void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness) {

@@ -20,6 +20,17 @@ FixedText<48> format_value(const ViewState& view, Action action) {
   case Action::distance: value.format("{:.2f}", view.distance); break;
   case Action::b_scan: value.format("{}", view.b_scan + 1); break;
   case Action::parallax: value.format("{:.2f}°", view.parallax_deg); break;
+  case Action::vessel_opacity: value.format("{:.0f} %", view.vessel_opacity * 100); break;
+  case Action::vessel_shift_x:
+  case Action::vessel_shift_y:
+  case Action::vessel_shift_z:
+    value.format("{:+.2f} mm", parameter_value(view, *parameter_of(action)));
+    break;
+  case Action::vessel_turn_x:
+  case Action::vessel_turn_y:
+  case Action::vessel_turn_z:
+    value.format("{:+.1f}°", parameter_value(view, *parameter_of(action)));
+    break;
   default: break;
   }
   return value;

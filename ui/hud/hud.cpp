@@ -94,6 +94,7 @@ void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const V
   draw_liveness_marks(canvas, layout, text.liveness);
   if (scene.shown.volume)
     draw_view_scale(canvas, layout, scene.camera);
+  draw_vessel_marks(canvas, layout, text.vessels);
   draw_source(canvas, layout, text);
   draw_notice(canvas, layout, text);
   draw_badges(canvas, layout, text);

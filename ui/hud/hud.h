@@ -55,6 +55,10 @@ void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
 void draw_wire_frame(Canvas& canvas, const Rect& view, const HudScene& scene, float unit,
                      bool in_front);
 
+// What the colours of vessels mean and, where it is asked for, where their segments went: over the
+// scale of a large volume.
+void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& marks);
+
 // How long a millimetre at the volume's centre is, at the view's lower left.
 void draw_view_scale(Canvas& canvas, const Layout& layout, const Camera& camera);
 

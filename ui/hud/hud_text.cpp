@@ -65,6 +65,12 @@ void compose_badges(HudText& hud, const Status& status) {
   add_freshness_badge(hud, status.freshness);
   if (status.simulated)
     add_badge(hud, BadgeKind::simulated).text.format("SIMULATED");
+  if (hud.vessels.shown && !status.vessels.registered)
+    add_badge(hud, BadgeKind::unregistered).text.format("VESSELS NOT REGISTERED");
+  if (status.configuration != ConfigurationState::own)
+    add_badge(hud, BadgeKind::configuration)
+        .text.format("{}", status.configuration == ConfigurationState::last_good ? "older setup"
+                                                                                 : "scale unknown");
   add_incomplete_badge(hud, status.missing_b_scans, "B-scan missing", "B-scans missing");
   add_incomplete_badge(hud, status.saturated_lines, "line saturated", "lines saturated");
 }
@@ -78,8 +84,21 @@ void format_losses(StatusCell& cell, const Losses& losses) {
   cell.value.format("{} / {} / {}", losses.lines, losses.b_scans, losses.volumes);
 }
 
+// Vessels have a cell while they are loaded, or where they could not be.
+void format_vessels(StatusCell& cell, const VesselStatus& vessels) {
+  const bool loading = vessels.state == VesselStatus::State::loading;
+  if (!loading && vessels.state != VesselStatus::State::failed)
+    return;
+  cell.label = "Vessels";
+  if (loading)
+    cell.value.format("loading {:.0f} %", std::floor(vessels.progress * 100));
+  else
+    cell.value.format("not loaded");
+  cell.tone = loading ? Tone::normal : Tone::warning;
+}
+
 void compose_cells(HudText& hud, const ViewState& view, const Status& status) {
-  auto& [volumes, lines, frames, latency, lost, window] = hud.cells;
+  auto& [volumes, lines, frames, latency, lost, window, vessels] = hud.cells;
   volumes.label = "Volumes/s";
   volumes.value.format("{:.1f}", status.volumes_per_s);
   lines.label = "Lines/s";
@@ -99,6 +118,31 @@ void compose_cells(HudText& hud, const ViewState& view, const Status& status) {
   window.label = "Window";
   window.value.format("{:.0f} to {:.0f} dB", view.window_offset_db,
                       view.window_offset_db + view.window_size_db);
+  format_vessels(vessels, status.vessels);
+}
+
+void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels) {
+  hud.vessels.shown = vessels.state == VesselStatus::State::shown && view.vessels_visible &&
+                      view.vessel_opacity > 0;
+  if (!hud.vessels.shown)
+    return;
+  hud.vessels.registered = vessels.registered;
+  hud.vessels.colouring = view.vessel_colouring;
+  hud.vessels.branches = vessels.branches;
+  if (view.vessel_account)
+    hud.vessels.account = vessels.account;
+}
+
+void compose_reduction(HudText& hud, const Status& status) {
+  const bool merged = hud.vessels.shown && status.vessels.account.merged > 0;
+  const std::string_view vessels = merged ? "thinnest vessels merged" : "";
+  if (!status.reduced_quality) {
+    hud.reduced.format("{}", vessels);
+    return;
+  }
+  hud.reduced.format("quality reduced to {:.0f} %{}{}",
+                     std::floor(std::clamp(*status.reduced_quality, 0.0F, 1.0F) * 100),
+                     merged ? ", " : "", vessels);
 }
 
 std::string_view word_for(pipeline::BScanState state) {
@@ -141,11 +185,10 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
 HudText compose_hud_text(const ViewState& view, const Status& status, const ShownPictures& shown) {
   HudText hud;
   hud.liveness = status.freshness.liveness;
+  compose_vessels(hud, view, status.vessels);
   compose_badges(hud, status);
   compose_cells(hud, view, status);
-  if (status.reduced_quality)
-    hud.reduced.format("quality reduced to {:.0f} %",
-                       std::floor(std::clamp(*status.reduced_quality, 0.0F, 1.0F) * 100));
+  compose_reduction(hud, status);
   compose_captions(hud, view, status, shown);
   hud.window_changing = status.now < view.echo.until && changes_window(view.echo.action);
   hud.echo = compose_echo(view, status.now, shown.geometry.b_scans);

@@ -16,7 +16,16 @@
 
 namespace octascope::ui {
 
-enum class BadgeKind : std::uint8_t { simulated, waiting, stale, veiled, frozen, incomplete };
+enum class BadgeKind : std::uint8_t {
+  simulated,
+  waiting,
+  stale,
+  veiled,
+  frozen,
+  configuration,
+  unregistered,
+  incomplete
+};
 
 struct Badge {
   BadgeKind kind = BadgeKind::waiting;
@@ -35,9 +44,19 @@ struct StatusCell {
 
 struct Caption {
   FixedText<32> title;
-  FixedText<32> note; // at the other end of the line
+  FixedText<64> note; // at the other end of the line
   Tone note_tone = Tone::quiet;
   bool operator==(const Caption&) const = default;
+};
+
+// What the colours of vessels mean, and where their segments went.
+struct VesselMarks {
+  bool shown = false;
+  bool registered = false;
+  VesselColouring colouring = VesselColouring::branch;
+  std::array<bool, pipeline::vessel_branch_count> branches{};
+  std::optional<VesselAccount> account; // where it is asked for
+  bool operator==(const VesselMarks&) const = default;
 };
 
 // What the renderer shows.
@@ -50,15 +69,15 @@ struct ShownPictures {
 };
 
 struct HudText {
-  static constexpr std::size_t most_badges = 4; // freshness, simulated, missing, saturated
+  static constexpr std::size_t most_badges = 6; // one a kind, and two incomplete
 
   // Lines, frames and volumes a second: left out in this order where the bar has no room.
   static constexpr std::array<std::size_t, 3> dispensable_cells{1, 2, 0};
 
   std::array<Badge, most_badges> badges;
   std::size_t badge_count = 0;
-  std::array<StatusCell, 6> cells;
-  Caption volume; // where it is not the large picture
+  std::array<StatusCell, 7> cells; // one without a label is not there
+  Caption volume;                  // where it is not the large picture
   Caption b_scan;
   Caption en_face;
   Caption scope;
@@ -70,7 +89,8 @@ struct HudText {
   Action selected = Action::window_offset; // what the knob turns, for the legend
   std::array<DeviceStatus, Status::most_devices> devices;
   std::size_t device_count = 0;
-  FixedText<32> reduced; // how finely the volume is drawn, if not fully
+  FixedText<64> reduced; // how finely the volume is drawn, and its vessels, if not fully
+  VesselMarks vessels;
   FixedText<96> source;
   FixedText<160> notice;
   bool operator==(const HudText&) const = default;

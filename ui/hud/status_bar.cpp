@@ -89,9 +89,11 @@ void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text) 
 
   float needed = x;
   for (const StatusCell& cell : text.cells)
-    needed += cell_width(canvas, cell) + gap;
+    if (!cell.label.empty())
+      needed += cell_width(canvas, cell) + gap;
   std::array<bool, text_cell_count> shown;
-  shown.fill(true);
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    shown[i] = !text.cells[i].label.empty();
   for (const std::size_t dispensable : HudText::dispensable_cells)
     if (needed > columns.left) {
       shown[dispensable] = false;

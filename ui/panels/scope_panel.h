@@ -1,20 +1,19 @@
 // The microscope's ambient-light picture.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "hal/result.h"
 #include "hal/scope_camera.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
 #include "ui/layout.h"
+#include "ui/panels/scope_texture.h"
 #include "ui/scan_field.h"
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h. Allocates only when the picture's size changes.
+// Threads: as gl/objects.h.
 class ScopePanel {
 public:
   static hal::Result<ScopePanel> create();
@@ -25,19 +24,16 @@ public:
   // The picture in `rect`; darker where it is old.
   void draw(const Rect& rect, int target_height, bool stale) const;
 
-  bool empty() const { return !texture_; }
-  double aspect() const { return static_cast<double>(width_) / height_; }
+  bool empty() const { return !picture_.texture(); }
+  double aspect() const { return static_cast<double>(picture_.width()) / picture_.height(); }
   hal::TimePoint time() const { return time_; }
   const std::optional<ScanField>& field() const { return field_; }
 
 private:
-  explicit ScopePanel(gl::PicturePass pass);
+  ScopePanel(gl::PicturePass pass, ScopeTexture picture);
 
   gl::PicturePass pass_;
-  gl::Texture texture_;
-  std::vector<std::uint8_t> rgba_;
-  int width_ = 4;
-  int height_ = 3;
+  ScopeTexture picture_;
   hal::TimePoint time_;
   std::optional<ScanField> field_;
   struct {

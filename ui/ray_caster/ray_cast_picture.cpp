@@ -5,6 +5,7 @@
 #include "embedded_shaders.h"
 
 #include "ui/gl/picture_texture.h"
+#include "ui/vessels/overlay/vessel_merge.h"
 
 namespace octascope::ui {
 
@@ -22,16 +23,53 @@ void RayCastPicture::resize(int width, int height) {
 }
 
 hal::Result<> RayCastPicture::upload_image() {
-  const std::span<const std::uint32_t> pixels{image_.rgba};
+  const Rect& drawn = image_.drawn;
+  if (drawn.empty())
+    return {};
+  const auto row = static_cast<std::size_t>(image_.width);
+  const auto pixels = std::span<const std::uint32_t>{image_.rgba}.subspan(
+      row * static_cast<std::size_t>(drawn.y), row * static_cast<std::size_t>(drawn.height));
   if (auto ok = uploader_.stage(
           {reinterpret_cast<const std::uint8_t*>(pixels.data()), pixels.size_bytes()});
       !ok)
     return ok;
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image_.width, image_.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                  nullptr);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, image_.width);
+  glPixelStorei(GL_UNPACK_SKIP_PIXELS, drawn.x);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, drawn.x, drawn.y, drawn.width, drawn.height, GL_RGBA,
+                  GL_UNSIGNED_BYTE, nullptr);
+  glPixelStorei(GL_UNPACK_SKIP_PIXELS, 0);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   gl::PixelUploader::unbind();
+  return {};
+}
+
+hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
+                                   const VolumePictureKey& key) {
+  RaySettings settings;
+  settings.mode = mode;
+  settings.step_mm = scene.step_mm;
+  const VesselStops* vessels = scene.vessels;
+  if (vessels == nullptr)
+    return caster.draw(scene.camera, settings, image_);
+  const bool veiled = vessels->opacity < 1;
+  VolumePictureKey alone_key = key;
+  alone_key.vessels = 0;
+  alone_key.vessel_opacity = 1;
+  if (veiled && (alone_drawn_ != alone_key || alone_mode_ != mode)) {
+    alone_drawn_.reset();
+    if (key.width != alone_.width || key.height != alone_.height)
+      alone_.resize(key.width, key.height);
+    if (auto ok = caster.draw(scene.camera, settings, alone_); !ok)
+      return ok;
+    alone_drawn_ = alone_key;
+    alone_mode_ = mode;
+  }
+  settings.stops = vessels->image;
+  if (auto ok = caster.draw(scene.camera, settings, image_); !ok)
+    return ok;
+  merge_vessels(image_, *vessels->image, vessels->opacity, veiled ? &alone_ : nullptr);
   return {};
 }
 
@@ -43,10 +81,7 @@ hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene
   drawn_.reset();
   if (key.width != image_.width || key.height != image_.height)
     resize(key.width, key.height);
-  RaySettings settings;
-  settings.mode = mode;
-  settings.step_mm = scene.step_mm;
-  if (auto ok = caster.draw(scene.camera, settings, image_); !ok)
+  if (auto ok = cast(caster, scene, mode, key); !ok)
     return ok;
   if (auto ok = upload_image(); !ok)
     return ok;
@@ -56,8 +91,30 @@ hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene
   return {};
 }
 
+// What lies outside of `drawn` in the texture is old; a border of it that is transparent stays out
+// of the interpolation with it.
+Rect RayCastPicture::visible_in(const Rect& rect) const {
+  const Rect& drawn = image_.drawn;
+  const auto scaled = [](int texel, int texels, int pixels) {
+    return static_cast<int>(std::int64_t{texel} * pixels / texels);
+  };
+  const auto from = [](int edge) { return edge > 0 ? edge + 1 : 0; };
+  const auto to = [](int edge, int most) { return edge < most ? edge - 1 : most; };
+  const int left = scaled(from(drawn.x), image_.width, rect.width);
+  const int top = scaled(from(drawn.y), image_.height, rect.height);
+  return {rect.x + left, rect.y + top,
+          scaled(to(drawn.right(), image_.width), image_.width, rect.width) - left,
+          scaled(to(drawn.bottom(), image_.height), image_.height, rect.height) - top};
+}
+
 void RayCastPicture::composite(const Rect& rect, int target_height) const {
+  const Rect visible = visible_in(rect);
+  if (image_.drawn.empty() || visible.empty())
+    return;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(visible.x, target_height - visible.bottom(), visible.width, visible.height);
   pass_.blend(texture_, rect, target_height);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 } // namespace octascope::ui

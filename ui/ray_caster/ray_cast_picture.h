@@ -33,12 +33,18 @@ public:
 private:
   explicit RayCastPicture(gl::PicturePass pass) : pass_{std::move(pass)} {}
   void resize(int width, int height);
+  hal::Result<> cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
+                     const VolumePictureKey& key);
   hal::Result<> upload_image();
+  Rect visible_in(const Rect& rect) const;
 
   gl::PicturePass pass_;
   gl::PixelUploader uploader_;
   gl::Texture texture_;
   RayImage image_;
+  RayImage alone_; // the volume without vessels, where these are not opaque
+  std::optional<VolumePictureKey> alone_drawn_;
+  RayMode alone_mode_ = RayMode::composite;
   std::optional<VolumePictureKey> drawn_;
   std::uint64_t drawings_ = 0;
   RayMode drawn_mode_ = RayMode::composite;

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "ui/ray_caster/ray_geometry.h"
 #include "ui/volume/plane_box.h"
@@ -24,8 +28,26 @@ void RayImage::resize(int new_width, int new_height) {
   width = new_width;
   height = new_height;
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  rgba.resize(pixels);
-  depth_mm.resize(pixels);
+  rgba.assign(pixels, 0);
+  depth_mm.assign(pixels, no_depth);
+  drawn = {};
+}
+
+void RayImage::draw_into(const Rect& rect) {
+  for (int y = drawn.y; y < drawn.bottom(); ++y) {
+    const bool shared = y >= rect.y && y < rect.bottom();
+    const auto clear = [&](int from, int to) {
+      const auto row = static_cast<std::ptrdiff_t>(y) * width;
+      if (from < to) {
+        std::fill(rgba.begin() + row + from, rgba.begin() + row + to, 0U);
+        std::fill(depth_mm.begin() + row + from, depth_mm.begin() + row + to, no_depth);
+      }
+    };
+    clear(drawn.x, shared ? std::min(drawn.right(), rect.x) : drawn.right());
+    if (shared)
+      clear(std::max(drawn.x, rect.right()), drawn.right());
+  }
+  drawn = rect;
 }
 
 hal::Result<RayCaster> RayCaster::create(std::size_t helpers, const pipeline::ThreadSetup& setup,
@@ -128,6 +150,7 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   f.height = image.height;
   f.rgba = image.rgba.data();
   f.depth_mm = image.depth_mm.data();
+  f.stops = settings.stops != nullptr ? settings.stops->pixels.data() : nullptr;
   return f;
 }
 
@@ -143,6 +166,13 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
                                  "step of {} mm, expected pixels and a step of {} to {} mm",
                                  image.width, image.height, camera.aspect, settings.step_mm,
                                  diagonal / most_samples, diagonal));
+  if (settings.stops != nullptr &&
+      (settings.stops->width != image.width || settings.stops->height != image.height))
+    return hal::fail(
+        hal::Fault::invalid_argument,
+        fmt::format("ray caster: found vessels of {}x{} pixels, expected as many as of "
+                    "the volume's picture, {}x{}",
+                    settings.stops->width, settings.stops->height, image.width, image.height));
   prepare(settings.step_mm / reference_step_mm(box_extents_mm(geometry()) / 2.0F),
           !settings.leap_empty                ? Visibility::everything
           : settings.mode == RayMode::maximum ? Visibility::maximum
@@ -155,13 +185,46 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
                                   : settings.mode == RayMode::shaded ? kernels_->shaded[look]
                                                                      : kernels_->composite[look];
   const RayFrame rays = frame(camera, settings, image);
-  const int across = (image.width + tile_size - 1) / tile_size;
-  const int down = (image.height + tile_size - 1) / tile_size;
+  image.draw_into(rectangle_of_box(camera, image));
+  const int across = (image.drawn.width + tile_size - 1) / tile_size;
+  const int down = (image.drawn.height + tile_size - 1) / tile_size;
   team_->run(static_cast<std::uint32_t>(across * down), [&](std::uint32_t tile) {
     const int index = static_cast<int>(tile);
-    kernel(rays, {index % across * tile_size, index / across * tile_size});
+    kernel(rays, {image.drawn.x + index % across * tile_size,
+                  image.drawn.y + index / across * tile_size});
   });
   return {};
+}
+
+// Whole tiles, with two pixels to spare around the volume's box.
+Rect RayCaster::rectangle_of_box(const Camera& camera, const RayImage& image) const {
+  const glm::vec3 half = box_extents_mm(geometry()) / 2.0F;
+  glm::vec2 lower{std::numeric_limits<float>::max()};
+  glm::vec2 upper{std::numeric_limits<float>::lowest()};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 sign{(corner & 1) * 2 - 1, (corner & 2) - 1, (corner & 4) / 2 - 1};
+    const glm::vec3 at = half * sign;
+    if (camera.depth_of(at) <= camera.near_mm)
+      return {0, 0, image.width, image.height};
+    const glm::vec2 place = camera.project(at);
+    lower = glm::min(lower, place);
+    upper = glm::max(upper, place);
+  }
+  const auto height = static_cast<float>(image.height);
+  const float per_height = static_cast<float>(image.width) / camera.aspect;
+  const auto tiles_before = [](float middle, float offset, int most) {
+    const float tile = std::floor((middle + offset - 2) / tile_size);
+    return std::clamp(static_cast<int>(tile) * tile_size, 0, most);
+  };
+  const auto tiles_to = [](float middle, float offset, int most) {
+    const float tile = std::ceil((middle + offset + 2) / tile_size);
+    return std::clamp(static_cast<int>(tile) * tile_size, 0, most);
+  };
+  const float middle_x = static_cast<float>(image.width) / 2;
+  const int left = tiles_before(middle_x, lower.x * per_height, image.width);
+  const int top = tiles_before(height / 2, lower.y * height, image.height);
+  return {left, top, tiles_to(middle_x, upper.x * per_height, image.width) - left,
+          tiles_to(height / 2, upper.y * height, image.height) - top};
 }
 
 } // namespace octascope::ui

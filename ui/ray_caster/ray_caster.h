@@ -14,11 +14,13 @@
 #include "pipeline/occupancy.h"
 #include "pipeline/volume.h"
 #include "ui/camera.h"
+#include "ui/layout.h"
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/cell_volume.h"
 #include "ui/ray_caster/ray_kernels.h"
 #include "ui/ray_caster/step_table.h"
-#include "ui/ray_caster/work_team.h"
+#include "ui/vessels/splatter/splat_image.h"
+#include "ui/work_team.h"
 
 namespace octascope::ui {
 
@@ -34,14 +36,18 @@ struct RayImage {
   int height = 0;
   std::vector<std::uint32_t> rgba; // premultiplied; red in the lowest 8 bits
   std::vector<float> depth_mm;     // distance along the view to where half is hidden, or no_depth
+  Rect drawn;                      // everything outside is transparent, and so is its border, but
+                                   // where that is the image's
 
-  void resize(int new_width, int new_height); // allocates only to grow
+  void resize(int new_width, int new_height); // allocates only to grow; leaves it transparent
+  void draw_into(const Rect& rect);           // clears what was drawn and is not in it
 };
 
 struct RaySettings {
   RayMode mode = RayMode::composite;
-  float step_mm = 0;      // along each ray
-  bool leap_empty = true; // false changes no picture, only the time that it takes
+  float step_mm = 0;                 // along each ray
+  bool leap_empty = true;            // false changes no picture, only the time that it takes
+  const SplatImage* stops = nullptr; // of the same size: where vessels end the rays
 };
 
 // Threads: bound to one, but for its own helpers. draw() allocates nothing but the image.
@@ -60,7 +66,8 @@ public:
   void set_transfer(const TransferTable& transfer);
 
   // The camera is that of ui/camera.h for the volume's extents. Fault::invalid_argument: there is
-  // no volume, the image has no pixels, or the step is not a positive share of the box.
+  // no volume, the image has no pixels, or the step is not a positive share of the box,
+  // or the stops are of another size.
   hal::Result<> draw(const Camera& camera, const RaySettings& settings, RayImage& image);
 
   bool empty() const { return !cells_; }
@@ -71,6 +78,7 @@ public:
 private:
   RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team);
   void prepare(float steps, Visibility visibility);
+  Rect rectangle_of_box(const Camera& camera, const RayImage& image) const;
   RayFrame frame(const Camera& camera, const RaySettings& settings, RayImage& image) const;
 
   const RayKernels* kernels_;

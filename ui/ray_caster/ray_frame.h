@@ -65,7 +65,10 @@ struct RayFrame {
   int width;
   int height;
   std::uint32_t* rgba; // premultiplied, red in the lowest 8 bits
-  float* depth_mm;     // along the view; no_depth where there is nothing
+  // Where rays end, pixel by pixel: the bits of a distance along the view in the upper half of each
+  // (ui/vessels/splatter/splat_image.h). Null: nowhere before the volume does.
+  const std::uint64_t* stops;
+  float* depth_mm; // along the view; no_depth where there is nothing
 };
 
 } // namespace octascope::ui

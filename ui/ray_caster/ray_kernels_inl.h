@@ -167,8 +167,20 @@ HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, const Sample
   }
 }
 
-// Moves all active lanes on until each is in a brick that is not empty, or at its end.
+// Where the packet's first ray is in tissue, most others are: not worth asking for each.
+HWY_INLINE bool first_ray_in_tissue(const RayFrame& frame, const Rays& rays) {
+  if (hn::GetLane(rays.next) >= hn::GetLane(rays.end))
+    return false;
+  const std::int32_t brick = (hn::GetLane(rays.position.b) >> brick_b_shift) * frame.brick_slab +
+                             (hn::GetLane(rays.position.a) >> brick_a_shift) * frame.brick_row +
+                             (hn::GetLane(rays.position.z) >> brick_z_shift);
+  return (frame.bricks[brick] & 0xFF) == 0;
+}
+
+// Moves active lanes on until each is in a brick that is not empty, or at its end.
 HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
+  if (first_ray_in_tissue(frame, rays))
+    return;
   while (true) {
     const IntMask active = rays.active();
     const Int distance = hn::And(brick_at(frame, rays.position, active), whole(0xFF));

@@ -7,6 +7,10 @@
 #define OCTASCOPE_RAY_PACKET_INL
 #endif
 
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+
 #include <hwy/highway.h>
 
 #include "ui/ray_caster/ray_sampling_inl.h"
@@ -66,6 +70,21 @@ HWY_INLINE Real dither(Real x, Real y_from_bottom) {
   return fraction(hn::Mul(fraction(sum), real(52.9829189F)));
 }
 
+// Distances along the view; x and y are the packet's first pixel. What is beyond the picture takes
+// those of its border.
+HWY_INLINE Real stops_of(const RayFrame& frame, int x, int y) {
+  alignas(64) float distances[lanes];
+  for (int i = 0; i < lanes; ++i) {
+    const int row = std::min(y + i / packet_width, frame.height - 1);
+    const int column = std::min(x + i % packet_width, frame.width - 1);
+    const std::uint64_t stop =
+        frame.stops[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.width) +
+                    static_cast<std::size_t>(column)];
+    distances[i] = std::bit_cast<float>(static_cast<std::uint32_t>(stop >> 32U));
+  }
+  return hn::Load(Floats{}, distances);
+}
+
 HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
   alignas(64) static constexpr std::int32_t column[16] = {0, 1, 2, 3, 0, 1, 2, 3,
                                                           0, 1, 2, 3, 0, 1, 2, 3};
@@ -98,6 +117,9 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
   clip(inside, frame.lower[0], frame.upper[0], frame.eye[0], d.z);
   clip(inside, frame.lower[1], frame.upper[1], frame.eye[1], d.a);
   clip(inside, frame.lower[2], frame.upper[2], frame.eye[2], d.b);
+
+  if (frame.stops != nullptr)
+    inside.to = hn::Min(inside.to, hn::Mul(stops_of(frame, x, y), length));
 
   // Samples of all rays lie on the same shells around the eye, moved by each pixel's dither.
   const Real shift = dither(px, hn::Sub(real(static_cast<float>(frame.height)), py));

@@ -55,7 +55,7 @@ Ray make_ray() {
   vec3 enter = min(at_lower, at_upper);
   vec3 leave = max(at_lower, at_upper);
   float from = max(max(u_near_mm * reach, enter.x), max(enter.y, enter.z));
-  float to = min(leave.x, min(leave.y, leave.z));
+  float to = min(min(stop_mm() * reach, leave.x), min(leave.y, leave.z));
 
   // Samples of all rays lie on the same shells around the eye, moved by each pixel's dither.
   float shift = dither(pixel);

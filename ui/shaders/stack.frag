@@ -2,6 +2,7 @@
 in vec3 v_texture;
 in vec3 v_ray;
 in vec3 v_step;
+in vec2 v_depth;
 
 uniform sampler3D u_levels;
 uniform float u_steps; // spacing of the polygons in reference steps
@@ -13,9 +14,12 @@ out vec4 o_colour; // premultiplied
 void main() {
   // Each pixel's ray meets the stack a little earlier or later, all of it by the same length: the
   // contour lines that evenly cut steep surfaces show dissolve into fine grain.
-  vec3 position = v_texture + v_step * (u_dither * (dither(gl_FragCoord.xy) - 0.5));
+  float moved = u_dither * (dither(gl_FragCoord.xy) - 0.5);
+  vec3 position = v_texture + v_step * moved;
   vec4 substance = look_up(textureLod(u_levels, position, 0.0).r);
   substance.a *= step(u_first_depth, position.x);
+  if (v_depth.x + v_depth.y * moved >= stop_mm())
+    substance.a = 0.0;
   float alpha = opacity_over(substance.a, u_steps * length(v_ray));
   o_colour = vec4(substance.rgb * alpha, alpha);
 }

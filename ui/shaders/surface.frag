@@ -1,6 +1,5 @@
-// An opaque surface, lit by a lamp at the eye, from whichever side it is seen.
-precision highp float;
-
+// An opaque surface, lit by a lamp at the eye, from whichever side it is seen. Before this stands
+// stops.glsl.
 in vec3 v_normal;
 in vec3 v_from_eye;
 in float v_depth;
@@ -14,6 +13,8 @@ layout(location = 0) out vec4 o_colour;
 layout(location = 1) out float o_depth; // mm along the view
 
 void main() {
+  if (v_depth >= stop_mm())
+    discard;
   float slant = max(length(v_normal) * length(v_from_eye), 1e-6);
   float facing = abs(dot(v_normal, v_from_eye)) / slant;
   float light = mix(u_ambient, 1.0, facing);

@@ -7,10 +7,6 @@ namespace octascope::ui {
 
 VolumePictureKey volume_picture_key(const VolumeScene& scene, const DrawQuality& quality,
                                     const Rect& rect) {
-  const auto pixels = [&](int length) {
-    return std::max(1,
-                    static_cast<int>(std::lround(static_cast<float>(length) * quality.resolution)));
-  };
   const ViewState& view = scene.view;
   return {scene.upload,
           scene.mesh,
@@ -20,9 +16,16 @@ VolumePictureKey volume_picture_key(const VolumeScene& scene, const DrawQuality&
           view.window_size_db,
           view.opacity,
           view.technique,
+          scene.vessels != nullptr ? scene.vessels->version : 0,
+          scene.vessels != nullptr ? scene.vessels->opacity : 1,
           scene.step_mm,
-          pixels(rect.width),
-          pixels(rect.height)};
+          picture_pixels(quality, rect.width),
+          picture_pixels(quality, rect.height)};
+}
+
+int picture_pixels(const DrawQuality& quality, int display_pixels) {
+  const float pixels = static_cast<float>(display_pixels) * quality.resolution;
+  return std::max(1, static_cast<int>(std::lround(pixels)));
 }
 
 float step_mm(const DrawQuality& quality, const pipeline::VolumeGeometry& geometry) {

@@ -20,6 +20,8 @@ struct VolumePictureKey {
   float window_size_db = 0;
   float opacity = 0;
   Technique technique = Technique::rays;
+  std::uint64_t vessels = 0; // which picture of them; 0: none
+  float vessel_opacity = 1;
   float step_mm = 0;
   int width = 0;
   int height = 0;
@@ -28,6 +30,9 @@ struct VolumePictureKey {
 
 VolumePictureKey volume_picture_key(const VolumeScene& scene, const DrawQuality& quality,
                                     const Rect& rect);
+
+// Of the volume's picture, for so many of the display.
+int picture_pixels(const DrawQuality& quality, int display_pixels);
 
 // Between samples, where the longest edge of the volume's box has so many.
 float step_mm(const DrawQuality& quality, const pipeline::VolumeGeometry& geometry);

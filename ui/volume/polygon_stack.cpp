@@ -60,6 +60,9 @@ void PolygonStack::draw(const VolumeScene& scene, const Spacing& spacing) {
   glUniform1f(program.uniform("u_dither"), spacing.dithered ? 1.0F : 0.0F);
   glUniform1f(program.uniform("u_first_depth"), first_depth_share(scene.volume.geometry().depths));
 
+  glUniform3fv(program.uniform("u_forward"), 1, glm::value_ptr(scene.camera.forward));
+  set_stops(program, scene.vessels, scene.camera);
+
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_3D, scene.volume.name());
   glBindVertexArray(vertex_array_.name());

@@ -115,6 +115,7 @@ void RayCastTechnique::do_draw(const VolumeScene& scene) {
     prepare_bricks(scene);
   const gl::Program& program = program_.use(scene.transfer);
   set_rays(program, scene);
+  set_stops(program, scene.vessels, scene.camera);
   if (mode_ == RayMode::shaded)
     set_light(program, scene);
   glUniform1i(program.uniform("u_leap"), leap ? 1 : 0);

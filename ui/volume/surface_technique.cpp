@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "embedded_shaders.h"
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -32,7 +33,9 @@ const void* offset(std::size_t bytes) {
 
 hal::Result<std::unique_ptr<SurfaceTechnique>>
 SurfaceTechnique::create(TransferSet transfers, pipeline::ThreadSetup threads) {
-  auto program = gl::Program::build("surface", shaders::surface_vert, shaders::surface_frag);
+  auto program =
+      gl::Program::build("surface", shaders::surface_vert,
+                         fmt::format("{}{}", shaders::stops_glsl, shaders::surface_frag));
   if (!program)
     return tl::make_unexpected(program.error());
   return std::unique_ptr<SurfaceTechnique>{
@@ -115,6 +118,7 @@ void SurfaceTechnique::do_draw(const VolumeScene& scene) {
     return;
   program_.use();
   set_uniforms(scene.camera, scene.view);
+  set_stops(program_, scene.vessels, scene.camera);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);

@@ -10,10 +10,11 @@ namespace octascope::ui {
 namespace {
 
 hal::Result<gl::Program> build(const VolumeShader& shader, bool window) {
-  const std::string fragment = fmt::format(
-      "#define TRANSFER_ROW_BITS {}\n#define TRANSFER_LAST {}\n{}{}{}{}", TransferTexture::row_bits,
-      TransferTable::entries - 1, window ? "#define TRANSFER_IS_WINDOW\n" : "", shader.defines,
-      shaders::transfer_glsl, shader.fragment);
+  const std::string fragment =
+      fmt::format("#define TRANSFER_ROW_BITS {}\n#define TRANSFER_LAST {}\n{}{}{}{}{}",
+                  TransferTexture::row_bits, TransferTable::entries - 1,
+                  window ? "#define TRANSFER_IS_WINDOW\n" : "", shader.defines,
+                  shaders::transfer_glsl, shaders::stops_glsl, shader.fragment);
   return gl::Program::build(shader.name, shader.vertex, fragment);
 }
 

@@ -69,7 +69,7 @@ hal::Result<VolumePainter::EyePictures*> VolumePainter::pictures_of(Eye eye) {
     auto made = VolumePicture::create();
     if (!made)
       return tl::make_unexpected(made.error());
-    kept = EyePictures{std::move(*made), std::nullopt};
+    kept = EyePictures{std::move(*made), std::nullopt, std::nullopt};
   }
   return &*kept;
 }
@@ -131,6 +131,49 @@ hal::Result<> VolumePainter::cast_rays(EyePictures& pictures, const VolumeScene&
                                        rect);
 }
 
+hal::Result<> VolumePainter::show_vessels(const PlacedVessels& vessels, const hal::Clock& clock) {
+  if (!vessels_) {
+    auto made = VesselOverlay::create(threads_, clock);
+    if (!made)
+      return tl::make_unexpected(made.error());
+    vessels_.emplace(std::move(*made));
+  }
+  vessels_->show(vessels);
+  return {};
+}
+
+hal::Result<std::optional<VesselStops>>
+VolumePainter::update_vessels(Eye eye, const VolumeScene& scene, const DrawQuality& quality,
+                              const Rect& rect, StopsFor target) {
+  if (!vessels_)
+    return std::nullopt;
+  return vessels_->update({.eye = eye,
+                           .view = scene.view,
+                           .camera = scene.camera,
+                           .geometry = texture_.geometry(),
+                           .width = picture_pixels(quality, rect.width),
+                           .height = picture_pixels(quality, rect.height),
+                           .detail_px = quality.vessel_detail_px,
+                           .target = target});
+}
+
+hal::Result<> VolumePainter::draw_by_gl(EyePictures& pictures, const VolumeScene& scene,
+                                        const DrawQuality& quality, const Rect& rect) {
+  if (scene.vessels == nullptr || scene.vessels->opacity >= 1)
+    return pictures.by_gl.update(techniques_, scene, quality, rect);
+  if (!pictures.alone_by_gl) {
+    auto made = VolumePicture::create();
+    if (!made)
+      return tl::make_unexpected(made.error());
+    pictures.alone_by_gl.emplace(std::move(*made));
+  }
+  VolumeScene alone = scene;
+  alone.vessels = nullptr;
+  if (auto ok = pictures.alone_by_gl->update(techniques_, alone, quality, rect); !ok)
+    return ok;
+  return pictures.by_gl.update(techniques_, scene, quality, rect, &*pictures.alone_by_gl);
+}
+
 hal::Result<> VolumePainter::update(Eye eye, const ViewState& view, const Camera& camera,
                                     const DrawQuality& quality, const Rect& rect) {
   const auto pictures = pictures_of(eye);
@@ -147,10 +190,15 @@ hal::Result<> VolumePainter::update(Eye eye, const ViewState& view, const Camera
       return tl::make_unexpected(made.error());
     scene.mesh = techniques_.surface()->prepare(view);
   }
-  (*pictures)->processor_drew =
-      ray_mode(view.technique) && backend(quality) == RayBackend::processor;
-  return (*pictures)->processor_drew ? cast_rays(**pictures, scene, quality, rect)
-                                     : (*pictures)->by_gl.update(techniques_, scene, quality, rect);
+  const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
+  (*pictures)->processor_drew = processor;
+  const auto vessels =
+      update_vessels(eye, scene, quality, rect, processor ? StopsFor::processor : StopsFor::gl);
+  if (!vessels)
+    return tl::make_unexpected(vessels.error());
+  scene.vessels = *vessels ? &**vessels : nullptr;
+  return processor ? cast_rays(**pictures, scene, quality, rect)
+                   : draw_by_gl(**pictures, scene, quality, rect);
 }
 
 bool VolumePainter::wants_volume(const ViewState& view) const {

@@ -16,6 +16,7 @@
 #include "ui/ray_caster/ray_cast_picture.h"
 #include "ui/transfer/transfer_set.h"
 #include "ui/transfer/transfer_texture.h"
+#include "ui/vessels/overlay/vessel_overlay.h"
 #include "ui/view_state.h"
 #include "ui/volume/volume_picture.h"
 
@@ -36,6 +37,12 @@ public:
   // that and on the errors of VolumeTexture::upload(), the last volume stays.
   hal::Result<> show(const pipeline::Volume& volume);
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
+
+  // From the next update() on, where the view shows vessels. The tree stays borrowed until others
+  // are shown; an empty one shows none. `clock` outlives this. Fault::unsupported: this processor
+  // cannot draw vessels.
+  hal::Result<> show_vessels(const PlacedVessels& vessels, const hal::Clock& clock);
+  const VesselOverlay* vessels() const { return vessels_ ? &*vessels_ : nullptr; }
 
   // Has the processor ready to cast the rays of volumes that are shown from now on.
   void want_processor();
@@ -71,6 +78,7 @@ public:
 private:
   struct EyePictures {
     VolumePicture by_gl;
+    std::optional<VolumePicture> alone_by_gl; // where vessels are not opaque
     std::optional<RayCastPicture> by_processor;
     bool processor_drew = false; // the last update()
   };
@@ -79,6 +87,11 @@ private:
   void make_caster();
   hal::Result<EyePictures*> pictures_of(Eye eye);
   void update_transfer(const ViewState& view);
+  hal::Result<std::optional<VesselStops>> update_vessels(Eye eye, const VolumeScene& scene,
+                                                         const DrawQuality& quality,
+                                                         const Rect& rect, StopsFor target);
+  hal::Result<> draw_by_gl(EyePictures& pictures, const VolumeScene& scene,
+                           const DrawQuality& quality, const Rect& rect);
   hal::Result<> cast_rays(EyePictures& pictures, const VolumeScene& scene,
                           const DrawQuality& quality, const Rect& rect);
 
@@ -103,7 +116,8 @@ private:
   TransferTexture transfer_texture_;
   std::optional<TransferSource> transfer_source_;
   VolumeTechniques techniques_;
-  std::optional<RayCaster> caster_; // nothing until it is wanted
+  std::optional<VesselOverlay> vessels_; // nothing until some are shown
+  std::optional<RayCaster> caster_;      // nothing until it is wanted
   bool caster_wanted_ = false;
   bool caster_shows_ = false; // the same volume as the texture
   bool surface_shows_ = false;

@@ -6,6 +6,7 @@
 #include "embedded_shaders.h"
 #include <fmt/format.h>
 
+#include "ui/gl/kept_framebuffer.h"
 #include "ui/gl/picture_texture.h"
 #include "ui/ray_caster/ray_frame.h"
 
@@ -32,30 +33,21 @@ GLenum accumulation_format() {
   return floats || has_extension("GL_EXT_color_buffer_half_float") ? GL_RGBA16F : GL_RGBA8;
 }
 
-// Puts back the framebuffer that was bound.
-class KeptFramebuffer {
-public:
-  KeptFramebuffer() { glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name_); }
-  KeptFramebuffer(const KeptFramebuffer&) = delete;
-  KeptFramebuffer& operator=(const KeptFramebuffer&) = delete;
-  ~KeptFramebuffer() { glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(name_)); }
-
-private:
-  GLint name_ = 0;
-};
-
 } // namespace
 
 hal::Result<VolumePicture> VolumePicture::create() {
   auto pass = gl::PicturePass::create("composite", shaders::composite_frag);
   if (!pass)
     return tl::make_unexpected(pass.error());
-  return VolumePicture{std::move(*pass)};
+  auto mix = gl::PicturePass::create("vessel_mix", shaders::vessel_mix_frag);
+  if (!mix)
+    return tl::make_unexpected(mix.error());
+  return VolumePicture{std::move(*pass), std::move(*mix)};
 }
 
-VolumePicture::VolumePicture(gl::PicturePass pass)
-    : pass_{std::move(pass)}, format_{accumulation_format()}, depth_possible_{has_extension(
-                                                                  "GL_EXT_color_buffer_float")} {}
+VolumePicture::VolumePicture(gl::PicturePass pass, gl::PicturePass vessel_mix)
+    : pass_{std::move(pass)}, vessel_mix_{std::move(vessel_mix)}, format_{accumulation_format()},
+      depth_possible_{has_extension("GL_EXT_color_buffer_float")} {}
 
 hal::Result<> VolumePicture::resize(int width, int height) {
   framebuffer_ = gl::Framebuffer::make();
@@ -92,8 +84,34 @@ void VolumePicture::clear() const {
     glClearBufferfv(GL_COLOR, 1, far.data());
 }
 
+// Under what the rays have gathered; and the whole of it over the volume alone.
+void VolumePicture::add_vessels(const VesselStops& vessels, const VolumePicture* alone) const {
+  const auto bind = [](GLint unit, GLuint texture) {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, texture);
+  };
+  glEnable(GL_BLEND);
+  pass_.use();
+  glUniform1i(pass_.uniform("u_picture"), 0);
+  bind(0, vessels.colour);
+  glBlendFunc(GL_ONE_MINUS_DST_ALPHA, GL_ONE);
+  pass_.fill({0, 0, width_, height_}, height_);
+  if (alone != nullptr) {
+    vessel_mix_.use();
+    glUniform1i(vessel_mix_.uniform("u_picture"), 0);
+    glUniform1i(vessel_mix_.uniform("u_vessels"), 1);
+    bind(1, vessels.colour);
+    bind(0, alone->colour_texture());
+    glBlendColor(0, 0, 0, vessels.opacity);
+    glBlendFunc(GL_ONE_MINUS_CONSTANT_ALPHA, GL_CONSTANT_ALPHA);
+    vessel_mix_.fill({0, 0, width_, height_}, height_);
+  }
+  glDisable(GL_BLEND);
+}
+
 hal::Result<> VolumePicture::update(VolumeTechniques& techniques, const VolumeScene& scene,
-                                    const DrawQuality& quality, const Rect& rect) {
+                                    const DrawQuality& quality, const Rect& rect,
+                                    const VolumePicture* alone) {
   const VolumePictureKey key = volume_picture_key(scene, quality, rect);
   if (drawn_ == key)
     return {};
@@ -101,7 +119,7 @@ hal::Result<> VolumePicture::update(VolumeTechniques& techniques, const VolumeSc
   const auto technique = techniques.get(scene.view.technique);
   if (!technique)
     return tl::make_unexpected(technique.error());
-  const KeptFramebuffer kept;
+  const gl::KeptFramebuffer kept;
   if (key.width != width_ || key.height != height_)
     if (auto ok = resize(key.width, key.height); !ok)
       return ok;
@@ -112,6 +130,10 @@ hal::Result<> VolumePicture::update(VolumeTechniques& techniques, const VolumeSc
   clear();
   glDrawBuffers(depth_ && (*technique)->writes_depth() ? 2 : 1, buffers.data());
   (*technique)->draw(scene);
+  if (scene.vessels != nullptr) {
+    glDrawBuffers(1, buffers.data());
+    add_vessels(*scene.vessels, alone);
+  }
   drawn_ = key;
   ++drawings_;
   return {};

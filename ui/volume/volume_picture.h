@@ -21,10 +21,11 @@ public:
   static hal::Result<VolumePicture> create();
 
   // Draws into the texture if the key has changed; the bound framebuffer stays bound. `techniques`
-  // may be shared with other pictures. Fault::system: this GL cannot render to a texture of that
-  // size.
+  // may be shared with other pictures. `alone` is the same picture without vessels, and may be null
+  // where they are opaque. Fault::system: this GL cannot render to a texture of that size.
   hal::Result<> update(VolumeTechniques& techniques, const VolumeScene& scene,
-                       const DrawQuality& quality, const Rect& rect);
+                       const DrawQuality& quality, const Rect& rect,
+                       const VolumePicture* alone = nullptr);
   // Blends the picture over the bound framebuffer.
   void composite(const Rect& rect, int target_height) const;
 
@@ -33,17 +34,20 @@ public:
   // Of the last update(), rows from the bottom; ours.
   GLuint colour_texture() const { return colour_.name(); } // premultiplied
   // R32F: mm along the view to where half is hidden. Infinity where nothing is, and everywhere for
-  // techniques that write none (slices, planes). 0, no texture, where GL renders no such format.
+  // techniques that write none (slices, planes). Vessels hide nothing here. 0, no texture, where GL
+  // renders no such format.
   GLuint depth_texture() const { return depth_.name(); }
   int width() const { return width_; }
   int height() const { return height_; }
 
 private:
-  explicit VolumePicture(gl::PicturePass pass);
+  VolumePicture(gl::PicturePass pass, gl::PicturePass vessel_mix);
   hal::Result<> resize(int width, int height);
   void clear() const;
+  void add_vessels(const VesselStops& vessels, const VolumePicture* alone) const;
 
   gl::PicturePass pass_;
+  gl::PicturePass vessel_mix_;
   gl::Texture colour_;
   gl::Texture depth_;
   gl::Texture nearest_; // for techniques that let GL find what is in front

@@ -6,6 +6,7 @@
 #include "pipeline/occupancy.h"
 #include "ui/camera.h"
 #include "ui/transfer/transfer_texture.h"
+#include "ui/vessels/overlay/vessel_stops.h"
 #include "ui/view_state.h"
 #include "ui/volume/volume_texture.h"
 
@@ -19,9 +20,10 @@ struct VolumeScene {
   const ViewState& view;
   float step_mm; // distance between samples along the view
   const pipeline::Occupancy* occupancy =
-      nullptr;              // of the volume; without it, nothing is leapt over
-  std::uint64_t upload = 0; // counts the volumes shown
-  std::uint64_t mesh = 0;   // counts the iso-surfaces
+      nullptr;                          // of the volume; without it, nothing is leapt over
+  std::uint64_t upload = 0;             // counts the volumes shown
+  std::uint64_t mesh = 0;               // counts the iso-surfaces
+  const VesselStops* vessels = nullptr; // without them, no ray ends before its time
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first of a size.
@@ -31,7 +33,8 @@ public:
 
   // Draws into the bound framebuffer and viewport, which have alpha and are cleared to zero:
   // premultiplied colour and opacity come out. Lengths are physical, opacity is corrected for the
-  // step, samples are trilinear, and the transfer function is the scene's.
+  // step, samples are trilinear, and the transfer function is the scene's. Nothing is drawn behind
+  // the nearest vessel of a pixel; for these, the viewport begins in the framebuffer's corner.
   void draw(const VolumeScene& scene) { do_draw(scene); }
 
   // Whether draw() also writes, into the second colour attachment, the distance along the view, in

@@ -10,7 +10,7 @@
 namespace octascope::tests {
 
 // Skips, saying why, where no offscreen context can be made.
-class GlTest : public testing::Test {
+class GlTest : public ::testing::Test {
 protected:
   void SetUp() override { open(640, 360); }
 

@@ -1,0 +1,11 @@
+// octascope status: what a running appliance says of itself.
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace octascope::firmware_host {
+
+// Adds itself to the command line, as command.h says.
+void add_status_command(CLI::App& program, int& exit_status);
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,103 @@
+#include "firmware-host/devices.h"
+
+#include "hal/linux/window_display.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+bool is_calibrated(const RunOptions& options, const Configuration& configuration) {
+  return options.calibration || configuration.calibration;
+}
+
+// Of a real line camera: what the configuration says, and nothing but that.
+hal::Result<pipeline::Calibration> real_calibration(const RunOptions& options,
+                                                    const Configuration& configuration,
+                                                    const pipeline::ScanPlan& plan) {
+  const auto& file = options.calibration ? options.calibration : configuration.calibration;
+  if (!file)
+    return pipeline::Calibration::identity(plan.samples);
+  return pipeline::Calibration::load(*file, plan.samples);
+}
+
+} // namespace
+
+Devices::Devices(std::unique_ptr<RealDevices> real, const DeviceChoices& choices, hal::Clock& clock)
+    : real_{std::move(real)} {
+  make_display(choices.display, clock);
+}
+
+hal::Result<> Devices::make_others(const DeviceChoices& choices, const RunOptions& options,
+                                   const Configuration& configuration, hal::Clock& clock) {
+  const auto made = choices.line_camera.backend == "v4l2"
+                        ? make_real_spectra(choices, options, configuration, clock)
+                        : make_simulated_spectra(options, configuration, clock);
+  if (!made)
+    return made;
+  if (choices.control_input.backend == "hid")
+    control_input_ = real_->make_control_input();
+  if (display_ && twins_.concern_display())
+    return hal::fail(hal::Fault::invalid_argument,
+                     "--faults: only an offscreen display can be made to fail; display faults need "
+                     "--display offscreen");
+  return {};
+}
+
+void Devices::make_display(const DeviceChoice& choice, hal::Clock& clock) {
+  if (choice.backend == "offscreen")
+    offscreen_ = std::make_unique<sim::OffscreenDisplay>(clock);
+  else if (choice.backend == "window")
+    display_ = std::make_unique<hal::linux_backend::WindowDisplay>(clock);
+  else
+    display_ = real_->make_display();
+}
+
+hal::Result<> Devices::make_simulated_spectra(const RunOptions& options,
+                                              const Configuration& configuration,
+                                              hal::Clock& clock) {
+  auto twins = make_twins(options, configuration, clock);
+  if (!twins)
+    return tl::make_unexpected(twins.error());
+  twins_ = std::move(*twins);
+  plan_ = twins_.plan;
+  calibration_ = twins_.calibration;
+  format_ = twins_.format;
+  source_ = twins_.source;
+  return {};
+}
+
+hal::Result<> Devices::make_real_spectra(const DeviceChoices& choices, const RunOptions& options,
+                                         const Configuration& configuration, hal::Clock& clock) {
+  auto twins = make_script_twins(options, configuration, clock);
+  if (!twins)
+    return tl::make_unexpected(twins.error());
+  twins_ = std::move(*twins);
+  plan_ = plan_of(options, configuration);
+  auto calibration = real_calibration(options, configuration, plan_);
+  if (!calibration)
+    return tl::make_unexpected(calibration.error());
+  calibration_ = std::move(*calibration);
+  plan_.zero_padding = calibration_.zero_padding;
+  format_ = real_->line_format();
+  source_ = is_calibrated(options, configuration) ? "line camera" : "line camera, not calibrated";
+  line_camera_ = real_->make_line_camera();
+  if (choices.galvo_trigger.backend != "gpio")
+    return hal::fail(hal::Fault::invalid_argument,
+                     "[devices] galvo_trigger is \"sim\" beside a real line camera: nothing would "
+                     "trigger the scanner; expected \"auto\" or \"gpio\"");
+  galvo_trigger_ = real_->make_galvo_trigger();
+  if (choices.scope_camera.backend == "libcamera") {
+    auto scope = real_->make_scope_camera();
+    if (!scope)
+      return tl::make_unexpected(scope.error());
+    scope_camera_ = std::move(*scope);
+  }
+  return plan_.validate();
+}
+
+bool Devices::simulated() const {
+  const hal::ScopeCamera* scope = scope_camera();
+  return line_camera().simulated() || (scope != nullptr && scope->simulated());
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,31 @@
+// Writes registrations that the surgeon has made with the knob, beside the running display.
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <optional>
+
+#include "hal/result.h"
+#include "pipeline/vessels/registration.h"
+
+namespace octascope::firmware_host {
+
+// One thread asks; a thread of its own writes, one file at a time.
+class RegistrationKeeper {
+public:
+  // Files go into `folder`, named by date and time: none is ever overwritten.
+  explicit RegistrationKeeper(std::filesystem::path folder) : folder_{std::move(folder)} {}
+
+  // Where the tree lies now. `source`, for people: what it was before it was moved. Returns at
+  // once; false while the last one is still being written.
+  bool keep(const pipeline::RigidTransform& volume_from_tree, std::string source);
+
+  // The file, or why there is none; once for each keep().
+  std::optional<hal::Result<std::filesystem::path>> take();
+
+private:
+  std::filesystem::path folder_;
+  std::future<hal::Result<std::filesystem::path>> writing_; // its destructor waits
+};
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,67 @@
+// What `octascope status` and the metrics file tell of a running appliance.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware-host/supervision/thread_watch.h"
+#include "hal/clock.h"
+#include "hal/device.h"
+#include "pipeline/duration_statistics.h"
+#include "pipeline/fault_log.h"
+#include "ui/freshness.h"
+#include "ui/status.h"
+
+namespace octascope::firmware_host {
+
+// What the render thread knows; plain data, told once a second.
+struct PictureStatus {
+  struct DeviceLine {
+    std::string name;    // "camera", "trigger" …
+    std::string backend; // "v4l2", "sim" …
+    hal::DeviceState state = hal::DeviceState::absent;
+  };
+
+  hal::TimePoint told;
+  bool simulated = false;
+  std::string source; // what the spectra are
+  std::vector<DeviceLine> devices{};
+  ui::Freshness freshness;
+  double lines_per_s = 0, volumes_per_s = 0, frames_per_s = 0;
+  std::uint64_t acquired = 0, published = 0, displayed = 0, skipped = 0;
+  std::uint64_t lost_lines = 0, lost_b_scans = 0, lost_volumes = 0;
+  std::uint64_t saturated_lines = 0;
+  std::uint64_t frames_drawn = 0, frames_missed = 0;
+  pipeline::DurationSummary latency;
+  std::string notice; // on the screen now; empty: none
+};
+
+// What is known beside it.
+struct ApplianceStatus {
+  hal::TimePoint now;
+  double uptime_s = 0;
+  std::string configuration; // the file in use; empty: the defaults
+  ui::ConfigurationState configuration_state = ui::ConfigurationState::own;
+  std::optional<PictureStatus> picture; // empty: nothing was shown yet
+  std::vector<ThreadState> threads;
+  std::vector<pipeline::FaultRecord> faults;
+  std::optional<std::uint64_t> resident_bytes;
+  std::optional<double> temperature_c; // of the hottest zone
+};
+
+std::string_view to_string(ui::Liveness liveness);
+std::string_view to_string(ui::ConfigurationState state);
+
+// One JSON object in one line. Its keys stay, tools read them.
+std::string to_json(const ApplianceStatus& status);
+
+// Prometheus' text format, version 0.0.4.
+std::string to_metrics(const ApplianceStatus& status);
+
+// One line, for systemd and for a report of a crash.
+std::string to_line(const PictureStatus& status);
+
+} // namespace octascope::firmware_host

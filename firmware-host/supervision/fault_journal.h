@@ -1,0 +1,51 @@
+// Faults into the system's journal, without flooding it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hal/clock.h"
+#include "pipeline/fault_log.h"
+
+namespace octascope::firmware_host {
+
+// One message of the journal: fields as systemd.journal-fields(7) names them.
+struct JournalEntry {
+  int priority = 6; // as syslog(3) counts
+  std::string message;
+  std::string device;      // OCTASCOPE_DEVICE; empty: none
+  std::string fault;       // OCTASCOPE_FAULT
+  std::uint64_t count = 0; // OCTASCOPE_COUNT: so many faults of the kind since the last message
+};
+
+// "PRIORITY=4", "MESSAGE=…" …
+std::vector<std::string> to_fields(const JournalEntry& entry);
+void send_to_journal(const JournalEntry& entry);
+
+// Each kind of fault is told when it first strikes, and after that every ten seconds at most, with
+// how many there were. One thread.
+class FaultJournal {
+public:
+  using Sink = std::function<void(const JournalEntry&)>;
+  static constexpr hal::Duration least_pause = std::chrono::seconds{10};
+
+  explicit FaultJournal(Sink sink) : sink_{std::move(sink)} {}
+
+  void update(std::span<const pipeline::FaultRecord> faults, hal::TimePoint now);
+
+private:
+  struct Told {
+    std::uint64_t count = 0;
+    hal::TimePoint at;
+  };
+
+  Sink sink_;
+  std::map<std::pair<std::string, std::string>, Told> told_;
+};
+
+} // namespace octascope::firmware_host

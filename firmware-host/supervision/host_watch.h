@@ -1,0 +1,73 @@
+// What befalls the machine below the program: a full disk, a jump of the clock, little memory,
+// heat.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/clock.h"
+#include "pipeline/fault_log.h"
+
+namespace octascope::firmware_host {
+
+// What a machine says of itself just now; empty: it does not say.
+struct HostFindings {
+  std::optional<std::uint64_t> available_bytes; // of memory, without swapping (proc_meminfo(5))
+  std::optional<double> memory_stall_percent;   // "full avg10" of the kernel's pressure stalls
+  std::optional<std::uint64_t> resident_bytes;  // of this process
+  std::optional<double> temperature_c;          // of the hottest thermal zone
+  std::optional<std::uint64_t> throttlings;     // of the processor since the boot, by its own count
+  bool beyond_trip = false; // a zone is as hot as where the kernel begins to slow things down
+};
+
+// Reads /proc and /sys below `root`. Pure but for what it reads.
+HostFindings find_out_about_host(const std::filesystem::path& root = "/");
+
+struct DiskSpace {
+  std::uint64_t free_bytes = 0; // for this user
+};
+
+// Each condition is one kind of fault of the device "host", counted once a look for as long as it
+// lasts; nothing is done about it but to tell, and to go on. One thread.
+class HostWatch {
+public:
+  struct Setup {
+    std::filesystem::path root = "/";
+    std::vector<std::filesystem::path> written{}; // folders that files are written into
+    // Replaced in tests.
+    std::function<std::optional<DiskSpace>(const std::filesystem::path&)> disk_space{};
+    std::function<std::chrono::nanoseconds()> wall_clock{}; // since 1970
+  };
+
+  // Below these it is told.
+  static constexpr std::uint64_t least_disk_bytes = 32ULL << 20U;
+  static constexpr std::uint64_t least_memory_bytes = 96ULL << 20U;
+  static constexpr double most_stall_percent = 10;
+  static constexpr hal::Duration largest_jump = std::chrono::seconds{1};
+
+  // An empty function of the setup is the machine's own.
+  explicit HostWatch(Setup setup);
+
+  void look(pipeline::FaultLog& faults, hal::TimePoint now);
+
+  // As found at the last look.
+  const HostFindings& findings() const { return findings_; }
+
+private:
+  void look_at_disks(pipeline::FaultLog& faults, hal::TimePoint now) const;
+  void look_at_clock(pipeline::FaultLog& faults, hal::TimePoint now);
+  void look_at_memory(pipeline::FaultLog& faults, hal::TimePoint now) const;
+  void look_at_heat(pipeline::FaultLog& faults, hal::TimePoint now,
+                    std::optional<std::uint64_t> throttlings_before) const;
+
+  Setup setup_;
+  HostFindings findings_;
+  std::optional<std::chrono::nanoseconds> clocks_apart_; // wall clock less monotonic
+};
+
+} // namespace octascope::firmware_host

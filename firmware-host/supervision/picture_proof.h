@@ -1,0 +1,28 @@
+// That the picture on the glass tells the truth now: what the watchdog is kicked by.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace octascope::firmware_host {
+
+// Written by the render thread, read by any; wait-free.
+class PictureProof {
+public:
+  // A frame reached the glass whose state was judged within the limit before.
+  void shown() {
+    frames_.fetch_add(1, std::memory_order_relaxed);
+    steps_.fetch_add(1, std::memory_order_release);
+  }
+  // There is no display, and a restart would bring none: it was looked for just now.
+  void looked_for_display() { steps_.fetch_add(1, std::memory_order_release); }
+
+  std::uint64_t frames() const { return frames_.load(std::memory_order_acquire); }
+  // Moves for as long as the program need not be restarted.
+  std::uint64_t steps() const { return steps_.load(std::memory_order_acquire); }
+
+private:
+  std::atomic<std::uint64_t> frames_{0}, steps_{0};
+};
+
+} // namespace octascope::firmware_host

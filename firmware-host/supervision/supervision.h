@@ -1,0 +1,96 @@
+// Watches the running appliance and tells about it: to systemd, to `octascope status`, to the
+// journal, to a metrics file, and, when it crashes, to whoever mends it.
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "firmware-host/supervision/appliance_status.h"
+#include "firmware-host/supervision/crash_report.h"
+#include "firmware-host/supervision/fault_journal.h"
+#include "firmware-host/supervision/host_watch.h"
+#include "firmware-host/supervision/picture_proof.h"
+#include "firmware-host/supervision/run_marker.h"
+#include "firmware-host/supervision/service_manager.h"
+#include "firmware-host/supervision/status_server.h"
+#include "firmware-host/supervision/thread_watch.h"
+#include "firmware-host/supervision/watchdog.h"
+#include "hal/clock.h"
+#include "pipeline/fault_log.h"
+#include "pipeline/wakeup.h"
+
+namespace octascope::firmware_host {
+
+struct SupervisionSetup {
+  ServiceFolders folders;
+  std::optional<std::filesystem::path> configuration; // the file in use
+  ui::ConfigurationState configuration_state = ui::ConfigurationState::own;
+  std::optional<std::filesystem::path> metrics; // else metrics.prom in the runtime folder
+  bool journal = false;                         // faults go there, too
+};
+
+// Its own ordinary thread looks ten times a second. It never waits for the render thread nor holds
+// it up: what that says is counters and, once a second, a copy behind a lock.
+//
+// Begins with start(). Outlives all threads that it watches.
+class Supervision {
+public:
+  // The references outlive this.
+  Supervision(SupervisionSetup setup, CrashReport& crash_report, hal::Clock& clock,
+              pipeline::FaultLog& faults);
+  ~Supervision(); // in good order: the next run hears of no crash
+
+  // `process_start` is when the program began.
+  void start(hal::TimePoint process_start);
+
+  // systemd is told that the end was asked for. The watchdog is not kicked any more.
+  void stop();
+
+  ThreadWatch& threads() { return threads_; }
+  PictureProof& picture() { return picture_; }
+  CrashReport& crash_report() { return crash_report_; }
+
+  // The render thread: tells how things are, at most once a second.
+  bool wants_status(hal::TimePoint now) const { return now >= next_status_; }
+  void tell(PictureStatus status);
+
+private:
+  void check_last_run();
+  void run();
+  void step(hal::TimePoint now);
+  void look(hal::TimePoint now); // once a second
+  void write_metrics(hal::TimePoint now);
+  ApplianceStatus status() const;
+
+  const SupervisionSetup setup_;
+  CrashReport& crash_report_;
+  hal::Clock& clock_;
+  pipeline::FaultLog& faults_;
+  std::optional<RunMarker> marker_;
+  ThreadWatch threads_;
+  PictureProof picture_;
+  ServiceManager manager_;
+  Watchdog watchdog_;
+  HostWatch host_;
+  FaultJournal journal_;
+  hal::TimePoint process_start_;
+  hal::TimePoint next_status_{};
+  hal::TimePoint next_look_{}, next_metrics_{};
+  bool ready_ = false;
+
+  mutable std::mutex mutex_;
+  std::optional<PictureStatus> told_; // by the render thread
+  HostFindings host_findings_;
+
+  std::unique_ptr<StatusServer> server_;
+  pipeline::Wakeup wakeup_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+} // namespace octascope::firmware_host

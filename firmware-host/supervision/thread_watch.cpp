@@ -1,0 +1,70 @@
+#include "firmware-host/supervision/thread_watch.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+struct WatchedRole {
+  std::string_view name;
+  std::string_view part; // as in the fault log
+  // Far more than a step ever takes: 50 ms of waiting for most, one B-scan for a worker. Opening a
+  // device is a step, too, and some drivers and libcamera take seconds for it.
+  hal::Duration limit;
+};
+
+constexpr std::array watched_roles{
+    WatchedRole{"camera", "line_camera", 5s},  WatchedRole{"volumes", "pipeline", 3s},
+    WatchedRole{"worker", "pipeline", 3s},     WatchedRole{"controls", "control_input", 5s},
+    WatchedRole{"scope", "scope_camera", 10s}, WatchedRole{"phase", "pipeline", 10s},
+};
+
+} // namespace
+
+void ThreadWatch::enlist(const pipeline::ThreadRole& role, hal::TimePoint now) {
+  const auto* const known = std::ranges::find(watched_roles, role.name, &WatchedRole::name);
+  if (known == watched_roles.end())
+    return;
+  const std::lock_guard lock{mutex_};
+  Watched& watched = threads_.emplace_back();
+  watched.name =
+      role.name == "worker" ? fmt::format("{} {}", role.name, role.number) : std::string{role.name};
+  watched.part = known->part;
+  watched.limit = known->limit;
+  watched.heartbeat.beat(now);
+  pipeline::Heartbeat::give_this_thread(&watched.heartbeat);
+}
+
+std::vector<ThreadState> ThreadWatch::states(hal::TimePoint now) const {
+  std::vector<ThreadState> states;
+  const std::lock_guard lock{mutex_};
+  for (const Watched& watched : threads_) {
+    const auto last = watched.heartbeat.last();
+    const hal::Duration silence = last ? std::max(now - *last, hal::Duration{}) : hal::Duration{};
+    states.push_back({watched.name, silence > watched.limit, silence});
+  }
+  return states;
+}
+
+void ThreadWatch::complain(pipeline::FaultLog& faults, hal::TimePoint now) const {
+  const std::lock_guard lock{mutex_};
+  for (const Watched& watched : threads_) {
+    const auto last = watched.heartbeat.last();
+    if (last && now - *last > watched.limit)
+      faults.add(watched.part, "stuck_thread",
+                 fmt::format("the thread \"{}\" has made no step for {:.0f} s, expected one within "
+                             "{:.0f} s: its driver or device hangs; unplug and replug the device, "
+                             "or restart the program",
+                             watched.name, hal::to_seconds(now - *last),
+                             hal::to_seconds(watched.limit)),
+                 now);
+  }
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,53 @@
+// Notices a thread that makes no steps any more.
+#pragma once
+
+#include <cstddef>
+#include <list>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/clock.h"
+#include "pipeline/fault_log.h"
+#include "pipeline/heartbeat.h"
+#include "pipeline/worker_pool.h"
+
+namespace octascope::firmware_host {
+
+struct ThreadState {
+  std::string name;        // "camera", "worker 1"
+  bool stuck = false;      // no step for longer than its limit
+  hal::Duration silence{}; // since its last step; 0 while nothing is due
+};
+
+// Thread-safe. Outlives the threads that it watches.
+class ThreadWatch {
+public:
+  ThreadWatch() = default;
+  ThreadWatch(const ThreadWatch&) = delete;
+  ThreadWatch& operator=(const ThreadWatch&) = delete;
+
+  // Gives the calling thread its heartbeat, from when on its first step is due; nothing for a role
+  // that nobody need watch: one that the render thread waits for is watched by the watchdog, one
+  // that works beside everything else and for as long as it likes has no step that is due.
+  void enlist(const pipeline::ThreadRole& role, hal::TimePoint now);
+
+  std::vector<ThreadState> states(hal::TimePoint now) const;
+
+  // One fault for each thread that is stuck just now, under the device or part that it serves.
+  void complain(pipeline::FaultLog& faults, hal::TimePoint now) const;
+
+private:
+  struct Watched {
+    std::string name;
+    std::string_view part; // as in the fault log
+    hal::Duration limit;
+    pipeline::Heartbeat heartbeat;
+  };
+
+  mutable std::mutex mutex_;
+  std::list<Watched> threads_; // in place: the heartbeats are in use
+};
+
+} // namespace octascope::firmware_host

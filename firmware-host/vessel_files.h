@@ -1,0 +1,19 @@
+// Vessel trees to files, in the format that the name asks for.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "hal/result.h"
+#include "pipeline/vessels/tree.h"
+
+namespace octascope::firmware_host {
+
+// ".swc": SWC in micrometres; any other name: our own format. The file appears complete or not at
+// all. `provenance` is where the tree came from, for people (our format keeps it). Faults as
+// write_swc() and write_cluster_file().
+hal::Result<> write_tree(const std::filesystem::path& file, const pipeline::VesselTree& tree,
+                         std::string provenance, const std::function<void(double)>& progress = {});
+
+} // namespace octascope::firmware_host

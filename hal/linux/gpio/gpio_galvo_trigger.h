@@ -1,0 +1,90 @@
+// The galvo trigger on a GPIO line, by libgpiod.
+//
+// Safe level. The line is driven low when it is taken and before it is released. What level a
+// released line then has is up to the chip's driver: most leave it as it is or make it an input, so
+// a pull-down resistor at the scanner belongs to the wiring. A process that ends in the middle of a
+// pulse leaves the line to the driver, too: make_safe() may be called from the handler of a fatal
+// signal; after SIGKILL nothing in the process can act, and the line is low again when the program
+// is started again and takes it.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "hal/galvo_trigger.h"
+#include "hal/linux/gpio/gpio_line.h"
+#include "hal/linux/gpio/pulse_timer.h"
+#include "hal/linux/gpio/sync_ledger.h"
+
+namespace octascope::hal::linux_backend {
+
+inline constexpr const char* default_trigger_line = "octascope-trigger";
+
+struct GpioTriggerSettings {
+  std::string line = default_trigger_line; // a line's name, or "gpiochip0:17"
+  std::string sync_line = {};              // what the scanner answers on; empty: it does not
+  int sync_edges_per_pulse = 1;            // 1 to 16, what the kernel keeps between two pulses
+};
+
+struct GpioTriggerCounters {
+  std::uint64_t pulses = 0; // since the trigger was made, as all of these
+  std::uint64_t sync_edges = 0;
+  std::uint64_t missed_edges = 0;     // that a pulse should have brought; told at the next pulse
+  std::uint64_t unexpected_edges = 0; // noise on the sync line, or a second source
+  bool sync_works = false;            // a sync line is there and can be read
+  Duration sync_delay{};              // from the last answered pulse to its first edge; 0: none
+  TimePoint last_sync_edge{};         // to be compared with the camera's times; 0: none
+};
+
+// Threads: as hal::GalvoTrigger; counters() and make_safe() are free. While the device is open with
+// pulses longer than `longest_wait`, a thread of its own ends them.
+class GpioGalvoTrigger final : public GalvoTrigger {
+public:
+  // Pulses up to this width are made within arm(); longer ones end beside the caller.
+  static constexpr Duration longest_wait = std::chrono::microseconds{200};
+
+  // `clock` outlives the trigger and keeps to CLOCK_MONOTONIC.
+  explicit GpioGalvoTrigger(Clock& clock, GpioTriggerSettings settings = {});
+  ~GpioGalvoTrigger() override;
+
+  GpioTriggerCounters counters() const;
+
+  // Drives the line low, whatever goes on; it can be armed again. Async-signal-safe.
+  void make_safe() noexcept;
+
+private:
+  // Who sees `high` first makes it `falling`, sets the line and makes it `low`.
+  enum class Level : std::uint8_t { low, high, falling };
+
+  std::string_view do_backend() const override { return "gpio"; }
+  bool do_simulated() const override { return false; }
+  Result<> do_open(const GalvoTriggerConfig& config) override;
+  Result<TimePoint> do_arm() override;
+  void do_close() override;
+
+  Result<> take_lines();
+  void await_low();
+  int end_pulse() noexcept;
+  void read_sync_edges();
+  tl::unexpected<Error> lost(int error_number);
+
+  Clock& clock_;
+  const GpioTriggerSettings settings_;
+  GalvoTriggerConfig config_;
+  std::optional<GpioLine> line_, sync_;
+  std::atomic<GpioLine*> held_{nullptr}; // &*line_, for make_safe()
+  std::atomic<Level> level_{Level::low};
+  TimePoint pulse_end_{};
+  PulseTimer timer_;
+  SyncLedger ledger_;
+  std::array<TimePoint, GpioLine::kernel_buffer> edges_{};
+
+  std::atomic<std::uint64_t> pulses_{0}, sync_edges_{0}, missed_{0}, unexpected_{0};
+  std::atomic<bool> sync_works_{false};
+  std::atomic<std::int64_t> sync_delay_ns_{0}, last_sync_ns_{0};
+};
+
+} // namespace octascope::hal::linux_backend

@@ -1,0 +1,143 @@
+#include "hal/linux/gpio/gpio_lookup.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace octascope::hal::linux_backend {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view prefix = "gpiochip";
+
+std::optional<unsigned> whole_number(std::string_view text) {
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size())
+    return std::nullopt;
+  return value;
+}
+
+std::string file_name(const std::string& node) {
+  return fs::path{node}.filename().string();
+}
+
+// "gpiochip0:17".
+struct ChipAndOffset {
+  std::string_view chip;
+  unsigned offset;
+};
+std::optional<ChipAndOffset> chip_and_offset(std::string_view wanted) {
+  const std::size_t colon = wanted.find(':');
+  if (!wanted.starts_with(prefix) || colon == std::string_view::npos)
+    return std::nullopt;
+  const auto offset = whole_number(wanted.substr(colon + 1));
+  if (!whole_number(wanted.substr(prefix.size(), colon - prefix.size())) || !offset)
+    return std::nullopt;
+  return ChipAndOffset{wanted.substr(0, colon), *offset};
+}
+
+std::string listed_chips(const GpioSurvey& survey) {
+  std::string list;
+  for (const GpioChipInfo& chip : survey.chips)
+    list += fmt::format("{}{} ({}, {} lines)", list.empty() ? "" : ", ", file_name(chip.node),
+                        chip.label, chip.lines.size());
+  return list.empty() ? "no GPIO chip" : list;
+}
+
+tl::unexpected<Error> missing(const GpioSurvey& survey, std::string_view wanted) {
+  if (!survey.complaints.empty())
+    return fail(Fault::denied,
+                fmt::format("GPIO line \"{}\": not found in {}, and not every chip could be asked: "
+                            "{}",
+                            wanted, listed_chips(survey), survey.complaints.front()));
+  return fail(Fault::absent,
+              fmt::format("GPIO line \"{}\": found {}, expected one with a line of that name; name "
+                          "the line in the device tree (gpio-line-names), or give it in the "
+                          "configuration as \"gpiochip0:17\"; `gpioinfo` lists lines",
+                          wanted, listed_chips(survey)));
+}
+
+Result<GpioLineAddress> by_offset(const GpioSurvey& survey, std::string_view wanted,
+                                  const ChipAndOffset& place) {
+  for (const GpioChipInfo& chip : survey.chips) {
+    if (file_name(chip.node) != place.chip)
+      continue;
+    if (place.offset < chip.lines.size())
+      return GpioLineAddress{chip.node, place.offset};
+    return fail(Fault::invalid_argument,
+                fmt::format("GPIO line \"{}\": offset {} found, expected 0 to {}, the lines of {}",
+                            wanted, place.offset, chip.lines.size() - 1, chip.node));
+  }
+  return missing(survey, wanted);
+}
+
+} // namespace
+
+GpioSurvey survey_gpio(const fs::path& dev) {
+  std::vector<std::pair<unsigned, std::string>> nodes;
+  std::error_code error;
+  for (fs::directory_iterator it{dev, error}, end; !error && it != end; it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (!name.starts_with(prefix))
+      continue;
+    if (const auto number = whole_number(std::string_view{name}.substr(prefix.size())))
+      nodes.emplace_back(*number, it->path().string());
+  }
+  std::ranges::sort(nodes);
+  GpioSurvey survey;
+  for (const auto& [number, node] : nodes) {
+    if (auto chip = describe_gpio_chip(node))
+      survey.chips.push_back(std::move(*chip));
+    else if (chip.error().fault == Fault::denied)
+      survey.complaints.push_back(
+          fmt::format("{}: permission denied; join the group that owns it (`sudo usermod -aG gpio "
+                      "$USER`, log in again) and install the udev rule deploy/70-octascope.rules",
+                      node));
+    else if (chip.error().fault != Fault::absent) // it may go between listing and asking
+      survey.complaints.push_back(chip.error().message);
+  }
+  return survey;
+}
+
+Result<GpioLineAddress> find_gpio_line(const GpioSurvey& survey, std::string_view wanted) {
+  if (wanted.empty())
+    return fail(Fault::invalid_argument, "GPIO line: its name is empty, expected a line's name or "
+                                         "\"gpiochip0:17\"");
+  if (const auto place = chip_and_offset(wanted))
+    return by_offset(survey, wanted, *place);
+  std::vector<GpioLineAddress> found;
+  for (const GpioChipInfo& chip : survey.chips)
+    for (const GpioLineInfo& line : chip.lines)
+      if (line.name == wanted)
+        found.push_back({chip.node, line.offset});
+  if (found.empty())
+    return missing(survey, wanted);
+  if (found.size() > 1)
+    return fail(Fault::invalid_argument,
+                fmt::format("GPIO line \"{}\": {} lines have that name ({}:{} and {}:{}), expected "
+                            "one; give chip and offset",
+                            wanted, found.size(), file_name(found[0].node), found[0].offset,
+                            file_name(found[1].node), found[1].offset));
+  return found.front();
+}
+
+std::string gpio_complaint(const GpioSurvey& survey, std::string_view wanted) {
+  const auto address = find_gpio_line(survey, wanted);
+  if (!address)
+    return address.error().message;
+  const auto chip = std::ranges::find(survey.chips, address->node, &GpioChipInfo::node);
+  const GpioLineInfo& line = chip->lines[address->offset];
+  if (!line.used)
+    return {};
+  return fmt::format("GPIO line \"{}\" ({}:{}): held by \"{}\", expected it free; end that program "
+                     "or remove the driver's claim from the device tree",
+                     wanted, file_name(address->node), line.offset,
+                     line.consumer.empty() ? "somebody without a name" : line.consumer);
+}
+
+} // namespace octascope::hal::linux_backend

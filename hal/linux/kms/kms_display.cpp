@@ -1,0 +1,251 @@
+#include "hal/linux/kms/kms_display.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "hal/linux/kms/card_survey.h"
+#include "hal/linux/kms/draw_surface.h"
+#include "hal/linux/kms/output.h"
+#include "hal/linux/kms/output_choice.h"
+#include "hal/linux/kms/seat.h"
+#include "hal/linux/kms/visible_frame.h"
+
+namespace octascope::hal::linux_backend {
+
+using namespace kms;
+
+namespace {
+
+// How long a present() that shows nothing takes, so that a loop of them costs nothing.
+constexpr std::chrono::milliseconds paused_wait{100};
+
+Result<> check_config(const DisplayConfig& config) {
+  if (config.width < 1 || config.height < 1)
+    return fail(Fault::invalid_argument,
+                fmt::format("kms display: size is {}x{}, expected at least 1x1", config.width,
+                            config.height));
+  if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
+    return fail(
+        Fault::invalid_argument,
+        fmt::format("kms display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
+  return {};
+}
+
+Result<std::unique_ptr<Seat>> open_seat(KmsConfig::SeatUse use) {
+  if (use == KmsConfig::SeatUse::plain)
+    return open_plain_seat();
+  auto managed = open_managed_seat();
+  // "Another console is in front" is an answer; only where nobody answers may we help ourselves.
+  if (managed || use == KmsConfig::SeatUse::managed || managed.error().fault != Fault::absent)
+    return managed;
+  return open_plain_seat();
+}
+
+} // namespace
+
+// From seat to surface, taken down in the opposite order.
+struct KmsDisplay::Session {
+  std::unique_ptr<Seat> seat;
+  Card card;
+  OutputChoice choice;
+  SeatDevice device;
+  std::unique_ptr<DrawSurface> surface;
+  std::optional<Output> output;
+  VisibleFrame frame;
+  gbm_bo* shown = nullptr;
+  bool paused = false;
+
+  Session() = default;
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  ~Session() {
+    output.reset(); // first: the buffers must be off the screen before they go
+    frame.destroy();
+    surface.reset();
+    if (device.file)
+      seat->close_device(std::move(device));
+  }
+
+  Result<> open(const KmsConfig& config, Clock& clock) {
+    OutputWish wish{config.connector, {}, config.atomic};
+    auto mode = parse_mode_wish(config.mode);
+    if (!mode)
+      return tl::make_unexpected(mode.error());
+    wish.mode = *mode;
+    auto opened = open_seat(config.seat);
+    if (!opened)
+      return tl::make_unexpected(opened.error());
+    seat = *std::move(opened);
+    if (auto chosen = choose(wish); !chosen)
+      return chosen;
+    if (auto taken = seat->take_card(device); !taken)
+      return taken;
+    const auto part = visible_part(choice.mode.width, choice.mode.height, config.overscan);
+    if (!part)
+      return tl::make_unexpected(part.error());
+    auto shown_with = show_black(*part, true, clock);
+    // A layout that draws best may be more than the output can read at this mode.
+    if (!shown_with && surface && surface->uses_modifiers())
+      shown_with = show_black(*part, false, clock);
+    return shown_with;
+  }
+
+  // Opens all cards, keeps the one that is chosen.
+  Result<> choose(const OutputWish& wish) {
+    std::vector<Card> cards;
+    std::vector<SeatDevice> devices;
+    for (const std::string& node : card_nodes()) {
+      auto opened = seat->open_device(node);
+      if (opened) {
+        cards.push_back(read_card(opened->file, node));
+        devices.push_back(*std::move(opened));
+      } else {
+        cards.emplace_back().node = node;
+        cards.back().problem = opened.error();
+        devices.emplace_back();
+      }
+    }
+    const auto chosen = choose_output(cards, wish);
+    for (std::size_t i = 0; i < devices.size(); ++i)
+      if (devices[i].file && (!chosen || i != chosen->card))
+        seat->close_device(std::move(devices[i]));
+    if (!chosen)
+      return tl::make_unexpected(chosen.error());
+    choice = *chosen;
+    card = std::move(cards[choice.card]);
+    device = std::move(devices[choice.card]);
+    return {};
+  }
+
+  Result<> show_black(const Rectangle& part, bool modifiers, Clock& clock) {
+    output.reset();
+    frame.destroy();
+    surface.reset();
+    const int width = choice.mode.width;
+    const int height = choice.mode.height;
+    auto made = DrawSurface::create(
+        device.file, {width, height, card, find_plane(card, choice.plane), modifiers});
+    if (!made)
+      return tl::make_unexpected(made.error());
+    surface = *std::move(made);
+    if (auto created = frame.create(width, height, part); !created)
+      return created;
+    output.emplace(clock, *seat, device, card, choice);
+    frame.copy_to_screen();
+    auto shown_at = show();
+    if (!shown_at)
+      return tl::make_unexpected(shown_at.error());
+    if (!*shown_at)
+      return fail(Fault::busy, fmt::format("{}: another program took the card while it was opened; "
+                                           "end that program; it is tried again by itself",
+                                           output->name()));
+    return {};
+  }
+
+  // Empty: nothing was shown, the card is not ours now.
+  Result<std::optional<FlipTimes>> show() {
+    auto picture = surface->take_picture(output->takes_fences());
+    if (!picture)
+      return tl::make_unexpected(picture.error());
+    auto times = output->show(*picture);
+    if (times && *times)
+      surface->release(std::exchange(shown, picture->buffer));
+    else
+      surface->release(picture->buffer);
+    return times;
+  }
+
+  // Is the card ours? If not, a while passes.
+  bool may_show() {
+    if (seat->active()) {
+      if (!paused)
+        return true;
+      if (seat->take_card(device)) {
+        paused = false;
+        output->want_mode();
+        return true;
+      }
+    }
+    paused = true;
+    seat->wait(paused_wait);
+    return false;
+  }
+
+  std::string describe() const {
+    const Connector& connector = card.connectors[choice.connector];
+    return fmt::format("{}{}, {}, {}", output->name(),
+                       connector.monitor.empty() ? "" : " (" + connector.monitor + ")",
+                       to_text(choice.mode), choice.atomic ? "atomic" : "legacy");
+  }
+};
+
+KmsDisplay::KmsDisplay(Clock& clock, KmsConfig config)
+    : clock_{clock}, config_{std::move(config)} {}
+
+KmsDisplay::~KmsDisplay() {
+  do_close();
+}
+
+Result<> KmsDisplay::do_open(const DisplayConfig& config) {
+  if (state() != DeviceState::absent)
+    return fail(Fault::busy, "kms display: open already; close() it first");
+  if (auto sound = check_config(config); !sound)
+    return sound;
+  auto session = std::make_unique<Session>();
+  if (auto opened = session->open(config_, clock_); !opened)
+    return opened;
+  session_ = std::move(session);
+  description_ = session_->describe();
+  refresh_period_ = from_seconds(1 / refresh_hz(session_->choice.mode));
+  pacer_ = FlipPacer{refresh_period_, clock_.now()};
+  flips_ = 0;
+  set_state(DeviceState::ready);
+  return {};
+}
+
+int KmsDisplay::do_width() const {
+  return session_ ? session_->frame.width() : 0;
+}
+
+int KmsDisplay::do_height() const {
+  return session_ ? session_->frame.height() : 0;
+}
+
+Result<Flip> KmsDisplay::do_present() {
+  if (!session_)
+    return fail(Fault::absent, "kms display: not open; open() it first");
+  if (state() == DeviceState::failed)
+    return fail(Fault::disconnected, "kms display: lost; close() it and open() it again");
+  if (auto there = session_->output->check(); !there)
+    return lose(there.error());
+  if (!session_->may_show())
+    return Flip{clock_.now(), flips_};
+  session_->frame.copy_to_screen();
+  const auto shown = session_->show();
+  if (!shown)
+    return lose(shown.error());
+  if (!*shown) {
+    session_->paused = true;
+    return Flip{clock_.now(), flips_};
+  }
+  const TimePoint completed = pacer_.completed(**shown);
+  clock_.sleep_until(pacer_.next_allowed());
+  return Flip{completed, ++flips_};
+}
+
+Result<Flip> KmsDisplay::lose(const Error& error) {
+  set_state(DeviceState::failed);
+  return tl::make_unexpected(error);
+}
+
+void KmsDisplay::do_close() {
+  session_.reset();
+  description_.clear();
+  set_state(DeviceState::absent);
+}
+
+} // namespace octascope::hal::linux_backend

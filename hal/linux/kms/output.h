@@ -1,0 +1,66 @@
+// One output in use: shows pictures on it, waits for their flips, notices when it is gone.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hal/clock.h"
+#include "hal/linux/kms/connector_watch.h"
+#include "hal/linux/kms/draw_surface.h"
+#include "hal/linux/kms/flip_events.h"
+#include "hal/linux/kms/flip_pacing.h"
+#include "hal/linux/kms/output_choice.h"
+#include "hal/linux/kms/scanout.h"
+#include "hal/linux/kms/seat.h"
+
+namespace octascope::hal::linux_backend::kms {
+
+// Threads: one at a time.
+class Output {
+public:
+  // Everything is borrowed and outlives the Output.
+  Output(Clock& clock, Seat& seat, const SeatDevice& device, const Card& card,
+         const OutputChoice& choice);
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+  // The output is as it was before; pictures shown may be released.
+  ~Output();
+
+  bool takes_fences() const { return scanout_->takes_fences(); }
+  const std::string& name() const { return name_; } // "/dev/dri/card0 HDMI-A-1"
+
+  // Fault::disconnected: the monitor is gone. Hears of a link that must be trained again: the next
+  // picture then comes with the mode.
+  Result<> check();
+
+  // The next picture comes with the mode, whatever the output shows by then.
+  void want_mode() { mode_wanted_ = true; }
+
+  // Returns when the picture is shown. Empty: the card is not ours now, nothing was shown.
+  // Fault::disconnected, timed_out, unsupported, system: open everything anew.
+  Result<std::optional<FlipTimes>> show(const DrawnPicture& picture);
+
+private:
+  Result<std::optional<FlipTimes>> set_mode(const DrawnPicture& picture);
+  int submit(const DrawnPicture& picture);
+  Result<std::optional<FlipTimes>> wait_for_flip(FlipTimes times);
+  std::optional<FlipEvent> read_flip();
+  bool link_is_bad() const;
+
+  Clock& clock_;
+  Seat& seat_;
+  const FileDescriptor& file_;
+  const Card& card_;
+  const Connector& connector_;
+  const Mode mode_;
+  const std::string name_;
+  std::unique_ptr<Scanout> scanout_;
+  SavedCrtc before_;
+  ConnectorWatch watch_;
+  std::uint64_t number_ = 0; // of the newest flip
+  bool mode_wanted_ = true;
+};
+
+} // namespace octascope::hal::linux_backend::kms

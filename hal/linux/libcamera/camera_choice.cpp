@@ -1,0 +1,117 @@
+#include "hal/linux/libcamera/camera_choice.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace octascope::hal::linux_backend {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string list(const std::vector<LibcameraFound>& found) {
+  std::string text;
+  for (const LibcameraFound& camera : found)
+    text += fmt::format("{}\"{}\" (id {}{})", text.empty() ? "" : ", ", camera.model, camera.id,
+                        camera.taken ? ", the line camera" : "");
+  return text;
+}
+
+template <class Suits>
+std::optional<std::size_t> first(const std::vector<LibcameraFound>& found, Suits suits) {
+  const auto it = std::find_if(found.begin(), found.end(), suits);
+  if (it == found.end())
+    return std::nullopt;
+  return static_cast<std::size_t>(it - found.begin());
+}
+
+// The media nodes, and of them the first that may not be opened.
+struct MediaNodes {
+  int count = 0;
+  std::string refused;
+};
+
+MediaNodes media_nodes(const fs::path& root) {
+  MediaNodes nodes;
+  std::error_code error;
+  for (fs::directory_iterator it{root / "dev", error}, end; !error && it != end;
+       it.increment(error)) {
+    const std::string name = it->path().filename().string();
+    if (!name.starts_with("media"))
+      continue;
+    ++nodes.count;
+    const bool allowed = ::access(it->path().c_str(), R_OK | W_OK) == 0;
+    if (!allowed && (nodes.refused.empty() || "/dev/" + name < nodes.refused))
+      nodes.refused = "/dev/" + name;
+  }
+  return nodes;
+}
+
+// Each architecture has a folder of its own in usr/lib.
+bool has_ipa_modules(const fs::path& root) {
+  std::error_code error;
+  for (fs::directory_iterator it{root / "usr/lib", error}, end; !error && it != end;
+       it.increment(error)) {
+    std::error_code none;
+    for (const auto& module : fs::directory_iterator{it->path() / "libcamera", none})
+      if (module.path().filename().string().starts_with("ipa_"))
+        return true;
+  }
+  return false;
+}
+
+} // namespace
+
+Result<std::size_t> choose_camera(const std::vector<LibcameraFound>& found,
+                                  const std::string& wish) {
+  if (wish.empty()) {
+    if (const auto free = first(found, [](const LibcameraFound& c) { return !c.taken; }))
+      return *free;
+    return fail(
+        Fault::absent,
+        fmt::format("scope camera: found only {}, expected one more; plug it in", list(found)));
+  }
+  if (const auto same =
+          first(found, [&](const LibcameraFound& c) { return c.id == wish || c.model == wish; }))
+    return *same;
+  if (const auto part = first(found, [&](const LibcameraFound& c) {
+        return c.id.find(wish) != std::string::npos || c.model.find(wish) != std::string::npos;
+      }))
+    return *part;
+  return fail(Fault::absent,
+              fmt::format("scope camera: expected \"{}\", found {}; plug it in, or name one of "
+                          "those that are there",
+                          wish, list(found)));
+}
+
+Error explain_absence(const fs::path& root) {
+  std::error_code error;
+  if (!fs::exists(root / "run/udev/control", error))
+    return {Fault::absent,
+            "scope camera: no udev daemon runs, and libcamera finds no camera without one; start "
+            "it: sudo systemctl start systemd-udevd systemd-udev-trigger"};
+  const MediaNodes nodes = media_nodes(root);
+  if (!nodes.refused.empty())
+    return {Fault::denied,
+            fmt::format("scope camera: {} is there, but this user may not open it; join its "
+                        "group: sudo usermod -aG video $USER, then log in again",
+                        nodes.refused)};
+  if (nodes.count > 0 && !has_ipa_modules(root))
+    return {Fault::absent,
+            "scope camera: a camera may be there, but the modules by which libcamera steers "
+            "cameras are not installed: sudo apt-get install libcamera-ipa"};
+  if (nodes.count == 0)
+    return {Fault::absent, "scope camera: no camera is plugged in (there is no /dev/media*); "
+                           "check the plug and the cable; it is tried again by itself"};
+  return {Fault::absent,
+          fmt::format("scope camera: {} media device{} plugged in, but libcamera knows no camera "
+                      "among them; LIBCAMERA_LOG_LEVELS=*:DEBUG says why, `cam --list` lists what "
+                      "it knows",
+                      nodes.count, nodes.count == 1 ? " is" : "s are")};
+}
+
+} // namespace octascope::hal::linux_backend

@@ -1,0 +1,353 @@
+#include "hal/linux/libcamera/libcamera_scope_camera.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "hal/linux/libcamera/camera_link.h"
+#include "hal/linux/libcamera/motion_jpeg.h"
+
+namespace octascope::hal::linux_backend {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr Duration longest_silence = 3s;
+constexpr Duration suspicious_silence = 100ms; // then it is looked whether the camera is there
+constexpr Duration longest_drain = 300ms;
+constexpr Duration longest_farewell = 1s; // until libcamera notices that a camera is gone
+constexpr double most_frames_per_s = 1000;
+constexpr int largest_side = 1 << 14;
+
+Result<> check(const ScopeCameraConfig& wish) {
+  const auto side = [](int pixels) { return pixels >= 1 && pixels <= largest_side; };
+  if (!side(wish.width) || !side(wish.height))
+    return fail(Fault::invalid_argument,
+                fmt::format("scope camera: the wish is {}x{}, expected 1x1 to {}x{}", wish.width,
+                            wish.height, largest_side, largest_side));
+  if (!(wish.frames_per_s > 0 && wish.frames_per_s <= most_frames_per_s))
+    return fail(Fault::invalid_argument,
+                fmt::format("scope camera: the wish is {} frames/s, expected more than 0 to {}",
+                            wish.frames_per_s, most_frames_per_s));
+  return {};
+}
+
+tl::unexpected<Error> wrong_state(std::string_view call, DeviceState found,
+                                  std::string_view expected) {
+  return fail(Fault::invalid_argument, fmt::format("scope camera: {}() found it {}, expected {}",
+                                                   call, to_string(found), expected));
+}
+
+enum class Place : std::uint8_t { idle, in_camera, on_loan, returned };
+
+} // namespace
+
+struct LibcameraScopeCamera::Parts {
+  Parts(LibcameraSession& its_session, LibcameraScopeOptions its_options, Clock& its_clock)
+      : session{its_session}, options{std::move(its_options)}, clock{its_clock} {}
+
+  Result<> queue(std::size_t buffer);
+  Result<> queue_those_back();
+  // The newest of those that are done; the older ones go back.
+  Result<std::optional<ScopeFrame>> take_newest();
+  std::optional<ScopeFrame> accept(std::size_t buffer, const CameraLink::Completed& done);
+  Error lost() const;
+  std::optional<Error> silence(TimePoint now);
+  // Waits until the camera has filled what it has, as far as that can be waited for.
+  void drain();
+  bool gone_unnoticed();
+
+  LibcameraSession& session;
+  LibcameraScopeOptions options;
+  Clock& clock;
+  CameraEar ear;
+  std::unique_ptr<CameraLink> link;
+  std::optional<MotionJpegDecoder> decoder;
+  std::vector<std::vector<std::byte>> decoded; // one a buffer, for motion JPEG
+  Duration period{};
+  FrameOrder order;
+  std::array<std::atomic<Place>, most_buffers> places{};
+  std::size_t in_camera = 0;
+  TimePoint last_sign; // of life: a frame, or the first buffer after the camera had none
+  std::atomic<std::uint64_t> broken{0};
+  std::atomic<std::uint64_t> undecodable{0};
+};
+
+Error LibcameraScopeCamera::Parts::lost() const {
+  return {Fault::disconnected,
+          fmt::format("scope camera \"{}\": found it gone, expected it to stream; check the plug "
+                      "and the cable; it is tried again by itself",
+                      link->model())};
+}
+
+Result<> LibcameraScopeCamera::Parts::queue(std::size_t buffer) {
+  if (auto queued = link->queue(buffer); !queued) {
+    places[buffer].store(Place::idle, std::memory_order_relaxed);
+    return ear.mailbox().gone() ? tl::make_unexpected(lost()) : queued;
+  }
+  if (in_camera++ == 0)
+    last_sign = clock.now();
+  return {};
+}
+
+Result<> LibcameraScopeCamera::Parts::queue_those_back() {
+  for (std::size_t i = 0; i < link->buffers(); ++i) {
+    Place expected = Place::returned;
+    // In the camera before it is told so: the request may be done at once.
+    if (places[i].compare_exchange_strong(expected, Place::in_camera, std::memory_order_acquire))
+      if (auto queued = queue(i); !queued)
+        return queued;
+  }
+  return {};
+}
+
+std::optional<ScopeFrame> LibcameraScopeCamera::Parts::accept(std::size_t buffer,
+                                                              const CameraLink::Completed& done) {
+  const FrameOrder::Place place = order.place(done.stamp, clock.now());
+  if (!done.good) {
+    broken.fetch_add(1, std::memory_order_relaxed);
+    return std::nullopt;
+  }
+  const PictureLayout& layout = link->layout();
+  ScopeFrame frame;
+  frame.buffer = static_cast<int>(buffer);
+  frame.width = layout.size.width;
+  frame.height = layout.size.height;
+  frame.stride_bytes = static_cast<int>(layout.stride);
+  frame.format = pixel_format(layout.encoding);
+  frame.pixels = done.bytes;
+  frame.sequence = place.sequence;
+  frame.time = place.time;
+  if (decoder) {
+    if (!decoder->decode(done.bytes, layout.size, decoded[buffer])) {
+      undecodable.fetch_add(1, std::memory_order_relaxed);
+      return std::nullopt;
+    }
+    frame.stride_bytes = 3 * layout.size.width;
+    frame.pixels = decoded[buffer];
+  }
+  last_sign = clock.now();
+  return frame;
+}
+
+Result<std::optional<ScopeFrame>> LibcameraScopeCamera::Parts::take_newest() {
+  std::optional<std::size_t> newest;
+  bool broken_off = false;
+  while (const auto done = ear.mailbox().next()) {
+    --in_camera;
+    broken_off = link->given_up(*done) || broken_off;
+    if (newest)
+      places[*newest].store(Place::returned, std::memory_order_relaxed);
+    newest = done;
+  }
+  if (!newest)
+    return std::nullopt;
+  if (broken_off) {
+    places[*newest].store(Place::idle, std::memory_order_relaxed);
+    return tl::make_unexpected(lost());
+  }
+  const CameraLink::Completed done = link->completed(*newest);
+  const auto frame = accept(*newest, done);
+  places[*newest].store(frame ? Place::on_loan : Place::returned, std::memory_order_relaxed);
+  if (auto queued = queue_those_back(); !queued)
+    return tl::make_unexpected(queued.error());
+  return frame;
+}
+
+std::optional<Error> LibcameraScopeCamera::Parts::silence(TimePoint now) {
+  if (in_camera == 0 || now - last_sign < suspicious_silence)
+    return std::nullopt;
+  if (!link->present())
+    return lost();
+  if (now - last_sign < longest_silence)
+    return std::nullopt;
+  return Error{Fault::timed_out,
+               fmt::format("scope camera \"{}\": no good picture for {:.1f} s, expected one every "
+                           "{:.0f} ms; check the cable; it is opened again by itself",
+                           link->model(), to_seconds(now - last_sign), to_ms(period))};
+}
+
+void LibcameraScopeCamera::Parts::drain() {
+  const TimePoint limit = clock.now() + longest_drain;
+  while (in_camera > 0 && clock.now() < limit && link->can_be_stopped() && !ear.mailbox().gone()) {
+    ear.mailbox().doorbell().silence();
+    while (const auto done = ear.mailbox().next()) {
+      --in_camera;
+      static_cast<void>(link->given_up(*done));
+    }
+    if (in_camera > 0)
+      ear.mailbox().doorbell().wait_until(std::min(limit, clock.now() + 50ms));
+  }
+}
+
+// True: it is gone, and libcamera does not know it; or it has broken off.
+bool LibcameraScopeCamera::Parts::gone_unnoticed() {
+  if (link->can_be_stopped())
+    return false;
+  const TimePoint limit = clock.now() + longest_farewell;
+  while (!link->present() && link->watched() && !ear.mailbox().gone() && clock.now() < limit) {
+    ear.mailbox().doorbell().silence();
+    if (!ear.mailbox().gone())
+      ear.mailbox().doorbell().wait_until(limit);
+  }
+  if (ear.mailbox().gone())
+    link->stopped_by_itself();
+  return !ear.mailbox().gone();
+}
+
+LibcameraScopeCamera::LibcameraScopeCamera(LibcameraSession& session, LibcameraScopeOptions options,
+                                           Clock& clock)
+    : parts_{std::make_unique<Parts>(session, std::move(options), clock)} {}
+
+LibcameraScopeCamera::~LibcameraScopeCamera() {
+  do_close();
+}
+
+LibcameraScopeCamera::Losses LibcameraScopeCamera::losses() const {
+  return {parts_->broken.load(std::memory_order_relaxed),
+          parts_->undecodable.load(std::memory_order_relaxed)};
+}
+
+Result<> LibcameraScopeCamera::do_open(const ScopeCameraConfig& config) {
+  if (state() != DeviceState::absent)
+    return fail(Fault::busy,
+                fmt::format("scope camera: open() found it {}, expected absent; close it first",
+                            to_string(state())));
+  if (auto good = check(config); !good)
+    return good;
+  auto chosen = parts_->session.choose(parts_->options.camera, parts_->options.taken_nodes);
+  if (!chosen)
+    return tl::make_unexpected(chosen.error());
+  auto link = CameraLink::open(*chosen, config);
+  if (!link)
+    return tl::make_unexpected(link.error());
+  if ((*link)->layout().encoding == Encoding::motion_jpeg) {
+    auto decoder = MotionJpegDecoder::make();
+    if (!decoder)
+      return tl::make_unexpected(decoder.error());
+    parts_->decoder.emplace(std::move(*decoder));
+    const PictureSize size = (*link)->layout().size;
+    parts_->decoded.assign((*link)->buffers(),
+                           std::vector<std::byte>(row_bytes(Encoding::rgb8, size.width) *
+                                                  static_cast<std::size_t>(size.height)));
+  }
+  parts_->link = std::move(*link);
+  parts_->ear.listen_to(chosen->camera);
+  parts_->period = from_seconds(1 / config.frames_per_s);
+  parts_->broken = 0;
+  parts_->undecodable = 0;
+  set_state(DeviceState::ready);
+  return {};
+}
+
+Result<> LibcameraScopeCamera::do_start() {
+  if (state() != DeviceState::ready)
+    return wrong_state("start", state(), "ready; open it first");
+  Parts& parts = *parts_;
+  if (auto started = parts.link->start(parts.period); !started) {
+    set_state(DeviceState::failed);
+    return started;
+  }
+  parts.order = {};
+  for (std::size_t i = 0; i < parts.link->buffers(); ++i) {
+    Place expected = Place::idle;
+    parts.places[i].compare_exchange_strong(expected, Place::returned, std::memory_order_relaxed);
+  }
+  if (auto queued = parts.queue_those_back(); !queued) {
+    set_state(DeviceState::failed);
+    return queued;
+  }
+  set_state(DeviceState::streaming);
+  return {};
+}
+
+Result<std::optional<ScopeFrame>> LibcameraScopeCamera::do_wait_frame(Duration timeout) {
+  if (state() == DeviceState::failed)
+    return fail(Fault::disconnected,
+                "scope camera: found failed, expected streaming; close it and open it again");
+  if (state() != DeviceState::streaming)
+    return wrong_state("wait_frame", state(), "streaming; start it first");
+  Parts& parts = *parts_;
+  Mailbox& mailbox = parts.ear.mailbox();
+  const auto failed = [this](Error error) {
+    set_state(DeviceState::failed);
+    // At once, before it can come back; loans stay readable all the same.
+    if (parts_->gone_unnoticed())
+      parts_->session.restart();
+    return tl::make_unexpected(std::move(error));
+  };
+  const TimePoint deadline = parts.clock.now() + timeout;
+  for (;;) {
+    mailbox.doorbell().silence();
+    if (mailbox.gone())
+      return failed(parts.lost());
+    if (auto queued = parts.queue_those_back(); !queued)
+      return failed(queued.error());
+    auto frame = parts.take_newest();
+    if (!frame)
+      return failed(frame.error());
+    if (*frame)
+      return frame;
+    const TimePoint now = parts.clock.now();
+    if (auto silent = parts.silence(now))
+      return failed(std::move(*silent));
+    if (now >= deadline)
+      return std::nullopt;
+    mailbox.doorbell().wait_until(parts.in_camera > 0 ? std::min(deadline, now + suspicious_silence)
+                                                      : deadline);
+  }
+}
+
+void LibcameraScopeCamera::do_release(int buffer) {
+  if (buffer < 0 || static_cast<std::size_t>(buffer) >= most_buffers)
+    return;
+  Place expected = Place::on_loan;
+  if (parts_->places[static_cast<std::size_t>(buffer)].compare_exchange_strong(
+          expected, Place::returned, std::memory_order_release))
+    parts_->ear.mailbox().doorbell().ring();
+}
+
+void LibcameraScopeCamera::do_stop() {
+  if (state() != DeviceState::streaming)
+    return;
+  Parts& parts = *parts_;
+  parts.drain();
+  parts.link->stop();
+  while (parts.ear.mailbox().next())
+    ;
+  for (std::atomic<Place>& place : parts.places) {
+    Place expected = Place::in_camera;
+    place.compare_exchange_strong(expected, Place::idle, std::memory_order_relaxed);
+  }
+  parts.in_camera = 0;
+  set_state(DeviceState::ready);
+}
+
+void LibcameraScopeCamera::do_close() {
+  do_stop();
+  Parts& parts = *parts_;
+  if (parts.link) {
+    parts.drain();
+    const bool restart = parts.gone_unnoticed();
+    // An abandoned camera's requests end here: libcamera's thread must not know them any more. One
+    // that can be given back needs that thread.
+    const bool abandoned = parts.link->will_be_abandoned();
+    if (restart && abandoned)
+      parts.session.restart();
+    parts.link.reset();
+    if (restart && !abandoned)
+      parts.session.restart();
+  }
+  parts.ear.listen_to_none();
+  parts.decoder.reset();
+  parts.decoded.clear();
+  for (std::atomic<Place>& place : parts.places)
+    place.store(Place::idle, std::memory_order_relaxed);
+  parts.in_camera = 0;
+  set_state(DeviceState::absent);
+}
+
+} // namespace octascope::hal::linux_backend

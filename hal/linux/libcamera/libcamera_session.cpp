@@ -1,0 +1,179 @@
+#include "hal/linux/libcamera/libcamera_session.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <string_view>
+#include <utility>
+
+#include <dlfcn.h>
+#include <libcamera/camera.h>
+#include <libcamera/camera_manager.h>
+#include <libcamera/logging.h>
+#include <link.h>
+#include <sys/stat.h>
+
+#include "hal/linux/libcamera/camera_link.h"
+#include "hal/linux/libcamera/libcamera_version.h"
+#include "hal/linux/system/system_error.h"
+
+namespace octascope::hal::linux_backend {
+
+namespace {
+
+// libcamera keeps its manager in a variable of the process and ends the program at a second one:
+// so this has to be one of the process, too.
+std::atomic_flag session_lives = ATOMIC_FLAG_INIT;
+
+// libcamera does not hear of nodes that udevd sets up in the moment when it starts (0.0.3). So
+// where it lists no camera, it begins anew, but not at every question.
+constexpr std::chrono::seconds second_look_after{2};
+
+bool has_media_device() {
+  std::error_code error;
+  return !std::filesystem::is_empty("/sys/bus/media/devices", error) && !error;
+}
+
+int note_module(dl_phdr_info* module, std::size_t, void* names) {
+  if (std::string_view{module->dlpi_name}.find("/libcamera/ipa_") != std::string_view::npos)
+    static_cast<std::vector<std::string>*>(names)->emplace_back(module->dlpi_name);
+  return 0;
+}
+
+// An abandoned camera's thread may still be in the code of the module that steers it: those that
+// are loaded now stay so. Each is mapped once, however often this is called.
+void keep_modules() {
+  std::vector<std::string> names;
+  ::dl_iterate_phdr(note_module, &names);
+  for (const std::string& name : names)
+    if (void* const handle = ::dlopen(name.c_str(), RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE))
+      ::dlclose(handle);
+}
+
+std::vector<dev_t> device_numbers(const std::vector<std::string>& nodes) {
+  std::vector<dev_t> numbers;
+  for (const std::string& node : nodes) {
+    struct stat status {};
+    if (::stat(node.c_str(), &status) == 0 && S_ISCHR(status.st_mode))
+      numbers.push_back(status.st_rdev);
+  }
+  return numbers;
+}
+
+} // namespace
+
+struct LibcameraSession::Parts {
+  Parts() = default;
+  Parts(const Parts&) = delete;
+  Parts& operator=(const Parts&) = delete;
+  ~Parts() {
+    stop();
+    session_lives.clear();
+  }
+
+  struct Listed {
+    std::shared_ptr<libcamera::Camera> camera;
+    CameraNodes nodes;
+    LibcameraFound facts;
+  };
+
+  Result<> start() {
+    if (manager)
+      return {};
+    auto made = std::make_unique<libcamera::CameraManager>();
+    if (const int result = made->start(); result < 0)
+      return system_failure("libcamera", "starting", -result);
+    manager = std::move(made);
+    started_at = std::chrono::steady_clock::now();
+    return {};
+  }
+  void stop() {
+    if (manager)
+      manager->stop();
+    manager.reset();
+  }
+  bool may_have_missed_one() const {
+    return std::chrono::steady_clock::now() - started_at > second_look_after && has_media_device();
+  }
+  Result<std::vector<Listed>> list(const std::vector<std::string>& taken_nodes);
+
+  std::mutex mutex; // of all below
+  std::unique_ptr<libcamera::CameraManager> manager;
+  std::chrono::steady_clock::time_point started_at;
+};
+
+Result<std::vector<LibcameraSession::Parts::Listed>>
+LibcameraSession::Parts::list(const std::vector<std::string>& taken_nodes) {
+  const std::vector<dev_t> taken = device_numbers(taken_nodes);
+  for (bool again = false;; again = true) {
+    if (auto started = start(); !started)
+      return tl::make_unexpected(started.error());
+    std::vector<Listed> cameras;
+    bool one_is_gone = false;
+    for (const auto& camera : manager->cameras()) {
+      CameraNodes nodes{nodes_of(*manager, camera)};
+      one_is_gone = one_is_gone || !nodes.present();
+      LibcameraFound facts{camera->id(), model_of(*camera)};
+      for (const dev_t node : taken)
+        facts.taken = facts.taken || nodes.include(node);
+      if (nodes.present())
+        cameras.push_back({camera, std::move(nodes), std::move(facts)});
+    }
+    const bool look_again = one_is_gone || (cameras.empty() && may_have_missed_one());
+    if (!look_again || again)
+      return cameras;
+    cameras.clear();
+    stop();
+  }
+}
+
+Result<std::unique_ptr<LibcameraSession>> LibcameraSession::start() {
+  if (session_lives.test_and_set())
+    return fail(Fault::busy, "libcamera: this process uses it already, expected once; share the "
+                             "session that is there");
+  auto parts = std::make_unique<Parts>();
+  if (std::getenv("LIBCAMERA_LOG_LEVELS") == nullptr)
+    libcamera::logSetTarget(libcamera::LoggingTargetNone);
+  if (auto started = parts->start(); !started)
+    return tl::make_unexpected(started.error());
+  return std::unique_ptr<LibcameraSession>(new LibcameraSession{std::move(parts)});
+}
+
+LibcameraSession::LibcameraSession(std::unique_ptr<Parts> parts) : parts_{std::move(parts)} {}
+LibcameraSession::~LibcameraSession() = default;
+
+std::vector<LibcameraFound> LibcameraSession::cameras(const std::vector<std::string>& taken_nodes) {
+  const std::lock_guard lock{parts_->mutex};
+  std::vector<LibcameraFound> found;
+  if (const auto listed = parts_->list(taken_nodes))
+    for (const Parts::Listed& one : *listed)
+      found.push_back(one.facts);
+  return found;
+}
+
+Result<LibcameraSession::Chosen>
+LibcameraSession::choose(const std::string& wish, const std::vector<std::string>& taken_nodes) {
+  const std::lock_guard lock{parts_->mutex};
+  const auto listed = parts_->list(taken_nodes);
+  if (!listed)
+    return tl::make_unexpected(listed.error());
+  if (listed->empty())
+    return tl::make_unexpected(explain_absence());
+  std::vector<LibcameraFound> found;
+  for (const Parts::Listed& one : *listed)
+    found.push_back(one.facts);
+  return choose_camera(found, wish).map([&](std::size_t index) {
+    const Parts::Listed& one = (*listed)[index];
+    return Chosen{one.camera, one.facts.model, one.nodes};
+  });
+}
+
+void LibcameraSession::restart() {
+  const std::lock_guard lock{parts_->mutex};
+  keep_modules();
+  parts_->stop();
+}
+
+} // namespace octascope::hal::linux_backend

@@ -1,0 +1,102 @@
+// What a camera's own thread tells the thread that waits for frames: which requests are done, and
+// that the camera is gone.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <ctime>
+#include <optional>
+
+#include <semaphore.h>
+
+#include "hal/clock.h"
+
+namespace octascope::hal::linux_backend {
+
+// Wakes one waiting thread. ring() comes from any thread; neither side allocates or locks.
+class Doorbell {
+public:
+  Doorbell() { ::sem_init(&semaphore_, 0, 0); }
+  Doorbell(const Doorbell&) = delete;
+  Doorbell& operator=(const Doorbell&) = delete;
+  ~Doorbell() { ::sem_destroy(&semaphore_); }
+
+  void ring() { ::sem_post(&semaphore_); }
+  // Forgets what rang before: call it, then look for news, then wait.
+  void silence() {
+    while (::sem_trywait(&semaphore_) == 0) {
+    }
+  }
+  // False: nobody rang until then.
+  bool wait_until(TimePoint deadline) {
+    const auto ns = deadline.time_since_epoch().count();
+    constexpr std::int64_t second = 1'000'000'000;
+    const timespec until{ns / second, ns % second};
+    int result = -1;
+    do {
+      result = ::sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &until);
+    } while (result == -1 && errno == EINTR);
+    return result == 0;
+  }
+
+private:
+  sem_t semaphore_{};
+};
+
+constexpr std::size_t most_buffers = 32;
+
+// Bounded: a request is in it at most once, so `most_buffers` places are enough.
+// Threads: post() and leave() belong to the camera's, the rest to the waiting one.
+class Mailbox {
+public:
+  // From then on news of this camera count, and of no other. Nothing else happens meanwhile: the
+  // camera before has been stopped.
+  void listen_to(const void* camera) {
+    while (next())
+      ;
+    gone_.store(false, std::memory_order_relaxed);
+    camera_.store(camera, std::memory_order_release);
+  }
+
+  void post(const void* camera, std::uint64_t request) {
+    if (camera_.load(std::memory_order_acquire) != camera || request >= most_buffers)
+      return;
+    const std::uint32_t end = end_.load(std::memory_order_relaxed);
+    if (end - begin_.load(std::memory_order_acquire) == most_buffers)
+      return;
+    places_[end % most_buffers] = static_cast<std::uint8_t>(request);
+    end_.store(end + 1, std::memory_order_release);
+    doorbell_.ring();
+  }
+  void leave(const void* camera) {
+    if (camera_.load(std::memory_order_acquire) != camera)
+      return;
+    gone_.store(true, std::memory_order_release);
+    doorbell_.ring();
+  }
+
+  // The oldest request that is done.
+  std::optional<std::size_t> next() {
+    const std::uint32_t begin = begin_.load(std::memory_order_relaxed);
+    if (begin == end_.load(std::memory_order_acquire))
+      return std::nullopt;
+    const std::size_t request = places_[begin % most_buffers];
+    begin_.store(begin + 1, std::memory_order_release);
+    return request;
+  }
+  bool gone() const { return gone_.load(std::memory_order_acquire); }
+  Doorbell& doorbell() { return doorbell_; }
+
+private:
+  std::array<std::uint8_t, most_buffers> places_{};
+  std::atomic<std::uint32_t> begin_{0};
+  std::atomic<std::uint32_t> end_{0};
+  std::atomic<const void*> camera_{nullptr};
+  std::atomic<bool> gone_{false};
+  Doorbell doorbell_;
+};
+
+} // namespace octascope::hal::linux_backend

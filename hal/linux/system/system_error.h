@@ -1,0 +1,24 @@
+// From errno to an Error that says what to do.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "hal/linux/system/file_descriptor.h"
+#include "hal/result.h"
+
+namespace octascope::hal::linux_backend {
+
+// ENODEV and its like: the device was there and is gone. ENOENT: it is not there. EBUSY: somebody
+// has it. EACCES, EPERM: not allowed. ETIMEDOUT: no answer. EINVAL, ENOTTY …: cannot do it.
+Fault fault_of(int error_number);
+
+// "/dev/video0: opening failed: Permission denied; <mend>". `mend` may be empty: then what usually
+// mends such a fault is said (which group, who holds it).
+tl::unexpected<Error> system_failure(std::string_view device, std::string_view action,
+                                     int error_number, std::string_view mend = {});
+
+// Opens with O_CLOEXEC; the Error's message has the device and what mends it.
+Result<FileDescriptor> open_device(const std::string& node, int flags);
+
+} // namespace octascope::hal::linux_backend

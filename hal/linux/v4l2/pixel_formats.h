@@ -1,0 +1,42 @@
+// The pixel formats in which a line camera's spectra may come, and what is wrong with the others.
+// Names and layouts: the kernel's list of grey-scale formats, linux/videodev2.h. Pure.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "hal/line_camera.h"
+
+namespace octascope::hal::linux_backend {
+
+constexpr std::uint32_t fourcc(char a, char b, char c, char d) {
+  const auto byte = [](char letter) {
+    return static_cast<std::uint32_t>(static_cast<unsigned char>(letter));
+  };
+  return byte(a) | byte(b) << 8 | byte(c) << 16 | byte(d) << 24;
+}
+
+constexpr std::uint32_t big_endian_mark = 1U << 31;
+
+// Samples of `bits` bits, low-justified in a `type`. Where `bits` is all of the type, what fills it
+// is the camera's affair: fewer bits, left-justified ones.
+struct LinePixelFormat {
+  std::uint32_t code;
+  SampleType type;
+  int bits;
+};
+
+std::span<const LinePixelFormat> line_pixel_formats();
+
+// Null for what cannot be read without a conversion.
+const LinePixelFormat* line_pixel_format(std::uint32_t code);
+
+// "Y12", "Y16 (big-endian)"; bytes that are no letters as \x00.
+std::string fourcc_text(std::uint32_t code);
+
+// Why a format that is none of ours does not serve.
+std::string_view why_unreadable(std::uint32_t code);
+
+} // namespace octascope::hal::linux_backend

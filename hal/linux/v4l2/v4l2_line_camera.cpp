@@ -1,0 +1,246 @@
+#include "hal/linux/v4l2/v4l2_line_camera.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <ctime>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "hal/linux/system/system_error.h"
+#include "hal/linux/v4l2/capture_buffers.h"
+#include "hal/linux/v4l2/capture_node.h"
+#include "hal/linux/v4l2/pixel_formats.h"
+#include "hal/linux/v4l2/video_nodes.h"
+
+namespace octascope::hal::linux_backend {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+Result<> check(const LineCameraConfig& config, const V4l2CameraOptions& options) {
+  const auto refuse = [](std::string why) {
+    return fail(Fault::invalid_argument, "line camera: " + std::move(why));
+  };
+  if (const auto wish = check_wish(config.format); !wish)
+    return refuse(wish.error().message);
+  if (!(config.line_rate_hz >= 1 && config.line_rate_hz <= 1e9))
+    return refuse(fmt::format("line_rate_hz is {}, expected 1 to 1e9", config.line_rate_hz));
+  if (config.buffers < 1)
+    return refuse(fmt::format("buffers is {}, expected 1 or more", config.buffers));
+  if (const auto& window = options.window; window && (window->width < 1 || window->height < 1))
+    return refuse(fmt::format("the sensor's window is {}×{} pixels, expected at least 1×1",
+                              window->width, window->height));
+  return {};
+}
+
+TimePoint deadline_after(TimePoint now, Duration timeout) {
+  return timeout > TimePoint::max() - now ? TimePoint::max() : now + timeout;
+}
+
+Duration wall_clock_since_1970() {
+  timespec t{};
+  clock_gettime(CLOCK_REALTIME, &t);
+  return std::chrono::seconds{t.tv_sec} + std::chrono::nanoseconds{t.tv_nsec};
+}
+
+// Gone in the middle of open(): to whoever opens, it is not there.
+Error absent_if_gone(Error error) {
+  if (error.fault == Fault::disconnected)
+    error.fault = Fault::absent;
+  return error;
+}
+
+} // namespace
+
+V4l2LineCamera::V4l2LineCamera(V4l2CameraOptions options, Clock& clock)
+    : options_{std::move(options)}, clock_{clock} {}
+
+V4l2LineCamera::~V4l2LineCamera() {
+  do_close();
+}
+
+std::vector<std::string> V4l2LineCamera::notes() const {
+  const std::lock_guard lock{notes_mutex_};
+  return notes_;
+}
+
+void V4l2LineCamera::note(std::vector<std::string> words) {
+  const std::lock_guard lock{notes_mutex_};
+  notes_ = std::move(words);
+}
+
+V4l2CameraTally V4l2LineCamera::tally() const {
+  return {.own_stamps = own_stamps_.load(std::memory_order_relaxed),
+          .failed_returns = failed_returns_.load(std::memory_order_relaxed)};
+}
+
+Result<> V4l2LineCamera::wrong_state(std::string_view call, std::string_view expected) const {
+  return fail(Fault::invalid_argument, fmt::format("line camera: {} while {}, expected {}", call,
+                                                   to_string(state()), expected));
+}
+
+Result<> V4l2LineCamera::do_open(const LineCameraConfig& config) {
+  if (state() != DeviceState::absent)
+    return wrong_state("open", "absent; call close first");
+  if (auto checked = check(config, options_); !checked)
+    return checked;
+  const auto opened = find_node(config.format).and_then([&](const std::string& node) {
+    return open_node(node, config);
+  });
+  if (!opened) {
+    do_close();
+    return tl::make_unexpected(absent_if_gone(opened.error()));
+  }
+  set_state(DeviceState::ready);
+  return {};
+}
+
+Result<std::string> V4l2LineCamera::find_node(const LineFormat& wanted) const {
+  if (!options_.node.empty())
+    return options_.node;
+  return pick_line_camera(line_camera_candidates(wanted), bus_, wanted);
+}
+
+Result<> V4l2LineCamera::open_node(const std::string& node, const LineCameraConfig& config) {
+  auto opened = CaptureNode::open(node);
+  if (!opened)
+    return tl::make_unexpected(opened.error());
+  node_ = std::make_unique<CaptureNode>(std::move(*opened));
+  const NodeIdentity& identity = node_->identity();
+  std::vector<std::string> words{
+      fmt::format("{} is \"{}\" ({}) at {}", node, identity.card, identity.driver, identity.bus)};
+  if (options_.input) {
+    if (auto selected = node_->select_input(*options_.input); !selected)
+      return selected;
+    words.push_back(fmt::format("input {} selected", *options_.input));
+  }
+  if (options_.window) {
+    if (auto set = node_->set_window(*options_.window); !set)
+      return set;
+  }
+  const auto request = node_->choose_format(config.format);
+  if (!request)
+    return tl::make_unexpected(request.error());
+  const auto given = node_->set_format(*request);
+  if (!given)
+    return tl::make_unexpected(given.error());
+  words.push_back(
+      fmt::format("{} at {}×{}", fourcc_text(given->code), given->width, given->height));
+  const int width = options_.window ? options_.window->width : config.format.samples_per_line;
+  auto settings =
+      apply_settings(node_->file(), node, options_.settings, config.line_rate_hz, width);
+  if (!settings)
+    return tl::make_unexpected(settings.error());
+  std::ranges::move(*settings, std::back_inserter(words));
+
+  auto buffers =
+      CaptureBuffers::map(node_->file(), node, config.buffers,
+                          std::min(config.buffers, least_buffers), config.format.frame_bytes());
+  if (!buffers)
+    return tl::make_unexpected(buffers.error());
+  buffers_ = std::move(*buffers);
+  words.push_back(fmt::format("{} buffers, {} asked for", buffers_->count(), config.buffers));
+
+  config_ = config;
+  image_bytes_ = given->image_bytes;
+  bus_ = identity.bus;
+  clocks_differ_ = tells_clocks_apart(clock_.now(), wall_clock_since_1970());
+  note(std::move(words));
+  return {};
+}
+
+Result<> V4l2LineCamera::do_start() {
+  if (state() == DeviceState::failed)
+    return tl::make_unexpected(failure_);
+  if (state() != DeviceState::ready)
+    return wrong_state("start", "ready");
+  sequence_ = {};
+  if (auto started = buffers_->start(); !started) {
+    if (started.error().fault == Fault::disconnected) {
+      failure_ = started.error();
+      set_state(DeviceState::failed);
+    }
+    return started;
+  }
+  set_state(DeviceState::streaming);
+  return {};
+}
+
+Result<std::optional<LineFrame>> V4l2LineCamera::do_wait_frame(Duration timeout) {
+  if (state() == DeviceState::failed)
+    return tl::make_unexpected(failure_);
+  if (state() != DeviceState::streaming)
+    return tl::make_unexpected(wrong_state("wait_frame", "streaming").error());
+  const TimePoint deadline = deadline_after(clock_.now(), timeout);
+  while (true) {
+    buffers_->retry_strays();
+    FetchedFrame fetched;
+    const int why = buffers_->fetch(fetched);
+    const TimePoint now = clock_.now();
+    if (why == 0)
+      return handed_out(fetched, now);
+    if (why != EAGAIN)
+      return broken("fetching a frame", why);
+    if (now >= deadline)
+      return std::nullopt;
+    const int waited = buffers_->wait(deadline - now);
+    if (waited == EAGAIN)
+      clock_.sleep_for(std::min<Duration>(deadline - now, 1ms)); // until a loan comes back
+    else if (waited != 0)
+      return broken("waiting for a frame", waited);
+  }
+}
+
+LineFrame V4l2LineCamera::handed_out(const FetchedFrame& fetched, TimePoint now) {
+  const ExposureTimes times = exposure_times(fetched.stamp, now, clocks_differ_,
+                                             config_.format.lines_per_frame, config_.line_rate_hz);
+  if (times.own_clock)
+    own_stamps_.fetch_add(1, std::memory_order_relaxed);
+  const std::size_t expected = config_.format.frame_bytes();
+  const std::span<const std::byte> all = buffers_->bytes(fetched.buffer);
+  // Drivers count what they put behind the picture, or do not.
+  const bool whole = fetched.bytes_used == expected || fetched.bytes_used == image_bytes_;
+  LineFrame frame{
+      .buffer = fetched.buffer,
+      .bytes = all.first(whole ? expected : std::min<std::size_t>(fetched.bytes_used, all.size())),
+      .sequence = sequence_.extend(fetched.sequence),
+      .first_line = times.first_line,
+      .last_line = times.last_line,
+      .integrity = FrameIntegrity::good};
+  if (!whole)
+    frame.integrity = FrameIntegrity::wrong_size;
+  if (fetched.flagged)
+    frame.integrity = FrameIntegrity::corrupted;
+  return frame;
+}
+
+tl::unexpected<Error> V4l2LineCamera::broken(std::string_view action, int error_number) {
+  failure_ = system_failure(node_->identity().node, action, error_number).value();
+  set_state(DeviceState::failed);
+  return tl::make_unexpected(failure_);
+}
+
+void V4l2LineCamera::do_release(int buffer) {
+  if (buffers_ && !buffers_->give_back(buffer) && state() != DeviceState::failed)
+    failed_returns_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void V4l2LineCamera::do_stop() {
+  if (state() != DeviceState::streaming)
+    return;
+  buffers_->stop();
+  set_state(DeviceState::ready);
+}
+
+void V4l2LineCamera::do_close() {
+  if (state() == DeviceState::streaming)
+    buffers_->stop();
+  buffers_.reset();
+  node_.reset();
+  note({});
+  set_state(DeviceState::absent);
+}
+
+} // namespace octascope::hal::linux_backend

@@ -1,0 +1,38 @@
+// Centrelines, as other programs give them, joined into a tree.
+//
+// They come as polylines over points: one from the mouth to every tip, so that what two have in
+// common is there twice (VMTK), or one a vessel, joined by a shared point or by ends at one place.
+// Points no farther apart than a tolerance are one; a stretch that several lines run along then is
+// one stretch. Each connected piece is a tree whose root is the beginning of its first line that
+// begins where no other line leads to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pipeline/vessels/tree.h"
+
+namespace octascope::pipeline {
+
+struct Centrelines {
+  std::vector<std::array<double, 3>> positions_mm;
+  std::vector<double> radii_mm;
+  std::vector<std::uint64_t> points; // of all lines, one after the other; indices of positions
+  std::vector<std::uint64_t> ends;   // of each line in `points`, one behind its last
+};
+
+struct JoinedCentrelines {
+  VesselTree tree;                 // without orders
+  std::uint64_t merged_points = 0; // that are another's place
+  std::uint64_t unused_points = 0; // in no line
+  std::uint64_t short_lines = 0;   // of fewer than two points
+  std::string loop;                // not empty: where two ways lead to one place; there is no tree
+};
+
+// `ends` must not fall, and end with points.size(); points must be indices of positions.
+JoinedCentrelines join_centrelines(const Centrelines& lines, double within_mm);
+
+} // namespace octascope::pipeline

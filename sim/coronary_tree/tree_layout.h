@@ -1,0 +1,35 @@
+// Which node of the finished tree belongs to what: how many segments each large vessel and each
+// beginning of small ones has, so that all together have exactly the number asked for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/coronary_tree/low_orders.h"
+#include "sim/coronary_tree/trunk_plan.h"
+
+namespace octascope::sim {
+
+// Beside each planned element.
+struct LaidOutElement {
+  std::uint32_t own = 0;  // its own segments that are there
+  std::uint32_t all = 0;  // with all that springs from it
+  std::uint32_t node = 0; // its first
+  std::uint32_t parent = 0;
+};
+
+struct TreeLayout {
+  LowOrders low;
+  std::size_t lowest_trunk_order = 0; // those below are left out
+  std::array<std::vector<LaidOutElement>, 3> branches;
+  std::array<std::uint32_t, 3> roots{}; // nodes
+  std::uint32_t nodes = 0;
+};
+
+// Depth first: an element's segment, what springs off at its end, the next segment. One root a
+// branch. `segments` at least 1000.
+TreeLayout lay_out(const std::array<TrunkPlan, 3>& plans, std::uint32_t segments,
+                   std::uint64_t key);
+
+} // namespace octascope::sim

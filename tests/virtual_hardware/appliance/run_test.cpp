@@ -1,0 +1,202 @@
+// The whole program in a theatre without hardware: started without a flag, as the service starts
+// it.
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <functional>
+#include <thread>
+#include <utility>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program_run.h"
+#include "tests/virtual_hardware/appliance/theatre.h"
+#include "tests/virtual_hardware/support/scanout_reader.h"
+
+namespace octascope::tests {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr const char* report_file = "/tmp/report.json";
+constexpr std::uint8_t left = 1, centre = 2;
+
+class InTheatre : public testing::Test {
+protected:
+  void SetUp() override {
+    if (const std::string missing = theatre_missing(); !missing.empty())
+      GTEST_SKIP() << missing;
+    auto made = Theatre::make();
+    ASSERT_TRUE(made) << made.error().message;
+    theatre_ = std::move(*made);
+  }
+
+  void start() {
+    run_ = std::make_unique<ProgramRun>(
+        octascope_command({"run", "--report", report_file, "--snapshot", "/tmp/last.png"}));
+  }
+
+  // Its report, after it was asked to end.
+  nlohmann::json end() {
+    run_->send_signal(SIGTERM);
+    const ProgramResult result = run_->wait(30s);
+    EXPECT_EQ(result.exit_status, 0) << result.describe();
+    run_.reset();
+    std::ifstream file{report_file};
+    nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
+    EXPECT_FALSE(report.is_discarded());
+    RecordProperty("report", report.dump());
+    std::cout << theatre_->pulses() << " pulses, " << theatre_->frames() << " B-scans fed; "
+              << report.value("volumes", nlohmann::json{}) << report.value("lost", nlohmann::json{})
+              << report.value("rates", nlohmann::json{}) << report.value("faults", nlohmann::json{})
+              << '\n';
+    return report;
+  }
+
+  static bool within(WallClock::duration most, const std::function<bool()>& condition) {
+    const auto deadline = WallClock::now() + most;
+    while (!condition()) {
+      if (WallClock::now() > deadline)
+        return false;
+      std::this_thread::sleep_for(50ms);
+    }
+    return true;
+  }
+
+  // So many more volumes were scanned.
+  bool scanned(std::uint64_t volumes, WallClock::duration most = 40s) {
+    const std::uint64_t first = theatre_->pulses();
+    return within(most, [&] { return theatre_->pulses() >= first + volumes; });
+  }
+
+  static ScanoutPicture screen() {
+    auto picture = read_scanout();
+    EXPECT_TRUE(picture) << picture.error().message;
+    return picture ? std::move(*picture) : ScanoutPicture{};
+  }
+
+  // How much of the middle of the screen is another picture: a share of 0 to 1.
+  static double changed(const ScanoutPicture& a, const ScanoutPicture& b) {
+    if (a.width != b.width || a.height != b.height || a.width == 0)
+      return 1;
+    int different = 0, all = 0;
+    for (int y = a.height / 4; y < a.height * 3 / 4; ++y)
+      for (int x = a.width / 4; x < a.width * 3 / 4; ++x, ++all)
+        for (int c = 0; c < 3; ++c)
+          if (std::abs(a.pixel(x, y)[c] - b.pixel(x, y)[c]) > 8) {
+            ++different;
+            break;
+          }
+    return static_cast<double>(different) / all;
+  }
+
+  // Of the whole screen, in the colour of what is stale.
+  static double share_of_amber(const ScanoutPicture& picture) {
+    int amber = 0;
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) {
+        const std::uint8_t* const pixel = picture.pixel(x, y);
+        amber += pixel[0] > 220 && pixel[1] > 140 && pixel[1] < 210 && pixel[2] < 110 ? 1 : 0;
+      }
+    return static_cast<double>(amber) / std::max(1, picture.width * picture.height);
+  }
+
+  static std::uint64_t fault_count(const nlohmann::json& report, const std::string& device) {
+    std::uint64_t count = 0;
+    for (const auto& fault : report["faults"])
+      if (fault["device"] == device)
+        count += fault["count"].get<std::uint64_t>();
+    return count;
+  }
+
+  std::unique_ptr<Theatre> theatre_;
+  std::unique_ptr<ProgramRun> run_;
+};
+
+// The bench has one processor, in a machine that may be busy: it has three tries to keep the rate.
+// A program that loses volumes loses them in each.
+TEST_F(InTheatre, finds_all_five_devices_by_itself_and_loses_nothing) {
+  nlohmann::json report;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    start();
+    ASSERT_TRUE(scanned(12));
+    report = end();
+    if (report["lost"]["lines"] == 0)
+      break;
+  }
+  EXPECT_EQ(report["simulated"], false);
+  EXPECT_EQ(report["devices"]["line_camera"], "v4l2");
+  EXPECT_EQ(report["devices"]["galvo_trigger"], "gpio");
+  EXPECT_EQ(report["devices"]["control_input"], "hid");
+  EXPECT_EQ(report["devices"]["scope_camera"], "libcamera");
+  EXPECT_EQ(report["devices"]["display"], "kms");
+  EXPECT_GE(report["volumes"]["acquired"], 10);
+  EXPECT_GE(report["volumes"]["displayed"], 3);
+  EXPECT_EQ(report["lost"]["lines"], 0);
+  EXPECT_EQ(report["lost"]["volumes"], 0);
+  EXPECT_EQ(report["hot_path"]["allocations"], 0);
+  EXPECT_EQ(fault_count(report, "galvo_trigger"), 0U);
+}
+
+TEST_F(InTheatre, a_foot_on_the_pedal_changes_what_the_monitor_shows) {
+  start();
+  ASSERT_TRUE(scanned(4));
+  ASSERT_TRUE(theatre_->tread(centre)); // freezes
+  std::this_thread::sleep_for(100ms);
+  ASSERT_TRUE(theatre_->tread(0));
+  // Frozen, the picture comes to rest, however many volumes are scanned meanwhile.
+  ScanoutPicture frozen = screen();
+  ASSERT_TRUE(within(30s, [&] {
+    std::this_thread::sleep_for(2s);
+    const ScanoutPicture before = std::exchange(frozen, screen());
+    return changed(before, frozen) < 0.01;
+  }));
+  ASSERT_TRUE(theatre_->tread(left)); // held: back to the first view; then released
+  std::this_thread::sleep_for(100ms);
+  ASSERT_TRUE(theatre_->tread(0));
+  ASSERT_TRUE(theatre_->tread(centre));
+  std::this_thread::sleep_for(100ms);
+  ASSERT_TRUE(theatre_->tread(0)); // live again
+  EXPECT_TRUE(within(20s, [&] { return changed(frozen, screen()) > 0.02; })) << "live again";
+  const nlohmann::json report = end();
+  EXPECT_EQ(report["actions"]["freeze"], 2);
+  EXPECT_EQ(report["actions"]["previous_parameter"], 1);
+}
+
+TEST_F(InTheatre, two_devices_vanish_at_once_and_come_back) {
+  start();
+  ASSERT_TRUE(scanned(4));
+  theatre_->pull_pedal();
+  ASSERT_TRUE(theatre_->chip().remove());
+  std::this_thread::sleep_for(3s);
+  ASSERT_TRUE(run_->running());
+  ASSERT_TRUE(theatre_->chip().restore());
+  ASSERT_TRUE(theatre_->plug_pedal());
+  ASSERT_TRUE(scanned(4)) << "the scanner is triggered again";
+  ASSERT_TRUE(theatre_->tread(centre));
+  std::this_thread::sleep_for(100ms);
+  ASSERT_TRUE(theatre_->tread(0));
+  std::this_thread::sleep_for(1s);
+  const nlohmann::json report = end();
+  EXPECT_EQ(report["actions"]["freeze"], 1) << "the pedal serves again";
+  EXPECT_GE(fault_count(report, "galvo_trigger"), 1U);
+  EXPECT_GE(fault_count(report, "control_input"), 1U);
+}
+
+TEST_F(InTheatre, a_camera_that_falls_silent_is_told_and_its_return_is_seen) {
+  start();
+  ASSERT_TRUE(scanned(4));
+  theatre_->blind_camera(true);
+  std::this_thread::sleep_for(3s);
+  EXPECT_GT(share_of_amber(screen()), 0.005) << "STALE, and a frame around what is old";
+  theatre_->blind_camera(false);
+  ASSERT_TRUE(scanned(4));
+  const nlohmann::json report = end();
+  EXPECT_GE(report["lost"]["volumes"], 2);
+  EXPECT_GE(fault_count(report, "galvo_trigger"), 2U) << "missed pulses";
+  EXPECT_GE(report["volumes"]["displayed"], 4);
+}
+
+} // namespace
+} // namespace octascope::tests

@@ -1,0 +1,69 @@
+// An operating theatre without hardware: everything that the appliance is connected to, through the
+// kernel's own drivers. A line camera (v4l2loopback) that a feeder fills with a phantom's spectra
+// whenever the scanner's trigger line (gpio-sim) is pulsed, a foot pedal (uhid), a microscope
+// camera (vimc) and a monitor (vkms); and the appliance's configuration in /etc/octascope.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <thread>
+
+#include "hal/linux/monotonic_clock.h"
+#include "hal/result.h"
+#include "pipeline/scan_plan.h"
+#include "sim/volume_loop.h"
+#include "tests/virtual_hardware/support/loopback_feeder.h"
+#include "tests/virtual_hardware/support/sim_gpio_chip.h"
+#include "tests/virtual_hardware/support/virtual_pedal.h"
+
+namespace octascope::tests {
+
+// Why there can be none here; empty when there can.
+std::string theatre_missing();
+
+// Threads: one at a time; the scanner and the camera work in a thread of their own.
+class Theatre {
+public:
+  // What one processor without a GPU can carry: 1.2 volumes a second, 5000 lines a second.
+  static pipeline::ScanPlan plan();
+
+  // Makes every device and the configuration; the scanner waits for its first pulse.
+  static hal::Result<std::unique_ptr<Theatre>> make();
+  ~Theatre();
+
+  SimGpioChip& chip() { return *chip_; }
+
+  // Pulled out and plugged in.
+  void pull_pedal() { pedal_.reset(); }
+  hal::Result<> plug_pedal();
+  // The centre switch and its neighbours, as the real device's report: pressed, or 0 for released.
+  hal::Result<> tread(std::uint8_t switches) { return pedal_->send({switches, 0}); }
+
+  // While it is blind, pulses go by and no frame comes, as from a camera without light or cable.
+  void blind_camera(bool blind) { blind_ = blind; }
+
+  std::uint64_t pulses() const { return pulses_; }
+  std::uint64_t frames() const { return frames_; }
+
+private:
+  Theatre() = default;
+  hal::Result<> write_configuration() const;
+  void scan(std::stop_token stop);
+  bool wait_for_pulse(std::stop_token stop);
+  void sweep(hal::TimePoint pulse);
+
+  hal::linux_backend::MonotonicClock clock_;
+  std::unique_ptr<sim::VolumeLoop> spectra_;
+  std::unique_ptr<SimGpioChip> chip_;
+  std::unique_ptr<LoopbackFeeder> feeder_;
+  std::unique_ptr<VirtualPedal> pedal_;
+  std::atomic<bool> blind_{false};
+  std::atomic<std::uint64_t> pulses_{0}, frames_{0};
+  std::uint64_t volume_ = 0;
+  std::jthread scanner_; // last: it uses all of the above
+};
+
+} // namespace octascope::tests

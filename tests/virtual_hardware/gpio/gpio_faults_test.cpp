@@ -1,0 +1,191 @@
+// What can be wrong with a GPIO line: told in words, survived, over when it is over.
+#include <cstring>
+#include <functional>
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <grp.h>
+#include <linux/gpio.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "hal/linux/gpio/gpio_lookup.h"
+#include "hal/linux/system/system_error.h"
+#include "tests/virtual_hardware/gpio/gpio_bench.h"
+#include "tests/virtual_hardware/support/resource_count.h"
+
+namespace octascope::tests {
+namespace {
+
+using hal::Fault;
+using hal::linux_backend::FileDescriptor;
+using hal::linux_backend::GpioGalvoTrigger;
+using testing::AllOf;
+using testing::HasSubstr;
+using namespace std::chrono_literals;
+
+class GpioFaults : public GpioTest {
+protected:
+  static void expect_fault(const auto& result, Fault fault, const auto& message) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().fault, fault) << result.error().message;
+    EXPECT_THAT(result.error().message, message);
+  }
+
+  static void expect_no_leak(const std::function<void()>& work) {
+    const ResourceCount before = resources_in_use();
+    work();
+    const ResourceCount after = resources_in_use();
+    std::printf("  before: %s\n  after:  %s\n", testing::PrintToString(before).c_str(),
+                testing::PrintToString(after).c_str());
+    EXPECT_EQ(after.descriptors, before.descriptors);
+    EXPECT_LE(after.mappings, before.mappings + 1); // the heap itself may be split once
+    EXPECT_LE(after.heap_bytes, before.heap_bytes + 4096);
+  }
+};
+
+// As another program would hold it.
+FileDescriptor hold(const std::string& node, unsigned line, const char* consumer) {
+  const auto chip = hal::linux_backend::open_device(node, O_RDWR);
+  EXPECT_TRUE(chip);
+  gpiohandle_request request{};
+  request.lineoffsets[0] = line;
+  request.lines = 1;
+  request.flags = GPIOHANDLE_REQUEST_INPUT;
+  std::strncpy(request.consumer_label, consumer, sizeof request.consumer_label - 1);
+  EXPECT_EQ(hal::linux_backend::control(*chip, GPIO_GET_LINEHANDLE_IOCTL, &request), 0);
+  return FileDescriptor{request.fd};
+}
+
+TEST_F(GpioFaults, a_line_held_by_another_names_the_holder_until_it_is_free) {
+  FileDescriptor other = hold(chip_->node(), trigger_line, "pump-control");
+  GpioGalvoTrigger trigger{clock_};
+  expect_fault(trigger.open({}), Fault::busy,
+               AllOf(HasSubstr("octascope-trigger"), HasSubstr("pump-control")));
+  EXPECT_EQ(trigger.state(), hal::DeviceState::absent);
+  other.reset();
+  EXPECT_TRUE(trigger.open({}));
+}
+
+TEST_F(GpioFaults, an_open_trigger_holds_its_line_under_its_name) {
+  GpioGalvoTrigger first{clock_}, second{clock_};
+  ASSERT_TRUE(first.open({}));
+  expect_fault(second.open({}), Fault::busy, HasSubstr("held by \"octascope\""));
+  first.close();
+  EXPECT_TRUE(second.open({}));
+}
+
+TEST_F(GpioFaults, an_unknown_line_is_never_guessed) {
+  GpioGalvoTrigger trigger{clock_, {.line = "pump"}};
+  expect_fault(trigger.open({}), Fault::absent,
+               AllOf(HasSubstr("\"pump\""), HasSubstr("6 lines"), HasSubstr("gpioinfo")));
+}
+
+TEST_F(GpioFaults, a_name_that_two_lines_have_is_refused) {
+  const auto second =
+      SimGpioChip::make("octascope-second-" + std::to_string(::getpid()), {"octascope-trigger"});
+  ASSERT_TRUE(second);
+  GpioGalvoTrigger trigger{clock_};
+  expect_fault(trigger.open({}), Fault::invalid_argument, HasSubstr("2 lines"));
+  const std::string chip = chip_->node().substr(std::strlen("/dev/"));
+  GpioGalvoTrigger exact{clock_, {.line = chip + ":3"}};
+  ASSERT_TRUE(exact.open({.pulse_width = 10s}));
+  ASSERT_TRUE(exact.arm());
+  EXPECT_TRUE(chip_->level(trigger_line));
+  EXPECT_FALSE((*second)->level(0));
+}
+
+TEST_F(GpioFaults, an_offset_that_the_chip_does_not_have_is_refused) {
+  const std::string chip = chip_->node().substr(std::strlen("/dev/"));
+  GpioGalvoTrigger trigger{clock_, {.line = chip + ":6"}};
+  expect_fault(trigger.open({}), Fault::invalid_argument, HasSubstr("0 to 5"));
+}
+
+// In a child, because it cannot become root again.
+TEST_F(GpioFaults, without_permission_the_message_says_which_group) {
+  ASSERT_EQ(::chmod(chip_->node().c_str(), 0600), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::setgroups(0, nullptr) != 0 || ::setuid(65534) != 0)
+      ::_exit(2);
+    GpioGalvoTrigger trigger{clock_};
+    const auto opened = trigger.open({});
+    const bool told = !opened && opened.error().fault == Fault::denied &&
+                      opened.error().message.find("usermod -aG gpio") != std::string::npos;
+    if (!told)
+      std::fprintf(stderr, "%s\n", opened ? "it opened" : opened.error().message.c_str());
+    ::_exit(told ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status;
+}
+
+TEST_F(GpioFaults, a_chip_that_goes_in_the_middle_of_a_long_pulse_is_survived) {
+  GpioGalvoTrigger trigger{clock_};
+  ASSERT_TRUE(trigger.open({.pulse_width = 20ms}));
+  ASSERT_TRUE(trigger.arm());
+  ASSERT_TRUE(chip_->remove());
+  expect_fault(trigger.arm(), Fault::disconnected, HasSubstr("octascope-trigger"));
+  EXPECT_EQ(trigger.state(), hal::DeviceState::failed);
+  trigger.close();
+  expect_fault(trigger.open({}), Fault::absent, HasSubstr("octascope-trigger"));
+  ASSERT_TRUE(chip_->restore());
+  ASSERT_TRUE(trigger.open({.pulse_width = 20ms}));
+  EXPECT_FALSE(chip_->level(trigger_line));
+  ASSERT_TRUE(trigger.arm());
+  EXPECT_TRUE(await_level(false));
+}
+
+// Every second time of 200 the chip goes while its line is held.
+TEST_F(GpioFaults, two_hundred_plug_cycles_leak_nothing) {
+  const auto chip = SimGpioChip::make("octascope-cycles", {"cycled-trigger"});
+  ASSERT_TRUE(chip);
+  GpioGalvoTrigger trigger{clock_, {.line = "cycled-trigger"}};
+  const auto cycle = [&](bool in_use) {
+    ASSERT_TRUE(trigger.open({.pulse_width = in_use ? 1ms : 50us}));
+    ASSERT_TRUE(trigger.arm());
+    if (!in_use)
+      trigger.close();
+    ASSERT_TRUE((*chip)->remove());
+    ASSERT_FALSE(trigger.arm());
+    trigger.close();
+    ASSERT_FALSE(trigger.open({}));
+    ASSERT_TRUE((*chip)->restore());
+  };
+  for (int i = 0; i < 10; ++i) // libraries and locales take their share at first
+    cycle(i % 2 == 0);
+  expect_no_leak([&] {
+    for (int i = 0; i < 200 && !HasFatalFailure(); ++i)
+      cycle(i % 2 == 0);
+  });
+}
+
+TEST_F(GpioFaults, two_hundred_openings_leak_nothing) {
+  GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-sync"}};
+  GpioGalvoTrigger refused{clock_, {.line = "octascope-sync"}};
+  const auto cycle = [&](hal::Duration width) {
+    ASSERT_TRUE(trigger.open({.pulse_width = width}));
+    ASSERT_TRUE(trigger.arm());
+    ASSERT_FALSE(refused.open({}));
+    trigger.close();
+  };
+  cycle(1ms);
+  expect_no_leak([&] {
+    for (int i = 0; i < 200 && !HasFatalFailure(); ++i)
+      cycle(i % 2 == 0 ? 1ms : 50us);
+  });
+}
+
+TEST_F(GpioFaults, the_survey_says_what_is_there_and_what_is_missing) {
+  using hal::linux_backend::gpio_complaint;
+  using hal::linux_backend::survey_gpio;
+  EXPECT_EQ(gpio_complaint(survey_gpio(), "octascope-trigger"), "");
+  EXPECT_THAT(gpio_complaint(survey_gpio(), "pump"), HasSubstr("expected"));
+  const FileDescriptor other = hold(chip_->node(), trigger_line, "pump-control");
+  EXPECT_THAT(gpio_complaint(survey_gpio(), "octascope-trigger"), HasSubstr("pump-control"));
+}
+
+} // namespace
+} // namespace octascope::tests

@@ -1,0 +1,93 @@
+// The scanner's answers on the sync line, compared with the pulses.
+#include "tests/virtual_hardware/gpio/gpio_bench.h"
+
+namespace octascope::tests {
+namespace {
+
+using hal::linux_backend::GpioGalvoTrigger;
+using namespace std::chrono_literals;
+
+class GpioSync : public GpioTest {
+protected:
+  void answer() {
+    EXPECT_TRUE(chip_->pull(sync_line, true));
+    EXPECT_TRUE(chip_->pull(sync_line, false));
+    // gpio-sim tells of an edge with the kernel's next timer tick, and merges those before it.
+    clock_.sleep_for(30ms);
+  }
+};
+
+TEST_F(GpioSync, every_answered_pulse_is_counted_with_its_delay) {
+  GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-sync"}};
+  ASSERT_TRUE(trigger.open({}));
+  for (int i = 0; i < 10; ++i) {
+    ASSERT_TRUE(trigger.arm());
+    answer();
+  }
+  const auto last = trigger.arm();
+  ASSERT_TRUE(last);
+  const auto counters = trigger.counters();
+  EXPECT_EQ(counters.pulses, 11U);
+  EXPECT_EQ(counters.sync_edges, 10U);
+  EXPECT_EQ(counters.missed_edges, 0U);
+  EXPECT_EQ(counters.unexpected_edges, 0U);
+  EXPECT_TRUE(counters.sync_works);
+  EXPECT_GT(counters.sync_delay, 0ns);
+  EXPECT_LT(counters.last_sync_edge, *last) << "on the axis of the pulses";
+  EXPECT_GT(counters.last_sync_edge, *last - 10s);
+}
+
+TEST_F(GpioSync, missing_and_unexpected_answers_are_told_apart) {
+  GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-sync"}};
+  ASSERT_TRUE(trigger.open({}));
+  answer(); // nobody asked
+  for (const int answers : {1, 0, 0, 3, 1, 0}) {
+    ASSERT_TRUE(trigger.arm());
+    for (int i = 0; i < answers; ++i)
+      answer();
+  }
+  ASSERT_TRUE(trigger.arm());
+  EXPECT_EQ(trigger.counters().sync_edges, 6U);
+  EXPECT_EQ(trigger.counters().missed_edges, 3U);
+  EXPECT_EQ(trigger.counters().unexpected_edges, 3U);
+}
+
+TEST_F(GpioSync, several_answers_a_pulse_can_be_expected) {
+  GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-sync", .sync_edges_per_pulse = 16}};
+  ASSERT_TRUE(trigger.open({}));
+  for (const int answers : {16, 14}) {
+    ASSERT_TRUE(trigger.arm());
+    for (int i = 0; i < answers; ++i)
+      answer();
+  }
+  ASSERT_TRUE(trigger.arm());
+  EXPECT_EQ(trigger.counters().sync_edges, 30U);
+  EXPECT_EQ(trigger.counters().missed_edges, 2U);
+}
+
+TEST_F(GpioSync, a_sync_line_that_is_not_there_is_told) {
+  GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-answer"}};
+  const auto opened = trigger.open({});
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().fault, hal::Fault::absent);
+  EXPECT_NE(opened.error().message.find("octascope-answer"), std::string::npos);
+  GpioGalvoTrigger other{clock_};
+  EXPECT_TRUE(other.open({})) << "the trigger line was given back";
+}
+
+TEST_F(GpioSync, a_sync_line_that_goes_away_does_not_stop_the_trigger) {
+  auto sync_chip = SimGpioChip::make("octascope-sync-chip", {"scanner-sync"});
+  ASSERT_TRUE(sync_chip);
+  GpioGalvoTrigger trigger{clock_, {.sync_line = "scanner-sync"}};
+  ASSERT_TRUE(trigger.open({}));
+  ASSERT_TRUE(trigger.arm());
+  EXPECT_TRUE(trigger.counters().sync_works);
+  ASSERT_TRUE((*sync_chip)->remove());
+  for (int i = 0; i < 3; ++i)
+    ASSERT_TRUE(trigger.arm());
+  EXPECT_FALSE(trigger.counters().sync_works);
+  EXPECT_EQ(trigger.counters().missed_edges, 3U);
+}
+
+} // namespace
+} // namespace octascope::tests

@@ -1,0 +1,71 @@
+// System calls under fire: the calls of the program and of its libraries, counted, and one of them
+// made to fail.
+//
+// Linked into a program, fire.cpp stands before the C library's open, close, ioctl, poll, read,
+// write and mmap: whoever calls them, our backends or libdrm, libgpiod, hidapi and libcamera below
+// them, comes through it. Nothing is changed unless a Firing is alive.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace octascope::tests {
+
+enum class CallKind : unsigned {
+  open = 1, // open, openat
+  close = 2,
+  control = 4, // ioctl
+  poll = 8,    // poll, ppoll
+  read = 16,
+  write = 32,
+  map = 64, // mmap of a file; memory of no file is left alone
+};
+
+inline constexpr unsigned every_kind = 127;
+
+struct Shot {
+  unsigned call = 0; // which of the counted calls, from 0
+  int error = 0;     // errno it fails with; 0: read() and write() do half, all else is let through
+};
+
+// One at a time in a process, for as long as it lives; calls of every thread count. close() that is
+// hit closes all the same, as Linux does.
+class Firing {
+public:
+  explicit Firing(unsigned kinds, std::optional<Shot> shot = {});
+  Firing(const Firing&) = delete;
+  Firing& operator=(const Firing&) = delete;
+  ~Firing();
+
+  unsigned calls() const; // counted so far
+};
+
+// What a process holds of the system.
+struct Holdings {
+  int descriptors = 0;
+  int mappings = 0; // of files and devices
+  static Holdings now();
+  bool operator==(const Holdings&) const = default;
+};
+
+struct FireReport {
+  unsigned calls = 0; // of one run that nothing hit
+  unsigned runs = 0;
+  std::vector<std::string> complaints; // call, error, and what is wrong
+};
+
+// Runs `scenario` unharmed, then once for each of its calls and each of `errors`. The scenario
+// says what is wrong with how it ended (nothing: success or a clean Error), and must give back all
+// that it took; after each hit it is run unharmed once more when `check_recovery`.
+FireReport under_fire(unsigned kinds, std::span<const int> errors,
+                      const std::function<std::optional<std::string>()>& scenario,
+                      bool check_recovery = true);
+
+// EINTR, EAGAIN, EBUSY, EIO, ENODEV, ENOMEM, and half reads and writes.
+std::span<const int> usual_errors();
+
+} // namespace octascope::tests

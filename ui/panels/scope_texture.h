@@ -1,0 +1,50 @@
+// The microscope's picture as a texture, from the pixels that cameras send.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "hal/result.h"
+#include "hal/scope_camera.h"
+#include "ui/gl/objects.h"
+#include "ui/gl/picture_pass.h"
+
+namespace octascope::ui {
+
+// RGB and RGBA are uploaded as they are; YUYV and NV12 are uploaded as they are and converted by
+// the GPU (BT.601, limited range, what USB and board cameras send).
+//
+// Threads: as gl/objects.h. Makes textures only when the picture's size or format changes.
+class ScopeTexture {
+public:
+  static hal::Result<ScopeTexture> create();
+
+  // Copies the frame before it returns; the bound framebuffer stays bound. Fault::bad_data: the
+  // frame is shorter than its format, size and stride say; the message has both lengths.
+  // Fault::unsupported: larger than this GL's textures.
+  hal::Result<> show(const hal::ScopeFrame& frame);
+
+  // Row 0 is the top; alpha is of no meaning.
+  const gl::Texture& texture() const { return colour_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+private:
+  explicit ScopeTexture(gl::PicturePass conversion);
+  hal::Result<> resize(const hal::ScopeFrame& frame);
+  void convert(const hal::ScopeFrame& frame) const;
+
+  gl::PicturePass conversion_;
+  struct {
+    GLint luma, chroma, packed;
+  } uniforms_;
+  gl::Texture colour_;
+  gl::Texture luma_; // these two, and the framebuffer, for YUYV and NV12
+  gl::Texture chroma_;
+  gl::Framebuffer framebuffer_;
+  std::optional<hal::PixelFormat> format_;
+  int width_ = 0;
+  int height_ = 0;
+};
+
+} // namespace octascope::ui

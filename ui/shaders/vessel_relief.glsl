@@ -1,0 +1,66 @@
+// Where a ray meets the round cone of a segment. For fragment shaders, after vessel_light.glsl and
+// before vessel_quad.frag.
+uniform vec3 u_middle; // of the view, in pixels, and pixels for 1 mm at 1 mm along the view
+uniform vec2 u_depth;  // as vessel_quad.glsl
+uniform float u_near;  // mm along the view
+
+flat in vec4 v_axis;
+flat in vec4 v_shape;
+
+// Millimetres from a point of the ray (its distance, its pixel) to that at another.
+vec3 to_place(vec2 pixel, float distance_mm, vec2 to_pixel, float to_distance_mm) {
+  return vec3(((to_pixel - u_middle.xy) * to_distance_mm - (pixel - u_middle.xy) * distance_mm) / u_middle.z,
+              to_distance_mm - distance_mm);
+}
+
+// How far along the ray (from its origin, in units of its direction) it enters a ball; 0 where it
+// misses, or only does so later.
+float enter_ball(vec3 ray, vec3 middle, float radius) {
+  float along = dot(ray, middle);
+  float square = dot(ray, ray);
+  float rest = along * along - square * (dot(middle, middle) - radius * radius);
+  return rest < 0.0 ? 0.0 : min((along - sqrt(rest)) / square, 0.0);
+}
+
+// The cone is swept by balls at a + u e with radius r + u g, u in 0...1. The point s ray meets the
+// ball that touches it where f(s, u) = |s ray - a - u e|^2 - (r + u g)^2 and its derivative by u are 0:
+// u = (s ray.e + m) / k with m = g r - a.e, k = |e|^2 - g^2, which leaves a quadratic equation for s.
+// What is met first, of the sides and the balls at the ends, is seen.
+float enter_cone(vec3 ray, vec3 a, float r, vec3 e, float g) {
+  float first = min(enter_ball(ray, a, r), enter_ball(ray, a + e, r + g));
+  float k = dot(e, e) - g * g;
+  if (k <= 0.0) // one end lies within the ball of the other
+    return first;
+  float along = dot(ray, e);
+  float m = g * r - dot(a, e);
+  float square = dot(ray, ray) - along * along / k;
+  float half_linear = -dot(ray, a) - along * m / k;
+  float rest = half_linear * half_linear - square * (dot(a, a) - r * r - m * m / k);
+  if (rest < 0.0 || abs(square) < 1e-9) // along the sides
+    return first;
+  vec2 s = (-half_linear + vec2(-1.0, 1.0) * sqrt(rest)) / square;
+  vec2 u = (s * along + m) / k;
+  if (u.x >= 0.0 && u.x <= 1.0)
+    first = min(first, s.x);
+  if (u.y >= 0.0 && u.y <= 1.0)
+    first = min(first, s.y);
+  return first;
+}
+
+// Distance of the surface along the view; `distance_mm` is the axis's. Of thinner segments, and where
+// the outline on the screen is a little wider than the cone, it is the axis's.
+float rounded_distance(float distance_mm) {
+  if (max(v_shape.x, v_shape.x + v_shape.y) < LEAST_RELIEF)
+    return distance_mm;
+  vec2 pixel = gl_FragCoord.xy;
+  float distance_a = 1.0 / v_shape.z;
+  float distance_b = 1.0 / (v_shape.z + v_shape.w);
+  vec3 a = to_place(pixel, distance_mm, v_axis.xy, distance_a);
+  vec3 b = to_place(pixel, distance_mm, v_axis.xy + v_axis.zw, distance_b);
+  float radius_a = v_shape.x * distance_a / u_middle.z;
+  float radius_b = (v_shape.x + v_shape.y) * distance_b / u_middle.z;
+  vec3 ray = vec3((pixel - u_middle.xy) / u_middle.z, 1.0);
+  float nearer = enter_cone(ray, a, radius_a, b - a, radius_b - radius_a);
+  // Before the near plane there is a cut, in the order of the axes.
+  return max(distance_mm + nearer, u_near + CUT_RELIEF * (distance_mm - u_near));
+}

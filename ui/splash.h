@@ -1,0 +1,15 @@
+// The first picture, while everything else is still being made.
+#pragma once
+
+#include <string_view>
+
+#include "hal/result.h"
+
+namespace octascope::ui {
+
+// Draws the program's name and what it is doing over the whole of the bound framebuffer of
+// width × height pixels. Needs no more than a GLES 3 context, and keeps nothing.
+// Fault::unsupported: this GL cannot compile our shaders.
+hal::Result<> draw_splash(int width, int height, std::string_view version, std::string_view doing);
+
+} // namespace octascope::ui

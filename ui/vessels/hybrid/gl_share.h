@@ -1,0 +1,26 @@
+// The part of a vessel tree that GL draws while the processor draws the rest.
+#pragma once
+
+#include "hal/result.h"
+#include "ui/vessels/hybrid/vessel_split.h"
+#include "ui/vessels/vessel_scene.h"
+
+namespace octascope::ui {
+
+// Threads: as gl/objects.h. draw() allocates nothing after the first of a tree and a size.
+class GlShare {
+public:
+  virtual ~GlShare() = default;
+
+  // Submits the segments that `split` gives to GL, under the conditions of VesselMethod, and does
+  // not wait for them. The account is of these alone: drawn and culled.
+  hal::Result<VesselAccount> draw(const VesselScene& scene, const VesselSplit& split) {
+    return do_draw(scene, split);
+  }
+
+private:
+  virtual hal::Result<VesselAccount> do_draw(const VesselScene& scene,
+                                             const VesselSplit& split) = 0;
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,52 @@
+#include "ui/vessels/hybrid/hybrid_method.h"
+
+#include <GLES3/gl3.h>
+
+namespace octascope::ui {
+
+hal::Result<HybridMethod> HybridMethod::create(std::size_t helpers,
+                                               const pipeline::ThreadSetup& setup, Share share) {
+  auto splatter = Splatter::create(helpers, setup);
+  if (!splatter)
+    return tl::make_unexpected(splatter.error());
+  auto picture = SplatPicture::create();
+  if (!picture)
+    return tl::make_unexpected(picture.error());
+  return HybridMethod{std::move(*splatter), std::move(*picture), std::move(share)};
+}
+
+void HybridMethod::hold_frame_time(hal::Duration target) {
+  if (governor_)
+    governor_->set_budget(target);
+  else
+    governor_.emplace(target);
+}
+
+void HybridMethod::note_cost(hal::Duration cost) {
+  if (governor_ && !at_rest_)
+    governor_->note(cost);
+}
+
+hal::Result<VesselAccount> HybridMethod::do_draw(const VesselScene& scene) {
+  shown_detail_px_ = governor_ ? governor_->detail_px(at_rest_) : detail_px_;
+  VesselAccount account;
+  if (share_.gl) {
+    split_by_radius(scene, share_.gl_radius_px, split_);
+    const auto by_gl = share_.gl->draw(scene, split_);
+    if (!by_gl)
+      return by_gl;
+    account = *by_gl;
+    glFlush(); // GL begins now, beside the splatter
+  }
+  const auto by_processor = splatter_.draw(scene, image_, {split_, shown_detail_px_});
+  if (!by_processor)
+    return by_processor;
+  account.splatted += by_processor->splatted;
+  account.merged += by_processor->merged;
+  account.culled += by_processor->culled;
+  if (const auto drawn = picture_.draw(image_, scene.camera); !drawn)
+    return tl::make_unexpected(drawn.error());
+  return account;
+}
+
+} // namespace octascope::ui

@@ -1,0 +1,70 @@
+// GL draws what is wide and the processor what is thin, both at the same time and into one depth.
+//
+// The idea of sharing a vessel tree between both is the thesis's (docs/VESSELS.md); the split is by
+// the projected radius.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+#include "hal/result.h"
+#include "pipeline/worker_pool.h"
+#include "ui/vessels/hybrid/detail_governor.h"
+#include "ui/vessels/hybrid/gl_share.h"
+#include "ui/vessels/splatter/splat_picture.h"
+#include "ui/vessels/splatter/splatter.h"
+#include "ui/vessels/vessel_method.h"
+
+namespace octascope::ui {
+
+// Threads: bound to the thread of its GL context, but for the splatter's helpers.
+class HybridMethod final : public VesselMethod {
+public:
+  // Where GL gets a share: segments of at least `gl_radius_px`.
+  struct Share {
+    std::unique_ptr<GlShare> gl; // nullptr: the processor draws everything, as where GL is software
+    float gl_radius_px = 1.5F;
+  };
+
+  static hal::Result<HybridMethod> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
+                                          Share share);
+
+  // For the frames that follow; see SplatShare::detail_px. Ends hold_frame_time().
+  void set_detail_px(float detail_px) {
+    governor_.reset();
+    detail_px_ = detail_px;
+  }
+
+  // From now on vessels are merged as far as it takes, and no further, for frames to cost no more
+  // than that, by what note_cost() is told; see DetailGovernor. May be told anew at any time.
+  void hold_frame_time(hal::Duration target);
+  // Of the whole last frame, whatever else was in it.
+  void note_cost(hal::Duration cost);
+  // Where nothing moves, a frame may take its time and shows every vessel.
+  void set_at_rest(bool at_rest) { at_rest_ = at_rest; }
+
+  // The radius below which vessels were merged in the last frame, to be shown beside the picture.
+  // 0: all were drawn as they are.
+  float shown_detail_px() const { return shown_detail_px_; }
+
+  // What the processor drew in the last frame, with distances.
+  const SplatImage& splats() const { return image_; }
+
+private:
+  HybridMethod(Splatter splatter, SplatPicture picture, Share share)
+      : splatter_{std::move(splatter)}, picture_{std::move(picture)}, share_{std::move(share)} {}
+  hal::Result<VesselAccount> do_draw(const VesselScene& scene) override;
+
+  Splatter splatter_;
+  SplatPicture picture_;
+  Share share_;
+  SplatImage image_;
+  VesselSplit split_; // empty without a share of GL's
+  std::optional<DetailGovernor> governor_;
+  bool at_rest_ = false;
+  float detail_px_ = 0;
+  float shown_detail_px_ = 0;
+};
+
+} // namespace octascope::ui

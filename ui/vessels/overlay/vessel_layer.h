@@ -1,0 +1,62 @@
+// The vessels as one eye sees them, kept until something that they depend on changes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hal/result.h"
+#include "ui/gl/objects.h"
+#include "ui/vessels/overlay/vessel_stops.h"
+#include "ui/vessels/splatter/splat_picture.h"
+#include "ui/vessels/splatter/splatter.h"
+#include "ui/vessels/vessel_scene.h"
+
+namespace octascope::ui {
+
+// Who draws the volume, and so needs to know where vessels are.
+enum class StopsFor : std::uint8_t { gl, processor };
+
+// Threads: as gl/objects.h. Allocates when the size changes, or GL is served for the first time.
+class VesselLayer {
+public:
+  // `tree` counts the trees shown. Fault::system: this GL cannot render to a picture of that size;
+  // other faults as Splatter::draw(). The bound framebuffer stays bound.
+  hal::Result<> update(Splatter& splatter, const VesselScene& scene, std::uint64_t tree,
+                       float detail_px, StopsFor target);
+
+  // Of the last update(); `opacity` is handed on.
+  VesselStops stops(StopsFor target, float opacity) const;
+
+  const VesselAccount& account() const { return account_; }
+  std::uint64_t drawings() const { return drawings_; } // counts the pictures made
+
+private:
+  struct Key {
+    std::uint64_t tree = 0;
+    glm::mat4 world_from_tree{0};
+    glm::mat4 view_projection{0};
+    VesselLook look;
+    float detail_px = 0;
+    int width = 0;
+    int height = 0;
+    bool operator==(const Key&) const = default;
+  };
+
+  hal::Result<> lay_into_gl(const VesselScene& scene);
+  hal::Result<> resize(int width, int height);
+
+  SplatImage image_;
+  VesselAccount account_;
+  std::optional<Key> drawn_;
+  std::uint64_t drawings_ = 0;
+  // In GL.
+  std::optional<SplatPicture> picture_;
+  gl::Framebuffer framebuffer_;
+  gl::Texture colour_;
+  gl::Texture depth_;
+  int width_ = 0;
+  int height_ = 0;
+  std::uint64_t laid_ = 0; // which drawing is in GL
+};
+
+} // namespace octascope::ui

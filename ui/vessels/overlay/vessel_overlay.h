@@ -1,0 +1,69 @@
+// A vessel tree within the volume: keeps each eye's picture of it up to date, for the volume's rays
+// to end there.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "hal/clock.h"
+#include "hal/result.h"
+#include "pipeline/worker_pool.h"
+#include "ui/camera.h"
+#include "ui/vessels/overlay/vessel_layer.h"
+#include "ui/vessels/overlay/vessel_placement.h"
+#include "ui/view_state.h"
+
+namespace octascope::ui {
+
+// Threads: as gl/objects.h, but for the splatter's helpers. Allocates when the size changes, or an
+// eye or a target is served for the first time.
+class VesselOverlay {
+public:
+  // Costs are measured with `clock`, which outlives this. Fault::unsupported: as
+  // Splatter::create().
+  static hal::Result<VesselOverlay> create(const pipeline::ThreadSetup& threads,
+                                           const hal::Clock& clock);
+
+  // The tree stays borrowed until the next show().
+  void show(const PlacedVessels& vessels);
+
+  struct Request {
+    Eye eye;
+    const ViewState& view;
+    const Camera& camera; // for the volume's extents
+    const pipeline::VolumeGeometry& geometry;
+    int width; // of the volume's picture
+    int height;
+    float detail_px; // SplatShare has what it means
+    StopsFor target;
+  };
+  // Brings the eye's picture up to date. Nothing: the view shows no vessels.
+  hal::Result<std::optional<VesselStops>> update(const Request& request);
+
+  // Vessels are shown and nobody has said where they lie in the volume.
+  bool shows_unregistered(const ViewState& view) const {
+    return shows(view) && !vessels_.volume_from_tree;
+  }
+
+  // Of the newest picture.
+  const VesselAccount& account() const { return account_; }
+  // Since create(): of all drawings of vessels.
+  hal::Duration spent() const { return spent_; }
+
+private:
+  VesselOverlay(Splatter splatter, const hal::Clock& clock)
+      : splatter_{std::move(splatter)}, clock_{&clock} {}
+  bool shows(const ViewState& view) const;
+
+  Splatter splatter_;
+  const hal::Clock* clock_;
+  PlacedVessels vessels_;
+  std::uint64_t shown_ = 0;
+  std::array<VesselLayer, 2> layers_; // the second is the right eye's
+  VesselAccount account_;
+  hal::Duration spent_{};
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,30 @@
+// Method 2 by GL alone: every vessel a quad that faces the eye, expanded from the packed nodes.
+#pragma once
+
+#include <vector>
+
+#include "ui/vessels/cluster_culling.h"
+#include "ui/vessels/quad_node_painter.h"
+#include "ui/vessels/vessel_method.h"
+
+namespace octascope::ui {
+
+// Threads: as gl/objects.h.
+class QuadsMethod final : public VesselMethod {
+public:
+  // Fault::unsupported: this GL cannot compile our shaders.
+  static hal::Result<std::unique_ptr<QuadsMethod>> create(std::shared_ptr<NodeTexture> nodes,
+                                                          ClusterChoice choice);
+
+private:
+  QuadsMethod(QuadNodePainter painter, ClusterChoice choice)
+      : painter_{std::move(painter)}, choice_{choice} {}
+  hal::Result<VesselAccount> do_draw(const VesselScene& scene) override;
+
+  QuadNodePainter painter_;
+  ClusterChoice choice_;
+  std::vector<ClusterPart> parts_;
+  std::array<std::vector<PlacedCluster>, quad_kind_count> placed_;
+};
+
+} // namespace octascope::ui

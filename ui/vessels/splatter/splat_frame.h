@@ -1,0 +1,52 @@
+// What the kernels need to know of one picture.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "pipeline/vessels/clusters.h"
+#include "ui/vessels/splatter/splat_image.h"
+#include "ui/vessels/vessel_scene.h"
+
+namespace octascope::ui {
+
+// Row of an affine map of the tree's frame: dot(xyz, place) + w.
+using AffineRow = std::array<double, 4>;
+
+// Base colours with 10 bits a channel, red lowest; the flag in the two bits above them tells that
+// the segment is to be at least least_vessel_radius_px.
+using BaseColour = std::uint32_t;
+inline constexpr BaseColour kept_visible = 1U << 30U;
+
+// Where the segments went; see VesselAccount.
+struct SplatCounts {
+  std::uint64_t splatted = 0;
+  std::uint64_t merged = 0;
+  std::uint64_t culled = 0;
+};
+
+struct SplatFrame {
+  pipeline::VesselClusters tree;
+  // By cluster: so many of its first nodes, references included, make segments that somebody else
+  // draws. Empty: none.
+  std::span<const std::uint8_t> taken;
+  float detail_px = 0; // see merged_order.h; 0: every segment is drawn
+  SplatPixel* pixels = nullptr;
+  int width = 0;
+  int height = 0;
+  // Pixel centres are whole numbers, rows run from the top: column = column_row / distance_row.
+  AffineRow column_row{};
+  AffineRow line_row{};
+  AffineRow distance_row{}; // along the view, in mm
+  float pixels_per_unit = 0;
+  float middle_column = 0; // straight ahead of the eye
+  float middle_line = 0;
+  float near_mm = 0;
+  float far_mm = 0;
+  VesselLook look;
+  std::array<std::array<BaseColour, 16>, pipeline::vessel_branch_count>
+      colours{}; // [branch][order]
+};
+
+} // namespace octascope::ui

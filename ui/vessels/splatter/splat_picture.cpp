@@ -1,0 +1,67 @@
+#include "ui/vessels/splatter/splat_picture.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+
+#include "embedded_shaders.h"
+
+namespace octascope::ui {
+
+static_assert(std::endian::native == std::endian::little, "a pixel's colour is its first half");
+
+hal::Result<SplatPicture> SplatPicture::create() {
+  auto pass = gl::PicturePass::create("vessel_splats", shaders::vessel_splats_frag);
+  if (!pass)
+    return tl::make_unexpected(pass.error());
+  return SplatPicture{std::move(*pass)};
+}
+
+hal::Result<> SplatPicture::upload(const SplatImage& image) {
+  const std::size_t bytes = static_cast<std::size_t>(image.width) *
+                            static_cast<std::size_t>(image.height) * sizeof(SplatPixel);
+  if (image.width != width_ || image.height != height_) {
+    uploader_ = gl::PixelUploader::create(bytes);
+    texture_ = gl::Texture::make();
+    glBindTexture(GL_TEXTURE_2D, texture_.name());
+    glTexStorage2D(GL_TEXTURE_2D, 1, GL_RG32UI, image.width, image.height);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    width_ = image.width;
+    height_ = image.height;
+  }
+  if (auto ok =
+          uploader_.stage({reinterpret_cast<const std::uint8_t*>(image.pixels.data()), bytes});
+      !ok)
+    return ok;
+  glBindTexture(GL_TEXTURE_2D, texture_.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RG_INTEGER, GL_UNSIGNED_INT,
+                  nullptr);
+  gl::PixelUploader::unbind();
+  return {};
+}
+
+hal::Result<> SplatPicture::draw(const SplatImage& image, const Camera& camera) {
+  glActiveTexture(GL_TEXTURE0);
+  if (auto ok = upload(image); !ok)
+    return ok;
+  pass_.use();
+  glUniform1i(pass_.uniform("u_splats"), 0);
+  glUniform2f(pass_.uniform("u_size"), static_cast<float>(image.width),
+              static_cast<float>(image.height));
+  // Of the perspective with these two distances: 0 at the near, 1 at the far one.
+  const float range = camera.far_mm - camera.near_mm;
+  glUniform2f(pass_.uniform("u_depth"), camera.far_mm / range,
+              -camera.near_mm * camera.far_mm / range);
+  std::array<GLint, 4> viewport{}; // fill() counts from the top of the target
+  glGetIntegerv(GL_VIEWPORT, viewport.data());
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  pass_.fill({viewport[0], 0, image.width, image.height}, viewport[1] + image.height);
+  glDisable(GL_DEPTH_TEST);
+  return {};
+}
+
+} // namespace octascope::ui

@@ -1,0 +1,34 @@
+// A SplatImage in GL: laid into the bound framebuffer with its depth, so that what GL draws and
+// what the processor has drawn hide each other as they should.
+#pragma once
+
+#include "hal/result.h"
+#include "ui/camera.h"
+#include "ui/gl/objects.h"
+#include "ui/gl/picture_pass.h"
+#include "ui/gl/pixel_uploader.h"
+#include "ui/vessels/splatter/splat_image.h"
+
+namespace octascope::ui {
+
+// Threads: as gl/objects.h. Allocates when the size changes.
+class SplatPicture {
+public:
+  static hal::Result<SplatPicture> create();
+
+  // Over the whole viewport, which is as large as the image, with GL_LESS: where there is no
+  // vessel, what is there stays. Leaves the depth test off.
+  hal::Result<> draw(const SplatImage& image, const Camera& camera);
+
+private:
+  explicit SplatPicture(gl::PicturePass pass) : pass_{std::move(pass)} {}
+  hal::Result<> upload(const SplatImage& image);
+
+  gl::PicturePass pass_;
+  gl::PixelUploader uploader_;
+  gl::Texture texture_;
+  int width_ = 0;
+  int height_ = 0;
+};
+
+} // namespace octascope::ui

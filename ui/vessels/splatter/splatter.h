@@ -1,0 +1,54 @@
+// Vessel trees drawn by the processor: each segment's rounded trapezoid (ui/vessels/vessel_scene.h)
+// in the pixels whose centres it covers, the nearest in front. No order of drawing matters, so
+// threads share one picture and the result is the same to the bit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "hal/result.h"
+#include "pipeline/worker_pool.h"
+#include "ui/vessels/splatter/splat_image.h"
+#include "ui/vessels/splatter/splat_kernels.h"
+#include "ui/vessels/vessel_scene.h"
+#include "ui/work_team.h"
+
+namespace octascope::ui {
+
+struct SplatShare {
+  // By cluster: so many of its first nodes, references included, make segments that somebody else
+  // draws. Empty: all are drawn here.
+  std::span<const std::uint8_t> taken;
+  // Segments with a smaller radius in pixels are merged (merged_order.h), but none of order
+  // least_order_kept_visible and above. 0: none.
+  float detail_px = 0;
+};
+
+// Threads: bound to one, but for its own helpers. draw() allocates nothing but the image.
+class Splatter {
+public:
+  // `helpers` threads beside the caller's. `isa` names an instruction set, else the widest is
+  // taken. Fault::unsupported: this processor has none that is compiled in.
+  static hal::Result<Splatter> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
+                                      std::string_view isa = {});
+
+  // Draws into `image`, which becomes as large as the scene says. The account is of the segments
+  // that are not taken. Fault::invalid_argument: the scene has no pixels, or `taken` is not as long
+  // as there are clusters.
+  hal::Result<VesselAccount> draw(const VesselScene& scene, SplatImage& image,
+                                  const SplatShare& share = {});
+
+  std::string_view isa() const { return kernels_->isa; }
+
+private:
+  Splatter(const SplatKernels& kernels, std::unique_ptr<WorkTeam> team)
+      : kernels_{&kernels}, team_{std::move(team)} {}
+
+  const SplatKernels* kernels_;
+  std::unique_ptr<WorkTeam> team_;
+};
+
+} // namespace octascope::ui

@@ -1,0 +1,69 @@
+// How vessels are coloured.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "pipeline/vessels/tree.h"
+
+namespace octascope::ui {
+
+enum class VesselColouring : std::uint8_t {
+  branch,     // RCA, LAD, LCX
+  order,      // from capillaries to the main arteries
+  diagnostic, // red what GL drew, white what the processor did
+};
+inline constexpr int vessel_colouring_count = 3;
+
+using VesselColour = std::array<float, 3>; // 0…1, as it is displayed
+
+// By VesselBranch: told apart by lightness too, for those who see red and green alike.
+inline constexpr std::array<VesselColour, pipeline::vessel_branch_count> branch_colours{{
+    {0.85F, 0.85F, 0.82F},
+    {0.93F, 0.33F, 0.24F},
+    {0.98F, 0.80F, 0.42F},
+    {0.42F, 0.66F, 0.95F},
+}};
+// By order.
+inline constexpr std::array<VesselColour, pipeline::vessel_order_count> order_colours{{
+    {0.38F, 0.42F, 0.80F},
+    {0.36F, 0.54F, 0.84F},
+    {0.34F, 0.65F, 0.82F},
+    {0.38F, 0.74F, 0.74F},
+    {0.50F, 0.80F, 0.62F},
+    {0.66F, 0.83F, 0.50F},
+    {0.82F, 0.82F, 0.42F},
+    {0.94F, 0.76F, 0.38F},
+    {0.97F, 0.64F, 0.34F},
+    {0.96F, 0.50F, 0.32F},
+    {0.93F, 0.38F, 0.32F},
+    {0.90F, 0.28F, 0.34F},
+}};
+inline constexpr VesselColour drawn_by_gl{1, 0.12F, 0.10F};
+inline constexpr VesselColour drawn_by_processor{1, 1, 1};
+
+struct VesselLook {
+  VesselColouring colouring = VesselColouring::branch;
+  // Brightness falls by this share from the near to the far end of the depth range of what is
+  // drawn; 0: no cue. Near and far are distances along the view, in mm.
+  float depth_cue = 0.55F;
+  float cue_near_mm = 0;
+  float cue_far_mm = 1;
+
+  bool operator==(const VesselLook&) const = default;
+};
+
+// Light from the eye on a round vessel: `d` is the distance from its axis in radii (0…1).
+inline constexpr float vessel_ambient = 0.35F;
+inline float vessel_brightness(float d) {
+  return vessel_ambient + (1 - vessel_ambient) * std::sqrt(std::fmax(0.0F, 1 - d * d));
+}
+
+// What a distance along the view leaves of the brightness.
+inline float vessel_fading(const VesselLook& look, float depth_mm) {
+  const float share = (depth_mm - look.cue_near_mm) / (look.cue_far_mm - look.cue_near_mm);
+  return 1 - look.depth_cue * std::fmin(std::fmax(share, 0.0F), 1.0F);
+}
+
+} // namespace octascope::ui
