@@ -20,6 +20,7 @@
 #include "firmware-host/reconstruction_cache.h"
 #include "firmware-host/render_loop.h"
 #include "firmware-host/report.h"
+#include "firmware-host/run_account.h"
 #include "firmware-host/status_line.h"
 #include "firmware-host/stop_signal.h"
 #include "firmware-host/supervision/supervision.h"
@@ -28,7 +29,6 @@
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/realtime.h"
 #include "pipeline/atomic_file.h"
-#include "pipeline/hot_path.h"
 #include "pipeline/png_image.h"
 #include "pipeline/reconstructor.h"
 #include "ui/splash.h"
@@ -88,13 +88,16 @@ public:
     const DeviceChoices choices =
         choose_devices(real->find_for(options_), options_, configuration_.devices);
     devices_ = std::make_unique<Devices>(std::move(real), choices, clock_);
+    supervision_.starting("opening the display");
     show_splash();
+    supervision_.starting("preparing the devices");
     if (auto made = devices_->make_others(choices, options_, configuration_, clock_); !made)
       return made;
     supervision_.crash_report().set_last_act(
         [](void* made) { static_cast<Devices*>(made)->make_trigger_safe(); }, devices_.get());
     if (auto registered = load_registration(); !registered)
       return registered;
+    supervision_.starting("measuring the reconstruction");
     return make_reconstruction().map([this] {
       make_threads();
       make_render_loop();
@@ -106,6 +109,7 @@ public:
   }
 
   hal::Result<> run(StopSignal& stop_signal) override {
+    supervision_.starting("drawing the first picture");
     if (auto opened = loop_->open(); !opened)
       return opened;
     if (const auto locked = hal::linux_backend::lock_memory(); !locked)
@@ -140,7 +144,7 @@ private:
   void listen_to_scanner();
   void update_status();
   void tell_supervision();
-  RunReport report() const;
+  RunAccount account() const;
   hal::Result<> leave_behind(const std::optional<pipeline::Image>& picture) const;
 
   RunOptions options_;
@@ -396,95 +400,25 @@ void AssembledAppliance::update_status() {
 }
 
 void AssembledAppliance::tell_supervision() {
-  const ui::Status& s = loop_->status();
   const hal::TimePoint now = clock_.now();
-  if (!supervision_.wants_status(now))
-    return;
-  const pipeline::VolumeCounters counters = volumes_->counters();
-  const FrameStatistics& frames = loop_->statistics();
-  PictureStatus told{.told = now,
-                     .simulated = devices_->simulated(),
-                     .source = devices_->source(),
-                     .freshness = s.freshness,
-                     .lines_per_s = s.lines_per_s,
-                     .volumes_per_s = s.volumes_per_s,
-                     .frames_per_s = s.frames_per_s,
-                     .acquired = counters.acquired,
-                     .published = counters.published,
-                     .displayed = frames.volumes_displayed,
-                     .skipped = counters.skipped,
-                     .lost_lines = counters.lost_lines,
-                     .lost_b_scans = counters.lost_b_scans,
-                     .lost_volumes = counters.lost_volumes,
-                     .saturated_lines = counters.saturated_lines,
-                     .frames_drawn = frames.frames_drawn,
-                     .frames_missed = frames.frames_missed,
-                     .latency = frames.latency.summary(),
-                     .notice = s.notice};
-  for (const ui::DeviceStatus& device : std::span{s.devices}.first(s.device_count))
-    told.devices.push_back({std::string{device.name}, std::string{device.backend}, device.state});
-  supervision_.tell(std::move(told));
+  if (supervision_.wants_status(now))
+    supervision_.tell(picture_status(account(), now));
 }
 
-RunReport AssembledAppliance::report() const {
-  RunReport r;
-  const pipeline::VolumeCounters counters = volumes_->counters();
-  const FrameStatistics& frames = loop_->statistics();
-  r.simulated = devices_->simulated();
-  r.source = devices_->source();
-  r.reconstruction_path =
-      reconstructor_->path() == pipeline::ReconstructionPath::fused ? "fused" : "fftw";
-  r.reconstruction_isa = reconstructor_->isa();
-  r.reconstruction_reason = name_of(reconstructor_->path_decision().reason);
-  r.reconstruction_times = reconstructor_->path_decision().times;
-  r.line_camera = devices_->line_camera().backend();
-  r.galvo_trigger = devices_->galvo_trigger().backend();
-  r.control_input = devices_->control_input().backend();
-  r.scope_camera = devices_->scope_camera() ? devices_->scope_camera()->backend() : "none";
-  r.display = devices_->display().backend();
-  r.plan = devices_->plan();
-  r.phase = volumes_->phase();
-  r.worker_cores = worker_cores_->pinned();
-  r.acquired = counters.acquired;
-  r.published = counters.published;
-  r.displayed = frames.volumes_displayed;
-  // What waits for the renderer at the end is never taken either.
-  r.skipped = counters.skipped + (volumes_->has_newer() ? 1 : 0);
-  r.undisplayed = frames.volumes_taken - frames.volumes_displayed;
-  r.planned = counters.planned;
-  r.unfinished = counters.unfinished;
-  r.lost_lines = counters.lost_lines;
-  r.lost_b_scans = counters.lost_b_scans;
-  r.lost_volumes = counters.lost_volumes;
-  r.saturated_lines = counters.saturated_lines;
-  r.duration_s = hal::to_seconds(ended_ - started_);
-  r.volumes_per_s = static_cast<double>(counters.published) / r.duration_s;
-  r.lines_per_s = static_cast<double>(acquisition_->counters().frames) *
-                  devices_->plan().lines_per_frame() / r.duration_s;
-  r.frames_per_s = static_cast<double>(frames.frames_drawn) / r.duration_s;
-  r.reconstruct = volumes_->statistics().reconstruct.summary();
-  r.assemble = volumes_->statistics().assemble.summary();
-  r.publish = volumes_->statistics().publish.summary();
-  r.upload = frames.upload.summary();
-  r.draw = frames.draw.summary();
-  r.latency = frames.latency.summary();
-  r.control = frames.control.summary();
-  r.rays = frames.rays;
-  if (frames.first_picture)
-    r.first_picture_s = hal::to_seconds(*frames.first_picture - process_start(clock_));
-  r.frames_drawn = frames.frames_drawn;
-  r.frames_missed = frames.frames_missed;
-  r.view = loop_->actions().state();
-  r.actions = loop_->actions().counts();
-  r.hot_path_allocations = pipeline::HotPath::allocations();
-  r.faults = faults_.records();
-  r.started = started_;
-  return r;
+RunAccount AssembledAppliance::account() const {
+  return {.devices = *devices_,
+          .reconstructor = *reconstructor_,
+          .worker_cores = *worker_cores_,
+          .acquisition = *acquisition_,
+          .volumes = *volumes_,
+          .loop = *loop_};
 }
 
 hal::Result<>
 AssembledAppliance::leave_behind(const std::optional<pipeline::Image>& picture) const {
-  const RunReport finished = report();
+  const RunReport finished = report_on(
+      account(), {.process_start = process_start(clock_), .started = started_, .ended = ended_},
+      faults_.records());
   fmt::print("{}", to_text(finished));
   if (options_.report) {
     if (auto written = write_report(finished, *options_.report); !written)

@@ -11,6 +11,8 @@
 
 namespace octascope::firmware_host {
 
+using namespace std::chrono_literals;
+
 namespace {
 
 // Of several folders that a unit may have, the first.
@@ -39,6 +41,14 @@ ServiceManager::ServiceManager() {
   std::uint64_t interval_us = 0;
   if (sd_watchdog_enabled(0, &interval_us) > 0)
     watchdog_interval_ = std::chrono::microseconds{interval_us};
+}
+
+// A processor that is slow, or emulated, draws its first picture after minutes; one that hangs in a
+// step is still found out.
+void ServiceManager::starting(std::string_view step) const {
+  constexpr std::chrono::microseconds limit = 120s;
+  sd_notify(
+      0, fmt::format("EXTEND_TIMEOUT_USEC={}\nSTATUS=Starting: {}", limit.count(), step).c_str());
 }
 
 // That systemd did not hear is systemd's to notice: it waits for READY=1 and for the watchdog.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "hal/clock.h"
 
@@ -29,6 +30,8 @@ public:
   // The unit's WatchdogSec, if it has one and it is meant for this process.
   std::optional<hal::Duration> watchdog_interval() const { return watchdog_interval_; }
 
+  // A step on the way to the picture begins: it may take as long as the whole start otherwise.
+  void starting(std::string_view step) const;
   void ready() const;    // the picture is there
   void kick() const;     // the watchdog
   void stopping() const; // in good order

@@ -45,6 +45,9 @@ public:
               pipeline::FaultLog& faults);
   ~Supervision(); // in good order: the next run hears of no crash
 
+  // Before start(): systemd is told which step of it has begun, and waits for that one.
+  void starting(std::string_view step) const { manager_.starting(step); }
+
   // `process_start` is when the program began.
   void start(hal::TimePoint process_start);
 

@@ -69,6 +69,8 @@ class Disk:
 
     def put_configuration(self, file, name="octascope.toml"):
         scratch = self._data()
+        # What a cut of the power left to be replayed would be replayed over what is written here.
+        subprocess.run(["e2fsck", "-p", "-E", "journal_only", scratch], capture_output=True)
         run("debugfs", "-w", "-f", "-", scratch,
             input=f"rm /etc/upper/{name}\nwrite {file} /etc/upper/{name}\n"
                   f"sif /etc/upper/{name} mode 0100644\n".encode())

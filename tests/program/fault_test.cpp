@@ -164,7 +164,9 @@ std::vector<FaultCase> fault_cases() {
       {.example = "display_lost",
        .device = "display",
        .kind = "disconnected",
-       .script = fault("display", "lost", half_a_second)},
+       // Long enough for a turn of the render loop on a machine that is held up by others.
+       .script = fault("display", "lost", "at_s = 0.6\nduration_s = 1.5"),
+       .duration_s = 5.0},
   };
 }
 

@@ -159,6 +159,16 @@ TEST(Supervision, says_ready_with_the_first_picture_and_kicks_with_those_that_fo
   EXPECT_EQ(run.wait().exit_status, 0);
 }
 
+TEST(Supervision, tells_each_step_of_the_start_and_asks_for_its_time) {
+  Service service;
+  ProgramRun run{service.command()};
+  const std::string told = service.listen(60s, "READY=1");
+  for (const char* step : {"opening the display", "preparing the devices",
+                           "measuring the reconstruction", "drawing the first picture"})
+    EXPECT_THAT(told,
+                HasSubstr(std::string{"EXTEND_TIMEOUT_USEC=120000000\nSTATUS=Starting: "} + step));
+}
+
 TEST(Supervision, kicks_on_while_the_picture_says_truthfully_that_nothing_comes) {
   Service service;
   const auto script = service.folder().write(
