@@ -1,7 +1,8 @@
-// Which bricks of a volume a picture can leap over, and how far.
+// Which bricks of a volume a picture can leap over.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "pipeline/occupancy.h"
@@ -16,35 +17,25 @@ enum class Visibility : std::uint8_t {
   everything // no brick is empty
 };
 
-// One number a brick, in the order [b][a][depth]: its highest level in the upper 8 bits, below it
-// the distance to the nearest brick that is not empty, in bricks along the axis where it is
-// farthest (Chebyshev), at most most_distance; 0 for those that are not.
-//
-// Allocates when the number of bricks changes.
+// Bricks in the order [b][a][depth]. Allocates when their number changes.
 class BrickGrid {
 public:
-  static constexpr int most_distance = 10;
-
   void update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
               Visibility visibility);
 
-  const std::uint16_t* data() const { return bricks_.data(); }
   const pipeline::BrickCounts& counts() const { return counts_; }
+  std::span<const std::uint8_t> occupied() const { return occupied_; } // 0: empty; 1
+  std::span<const std::uint8_t> highest() const { return highest_; }   // level
   double occupied_share() const { return occupied_share_; }
 
 private:
   void resize(const pipeline::BrickCounts& counts);
   void merge_b_scans(const pipeline::Occupancy& occupancy);
-  void measure_distances();
-  bool grow_reach();
 
   pipeline::BrickCounts counts_;
-  std::vector<std::uint16_t> bricks_; // one more than there are: kernels load two at a time
   std::vector<std::uint8_t> highest_;
   std::vector<std::uint8_t> lowest_;
-  std::vector<std::uint8_t> distance_;
-  std::vector<std::uint8_t> reach_; // 1 within the distance reached so far
-  std::vector<std::uint8_t> next_;
+  std::vector<std::uint8_t> occupied_;
   double occupied_share_ = 0;
 };
 

@@ -105,6 +105,7 @@ void RayCaster::prepare(float steps, Visibility visibility) {
   }
   if (!bricks_current_ || visibility != visibility_) {
     bricks_.update(occupancy_, steps_table_->visible, visibility);
+    distances_.forget();
     visibility_ = visibility;
     bricks_current_ = true;
   }
@@ -118,9 +119,10 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   f.cells = cells_->data();
   f.column_bytes = cells_->column_bytes();
   f.row_bytes = cells_->row_bytes();
-  f.bricks = bricks_.data();
+  f.bricks = distances_.data();
   f.brick_row = bricks_.counts().depth;
   f.brick_slab = bricks_.counts().depth * bricks_.counts().a;
+  f.brick_octant = static_cast<std::int32_t>(bricks_.counts().all());
   set(f.lower, rays.lower);
   set(f.upper, rays.upper);
   f.opacity_and_red = steps_table_->opacity_and_red.data();
@@ -184,6 +186,7 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
   const RayKernels::Draw kernel = settings.mode == RayMode::maximum  ? kernels_->maximum
                                   : settings.mode == RayMode::shaded ? kernels_->shaded[look]
                                                                      : kernels_->composite[look];
+  distances_.measure(bricks_, octants_of_rays(geometry(), camera));
   const RayFrame rays = frame(camera, settings, image);
   image.draw_into(rectangle_of_box(camera, image));
   const int across = (image.drawn.width + tile_size - 1) / tile_size;

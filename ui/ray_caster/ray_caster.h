@@ -15,6 +15,7 @@
 #include "pipeline/volume.h"
 #include "ui/camera.h"
 #include "ui/layout.h"
+#include "ui/ray_caster/brick_distances.h"
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/cell_volume.h"
 #include "ui/ray_caster/ray_kernels.h"
@@ -88,6 +89,7 @@ private:
   std::unique_ptr<TransferTable> transfer_;
   std::unique_ptr<StepTable> steps_table_;
   BrickGrid bricks_;
+  DistancesAhead distances_;
   // What table and bricks were made for.
   float steps_ = 0;
   Visibility visibility_ = Visibility::range;

@@ -29,10 +29,11 @@ struct RayFrame {
   const std::uint8_t* cells;
   std::int32_t column_bytes;
   std::int32_t row_bytes;
-  const std::uint16_t* bricks;
-  std::int32_t brick_row;  // bricks from one to the next along the fast axis
-  std::int32_t brick_slab; // … along the slow axis
-  float lower[3];          // the box that is shown
+  const std::uint16_t* bricks; // DistancesAhead's numbers
+  std::int32_t brick_row;      // bricks from one to the next along the fast axis
+  std::int32_t brick_slab;     // … along the slow axis
+  std::int32_t brick_octant;   // … from one octant to the next
+  float lower[3];              // the box that is shown
   float upper[3];
 
   // The transfer function.

@@ -39,4 +39,28 @@ RayGeometry ray_geometry(const pipeline::VolumeGeometry& g, const Camera& camera
   return rays;
 }
 
+unsigned octants_of_rays(const pipeline::VolumeGeometry& g, const Camera& camera) {
+  const RayGeometry rays = ray_geometry(g, camera);
+  const float up = camera.tan_half_height * 1.1F; // and a little: packets reach over the border
+  const float right = up * camera.aspect;
+  bool goes_up[3] = {}, goes_down[3] = {};
+  for (const float x : {-right, right})
+    for (const float y : {-up, up}) {
+      const glm::vec3 d = rays.forward + (x + camera.centre_shift) * rays.right + y * rays.up;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float level = 0.01F * glm::length(d); // nearly along the other axes: either
+        goes_up[axis] |= d[axis] > -level;
+        goes_down[axis] |= d[axis] < level;
+      }
+    }
+  unsigned octants = 0;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    bool has_rays = true;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      has_rays &= (octant >> axis & 1U) != 0 ? goes_up[axis] : goes_down[axis];
+    octants |= has_rays ? 1U << octant : 0U;
+  }
+  return octants;
+}
+
 } // namespace octascope::ui

@@ -27,6 +27,10 @@ struct RayGeometry {
 
 RayGeometry ray_geometry(const pipeline::VolumeGeometry& geometry, const Camera& camera);
 
+// Which of the eight octants of directions (DistancesAhead) a picture's rays can be in, one bit
+// each.
+unsigned octants_of_rays(const pipeline::VolumeGeometry& geometry, const Camera& camera);
+
 // One and a half mean spacings, so that the same slope is lit the same from everywhere.
 float gradient_mm(const pipeline::VolumeGeometry& geometry);
 

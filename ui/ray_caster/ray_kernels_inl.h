@@ -173,7 +173,8 @@ HWY_INLINE bool first_ray_in_tissue(const RayFrame& frame, const Rays& rays) {
     return false;
   const std::int32_t brick = (hn::GetLane(rays.position.b) >> brick_b_shift) * frame.brick_slab +
                              (hn::GetLane(rays.position.a) >> brick_a_shift) * frame.brick_row +
-                             (hn::GetLane(rays.position.z) >> brick_z_shift);
+                             (hn::GetLane(rays.position.z) >> brick_z_shift) +
+                             hn::GetLane(rays.octant);
   return (frame.bricks[brick] & 0xFF) == 0;
 }
 
@@ -183,7 +184,7 @@ HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
     return;
   while (true) {
     const IntMask active = rays.active();
-    const Int distance = hn::And(brick_at(frame, rays.position, active), whole(0xFF));
+    const Int distance = hn::And(brick_at(frame, rays.octant, rays.position, active), whole(0xFF));
     const IntMask empty = hn::And(active, hn::Gt(distance, hn::Zero(Ints{})));
     if (hn::AllFalse(Ints{}, empty))
       return;
@@ -234,7 +235,7 @@ HWY_INLINE void leap_lower_bricks(const RayFrame& frame, Rays& rays, Int highest
   const Int highest_level = hn::ShiftRight<level_shift>(highest);
   while (true) {
     const IntMask active = rays.active();
-    const Int brick = brick_at(frame, rays.position, active);
+    const Int brick = brick_at(frame, rays.octant, rays.position, active);
     const Int distance = hn::And(brick, whole(0xFF));
     const Int level = hn::And(hn::ShiftRight<8>(brick), whole(0xFF));
     const IntMask lower = hn::And(

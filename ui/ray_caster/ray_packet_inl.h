@@ -25,6 +25,7 @@ inline constexpr int packet_height = lanes / packet_width;
 struct Rays {
   Position position; // of the sample `next`
   BrickAxes axes;
+  Int octant;           // where its bricks begin
   RealVector direction; // mm per mm
   Real first_mm;
   Real cosine; // between ray and view
@@ -139,6 +140,9 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
   rays.axes = {make_brick_axis(fixed(hn::Mul(d.z, step))),
                make_brick_axis(fixed(hn::Mul(d.a, step))),
                make_brick_axis(fixed(hn::Mul(d.b, step)))};
+  rays.octant = hn::Add(hn::And(rays.axes.z.towards, whole(frame.brick_octant)),
+                        hn::Add(hn::And(rays.axes.a.towards, whole(2 * frame.brick_octant)),
+                                hn::And(rays.axes.b.towards, whole(4 * frame.brick_octant))));
   return rays;
 }
 

@@ -164,12 +164,13 @@ inline constexpr int brick_z_shift = 16 + pipeline::brick_depth_shift;
 inline constexpr int brick_a_shift = 16 + pipeline::brick_a_shift;
 inline constexpr int brick_b_shift = 16 + pipeline::brick_b_shift;
 
-// BrickGrid's number for the brick that holds p: distance in bits 0–7, highest level in 8–15.
-HWY_INLINE Int brick_at(const RayFrame& frame, const Position& p, IntMask valid) {
+// DistancesAhead's number for the brick that holds p, of an octant whose bricks begin there:
+// distance in bits 0–7, highest level in 8–15.
+HWY_INLINE Int brick_at(const RayFrame& frame, Int octant, const Position& p, IntMask valid) {
   const Int index =
       hn::Add(hn::Add(hn::Mul(hn::ShiftRight<brick_b_shift>(p.b), whole(frame.brick_slab)),
                       hn::Mul(hn::ShiftRight<brick_a_shift>(p.a), whole(frame.brick_row))),
-              hn::ShiftRight<brick_z_shift>(p.z));
+              hn::Add(hn::ShiftRight<brick_z_shift>(p.z), octant));
   return gather(frame.bricks, hn::ShiftLeft<1>(hn::IfThenElseZero(valid, index)));
 }
 

@@ -4,7 +4,7 @@
 //
 // Positions are cells along depth, fast and slow axis.
 uniform sampler3D u_levels;
-uniform usampler3D u_bricks; // BrickGrid's numbers
+uniform usampler3D u_bricks; // DistancesAround's numbers
 uniform bool u_leap;         // over empty bricks
 uniform ivec3 u_brick_shift; // log2 of a brick's cells
 uniform vec3 u_to_texture_scale;

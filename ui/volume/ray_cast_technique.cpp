@@ -53,6 +53,7 @@ void RayCastTechnique::prepare_bricks(const VolumeScene& scene) {
     return;
   bricks_.update(*scene.occupancy, scene.transfer.visible(),
                  mode_ == RayMode::maximum ? Visibility::maximum : Visibility::range);
+  distances_.measure(bricks_);
   const pipeline::BrickCounts& n = bricks_.counts();
   glActiveTexture(GL_TEXTURE0 + brick_unit);
   if (!brick_texture_ || n != brick_counts_) {
@@ -66,7 +67,7 @@ void RayCastTechnique::prepare_bricks(const VolumeScene& scene) {
   glBindTexture(GL_TEXTURE_3D, brick_texture_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, n.depth, n.a, n.b, GL_RED_INTEGER, GL_UNSIGNED_SHORT,
-                  bricks_.data());
+                  distances_.data());
   brick_source_ = source;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "ui/gl/objects.h"
+#include "ui/ray_caster/brick_distances.h"
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/ray_caster.h"
 #include "ui/volume/transfer_program.h"
@@ -33,6 +34,7 @@ private:
   TransferProgram program_;
   gl::VertexArray vertex_array_; // empty: the vertices come from their index
   BrickGrid bricks_;
+  DistancesAround distances_;
   gl::Texture brick_texture_;
   pipeline::BrickCounts brick_counts_;
   // What the bricks were made of.

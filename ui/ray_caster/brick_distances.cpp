@@ -1,0 +1,147 @@
+#include "ui/ray_caster/brick_distances.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "pipeline/cpu_clones.h"
+
+namespace octascope::ui {
+
+namespace {
+
+// 1 where a neighbour `stride` before or after is 1, within one line or slab of `length`.
+OCTASCOPE_CPU_CLONES
+void spread(const std::uint8_t* from, std::uint8_t* __restrict to, std::size_t length,
+            std::size_t stride) {
+  std::copy_n(from, length, to);
+  if (length <= stride)
+    return;
+  for (std::size_t i = 0; i < length - stride; ++i)
+    to[i] = to[i] | from[i + stride];
+  for (std::size_t i = stride; i < length; ++i)
+    to[i] = to[i] | from[i - stride];
+}
+
+// Counts one brick more for all that are still out of reach; how many these are.
+OCTASCOPE_CPU_CLONES
+std::size_t count_unreached(const std::uint8_t* reach, std::uint8_t* __restrict distance,
+                            std::size_t count) {
+  std::size_t unreached = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    distance[i] = static_cast<std::uint8_t>(distance[i] + (1 - reach[i]));
+    unreached += 1U - reach[i];
+  }
+  return unreached;
+}
+
+OCTASCOPE_CPU_CLONES
+void combine(const std::uint8_t* highest, const std::uint8_t* distance,
+             std::uint16_t* __restrict to, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    to[i] = static_cast<std::uint16_t>((highest[i] << 8U) | distance[i]);
+}
+
+OCTASCOPE_CPU_CLONES
+void take_least(std::uint8_t* __restrict to, const std::uint8_t* from, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i)
+    to[i] = std::min(to[i], from[i]);
+}
+
+// Distances along a line of bricks, from those of the lines beside it: `beside` is the least of
+// them at the same depth. Rays go towards the line's end.
+void measure_line_up(const std::uint8_t* occupied, const std::uint8_t* beside, std::size_t length,
+                     std::uint8_t* distance) {
+  std::uint8_t behind = DistancesAhead::most; // the least at the depth behind, on all four lines
+  for (std::size_t z = length; z-- > 0;) {
+    const std::uint8_t least = std::min(beside[z], behind);
+    const auto one_more = static_cast<std::uint8_t>(least + (least < DistancesAhead::most ? 1 : 0));
+    distance[z] = occupied[z] != 0 ? std::uint8_t{0} : one_more;
+    behind = std::min(beside[z], distance[z]);
+  }
+}
+
+// … towards its beginning.
+void measure_line_down(const std::uint8_t* occupied, const std::uint8_t* beside, std::size_t length,
+                       std::uint8_t* distance) {
+  std::uint8_t behind = DistancesAhead::most;
+  for (std::size_t z = 0; z < length; ++z) {
+    const std::uint8_t least = std::min(beside[z], behind);
+    const auto one_more = static_cast<std::uint8_t>(least + (least < DistancesAhead::most ? 1 : 0));
+    distance[z] = occupied[z] != 0 ? std::uint8_t{0} : one_more;
+    behind = std::min(beside[z], distance[z]);
+  }
+}
+
+} // namespace
+
+// Each round reaches one brick farther, also diagonally: one axis after the other.
+bool DistancesAround::grow_reach(const pipeline::BrickCounts& counts) {
+  const auto line = static_cast<std::size_t>(counts.depth);
+  const std::size_t slab = counts.per_b_scan();
+  const std::size_t all = counts.all();
+  for (std::size_t at = 0; at < all; at += line)
+    spread(reach_.data() + at, next_.data() + at, line, 1);
+  for (std::size_t at = 0; at < all; at += slab)
+    spread(next_.data() + at, reach_.data() + at, slab, line);
+  spread(reach_.data(), next_.data(), all, slab);
+  std::swap(reach_, next_);
+  return count_unreached(reach_.data(), distance_.data(), all) > 0;
+}
+
+void DistancesAround::measure(const BrickGrid& grid) {
+  reach_.assign(grid.occupied().begin(), grid.occupied().end());
+  next_.resize(reach_.size());
+  distance_.resize(reach_.size());
+  numbers_.resize(reach_.size());
+  for (std::size_t i = 0; i < distance_.size(); ++i)
+    distance_[i] = 1 - reach_[i];
+  for (int distance = 1; distance < most; ++distance)
+    if (!grow_reach(grid.counts()))
+      break;
+  combine(grid.highest().data(), distance_.data(), numbers_.data(), distance_.size());
+}
+
+void DistancesAhead::measure(const BrickGrid& grid, unsigned wanted) {
+  const std::size_t all = grid.counts().all();
+  distance_.resize(all);
+  line_.resize(static_cast<std::size_t>(grid.counts().depth));
+  numbers_.resize(octants * all + 1);
+  for (unsigned octant = 0; octant < octants; ++octant)
+    if ((wanted & ~measured_ & (1U << octant)) != 0)
+      measure_octant(grid, octant);
+  measured_ |= wanted;
+}
+
+// A cube of edge e + 1 is empty where this brick is and the cubes of edge e of its seven neighbours
+// ahead are: from the far corner backwards, each brick once.
+void DistancesAhead::measure_octant(const BrickGrid& grid, unsigned octant) {
+  const pipeline::BrickCounts& n = grid.counts();
+  const auto length = static_cast<std::size_t>(n.depth);
+  const bool up_z = (octant & 1U) != 0;
+  const int ahead_a = (octant & 2U) != 0 ? 1 : -1;
+  const int ahead_b = (octant & 4U) != 0 ? 1 : -1;
+  const auto inside = [](int i, int count) { return i >= 0 && i < count; };
+  const auto line_at = [&](int a, int b) {
+    return (static_cast<std::size_t>(b) * static_cast<std::size_t>(n.a) +
+            static_cast<std::size_t>(a)) *
+           length;
+  };
+  for (int i = n.b; i-- > 0;) {
+    const int b = ahead_b > 0 ? i : n.b - 1 - i;
+    for (int j = n.a; j-- > 0;) {
+      const int a = ahead_a > 0 ? j : n.a - 1 - j;
+      std::ranges::fill(line_, std::uint8_t{most});
+      for (const auto& [next_a, next_b] :
+           {std::pair{a + ahead_a, b}, {a, b + ahead_b}, {a + ahead_a, b + ahead_b}})
+        if (inside(next_a, n.a) && inside(next_b, n.b))
+          take_least(line_.data(), distance_.data() + line_at(next_a, next_b), length);
+      const std::size_t at = line_at(a, b);
+      (up_z ? measure_line_up : measure_line_down)(grid.occupied().data() + at, line_.data(),
+                                                   length, distance_.data() + at);
+    }
+  }
+  combine(grid.highest().data(), distance_.data(), numbers_.data() + octant * n.all(), n.all());
+}
+
+} // namespace octascope::ui
