@@ -178,16 +178,20 @@ HWY_INLINE bool first_ray_in_tissue(const RayFrame& frame, const Rays& rays) {
   return (frame.bricks[brick] & 0xFF) == 0;
 }
 
-// Moves active lanes on until each is in a brick that is not empty, or at its end.
+// Moves active lanes out of empty bricks for as long as half of them are in one; the few that are
+// left take samples of what is empty, which changes nothing.
 HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
   if (first_ray_in_tissue(frame, rays))
     return;
-  while (true) {
+  std::size_t leaping = 1, all = 1;
+  while (2 * leaping >= all) {
     const IntMask active = rays.active();
     const Int distance = hn::And(brick_at(frame, rays.octant, rays.position, active), whole(0xFF));
     const IntMask empty = hn::And(active, hn::Gt(distance, hn::Zero(Ints{})));
-    if (hn::AllFalse(Ints{}, empty))
+    leaping = hn::CountTrue(Ints{}, empty);
+    if (leaping == 0)
       return;
+    all = hn::CountTrue(Ints{}, active);
     const Int samples = samples_to_leap(rays.axes, rays.position, hn::Sub(distance, whole(1)));
     rays.leap(hn::IfThenElseZero(empty, samples));
   }
