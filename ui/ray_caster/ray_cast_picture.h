@@ -8,7 +8,6 @@
 #include "hal/result.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
-#include "ui/gl/pixel_uploader.h"
 #include "ui/ray_caster/ray_caster.h"
 #include "ui/volume/picture_key.h"
 
@@ -35,11 +34,10 @@ private:
   void resize(int width, int height);
   hal::Result<> cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                      const VolumePictureKey& key);
-  hal::Result<> upload_image();
+  void upload_image();
   Rect visible_in(const Rect& rect) const;
 
   gl::PicturePass pass_;
-  gl::PixelUploader uploader_;
   gl::Texture texture_;
   RayImage image_;
   RayImage alone_; // the volume without vessels, where these are not opaque
