@@ -89,9 +89,11 @@ class Qemu:
         os.makedirs(folder, exist_ok=True)
         self._folder = folder
         serial, monitor = f"{folder}/serial", f"{folder}/monitor"
+        # Emulated, no processor with AVX: QEMU 7.2 was the first to emulate it, and the code that Mesa
+        # makes for it strays out of its textures there.
         accel = ["-accel", "kvm"] if has_kvm() else ["-accel", "tcg,thread=multi"]
         command = ["qemu-system-x86_64", "-nodefaults", "-machine", "q35", *accel,
-                   "-cpu", "host,arch-capabilities=off" if has_kvm() else "max", "-smp", "2", "-m", "1536",
+                   "-cpu", "host,arch-capabilities=off" if has_kvm() else "Westmere", "-smp", "2", "-m", "1536",
                    "-display", "none", "-vga", "none",
                    "-device", f"virtio-gpu-pci,xres={size[0]},yres={size[1]}",
                    "-drive", f"file={image},format=raw,if=virtio,cache=writethrough",

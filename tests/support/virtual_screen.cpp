@@ -41,9 +41,10 @@ VirtualScreen::VirtualScreen() {
     return;
   }
   const std::string write_end = std::to_string(ends[1]);
-  std::array<const char*, 9> words{"Xvfb",      "-displayfd", write_end.c_str(),
-                                   "-screen",   "0",          "1280x800x24",
-                                   "-nolisten", "tcp",        nullptr};
+  // Without -noreset it begins anew when its last window closes, and takes nobody in meanwhile.
+  std::array<const char*, 10> words{"Xvfb",     "-displayfd",  write_end.c_str(), "-screen",
+                                    "0",        "1280x800x24", "-nolisten",       "tcp",
+                                    "-noreset", nullptr};
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
