@@ -24,24 +24,42 @@ struct LedgerCase {
 
 class Ledger : public testing::TestWithParam<LedgerCase> {};
 
-TEST_P(Ledger, accounts_for_every_planned_volume) {
+struct LedgerRun {
+  std::string script; // of the faults
+  ProgramResult result;
+  nlohmann::json report;
+
+  int planned() const { return report.at("volumes").at("planned"); }
+};
+
+LedgerRun run_of(const LedgerCase& wanted) {
   const ScratchFolder folder;
   const std::string report_file = folder / "report.json";
   std::vector<std::string> more{"--report", report_file};
-  more.insert(more.end(), GetParam().end.begin(), GetParam().end.end());
-  if (!GetParam().controls.empty())
-    more.insert(more.end(), {"--controls", folder.write("controls.toml", GetParam().controls)});
-  std::string script;
-  if (GetParam().faults) {
-    script = random_faults(fresh_seed(), 0, 10, 0.3);
-    more.insert(more.end(), {"--faults", folder.write("faults.toml", script)});
+  more.insert(more.end(), wanted.end.begin(), wanted.end.end());
+  if (!wanted.controls.empty())
+    more.insert(more.end(), {"--controls", folder.write("controls.toml", wanted.controls)});
+  LedgerRun run;
+  if (wanted.faults) {
+    run.script = random_faults(fresh_seed(), 0, 10, 0.3);
+    more.insert(more.end(), {"--faults", folder.write("faults.toml", run.script)});
   }
-  const ProgramResult result = run_octascope(small_run(folder, more));
-  ASSERT_EQ(result.exit_status, 0) << result.describe() << script;
-  const nlohmann::json report = read_report(report_file);
-  EXPECT_EQ(unbalanced(report), "") << report.dump(2) << script;
-  EXPECT_GE(report["volumes"]["planned"], 1);
-  EXPECT_LE(report["volumes"]["unfinished"], 3) << "no more are built at once";
+  run.result = run_octascope(small_run(folder, more));
+  run.report = read_report(report_file);
+  return run;
+}
+
+TEST_P(Ledger, accounts_for_every_planned_volume) {
+  // Faults may keep the camera away for the whole of so short a run: then others are drawn.
+  int planned = 0;
+  for (int attempt = 0; attempt < (GetParam().faults ? 5 : 1) && planned == 0; ++attempt) {
+    const LedgerRun run = run_of(GetParam());
+    ASSERT_EQ(run.result.exit_status, 0) << run.result.describe() << run.script;
+    EXPECT_EQ(unbalanced(run.report), "") << run.report.dump(2) << run.script;
+    EXPECT_LE(run.report["volumes"]["unfinished"], 3) << "no more are built at once";
+    planned = run.planned();
+  }
+  EXPECT_GE(planned, 1);
 }
 
 constexpr const char* freezes_at_the_end = "[[event]]\ntime_s = 2.0\nswitch = 1\nvalue = 1\n"
