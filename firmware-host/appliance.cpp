@@ -307,7 +307,7 @@ void AssembledAppliance::make_render_loop() {
           .display = devices_->display(),
           .clock = clock_,
           .volumes = *volumes_,
-          .acquisition = *acquisition_,
+          .acquisition = acquisition_.get(),
           .scope = scope_.get(),
           .controls = *controls_,
           .faults = faults_,

@@ -279,9 +279,10 @@ void RenderLoop::update_status() {
   s.now = parts_.clock.now();
   const pipeline::VolumeCounters counters = parts_.volumes.counters();
   volume_rate_.update(counters.acquired, s.now);
-  line_rate_.update(parts_.acquisition.counters().frames *
-                        static_cast<std::uint64_t>(setup_.lines_per_frame),
-                    s.now);
+  if (parts_.acquisition != nullptr)
+    line_rate_.update(parts_.acquisition->counters().frames *
+                          static_cast<std::uint64_t>(setup_.lines_per_frame),
+                      s.now);
   s.lines_per_s = line_rate_.per_second();
   frame_rate_.update(statistics_.frames_drawn, s.now);
   s.volumes_per_s = volume_rate_.per_second();

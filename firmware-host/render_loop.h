@@ -19,7 +19,7 @@
 #include "pipeline/fault_log.h"
 #include "pipeline/retry_delay.h"
 #include "pipeline/scope_thread.h"
-#include "pipeline/volume_thread.h"
+#include "pipeline/volume_feed.h"
 #include "pipeline/wakeup.h"
 #include "ui/auto_window.h"
 #include "ui/controls/legend_lines.h"
@@ -38,8 +38,8 @@ namespace octascope::firmware_host {
 struct RenderLoopParts {
   hal::Display& display;
   hal::Clock& clock;
-  pipeline::VolumeThread& volumes;
-  const pipeline::Acquisition& acquisition;
+  pipeline::VolumeFeed& volumes;
+  const pipeline::Acquisition* acquisition; // null: the volumes come from no camera
   pipeline::ScopeThread* scope; // null: there is no scope camera
   pipeline::ControlThread& controls;
   pipeline::FaultLog& faults;

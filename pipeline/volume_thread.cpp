@@ -86,12 +86,12 @@ void VolumeThread::stop() {
   phase_.stop();
 }
 
-const Volume* VolumeThread::take_newest() {
+const Volume* VolumeThread::do_take_newest() {
   const auto index = triple_buffer_.take();
   return index ? &volumes_[*index] : nullptr;
 }
 
-VolumeCounters VolumeThread::counters() const {
+VolumeCounters VolumeThread::do_counters() const {
   return {.planned = counts_.planned,
           .triggered = counts_.triggered,
           .acquired = counts_.acquired,

@@ -35,6 +35,7 @@
 #include "pipeline/triple_buffer.h"
 #include "pipeline/volume.h"
 #include "pipeline/volume_assembler.h"
+#include "pipeline/volume_feed.h"
 #include "pipeline/wakeup.h"
 #include "pipeline/worker_pool.h"
 
@@ -54,48 +55,27 @@ struct VolumeThreadSetup {
   std::optional<std::uint64_t> most_volumes; // then no more are triggered
 };
 
-// Double-entry: what is counted at the beginning of a volume must be found again at its end, once
-// the thread has stopped: planned = acquired + lost_volumes + unfinished.
-struct VolumeCounters {
-  std::uint64_t planned = 0; // ticks, each of which should bring a volume
-  std::uint64_t triggered = 0;
-  std::uint64_t acquired = 0; // at least one B-scan came
-  std::uint64_t published = 0;
-  std::uint64_t skipped = 0;      // published, and replaced before the renderer took them
-  std::uint64_t lost_lines = 0;   // kept lines of every sweep that did not come whole and in time
-  std::uint64_t lost_b_scans = 0; // of which no sweep did
-  std::uint64_t lost_volumes = 0; // ticks of which nothing came
-  std::uint64_t unfinished = 0;   // under way when the thread was stopped
-  std::uint64_t saturated_lines = 0;
-};
-
 struct PipelineStatistics {
   DurationStatistics reconstruct; // work of all workers for one volume
   DurationStatistics assemble;
   DurationStatistics publish;
 };
 
-class VolumeThread {
+class VolumeThread final : public VolumeFeed {
 public:
   // All references outlive this; `arrived` is the one the acquisition posts, `news` is posted
   // after each published volume.
   VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger, Acquisition& acquisition,
                hal::LineCamera& camera, hal::Clock& clock, FaultLog& faults, Wakeup& arrived,
                Wakeup& news);
-  ~VolumeThread();
+  ~VolumeThread() override;
 
   void start(const ThreadSetup& setup);
 
   // Ends thread and workers and closes the trigger; volumes under way are counted as unfinished.
   void stop();
 
-  // The renderer's side of the triple buffer (one thread): the newest volume if one came since the
-  // last call; valid and unchanged until the next call that returns one.
-  const Volume* take_newest();
-  bool has_newer() const { return triple_buffer_.has_newer(); }
-
   // Any thread.
-  VolumeCounters counters() const;
   const PipelineStatistics& statistics() const { return statistics_; }
   PhaseStatus phase() const { return phase_.status(); }
 
@@ -125,6 +105,11 @@ private:
     std::atomic<std::uint64_t> planned{0}, triggered{0}, acquired{0}, published{0}, skipped{0},
         lost_lines{0}, lost_b_scans{0}, lost_volumes{0}, unfinished{0}, saturated_lines{0};
   };
+
+  // The renderer's side of the triple buffer.
+  const Volume* do_take_newest() override;
+  bool do_has_newer() const override { return triple_buffer_.has_newer(); }
+  VolumeCounters do_counters() const override;
 
   static constexpr std::uint32_t pool_size = 5; // middle, renderer's, and three to build in
 

@@ -191,7 +191,7 @@ void LoopStage::start(ui::ViewState view) {
       firmware_host::RenderLoopParts{.display = display_,
                                      .clock = clock_,
                                      .volumes = *volumes_,
-                                     .acquisition = *acquisition_,
+                                     .acquisition = acquisition_.get(),
                                      .scope = scope_thread_.get(),
                                      .controls = *control_thread_,
                                      .faults = faults_,
