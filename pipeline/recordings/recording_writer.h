@@ -1,9 +1,9 @@
 // Appends volumes to a recording, as they come.
 //
-// What was appended and flushed outlives the program and, as far as the disk keeps its word, a power
-// cut: the file is one that HDF5 writes for readers who look on (single writer, multiple readers),
-// and so is consistent at every moment. It carries its name from the start; `finished` in it tells
-// whether it was closed properly.
+// What was appended and flushed outlives the program and, as far as the disk keeps its word, a
+// power cut: the file is one that HDF5 writes for readers who look on (single writer, multiple
+// readers), and so is consistent at every moment. It carries its name from the start; `finished` in
+// it tells whether it was closed properly.
 #pragma once
 
 #include <filesystem>

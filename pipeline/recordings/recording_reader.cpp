@@ -1,0 +1,219 @@
+#include "pipeline/recordings/recording_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <span>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include "pipeline/recordings/hdf5.h"
+#include "pipeline/recordings/recording_attributes.h"
+#include "pipeline/recordings/recording_layout.h"
+
+namespace octascope::pipeline {
+
+namespace layout = recording_layout;
+
+struct RecordingReader::File {
+  std::filesystem::path path;
+  RecordingFacts facts;
+  RecordingEnd end;
+  std::vector<RecordedVolume> volumes;
+  Hdf5Handle file, levels, states;
+};
+
+namespace {
+
+// One that was never finished counts as being written.
+Hdf5Handle open_file(const std::filesystem::path& path) {
+  Hdf5Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+  if (!file.valid())
+    file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose};
+  return file;
+}
+
+// HDF5's own limit for a chunk, and more volumes than a year has: what a file claims beyond them is
+// not to be given memory.
+constexpr std::size_t most_voxels = 0xFFFFFFFF;
+constexpr hsize_t most_volumes = 500'000'000;
+
+// A dataset whose dimensions but the first are `expected`; the first is put into `volumes`.
+hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t type_class,
+                                     std::span<const hsize_t> expected, hsize_t& volumes) {
+  const Hdf5Handle access{H5Pcreate(H5P_DATASET_ACCESS), H5Pclose};
+  H5Pset_chunk_cache(access, 0, 0, 0);
+  Hdf5Handle dataset{H5Dopen2(file, name, access), H5Dclose};
+  if (!dataset.valid())
+    return hal::fail(hal::Fault::bad_data, fmt::format("found no dataset /{}", name));
+  const Hdf5Handle type{H5Dget_type(dataset), H5Tclose};
+  const Hdf5Handle space{H5Dget_space(dataset), H5Sclose};
+  std::array<hsize_t, 4> found{};
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank < 1 || rank > 4 || H5Sget_simple_extent_dims(space, found.data(), nullptr) != rank)
+    return hal::fail(hal::Fault::bad_data, fmt::format("/{}: found {} dimensions, expected {}",
+                                                       name, rank, expected.size()));
+  const auto sizes = std::span{found}.first(static_cast<std::size_t>(rank));
+  if (H5Tget_class(type) != type_class || sizes.size() != expected.size() ||
+      !std::ranges::equal(sizes.subspan(1), expected.subspan(1)))
+    return hal::fail(hal::Fault::bad_data,
+                     fmt::format("/{}: found {} of class {}, expected [volumes, {}] of class {}",
+                                 name, sizes, static_cast<int>(H5Tget_class(type)),
+                                 fmt::join(expected.subspan(1), ", "),
+                                 static_cast<int>(type_class)));
+  volumes = found[0];
+  return dataset;
+}
+
+// The first `count` of them.
+hal::Result<std::vector<RecordedVolume>> read_entries(hid_t ledger, hsize_t count) {
+  std::vector<RecordedVolume> entries(count);
+  const hsize_t start = 0;
+  const Hdf5Handle type = layout::ledger_type();
+  const Hdf5Handle from{H5Dget_space(ledger), H5Sclose};
+  const Hdf5Handle to{H5Screate_simple(1, &count, nullptr), H5Sclose};
+  if (count > 0 &&
+      (H5Sselect_hyperslab(from, H5S_SELECT_SET, &start, nullptr, &count, nullptr) < 0 ||
+       H5Dread(ledger, type, to, from, H5P_DEFAULT, entries.data()) < 0))
+    return hal::fail(hal::Fault::bad_data, "/ledger: cannot be read: " + hdf5_reason());
+  return entries;
+}
+
+bool read_row(hid_t dataset, std::span<const hsize_t> size, std::size_t n, void* row) {
+  std::array<hsize_t, 4> start{};
+  std::array<hsize_t, 4> count{};
+  std::ranges::copy(size, count.begin());
+  start[0] = n;
+  count[0] = 1;
+  const Hdf5Handle from{H5Dget_space(dataset), H5Sclose};
+  const Hdf5Handle to{H5Screate_simple(static_cast<int>(size.size()), count.data(), nullptr),
+                      H5Sclose};
+  return H5Sselect_hyperslab(from, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >=
+             0 &&
+         H5Dread(dataset, H5T_NATIVE_UINT8, to, from, H5P_DEFAULT, row) >= 0;
+}
+
+hal::TimePoint time_point(std::int64_t ns) {
+  return hal::TimePoint{hal::Duration{ns}};
+}
+
+// The file itself, before HDF5 looks at it.
+hal::Result<> check_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status))
+    return hal::fail(hal::Fault::absent, "there is no such file");
+  if (std::filesystem::is_directory(status))
+    return hal::fail(hal::Fault::invalid_argument, "found a folder, expected a recording");
+  if (::access(path.c_str(), R_OK) != 0)
+    return hal::fail(hal::Fault::denied, std::string{"cannot be read: "} + std::strerror(errno));
+  return {};
+}
+
+} // namespace
+
+RecordingReader::RecordingReader(std::unique_ptr<File> file) : file_(std::move(file)) {}
+RecordingReader::RecordingReader(RecordingReader&&) noexcept = default;
+RecordingReader& RecordingReader::operator=(RecordingReader&&) noexcept = default;
+
+RecordingReader::~RecordingReader() {
+  const Hdf5Silence silence;
+  file_.reset();
+}
+
+hal::Result<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
+  const Hdf5Silence silence;
+  const auto refused = [&](const hal::Error& error) {
+    return hal::fail(error.fault, fmt::format("{}: {}", path.string(), error.message));
+  };
+  if (const auto checked = check_file(path); !checked)
+    return refused(checked.error());
+  auto opened = std::make_unique<File>();
+  opened->path = path;
+  opened->file = open_file(path);
+  if (!opened->file.valid())
+    return refused({hal::Fault::bad_data, "is no recording, or a damaged one: " + hdf5_reason()});
+  auto facts = read_facts(opened->file);
+  if (!facts)
+    return refused(facts.error());
+  opened->facts = std::move(*facts);
+  const auto end = read_end(opened->file);
+  if (!end)
+    return refused(end.error());
+  opened->end = *end;
+
+  const VolumeGeometry& geometry = opened->facts.geometry;
+  std::array<hsize_t, 3> counts{};
+  auto levels = open_dataset(opened->file, layout::levels, H5T_INTEGER,
+                             layout::levels_size(geometry, 0), counts[0]);
+  if (!levels)
+    return refused(levels.error());
+  opened->levels = std::move(*levels);
+  auto states = open_dataset(opened->file, layout::b_scan_states, H5T_INTEGER,
+                             layout::states_size(geometry, 0), counts[1]);
+  if (!states)
+    return refused(states.error());
+  opened->states = std::move(*states);
+  const auto ledger =
+      open_dataset(opened->file, layout::ledger, H5T_COMPOUND, std::array<hsize_t, 1>{}, counts[2]);
+  if (!ledger)
+    return refused(ledger.error());
+  if (geometry.voxels() > most_voxels || std::ranges::min(counts) > most_volumes)
+    return refused(
+        {hal::Fault::bad_data,
+         fmt::format("found {} volumes of {} voxels, expected at most {} of {}",
+                     std::ranges::min(counts), geometry.voxels(), most_volumes, most_voxels)});
+  // Of one that broke off, the last volume may lack its entry.
+  auto entries = read_entries(*ledger, std::ranges::min(counts));
+  if (!entries)
+    return refused(entries.error());
+  opened->volumes = std::move(*entries);
+  return RecordingReader{std::move(opened)};
+}
+
+const RecordingFacts& RecordingReader::facts() const {
+  return file_->facts;
+}
+const RecordingEnd& RecordingReader::end() const {
+  return file_->end;
+}
+const std::vector<RecordedVolume>& RecordingReader::volumes() const {
+  return file_->volumes;
+}
+
+hal::Result<> RecordingReader::read(std::size_t n, Volume& volume) {
+  const Hdf5Silence silence;
+  const VolumeGeometry& geometry = file_->facts.geometry;
+  if (n >= file_->volumes.size() || volume.geometry != geometry)
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("{}: found a wish for volume {}, expected 0 to {}, into one of "
+                                 "the recording's geometry",
+                                 file_->path.string(), n,
+                                 static_cast<std::int64_t>(file_->volumes.size()) - 1));
+  if (!read_row(file_->levels, layout::levels_size(geometry, 0), n, volume.levels.data()) ||
+      !read_row(file_->states, layout::states_size(geometry, 0), n, volume.b_scan_states.data()))
+    return hal::fail(hal::Fault::bad_data, fmt::format("{}: volume {} cannot be read: {}",
+                                                       file_->path.string(), n, hdf5_reason()));
+  for (BScanState& state : volume.b_scan_states)
+    if (state > BScanState::saturated)
+      return hal::fail(hal::Fault::bad_data,
+                       fmt::format("{}: volume {}: found {} as a B-scan's state, expected 0 "
+                                   "(missing), 1 (good) or 2 (saturated)",
+                                   file_->path.string(), n, static_cast<int>(state)));
+  const RecordedVolume& entry = file_->volumes[n];
+  volume.ledger = {.index = entry.index,
+                   .armed = time_point(entry.first_line_ns),
+                   .first_line = time_point(entry.first_line_ns),
+                   .last_line = time_point(entry.last_line_ns),
+                   .published = time_point(entry.published_ns),
+                   .lost_b_scans = entry.lost_b_scans,
+                   .lost_lines = entry.lost_lines,
+                   .saturated_lines = entry.saturated_lines,
+                   .phase_offset_a_scans = entry.phase_offset_a_scans};
+  return {};
+}
+
+} // namespace octascope::pipeline
