@@ -31,6 +31,7 @@
 #include "pipeline/atomic_file.h"
 #include "pipeline/png_image.h"
 #include "pipeline/reconstructor.h"
+#include "pipeline/volume_thread.h"
 #include "ui/splash.h"
 
 namespace octascope::firmware_host {
