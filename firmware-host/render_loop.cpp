@@ -204,7 +204,8 @@ void RenderLoop::answer(const ui::ControlRequests& requests) {
   if (requests.keep_registration && parts_.vessels != nullptr && volume_ != nullptr)
     parts_.vessels->keep_registration(volume_->geometry, controller_.actions());
   if (requests.record)
-    controller_.actions().tell(ui::Action::record, "not available in this version",
+    controller_.actions().tell(ui::Action::record,
+                               parts_.record ? parts_.record() : "not of this picture",
                                parts_.clock.now());
 }
 

@@ -40,13 +40,15 @@ struct RenderLoopParts {
   hal::Clock& clock;
   pipeline::VolumeFeed& volumes;
   const pipeline::Acquisition* acquisition; // null: the volumes come from no camera
-  pipeline::ScopeThread* scope; // null: there is no scope camera
+  pipeline::ScopeThread* scope;             // null: there is no scope camera
   pipeline::ControlThread& controls;
   pipeline::FaultLog& faults;
   pipeline::Wakeup& news; // posted by the three threads above
   // A picture that the surgeon asked for; called on the render thread, so it must not take long.
   // False: it could not be kept.
   std::function<bool(pipeline::Image)> keep_picture;
+  // Begins a recording or ends the one that is on; what to say of it. Empty: there are none.
+  std::function<std::string_view()> record;
   // Keys that stand for the simulated pedal; empty where the pedal is real.
   std::function<void(const hal::ControlEvent&)> simulated_control;
   pipeline::ThreadSetup threads;    // of those that help drawing

@@ -24,6 +24,7 @@ enum class BadgeKind : std::uint8_t {
   frozen,
   configuration,
   unregistered,
+  recording,
   incomplete
 };
 
@@ -69,7 +70,7 @@ struct ShownPictures {
 };
 
 struct HudText {
-  static constexpr std::size_t most_badges = 6; // one a kind, and two incomplete
+  static constexpr std::size_t most_badges = 7; // one a kind, and two incomplete
 
   // Lines, frames and volumes a second: left out in this order where the bar has no room.
   static constexpr std::array<std::size_t, 3> dispensable_cells{1, 2, 0};
