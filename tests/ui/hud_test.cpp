@@ -50,6 +50,20 @@ TEST(HudText, badges_say_what_is_not_live) {
   EXPECT_EQ(badges_of(status)[3], "4 lines saturated");
 }
 
+TEST(HudText, a_recording_says_how_long_and_of_which_eye) {
+  using Words = std::vector<std::string>;
+  Status status = live_status();
+  status.simulated = false;
+  status.recording = {.on = true, .lasted = std::chrono::seconds{75}};
+  EXPECT_EQ(badges_of(status), Words{"REC 1:15, eye not said"});
+  status.recording.eye = pipeline::Eye::left;
+  EXPECT_EQ(badges_of(status), Words{"REC 1:15, left eye"});
+  status.recording.eye = pipeline::Eye::right;
+  EXPECT_EQ(badges_of(status), Words{"REC 1:15, right eye"});
+  status.recording.not_kept = 3;
+  EXPECT_EQ(badges_of(status), Words{"REC 1:15, 3 not kept"});
+}
+
 TEST(HudText, figures_have_their_units_and_losses_warn) {
   Status status = live_status();
   HudText hud = compose_hud_text({}, status, {});
