@@ -40,7 +40,7 @@ struct RenderLoopParts {
   hal::Clock& clock;
   pipeline::VolumeFeed& volumes;
   const pipeline::Acquisition* acquisition; // null: the volumes come from no camera
-  pipeline::ScopeThread* scope; // null: there is no scope camera
+  pipeline::ScopeThread* scope;             // null: there is no scope camera
   pipeline::ControlThread& controls;
   pipeline::FaultLog& faults;
   pipeline::Wakeup& news; // posted by the three threads above
@@ -138,6 +138,7 @@ private:
   void find_window();
   void keep_picture();
   void take_volume();
+  void tell_origin(const pipeline::VolumeLedger& ledger);
   void take_scope_picture();
   void update_status();
   void draw_if_changed();
