@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <fstream>
 #include <span>
+#include <sstream>
 #include <thread>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "firmware-host/picture_keeper.h"
 #include "firmware-host/process_start.h"
 #include "firmware-host/reconstruction_cache.h"
+#include "firmware-host/recording_keeper.h"
 #include "firmware-host/render_loop.h"
 #include "firmware-host/report.h"
 #include "firmware-host/run_account.h"
@@ -61,6 +64,17 @@ std::filesystem::path picture_folder() {
   return *state / "pictures";
 }
 
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream{file, std::ios::binary}.rdbuf();
+  return text.str();
+}
+
+std::filesystem::path recording_folder(const Configuration& configuration) {
+  const auto state = service_folders().state;
+  return configuration.recording_folder.value_or(state ? *state / "recordings" : ".");
+}
+
 class AssembledAppliance final : public Appliance {
 public:
   AssembledAppliance(RunOptions options, const ChosenConfiguration& chosen,
@@ -72,7 +86,8 @@ public:
                       .metrics = configuration_.metrics,
                       .journal = stderr_is_journal()},
                      crash_report, clock_, faults_),
-        keeper_(chosen, options_, service_folders().state, clock_, faults_) {}
+        keeper_(chosen, options_, service_folders().state, clock_, faults_),
+        configuration_text_(chosen.used ? text_of(*chosen.used) : std::string{}) {}
 
   // The trigger goes, and crashes are reported on.
   ~AssembledAppliance() override { supervision_.crash_report().set_last_act(nullptr, nullptr); }
@@ -99,10 +114,12 @@ public:
     if (auto registered = load_registration(); !registered)
       return registered;
     supervision_.starting("measuring the reconstruction");
-    return make_reconstruction().map([this] {
-      make_threads();
-      make_render_loop();
-    });
+    if (auto made = make_reconstruction(); !made)
+      return made;
+    make_recordings();
+    make_threads();
+    make_render_loop();
+    return recordings_->check();
   }
 
   void follow_configuration(std::unique_ptr<ConfigurationWatch> watch) {
@@ -133,6 +150,7 @@ private:
   void show_splash();
   hal::Result<> load_registration();
   hal::Result<> make_reconstruction();
+  void make_recordings();
   void make_threads();
   void make_render_loop();
   hal::Result<> start_threads();
@@ -163,6 +181,8 @@ private:
   std::optional<pipeline::NeighbourAverage> average_;
   pipeline::Wakeup arrived_; // B-scans, for the fixed-rate thread
   pipeline::Wakeup news_;    // anything new to show, for the render thread
+  std::string configuration_text_;
+  std::unique_ptr<RecordingKeeper> recordings_; // outlives the volumes' thread
   std::unique_ptr<pipeline::Acquisition> acquisition_;
   std::unique_ptr<pipeline::VolumeThread> volumes_;
   std::unique_ptr<pipeline::ScopeThread> scope_;
@@ -209,6 +229,23 @@ hal::Result<> AssembledAppliance::make_reconstruction() {
   return {};
 }
 
+void AssembledAppliance::make_recordings() {
+  const pipeline::ScanPlan& plan = devices_->plan();
+  recordings_ = std::make_unique<RecordingKeeper>(
+      RecordingSetup{.folder = recording_folder(configuration_),
+                     .file = options_.record_to,
+                     .facts = {.geometry = plan.geometry(),
+                               .volume_period_s = hal::to_seconds(plan.tick_period()),
+                               .recorded_by = fmt::format("octascope {}", version()),
+                               .begun = {}, // each its own
+                               .source = devices_->source(),
+                               .simulated = devices_->simulated(),
+                               .subject = options_.subject,
+                               .eye = options_.eye,
+                               .configuration = configuration_text_}},
+      clock_, faults_, news_);
+}
+
 void AssembledAppliance::make_threads() {
   const hal::LineCameraConfig camera{.format = devices_->format(),
                                      .line_rate_hz = devices_->plan().line_rate_hz,
@@ -233,6 +270,7 @@ void AssembledAppliance::make_threads() {
             if (backgrounds_)
               backgrounds_->take(frame);
           },
+      .observe_volume = [this](const pipeline::Volume& volume) { recordings_->offer(volume); },
       .average = *average_,
       .most_volumes = options_.volumes,
   };
@@ -289,6 +327,7 @@ void AssembledAppliance::make_render_loop() {
           .news = news_,
           .keep_picture =
               [this](pipeline::Image picture) { return pictures_.keep(std::move(picture)); },
+          .record = [this] { return recordings_->toggle(); },
           .simulated_control =
               controls == nullptr
                   ? std::function<void(const hal::ControlEvent&)>{}
@@ -303,6 +342,8 @@ hal::Result<> AssembledAppliance::start_threads() {
   devices_->start_faults(started_);
   const pipeline::ThreadSetup setup =
       make_thread_setup(clock_, faults_, *worker_cores_, &supervision_.threads());
+  if (auto started = recordings_->start(setup); !started)
+    return started;
   if (auto started = acquisition_->start(setup); !started)
     return started;
   volumes_->start(setup);
@@ -315,6 +356,7 @@ hal::Result<> AssembledAppliance::start_threads() {
 // Consumers first: the acquisition waits for its loans.
 void AssembledAppliance::stop_threads() {
   volumes_->stop();
+  recordings_->stop();
   acquisition_->stop();
   if (scope_)
     scope_->stop();
@@ -367,6 +409,7 @@ void AssembledAppliance::update_status() {
   if (const hal::ScopeCamera* const camera = devices_->scope_camera())
     status.devices[status.device_count++] = {"scope", camera->backend(), camera->state()};
   const hal::TimePoint now = clock_.now();
+  status.recording = recordings_->status(now);
   const auto devices = std::span<const ui::DeviceStatus>{status.devices}.first(status.device_count);
   std::string_view notice = compose_notice(faults_.records(), devices, now);
   if (notice.empty())
@@ -400,6 +443,9 @@ AssembledAppliance::leave_behind(const std::optional<pipeline::Image>& picture) 
       return written;
     fmt::print("report:   {}\n", options_.report->string());
   }
+  for (const KeptRecording& recording : recordings_->kept())
+    fmt::print("recording: {}, {} volumes{}\n", recording.file.string(), recording.kept,
+               recording.not_kept > 0 ? fmt::format(", {} not kept", recording.not_kept) : "");
   return leave_snapshot(options_, picture);
 }
 

@@ -189,6 +189,7 @@ hal::Result<Configuration> read_configuration(const pipeline::ConfigDocument& do
   configuration.look = read_look(root, display);
   read_controls(root.table("controls"), configuration);
   configuration.metrics = root.table("observation").output_path("metrics");
+  configuration.recording_folder = root.table("recordings").output_path("folder");
   read_sim(root.table("sim"), configuration);
   read_optics(root, configuration);
   if (const auto finished = document.finish(); !finished)

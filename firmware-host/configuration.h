@@ -48,6 +48,8 @@ struct Configuration {
   std::optional<std::filesystem::path> control_file; // in its place
   // [observation]
   std::optional<std::filesystem::path> metrics; // written anew every ten seconds
+  // [recordings]
+  std::optional<std::filesystem::path> recording_folder;
   // [sim]
   std::string phantom = "anterior_eye";
   int loop_volumes = 6;

@@ -211,7 +211,8 @@ void RenderLoop::answer(const ui::ControlRequests& requests) {
   if (requests.record)
     controller_.actions().tell(ui::Action::record,
                                setup_.status.replay ? "not while a recording is replayed"
-                                                    : "not available in this version",
+                               : parts_.record      ? parts_.record()
+                                                    : "not of this picture",
                                parts_.clock.now());
 }
 

@@ -47,6 +47,8 @@ struct RenderLoopParts {
   // A picture that the surgeon asked for; called on the render thread, so it must not take long.
   // False: it could not be kept.
   std::function<bool(pipeline::Image)> keep_picture;
+  // Begins a recording or ends the one that is on; what to say of it. Empty: there are none.
+  std::function<std::string_view()> record;
   // Keys that stand for the simulated pedal; empty where the pedal is real.
   std::function<void(const hal::ControlEvent&)> simulated_control;
   pipeline::ThreadSetup threads;    // of those that help drawing

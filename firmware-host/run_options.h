@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "pipeline/eye.h"
 #include "pipeline/spectra_file.h"
 
 namespace octascope::firmware_host {
@@ -45,6 +46,9 @@ struct RunOptions {
   std::optional<std::filesystem::path> vessels;      // a tree, shown in the volume
   std::optional<std::filesystem::path> registration; // of it to the volume
   bool bidirectional = false;                        // whatever the plan says otherwise
+  std::optional<std::filesystem::path> record_to;    // all volumes, from the first on
+  std::string subject;                               // of recordings; empty: not said
+  pipeline::Eye eye = pipeline::Eye::not_said;       // likewise
   std::optional<int> repeats;                        // likewise
 };
 

@@ -381,6 +381,8 @@ void VolumeThread::finish(std::uint32_t index) {
   if (skipped)
     counts_.skipped.fetch_add(1, std::memory_order_relaxed);
   news_.post();
+  if (setup_.observe_volume) // it stays as it is until the next one is published, here
+    setup_.observe_volume(volume);
 }
 
 void VolumeThread::fill_ledger(Volume& volume, const Construction& c) {

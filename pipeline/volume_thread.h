@@ -45,12 +45,17 @@ namespace octascope::pipeline {
 // it, for what depends on that order; must not throw or allocate. May be empty.
 using ObserveFrame = std::function<void(const hal::LineFrame& frame)>;
 
+// Called on the volume thread with each volume that was published, when the renderer could have
+// taken it already; must not throw, allocate or wait. May be empty.
+using ObserveVolume = std::function<void(const Volume& volume)>;
+
 struct VolumeThreadSetup {
   ScanPlan plan;
   hal::GalvoTriggerConfig trigger;
   std::size_t workers = 1;
   ReconstructSweep reconstruct;
   ObserveFrame observe = {};
+  ObserveVolume observe_volume = {};
   NeighbourAverage average;
   std::optional<std::uint64_t> most_volumes; // then no more are triggered
 };

@@ -10,6 +10,7 @@
 
 #include "hal/clock.h"
 #include "hal/device.h"
+#include "pipeline/eye.h"
 #include "ui/controls/legend_lines.h"
 #include "ui/freshness.h"
 #include "ui/vessels/vessel_scene.h"
@@ -57,6 +58,15 @@ enum class ConfigurationState : std::uint8_t {
   built_in,  // the program's own: scale and calibration may be another device's
 };
 
+// Volumes are being kept.
+struct RecordingStatus {
+  bool on = false;
+  hal::Duration lasted{};
+  std::uint64_t not_kept = 0; // volumes for which the disk was too slow
+  pipeline::Eye eye = pipeline::Eye::not_said;
+  bool operator==(const RecordingStatus&) const = default;
+};
+
 struct Status {
   static constexpr std::size_t most_devices = 8;
 
@@ -87,6 +97,8 @@ struct Status {
   std::optional<float> reduced_quality;
 
   VesselStatus vessels;
+
+  RecordingStatus recording;
 
   // What pedal and knob do, and what keys do; null: nothing to show. They outlive every draw().
   const Legend* legend = nullptr;

@@ -1,4 +1,5 @@
-// octascope run: the appliance.
+// octascope run: the appliance. octascope record: the same, with its volumes kept from the first
+// on.
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -22,7 +23,8 @@ namespace {
 // As text, the way CLI11 collects it.
 struct RunArguments {
   std::string configuration, display = "auto", size, spectra, shape, calibration, snapshot, report,
-                             faults, controls, phantom, vessels, registration;
+                             faults, controls, phantom, vessels, registration, record_to, subject,
+                             eye;
   bool simulate = false;
   bool bidirectional = false;
   int repeats = 0;
@@ -63,6 +65,9 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
   if (!a.phantom.empty())
     o.phantom = a.phantom;
   o.bidirectional = a.bidirectional;
+  o.record_to = path_of(a.record_to);
+  o.subject = a.subject;
+  o.eye = pipeline::eye_named(a.eye).value_or(pipeline::Eye::not_said);
   if (a.repeats > 0)
     o.repeats = a.repeats;
   if (a.duration_s > 0)
@@ -87,33 +92,73 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
 }
 
 // Complaints about what was asked for are wrong use; what fails on the way is a failure.
-int complain(const hal::Error& error) {
-  fmt::print(stderr, "octascope run: {}\n", error.message);
+int complain(const char* command, const hal::Error& error) {
+  fmt::print(stderr, "octascope {}: {}\n", command, error.message);
   return error.fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
 }
 
-int run(const RunArguments& arguments) {
+int run(const char* command, const RunArguments& arguments) {
   const auto options = options_of(arguments);
   if (!options)
-    return complain(options.error());
+    return complain(command, options.error());
   StopSignal stop_signal; // before the first thread
   CrashReport crash_report;
   if (const auto state = service_folders().state)
     if (const auto kept = crash_report.keep_in(crash_folder(*state)); !kept)
-      fmt::print(stderr, "octascope run: {}\n", kept.error().message);
+      fmt::print(stderr, "octascope {}: {}\n", command, kept.error().message);
   auto appliance = Appliance::assemble(*options, crash_report);
   if (!appliance)
-    return complain(appliance.error());
+    return complain(command, appliance.error());
   if (const auto ran = (*appliance)->run(stop_signal); !ran)
-    return complain(ran.error());
+    return complain(command, ran.error());
   return exit_done;
+}
+
+void add_options(CLI::App& command, RunArguments& a) {
+  command.add_option("--config", a.configuration, "Configuration (TOML)");
+  command.add_option("--display", a.display, "Where the picture goes")
+      ->check(CLI::IsMember({"auto", "kms", "window", "offscreen"}))
+      ->capture_default_str();
+  command.add_option("--size", a.size, "Size of the picture in pixels, as 1280x720");
+  command.add_flag("--sim", a.simulate, "Use the simulated devices, whatever is plugged in");
+  auto* duration = command.add_option("--duration", a.duration_s, "End after so many seconds")
+                       ->check(CLI::Range(0.1, 1e9));
+  command.add_option("--volumes", a.volumes, "End after so many volumes")
+      ->check(CLI::Range(1, 1000000000))
+      ->excludes(duration);
+  command.add_option("--spectra", a.spectra,
+                     "Play raw spectra (u16, little-endian, [B][A][N]) instead of a phantom");
+  command.add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024");
+  command.add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)");
+  command.add_option("--phantom", a.phantom, "What the simulated camera sees");
+  CLI::Option* vessels =
+      command
+          .add_option("--vessels", a.vessels,
+                      "Vessel tree to show in the volume: ours, SWC (in µm) or VTP (in mm)")
+          ->type_name("FILE");
+  command
+      .add_option("--registration", a.registration,
+                  "Where it lies in the volume; else in its middle, marked as not registered")
+      ->type_name("FILE.toml")
+      ->needs(vessels);
+  command.add_flag("--bidirectional", a.bidirectional,
+                   "Scan there and back, without fly-back, whatever the configuration says");
+  command.add_option("--repeats", a.repeats, "Sweeps of each B-scan, averaged (1 to 4)")
+      ->check(CLI::Range(1, pipeline::ScanPlan::most_repeats));
+  command.add_option("--faults", a.faults, "Faults that the simulated devices suffer (TOML)");
+  command.add_option("--controls", a.controls, "What the simulated pedal and knob do (TOML)");
+  command.add_option("--snapshot", a.snapshot, "Write the last picture here (PNG)");
+  command.add_option("--report", a.report, "Write the report here (JSON)");
+  command.add_option("--subject", a.subject,
+                     "Whose recordings these are, as they shall say it; not kept for later runs");
+  command.add_option("--eye", a.eye, "Of which eye they are")
+      ->check(CLI::IsMember({"left", "right"}));
 }
 
 } // namespace
 
 void add_run_command(CLI::App& program, int& exit_status) {
   auto arguments = std::make_shared<RunArguments>();
-  RunArguments& a = *arguments;
   CLI::App* command =
       program.add_subcommand("run", "Run the appliance: acquire, reconstruct, show");
   command->footer(
@@ -125,44 +170,27 @@ void add_run_command(CLI::App& program, int& exit_status) {
       "window offset; s S window size; w automatic window; [ ] B-scan; space freezes; t "
       "technique; f transfer; c colours; l layout; d stereo (shift: back); x X parallax; v "
       "vessels; a A their opacity; e their colours; i I j J k K shift and u U y Y z Z turn them; m "
-      "keeps their place; g undoes it; n their account; b box; p keeps the picture; home first "
+      "keeps their place; g undoes it; n their account; b box; p keeps the picture; r records; "
+      "home first "
       "view; tab next function; h, F1 what each "
       "control does; 1 2 3 , . the simulated pedal and knob; q ends.");
-  command->add_option("--config", a.configuration, "Configuration (TOML)");
-  command->add_option("--display", a.display, "Where the picture goes")
-      ->check(CLI::IsMember({"auto", "kms", "window", "offscreen"}))
-      ->capture_default_str();
-  command->add_option("--size", a.size, "Size of the picture in pixels, as 1280x720");
-  command->add_flag("--sim", a.simulate, "Use the simulated devices, whatever is plugged in");
-  auto* duration = command->add_option("--duration", a.duration_s, "End after so many seconds")
-                       ->check(CLI::Range(0.1, 1e9));
-  command->add_option("--volumes", a.volumes, "End after so many volumes")
-      ->check(CLI::Range(1, 1000000000))
-      ->excludes(duration);
-  command->add_option("--spectra", a.spectra,
-                      "Play raw spectra (u16, little-endian, [B][A][N]) instead of a phantom");
-  command->add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024");
-  command->add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)");
-  command->add_option("--phantom", a.phantom, "What the simulated camera sees");
-  CLI::Option* vessels =
-      command
-          ->add_option("--vessels", a.vessels,
-                       "Vessel tree to show in the volume: ours, SWC (in µm) or VTP (in mm)")
-          ->type_name("FILE");
-  command
-      ->add_option("--registration", a.registration,
-                   "Where it lies in the volume; else in its middle, marked as not registered")
-      ->type_name("FILE.toml")
-      ->needs(vessels);
-  command->add_flag("--bidirectional", a.bidirectional,
-                    "Scan there and back, without fly-back, whatever the configuration says");
-  command->add_option("--repeats", a.repeats, "Sweeps of each B-scan, averaged (1 to 4)")
-      ->check(CLI::Range(1, pipeline::ScanPlan::most_repeats));
-  command->add_option("--faults", a.faults, "Faults that the simulated devices suffer (TOML)");
-  command->add_option("--controls", a.controls, "What the simulated pedal and knob do (TOML)");
-  command->add_option("--snapshot", a.snapshot, "Write the last picture here (PNG)");
-  command->add_option("--report", a.report, "Write the report here (JSON)");
-  command->callback([arguments, &exit_status] { exit_status = run(*arguments); });
+  add_options(*command, *arguments);
+  command->callback([arguments, &exit_status] { exit_status = run("run", *arguments); });
+}
+
+void add_record_command(CLI::App& program, int& exit_status) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command =
+      program.add_subcommand("record", "Run the appliance and keep its volumes (HDF5)");
+  command->footer("Example:\n"
+                  "  octascope record --out eye.h5 --sim --duration 20 --eye left\n"
+                  "In a run that is under way, r or the pedal's recording begins and ends one.\n"
+                  "octascope info, export and replay take it from there.");
+  command->add_option("--out", arguments->record_to, "The recording: a file that is not there yet")
+      ->required()
+      ->type_name("FILE.h5");
+  add_options(*command, *arguments);
+  command->callback([arguments, &exit_status] { exit_status = run("record", *arguments); });
 }
 
 } // namespace octascope::firmware_host

@@ -4,20 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
 
+#include "pipeline/eye.h"
 #include "pipeline/volume.h"
 
 namespace octascope::pipeline {
-
-enum class Eye : std::uint8_t { not_said, left, right };
-
-std::string_view to_string(Eye eye); // "not said", "left", "right"
-
-// Empty for another word than "left" and "right".
-std::optional<Eye> eye_named(std::string_view word);
 
 struct RecordingFacts {
   VolumeGeometry geometry;

@@ -28,11 +28,17 @@ struct RecordingReader::File {
 
 namespace {
 
+// What is being written just now is tried again, after waits that double from a nanosecond on: so
+// many attempts take milliseconds. HDF5's own hundred would take for ever where a file is damaged.
+constexpr unsigned read_attempts = 22;
+
 // One that was never finished counts as being written.
 Hdf5Handle open_file(const std::filesystem::path& path) {
-  Hdf5Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+  const Hdf5Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
+  H5Pset_metadata_read_attempts(access, read_attempts);
+  Hdf5Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose};
   if (!file.valid())
-    file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT), H5Fclose};
+    file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose};
   return file;
 }
 

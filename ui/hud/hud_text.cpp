@@ -71,12 +71,30 @@ void add_replay_badge(HudText& hud, const ReplayStatus& replay) {
     text.format("REPLAY {}", replay.recorded);
 }
 
+// Whose it is belongs to it: a recording of the wrong eye is worse than none.
+void add_recording_badge(HudText& hud, const RecordingStatus& recording) {
+  if (!recording.on)
+    return;
+  const auto [minutes, seconds] = split(recording.lasted);
+  const bool said = recording.eye != pipeline::Eye::not_said;
+  FixedText<48>& text = add_badge(hud, BadgeKind::recording).text;
+  if (recording.not_kept > 0)
+    text.format("REC {}:{:02}, {} not kept", minutes, seconds, recording.not_kept);
+  else
+    text.format("REC {}:{:02}, {}", minutes, seconds,
+                !said                                  ? "eye not said"
+                : recording.eye == pipeline::Eye::left ? "left eye"
+                                                       : "right eye");
+}
+
 void compose_badges(HudText& hud, const Status& status) {
   if (status.replay)
     add_replay_badge(hud, *status.replay);
   add_freshness_badge(hud, status.freshness);
   if (status.simulated)
     add_badge(hud, BadgeKind::simulated).text.format("SIMULATED");
+  if (!status.replay)
+    add_recording_badge(hud, status.recording);
   if (hud.vessels.shown && !status.vessels.registered)
     add_badge(hud, BadgeKind::unregistered).text.format("VESSELS NOT REGISTERED");
   if (status.configuration != ConfigurationState::own)

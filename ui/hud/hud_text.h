@@ -26,6 +26,7 @@ enum class BadgeKind : std::uint8_t {
   frozen,
   configuration,
   unregistered,
+  recording,
   incomplete
 };
 
@@ -71,7 +72,8 @@ struct ShownPictures {
 };
 
 struct HudText {
-  static constexpr std::size_t most_badges = 8; // one a kind, and two incomplete
+  // One a kind, and two incomplete; what is replayed is not recorded.
+  static constexpr std::size_t most_badges = 8;
 
   // Lines, frames and volumes a second: left out in this order where the bar has no room.
   static constexpr std::array<std::size_t, 3> dispensable_cells{1, 2, 0};

@@ -1,0 +1,123 @@
+#include "firmware-host/recording_keeper.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <system_error>
+#include <utility>
+
+#include <fmt/chrono.h>
+
+#include "firmware-host/dated_file.h"
+#include "pipeline/atomic_file.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// A second of volumes: what a disk that is busy with something else may hold up. Fewer of very
+// large ones.
+constexpr std::size_t most_places = 8;
+constexpr std::size_t memory_for_places = std::size_t{128} << 20;
+
+std::size_t places_for(const pipeline::VolumeGeometry& geometry) {
+  return std::clamp(memory_for_places / geometry.voxels(), std::size_t{2}, most_places);
+}
+
+constexpr hal::Duration patience_with_disk = 10s;
+
+std::string now_in_iso_8601() {
+  const std::tm local = fmt::localtime(std::time(nullptr));
+  std::string offset = fmt::format("{:%z}", local); // +0100
+  offset.insert(offset.size() - 2, ":");
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}", local, offset);
+}
+
+} // namespace
+
+RecordingKeeper::RecordingKeeper(RecordingSetup setup, hal::Clock& clock,
+                                 pipeline::FaultLog& faults, pipeline::Wakeup& news)
+    : setup_(std::move(setup)), clock_(clock), faults_(faults),
+      recorder_(setup_.facts.geometry, places_for(setup_.facts.geometry), clock, faults, news) {}
+
+hal::Result<> RecordingKeeper::check() const {
+  if (!setup_.file)
+    return {};
+  std::error_code ignored;
+  if (std::filesystem::exists(*setup_.file, ignored))
+    return hal::fail(hal::Fault::invalid_argument,
+                     setup_.file->string() + " is there already, and a recording is never written "
+                                             "over: choose another name, or remove it");
+  if (const auto tried = pipeline::AtomicFile::create(*setup_.file); !tried)
+    return tl::make_unexpected(tried.error());
+  return {};
+}
+
+hal::Result<> RecordingKeeper::start(const pipeline::ThreadSetup& setup) {
+  recorder_.start(setup);
+  if (!setup_.file)
+    return {};
+  begin(*setup_.file);
+  const hal::TimePoint deadline = clock_.now() + patience_with_disk;
+  while (!recorder_.status().on) {
+    for (const pipeline::FaultRecord& fault : faults_.records())
+      if (fault.device == "recording")
+        return hal::fail(hal::Fault::system, fault.message);
+    if (clock_.now() > deadline)
+      return hal::fail(hal::Fault::timed_out, setup_.file->string() + ": the disk does not answer");
+    clock_.sleep_for(1ms);
+  }
+  return {};
+}
+
+void RecordingKeeper::stop() {
+  recorder_.stop();
+  note_counts();
+}
+
+std::string_view RecordingKeeper::toggle() {
+  if (recorder_.status().on) {
+    recorder_.end();
+    return "ended";
+  }
+  std::error_code ignored; // a file that cannot be made is a fault of its own
+  std::filesystem::create_directories(setup_.folder, ignored);
+  return begin(free_dated_name(setup_.folder, "octascope", ".h5"))
+             ? "begun"
+             : "not begun: the last one is being finished";
+}
+
+bool RecordingKeeper::begin(const std::filesystem::path& file) {
+  note_counts();
+  pipeline::RecordingFacts facts = setup_.facts;
+  facts.begun = now_in_iso_8601();
+  if (!recorder_.begin(file, std::move(facts)))
+    return false;
+  kept_.push_back({file});
+  return true;
+}
+
+// Of the newest; the recorder counts anew for each.
+void RecordingKeeper::note_counts() {
+  if (kept_.empty())
+    return;
+  const pipeline::RecorderStatus status = recorder_.status();
+  kept_.back().kept = status.kept;
+  kept_.back().not_kept = status.not_kept;
+}
+
+ui::RecordingStatus RecordingKeeper::status(hal::TimePoint now) const {
+  const pipeline::RecorderStatus recorder = recorder_.status();
+  ui::RecordingStatus status;
+  status.on = recorder.on;
+  if (!status.on)
+    return status;
+  status.lasted = now - recorder.since;
+  status.not_kept = recorder.not_kept;
+  status.eye = setup_.facts.eye;
+  return status;
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,30 @@
+// Which eye is operated, as far as somebody said.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace octascope::pipeline {
+
+enum class Eye : std::uint8_t { not_said, left, right };
+
+constexpr std::string_view to_string(Eye eye) {
+  switch (eye) {
+  case Eye::left: return "left";
+  case Eye::right: return "right";
+  case Eye::not_said: break;
+  }
+  return "not said";
+}
+
+// Empty for another word than "left" and "right".
+constexpr std::optional<Eye> eye_named(std::string_view word) {
+  for (const Eye eye : {Eye::left, Eye::right}) {
+    if (to_string(eye) == word)
+      return eye;
+  }
+  return std::nullopt;
+}
+
+} // namespace octascope::pipeline

@@ -1,0 +1,103 @@
+// Keeps the volumes of a run in a recording, beside the display.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "hal/clock.h"
+#include "pipeline/fault_log.h"
+#include "pipeline/index_ring.h"
+#include "pipeline/recordings/recording_writer.h"
+#include "pipeline/wakeup.h"
+#include "pipeline/worker_pool.h"
+
+namespace octascope::pipeline {
+
+struct RecorderStatus {
+  bool on = false;            // volumes are taken
+  hal::TimePoint since;       // while it is on
+  std::uint64_t kept = 0;     // volumes of this recording, or of the last
+  std::uint64_t not_kept = 0; // came while all places were taken: the disk was too slow
+};
+
+// The fixed-rate thread offers each volume and never waits: the volume is copied to a free place,
+// or counted as not kept. A thread of its own writes what is in the places. The disk is left some
+// room: a recording ends before the disk is full, and so when writing fails; both are faults of the
+// device "recording". What is in the file by then stays.
+class Recorder {
+public:
+  // `places`: how many volumes the disk may be behind. All memory is taken here.
+  Recorder(const VolumeGeometry& geometry, std::size_t places, hal::Clock& clock, FaultLog& faults,
+           Wakeup& news);
+  ~Recorder();
+
+  void start(const ThreadSetup& setup);
+  // Finishes the recording, if there is one, and ends the thread.
+  void stop();
+
+  // One thread, the render thread. Returns at once; what fails is told as a fault. False: the last
+  // one is still being finished.
+  bool begin(std::filesystem::path file, RecordingFacts facts);
+  void end();
+
+  // The fixed-rate thread: takes a copy where a recording is on.
+  void offer(const Volume& volume);
+
+  // Any thread.
+  RecorderStatus status() const;
+
+private:
+  enum class State : std::uint8_t {
+    idle,
+    beginning, // the file is being made
+    on,
+    ending, // what waits is being written
+  };
+  struct Place {
+    Volume volume;
+    RecordedVolume entry;
+    std::uint64_t recording = 0; // for which one it was taken
+  };
+
+  void run();
+  void serve();
+  void take_volumes();
+  bool open();
+  void write_waiting();
+  void write(const Place& place);
+  void finish();
+  void give_up(const char* kind, const std::string& message);
+
+  hal::Clock& clock_;
+  FaultLog& faults_;
+  Wakeup& news_;
+  std::vector<Place> places_;
+  IndexRing free_;    // the thread's → the fixed-rate thread's
+  IndexRing waiting_; // and back
+  std::atomic<State> state_{State::idle};
+  std::atomic<std::uint64_t> taking_{0}; // the number of the recording that volumes are taken for
+  std::atomic<std::int64_t> since_ns_{0};
+  std::atomic<std::uint64_t> kept_{0};
+  std::atomic<std::uint64_t> not_kept_{0};
+  std::atomic<bool> stopping_{false};
+  Wakeup wakeup_;
+
+  std::mutex mutex_; // of what is to begin
+  std::filesystem::path file_;
+  RecordingFacts facts_;
+
+  // The thread's.
+  std::optional<RecordingWriter> writer_;
+  std::filesystem::path open_file_;
+  std::uint64_t recordings_ = 0; // begun so far
+  hal::TimePoint synced_;
+  std::thread thread_;
+};
+
+} // namespace octascope::pipeline
