@@ -179,6 +179,7 @@ void AssembledReplay::make_render_loop(ui::ControlProfile controls) {
           .news = news_,
           .keep_picture =
               [this](pipeline::Image picture) { return pictures_.keep(std::move(picture)); },
+          .record = {},
           .simulated_control =
               simulated == nullptr
                   ? std::function<void(const hal::ControlEvent&)>{}

@@ -57,6 +57,7 @@ protected:
                                        .faults = faults_,
                                        .news = news_,
                                        .keep_picture = [](const pipeline::Image&) { return true; },
+                                       .record = {},
                                        .simulated_control = {},
                                        .threads = {},
                                        .proof = &proof_},
