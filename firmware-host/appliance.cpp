@@ -313,6 +313,8 @@ void AssembledAppliance::make_render_loop() {
   setup.status.source_description = devices_->source();
   if (configuration_.objective)
     setup.status.source_description += ", objective " + configuration_.objective->name;
+  if (!options_.subject.empty())
+    setup.status.source_description += ", subject " + options_.subject;
   keeper_.configure(setup);
   sim::SimControlInput* const controls = devices_->simulated_controls();
   loop_ = std::make_unique<RenderLoop>(

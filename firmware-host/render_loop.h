@@ -48,7 +48,7 @@ struct RenderLoopParts {
   // False: it could not be kept.
   std::function<bool(pipeline::Image)> keep_picture;
   // Begins a recording or ends the one that is on; what to say of it. Empty: there are none.
-  std::function<std::string_view()> record;
+  std::function<std::string_view()> record = {};
   // Keys that stand for the simulated pedal; empty where the pedal is real.
   std::function<void(const hal::ControlEvent&)> simulated_control;
   pipeline::ThreadSetup threads;    // of those that help drawing

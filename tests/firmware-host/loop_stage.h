@@ -15,6 +15,8 @@
 
 #include "firmware-host/render_loop.h"
 #include "hal/linux/monotonic_clock.h"
+#include "pipeline/scan_plan.h"
+#include "pipeline/volume_thread.h"
 #include "sim/offscreen_display.h"
 #include "sim/virtual_clock.h"
 #include "tests/support/puppet_devices.h"

@@ -91,6 +91,11 @@ TEST_F(Notice, a_picture_that_could_not_be_kept_is_told) {
   EXPECT_NE(of({fault("host", "picture_not_kept", 0s)}), "");
 }
 
+TEST_F(Notice, a_recording_that_ended_by_itself_is_told) {
+  for (const char* kind : {"disk_full", "not_kept", "not_finished", "not_begun"})
+    EXPECT_NE(of({fault("recording", kind, 0s)}), "") << kind;
+}
+
 TEST_F(Notice, has_words_for_every_fault_that_costs_volumes_or_b_scans) {
   for (const auto& [device, kind] : {std::pair{"pipeline", "overrun"},
                                      {"pipeline", "late_tick"},

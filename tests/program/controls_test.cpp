@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/recordings/recording_reader.h"
 #include "pipeline/vessels/registration.h"
 #include "tests/program/program_support.h"
 #include "ui/controls/action.h"
@@ -42,13 +43,28 @@ ProgramResult run_in(const ScratchFolder& folder, const std::vector<std::string>
 std::vector<pipeline::Image> kept_pictures(const fs::path& folder) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator{folder})
-    if (entry.path().filename().string().starts_with("octascope-"))
+    if (entry.path().filename().string().starts_with("octascope-") &&
+        entry.path().extension() == ".png")
       files.push_back(entry.path());
   std::ranges::sort(files, {}, [](const fs::path& file) { return fs::last_write_time(file); });
   std::vector<pipeline::Image> pictures;
   for (const fs::path& file : files)
     pictures.push_back(read_snapshot(file));
   return pictures;
+}
+
+// The one that the pedal began, and the program's end ended.
+std::size_t recorded_volumes(const fs::path& folder) {
+  std::size_t volumes = 0;
+  for (const auto& entry : fs::directory_iterator{folder}) {
+    if (entry.path().extension() != ".h5")
+      continue;
+    const auto reader = pipeline::RecordingReader::open(entry.path());
+    EXPECT_TRUE(reader) << reader.error().message;
+    if (reader && reader->end().finished)
+      volumes += reader->volumes().size();
+  }
+  return volumes;
 }
 
 fs::path kept_registration(const fs::path& folder) {
@@ -114,6 +130,8 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   const auto& turned = registration->volume_from_tree.rotation;
   EXPECT_NEAR(turned[2][1], std::sin(4 * 0.5 * std::numbers::pi / 180), 2e-3);
   EXPECT_NEAR(turned[0][2], std::sin(-4 * 0.5 * std::numbers::pi / 180), 2e-3);
+
+  EXPECT_GE(recorded_volumes(folder.path()), 1U);
 
   const std::vector<pipeline::Image> kept = kept_pictures(folder.path());
   ASSERT_EQ(kept.size(), 4U) << "as it was, rotated, without the box, with another window";

@@ -74,6 +74,20 @@ TEST(HudText, a_replay_says_so_with_date_and_time_in_every_state) {
   EXPECT_EQ(compose_hud_text({}, status, {}).cells[1].label, "") << "no lines come";
 }
 
+TEST(HudText, a_recording_says_how_long_and_of_which_eye) {
+  using Words = std::vector<std::string>;
+  Status status = live_status();
+  status.simulated = false;
+  status.recording = {.on = true, .lasted = std::chrono::seconds{75}};
+  EXPECT_EQ(badges_of(status), Words{"REC 1:15, eye not said"});
+  status.recording.eye = pipeline::Eye::left;
+  EXPECT_EQ(badges_of(status), Words{"REC 1:15, left eye"});
+  status.recording.eye = pipeline::Eye::right;
+  EXPECT_EQ(badges_of(status), Words{"REC 1:15, right eye"});
+  status.recording.not_kept = 3;
+  EXPECT_EQ(badges_of(status), Words{"REC 1:15, 3 not kept"});
+}
+
 TEST(HudText, figures_have_their_units_and_losses_warn) {
   Status status = live_status();
   HudText hud = compose_hud_text({}, status, {});
