@@ -24,6 +24,7 @@
 #include "firmware-host/render_loop.h"
 #include "firmware-host/report.h"
 #include "firmware-host/run_account.h"
+#include "firmware-host/run_outputs.h"
 #include "firmware-host/status_line.h"
 #include "firmware-host/stop_signal.h"
 #include "firmware-host/supervision/supervision.h"
@@ -31,7 +32,6 @@
 #include "firmware-host/version.h"
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/realtime.h"
-#include "pipeline/atomic_file.h"
 #include "pipeline/png_image.h"
 #include "pipeline/reconstructor.h"
 #include "pipeline/volume_thread.h"
@@ -93,7 +93,7 @@ public:
   ~AssembledAppliance() override { supervision_.crash_report().set_last_act(nullptr, nullptr); }
 
   hal::Result<> assemble() {
-    if (auto checked = check_outputs(); !checked)
+    if (auto checked = check_outputs(options_); !checked)
       return checked;
     auto controls = load_controls(configuration_);
     if (!controls)
@@ -147,8 +147,6 @@ public:
   }
 
 private:
-  hal::Result<> check_outputs() const;
-  hal::DisplayConfig display_config() const;
   void show_splash();
   hal::Result<> load_registration();
   hal::Result<> make_reconstruction();
@@ -196,35 +194,11 @@ private:
   hal::TimePoint ended_;
 };
 
-// What cannot be written is found out now, not after the run; nothing stays behind.
-hal::Result<> AssembledAppliance::check_outputs() const {
-  for (const auto& file : {options_.snapshot, options_.report}) {
-    if (!file)
-      continue;
-    if (const auto tried = pipeline::AtomicFile::create(*file); !tried)
-      return tl::make_unexpected(tried.error());
-  }
-  if (options_.snapshot && options_.report &&
-      options_.snapshot->lexically_normal() == options_.report->lexically_normal())
-    return hal::fail(hal::Fault::invalid_argument,
-                     fmt::format("--snapshot and --report are both {}, expected two files",
-                                 options_.report->string()));
-  return {};
-}
-
-hal::DisplayConfig AssembledAppliance::display_config() const {
-  hal::DisplayConfig config;
-  config.width = options_.size ? (*options_.size)[0] : configuration_.width;
-  config.height = options_.size ? (*options_.size)[1] : configuration_.height;
-  config.fullscreen = configuration_.fullscreen;
-  return config;
-}
-
 // Finding the faster reconstruction and making the twins' loop take seconds. What fails here fails
 // again, and is told, when the render loop opens the display.
 void AssembledAppliance::show_splash() {
   hal::Display& display = devices_->display();
-  if (!display.open(display_config()))
+  if (!display.open(display_config(options_, configuration_)))
     return;
   if (!ui::draw_splash(display.width(), display.height(), version(), "starting") ||
       !display.present())
@@ -328,7 +302,7 @@ void AssembledAppliance::make_render_loop() {
         VesselDisplaySetup{*options_.vessels, options_.registration, registration_}, clock_,
         faults_, news_);
   RenderLoopSetup setup;
-  setup.display = display_config();
+  setup.display = display_config(options_, configuration_);
   setup.view.b_scan = devices_->plan().b_scans / 2;
   setup.controls = control_profile_;
   setup.freshness = {devices_->plan().tick_period(), configuration_.veil_after};
@@ -474,16 +448,7 @@ AssembledAppliance::leave_behind(const std::optional<pipeline::Image>& picture) 
   for (const KeptRecording& recording : recordings_->kept())
     fmt::print("recording: {}, {} volumes{}\n", recording.file.string(), recording.kept,
                recording.not_kept > 0 ? fmt::format(", {} not kept", recording.not_kept) : "");
-  if (!options_.snapshot)
-    return {};
-  if (!picture)
-    return hal::fail(hal::Fault::absent,
-                     fmt::format("{}: not written: the display was gone at the end",
-                                 options_.snapshot->string()));
-  if (auto written = pipeline::write_png(*options_.snapshot, *picture); !written)
-    return written;
-  fmt::print("snapshot: {}\n", options_.snapshot->string());
-  return {};
+  return leave_snapshot(options_, picture);
 }
 
 } // namespace

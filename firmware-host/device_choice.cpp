@@ -7,6 +7,7 @@ namespace octascope::firmware_host {
 namespace {
 
 constexpr std::string_view twin_asked_for = "the simulated twin was asked for";
+constexpr std::string_view volumes_from_a_file = "volumes from a file were asked for";
 
 std::string asked_for(std::string_view wish) {
   return fmt::format("the configuration asks for it ({})", wish);
@@ -15,6 +16,8 @@ std::string asked_for(std::string_view wish) {
 DeviceChoice line_camera(const DeviceFinding& found, const RunOptions& options,
                          std::string_view wish) {
   constexpr std::string_view device = "line_camera";
+  if (options.replay)
+    return {device, "none", std::string{volumes_from_a_file}};
   if (options.recording)
     return {device, "recording", "spectra from a file were asked for"};
   if (options.simulate || wish == DeviceWishes::twin)
@@ -24,8 +27,11 @@ DeviceChoice line_camera(const DeviceFinding& found, const RunOptions& options,
   return {device, found.usable ? "v4l2" : "sim", found.what};
 }
 
-DeviceChoice galvo_trigger(const DeviceFinding& found, bool real_camera, std::string_view wish) {
+DeviceChoice galvo_trigger(const DeviceFinding& found, bool real_camera, const RunOptions& options,
+                           std::string_view wish) {
   constexpr std::string_view device = "galvo_trigger";
+  if (options.replay)
+    return {device, "none", std::string{volumes_from_a_file}};
   if (!real_camera)
     return {device, "sim", "it triggers the simulated line camera"};
   if (wish == DeviceWishes::twin)
@@ -48,6 +54,8 @@ DeviceChoice scope_camera(const DeviceFinding& found, bool real_camera, const Ru
   constexpr std::string_view device = "scope_camera";
   if (wish == DeviceWishes::nothing)
     return {device, "none", asked_for(wish)};
+  if (options.replay)
+    return {device, "none", std::string{volumes_from_a_file}};
   if (options.recording)
     return {device, "none", "a recording of spectra has no microscope picture"};
   if (!real_camera)
@@ -84,7 +92,8 @@ DeviceChoices choose_devices(const DeviceFindings& findings, const RunOptions& o
   DeviceChoices choices;
   choices.line_camera = line_camera(findings.line_camera, options, wishes.line_camera);
   const bool real_camera = choices.line_camera.backend == "v4l2";
-  choices.galvo_trigger = galvo_trigger(findings.galvo_trigger, real_camera, wishes.galvo_trigger);
+  choices.galvo_trigger =
+      galvo_trigger(findings.galvo_trigger, real_camera, options, wishes.galvo_trigger);
   choices.control_input =
       control_input(findings.control_input, real_camera, options, wishes.control_input);
   choices.scope_camera =

@@ -43,6 +43,17 @@ hal::Result<> Devices::make_others(const DeviceChoices& choices, const RunOption
   return {};
 }
 
+hal::Result<> Devices::make_controls(const DeviceChoices& choices, const RunOptions& options,
+                                     const Configuration& configuration, hal::Clock& clock) {
+  auto twins = make_script_twins(options, configuration, clock);
+  if (!twins)
+    return tl::make_unexpected(twins.error());
+  twins_ = std::move(*twins);
+  if (choices.control_input.backend == "hid")
+    control_input_ = real_->make_control_input();
+  return {};
+}
+
 void Devices::make_display(const DeviceChoice& choice, hal::Clock& clock) {
   if (choice.backend == "offscreen")
     offscreen_ = std::make_unique<sim::OffscreenDisplay>(clock);
@@ -98,6 +109,14 @@ hal::Result<> Devices::make_real_spectra(const DeviceChoices& choices, const Run
 bool Devices::simulated() const {
   const hal::ScopeCamera* scope = scope_camera();
   return line_camera().simulated() || (scope != nullptr && scope->simulated());
+}
+
+hal::DisplayConfig display_config(const RunOptions& options, const Configuration& configuration) {
+  hal::DisplayConfig config;
+  config.width = options.size ? (*options.size)[0] : configuration.width;
+  config.height = options.size ? (*options.size)[1] : configuration.height;
+  config.fullscreen = configuration.fullscreen;
+  return config;
 }
 
 } // namespace octascope::firmware_host

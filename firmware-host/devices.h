@@ -34,6 +34,11 @@ public:
   hal::Result<> make_others(const DeviceChoices& choices, const RunOptions& options,
                             const Configuration& configuration, hal::Clock& clock);
 
+  // Instead of it, for a replay: pedal and knob. There are no cameras and no trigger then, and
+  // what is asked about them and about the plan has no answer.
+  hal::Result<> make_controls(const DeviceChoices& choices, const RunOptions& options,
+                              const Configuration& configuration, hal::Clock& clock);
+
   hal::LineCamera& line_camera() const {
     return line_camera_ ? *line_camera_ : *twins_.line_camera;
   }
@@ -96,5 +101,8 @@ private:
   hal::LineFormat format_;
   std::string source_;
 };
+
+// The picture's size: of the command line, else of the configuration.
+hal::DisplayConfig display_config(const RunOptions& options, const Configuration& configuration);
 
 } // namespace octascope::firmware_host

@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   host::add_status_command(program, exit_status);
   host::add_reconstruct_command(program, exit_status);
   host::add_render_command(program, exit_status);
+  host::add_replay_command(program, exit_status);
   host::add_bench_command(program, exit_status);
   host::add_calibrate_command(program, exit_status);
   host::add_vessels_command(program, exit_status);

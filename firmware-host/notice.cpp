@@ -51,6 +51,7 @@ constexpr std::array fault_notices{
     FaultNotice{"line_camera", "unplaced_frame", "Line camera is out of step: B-scans are missing"},
     FaultNotice{"line_camera", "doubled_frame", "Line camera sends B-scans twice"},
     FaultNotice{"line_camera", "saturation", "Too much light: lines are saturated"},
+    FaultNotice{"recording", "unreadable_volume", "The recording is damaged: volumes are missing"},
     FaultNotice{"host", "throttled", "The computer is too hot: it slows itself down"},
     FaultNotice{"host", "low_memory", "The computer is short of memory"},
     FaultNotice{"host", "disk_full", "The disk is full: pictures may be lost"},

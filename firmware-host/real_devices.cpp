@@ -85,7 +85,7 @@ DeviceFindings RealDevices::find_for(const RunOptions& options) {
   if (options.simulate)
     return findings;
   findings.control_input = find_control_input();
-  if (options.recording || wishes_.line_camera == DeviceWishes::twin)
+  if (options.recording || options.replay || wishes_.line_camera == DeviceWishes::twin)
     return findings;
   findings.line_camera = find_line_camera();
   if (!findings.line_camera.usable && wishes_.line_camera == DeviceWishes::automatic)

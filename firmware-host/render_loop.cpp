@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "firmware-host/local_time.h"
 #include "ui/auto_window.h"
 #include "ui/controls/simulated_control.h"
 #include "ui/gl/context_info.h"
@@ -22,6 +23,10 @@ constexpr std::chrono::milliseconds longest_rest{900};
 
 // For so long a display that is there and fails is opened anew before a restart is called for.
 constexpr std::chrono::seconds patience_with_display{30};
+
+bool brings_volumes(ui::Liveness liveness) {
+  return liveness == ui::Liveness::live || liveness == ui::Liveness::replayed;
+}
 
 ui::ChoiceNames choices_of(const ui::TransferSet& transfers) {
   ui::ChoiceNames names{{}, {}};
@@ -142,8 +147,8 @@ ui::DrawQuality RenderLoop::choose_quality() {
       governor_.choose({.now = setup_.status.now,
                         .technique = view.technique,
                         .moved = moved,
-                        .live = setup_.status.freshness.liveness == ui::Liveness::live ||
-                                drawn_liveness_ == ui::Liveness::live});
+                        .live = brings_volumes(setup_.status.freshness.liveness) ||
+                                brings_volumes(drawn_liveness_)});
   quality.rays = rays_;
   if (parts_.vessels != nullptr)
     quality.vessel_detail_px = parts_.vessels->detail_px(setup_.status.now, moved);
@@ -205,7 +210,9 @@ void RenderLoop::answer(const ui::ControlRequests& requests) {
     parts_.vessels->keep_registration(volume_->geometry, controller_.actions());
   if (requests.record)
     controller_.actions().tell(ui::Action::record,
-                               parts_.record ? parts_.record() : "not of this picture",
+                               setup_.status.replay ? "not while a recording is replayed"
+                               : parts_.record      ? parts_.record()
+                                                    : "not of this picture",
                                parts_.clock.now());
 }
 
@@ -247,9 +254,20 @@ void RenderLoop::take_volume() {
   }
   volume_undisplayed_ = true;
   undisplayed_last_line_ = newest->ledger.last_line;
-  shown_ = ui::ShownVolume{newest->ledger.last_line, newest->ledger.published};
+  shown_ = ui::ShownVolume{newest->ledger.last_line, newest->ledger.published,
+                           newest->ledger.recorded_ns.has_value()};
+  tell_origin(newest->ledger);
   setup_.status.missing_b_scans = newest->missing_b_scans();
   setup_.status.saturated_lines = newest->ledger.saturated_lines;
+}
+
+// The volume itself says that it was recorded, and when: nobody can forget to.
+void RenderLoop::tell_origin(const pipeline::VolumeLedger& ledger) {
+  if (!ledger.recorded_ns)
+    return setup_.status.replay.reset();
+  if (!setup_.status.replay)
+    setup_.status.replay.emplace();
+  setup_.status.replay->recorded = local_date_and_time(*ledger.recorded_ns);
 }
 
 void RenderLoop::set_first_window(const ui::DisplayWindow& window) {

@@ -140,6 +140,7 @@ private:
   void find_window();
   void keep_picture();
   void take_volume();
+  void tell_origin(const pipeline::VolumeLedger& ledger);
   void take_scope_picture();
   void update_status();
   void draw_if_changed();

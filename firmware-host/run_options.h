@@ -1,7 +1,8 @@
-// What a user asked `octascope run` for.
+// What a user asked `octascope run` or `octascope replay` for.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -19,6 +20,14 @@ struct RecordingOptions {
   pipeline::SpectraShape shape;
 };
 
+// Of `octascope replay`: volumes come from a file, and no camera takes part.
+struct ReplayOptions {
+  std::filesystem::path file;
+  double rate = 1;
+  bool once = false;
+  std::size_t from = 0; // the first volume, counted from 0
+};
+
 struct RunOptions {
   std::optional<std::filesystem::path> configuration;
   DisplayChoice display = DisplayChoice::automatic;
@@ -27,6 +36,7 @@ struct RunOptions {
   std::optional<double> duration_s;
   std::optional<std::uint64_t> volumes;
   std::optional<RecordingOptions> recording;
+  std::optional<ReplayOptions> replay;
   std::optional<std::filesystem::path> calibration;
   std::optional<std::filesystem::path> snapshot;
   std::optional<std::filesystem::path> report;

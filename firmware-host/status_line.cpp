@@ -17,10 +17,10 @@ void StatusLine::update(const ui::Status& s) {
   // \r and "erase to the end of the line": each second overwrites the one before.
   fmt::print(stderr,
              "\r{:6.0f} s  {:.1f} volumes/s  {:.0f} frames/s  latency {:.0f} ms  lost {} lines, {} "
-             "B-scans, {} volumes{}\x1b[K",
+             "B-scans, {} volumes{}{}\x1b[K",
              hal::to_seconds(s.now - started_), s.volumes_per_s, s.frames_per_s,
              s.latency_p50_ms.value_or(0), s.losses.lines, s.losses.b_scans, s.losses.volumes,
-             s.simulated ? "  SIMULATED" : "");
+             s.replay ? "  REPLAY" : "", s.simulated ? "  SIMULATED" : "");
   std::fflush(stderr);
   printed_ = true;
 }

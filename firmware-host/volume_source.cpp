@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <fstream>
 #include <span>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -17,11 +19,40 @@
 #include "pipeline/level_scale.h"
 #include "pipeline/nrrd.h"
 #include "pipeline/reconstructor.h"
+#include "pipeline/recordings/recording_reader.h"
 #include "pipeline/volume_assembler.h"
 
 namespace octascope::firmware_host {
 
 namespace {
+
+// HDF5 begins with these bytes, whatever the file is called.
+bool is_recording(const std::filesystem::path& file) {
+  constexpr std::string_view signature{"\x89HDF\r\n\x1a\n", 8};
+  std::array<char, signature.size()> begin{};
+  std::ifstream in{file, std::ios::binary};
+  in.read(begin.data(), begin.size());
+  return in && std::string_view{begin.data(), begin.size()} == signature;
+}
+
+hal::Result<pipeline::Volume> read_recorded(const std::filesystem::path& file, std::size_t at) {
+  auto reader = pipeline::RecordingReader::open(file);
+  if (!reader)
+    return tl::make_unexpected(reader.error());
+  if (reader->volumes().empty())
+    return hal::fail(
+        hal::Fault::bad_data,
+        fmt::format("{}: found a recording of no volumes, expected one at least", file.string()));
+  if (at >= reader->volumes().size())
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("--at is {}, expected 0 to {}: {} has {} volumes", at,
+                                 reader->volumes().size() - 1, file.string(),
+                                 reader->volumes().size()));
+  pipeline::Volume volume{reader->facts().geometry};
+  if (const auto read = reader->read(at, volume); !read)
+    return tl::make_unexpected(read.error());
+  return volume;
+}
 
 hal::Result<pipeline::Volume> read_volume(const std::filesystem::path& file) {
   const auto nrrd = pipeline::read_nrrd(file);
@@ -103,13 +134,21 @@ hal::Result<pipeline::Volume> reconstruct(const VolumeRequest& request) {
 
 hal::Result<pipeline::Volume> load_volume(const VolumeRequest& request) {
   const int sources =
-      (request.nrrd ? 1 : 0) + (request.recording ? 1 : 0) + (request.phantom ? 1 : 0);
+      (request.file ? 1 : 0) + (request.recording ? 1 : 0) + (request.phantom ? 1 : 0);
   if (sources != 1)
     return hal::fail(hal::Fault::invalid_argument,
-                     fmt::format("found {} volumes to draw, expected one: --volume FILE.nrrd, "
+                     fmt::format("found {} volumes to draw, expected one: --volume FILE, "
                                  "--spectra FILE with --shape, or --phantom NAME",
                                  sources));
-  return request.nrrd ? read_volume(*request.nrrd) : reconstruct(request);
+  if (!request.file)
+    return reconstruct(request);
+  if (is_recording(*request.file))
+    return read_recorded(*request.file, request.at.value_or(0));
+  if (request.at)
+    return hal::fail(hal::Fault::invalid_argument,
+                     fmt::format("--at is {}, expected none: {} is no recording but one volume",
+                                 *request.at, request.file->string()));
+  return read_volume(*request.file);
 }
 
 } // namespace octascope::firmware_host

@@ -11,9 +11,10 @@
 
 namespace octascope::firmware_host {
 
-// Exactly one of `nrrd`, `recording` and `phantom`.
+// Exactly one of `file`, `recording` and `phantom`.
 struct VolumeRequest {
-  std::optional<std::filesystem::path> nrrd;
+  std::optional<std::filesystem::path> file; // NRRD, or a recording: its content says which
+  std::optional<std::size_t> at; // which volume of a recording, from 0; empty: the first
   std::optional<RecordingOptions> recording;
   std::optional<std::filesystem::path> calibration; // of the recording
   std::optional<std::string> phantom;

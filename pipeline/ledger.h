@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "hal/clock.h"
 
@@ -25,6 +26,10 @@ struct VolumeLedger {
   std::int32_t saturated_lines = 0; // of all converted ones, turn-around included
 
   double phase_offset_a_scans = 0; // bidirectional: with which all its sweeps were placed
+
+  // Of a volume that is replayed: when it was ready, on the wall clock (since 1970, UTC). It goes
+  // with the volume, so that none can be taken for a live one. Empty: live.
+  std::optional<std::int64_t> recorded_ns{};
 };
 
 } // namespace octascope::pipeline

@@ -16,6 +16,8 @@ Freshness judge_freshness(const std::optional<ShownVolume>& shown, hal::TimePoin
   if (frozen_since) {
     result.liveness = Liveness::frozen;
     result.frozen_for = std::max(none, now - *frozen_since);
+  } else if (shown->replayed) {
+    result.liveness = Liveness::replayed;
   } else if (waited * 2 <= limits.volume_period * 3) {
     result.liveness = Liveness::live;
   } else {

@@ -11,15 +11,17 @@ namespace octascope::ui {
 enum class Liveness : std::uint8_t {
   waiting, // no volume has come yet
   live,
-  stale,  // no fresh volume for more than one and a half volume periods
-  veiled, // none for longer than the limit: the picture is covered
-  frozen, // by the surgeon
+  stale,    // no fresh volume for more than one and a half volume periods
+  veiled,   // none for longer than the limit: the picture is covered
+  frozen,   // by the surgeon
+  replayed, // what is shown was recorded: it is never live, and cannot become stale either
 };
 
 // What is on the screen, as times.
 struct ShownVolume {
   hal::TimePoint last_line; // camera timestamp of the volume's last line: its age counts from here
   hal::TimePoint arrived;   // when it could be shown: its successor is due one period later
+  bool replayed = false;    // from a recording
   bool operator==(const ShownVolume&) const = default;
 };
 

@@ -44,6 +44,13 @@ struct VesselStatus {
   bool operator==(const VesselStatus&) const = default;
 };
 
+// Of a recording that is shown in place of what is under the microscope.
+struct ReplayStatus {
+  std::string recorded; // local date and time of the shown volume; empty: none is shown yet
+  std::string whose;    // eye and subject, as the recording says or does not say
+  bool operator==(const ReplayStatus&) const = default;
+};
+
 // Whether the configuration is the one that was asked for.
 enum class ConfigurationState : std::uint8_t {
   own,
@@ -76,8 +83,9 @@ struct Status {
   std::array<DeviceStatus, most_devices> devices;
   std::size_t device_count = 0; // how many of `devices` are used
 
-  bool simulated = false;         // any part of the picture is not the patient's
-  std::string source_description; // "phantom eye, loop of 2.3 s"; short
+  std::optional<ReplayStatus> replay; // empty: the volumes are live
+  bool simulated = false;             // any part of the picture is not the patient's
+  std::string source_description;     // "phantom eye, loop of 2.3 s"; short
 
   ConfigurationState configuration = ConfigurationState::own;
 

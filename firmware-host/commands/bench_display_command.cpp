@@ -59,7 +59,7 @@ int run(const Arguments& arguments) {
   if (arguments.volume.empty())
     request.phantom = "anterior_eye";
   else
-    request.nrrd = arguments.volume;
+    request.file = arguments.volume;
   DisplayBenchOptions options;
   if (!arguments.size.empty()) {
     const auto size = parse_size(arguments.size);

@@ -39,6 +39,8 @@ struct Arguments {
   int steps = ui::full_quality.steps;
   std::string vessel_colours = "branch";
   TreeArguments tree;
+  std::size_t volume_number = 0;
+  CLI::Option* at = nullptr;      // whether one was said
   CLI::Option* opacity = nullptr; // the configuration may say another
 };
 
@@ -82,7 +84,9 @@ CLI::Validator within(ui::Parameter parameter) {
 hal::Result<VolumeRequest> request_of(const Arguments& a) {
   VolumeRequest request;
   if (!a.volume.empty())
-    request.nrrd = a.volume;
+    request.file = a.volume;
+  if (a.at->count() > 0)
+    request.at = a.volume_number;
   if (!a.phantom.empty())
     request.phantom = a.phantom;
   if (!a.calibration.empty())
@@ -229,8 +233,16 @@ int run(const Arguments& arguments) {
 }
 
 void add_volume_options(CLI::App& command, Arguments& a) {
-  command.add_option("--volume", a.volume, "Volume to draw: levels in dB, depth fastest")
-      ->type_name("FILE.nrrd");
+  CLI::Option* volume =
+      command
+          .add_option(
+              "--volume", a.volume,
+              "Volume to draw: NRRD with levels in dB, depth fastest, or a recording (HDF5)")
+          ->type_name("FILE");
+  a.at = command
+             .add_option("--at", a.volume_number,
+                         "Which volume of a recording, counted from 0 (0 if not given)")
+             ->needs(volume);
   CLI::Option* spectra =
       command
           .add_option("--spectra", a.spectra,
@@ -348,6 +360,7 @@ void add_render_command(CLI::App& program, int& exit_status) {
   command->footer("Examples:\n"
                   "  octascope render --volume volume.nrrd --technique shaded --size 1920x1080 \\\n"
                   "    --yaw 30 --tilt 40 --distance 2.5 --window 8,36 --out volume.png\n"
+                  "  octascope render --volume eye.h5 --at 12 --out eye.png\n"
                   "  octascope render --phantom anterior_eye --technique maximum --out eye.png\n"
                   "  octascope render --spectra spectra.raw --shape 100,100,1024 \\\n"
                   "    --calibration spectrometer.toml --stereo side-by-side --out tissue.png\n"

@@ -147,6 +147,7 @@ std::string_view to_string(ui::Liveness liveness) {
   case ui::Liveness::stale: return "stale";
   case ui::Liveness::veiled: return "veiled";
   case ui::Liveness::frozen: return "frozen";
+  case ui::Liveness::replayed: return "replayed";
   }
   return "unknown";
 }

@@ -55,6 +55,17 @@ TEST(DeviceChoice, twins_that_were_asked_for_serve_in_spite_of_what_is_plugged_i
   EXPECT_EQ(choices.line_camera.reason.find("/dev/video20"), std::string::npos);
 }
 
+TEST(DeviceChoice, a_replay_has_display_and_pedal_and_nothing_that_scans) {
+  RunOptions options;
+  options.replay = ReplayOptions{.file = "eye.h5"};
+  const DeviceChoices choices = choose_devices(everything(), options);
+  for (const DeviceChoice& choice :
+       {choices.line_camera, choices.galvo_trigger, choices.scope_camera})
+    EXPECT_EQ(choice.backend, "none") << choice.device;
+  EXPECT_EQ(choices.control_input.backend, "hid");
+  EXPECT_EQ(choices.display.backend, "kms");
+}
+
 TEST(DeviceChoice, no_twin_stands_beside_a_patients_spectra) {
   DeviceFindings only_camera;
   only_camera.line_camera = {true, "/dev/video0"};

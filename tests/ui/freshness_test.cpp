@@ -46,5 +46,13 @@ TEST(Freshness, frozen_wins_and_counts_its_own_time) {
   EXPECT_EQ(f.age, seconds{20} + milliseconds{60});
 }
 
+TEST(Freshness, what_was_recorded_is_never_live) {
+  const ShownVolume recorded{shown.last_line, shown.arrived, true};
+  for (const hal::Duration after :
+       {hal::Duration{}, hal::Duration{seconds{1}}, hal::Duration{seconds{60}}})
+    EXPECT_EQ(judge_freshness(recorded, arrived + after, limits, {}).liveness, Liveness::replayed);
+  EXPECT_EQ(judge_freshness(recorded, arrived, limits, arrived).liveness, Liveness::frozen);
+}
+
 } // namespace
 } // namespace octascope::ui

@@ -68,8 +68,9 @@ TEST_F(HudInAllSizes, glyphs_fit_into_the_textures_that_gles_3_promises) {
 
 TEST_F(HudInAllSizes, all_badges_find_room) {
   const HudText text = compose_hud_text({}, worst_status(), {});
-  // All but the configuration's: the notice line says that, too, where a sixth finds no room.
-  ASSERT_EQ(text.badge_count, HudText::most_badges - 1);
+  // All but the configuration's: the notice line says that, too, where one more finds no room; and
+  // a replay's, below.
+  ASSERT_GE(text.badge_count, HudText::most_badges - 3);
   for (const auto& [width, height] : sizes)
     for (const LayoutKind kind : kinds) {
       const Layout layout = lay_out(width, height, aspects, kind);
@@ -84,6 +85,37 @@ TEST_F(HudInAllSizes, all_badges_find_room) {
         EXPECT_LE(badge.right(), layout.marks.right()) << width << "x" << height;
         EXPECT_LE(badge.bottom(), layout.marks.bottom())
             << width << "x" << height << ", kind " << static_cast<int>(kind);
+      }
+    }
+}
+
+// A subject of any length is cut to what is the longest here.
+Status worst_replay() {
+  Status status = worst_status();
+  status.freshness = {Liveness::frozen, std::chrono::seconds{3599}, std::chrono::seconds{3599}};
+  status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03",
+                               .whose = "eye not said, subject Wwwwwwwwwwwwwwwwwwwwwwww…"};
+  return status;
+}
+
+TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
+  const HudText text = compose_hud_text({}, worst_replay(), {});
+  ASSERT_EQ(text.badge_count, HudText::most_badges - 1);
+  for (const auto& [width, height] : sizes)
+    for (const LayoutKind kind : kinds) {
+      const Layout layout = lay_out(width, height, aspects, kind);
+      const auto fonts = Fonts::create(layout.unit);
+      ASSERT_TRUE(fonts) << fonts.error().message;
+      Canvas canvas;
+      canvas.begin(*fonts, width, height);
+      const BadgePlaces places = place_badges(canvas, layout, text);
+      for (std::size_t i = 0; i < text.badge_count; ++i) {
+        const Rect& badge = places[i];
+        EXPECT_LE(badge.right(), layout.marks.right())
+            << width << "x" << height << ", " << text.badges[i].text.view();
+        EXPECT_LE(badge.bottom(), layout.marks.bottom())
+            << width << "x" << height << ", kind " << static_cast<int>(kind) << ", "
+            << text.badges[i].text.view();
       }
     }
 }
@@ -156,8 +188,11 @@ TEST_F(HudInAllLayouts, nothing_old_looks_live_in_any_layout_nor_to_any_eye) {
       const Layout layout = lay_out(width, height, aspects, kind);
       Status status = live_status();
       const pipeline::Image live = draw(view, status);
-      for (const Liveness liveness : {Liveness::stale, Liveness::frozen, Liveness::veiled}) {
+      for (const Liveness liveness :
+           {Liveness::stale, Liveness::frozen, Liveness::veiled, Liveness::replayed}) {
         status.freshness = {liveness, std::chrono::seconds{7}, std::chrono::seconds{7}};
+        if (liveness == Liveness::replayed)
+          status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03", .whose = "left eye"};
         const pipeline::Image old = draw(view, status);
         for (const Eye eye : eyes_of(stereo)) {
           const EyeFrame frame = eye_frame(stereo, eye, width, height);

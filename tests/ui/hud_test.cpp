@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <gmock/gmock.h>
+
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/scene.h"
@@ -48,6 +50,28 @@ TEST(HudText, badges_say_what_is_not_live) {
   status.saturated_lines = 4;
   EXPECT_EQ(badges_of(status)[2], "1 B-scan missing");
   EXPECT_EQ(badges_of(status)[3], "4 lines saturated");
+}
+
+// Whatever else is true of it: REPLAY comes first, and nothing in words or marks says live.
+TEST(HudText, a_replay_says_so_with_date_and_time_in_every_state) {
+  Status status = live_status();
+  status.replay = ReplayStatus{.recorded = {}, .whose = "eye not said, subject not said"};
+  EXPECT_EQ(badges_of(status)[0], "REPLAY") << "before its first volume, too";
+  status.replay->recorded = "2026-11-22 12:10:03";
+  for (const Liveness liveness : {Liveness::waiting, Liveness::stale, Liveness::veiled,
+                                  Liveness::frozen, Liveness::replayed}) {
+    status.freshness.liveness = liveness;
+    const auto words = badges_of(status);
+    EXPECT_EQ(words[0], "REPLAY 2026-11-22 12:10:03");
+    EXPECT_THAT(words, testing::Contains("SIMULATED"));
+    EXPECT_THAT(words, testing::Contains("eye not said, subject not said"));
+    EXPECT_NE(compose_hud_text({}, status, {}).liveness, Liveness::live);
+  }
+  status.freshness.liveness = Liveness::replayed;
+  status.simulated = false;
+  EXPECT_EQ(badges_of(status), (std::vector<std::string>{"REPLAY 2026-11-22 12:10:03",
+                                                         "eye not said, subject not said"}));
+  EXPECT_EQ(compose_hud_text({}, status, {}).cells[1].label, "") << "no lines come";
 }
 
 TEST(HudText, a_recording_says_how_long_and_of_which_eye) {
@@ -224,6 +248,32 @@ TEST_F(HudPicture, badges_change_the_corner_and_never_the_centre) {
   status.freshness = live_status().freshness;
   status.simulated = true;
   EXPECT_GT(changed(live, draw({}, status), corner), 200);
+}
+
+// REPLAY is told from every other state without its words: another plate, another frame.
+TEST_F(HudPicture, a_replay_looks_like_nothing_else) {
+  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
+  Status status = live_status();
+  status.simulated = false;
+  const Layout layout = lay_out(width, height, {});
+  const auto plate = [&](const Status& shown, Colour colour) {
+    const pipeline::Image picture = draw({}, shown);
+    int count = 0;
+    for (int y = layout.marks.y; y < layout.marks.bottom(); ++y)
+      for (int x = layout.marks.x; x < layout.marks.right(); ++x)
+        count += picture.pixel(x, y) == std::array{colour.r, colour.g, colour.b} ? 1 : 0;
+    return count;
+  };
+  for (const Liveness liveness :
+       {Liveness::waiting, Liveness::live, Liveness::stale, Liveness::frozen}) {
+    status.freshness = {liveness, std::chrono::seconds{2}, std::chrono::seconds{2}};
+    status.simulated = !status.simulated;
+    EXPECT_LT(plate(status, palette::replay), 500) << "no other has a white plate";
+  }
+  status.freshness = {Liveness::replayed, {}, {}};
+  status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03", .whose = "left eye"};
+  EXPECT_GT(plate(status, palette::replay), 1500);
+  EXPECT_LT(plate(status, palette::warning) + plate(status, palette::frozen), 20);
 }
 
 TEST_F(HudPicture, a_veiled_picture_is_dark_all_over) {

@@ -9,9 +9,11 @@ struct BadgeLook {
   bool filled;
 };
 
-// STALE, FROZEN and SIMULATED differ in colour, in filling and in the sign before the word.
+// REPLAY, STALE, FROZEN and SIMULATED differ in colour, in filling and in the sign before the word.
 BadgeLook look_of(BadgeKind kind) {
   switch (kind) {
+  case BadgeKind::replay: return {palette::replay, true};
+  case BadgeKind::whose: return {palette::replay, false};
   case BadgeKind::simulated: return {palette::simulated, false};
   case BadgeKind::waiting: return {palette::quiet_text, false};
   case BadgeKind::stale: return {palette::warning, true};
@@ -28,6 +30,22 @@ BadgeLook look_of(BadgeKind kind) {
 void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Colour ink) {
   const float half = size / 2;
   switch (kind) {
+  case BadgeKind::replay: // two arrow-heads to the left: wound back
+    for (const float tip : {-1.0F, 0.0F}) {
+      const glm::vec2 at{centre.x + tip * half, centre.y};
+      canvas.quad({at, glm::vec2{at.x + half, centre.y - half * 0.8F},
+                   glm::vec2{at.x + half, centre.y},
+                   glm::vec2{at.x + half, centre.y + half * 0.8F}},
+                  ink);
+    }
+    break;
+  case BadgeKind::whose: // a card
+    canvas.frame({static_cast<int>(centre.x - half), static_cast<int>(centre.y - half * 0.75F),
+                  static_cast<int>(size), static_cast<int>(size * 0.75F)},
+                 ink, size * 0.12F, 0);
+    canvas.line({centre.x - half * 0.5F, centre.y}, {centre.x + half * 0.5F, centre.y}, ink,
+                size * 0.12F);
+    break;
   case BadgeKind::frozen: // two bars: paused
     for (const float side : {-1.0F, 1.0F})
       canvas.line({centre.x + side * half * 0.5F, centre.y - half},
@@ -67,7 +85,8 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
 }
 
 bool is_small(BadgeKind kind) {
-  return kind == BadgeKind::incomplete || kind == BadgeKind::configuration;
+  return kind == BadgeKind::incomplete || kind == BadgeKind::configuration ||
+         kind == BadgeKind::whose;
 }
 
 // What must be seen at once is larger than what explains it.
@@ -157,9 +176,10 @@ void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness
       canvas.plate(rect, palette::background.faded(205));
       canvas.stripes(rect, palette::alarm.faded(70), 28 * u, 2 * u);
     }
-    const Colour colour = liveness == Liveness::frozen  ? palette::frozen
-                          : liveness == Liveness::stale ? palette::warning
-                                                        : palette::alarm;
+    const Colour colour = liveness == Liveness::frozen     ? palette::frozen
+                          : liveness == Liveness::replayed ? palette::replay
+                          : liveness == Liveness::stale    ? palette::warning
+                                                           : palette::alarm;
     canvas.frame(rect, colour, (liveness == Liveness::frozen ? 3.0F : 4.0F) * u);
   }
 }

@@ -38,7 +38,8 @@ Badge& add_badge(HudText& hud, BadgeKind kind) {
 
 void add_freshness_badge(HudText& hud, const Freshness& freshness) {
   switch (freshness.liveness) {
-  case Liveness::live: return;
+  case Liveness::live:
+  case Liveness::replayed: return; // a badge of its own says so, in every state
   case Liveness::waiting:
     add_badge(hud, BadgeKind::waiting).text.format("WAITING FOR THE FIRST VOLUME");
     return;
@@ -61,6 +62,15 @@ void add_incomplete_badge(HudText& hud, int count, std::string_view one, std::st
     add_badge(hud, BadgeKind::incomplete).text.format("{} {}", count, count == 1 ? one : more);
 }
 
+// First of all: whatever else is said of the picture, it is not the patient's of now.
+void add_replay_badge(HudText& hud, const ReplayStatus& replay) {
+  FixedText<48>& text = add_badge(hud, BadgeKind::replay).text;
+  if (replay.recorded.empty())
+    text.format("REPLAY");
+  else
+    text.format("REPLAY {}", replay.recorded);
+}
+
 // Whose it is belongs to it: a recording of the wrong eye is worse than none.
 void add_recording_badge(HudText& hud, const RecordingStatus& recording) {
   if (!recording.on)
@@ -78,16 +88,21 @@ void add_recording_badge(HudText& hud, const RecordingStatus& recording) {
 }
 
 void compose_badges(HudText& hud, const Status& status) {
+  if (status.replay)
+    add_replay_badge(hud, *status.replay);
   add_freshness_badge(hud, status.freshness);
   if (status.simulated)
     add_badge(hud, BadgeKind::simulated).text.format("SIMULATED");
-  add_recording_badge(hud, status.recording);
+  if (!status.replay)
+    add_recording_badge(hud, status.recording);
   if (hud.vessels.shown && !status.vessels.registered)
     add_badge(hud, BadgeKind::unregistered).text.format("VESSELS NOT REGISTERED");
   if (status.configuration != ConfigurationState::own)
     add_badge(hud, BadgeKind::configuration)
         .text.format("{}", status.configuration == ConfigurationState::last_good ? "older setup"
                                                                                  : "scale unknown");
+  if (status.replay && !status.replay->whose.empty())
+    add_badge(hud, BadgeKind::whose).text.format("{}", status.replay->whose);
   add_incomplete_badge(hud, status.missing_b_scans, "B-scan missing", "B-scans missing");
   add_incomplete_badge(hud, status.saturated_lines, "line saturated", "lines saturated");
 }
@@ -118,7 +133,8 @@ void compose_cells(HudText& hud, const ViewState& view, const Status& status) {
   auto& [volumes, lines, frames, latency, lost, window, vessels] = hud.cells;
   volumes.label = "Volumes/s";
   volumes.value.format("{:.1f}", status.volumes_per_s);
-  lines.label = "Lines/s";
+  if (!status.replay) // no line comes
+    lines.label = "Lines/s";
   if (status.lines_per_s < 999'500)
     lines.value.format("{:.0f} k", status.lines_per_s * 1e-3);
   else

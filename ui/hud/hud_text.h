@@ -17,6 +17,8 @@
 namespace octascope::ui {
 
 enum class BadgeKind : std::uint8_t {
+  replay,
+  whose,
   simulated,
   waiting,
   stale,
@@ -70,7 +72,8 @@ struct ShownPictures {
 };
 
 struct HudText {
-  static constexpr std::size_t most_badges = 7; // one a kind, and two incomplete
+  // One a kind, and two incomplete; what is replayed is not recorded.
+  static constexpr std::size_t most_badges = 8;
 
   // Lines, frames and volumes a second: left out in this order where the bar has no room.
   static constexpr std::array<std::size_t, 3> dispensable_cells{1, 2, 0};

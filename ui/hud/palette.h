@@ -35,6 +35,7 @@ inline constexpr Colour warning{255, 186, 74}; // STALE, missing, saturated, los
 inline constexpr Colour alarm{255, 140, 106};  // no live picture, failed
 inline constexpr Colour frozen{175, 214, 255};
 inline constexpr Colour simulated{202, 152, 255};
+inline constexpr Colour replay = text;  // as a plate: no other is white
 inline constexpr Colour ink{8, 11, 14}; // text on a filled badge, shadow of text on a picture
 inline constexpr Colour plate = panel.faded(242); // under text that lies over a picture
 
@@ -53,7 +54,8 @@ inline constexpr std::array texts_on_grounds{
     TextOnGround{warning, background}, TextOnGround{alarm, panel},
     TextOnGround{alarm, background},   TextOnGround{frozen, panel},
     TextOnGround{simulated, panel},    TextOnGround{ink, warning},
-    TextOnGround{ink, alarm},          TextOnGround{ink, frozen}};
+    TextOnGround{ink, alarm},          TextOnGround{ink, frozen},
+    TextOnGround{ink, replay}};
 
 // What says in what state the picture or a device is.
 inline constexpr std::array states{text, good, warning, alarm, frozen, simulated};

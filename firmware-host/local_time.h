@@ -1,0 +1,13 @@
+// A wall-clock time for people.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace octascope::firmware_host {
+
+// "2026-11-22 12:10:03", local time, of nanoseconds since 1970 (UTC). "time not said" for what no
+// clock says: 0, what is before, and years of more than four digits.
+std::string local_date_and_time(std::int64_t wall_clock_ns);
+
+} // namespace octascope::firmware_host
