@@ -129,14 +129,13 @@ void print_losses(const RecordingReport& report) {
   if (s.gaps == 0)
     fmt::print("  lost         no volume between the first and the last\n");
   else
-    fmt::print("  lost         {} volumes in {} gaps, at most {} in one\n", s.volumes_in_gaps,
+    fmt::print("  lost         volumes: {}, gaps: {}, the longest of {}\n", s.volumes_in_gaps,
                s.gaps, s.longest_gap);
   if (!report.end.finished)
     fmt::print("               how many the disk was too slow for is not known: not finished\n");
   else if (report.end.not_kept > 0)
-    fmt::print("               {} volumes came and were not kept: the disk was too slow\n",
-               report.end.not_kept);
-  fmt::print("               {} B-scans, {} lines; {} lines saturated\n", s.lost_b_scans,
+    fmt::print("               not kept because the disk was too slow: {}\n", report.end.not_kept);
+  fmt::print("               B-scans: {}, lines: {}; saturated lines: {}\n", s.lost_b_scans,
              s.lost_lines, s.saturated_lines);
 }
 

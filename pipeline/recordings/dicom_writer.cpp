@@ -157,7 +157,7 @@ void put_geometry(DicomItem& item, const VolumeGeometry& g, const std::string& s
 }
 
 // The decibels of the counts. Rescale Slope and Intercept would be read by more viewers, but this
-// kind of image allows none but 1 and 0 (PS3.3, C.8.6.3).
+// kind of image allows none but 1 and 0 (PS3.3, A.8.3.4; in older editions C.8.6.3).
 void put_decibels(DicomItem& item) {
   item.put(DCM_RescaleIntercept, EVR_DS, "0");
   item.put(DCM_RescaleSlope, EVR_DS, "1");

@@ -79,11 +79,11 @@ TEST_F(Info, speaks_to_people) {
        {"SIMULATED", "begun        2026-11-22T12:10:03+01:00, by octascope, in a test",
         "source       phantom eye", "subject      Müller, 17", "eye          left",
         "volumes      5, 0 to 4; the appliance's 1 to 6",
-        "duration     0.70 s, 7.09 volumes/s; planned one in 141.0 ms",
+        "duration     0.71 s, 7.09 volumes/s; planned one in 141.0 ms",
         "12 depths × 7 A-scans × 5 B-scans", "every 3.5 × 10 × 37.5 µm: 0.042 × 0.07 × 0.1875 mm",
         "counts 0 to 255, -40 dB and 0.5 dB a count, to 87.5 dB", "finished     yes",
-        "1 volumes in 1 gaps, at most 1 in one", "2 volumes came and were not kept",
-        "5 B-scans, 35 lines; 15 lines saturated"})
+        "lost         volumes: 1, gaps: 1, the longest of 1",
+        "not kept because the disk was too slow: 2", "B-scans: 5, lines: 35; saturated lines: 15"})
     EXPECT_THAT(said, HasSubstr(words));
 }
 
