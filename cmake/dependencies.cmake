@@ -33,6 +33,12 @@ if(OCTASCOPE_DISPLAY)
   pkg_check_modules(systemd REQUIRED IMPORTED_TARGET libsystemd)
   pkg_check_modules(libcamera REQUIRED IMPORTED_TARGET libcamera)
   pkg_check_modules(turbojpeg REQUIRED IMPORTED_TARGET libturbojpeg)
+  # DCMTK's own lists of its libraries bring networks, sound and XML along; a file needs three.
+  add_library(octascope_dcmtk INTERFACE)
+  foreach(library dcmdata oflog ofstd)
+    find_library(OCTASCOPE_${library} ${library} REQUIRED)
+    target_link_libraries(octascope_dcmtk INTERFACE ${OCTASCOPE_${library}})
+  endforeach()
 endif()
 
 # A parser of 15 k lines in headers: compiled once, in toml_library.cpp, instead of in every file.

@@ -4,6 +4,8 @@
 #include "firmware-host/commands/bench.h"
 #include "firmware-host/commands/calibrate.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/export.h"
+#include "firmware-host/commands/info.h"
 #include "firmware-host/commands/reconstruct.h"
 #include "firmware-host/commands/render.h"
 #include "firmware-host/commands/status.h"
@@ -36,6 +38,8 @@ int main(int argc, char** argv) {
   host::add_bench_command(program, exit_status);
   host::add_calibrate_command(program, exit_status);
   host::add_vessels_command(program, exit_status);
+  host::add_info_command(program, exit_status);
+  host::add_export_command(program, exit_status);
 
   try {
     program.parse(argc, argv);

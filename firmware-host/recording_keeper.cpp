@@ -30,9 +30,8 @@ constexpr hal::Duration patience_with_disk = 10s;
 
 std::string now_in_iso_8601() {
   const std::tm local = fmt::localtime(std::time(nullptr));
-  std::string offset = fmt::format("{:%z}", local); // +0100
-  offset.insert(offset.size() - 2, ":");
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}", local, offset);
+  const std::string offset = fmt::format("{:%z}", local); // +0100
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
 }
 
 } // namespace

@@ -381,7 +381,7 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
 // long that the picture would have had to be covered meanwhile.
 void RenderLoop::prove_picture(const hal::Flip& flip) {
   if (parts_.proof != nullptr && flip.completed - setup_.status.now <= setup_.freshness.veil_after)
-    parts_.proof->shown();
+    parts_.proof->shown(volume_ != nullptr);
 }
 
 // Without a monitor a restart would bring none, and it would cost a frozen picture and the view:

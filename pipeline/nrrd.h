@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,12 +23,18 @@ enum class NrrdType : std::uint8_t {
   float32, // decibels
 };
 
+// What else a header says: keys and their values, as `key:=value` lines. Other programs show them.
+using NrrdNotes = std::vector<std::pair<std::string, std::string>>;
+
 // Writes a volume B-scan by B-scan, in any order and from any thread; the file appears complete or
 // not at all.
 class NrrdWriter {
 public:
+  // Fault::invalid_argument: an empty volume; a note that is longer than a line of a header may be.
   static hal::Result<NrrdWriter> create(const std::filesystem::path& file,
-                                        const VolumeGeometry& geometry, NrrdType type);
+                                        const VolumeGeometry& geometry, NrrdType type,
+                                        const NrrdNotes& notes = {},
+                                        Readers readers = Readers::as_the_umask_allows);
 
   // `levels` are b_scan_voxels() values of the writer's type, as [a][z]. Thread-safe.
   hal::Result<> write_b_scan(int b, std::span<const float> levels) const;
@@ -45,6 +53,9 @@ private:
   NrrdType type_;
   std::size_t header_bytes_;
 };
+
+// Of a header, without its end; a reader takes no longer one for a header's.
+inline constexpr std::size_t longest_nrrd_line = 4096;
 
 struct NrrdVolume {
   VolumeGeometry geometry;

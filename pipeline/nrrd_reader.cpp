@@ -24,7 +24,6 @@ namespace {
 using Fields = std::map<std::string, std::string, std::less<>>;
 
 // A header is small: what has none in its first lines is no NRRD file.
-constexpr std::size_t longest_header_line = 4096;
 constexpr int most_header_lines = 256;
 
 class NrrdReader {
@@ -97,7 +96,7 @@ std::optional<std::string> NrrdReader::next_line() {
         line.pop_back();
       return line;
     }
-    if (line.size() == longest_header_line)
+    if (line.size() == longest_nrrd_line)
       return std::nullopt;
     line.push_back(static_cast<char>(c));
   }

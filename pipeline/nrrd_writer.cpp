@@ -1,5 +1,6 @@
 #include <bit>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -19,7 +20,21 @@ std::size_t voxel_bytes(NrrdType type) {
   return type == NrrdType::uint8 ? 1 : sizeof(float);
 }
 
-std::string header(const VolumeGeometry& g, NrrdType type) {
+// As the format has them: an end of a line within a line would end it.
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '\n')
+      safe += "\\n";
+    else if (c == '\\')
+      safe += "\\\\";
+    else
+      safe += c == '\r' ? ' ' : c;
+  }
+  return safe;
+}
+
+std::string header(const VolumeGeometry& g, NrrdType type, const NrrdNotes& notes) {
   std::string text = "NRRD0005\n"
                      "# OCT volume, 20 log10(|Y|/N) of camera counts\n";
   text += fmt::format("type: {}\n", type == NrrdType::uint8 ? "uint8" : "float");
@@ -34,23 +49,32 @@ std::string header(const VolumeGeometry& g, NrrdType type) {
           "encoding: raw\n";
   if (type == NrrdType::uint8)
     text += fmt::format("lowest_level_db:={}\nlevel_step_db:={}\n", lowest_level_db, level_step_db);
+  for (const auto& [key, value] : notes)
+    text += fmt::format("{}:={}\n", escaped(key), escaped(value));
   return text + "\n";
 }
 
 } // namespace
 
 hal::Result<NrrdWriter> NrrdWriter::create(const fs::path& file, const VolumeGeometry& geometry,
-                                           NrrdType type) {
+                                           NrrdType type, const NrrdNotes& notes, Readers readers) {
   if (geometry.depths < 1 || geometry.a_scans < 1 || geometry.b_scans < 1)
     return hal::fail(Fault::invalid_argument,
                      fmt::format("{}: a volume of {}×{}×{} voxels cannot be written, expected at "
                                  "least 1 each",
                                  file.string(), geometry.depths, geometry.a_scans,
                                  geometry.b_scans));
-  auto out = AtomicFile::create(file);
+  for (const auto& [key, value] : notes) {
+    const std::size_t bytes = escaped(key).size() + 2 + escaped(value).size();
+    if (bytes > longest_nrrd_line)
+      return hal::fail(Fault::invalid_argument,
+                       fmt::format("{}: found {} bytes to note as \"{}\", expected at most {}",
+                                   file.string(), bytes, key, longest_nrrd_line));
+  }
+  auto out = AtomicFile::create(file, readers);
   if (!out)
     return tl::make_unexpected(out.error());
-  const std::string text = header(geometry, type);
+  const std::string text = header(geometry, type, notes);
   if (const auto written = out->write_at(0, std::as_bytes(std::span{text})); !written)
     return tl::make_unexpected(written.error());
   return NrrdWriter{std::move(*out), geometry, type, text.size()};

@@ -36,4 +36,44 @@ hal::Result<std::array<int, 2>> parse_size(std::string_view text) {
                                text));
 }
 
+bool read_number(std::string_view text, float& value, const ui::ParameterRange& range) {
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc{} && at == end && value >= range.lowest && value <= range.highest;
+}
+
+hal::Result<ui::DisplayWindow> parse_window(std::string_view text) {
+  const ui::ParameterRange offset = parameter_range(ui::Parameter::window_offset, 1);
+  const ui::ParameterRange size = parameter_range(ui::Parameter::window_size, 1);
+  ui::DisplayWindow window;
+  const std::size_t comma = text.find(',');
+  if (comma != std::string_view::npos &&
+      read_number(text.substr(0, comma), window.offset_db, offset) &&
+      read_number(text.substr(comma + 1), window.size_db, size))
+    return window;
+  return hal::fail(hal::Fault::invalid_argument,
+                   fmt::format("--window is \"{}\", expected L,S: the level in dB where it begins "
+                               "({} to {}) and its size in dB ({} to {}), as in 8,36",
+                               text, offset.lowest, offset.highest, size.lowest, size.highest));
+}
+
+hal::Result<VolumeRange> parse_volumes(std::string_view text) {
+  VolumeRange range;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, range.first);
+  if (first.ec == std::errc{} && first.ptr == end)
+    range.last = range.first;
+  bool good = first.ec == std::errc{} && (first.ptr == end || *first.ptr == '-');
+  if (good && first.ptr != end && first.ptr + 1 != end) {
+    const auto last = std::from_chars(first.ptr + 1, end, range.last.emplace());
+    good = last.ec == std::errc{} && last.ptr == end && *range.last >= range.first;
+  }
+  if (good)
+    return range;
+  return hal::fail(hal::Fault::invalid_argument,
+                   fmt::format("--volumes is \"{}\", expected one volume, counted from 0, or a "
+                               "range, as in 12, 10-20, or 10- to the last",
+                               text));
+}
+
 } // namespace octascope::firmware_host

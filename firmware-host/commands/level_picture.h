@@ -1,9 +1,14 @@
-// A B-scan as a picture, for looking at on a desk; the display draws with its own window.
+// B-scans and volumes from above as pictures, for looking at on a desk; the display draws its own.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 
+#include "hal/result.h"
 #include "pipeline/png_image.h"
+#include "pipeline/volume.h"
+#include "ui/auto_window.h"
 
 namespace octascope::firmware_host {
 
@@ -11,5 +16,20 @@ namespace octascope::firmware_host {
 // which is mostly noise, white the level that one voxel in a thousand exceeds; of the first
 // depths, up to a hundredth, none counts: what is left of the background is there.
 pipeline::Image draw_b_scan(std::span<const float> levels_db, int depths, int a_scans);
+
+// The same of a volume's B-scan, black where the window begins, white where it ends.
+pipeline::Image draw_b_scan(const pipeline::Volume& volume, int b_scan,
+                            const ui::DisplayWindow& window);
+
+// From above: the mean of each A-scan's counts, one pixel an A-scan, the fast axis to the right,
+// the first B-scan at the top. In the window, or, without one, with the contrast that the display
+// gives its en-face picture.
+pipeline::Image draw_en_face(const pipeline::Volume& volume,
+                             const std::optional<ui::DisplayWindow>& window);
+
+// With square pixels, of the smaller spacing; each becomes several where they lay farther apart.
+// Fault::invalid_argument: that would be too large a picture.
+hal::Result<pipeline::Image> to_scale(const pipeline::Image& grey, double column_spacing,
+                                      double row_spacing);
 
 } // namespace octascope::firmware_host

@@ -1,5 +1,4 @@
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -67,13 +66,6 @@ const std::map<std::string, ui::VesselColouring>& vessel_colourings() {
   return all;
 }
 
-// The whole text as a number of the range; "nan" is in none.
-bool read_number(std::string_view text, float& value, const ui::ParameterRange& range) {
-  const char* const end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && at == end && value >= range.lowest && value <= range.highest;
-}
-
 CLI::Validator within(const ui::ParameterRange& range) {
   return CLI::Validator{[range](std::string& text) {
                           float value = 0;
@@ -87,21 +79,6 @@ CLI::Validator within(const ui::ParameterRange& range) {
 
 CLI::Validator within(ui::Parameter parameter) {
   return within(parameter_range(parameter, 1));
-}
-
-hal::Result<ui::DisplayWindow> parse_window(std::string_view text) {
-  const ui::ParameterRange offset = parameter_range(ui::Parameter::window_offset, 1);
-  const ui::ParameterRange size = parameter_range(ui::Parameter::window_size, 1);
-  ui::DisplayWindow window;
-  const std::size_t comma = text.find(',');
-  if (comma != std::string_view::npos &&
-      read_number(text.substr(0, comma), window.offset_db, offset) &&
-      read_number(text.substr(comma + 1), window.size_db, size))
-    return window;
-  return hal::fail(hal::Fault::invalid_argument,
-                   fmt::format("--window is \"{}\", expected L,S: the level in dB where it begins "
-                               "({} to {}) and its size in dB ({} to {}), as in 8,36",
-                               text, offset.lowest, offset.highest, size.lowest, size.highest));
 }
 
 hal::Result<VolumeRequest> request_of(const Arguments& a) {

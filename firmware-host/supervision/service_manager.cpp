@@ -56,6 +56,13 @@ void ServiceManager::ready() const {
   sd_notify(0, "READY=1");
 }
 
+void ServiceManager::set_watchdog(hal::Duration interval) const {
+  if (!watchdog_interval_)
+    return;
+  const auto us = std::chrono::duration_cast<std::chrono::microseconds>(interval);
+  sd_notify(0, fmt::format("WATCHDOG_USEC={}", us.count()).c_str());
+}
+
 void ServiceManager::kick() const {
   sd_notify(0, "WATCHDOG=1");
 }

@@ -32,7 +32,9 @@ public:
 
   // A step on the way to the picture begins: it may take as long as the whole start otherwise.
   void starting(std::string_view step) const;
-  void ready() const;    // the picture is there
+  void ready() const; // the picture is there
+  // Where there is a watchdog, it waits so long from now on.
+  void set_watchdog(hal::Duration interval) const;
   void kick() const;     // the watchdog
   void stopping() const; // in good order
   void status(const std::string& line) const;

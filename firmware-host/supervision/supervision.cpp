@@ -1,5 +1,6 @@
 #include "firmware-host/supervision/supervision.h"
 
+#include <algorithm>
 #include <fstream>
 #include <span>
 #include <sstream>
@@ -134,8 +135,12 @@ void Supervision::run() {
 void Supervision::step(hal::TimePoint now) {
   if (!ready_ && picture_.frames() > 0) {
     ready_ = true;
+    manager_.set_watchdog(
+        std::max(patience_before_settled, manager_.watchdog_interval().value_or(hal::Duration{})));
     manager_.ready();
   }
+  if (watchdog_.settles(picture_.volume_frames(), now))
+    manager_.set_watchdog(*manager_.watchdog_interval());
   if (watchdog_.due(picture_.steps(), now))
     manager_.kick();
   if (now < next_look_)

@@ -51,6 +51,28 @@ TEST(Watchdog, is_never_kicked_where_none_watches) {
   EXPECT_FALSE(watchdog.due(1, t0));
 }
 
+TEST(Watchdog, is_patient_until_volumes_have_been_shown_without_a_pause) {
+  Watchdog watchdog{4s};
+  EXPECT_FALSE(watchdog.settles(0, t0 + 100s)) << "no volume has come";
+  std::uint64_t frames = 0;
+  const auto settles_after = [&](hal::TimePoint from, hal::Duration apart) {
+    hal::TimePoint now = from;
+    while (!watchdog.settles(++frames, now) && now < from + 60s)
+      now += apart;
+    return now - from;
+  };
+  EXPECT_FALSE(watchdog.settles(++frames, t0 + 100s)) << "its first picture";
+  EXPECT_GE(settles_after(t0 + 112s, 3s), 60s) << "compiling holds it up again and again";
+  EXPECT_EQ(settles_after(t0 + 200s, 500ms), 4s);
+  EXPECT_FALSE(watchdog.settles(++frames, t0 + 300s)) << "once";
+}
+
+TEST(Watchdog, has_no_patience_to_lose_where_none_watches) {
+  Watchdog watchdog{std::nullopt};
+  for (std::uint64_t i = 0; i < 100; ++i)
+    EXPECT_FALSE(watchdog.settles(i, t0 + i * 100ms));
+}
+
 // ---- Threads.
 
 class Threads : public testing::Test {

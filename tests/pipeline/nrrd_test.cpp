@@ -65,6 +65,44 @@ TEST_F(Nrrd, comes_back_as_it_went) {
   EXPECT_EQ(again->levels, counts.levels);
 }
 
+TEST_F(Nrrd, notes_are_in_the_header_whatever_they_hold) {
+  const NrrdVolume volume{{2, 2, 1, 3.5, 10, 37.5}, std::vector<std::uint8_t>{1, 2, 3, 4}};
+  const NrrdNotes notes{{"SIMULATED", "yes"}, {"source", "two\nlines, a \\ and µ\r"}};
+  auto writer = NrrdWriter::create(folder / "v.nrrd", volume.geometry, NrrdType::uint8, notes,
+                                   Readers::owner);
+  ASSERT_TRUE(writer) << writer.error().message;
+  ASSERT_TRUE(writer->write_b_scan(0, std::get<0>(volume.levels)));
+  ASSERT_TRUE(writer->commit());
+  EXPECT_THAT(contents(folder / "v.nrrd"),
+              HasSubstr("\nSIMULATED:=yes\nsource:=two\\nlines, a \\\\ and µ \n\n"));
+  using std::filesystem::perms;
+  EXPECT_EQ(std::filesystem::status(folder / "v.nrrd").permissions(),
+            perms::owner_read | perms::owner_write);
+  const auto read = read_nrrd(folder / "v.nrrd");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->levels, volume.levels);
+  if (std::system("command -v teem-unu > /dev/null") == 0) {
+    const std::string out = (folder / "head").string();
+    EXPECT_EQ(std::system(
+                  fmt::format("teem-unu head {} > {}", (folder / "v.nrrd").string(), out).c_str()),
+              0);
+    EXPECT_THAT(contents(out), HasSubstr("source:=two\\nlines, a \\\\ and µ"));
+  }
+}
+
+TEST_F(Nrrd, notes_that_no_reader_would_take_are_refused) {
+  const VolumeGeometry geometry{2, 2, 1, 3.5, 10, 37.5};
+  const auto create = [&](std::size_t bytes) {
+    return NrrdWriter::create(folder / "v.nrrd", geometry, NrrdType::uint8,
+                              {{"k", std::string(bytes, 'x')}});
+  };
+  EXPECT_TRUE(create(4093));
+  const auto refused = create(4094);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().fault, hal::Fault::invalid_argument);
+  EXPECT_EQ(folder.count(), 0);
+}
+
 TEST_F(Nrrd, teem_reads_it) {
   if (std::system("command -v teem-unu > /dev/null") != 0)
     GTEST_SKIP() << "no teem-unu (Debian package teem-apps)";

@@ -83,7 +83,7 @@ TEST_P(Help, has_an_example) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("", "run", "devices", "doctor", "reconstruct", "render",
-                                         "replay", "vessels"),
+                                         "record", "info", "export", "replay", "vessels"),
                          [](const auto& test) {
                            return test.param.empty() ? std::string{"octascope"} : test.param;
                          });

@@ -159,6 +159,16 @@ TEST(Supervision, says_ready_with_the_first_picture_and_kicks_with_those_that_fo
   EXPECT_EQ(run.wait().exit_status, 0);
 }
 
+TEST(Supervision, asks_for_patience_until_volumes_are_shown_steadily) {
+  Service service;
+  ProgramRun run{service.command()};
+  const std::string told = service.listen(60s, "READY=1");
+  EXPECT_THAT(told, HasSubstr("WATCHDOG_USEC=60000000"));
+  EXPECT_THAT(service.listen(60s, "WATCHDOG_USEC="), HasSubstr("WATCHDOG_USEC=800000"))
+      << "as the unit says";
+  EXPECT_THAT(service.listen(60s, "WATCHDOG=1"), HasSubstr("WATCHDOG=1"));
+}
+
 TEST(Supervision, tells_each_step_of_the_start_and_asks_for_its_time) {
   Service service;
   ProgramRun run{service.command()};

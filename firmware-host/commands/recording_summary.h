@@ -1,0 +1,30 @@
+// What the entries of a recording's volumes say together.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "pipeline/recordings/recording.h"
+
+namespace octascope::firmware_host {
+
+struct RecordingSummary {
+  std::uint64_t volumes = 0;
+  double duration_s = 0;         // from the first line of the first volume to the end of the last
+  std::optional<double> rate_hz; // of the volumes that are there; empty for fewer than two
+  std::uint64_t first_index = 0; // as the appliance counted them
+  std::uint64_t last_index = 0;
+  std::uint64_t gaps = 0;            // places between two volumes where others were
+  std::uint64_t volumes_in_gaps = 0; // how many these were
+  std::uint64_t longest_gap = 0;     // in volumes
+  std::int64_t lost_b_scans = 0;
+  std::int64_t lost_lines = 0;
+  std::int64_t saturated_lines = 0;
+};
+
+// `volume_period_s` stands for the time that the last volume took.
+RecordingSummary summarise(std::span<const pipeline::RecordedVolume> volumes,
+                           double volume_period_s);
+
+} // namespace octascope::firmware_host
