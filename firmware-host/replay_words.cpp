@@ -8,7 +8,7 @@ namespace octascope::firmware_host {
 
 namespace {
 
-constexpr std::size_t longest_subject = 24; // bytes
+constexpr std::size_t longest_subject = 16; // bytes: what finds room beside the other badges
 
 // A name from a file: in one line, and cut between two characters of UTF-8.
 std::string in_short(std::string_view text, std::size_t most) {

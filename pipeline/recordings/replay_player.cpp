@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "pipeline/hot_path.h"
 
 namespace octascope::pipeline {
@@ -114,9 +116,22 @@ void ReplayPlayer::go_to(std::size_t n, hal::TimePoint now) {
   finish(ReplayEnd::none);
 }
 
-void ReplayPlayer::prepare(hal::TimePoint now) {
+// Of a file that was cut off meanwhile HDF5 reads zeros, and no error: a volume of which nothing
+// came. Such a one is never published, and so was never recorded.
+hal::Result<> ReplayPlayer::read_next() {
   Volume& volume = volumes_[reading_];
-  if (const auto read = source_.read(next_, volume); !read) {
+  return source_.read(next_, volume).and_then([&]() -> hal::Result<> {
+    if (volume.missing_b_scans() < volume.geometry.b_scans)
+      return {};
+    return hal::fail(hal::Fault::bad_data,
+                     fmt::format("volume {}: found none of its {} B-scans, expected one at least: "
+                                 "the file is damaged or was cut off",
+                                 next_, volume.geometry.b_scans));
+  });
+}
+
+void ReplayPlayer::prepare(hal::TimePoint now) {
+  if (const auto read = read_next(); !read) {
     faults_.add("recording", "unreadable_volume", read.error().message, now);
     count_gap(source_.volumes[next_].index);
     count_lost(1);
@@ -127,7 +142,7 @@ void ReplayPlayer::prepare(hal::TimePoint now) {
   }
   const HotPath hot;
   unreadable_ = 0;
-  complete(volume);
+  complete(volumes_[reading_]);
   prepared_ = true;
   due_ = *begun_ + schedule_.offset(next_);
   if (now > due_ + most_behind) {

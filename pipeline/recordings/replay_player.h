@@ -84,6 +84,7 @@ private:
 
   void follow_wishes(hal::TimePoint now);
   void go_to(std::size_t n, hal::TimePoint now);
+  hal::Result<> read_next();
   void prepare(hal::TimePoint now);
   void publish(hal::TimePoint now);
   void advance();

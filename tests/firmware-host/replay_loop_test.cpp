@@ -130,7 +130,7 @@ TEST(ReplayWords, say_whose_it_is_with_the_eye_first) {
   EXPECT_EQ(firmware_host::whose_recording(facts), "right eye, subject 4711");
   facts.subject = "Überlänge mit Umläuten und\nmehr";
   const std::string words = firmware_host::whose_recording(facts);
-  EXPECT_EQ(words, "right eye, subject Überlänge mit Umläute…");
+  EXPECT_EQ(words, "right eye, subject Überlänge mit …");
 }
 
 TEST(ReplayWords, tell_a_time_that_nobody_said) {

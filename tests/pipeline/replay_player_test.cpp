@@ -189,6 +189,21 @@ TEST_F(ReplayPlayerTest, goes_on_after_a_volume_that_cannot_be_read_and_tells) {
   expect_balance();
 }
 
+// As HDF5 reads it from a file that was cut off.
+TEST_F(ReplayPlayerTest, a_volume_of_which_nothing_came_counts_as_unreadable) {
+  ReplaySource cut_off = source(3);
+  cut_off.read = [read = cut_off.read](std::size_t n, Volume& volume) {
+    auto done = read(n, volume);
+    if (n == 1)
+      std::ranges::fill(volume.b_scan_states, BScanState::missing);
+    return done;
+  };
+  play(std::move(cut_off), {.once = true});
+  EXPECT_THAT(indices(taken_until(10s)), ElementsAre(1, 4));
+  ASSERT_EQ(faults.records().size(), 1U);
+  EXPECT_THAT(faults.records()[0].message, HasSubstr("found none of its 5 B-scans"));
+}
+
 TEST_F(ReplayPlayerTest, ends_when_nothing_can_be_read_any_more) {
   play(source(3));
   taken_until(200ms);
