@@ -99,7 +99,7 @@ hal::Result<pipeline::Image> to_scale(const pipeline::Image& grey, double column
                                  width, height, longest_side, grey.width, grey.height));
   pipeline::Image image{static_cast<int>(width), static_cast<int>(height), 1};
   const auto nearest = [](int at, int of, int source) {
-    return static_cast<std::size_t>((2 * at + 1) * static_cast<std::int64_t>(source) / (2 * of));
+    return static_cast<std::size_t>((2 * std::int64_t{at} + 1) * source / (2 * std::int64_t{of}));
   };
   auto pixel_out = image.pixels.begin();
   for (int y = 0; y < image.height; ++y) {

@@ -36,9 +36,8 @@ public:
       return tl::make_unexpected(writer.error());
     for (int b = 0; b < facts_.geometry.b_scans; ++b) {
       const auto counts = from.volume.b_scan(b);
-      const auto written = type_ == pipeline::NrrdType::uint8
-                               ? writer->write_b_scan(b, counts)
-                               : writer->write_b_scan(b, decibels(counts));
+      auto written = type_ == pipeline::NrrdType::uint8 ? writer->write_b_scan(b, counts)
+                                                        : writer->write_b_scan(b, decibels(counts));
       if (!written)
         return written;
     }
