@@ -98,8 +98,8 @@ Status worst_replay() {
   return status;
 }
 
-// What must be seen at once within the marks; the rest, where it is all too much, over the border
-// of a picture and not in its middle.
+// What must be seen at once within the marks; the rest, where everything is said at once, no lower
+// than the upper third of the large picture.
 TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
   const HudText text = compose_hud_text({}, worst_replay(), {});
   ASSERT_EQ(text.badge_count, HudText::most_badges - 1);
@@ -114,8 +114,7 @@ TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
       for (std::size_t i = 0; i < text.badge_count; ++i) {
         const BadgeKind badge = text.badges[i].kind;
         const bool small = badge == BadgeKind::whose || badge == BadgeKind::incomplete;
-        const int lowest =
-            small ? layout.large.y + (layout.large.height + 3) / 4 : layout.marks.bottom();
+        const int lowest = small ? layout.large.y + layout.large.height / 3 : layout.marks.bottom();
         EXPECT_LE(places[i].right(), layout.marks.right())
             << width << "x" << height << ", " << text.badges[i].text.view();
         EXPECT_LE(places[i].bottom(), lowest)
