@@ -99,7 +99,7 @@ Status worst_replay() {
 }
 
 // What must be seen at once within the marks; the rest, where everything is said at once, no lower
-// than the upper third of the large picture.
+// than two fifths of the large picture, so that its middle stays free.
 TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
   const HudText text = compose_hud_text({}, worst_replay(), {});
   ASSERT_EQ(text.badge_count, HudText::most_badges - 1);
@@ -114,7 +114,8 @@ TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
       for (std::size_t i = 0; i < text.badge_count; ++i) {
         const BadgeKind badge = text.badges[i].kind;
         const bool small = badge == BadgeKind::whose || badge == BadgeKind::incomplete;
-        const int lowest = small ? layout.large.y + layout.large.height / 3 : layout.marks.bottom();
+        const int lowest =
+            small ? layout.large.y + layout.large.height * 2 / 5 : layout.marks.bottom();
         EXPECT_LE(places[i].right(), layout.marks.right())
             << width << "x" << height << ", " << text.badges[i].text.view();
         EXPECT_LE(places[i].bottom(), lowest)
