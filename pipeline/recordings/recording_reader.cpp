@@ -33,12 +33,14 @@ namespace {
 constexpr unsigned read_attempts = 22;
 
 // One that was never finished counts as being written.
-Hdf5Handle open_file(const std::filesystem::path& path) {
+hal::Result<Hdf5Handle> open_file(const std::filesystem::path& path) {
   const Hdf5Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   H5Pset_metadata_read_attempts(access, read_attempts);
   Hdf5Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose};
   if (!file.valid())
     file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose};
+  if (!file.valid()) // asked now: HDF5 forgets it with the next call
+    return hal::fail(hal::Fault::bad_data, "is no recording, or a damaged one: " + hdf5_reason());
   return file;
 }
 
@@ -139,9 +141,10 @@ hal::Result<RecordingReader> RecordingReader::open(const std::filesystem::path& 
     return refused(checked.error());
   auto opened = std::make_unique<File>();
   opened->path = path;
-  opened->file = open_file(path);
-  if (!opened->file.valid())
-    return refused({hal::Fault::bad_data, "is no recording, or a damaged one: " + hdf5_reason()});
+  auto file = open_file(path);
+  if (!file)
+    return refused(file.error());
+  opened->file = std::move(*file);
   auto facts = read_facts(opened->file);
   if (!facts)
     return refused(facts.error());

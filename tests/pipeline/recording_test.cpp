@@ -22,6 +22,7 @@
 namespace octascope::pipeline {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using tests::append_small_volumes;
 using tests::small_recording_entry;
@@ -202,7 +203,8 @@ TEST_F(Recording, refuses_what_is_none) {
   EXPECT_THAT(refusal(folder / "none.h5"), HasSubstr("no such file"));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("a folder"));
   EXPECT_THAT(refusal(folder.write("empty.h5", "")), HasSubstr("no recording"));
-  EXPECT_THAT(refusal(folder.write("text.h5", "NRRD0005\n")), HasSubstr("no recording"));
+  EXPECT_THAT(refusal(folder.write("text.h5", "NRRD0005\n")),
+              AllOf(HasSubstr("no recording"), HasSubstr("signature")));
   const std::string other = folder / "other.h5";
   H5Fclose(H5Fcreate(other.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
   EXPECT_THAT(refusal(other), HasSubstr("is no recording of octascope"));
