@@ -21,7 +21,6 @@ if(OCTASCOPE_DISPLAY)
   pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)
   pkg_check_modules(evdev REQUIRED IMPORTED_TARGET libevdev)
   pkg_check_modules(freetype REQUIRED IMPORTED_TARGET freetype2)
-  pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5)
   pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
   pkg_check_modules(glesv2 REQUIRED IMPORTED_TARGET glesv2)
   pkg_check_modules(gpiod REQUIRED IMPORTED_TARGET libgpiod)
@@ -33,6 +32,16 @@ if(OCTASCOPE_DISPLAY)
   pkg_check_modules(systemd REQUIRED IMPORTED_TARGET libsystemd)
   pkg_check_modules(libcamera REQUIRED IMPORTED_TARGET libcamera)
   pkg_check_modules(turbojpeg REQUIRED IMPORTED_TARGET libturbojpeg)
+  # Its shared library has a driver for files on the network, and brings curl, TLS, LDAP and Kerberos
+  # along, which the program that a surgeon looks at shall not have in its memory. Of the archive
+  # only what is used is linked.
+  pkg_check_modules(hdf5 REQUIRED hdf5)
+  find_library(OCTASCOPE_HDF5_ARCHIVE NAMES libhdf5_serial.a libhdf5.a HINTS ${hdf5_LIBRARY_DIRS} REQUIRED)
+  find_library(OCTASCOPE_SZ sz REQUIRED)
+  add_library(octascope_hdf5 INTERFACE)
+  target_include_directories(octascope_hdf5 SYSTEM INTERFACE ${hdf5_INCLUDE_DIRS})
+  target_link_libraries(octascope_hdf5 INTERFACE ${OCTASCOPE_HDF5_ARCHIVE} ${OCTASCOPE_SZ} ZLIB::ZLIB
+                                                 ${CMAKE_DL_LIBS} m)
   # DCMTK's own lists of its libraries bring networks, sound and XML along; a file needs three.
   add_library(octascope_dcmtk INTERFACE)
   foreach(library dcmdata oflog ofstd)

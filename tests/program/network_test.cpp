@@ -57,6 +57,23 @@ TEST(Network, a_running_program_has_no_network_socket) {
   EXPECT_EQ(run.wait(60s).exit_status, 0);
 }
 
+// What speaks to networks is not even loaded.
+TEST(Network, a_running_program_has_no_library_for_networks) {
+  const ScratchFolder folder;
+  ProgramRun run{octascope_command(small_run(folder, {"--duration", "100"}))};
+  ASSERT_TRUE(run.wait_for_thread("octa-camera", 60s));
+  std::ifstream maps{"/proc/" + std::to_string(run.process()) + "/maps"};
+  int libraries = 0;
+  for (std::string line; std::getline(maps, line);) {
+    libraries += line.find(".so") != std::string::npos ? 1 : 0;
+    for (const char* library : {"libcurl", "libssl", "libldap", "libkrb5", "libssh", "libnghttp"})
+      EXPECT_EQ(line.find(library), std::string::npos) << line;
+  }
+  EXPECT_GT(libraries, 50);
+  run.send_signal(SIGTERM);
+  EXPECT_EQ(run.wait(60s).exit_status, 0);
+}
+
 // The test above could see one.
 TEST(Network, a_socket_would_be_seen) {
   const int udp = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
