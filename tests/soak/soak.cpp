@@ -57,11 +57,20 @@ pipeline::ScanPlan plan_of(const SoakOptions& options) {
   return plan;
 }
 
+// A switch that sticks must not choose another technique or layout: what these keep for themselves
+// is memory that grows, and no leak.
+constexpr const char* controls_file = "soak-controls.toml";
+constexpr const char* controls =
+    "name = \"Soak\"\n"
+    "[[bind]]\nswitch = \"left\"\ngesture = \"press\"\naction = \"box\"\n"
+    "[[bind]]\nswitch = \"centre\"\ngesture = \"press\"\naction = \"freeze\"\n"
+    "[[bind]]\nswitch = \"right\"\ngesture = \"press\"\naction = \"legend\"\n";
+
 std::string configuration(const SoakOptions& options) {
   return fmt::format("[scan]\nsamples = {}\na_scans = {}\nfly_back_lines = {}\nb_scans = {}\n"
-                     "line_rate_hz = {}\n[sim]\nloop_volumes = 2\n",
+                     "line_rate_hz = {}\n[sim]\nloop_volumes = 2\n[controls]\nfile = \"{}\"\n",
                      options.samples, options.a_scans, options.fly_back, options.b_scans,
-                     options.line_rate_hz);
+                     options.line_rate_hz, controls_file);
 }
 
 // A third of the time, at least enough to look twice.
@@ -120,6 +129,7 @@ Outcome soak(const SoakOptions& options, const Phase& phase, const std::filesyst
     return (folder / fmt::format("{}{}", phase.faults.empty() ? "quiet" : "faulty", ending))
         .string();
   };
+  std::ofstream{folder / controls_file} << controls;
   std::ofstream{file(".toml")} << configuration(options);
   std::vector<std::string> words{
       "run",       "--sim",      "--config",   file(".toml"), "--display",
