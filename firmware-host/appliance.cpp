@@ -111,10 +111,10 @@ public:
       return made;
     supervision_.crash_report().set_last_act(
         [](void* made) { static_cast<Devices*>(made)->make_trigger_safe(); }, devices_.get());
-    if (auto registered = load_registration(); !registered)
-      return registered;
     supervision_.starting("measuring the reconstruction");
     if (auto made = make_reconstruction(); !made)
+      return made;
+    if (auto made = make_vessels(); !made) // not before: reading a tree would disturb the measuring
       return made;
     make_recordings();
     make_threads();
@@ -148,7 +148,7 @@ public:
 
 private:
   void show_splash();
-  hal::Result<> load_registration();
+  hal::Result<> make_vessels();
   hal::Result<> make_reconstruction();
   void make_recordings();
   void make_threads();
@@ -187,7 +187,6 @@ private:
   std::unique_ptr<pipeline::VolumeThread> volumes_;
   std::unique_ptr<pipeline::ScopeThread> scope_;
   std::unique_ptr<pipeline::ControlThread> controls_;
-  std::optional<pipeline::Registration> registration_;
   std::unique_ptr<VesselDisplay> vessels_;
   std::unique_ptr<RenderLoop> loop_;
   hal::TimePoint started_;
@@ -284,23 +283,12 @@ void AssembledAppliance::make_threads() {
       std::make_unique<pipeline::ControlThread>(devices_->control_input(), clock_, faults_, news_);
 }
 
-// A tree in a wrong place would mislead: without its registration nothing runs. The tree itself is
-// loaded beside the display.
-hal::Result<> AssembledAppliance::load_registration() {
-  if (!options_.registration)
-    return {};
-  auto loaded = pipeline::Registration::load(*options_.registration);
-  if (!loaded)
-    return tl::make_unexpected(loaded.error());
-  registration_ = std::move(*loaded);
-  return {};
+hal::Result<> AssembledAppliance::make_vessels() {
+  return make_vessel_display(options_, clock_, faults_, news_)
+      .map([this](std::unique_ptr<VesselDisplay> made) { vessels_ = std::move(made); });
 }
 
 void AssembledAppliance::make_render_loop() {
-  if (options_.vessels)
-    vessels_ = std::make_unique<VesselDisplay>(
-        VesselDisplaySetup{*options_.vessels, options_.registration, registration_}, clock_,
-        faults_, news_);
   RenderLoopSetup setup;
   setup.display = display_config(options_, configuration_);
   setup.view.b_scan = devices_->plan().b_scans / 2;

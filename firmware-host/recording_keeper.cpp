@@ -65,7 +65,10 @@ hal::Result<> RecordingKeeper::start(const pipeline::ThreadSetup& setup) {
       if (fault.device == "recording")
         return hal::fail(hal::Fault::system, fault.message);
     if (clock_.now() > deadline)
-      return hal::fail(hal::Fault::timed_out, setup_.file->string() + ": the disk does not answer");
+      return hal::fail(hal::Fault::timed_out,
+                       setup_.file->string() +
+                           ": its disk has not answered for ten seconds: look at it, or "
+                           "record to another one");
     clock_.sleep_for(1ms);
   }
   return {};

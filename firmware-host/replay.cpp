@@ -48,8 +48,8 @@ public:
       return tl::make_unexpected(controls.error());
     if (auto opened = open_recording(); !opened)
       return opened;
-    if (auto registered = load_registration(); !registered)
-      return registered;
+    if (auto made = make_vessels(); !made)
+      return made;
     auto real = std::make_unique<RealDevices>(configuration_.devices,
                                               plan_of(options_, configuration_), clock_);
     const DeviceChoices choices =
@@ -82,7 +82,7 @@ public:
 
 private:
   hal::Result<> open_recording();
-  hal::Result<> load_registration();
+  hal::Result<> make_vessels();
   void make_render_loop(ui::ControlProfile controls);
   void show_until_done(StopSignal& stop_signal);
   bool done() const;
@@ -105,7 +105,6 @@ private:
   std::unique_ptr<Devices> devices_;
   std::unique_ptr<pipeline::ReplayThread> volumes_;
   std::unique_ptr<pipeline::ControlThread> controls_;
-  std::optional<pipeline::Registration> registration_;
   std::unique_ptr<VesselDisplay> vessels_;
   std::unique_ptr<RenderLoop> loop_;
   bool held_ = false;
@@ -140,22 +139,12 @@ hal::Result<> AssembledReplay::open_recording() {
   return {};
 }
 
-// A tree in a wrong place would mislead: without its registration nothing is shown.
-hal::Result<> AssembledReplay::load_registration() {
-  if (!options_.registration)
-    return {};
-  auto loaded = pipeline::Registration::load(*options_.registration);
-  if (!loaded)
-    return tl::make_unexpected(loaded.error());
-  registration_ = std::move(*loaded);
-  return {};
+hal::Result<> AssembledReplay::make_vessels() {
+  return make_vessel_display(options_, clock_, faults_, news_)
+      .map([this](std::unique_ptr<VesselDisplay> made) { vessels_ = std::move(made); });
 }
 
 void AssembledReplay::make_render_loop(ui::ControlProfile controls) {
-  if (options_.vessels)
-    vessels_ = std::make_unique<VesselDisplay>(
-        VesselDisplaySetup{*options_.vessels, options_.registration, registration_}, clock_,
-        faults_, news_);
   const pipeline::RecordingFacts& facts = volumes_->facts();
   RenderLoopSetup setup;
   setup.display = display_config(options_, configuration_);

@@ -1,11 +1,8 @@
 #include "firmware-host/replay_report.h"
 
-#include <cmath>
-#include <span>
-
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "firmware-host/report_parts.h"
 #include "firmware-host/version.h"
 #include "pipeline/atomic_file.h"
 
@@ -13,13 +10,7 @@ namespace octascope::firmware_host {
 
 namespace {
 
-using ReplayJson = nlohmann::ordered_json;
-
-double to_thousandths(double value) {
-  return std::round(value * 1000.0) / 1000.0;
-}
-
-ReplayJson recording_to_json(const ReplayReport& r) {
+ReportJson recording_to_json(const ReplayReport& r) {
   return {{"file", r.file.string()},
           {"begun", r.facts.begun},
           {"recorded_by", r.facts.recorded_by},
@@ -31,26 +22,14 @@ ReplayJson recording_to_json(const ReplayReport& r) {
           {"volumes", r.recorded}};
 }
 
-ReplayJson replay_faults_to_json(const ReplayReport& r) {
-  ReplayJson faults = ReplayJson::array();
-  for (const pipeline::FaultRecord& f : r.faults)
-    faults.push_back({{"device", f.device},
-                      {"kind", f.kind},
-                      {"message", f.message},
-                      {"count", f.count},
-                      {"first_s", to_thousandths(hal::to_seconds(f.first - r.started))},
-                      {"last_s", to_thousandths(hal::to_seconds(f.last - r.started))}});
-  return faults;
-}
-
 } // namespace
 
 std::string to_json(const ReplayReport& r) {
-  const ReplayJson json = {
+  const ReportJson json = {
       {"version", version()},
       {"replayed", recording_to_json(r)},
       {"simulated", r.facts.simulated},
-      {"duration_s", to_thousandths(r.duration_s)},
+      {"duration_s", rounded(r.duration_s)},
       {"devices", {{"control_input", r.control_input}, {"display", r.display}}},
       {"volumes",
        {{"planned", r.volumes.planned},
@@ -63,15 +42,12 @@ std::string to_json(const ReplayReport& r) {
         {"b_scans", r.volumes.lost_b_scans},
         {"volumes", r.volumes.lost_volumes}}},
       {"saturated_lines", r.volumes.saturated_lines},
-      {"latency_ms",
-       {{"p50", to_thousandths(r.latency.p50_ms)},
-        {"p95", to_thousandths(r.latency.p95_ms)},
-        {"max", to_thousandths(r.latency.max_ms)}}},
+      {"latency_ms", to_json(r.latency)},
       {"frames", {{"drawn", r.frames_drawn}}},
       {"hot_path", {{"allocations", r.hot_path_allocations}}},
-      {"faults", replay_faults_to_json(r)}};
+      {"faults", to_json(r.faults, r.started)}};
   // What a file says of itself may be in anything.
-  return json.dump(2, ' ', false, ReplayJson::error_handler_t::replace) + "\n";
+  return json.dump(2, ' ', false, ReportJson::error_handler_t::replace) + "\n";
 }
 
 std::string to_text(const ReplayReport& r) {
@@ -83,17 +59,11 @@ std::string to_text(const ReplayReport& r) {
       r.frames_drawn, r.volumes.lost_lines, r.volumes.lost_b_scans, r.volumes.lost_volumes);
   if (!r.end.finished)
     text += "the recording was never finished: what is in it is whole\n";
-  for (const pipeline::FaultRecord& f : r.faults)
-    text += fmt::format("fault: {} {} ×{}: {}\n", f.device, f.kind, f.count, f.message);
-  return text;
+  return text + to_text(r.faults);
 }
 
 hal::Result<> write_report(const ReplayReport& report, const std::filesystem::path& file) {
-  auto out = pipeline::AtomicFile::create(file);
-  if (!out)
-    return tl::make_unexpected(out.error());
-  const std::string json = to_json(report);
-  return out->write_at(0, std::as_bytes(std::span{json})).and_then([&] { return out->commit(); });
+  return pipeline::write_atomically(file, to_json(report));
 }
 
 } // namespace octascope::firmware_host

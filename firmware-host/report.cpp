@@ -2,11 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <span>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "firmware-host/report_parts.h"
 #include "firmware-host/version.h"
 #include "pipeline/atomic_file.h"
 
@@ -14,29 +13,7 @@ namespace octascope::firmware_host {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-// Three digits after the point are a microsecond of a millisecond: more would be noise.
-double rounded(double value) {
-  return std::round(value * 1000.0) / 1000.0;
-}
-
-Json to_json(const pipeline::DurationSummary& s) {
-  return {{"p50", rounded(s.p50_ms)}, {"p95", rounded(s.p95_ms)}, {"max", rounded(s.max_ms)}};
-}
-
-Json faults_to_json(const RunReport& report) {
-  Json faults = Json::array();
-  for (const pipeline::FaultRecord& f : report.faults) {
-    faults.push_back({{"device", f.device},
-                      {"kind", f.kind},
-                      {"message", f.message},
-                      {"count", f.count},
-                      {"first_s", rounded(hal::to_seconds(f.first - report.started))},
-                      {"last_s", rounded(hal::to_seconds(f.last - report.started))}});
-  }
-  return faults;
-}
+using Json = ReportJson;
 
 // The times are null where there was no choice to make.
 Json reconstruction_to_json(const RunReport& report) {
@@ -175,7 +152,7 @@ std::string to_json(const RunReport& r) {
       {"hot_path", {{"allocations", r.hot_path_allocations}}},
       {"view", view_to_json(r.view)},
       {"actions", actions_to_json(r)},
-      {"faults", faults_to_json(r)},
+      {"faults", to_json(r.faults, r.started)},
   };
   return json.dump(2) + "\n";
 }
@@ -193,17 +170,11 @@ std::string to_text(const RunReport& r) {
                         !r.phase.automatic ? "as configured"
                         : r.phase.used > 0 ? "found in the picture"
                                            : "as configured: the picture shows no better one");
-  for (const pipeline::FaultRecord& f : r.faults)
-    text += fmt::format("fault: {} {} ×{}: {}\n", f.device, f.kind, f.count, f.message);
-  return text;
+  return text + to_text(r.faults);
 }
 
 hal::Result<> write_report(const RunReport& report, const std::filesystem::path& file) {
-  auto out = pipeline::AtomicFile::create(file);
-  if (!out)
-    return tl::make_unexpected(out.error());
-  const std::string json = to_json(report);
-  return out->write_at(0, std::as_bytes(std::span{json})).and_then([&] { return out->commit(); });
+  return pipeline::write_atomically(file, to_json(report));
 }
 
 } // namespace octascope::firmware_host

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware-host/run_options.h"
 #include "firmware-host/vessel_place.h"
 
 namespace octascope::firmware_host {
@@ -20,6 +21,24 @@ constexpr int share_of_frame = 3; // the volume needs the larger part
 const std::string nothing_to_say;
 
 } // namespace
+
+hal::Result<std::unique_ptr<VesselDisplay>> make_vessel_display(const RunOptions& options,
+                                                                hal::Clock& clock,
+                                                                pipeline::FaultLog& faults,
+                                                                pipeline::Wakeup& news) {
+  VesselDisplaySetup setup;
+  if (options.registration) {
+    auto loaded = pipeline::Registration::load(*options.registration);
+    if (!loaded)
+      return tl::make_unexpected(loaded.error());
+    setup.registration = std::move(*loaded);
+  }
+  if (!options.vessels)
+    return std::unique_ptr<VesselDisplay>{};
+  setup.file = *options.vessels;
+  setup.registration_file = options.registration;
+  return std::make_unique<VesselDisplay>(std::move(setup), clock, faults, news);
+}
 
 VesselDisplay::VesselDisplay(VesselDisplaySetup setup, hal::Clock& clock,
                              pipeline::FaultLog& faults, pipeline::Wakeup& news)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -24,6 +25,17 @@ struct VesselDisplaySetup {
   std::optional<std::filesystem::path> registration_file;
   std::optional<pipeline::Registration> registration; // none: the tree's place is not known
 };
+
+class VesselDisplay;
+struct RunOptions;
+
+// The tree that the options name, loaded beside the display; null where they name none. A tree in a
+// wrong place would mislead: without its registration, where one is named, an Error. Everything
+// borrowed outlives it.
+hal::Result<std::unique_ptr<VesselDisplay>> make_vessel_display(const RunOptions& options,
+                                                                hal::Clock& clock,
+                                                                pipeline::FaultLog& faults,
+                                                                pipeline::Wakeup& news);
 
 // Bound to the render thread. Everything borrowed outlives it.
 class VesselDisplay {

@@ -40,7 +40,10 @@ hal::Result<Hdf5Handle> open_file(const std::filesystem::path& path) {
   if (!file.valid())
     file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose};
   if (!file.valid()) // asked now: HDF5 forgets it with the next call
-    return hal::fail(hal::Fault::bad_data, "is no recording, or a damaged one: " + hdf5_reason());
+    return hal::fail(hal::Fault::bad_data,
+                     "is no recording, or a damaged one; expected a file that octascope record "
+                     "or a pedal made: " +
+                         hdf5_reason());
   return file;
 }
 
@@ -49,6 +52,10 @@ hal::Result<Hdf5Handle> open_file(const std::filesystem::path& path) {
 constexpr std::size_t most_voxels = 0xFFFFFFFF;
 constexpr hsize_t most_volumes = 500'000'000;
 
+const char* words_for(H5T_class_t type) {
+  return type == H5T_INTEGER ? "whole numbers" : type == H5T_COMPOUND ? "records" : "another type";
+}
+
 // A dataset whose dimensions but the first are `expected`; the first is put into `volumes`.
 hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t type_class,
                                      std::span<const hsize_t> expected, hsize_t& volumes) {
@@ -56,7 +63,10 @@ hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t t
   H5Pset_chunk_cache(access, 0, 0, 0);
   Hdf5Handle dataset{H5Dopen2(file, name, access), H5Dclose};
   if (!dataset.valid())
-    return hal::fail(hal::Fault::bad_data, fmt::format("found no dataset /{}", name));
+    return hal::fail(hal::Fault::bad_data,
+                     fmt::format("found no dataset /{}, expected one: the file is damaged, or "
+                                 "another program changed it",
+                                 name));
   const Hdf5Handle type{H5Dget_type(dataset), H5Tclose};
   const Hdf5Handle space{H5Dget_space(dataset), H5Sclose};
   std::array<hsize_t, 4> found{};
@@ -68,10 +78,12 @@ hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t t
   if (H5Tget_class(type) != type_class || sizes.size() != expected.size() ||
       !std::ranges::equal(sizes.subspan(1), expected.subspan(1)))
     return hal::fail(hal::Fault::bad_data,
-                     fmt::format("/{}: found {} of class {}, expected [volumes, {}] of class {}",
-                                 name, sizes, static_cast<int>(H5Tget_class(type)),
-                                 fmt::join(expected.subspan(1), ", "),
-                                 static_cast<int>(type_class)));
+                     fmt::format("/{}: found {} of {}, expected [volumes{}{}] of {}, as the "
+                                 "attributes say: the file is damaged, or another program changed "
+                                 "it",
+                                 name, sizes, words_for(H5Tget_class(type)),
+                                 expected.size() > 1 ? ", " : "",
+                                 fmt::join(expected.subspan(1), ", "), words_for(type_class)));
   volumes = found[0];
   return dataset;
 }
