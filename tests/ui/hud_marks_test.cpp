@@ -36,6 +36,7 @@ Status worst_status() {
   status.reduced_quality = 0.67F;
   status.notice = "Camera lost: looking for it again";
   status.vessels.state = VesselStatus::State::shown; // and not registered
+  status.recording = {.on = true, .lasted = std::chrono::seconds{5999}};
   return status;
 }
 

@@ -75,17 +75,20 @@ TEST(HudText, a_replay_says_so_with_date_and_time_in_every_state) {
 }
 
 TEST(HudText, a_recording_says_how_long_and_of_which_eye) {
-  using Words = std::vector<std::string>;
   Status status = live_status();
-  status.simulated = false;
+  const auto cell = [&] { return compose_hud_text({}, status, {}).cells.back(); };
+  EXPECT_EQ(cell().label, "") << "none is on";
   status.recording = {.on = true, .lasted = std::chrono::seconds{75}};
-  EXPECT_EQ(badges_of(status), Words{"REC 1:15, eye not said"});
+  EXPECT_EQ(cell().label, "Recording");
+  EXPECT_EQ(cell().value.view(), "1:15, eye not said");
   status.recording.eye = pipeline::Eye::left;
-  EXPECT_EQ(badges_of(status), Words{"REC 1:15, left eye"});
+  EXPECT_EQ(cell().value.view(), "1:15, left eye");
   status.recording.eye = pipeline::Eye::right;
-  EXPECT_EQ(badges_of(status), Words{"REC 1:15, right eye"});
+  EXPECT_EQ(cell().value.view(), "1:15, right eye");
+  EXPECT_EQ(cell().tone, Tone::normal);
   status.recording.not_kept = 3;
-  EXPECT_EQ(badges_of(status), Words{"REC 1:15, 3 not kept"});
+  EXPECT_EQ(cell().value.view(), "1:15, 3 not kept");
+  EXPECT_EQ(cell().tone, Tone::warning);
 }
 
 TEST(HudText, figures_have_their_units_and_losses_warn) {

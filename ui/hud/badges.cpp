@@ -19,7 +19,6 @@ BadgeLook look_of(BadgeKind kind) {
   case BadgeKind::stale: return {palette::warning, true};
   case BadgeKind::veiled: return {palette::alarm, true};
   case BadgeKind::frozen: return {palette::frozen, true};
-  case BadgeKind::recording: return {palette::text, false};
   case BadgeKind::configuration:
   case BadgeKind::unregistered: return {palette::warning, false};
   case BadgeKind::incomplete: return {palette::warning, false};
@@ -61,7 +60,6 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
     canvas.ring(centre, half, ink, size * 0.15F);
     canvas.dot(centre, half * 0.4F, ink);
     break;
-  case BadgeKind::recording: canvas.dot(centre, half * 0.85F, ink); break;
   case BadgeKind::waiting: canvas.ring(centre, half, ink, size * 0.15F); break;
   case BadgeKind::configuration: // a page, with a line struck
     canvas.frame({static_cast<int>(centre.x - half * 0.75F), static_cast<int>(centre.y - half),

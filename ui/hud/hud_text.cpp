@@ -71,30 +71,12 @@ void add_replay_badge(HudText& hud, const ReplayStatus& replay) {
     text.format("REPLAY {}", replay.recorded);
 }
 
-// Whose it is belongs to it: a recording of the wrong eye is worse than none.
-void add_recording_badge(HudText& hud, const RecordingStatus& recording) {
-  if (!recording.on)
-    return;
-  const auto [minutes, seconds] = split(recording.lasted);
-  const bool said = recording.eye != pipeline::Eye::not_said;
-  FixedText<48>& text = add_badge(hud, BadgeKind::recording).text;
-  if (recording.not_kept > 0)
-    text.format("REC {}:{:02}, {} not kept", minutes, seconds, recording.not_kept);
-  else
-    text.format("REC {}:{:02}, {}", minutes, seconds,
-                !said                                  ? "eye not said"
-                : recording.eye == pipeline::Eye::left ? "left eye"
-                                                       : "right eye");
-}
-
 void compose_badges(HudText& hud, const Status& status) {
   if (status.replay)
     add_replay_badge(hud, *status.replay);
   add_freshness_badge(hud, status.freshness);
   if (status.simulated)
     add_badge(hud, BadgeKind::simulated).text.format("SIMULATED");
-  if (!status.replay)
-    add_recording_badge(hud, status.recording);
   if (hud.vessels.shown && !status.vessels.registered)
     add_badge(hud, BadgeKind::unregistered).text.format("VESSELS NOT REGISTERED");
   if (status.configuration != ConfigurationState::own)
@@ -129,8 +111,25 @@ void format_vessels(StatusCell& cell, const VesselStatus& vessels) {
   cell.tone = loading ? Tone::normal : Tone::warning;
 }
 
+// Whose it is belongs to it: a recording of the wrong eye is worse than none.
+void format_recording(StatusCell& cell, const RecordingStatus& recording) {
+  if (!recording.on)
+    return;
+  const auto [minutes, seconds] = split(recording.lasted);
+  cell.label = "Recording";
+  if (recording.not_kept > 0) {
+    cell.tone = Tone::warning;
+    cell.value.format("{}:{:02}, {} not kept", minutes, seconds, recording.not_kept);
+    return;
+  }
+  const std::string_view whose = recording.eye == pipeline::Eye::left    ? "left eye"
+                                 : recording.eye == pipeline::Eye::right ? "right eye"
+                                                                         : "eye not said";
+  cell.value.format("{}:{:02}, {}", minutes, seconds, whose);
+}
+
 void compose_cells(HudText& hud, const ViewState& view, const Status& status) {
-  auto& [volumes, lines, frames, latency, lost, window, vessels] = hud.cells;
+  auto& [volumes, lines, frames, latency, lost, window, vessels, recording] = hud.cells;
   volumes.label = "Volumes/s";
   volumes.value.format("{:.1f}", status.volumes_per_s);
   if (!status.replay) // no line comes
@@ -152,6 +151,7 @@ void compose_cells(HudText& hud, const ViewState& view, const Status& status) {
   window.value.format("{:.0f} to {:.0f} dB", view.window_offset_db,
                       view.window_offset_db + view.window_size_db);
   format_vessels(vessels, status.vessels);
+  format_recording(recording, status.recording);
 }
 
 void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels) {

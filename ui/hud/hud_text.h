@@ -26,7 +26,6 @@ enum class BadgeKind : std::uint8_t {
   frozen,
   configuration,
   unregistered,
-  recording,
   incomplete
 };
 
@@ -80,7 +79,7 @@ struct HudText {
 
   std::array<Badge, most_badges> badges;
   std::size_t badge_count = 0;
-  std::array<StatusCell, 7> cells; // one without a label is not there
+  std::array<StatusCell, 8> cells; // one without a label is not there
   Caption volume;                  // where it is not the large picture
   Caption b_scan;
   Caption en_face;
