@@ -1,9 +1,14 @@
 #include "firmware-host/commands/arguments.h"
 
 #include <charconv>
+#include <cstdio>
+#include <map>
 #include <span>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include "firmware-host/commands/command.h"
 
 namespace octascope::firmware_host {
 
@@ -24,7 +29,65 @@ bool parse_counts(std::string_view text, char separator, int most, std::span<int
   return at == end;
 }
 
+const std::map<std::string, DisplayChoice>& displays() {
+  static const std::map<std::string, DisplayChoice> all{{"auto", DisplayChoice::automatic},
+                                                        {"kms", DisplayChoice::kms},
+                                                        {"window", DisplayChoice::window},
+                                                        {"offscreen", DisplayChoice::offscreen}};
+  return all;
+}
+
 } // namespace
+
+void add_show_options(CLI::App& command, ShowArguments& a) {
+  command.add_option("--config", a.configuration, "Configuration (TOML)");
+  command.add_option("--display", a.display, "Where the picture goes")
+      ->check(CLI::IsMember({"auto", "kms", "window", "offscreen"}))
+      ->capture_default_str();
+  command.add_option("--size", a.size, "Size of the picture in pixels, as 1280x720");
+  auto* duration = command.add_option("--duration", a.duration_s, "End after so many seconds")
+                       ->check(CLI::Range(0.1, 1e9));
+  command.add_option("--volumes", a.volumes, "End after so many volumes")
+      ->check(CLI::Range(1, 1000000000))
+      ->excludes(duration);
+  CLI::Option* vessels =
+      command
+          .add_option("--vessels", a.vessels,
+                      "Vessel tree to show in the volume: ours, SWC (in µm) or VTP (in mm)")
+          ->type_name("FILE");
+  command
+      .add_option("--registration", a.registration,
+                  "Where it lies in the volume; else in its middle, marked as not registered")
+      ->type_name("FILE.toml")
+      ->needs(vessels);
+  command.add_option("--snapshot", a.snapshot, "Write the last picture here (PNG)");
+  command.add_option("--report", a.report, "Write the report here (JSON)");
+}
+
+hal::Result<> read_show_options(const ShowArguments& a, RunOptions& options) {
+  options.configuration = path_of(a.configuration);
+  options.display = displays().at(a.display);
+  options.vessels = path_of(a.vessels);
+  options.registration = path_of(a.registration);
+  options.snapshot = path_of(a.snapshot);
+  options.report = path_of(a.report);
+  if (a.duration_s > 0)
+    options.duration_s = a.duration_s;
+  if (a.volumes > 0)
+    options.volumes = a.volumes;
+  if (a.size.empty())
+    return {};
+  return parse_size(a.size).map([&](const std::array<int, 2>& size) { options.size = size; });
+}
+
+std::optional<std::filesystem::path> path_of(const std::string& text) {
+  return text.empty() ? std::nullopt : std::optional<std::filesystem::path>{text};
+}
+
+int complain(std::string_view command, const hal::Error& error) {
+  fmt::print(stderr, "octascope {}: {}\n", command, error.message);
+  return error.fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
+}
 
 hal::Result<std::array<int, 2>> parse_size(std::string_view text) {
   std::array<int, 2> size{};

@@ -3,14 +3,36 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
+#include <CLI/App.hpp>
+
+#include "firmware-host/run_options.h"
 #include "hal/result.h"
 #include "ui/auto_window.h"
 #include "ui/view_state.h"
 
 namespace octascope::firmware_host {
+
+// What run, record and replay take alike, as text, the way CLI11 collects it.
+struct ShowArguments {
+  std::string configuration, display = "auto", size, vessels, registration, snapshot, report;
+  double duration_s = 0;
+  std::uint64_t volumes = 0;
+};
+void add_show_options(CLI::App& command, ShowArguments& arguments);
+hal::Result<> read_show_options(const ShowArguments& arguments, RunOptions& options);
+
+// Empty where nothing was said.
+std::optional<std::filesystem::path> path_of(const std::string& text);
+
+// Says what went wrong; the exit status. Complaints about what was asked for are wrong use, what
+// fails on the way is a failure.
+int complain(std::string_view command, const hal::Error& error);
 
 // "1280x720": width and height, each 1 to 16384.
 hal::Result<std::array<int, 2>> parse_size(std::string_view text);

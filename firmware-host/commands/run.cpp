@@ -22,14 +22,11 @@ namespace {
 
 // As text, the way CLI11 collects it.
 struct RunArguments {
-  std::string configuration, display = "auto", size, spectra, shape, calibration, snapshot, report,
-                             faults, controls, phantom, vessels, registration, record_to, subject,
-                             eye;
+  std::string spectra, shape, calibration, faults, controls, phantom, record_to, subject, eye;
   bool simulate = false;
   bool bidirectional = false;
   int repeats = 0;
-  double duration_s = 0;
-  std::uint64_t volumes = 0;
+  ShowArguments show;
 };
 
 hal::Result<RecordingOptions> recording_of(const RunArguments& a) {
@@ -41,27 +38,14 @@ hal::Result<RecordingOptions> recording_of(const RunArguments& a) {
   });
 }
 
-std::optional<std::filesystem::path> path_of(const std::string& text) {
-  return text.empty() ? std::nullopt : std::optional<std::filesystem::path>{text};
-}
-
 hal::Result<RunOptions> options_of(const RunArguments& a) {
   RunOptions o;
-  o.configuration = path_of(a.configuration);
+  if (auto read = read_show_options(a.show, o); !read)
+    return tl::make_unexpected(read.error());
   o.calibration = path_of(a.calibration);
-  o.snapshot = path_of(a.snapshot);
-  o.report = path_of(a.report);
   o.faults = path_of(a.faults);
   o.controls = path_of(a.controls);
-  o.vessels = path_of(a.vessels);
-  o.registration = path_of(a.registration);
   o.simulate = a.simulate;
-  if (a.display == "kms")
-    o.display = DisplayChoice::kms;
-  else if (a.display == "window")
-    o.display = DisplayChoice::window;
-  else if (a.display == "offscreen")
-    o.display = DisplayChoice::offscreen;
   if (!a.phantom.empty())
     o.phantom = a.phantom;
   o.bidirectional = a.bidirectional;
@@ -70,16 +54,6 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
   o.eye = pipeline::eye_named(a.eye).value_or(pipeline::Eye::not_said);
   if (a.repeats > 0)
     o.repeats = a.repeats;
-  if (a.duration_s > 0)
-    o.duration_s = a.duration_s;
-  if (a.volumes > 0)
-    o.volumes = a.volumes;
-  if (!a.size.empty()) {
-    const auto size = parse_size(a.size);
-    if (!size)
-      return tl::make_unexpected(size.error());
-    o.size = *size;
-  }
   if (!a.spectra.empty()) {
     const auto recording = recording_of(a);
     if (!recording)
@@ -89,12 +63,6 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
     return hal::fail(hal::Fault::invalid_argument, "--shape needs --spectra FILE");
   }
   return o;
-}
-
-// Complaints about what was asked for are wrong use; what fails on the way is a failure.
-int complain(const char* command, const hal::Error& error) {
-  fmt::print(stderr, "octascope {}: {}\n", command, error.message);
-  return error.fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
 }
 
 int run(const char* command, const RunArguments& arguments) {
@@ -115,40 +83,19 @@ int run(const char* command, const RunArguments& arguments) {
 }
 
 void add_options(CLI::App& command, RunArguments& a) {
-  command.add_option("--config", a.configuration, "Configuration (TOML)");
-  command.add_option("--display", a.display, "Where the picture goes")
-      ->check(CLI::IsMember({"auto", "kms", "window", "offscreen"}))
-      ->capture_default_str();
-  command.add_option("--size", a.size, "Size of the picture in pixels, as 1280x720");
+  add_show_options(command, a.show);
   command.add_flag("--sim", a.simulate, "Use the simulated devices, whatever is plugged in");
-  auto* duration = command.add_option("--duration", a.duration_s, "End after so many seconds")
-                       ->check(CLI::Range(0.1, 1e9));
-  command.add_option("--volumes", a.volumes, "End after so many volumes")
-      ->check(CLI::Range(1, 1000000000))
-      ->excludes(duration);
   command.add_option("--spectra", a.spectra,
                      "Play raw spectra (u16, little-endian, [B][A][N]) instead of a phantom");
   command.add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024");
   command.add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)");
   command.add_option("--phantom", a.phantom, "What the simulated camera sees");
-  CLI::Option* vessels =
-      command
-          .add_option("--vessels", a.vessels,
-                      "Vessel tree to show in the volume: ours, SWC (in µm) or VTP (in mm)")
-          ->type_name("FILE");
-  command
-      .add_option("--registration", a.registration,
-                  "Where it lies in the volume; else in its middle, marked as not registered")
-      ->type_name("FILE.toml")
-      ->needs(vessels);
   command.add_flag("--bidirectional", a.bidirectional,
                    "Scan there and back, without fly-back, whatever the configuration says");
   command.add_option("--repeats", a.repeats, "Sweeps of each B-scan, averaged (1 to 4)")
       ->check(CLI::Range(1, pipeline::ScanPlan::most_repeats));
   command.add_option("--faults", a.faults, "Faults that the simulated devices suffer (TOML)");
   command.add_option("--controls", a.controls, "What the simulated pedal and knob do (TOML)");
-  command.add_option("--snapshot", a.snapshot, "Write the last picture here (PNG)");
-  command.add_option("--report", a.report, "Write the report here (JSON)");
   command.add_option("--subject", a.subject,
                      "Whose recordings these are, as they shall say it; not kept for later runs");
   command.add_option("--eye", a.eye, "Of which eye they are")
