@@ -48,7 +48,11 @@ function(octascope_compiled_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
+# One checkout's compiled files serve the next one's: paths are looked at from the source folder, and
+# the tests' precompiled headers are known to fit by what is in them.
 find_program(OCTASCOPE_CCACHE ccache)
 if(OCTASCOPE_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${OCTASCOPE_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+    CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1
+    CCACHE_SLOPPINESS=pch_defines,time_macros ${OCTASCOPE_CCACHE})
 endif()

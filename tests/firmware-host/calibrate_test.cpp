@@ -19,6 +19,7 @@
 #include "pipeline/nrrd.h"
 #include "pipeline/png_image.h"
 #include "sim/spectrometer.h"
+#include "tests/support/built_places.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test_data.h"
 #include "tests/support/tissue_surface.h"
@@ -256,7 +257,7 @@ TEST_F(CalibrateCommand, real_mirrors_and_tissue) {
     EXPECT_LE(mirror["fwhm_after_bins"].get<double>(), 2.5);
   const auto found = pipeline::Calibration::load(out, 1024);
   const auto supplied = pipeline::Calibration::load(
-      std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/calibrations/sd-oct-tissue.toml", 1024);
+      tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024);
   ASSERT_TRUE(found && supplied);
   const double share = tissue_sharpness(*found) / tissue_sharpness(*supplied);
   fmt::print("  tissue: {:.1f} % of the sharpness with the supplied curves\n", 100 * share);

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware-host/configuration_check.h"
+#include "tests/support/built_places.h"
 #include "tests/support/scratch_folder.h"
 
 namespace octascope::firmware_host {
@@ -58,7 +59,7 @@ KeysBySection everything_that_is_read() {
 KeysBySection keys_of_example() {
   KeysBySection sections;
   std::string section;
-  std::istringstream lines{text_of(fs::path{OCTASCOPE_SOURCE_DIR} / "deploy/example.toml")};
+  std::istringstream lines{text_of(tests::source_folder() / "deploy/example.toml")};
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("# "))
       line = line.substr(2);
@@ -73,8 +74,7 @@ KeysBySection keys_of_example() {
 }
 
 TEST(ExampleConfiguration, can_be_run_on) {
-  const auto read =
-      load_whole_configuration(fs::path{OCTASCOPE_SOURCE_DIR} / "deploy/example.toml");
+  const auto read = load_whole_configuration(tests::source_folder() / "deploy/example.toml");
   EXPECT_TRUE(read) << read.error().message;
 }
 
@@ -87,7 +87,7 @@ TEST(ExampleConfiguration, has_every_key_and_no_other) {
 
 // The rows of the table, each section from its heading to the next.
 TEST(ExampleConfiguration, is_explained_key_by_key) {
-  const std::string text = text_of(fs::path{OCTASCOPE_SOURCE_DIR} / "docs/CONFIGURATION.md");
+  const std::string text = text_of(tests::source_folder() / "docs/CONFIGURATION.md");
   for (const auto& [section, keys] : everything_that_is_read()) {
     std::size_t begin = text.find("| **[" + section + "]");
     if (begin == std::string::npos)

@@ -9,6 +9,7 @@
 
 #include "firmware-host/commands/render.h"
 #include "firmware-host/volume_source.h"
+#include "tests/support/built_places.h"
 #include "tests/support/test_data.h"
 #include "tests/ui/support/golden.h"
 #include "tests/ui/support/picture_file.h"
@@ -28,8 +29,7 @@ firmware_host::VolumeRequest request_for(const std::string& scene) {
     return request;
   }
   request.recording = {test_data_folder() / tissue_spectra, {100, 100, 1024}};
-  request.calibration =
-      std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/calibrations/sd-oct-tissue.toml";
+  request.calibration = source_folder() / "tests/calibrations/sd-oct-tissue.toml";
   return request;
 }
 

@@ -13,6 +13,7 @@
 #include "firmware-host/commands/reconstruct.h"
 #include "pipeline/nrrd.h"
 #include "pipeline/png_image.h"
+#include "tests/support/built_places.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test_data.h"
 #include "tests/support/tissue_surface.h"
@@ -201,7 +202,7 @@ TEST_F(ReconstructCommand, floats_must_be_finite) {
 TEST_F(ReconstructCommand, real_tissue_has_its_sloping_surface) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
   const std::string calibration =
-      std::string{OCTASCOPE_SOURCE_DIR} + "/tests/calibrations/sd-oct-tissue.toml";
+      (tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml").string();
   spectra = (tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw").string();
   ASSERT_EQ(reconstruct({"--calibration", calibration}, "100,100,1024"), 0);
   const auto volume = pipeline::read_nrrd(out);

@@ -12,6 +12,7 @@
 #include "pipeline/calibration.h"
 #include "pipeline/reconstructor.h"
 #include "pipeline/text_curve.h"
+#include "tests/support/built_places.h"
 #include "tests/support/reference_chain.h"
 #include "tests/support/test_data.h"
 
@@ -74,9 +75,8 @@ double fwhm_bins(const std::vector<float>& line, const Calibration& calibration)
 
 TEST(AxialPsf, both_mirrors_are_sharp_with_the_supplied_curves) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/mirror1_f32_1024.raw");
-  const auto loaded = Calibration::load(std::filesystem::path{OCTASCOPE_SOURCE_DIR} /
-                                            "tests/calibrations/sd-oct-tissue.toml",
-                                        samples);
+  const auto loaded =
+      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", samples);
   ASSERT_TRUE(loaded) << loaded.error().message;
   for (const int mirror : {1, 2}) {
     const auto line = interferogram(mirror);

@@ -10,6 +10,7 @@
 #include "pipeline/calibration_finder/tissue_sharpness.h"
 #include "pipeline/spectra_file.h"
 #include "sim/spectrometer.h"
+#include "tests/support/built_places.h"
 #include "tests/support/test_data.h"
 
 namespace octascope::pipeline {
@@ -64,8 +65,8 @@ TEST(TissueSharpness, finds_dispersion_and_its_sign) {
 
 TEST(TissueSharpness, real_tissue_is_as_sharp_as_with_the_supplied_curves) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
-  const auto supplied = Calibration::load(
-      std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/calibrations/sd-oct-tissue.toml", 1024);
+  const auto supplied =
+      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024);
   const auto spectra =
       SpectraFile::open(tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw",
                         {100, 100, 1024}, SpectrumType::u16);

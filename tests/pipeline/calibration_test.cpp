@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/calibration.h"
+#include "tests/support/built_places.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/test_data.h"
 
@@ -103,8 +104,8 @@ TEST_F(CalibrationFile, falling_positions_are_monotone_too) {
 
 TEST_F(CalibrationFile, the_supplied_curves_pass) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/k_linear.txt");
-  const auto c = Calibration::load(
-      std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/calibrations/sd-oct-tissue.toml", 1024);
+  const auto c =
+      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024);
   ASSERT_TRUE(c) << c.error().message;
   EXPECT_EQ(c->positions.front(), 0);
   EXPECT_NEAR(c->positions.back(), 1022.93, 0.01);

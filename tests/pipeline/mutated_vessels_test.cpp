@@ -14,6 +14,7 @@
 #include "pipeline/vessels/cluster_unpacker.h"
 #include "pipeline/vessels/swc_reader.h"
 #include "pipeline/vessels/vtp_reader.h"
+#include "tests/support/built_places.h"
 #include "tests/support/fresh_seed.h"
 #include "tests/support/mutation.h"
 #include "tests/support/random_tree.h"
@@ -119,7 +120,7 @@ TEST(MutatedVessels, as_clusters) {
 }
 
 TEST(MutatedVessels, as_vtp) {
-  const fs::path folder = fs::path{OCTASCOPE_SOURCE_DIR} / "tests/centrelines";
+  const fs::path folder = tests::source_folder() / "tests/centrelines";
   for (const auto& entry : fs::directory_iterator{folder}) {
     SCOPED_TRACE(entry.path());
     try_all(tests::whole_file(entry.path()), usual_rounds,

@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include "pipeline/reconstructor.h"
+#include "tests/support/built_places.h"
 #include "tests/support/calibrations.h"
 #include "tests/support/reference_chain.h"
 #include "tests/support/test_data.h"
@@ -200,8 +201,8 @@ INSTANTIATE_TEST_SUITE_P(windows_and_backgrounds, Agreement,
 
 TEST(ReconstructorRealData, agrees_with_the_reference) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
-  const auto calibration = Calibration::load(
-      std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/calibrations/sd-oct-tissue.toml", 1024);
+  const auto calibration =
+      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024);
   ASSERT_TRUE(calibration) << calibration.error().message;
   std::ifstream in{tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw",
                    std::ios::binary};

@@ -9,6 +9,7 @@
 
 #include "pipeline/vessels/tree_file.h"
 #include "pipeline/vessels/vtp_reader.h"
+#include "tests/support/built_places.h"
 #include "tests/support/mutation.h"
 #include "tests/support/scratch_folder.h"
 
@@ -75,8 +76,7 @@ template <class Spoil> std::string refusal_of(Spoil spoil) {
 TEST(VtpReader, reads_what_vtk_writes_in_every_encoding) {
   VesselTree first;
   int files = 0;
-  for (const auto& entry :
-       fs::directory_iterator{fs::path{OCTASCOPE_SOURCE_DIR} / "tests/centrelines"}) {
+  for (const auto& entry : fs::directory_iterator{tests::source_folder() / "tests/centrelines"}) {
     const auto read = read_vtp(entry.path());
     ASSERT_TRUE(read) << read.error().message;
     const VesselTree& tree = read->tree;
@@ -226,7 +226,7 @@ TEST(VtpReader, refuses_loops) {
 
 // Sizes that data say of themselves are not believed.
 TEST(VtpReader, refuses_data_that_end_early) {
-  const fs::path folder = fs::path{OCTASCOPE_SOURCE_DIR} / "tests/centrelines";
+  const fs::path folder = tests::source_folder() / "tests/centrelines";
   for (const char* name : {"appended_raw_u64.vtp", "appended_raw_zlib_u32.vtp", "binary_u32.vtp",
                            "appended_base64_u32.vtp"}) {
     std::string text = tests::whole_file(folder / name);

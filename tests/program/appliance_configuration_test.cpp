@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/program/program_support.h"
+#include "tests/support/built_places.h"
 
 namespace octascope::tests {
 namespace {
@@ -213,7 +214,7 @@ TEST(DoctorOfConfigurations, tells_everything_that_is_wrong) {
   EXPECT_THAT(broken.out, HasSubstr("c.toml:4: [display] opacity is 7"));
   EXPECT_THAT(broken.out, HasSubstr("c.toml:5: [display] unknown key \"widht\""));
   const ProgramResult good =
-      run_octascope({"doctor", "--config", OCTASCOPE_SOURCE_DIR "/deploy/example.toml"});
+      run_octascope({"doctor", "--config", (source_folder() / "deploy/example.toml").string()});
   EXPECT_EQ(good.exit_status, 0) << good.describe();
 }
 

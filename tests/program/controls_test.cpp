@@ -10,6 +10,7 @@
 #include "pipeline/recordings/recording_reader.h"
 #include "pipeline/vessels/registration.h"
 #include "tests/program/program_support.h"
+#include "tests/support/built_places.h"
 #include "ui/controls/action.h"
 
 namespace octascope::tests {
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 std::string script() {
-  return (fs::path{OCTASCOPE_SOURCE_DIR} / "sim" / "controls" / "every_action.toml").string();
+  return (source_folder() / "sim" / "controls" / "every_action.toml").string();
 }
 
 // As the small one, with a window that the first volume does not change.

@@ -14,6 +14,7 @@
 
 #include "sim/fault_script.h"
 #include "tests/program/program_support.h"
+#include "tests/support/built_places.h"
 
 namespace octascope::tests {
 namespace {
@@ -332,9 +333,8 @@ std::string three_times_as_fast(const std::filesystem::path& file) {
 TEST(Everything, at_once_is_survived) {
   const ScratchFolder folder;
   const std::string report_file = folder / "report.json";
-  const auto script =
-      folder.write("faults.toml", three_times_as_fast(std::filesystem::path{OCTASCOPE_SOURCE_DIR} /
-                                                      "sim/faults/everything.toml"));
+  const auto script = folder.write(
+      "faults.toml", three_times_as_fast(source_folder() / "sim/faults/everything.toml"));
   const ProgramResult result = run_octascope(
       small_run(folder, {"--faults", script, "--duration", "6", "--report", report_file}));
   ASSERT_EQ(result.exit_status, 0) << result.describe();
@@ -366,8 +366,7 @@ TEST(Everything, shipped_has_a_test) {
       EXPECT_TRUE(kinds.contains({device, kind})) << to_string(device) << " " << to_string(kind);
   }
   std::set<std::string> shipped;
-  for (const auto& entry : std::filesystem::directory_iterator{
-           std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "sim/faults"})
+  for (const auto& entry : std::filesystem::directory_iterator{source_folder() / "sim/faults"})
     shipped.insert(entry.path().stem());
   EXPECT_EQ(shipped, tested);
 }

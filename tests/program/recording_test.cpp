@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/program/program_support.h"
+#include "tests/support/built_places.h"
 #include "tests/support/test_data.h"
 
 namespace octascope::tests {
@@ -82,9 +83,8 @@ TEST(Recording, real_spectra_show_their_surface) {
 
 TEST(Recording, the_shipped_calibration_fits_the_shipped_command) {
   OCTASCOPE_REQUIRE_TEST_DATA(spectra_file);
-  const auto shipped =
-      std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/calibrations/sd-oct-tissue.toml";
-  const auto beside = std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "../shared/data" / spectra_file;
+  const auto shipped = source_folder() / "tests/calibrations/sd-oct-tissue.toml";
+  const auto beside = source_folder() / "../shared/data" / spectra_file;
   if (!std::filesystem::exists(beside))
     GTEST_SKIP() << "no " << beside << ", where the calibration's curves are looked for";
   const ScratchFolder folder;

@@ -19,6 +19,7 @@
 
 #include "hal/linux/system/file_descriptor.h"
 #include "tests/program/program_support.h"
+#include "tests/support/built_places.h"
 
 namespace octascope::tests {
 namespace {
@@ -250,7 +251,7 @@ TEST(Supervision, answers_with_all_that_is_known) {
   EXPECT_THAT(threads, testing::IsSupersetOf({"camera", "volumes", "controls", "worker 0"}));
 
   const ProgramResult words = run_program(
-      {"env", "RUNTIME_DIRECTORY=" + service.runtime().string(), OCTASCOPE_PROGRAM, "status"});
+      {"env", "RUNTIME_DIRECTORY=" + service.runtime().string(), built_program(), "status"});
   EXPECT_EQ(words.exit_status, 0) << words.describe();
   EXPECT_THAT(words.out, AllOf(HasSubstr("SIMULATED"), HasSubstr("volumes/s")));
   EXPECT_THAT(text_of(service.runtime() / "metrics.prom"), HasSubstr("octascope_uptime_seconds "));
@@ -259,7 +260,7 @@ TEST(Supervision, answers_with_all_that_is_known) {
 TEST(Supervision, is_missed_with_words_that_help) {
   const ScratchFolder folder;
   const ProgramResult result = run_program(
-      {"env", "RUNTIME_DIRECTORY=" + folder.path().string(), OCTASCOPE_PROGRAM, "status"});
+      {"env", "RUNTIME_DIRECTORY=" + folder.path().string(), built_program(), "status"});
   EXPECT_EQ(result.exit_status, 1);
   EXPECT_EQ(result.out, "");
   EXPECT_THAT(result.err, AllOf(HasSubstr("octascope status: "), HasSubstr("status.sock"),

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/program/program_support.h"
+#include "tests/support/built_places.h"
 #include "tests/support/mutation.h"
 
 namespace octascope::tests {
@@ -63,7 +64,7 @@ TEST(VesselsInfo, takes_the_unit_from_the_command_line) {
 }
 
 TEST(VesselsInfo, reads_centrelines_of_vtk) {
-  const json told = info({OCTASCOPE_SOURCE_DIR "/tests/centrelines/binary_zlib_u64.vtp"});
+  const json told = info({(source_folder() / "tests/centrelines/binary_zlib_u64.vtp").string()});
   EXPECT_EQ(told.at("kind"), "vtp");
   EXPECT_EQ(told.at("nodes"), 15);
   EXPECT_EQ(told.at("branch_points"), 2);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/fault_script.h"
+#include "tests/support/built_places.h"
 
 namespace octascope::sim {
 namespace {
@@ -77,8 +78,8 @@ TEST(FaultScript, refuses_what_makes_no_sense) {
 TEST(FaultScript, the_samples_load_and_cover_every_kind_of_every_device) {
   std::set<std::pair<FaultDevice, FaultKind>> covered;
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator{
-           std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "sim/faults"}) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator{tests::source_folder() / "sim/faults"}) {
     const auto script = FaultScript::load(entry.path());
     ASSERT_TRUE(script) << script.error().message;
     EXPECT_FALSE(script->faults.empty()) << entry.path();

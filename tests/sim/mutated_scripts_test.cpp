@@ -7,6 +7,7 @@
 
 #include "sim/control_script.h"
 #include "sim/fault_script.h"
+#include "tests/support/built_places.h"
 #include "tests/support/fresh_seed.h"
 #include "tests/support/mutation.h"
 
@@ -14,7 +15,7 @@ namespace octascope::sim {
 namespace {
 
 std::string shipped(const std::string& name) {
-  return tests::whole_file(std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "sim" / name);
+  return tests::whole_file(tests::source_folder() / "sim" / name);
 }
 
 template <class Script> void try_all(const std::string& good) {

@@ -17,6 +17,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/built_places.h"
+
 namespace octascope::tests {
 
 namespace {
@@ -148,7 +150,7 @@ ProgramResult run_program(std::vector<std::string> words, WallClock::duration mo
 }
 
 std::vector<std::string> octascope_command(std::vector<std::string> arguments) {
-  std::vector<std::string> words{OCTASCOPE_PROGRAM};
+  std::vector<std::string> words{built_program()};
   for (std::string& argument : arguments)
     words.push_back(std::move(argument));
   return words;

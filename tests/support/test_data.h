@@ -4,12 +4,14 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/support/built_places.h"
+
 namespace octascope::tests {
 
 inline std::filesystem::path test_data_folder() {
   if (const char* folder = std::getenv("OCTASCOPE_TEST_DATA"))
     return folder;
-  return std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "../shared/data";
+  return source_folder() / "../shared/data";
 }
 
 } // namespace octascope::tests

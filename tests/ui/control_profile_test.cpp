@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/built_places.h"
 #include "tests/support/fresh_seed.h"
 #include "tests/support/mutation.h"
 #include "ui/controls/built_in_profiles.h"
@@ -30,7 +31,7 @@ std::string refusal(const std::string& lines, const std::string& head = "name = 
 }
 
 TEST(ControlProfile, every_one_that_is_built_in_loads_and_is_in_its_folder) {
-  const auto folder = std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "ui" / "controls" / "profiles";
+  const auto folder = tests::source_folder() / "ui" / "controls" / "profiles";
   std::set<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator{folder})
     files.insert(entry.path().stem().string());

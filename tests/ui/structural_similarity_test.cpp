@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built_places.h"
 #include "tests/ui/support/golden.h"
 #include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/structural_similarity.h"
@@ -27,8 +28,7 @@ pipeline::Image checks(int low, int high) {
 }
 
 pipeline::Image golden(const std::string& name) {
-  auto read = pipeline::read_png(std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/golden" /
-                                 (name + ".png"));
+  auto read = pipeline::read_png(source_folder() / "tests/golden" / (name + ".png"));
   EXPECT_TRUE(read);
   return read ? std::move(*read) : pipeline::Image{};
 }

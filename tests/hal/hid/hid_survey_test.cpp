@@ -7,6 +7,7 @@
 
 #include "hal/linux/hid/hid_survey.h"
 #include "hal/linux/hid/udev_rules.h"
+#include "tests/support/built_places.h"
 #include "tests/support/mutation.h"
 #include "tests/support/scratch_folder.h"
 
@@ -105,7 +106,7 @@ TEST(ControlModels, fit_the_board) {
 
 // OCTASCOPE_RENEW_GOLDEN=1 writes it anew.
 TEST(UdevRules, in_deploy_are_those_of_the_list) {
-  const fs::path file = fs::path{OCTASCOPE_SOURCE_DIR} / "deploy/70-octascope.rules";
+  const fs::path file = tests::source_folder() / "deploy/70-octascope.rules";
   if (std::getenv("OCTASCOPE_RENEW_GOLDEN") != nullptr)
     std::ofstream{file} << udev_rules();
   EXPECT_EQ(tests::whole_file(file), udev_rules());

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/built_places.h"
 #include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/structural_similarity.h"
 
@@ -27,7 +28,7 @@ double share_of_outliers(const pipeline::Image& a, const pipeline::Image& b) {
 } // namespace
 
 void expect_golden(const pipeline::Image& image, const std::string& name, double least_similarity) {
-  const auto file = std::filesystem::path{OCTASCOPE_SOURCE_DIR} / "tests/golden" / (name + ".png");
+  const auto file = source_folder() / "tests/golden" / (name + ".png");
   if (std::getenv("OCTASCOPE_RENEW_GOLDEN") != nullptr) {
     ASSERT_TRUE(pipeline::write_png(file, image)) << file;
     return;
