@@ -284,7 +284,7 @@ void AssembledAppliance::make_threads() {
 }
 
 hal::Result<> AssembledAppliance::make_vessels() {
-  return make_vessel_display(options_, clock_, faults_, news_)
+  return make_vessel_display(options_, {options_.subject, options_.eye}, clock_, faults_, news_)
       .map([this](std::unique_ptr<VesselDisplay> made) { vessels_ = std::move(made); });
 }
 

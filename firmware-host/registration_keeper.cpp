@@ -13,11 +13,12 @@
 namespace octascope::firmware_host {
 
 bool RegistrationKeeper::keep(const pipeline::RigidTransform& volume_from_tree,
-                              std::string source) {
+                              pipeline::WhoseEye whose, std::string source) {
   if (writing_.valid())
     return false;
   pipeline::Registration registration;
   registration.volume_from_tree = volume_from_tree;
+  registration.whose = std::move(whose);
   registration.provenance = {
       .program = fmt::format("octascope {}", version()),
       .author = "",

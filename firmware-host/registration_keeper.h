@@ -16,9 +16,10 @@ public:
   // Files go into `folder`, named by date and time: none is ever overwritten.
   explicit RegistrationKeeper(std::filesystem::path folder) : folder_{std::move(folder)} {}
 
-  // Where the tree lies now. `source`, for people: what it was before it was moved. Returns at
-  // once; false while the last one is still being written.
-  bool keep(const pipeline::RigidTransform& volume_from_tree, std::string source);
+  // Where the tree lies now, and whose vessels they are. `source`, for people: what it was before
+  // it was moved. Returns at once; false while the last one is still being written.
+  bool keep(const pipeline::RigidTransform& volume_from_tree, pipeline::WhoseEye whose,
+            std::string source);
 
   // The file, or why there is none; once for each keep().
   std::optional<hal::Result<std::filesystem::path>> take();

@@ -140,7 +140,8 @@ hal::Result<> AssembledReplay::open_recording() {
 }
 
 hal::Result<> AssembledReplay::make_vessels() {
-  return make_vessel_display(options_, clock_, faults_, news_)
+  const pipeline::RecordingFacts& facts = volumes_->facts();
+  return make_vessel_display(options_, {facts.subject, facts.eye}, clock_, faults_, news_)
       .map([this](std::unique_ptr<VesselDisplay> made) { vessels_ = std::move(made); });
 }
 

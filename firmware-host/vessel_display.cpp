@@ -7,6 +7,7 @@
 
 #include "firmware-host/run_options.h"
 #include "firmware-host/vessel_place.h"
+#include "firmware-host/whose_vessels.h"
 
 namespace octascope::firmware_host {
 
@@ -22,17 +23,19 @@ const std::string nothing_to_say;
 
 } // namespace
 
-hal::Result<std::unique_ptr<VesselDisplay>> make_vessel_display(const RunOptions& options,
-                                                                hal::Clock& clock,
-                                                                pipeline::FaultLog& faults,
-                                                                pipeline::Wakeup& news) {
+hal::Result<std::unique_ptr<VesselDisplay>>
+make_vessel_display(const RunOptions& options, pipeline::WhoseEye operated, hal::Clock& clock,
+                    pipeline::FaultLog& faults, pipeline::Wakeup& news) {
   VesselDisplaySetup setup;
   if (options.registration) {
     auto loaded = pipeline::Registration::load(*options.registration);
     if (!loaded)
       return tl::make_unexpected(loaded.error());
+    if (auto same = check_whose_vessels(*options.registration, loaded->whose, operated); !same)
+      return tl::make_unexpected(same.error());
     setup.registration = std::move(*loaded);
   }
+  setup.operated = std::move(operated);
   if (!options.vessels)
     return std::unique_ptr<VesselDisplay>{};
   setup.file = *options.vessels;
@@ -56,6 +59,13 @@ hal::Result<> VesselDisplay::show(ui::Renderer& renderer) const {
 
 hal::Result<> VesselDisplay::show_again(ui::Renderer& renderer) {
   return loaded_ ? show(renderer) : hal::Result<>{};
+}
+
+// What is registered to this eye by hand is this eye's.
+pipeline::WhoseEye VesselDisplay::whose_vessels() const {
+  const pipeline::WhoseEye before =
+      setup_.registration ? setup_.registration->whose : pipeline::WhoseEye{};
+  return before.said() ? before : setup_.operated;
 }
 
 void VesselDisplay::say(std::string notice) {
@@ -96,6 +106,8 @@ void VesselDisplay::take_loaded(ui::Renderer* renderer, ui::ViewActions& actions
   }
   status.state = shown ? State::shown : State::failed;
   actions.set_vessels_loaded(shown.has_value());
+  if (shown && setup_.registration && setup_.registration->whose.said() && !setup_.operated.said())
+    say(fmt::format("Vessels of {}", in_words(setup_.registration->whose)));
   if (!shown) {
     faults_.add(device_name, "not_shown", shown.error().message, clock_.now());
     say(fmt::format("No vessels: {}", shown.error().message));
@@ -119,7 +131,7 @@ void VesselDisplay::take_written(ui::Renderer* renderer, ui::ViewActions& action
   if (actions.state().vessel_nudge != kept_nudge_)
     return;
   setup_.registration_file = **written;
-  setup_.registration = pipeline::Registration{kept_, {}};
+  setup_.registration = pipeline::Registration{kept_, whose_vessels(), {}};
   actions.forget_nudge();
   if (renderer != nullptr)
     static_cast<void>(show(*renderer)); // that it can be shown, it has proved
@@ -133,7 +145,7 @@ void VesselDisplay::keep_registration(const pipeline::VolumeGeometry& geometry,
   const pipeline::RigidTransform place = volume_from_tree(placed(), nudge, geometry);
   const std::string before =
       setup_.registration_file ? setup_.registration_file->filename().string() : "not registered";
-  if (!keeper_.keep(place,
+  if (!keeper_.keep(place, whose_vessels(),
                     fmt::format("{}, before: {}", setup_.file.filename().string(), before))) {
     actions.tell(ui::Action::keep_registration, "one is being written", clock_.now());
     return;

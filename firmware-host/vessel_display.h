@@ -24,18 +24,19 @@ struct VesselDisplaySetup {
   std::filesystem::path file;
   std::optional<std::filesystem::path> registration_file;
   std::optional<pipeline::Registration> registration; // none: the tree's place is not known
+  pipeline::WhoseEye operated;                        // the eye in the picture
 };
 
 class VesselDisplay;
 struct RunOptions;
 
 // The tree that the options name, loaded beside the display; null where they name none. A tree in a
-// wrong place would mislead: without its registration, where one is named, an Error. Everything
-// borrowed outlives it.
-hal::Result<std::unique_ptr<VesselDisplay>> make_vessel_display(const RunOptions& options,
-                                                                hal::Clock& clock,
-                                                                pipeline::FaultLog& faults,
-                                                                pipeline::Wakeup& news);
+// wrong place would mislead: without its registration, where one is named, an Error. So would
+// another patient's tree: Fault::invalid_argument where its registration says another subject or
+// eye than `operated`. Everything borrowed outlives it.
+hal::Result<std::unique_ptr<VesselDisplay>>
+make_vessel_display(const RunOptions& options, pipeline::WhoseEye operated, hal::Clock& clock,
+                    pipeline::FaultLog& faults, pipeline::Wakeup& news);
 
 // Bound to the render thread. Everything borrowed outlives it.
 class VesselDisplay {
@@ -67,6 +68,7 @@ private:
   void say(std::string notice);
   hal::Result<> show(ui::Renderer& renderer) const;
   ui::PlacedVessels placed() const;
+  pipeline::WhoseEye whose_vessels() const;
 
   VesselDisplaySetup setup_;
   hal::Clock& clock_;

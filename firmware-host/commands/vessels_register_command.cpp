@@ -30,6 +30,7 @@ struct CommandLine {
   std::filesystem::path points;
   std::filesystem::path out;
   std::string author;
+  std::string subject, eye;
   bool json = false;
 };
 
@@ -55,6 +56,8 @@ hal::Result<PairsOfFile> read_pairs(const std::filesystem::path& file) {
 pipeline::Registration registration_of(const CommandLine& line, const PointRegistration& found) {
   pipeline::Registration registration;
   registration.volume_from_tree = found.volume_from_tree;
+  registration.whose = {.subject = line.subject,
+                        .eye = pipeline::eye_named(line.eye).value_or(pipeline::Eye::not_said)};
   registration.provenance = {
       .program = fmt::format("octascope {}", version()),
       .author = line.author,
@@ -145,6 +148,11 @@ void add_vessels_register_command(CLI::App& vessels, int& exit_status) {
       ->type_name("FILE.toml");
   command->add_option("--author", line->author, "Who marked the points; kept in the file")
       ->type_name("NAME");
+  command
+      ->add_option("--subject", line->subject,
+                   "Whose vessels they are: they are then drawn in no other one's picture")
+      ->type_name("ID");
+  command->add_option("--eye", line->eye, "Of which eye")->check(CLI::IsMember({"left", "right"}));
   command->add_flag("--json", line->json, "The result as one JSON object");
   command->footer("At least three pairs that do not lie on a line; with four, each is also "
                   "compared with where the others put it.\n"

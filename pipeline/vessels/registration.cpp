@@ -80,6 +80,30 @@ RigidTransform read_transform(ConfigTable table) {
   return transform;
 }
 
+WhoseEye read_whose(ConfigTable table) {
+  WhoseEye whose;
+  whose.subject = table.text("subject", "");
+  if (!table.has("eye"))
+    return whose;
+  const std::string eye = table.text("eye", "");
+  if (const auto named = eye_named(eye))
+    whose.eye = *named;
+  else
+    table.complain(fmt::format("eye is \"{}\", expected \"left\" or \"right\"", eye));
+  return whose;
+}
+
+std::string toml(const WhoseEye& whose) {
+  if (!whose.said())
+    return {};
+  std::string text = "\n[whose]\n";
+  if (!whose.subject.empty())
+    text += fmt::format("subject = {}\n", toml_text(whose.subject));
+  if (whose.eye != Eye::not_said)
+    text += fmt::format("eye = \"{}\"\n", to_string(whose.eye));
+  return text;
+}
+
 RegistrationProvenance read_provenance(ConfigTable table) {
   RegistrationProvenance provenance;
   provenance.program = table.text("program", "");
@@ -103,10 +127,11 @@ std::string toml(const Registration& registration) {
     text += fmt::format("  {},\n", toml_numbers({r[0], r[1], r[2], t.shift_mm[row]}));
   }
   const RegistrationProvenance& p = registration.provenance;
-  text += fmt::format("  {},\n]\n\n[provenance]\nprogram = {}\nauthor = {}\ncreated = {}\n"
+  text += fmt::format("  {},\n]\n{}\n[provenance]\nprogram = {}\nauthor = {}\ncreated = {}\n"
                       "method = {}\nsource = {}\npoints = {}\n",
-                      toml_numbers({0, 0, 0, 1}), toml_text(p.program), toml_text(p.author),
-                      toml_text(p.created), toml_text(p.method), toml_text(p.source), p.points);
+                      toml_numbers({0, 0, 0, 1}), toml(registration.whose), toml_text(p.program),
+                      toml_text(p.author), toml_text(p.created), toml_text(p.method),
+                      toml_text(p.source), p.points);
   if (p.residual_mm)
     text += fmt::format("residual_mm = {:.9g}\n", *p.residual_mm);
   return text;
@@ -120,6 +145,7 @@ hal::Result<Registration> Registration::load(const fs::path& file) {
     return tl::make_unexpected(document.error());
   Registration registration;
   registration.volume_from_tree = read_transform(document->root().table("registration"));
+  registration.whose = read_whose(document->root().table("whose"));
   registration.provenance = read_provenance(document->root().table("provenance"));
   if (const auto finished = document->finish(); !finished)
     return tl::make_unexpected(finished.error());

@@ -15,6 +15,7 @@
 #include "hal/result.h"
 #include "pipeline/vessels/rigid_transform.h"
 #include "pipeline/volume_geometry.h"
+#include "pipeline/whose_eye.h"
 
 namespace octascope::pipeline {
 
@@ -36,11 +37,15 @@ struct RegistrationProvenance {
 
 struct Registration {
   RigidTransform volume_from_tree; // millimetres to millimetres
+  WhoseEye whose;                  // the vessels are, and the volume that they were registered to
   RegistrationProvenance provenance;
 
   // TOML:
   //   [registration]
   //   volume_from_tree = [[r, r, r, t], [r, r, r, t], [r, r, r, t], [0, 0, 0, 1]]
+  //   [whose]                            # optional, each of them
+  //   subject = "4711"
+  //   eye = "left"
   //   [provenance]                       # optional
   //   program, author, created, method, source = "…"
   //   points = 6

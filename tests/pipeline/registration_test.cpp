@@ -198,6 +198,23 @@ TEST_F(RegistrationFile, gives_back_the_same_numbers) {
   EXPECT_EQ(folder.count(), 1);
 }
 
+TEST_F(RegistrationFile, says_whose_vessels_they_are_as_far_as_somebody_said) {
+  for (const WhoseEye& whose : {WhoseEye{"A \"B\" 4711", Eye::left}, WhoseEye{"", Eye::right},
+                                WhoseEye{"4711", Eye::not_said}, WhoseEye{}}) {
+    Registration registration;
+    registration.whose = whose;
+    ASSERT_TRUE(write_registration(registration, folder / "r.toml"));
+    const auto loaded = Registration::load(folder / "r.toml");
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->whose, whose);
+    std::filesystem::remove(folder / "r.toml");
+  }
+  EXPECT_THAT(
+      refusal("[registration]\nvolume_from_tree = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], "
+              "[0, 0, 0, 1]]\n[whose]\neye = \"middle\"\n"),
+      HasSubstr("eye is \"middle\", expected \"left\" or \"right\""));
+}
+
 TEST_F(RegistrationFile, needs_no_provenance) {
   EXPECT_EQ(refusal("[registration]\nvolume_from_tree = [[0, -1, 0, 2.5], [1, 0, 0, 0], "
                     "[0, 0, 1, -1], [0, 0, 0, 1]]\n"),

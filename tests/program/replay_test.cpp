@@ -209,6 +209,9 @@ class RefusedReplay : public ReplayProgram, public testing::WithParamInterface<B
 
 TEST_P(RefusedReplay, says_what_was_found_and_what_was_expected) {
   folder_.write("text.h5", "no recording at all");
+  folder_.write("tree.swc", "1 3 0 0 0 0.1 -1\n2 3 1 0 0 0.1 1\n");
+  folder_.write("right.toml", "[registration]\nvolume_from_tree = [[1, 0, 0, 0], [0, 1, 0, 0], "
+                              "[0, 0, 1, 0], [0, 0, 0, 1]]\n[whose]\neye = \"right\"\n");
   std::filesystem::copy_file(file_, folder_ / "short.h5");
   std::filesystem::resize_file(folder_ / "short.h5",
                                std::filesystem::file_size(folder_ / "short.h5") / 3);
@@ -216,7 +219,7 @@ TEST_P(RefusedReplay, says_what_was_found_and_what_was_expected) {
   for (std::string word : GetParam().words) {
     if (word == "FILE")
       word = file_;
-    else if (word.ends_with(".h5") || word.ends_with(".nrrd") || word.ends_with(".png"))
+    else if (std::filesystem::path{word}.has_extension())
       word = folder_ / word;
     all.push_back(word);
   }
@@ -238,6 +241,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadReplay{"stands_still", {"replay", "FILE", "--rate", "0"}, 2, "--rate"},
         BadReplay{
             "both_ends", {"replay", "FILE", "--duration", "1", "--volumes", "1"}, 2, "--duration"},
+        BadReplay{"others_vessels",
+                  {"replay", "FILE", "--vessels", "tree.swc", "--registration", "right.toml"},
+                  2,
+                  "expected those in the picture, of subject 4711, left eye"},
         BadReplay{"size", {"replay", "FILE", "--size", "big"}, 2, "big"},
         BadReplay{"render_beyond",
                   {"render", "--volume", "FILE", "--at", "4", "--out", "v.png"},

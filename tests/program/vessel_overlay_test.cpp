@@ -125,6 +125,24 @@ TEST_F(VesselOverlayProgram, wrong_use_is_refused) {
   EXPECT_THAT(result.err, HasSubstr("bad.toml"));
 }
 
+TEST_F(VesselOverlayProgram, another_eyes_vessels_are_refused) {
+  folder_.write("left.toml",
+                registration_at(0.2, 0.8, 0.6) + "[whose]\nsubject = \"4711\"\neye = \"left\"\n");
+  const auto show = [&](const std::string& eye) {
+    return run_octascope(
+        small_run(folder_, {"--volumes", "1", "--subject", "4711", "--eye", eye, "--vessels",
+                            folder_ / "tree.swc", "--registration", folder_ / "left.toml"}),
+        60s);
+  };
+  const ProgramResult own = show("left");
+  EXPECT_EQ(own.exit_status, 0) << own.describe();
+  const ProgramResult others = show("right");
+  EXPECT_EQ(others.exit_status, 2) << others.describe();
+  EXPECT_THAT(others.err,
+              HasSubstr("those of subject 4711, left eye, expected those in the picture, "
+                        "of subject 4711, right eye"));
+}
+
 TEST_F(VesselOverlayProgram, a_display_without_its_tree_goes_on_and_says_why) {
   folder_.write("broken.swc", "1 3 0 0 0 1 -1\n2 3 1 0 0 x 1\n");
   const ProgramResult result = run_octascope(

@@ -31,7 +31,8 @@ constexpr std::string_view good = "# tree x, y, z, volume x, y, z\n"
 
 TEST(VesselsRegister, writes_a_registration_that_can_be_read) {
   const ScratchFolder folder;
-  const ProgramResult result = register_points(folder, good, {"--author", "B. A. \"Z\"", "--json"});
+  const ProgramResult result = register_points(
+      folder, good, {"--author", "B. A. \"Z\"", "--subject", "4711", "--eye", "left", "--json"});
   ASSERT_EQ(result.exit_status, 0) << result.describe();
   const json found = json::parse(result.out);
   EXPECT_EQ(found["points"], 4);
@@ -45,6 +46,7 @@ TEST(VesselsRegister, writes_a_registration_that_can_be_read) {
   EXPECT_NEAR(at[2], 4, 1e-9);
   EXPECT_EQ(loaded->provenance.author, "B. A. \"Z\"");
   EXPECT_EQ(loaded->provenance.points, 4);
+  EXPECT_EQ(loaded->whose, (pipeline::WhoseEye{"4711", pipeline::Eye::left}));
   EXPECT_EQ(loaded->provenance.source, "pairs.csv");
 }
 
