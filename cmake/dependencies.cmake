@@ -50,6 +50,16 @@ if(OCTASCOPE_DISPLAY)
   endforeach()
 endif()
 
+# Beside the system's libgpiod 1.x the other API, for the bench of virtual hardware, which asks for it.
+set(OCTASCOPE_LIBGPIOD2 "" CACHE PATH
+    "Folder of libgpiod 2.x, as tests/virtual_hardware/gpio/libgpiod2 makes it")
+if(OCTASCOPE_LIBGPIOD2 AND EXISTS "${OCTASCOPE_LIBGPIOD2}/libgpiod.a")
+  add_library(octascope_libgpiod2 STATIC IMPORTED)
+  set_target_properties(octascope_libgpiod2 PROPERTIES
+    IMPORTED_LOCATION "${OCTASCOPE_LIBGPIOD2}/libgpiod.a"
+    INTERFACE_INCLUDE_DIRECTORIES "${OCTASCOPE_LIBGPIOD2}")
+endif()
+
 # A parser of 15 k lines in headers: compiled once, in toml_library.cpp, instead of in every file.
 add_library(octascope_toml STATIC ${CMAKE_SOURCE_DIR}/cmake/toml_library.cpp)
 target_link_libraries(octascope_toml PUBLIC PkgConfig::tomlplusplus)

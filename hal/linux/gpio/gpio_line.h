@@ -1,6 +1,7 @@
 // One GPIO line, held exclusively under the consumer name "octascope", and what chips and lines
 // there are. The narrow part of libgpiod that octascope needs, in front of its two incompatible
-// APIs: gpio_line_v1.cpp (1.4 … 1.6) and gpio_line_v2.cpp (2.x); CMake takes the one that fits.
+// APIs: gpio_line_v1.cpp (1.4 … 1.6) and gpio_line_v2.cpp (2.x); CMake takes the one that fits, the
+// bench of virtual hardware runs both.
 #pragma once
 
 #include <cstddef>
@@ -51,7 +52,8 @@ public:
   // not wait. Their number, or −errno. No allocation. The times are of CLOCK_MONOTONIC.
   int read_edges(std::span<TimePoint> edges) noexcept;
 
-  // The kernel keeps so many edges; later ones are lost until they are read.
+  // The kernel keeps so many edges. What is lost of more until they are read: the newest with
+  // libgpiod 1.x, the oldest with 2.x.
   static constexpr std::size_t kernel_buffer = 16;
 
 private:

@@ -26,10 +26,15 @@ using RequestConfig = Owned<gpiod_request_config, gpiod_request_config_free>;
 using Request = Owned<gpiod_line_request, gpiod_line_request_release>;
 using EdgeBuffer = Owned<gpiod_edge_event_buffer, gpiod_edge_event_buffer_free>;
 
+// What is no chip, or none any more.
+int absent_if_gone(int error_number) {
+  return error_number == ENODEV || error_number == ENOTTY ? ENOENT : error_number;
+}
+
 Result<Chip> open_chip(const std::string& node) {
   Chip chip{gpiod_chip_open(node.c_str())};
   if (!chip)
-    return system_failure(node, "opening", errno == ENODEV || errno == ENOTTY ? ENOENT : errno);
+    return system_failure(node, "opening", absent_if_gone(errno));
   return chip;
 }
 
@@ -94,7 +99,7 @@ Result<GpioChipInfo> describe_gpio_chip(const std::string& node) {
     return tl::make_unexpected(chip.error());
   const ChipInfo about{gpiod_chip_get_info(chip->get())};
   if (!about)
-    return system_failure(node, "asking what it is", errno);
+    return system_failure(node, "asking what it is", absent_if_gone(errno));
   GpioChipInfo info{node, text(gpiod_chip_info_get_label(about.get())), {}};
   for (unsigned offset = 0; offset < gpiod_chip_info_get_num_lines(about.get()); ++offset) {
     const LineInfo line{gpiod_chip_get_line_info(chip->get(), offset)};

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr const char* configuration_folder = "/etc/octascope";
-constexpr unsigned trigger_line = 0;
+constexpr unsigned trigger_line = 0, sync_line = 1;
 
 // Long enough to be seen by one who looks every half a millisecond.
 constexpr int pulse_width_us = 20000;
@@ -57,7 +57,7 @@ hal::Result<std::unique_ptr<Theatre>> Theatre::make() {
   if (!spectra)
     return tl::make_unexpected(spectra.error());
   theatre->spectra_ = std::move(*spectra);
-  auto chip = SimGpioChip::make("scanner", {"octascope-trigger"});
+  auto chip = SimGpioChip::make("scanner", {"octascope-trigger", "octascope-sync"});
   if (!chip)
     return tl::make_unexpected(chip.error());
   theatre->chip_ = std::move(*chip);
@@ -113,6 +113,7 @@ file = "calibration.toml"
 [devices]
 significant_bits = 12
 pulse_width_us = {}
+sync_line = "octascope-sync"
 seat = false
 )",
       p.samples, p.a_scans, p.fly_back_lines, p.b_scans, p.line_rate_hz, p.a_spacing_um,
@@ -123,8 +124,11 @@ seat = false
 void Theatre::scan(std::stop_token stop) {
   static_cast<void>(hal::linux_backend::make_this_thread_realtime(scanner_priority));
   while (wait_for_pulse(stop)) {
+    const hal::TimePoint pulse = clock_.now();
     ++pulses_;
-    sweep(clock_.now());
+    if (!mute_)
+      answer();
+    sweep(pulse);
   }
 }
 
@@ -136,6 +140,12 @@ bool Theatre::wait_for_pulse(std::stop_token stop) {
     clock_.sleep_for(500us);
   }
   return false;
+}
+
+// One edge up; in vain while the plug is pulled.
+void Theatre::answer() {
+  static_cast<void>(chip_->pull(sync_line, true));
+  static_cast<void>(chip_->pull(sync_line, false));
 }
 
 void Theatre::sweep(hal::TimePoint pulse) {

@@ -1,7 +1,8 @@
 // An operating theatre without hardware: everything that the appliance is connected to, through the
 // kernel's own drivers. A line camera (v4l2loopback) that a feeder fills with a phantom's spectra
-// whenever the scanner's trigger line (gpio-sim) is pulsed, a foot pedal (uhid), a microscope
-// camera (vimc) and a monitor (vkms); and the appliance's configuration in /etc/octascope.
+// whenever the scanner's trigger line (gpio-sim) is pulsed, which the scanner answers on its sync
+// line, a foot pedal (uhid), a microscope camera (vimc) and a monitor (vkms); and the appliance's
+// configuration in /etc/octascope.
 #pragma once
 
 #include <atomic>
@@ -45,6 +46,9 @@ public:
   // While it is blind, pulses go by and no frame comes, as from a camera without light or cable.
   void blind_camera(bool blind) { blind_ = blind; }
 
+  // While it is mute, the scanner scans as ever and answers no pulse on its sync line.
+  void mute_scanner(bool mute) { mute_ = mute; }
+
   std::uint64_t pulses() const { return pulses_; }
   std::uint64_t frames() const { return frames_; }
 
@@ -53,6 +57,7 @@ private:
   hal::Result<> write_configuration() const;
   void scan(std::stop_token stop);
   bool wait_for_pulse(std::stop_token stop);
+  void answer();
   void sweep(hal::TimePoint pulse);
 
   hal::linux_backend::MonotonicClock clock_;
@@ -60,7 +65,7 @@ private:
   std::unique_ptr<SimGpioChip> chip_;
   std::unique_ptr<LoopbackFeeder> feeder_;
   std::unique_ptr<VirtualPedal> pedal_;
-  std::atomic<bool> blind_{false};
+  std::atomic<bool> blind_{false}, mute_{false};
   std::atomic<std::uint64_t> pulses_{0}, frames_{0};
   std::uint64_t volume_ = 0;
   std::jthread scanner_; // last: it uses all of the above

@@ -171,7 +171,9 @@ TEST_F(GpioFaults, two_hundred_openings_leak_nothing) {
     ASSERT_FALSE(refused.open({}));
     trigger.close();
   };
-  cycle(1ms);
+  // The C library keeps up to seven freed blocks of each size, which count as in use.
+  for (int i = 0; i < 40; ++i)
+    cycle(i % 2 == 0 ? 1ms : 50us);
   expect_no_leak([&] {
     for (int i = 0; i < 200 && !HasFatalFailure(); ++i)
       cycle(i % 2 == 0 ? 1ms : 50us);

@@ -65,6 +65,20 @@ TEST_F(GpioSync, several_answers_a_pulse_can_be_expected) {
   EXPECT_EQ(trigger.counters().missed_edges, 2U);
 }
 
+TEST_F(GpioSync, of_more_answers_than_the_kernel_keeps_as_many_are_counted_as_it_keeps) {
+  GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-sync"}};
+  ASSERT_TRUE(trigger.open({}));
+  ASSERT_TRUE(trigger.arm());
+  for (int i = 0; i < 18; ++i)
+    answer();
+  ASSERT_TRUE(trigger.arm());
+  answer();
+  ASSERT_TRUE(trigger.arm());
+  EXPECT_EQ(trigger.counters().sync_edges, 17U);
+  EXPECT_EQ(trigger.counters().missed_edges, 0U);
+  EXPECT_EQ(trigger.counters().unexpected_edges, 15U);
+}
+
 TEST_F(GpioSync, a_sync_line_that_is_not_there_is_told) {
   GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-answer"}};
   const auto opened = trigger.open({});

@@ -89,11 +89,13 @@ Result<> SimGpioChip::describe() {
 }
 
 Result<> SimGpioChip::remove() {
+  const std::lock_guard lock{mutex_};
   levels_.clear();
   return write_text(folder_ + "/live", "0");
 }
 
 Result<> SimGpioChip::restore() {
+  const std::lock_guard lock{mutex_};
   return write_text(folder_ + "/live", "1").and_then([this] { return find_lines(); });
 }
 
@@ -115,15 +117,18 @@ std::string SimGpioChip::line_folder(unsigned line) const {
 }
 
 bool SimGpioChip::level(unsigned line) const {
+  const std::lock_guard lock{mutex_};
   char value = '0';
   return line < levels_.size() && ::pread(levels_[line].get(), &value, 1, 0) == 1 && value == '1';
 }
 
 Result<> SimGpioChip::pull(unsigned line, bool high) {
+  const std::lock_guard lock{mutex_};
   return write_text(line_folder(line) + "/pull", high ? "pull-up" : "pull-down");
 }
 
 std::string SimGpioChip::node() const {
+  const std::lock_guard lock{mutex_};
   return "/dev/" + chip_;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace octascope::tests {
 // Why no chip can be made here; empty when one can.
 std::string sim_gpio_missing();
 
-// Threads: level() is free; the rest from one thread.
+// Threads: free, so that one can pull the plug while another is the scanner.
 class SimGpioChip {
 public:
   // `name` is that of its folder in configfs, new; lines without a name are "".
@@ -44,10 +45,11 @@ private:
   hal::Result<> find_lines();
   std::string line_folder(unsigned line) const;
 
-  std::string folder_; // in configfs
-  std::vector<std::string> line_names_;
-  std::string chip_;   // "gpiochip0"
-  std::string device_; // "gpio-sim.0"
+  const std::string folder_; // in configfs
+  const std::vector<std::string> line_names_;
+  mutable std::mutex mutex_; // of what follows
+  std::string chip_;         // "gpiochip0"
+  std::string device_;       // "gpio-sim.0"
   std::vector<hal::linux_backend::FileDescriptor> levels_;
 };
 
