@@ -1,11 +1,14 @@
 #include "tests/virtual_hardware/support/fire.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
+#include <string_view>
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -13,7 +16,10 @@
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <unistd.h>
+
+#include "tests/virtual_hardware/support/call_site.h"
 
 namespace octascope::tests {
 
@@ -22,33 +28,104 @@ namespace {
 // The C library's functions have no place for a context: this is the process's, as they are.
 std::atomic<unsigned> armed_kinds{0};
 std::atomic<unsigned> counted{0};
-std::atomic<bool> has_shot{false};
-std::atomic<unsigned> shot_call{0};
-std::atomic<int> shot_error{0};
+std::atomic<unsigned> counted_at_site{0};
+std::atomic<bool> hit{false};
+std::atomic<bool> notes_sites{false};
+std::optional<Shot> shot_now; // changes only while nothing is armed
+
+std::mutex noted_guard;
+std::vector<SeenSite> noted;
+
+// A call as it comes in.
+struct Call {
+  CallKind kind;
+  const void* caller; // the address that it returns to
+  unsigned long request = 0;
+};
+
+// Not inlined: its address is where the stack of a site ends.
+[[gnu::noinline]] std::optional<std::string>
+run_scenario(const std::function<std::optional<std::string>()>& scenario) {
+  auto wrong = scenario();
+  asm volatile(""); // no tail call, which would take this function off the stack
+  return wrong;
+}
+
+std::string_view name_of(CallKind kind) {
+  switch (kind) {
+  case CallKind::open: return "open";
+  case CallKind::close: return "close";
+  case CallKind::control: return "ioctl";
+  case CallKind::poll: return "poll";
+  case CallKind::read: return "read";
+  case CallKind::write: return "write";
+  case CallKind::map: return "mmap";
+  case CallKind::receive: return "recv";
+  }
+  return "";
+}
+
+void note(const CallSite& site, const CallStack& stack) {
+  constexpr std::size_t told_callers = 12;
+  const std::lock_guard lock{noted_guard};
+  const auto known = std::ranges::find(noted, site, &SeenSite::site);
+  if (known != noted.end()) {
+    ++known->calls;
+    return;
+  }
+  const std::string request = site.request != 0 ? fmt::format(" {:x}", site.request) : "";
+  noted.push_back(
+      {site, fmt::format("{}{}: {}", name_of(site.kind), request, stack.names(told_callers)), 1});
+}
+
+// Whether it is the shot's; notes it where sites are noted.
+bool is_at_site(const Call& call) {
+  const bool may_be = shot_now && shot_now->site && shot_now->site->kind == call.kind &&
+                      shot_now->site->request == call.request;
+  if (!may_be && !notes_sites.load(std::memory_order_relaxed))
+    return false; // the stack need not be looked at
+  const CallStack stack =
+      CallStack::from(call.caller, reinterpret_cast<const void*>(&run_scenario));
+  const CallSite site{call.kind, call.request, stack.hash()};
+  if (notes_sites.load(std::memory_order_relaxed))
+    note(site, stack);
+  return may_be && shot_now->site == site;
+}
 
 // True when this very call is the one; `error` is then what it is to fail with.
-bool is_hit(CallKind kind, int& error) {
-  if ((armed_kinds.load(std::memory_order_relaxed) & static_cast<unsigned>(kind)) == 0)
+bool is_hit(const Call& call, int& error) {
+  if ((armed_kinds.load(std::memory_order_acquire) & static_cast<unsigned>(call.kind)) == 0)
     return false;
-  const unsigned number = counted.fetch_add(1, std::memory_order_relaxed);
-  if (!has_shot.load(std::memory_order_relaxed) || number != shot_call.load())
+  unsigned number = counted.fetch_add(1, std::memory_order_relaxed);
+  const bool by_site = shot_now && shot_now->site;
+  if (by_site || notes_sites.load(std::memory_order_relaxed)) {
+    const int errno_before = errno;
+    const bool at_site = !hit.load(std::memory_order_relaxed) && is_at_site(call);
+    errno = errno_before;
+    if (by_site && !at_site)
+      return false;
+    if (by_site)
+      number = counted_at_site.fetch_add(1, std::memory_order_relaxed);
+  }
+  if (!shot_now || number != shot_now->call)
     return false;
-  error = shot_error.load();
+  error = shot_now->error;
+  hit.store(true, std::memory_order_relaxed);
   return true;
 }
 
-bool fails(CallKind kind) {
+bool fails(const Call& call) {
   int error = 0;
-  if (!is_hit(kind, error) || error == 0)
+  if (!is_hit(call, error) || error == 0)
     return false;
   errno = error;
   return true;
 }
 
 // How much of `count` bytes a read or write may do; −1: it fails.
-ssize_t allowed(CallKind kind, int descriptor, std::size_t count) {
+ssize_t allowed(const Call& call, int descriptor, std::size_t count) {
   int error = 0;
-  if (descriptor <= STDERR_FILENO || !is_hit(kind, error))
+  if (descriptor <= STDERR_FILENO || !is_hit(call, error))
     return static_cast<ssize_t>(count);
   if (error == 0)
     return static_cast<ssize_t>((count + 1) / 2);
@@ -62,12 +139,14 @@ template <class Function> Function* next(const char* name) {
 
 } // namespace
 
-Firing::Firing(unsigned kinds, std::optional<Shot> shot) {
+Firing::Firing(unsigned kinds, std::optional<Shot> shot, Notes notes) {
   counted = 0;
-  has_shot = shot.has_value();
-  shot_call = shot ? shot->call : 0;
-  shot_error = shot ? shot->error : 0;
-  armed_kinds = kinds;
+  counted_at_site = 0;
+  hit = false;
+  shot_now = shot;
+  notes_sites = notes == Notes::sites;
+  noted.clear();
+  armed_kinds.store(kinds, std::memory_order_release);
 }
 
 Firing::~Firing() {
@@ -76,6 +155,20 @@ Firing::~Firing() {
 
 unsigned Firing::calls() const {
   return counted;
+}
+
+bool Firing::has_hit() const {
+  return hit;
+}
+
+std::vector<SeenSite> Firing::sites() const {
+  const std::lock_guard lock{noted_guard};
+  return noted;
+}
+
+std::optional<std::string>
+Firing::run(const std::function<std::optional<std::string>()>& scenario) const {
+  return run_scenario(scenario);
 }
 
 Holdings Holdings::now() {
@@ -138,6 +231,7 @@ std::span<const int> usual_errors() {
 // ---- what stands before the C library ----
 
 using octascope::tests::allowed;
+using octascope::tests::Call;
 using octascope::tests::CallKind;
 using octascope::tests::fails;
 using octascope::tests::next;
@@ -152,9 +246,9 @@ mode_t mode_of(int flags, va_list arguments) {
   return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(arguments, mode_t) : mode_t{0};
 }
 
-void* map_unless_hit(const char* name, void* address, std::size_t length, int protection, int flags,
-                     int descriptor, off_t offset) {
-  if (descriptor >= 0 && fails(CallKind::map))
+void* map_unless_hit(const char* name, const void* caller, void* address, std::size_t length,
+                     int protection, int flags, int descriptor, off_t offset) {
+  if (descriptor >= 0 && fails({CallKind::map, caller}))
     return MAP_FAILED;
   return next<MapFunction>(name)(address, length, protection, flags, descriptor, offset);
 }
@@ -168,7 +262,9 @@ int open(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = mode_of(flags, arguments);
   va_end(arguments);
-  return fails(CallKind::open) ? -1 : next<OpenFunction>("open")(path, flags, mode);
+  return fails({CallKind::open, __builtin_return_address(0)})
+             ? -1
+             : next<OpenFunction>("open")(path, flags, mode);
 }
 
 int open64(const char* path, int flags, ...) {
@@ -176,7 +272,9 @@ int open64(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = mode_of(flags, arguments);
   va_end(arguments);
-  return fails(CallKind::open) ? -1 : next<OpenFunction>("open64")(path, flags, mode);
+  return fails({CallKind::open, __builtin_return_address(0)})
+             ? -1
+             : next<OpenFunction>("open64")(path, flags, mode);
 }
 
 int openat(int folder, const char* path, int flags, ...) {
@@ -184,11 +282,24 @@ int openat(int folder, const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = mode_of(flags, arguments);
   va_end(arguments);
-  return fails(CallKind::open) ? -1 : next<OpenAtFunction>("openat")(folder, path, flags, mode);
+  return fails({CallKind::open, __builtin_return_address(0)})
+             ? -1
+             : next<OpenAtFunction>("openat")(folder, path, flags, mode);
+}
+
+int openat64(int folder, const char* path, int flags, ...) {
+  va_list arguments;
+  va_start(arguments, flags);
+  const mode_t mode = mode_of(flags, arguments);
+  va_end(arguments);
+  return fails({CallKind::open, __builtin_return_address(0)})
+             ? -1
+             : next<OpenAtFunction>("openat64")(folder, path, flags, mode);
 }
 
 int close(int descriptor) {
-  const bool hit = descriptor > STDERR_FILENO && fails(CallKind::close);
+  const bool hit =
+      descriptor > STDERR_FILENO && fails({CallKind::close, __builtin_return_address(0)});
   const int error = errno;
   const int result = next<int(int)>("close")(descriptor);
   if (!hit)
@@ -202,44 +313,60 @@ int ioctl(int descriptor, unsigned long request, ...) noexcept {
   va_start(arguments, request);
   void* const argument = va_arg(arguments, void*);
   va_end(arguments);
-  if (fails(CallKind::control))
+  if (fails({CallKind::control, __builtin_return_address(0), request}))
     return -1;
   return next<int(int, unsigned long, ...)>("ioctl")(descriptor, request, argument);
 }
 
 int poll(pollfd* files, nfds_t count, int timeout) {
-  return fails(CallKind::poll) ? -1
-                               : next<int(pollfd*, nfds_t, int)>("poll")(files, count, timeout);
+  return fails({CallKind::poll, __builtin_return_address(0)})
+             ? -1
+             : next<int(pollfd*, nfds_t, int)>("poll")(files, count, timeout);
 }
 
 int ppoll(pollfd* files, nfds_t count, const timespec* timeout, const sigset_t* mask) {
-  return fails(CallKind::poll) ? -1
-                               : next<int(pollfd*, nfds_t, const timespec*, const sigset_t*)>(
-                                     "ppoll")(files, count, timeout, mask);
+  return fails({CallKind::poll, __builtin_return_address(0)})
+             ? -1
+             : next<int(pollfd*, nfds_t, const timespec*, const sigset_t*)>("ppoll")(files, count,
+                                                                                     timeout, mask);
 }
 
 ssize_t read(int descriptor, void* bytes, std::size_t count) {
-  const ssize_t most = allowed(CallKind::read, descriptor, count);
+  const ssize_t most = allowed({CallKind::read, __builtin_return_address(0)}, descriptor, count);
   return most < 0 ? -1
                   : next<ssize_t(int, void*, std::size_t)>("read")(descriptor, bytes,
                                                                    static_cast<std::size_t>(most));
 }
 
 ssize_t write(int descriptor, const void* bytes, std::size_t count) {
-  const ssize_t most = allowed(CallKind::write, descriptor, count);
+  const ssize_t most = allowed({CallKind::write, __builtin_return_address(0)}, descriptor, count);
   return most < 0 ? -1
                   : next<ssize_t(int, const void*, std::size_t)>("write")(
                         descriptor, bytes, static_cast<std::size_t>(most));
 }
 
+ssize_t recv(int socket, void* bytes, std::size_t count, int flags) {
+  return fails({CallKind::receive, __builtin_return_address(0)})
+             ? -1
+             : next<ssize_t(int, void*, std::size_t, int)>("recv")(socket, bytes, count, flags);
+}
+
+ssize_t recvmsg(int socket, msghdr* message, int flags) {
+  return fails({CallKind::receive, __builtin_return_address(0)})
+             ? -1
+             : next<ssize_t(int, msghdr*, int)>("recvmsg")(socket, message, flags);
+}
+
 void* mmap(void* address, std::size_t length, int protection, int flags, int descriptor,
            off_t offset) noexcept {
-  return map_unless_hit("mmap", address, length, protection, flags, descriptor, offset);
+  return map_unless_hit("mmap", __builtin_return_address(0), address, length, protection, flags,
+                        descriptor, offset);
 }
 
 void* mmap64(void* address, std::size_t length, int protection, int flags, int descriptor,
              off_t offset) noexcept {
-  return map_unless_hit("mmap64", address, length, protection, flags, descriptor, offset);
+  return map_unless_hit("mmap64", __builtin_return_address(0), address, length, protection, flags,
+                        descriptor, offset);
 }
 
 } // extern "C"

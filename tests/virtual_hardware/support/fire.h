@@ -2,10 +2,15 @@
 // made to fail.
 //
 // Linked into a program, fire.cpp stands before the C library's open, close, ioctl, poll, read,
-// write and mmap: whoever calls them, our backends or libdrm, libgpiod, hidapi and libcamera below
-// them, comes through it. Nothing is changed unless a Firing is alive.
+// write, mmap and recv: whoever calls them, our backends or libdrm, libgpiod, libudev and libcamera
+// below them, comes through it. Nothing is changed unless a Firing is alive.
+//
+// Where a scenario has so many calls that hitting each takes too long, each *site* is hit
+// (site_sweep.h): calls that the same functions make, one within the other from the scenario down,
+// are one site, as those of a loop.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -22,26 +27,48 @@ enum class CallKind : unsigned {
   poll = 8,    // poll, ppoll
   read = 16,
   write = 32,
-  map = 64, // mmap of a file; memory of no file is left alone
+  map = 64,      // mmap of a file; memory of no file is left alone
+  receive = 128, // recv, recvmsg: udev's events
 };
 
-inline constexpr unsigned every_kind = 127;
+inline constexpr unsigned every_kind = 255;
+
+struct CallSite {
+  CallKind kind = CallKind::open;
+  unsigned long request = 0; // ioctl's
+  std::uint64_t callers = 0; // CallStack::hash()
+  auto operator<=>(const CallSite&) const = default;
+};
 
 struct Shot {
   unsigned call = 0; // which of the counted calls, from 0
   int error = 0;     // errno it fails with; 0: read() and write() do half, all else is let through
+  std::optional<CallSite> site = {}; // then `call` counts its calls alone
+};
+
+// A site that was seen, by the names of its callers.
+struct SeenSite {
+  CallSite site;
+  std::string name; // "ioctl c0406469: libdrm.so.2 drmIoctl < …"
+  unsigned calls = 0;
 };
 
 // One at a time in a process, for as long as it lives; calls of every thread count. close() that is
 // hit closes all the same, as Linux does.
 class Firing {
 public:
-  explicit Firing(unsigned kinds, std::optional<Shot> shot = {});
+  enum class Notes { none, sites };
+  explicit Firing(unsigned kinds, std::optional<Shot> shot = {}, Notes notes = Notes::none);
   Firing(const Firing&) = delete;
   Firing& operator=(const Firing&) = delete;
   ~Firing();
 
   unsigned calls() const; // counted so far
+  bool has_hit() const;
+  std::vector<SeenSite> sites() const; // with Notes::sites; as they were first seen
+
+  // Runs it so that a site is the same whoever runs the scenario.
+  std::optional<std::string> run(const std::function<std::optional<std::string>()>& scenario) const;
 };
 
 // What a process holds of the system.
