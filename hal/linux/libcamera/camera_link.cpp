@@ -86,15 +86,20 @@ struct CameraLink::Parts {
     requests.clear();
     allocator.reset();
     configuration.reset();
-    if (abandoned)
+    if (abandoned) {
       static_cast<void>(new std::shared_ptr<libcamera::Camera>{camera}); // never dropped
-    else if (acquired)
+      shut_nodes();
+    } else if (acquired)
       camera->release();
   }
 
   Result<> configure(const ScopeCameraConfig& config);
   Result<> allocate();
-  bool can_be_stopped() const { return nodes.present() && !broken_off; }
+  bool can_be_stopped() const { return nodes.present() && !broken_off && !shut; }
+  void shut_nodes() {
+    if (!std::exchange(shut, true))
+      nodes.shut();
+  }
 
   std::shared_ptr<libcamera::Camera> camera;
   std::string model;
@@ -102,6 +107,7 @@ struct CameraLink::Parts {
   bool acquired = false;
   bool running = false;
   bool broken_off = false; // it gave up a request in mid-stream
+  bool shut = false;       // its nodes are
   std::unique_ptr<libcamera::CameraConfiguration> configuration;
   PictureLayout layout;
   libcamera::Stream* stream = nullptr;
@@ -189,6 +195,13 @@ Result<std::unique_ptr<CameraLink>> CameraLink::open(const LibcameraSession::Cho
   return std::unique_ptr<CameraLink>(new CameraLink{std::move(parts)});
 }
 
+bool CameraLink::is_free(const LibcameraSession::Chosen& chosen) {
+  if (chosen.camera->acquire() < 0)
+    return false;
+  chosen.camera->release();
+  return true;
+}
+
 CameraLink::CameraLink(std::unique_ptr<Parts> parts) : parts_{std::move(parts)} {}
 CameraLink::~CameraLink() = default;
 
@@ -236,6 +249,10 @@ bool CameraLink::can_be_stopped() const {
 
 bool CameraLink::will_be_abandoned() const {
   return parts_->running && !parts_->can_be_stopped();
+}
+
+void CameraLink::shut_nodes() {
+  parts_->shut_nodes();
 }
 
 Result<> CameraLink::queue(std::size_t buffer) {

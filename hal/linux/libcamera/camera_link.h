@@ -46,13 +46,16 @@ private:
 //
 // But libcamera 0.0.3 can neither stop nor drop a streaming camera that is gone, unless it noticed
 // itself (it does for USB cameras, and tells the mailbox), nor one that gave up a request: it ends
-// the program. Such a camera is abandoned, and the session is to be restarted: its objects, a dozen
-// descriptors and a sleeping thread stay until the program ends.
+// the program. Such a camera is abandoned, and the session is to be restarted: its objects, some
+// descriptors (those of its nodes lead nowhere then) and a sleeping thread stay until the program
+// ends.
 class CameraLink {
 public:
   // Fault::busy: another program has it. Fault::unsupported: no format that can be drawn.
   static Result<std::unique_ptr<CameraLink>> open(const LibcameraSession::Chosen& chosen,
                                                   const ScopeCameraConfig& config);
+  // Nobody has it, in this program or in another one that uses libcamera.
+  static bool is_free(const LibcameraSession::Chosen& chosen);
   CameraLink(const CameraLink&) = delete;
   CameraLink& operator=(const CameraLink&) = delete;
   ~CameraLink();
@@ -68,9 +71,12 @@ public:
   void stop();
   // False: it was unplugged.
   bool present() const;
-  bool can_be_stopped() const;    // false: it is gone, or gave up a request
+  bool can_be_stopped() const;    // false: it is or was gone, or gave up a request
   bool will_be_abandoned() const; // when this is destroyed; the session is restarted before
-  bool watched() const;           // CameraNodes::watched
+  // Of one that will be abandoned, when the session was restarted and has not begun anew: its
+  // nodes, which it would hold and stream on for ever, are for others to open. Loans stay readable.
+  void shut_nodes();
+  bool watched() const; // CameraNodes::watched
   // Libcamera noticed that the camera is gone, and has stopped it by itself.
   void stopped_by_itself();
   // Gives the camera a buffer to fill. Allocates nothing of ours; libcamera allocates a message to

@@ -17,6 +17,9 @@ public:
   // comes meanwhile is not taken for it. Allocates nothing.
   bool present() const;
   bool include(dev_t node) const;
+  // Closes what this process has open of them, in such a way that their numbers are not given to
+  // other files: whoever still names one finds nothing behind it.
+  void shut() const;
   // Libcamera notices by itself when this camera goes: it does for those of the driver uvcvideo.
   bool watched() const { return watched_; }
 

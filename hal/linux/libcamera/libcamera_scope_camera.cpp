@@ -59,6 +59,7 @@ struct LibcameraScopeCamera::Parts {
   // Waits until the camera has filled what it has, as far as that can be waited for.
   void drain();
   bool gone_unnoticed();
+  void restart_session();
 
   LibcameraSession& session;
   LibcameraScopeOptions options;
@@ -198,6 +199,12 @@ bool LibcameraScopeCamera::Parts::gone_unnoticed() {
   return !ear.mailbox().gone();
 }
 
+void LibcameraScopeCamera::Parts::restart_session() {
+  session.restart();
+  if (link->will_be_abandoned())
+    link->shut_nodes();
+}
+
 LibcameraScopeCamera::LibcameraScopeCamera(LibcameraSession& session, LibcameraScopeOptions options,
                                            Clock& clock)
     : parts_{std::make_unique<Parts>(session, std::move(options), clock)} {}
@@ -222,8 +229,15 @@ Result<> LibcameraScopeCamera::do_open(const ScopeCameraConfig& config) {
   if (!chosen)
     return tl::make_unexpected(chosen.error());
   auto link = CameraLink::open(*chosen, config);
-  if (!link)
+  if (!link) {
+    // Nobody has it, and its nodes are busy: where it could not be stopped in order, libcamera
+    // 0.0.3 itself streams on, and gives them back only at its end.
+    if (link.error().fault == Fault::busy && CameraLink::is_free(*chosen)) {
+      chosen->camera.reset();
+      parts_->session.restart();
+    }
     return tl::make_unexpected(link.error());
+  }
   if ((*link)->layout().encoding == Encoding::motion_jpeg) {
     auto decoder = MotionJpegDecoder::make();
     if (!decoder)
@@ -276,7 +290,7 @@ Result<std::optional<ScopeFrame>> LibcameraScopeCamera::do_wait_frame(Duration t
     set_state(DeviceState::failed);
     // At once, before it can come back; loans stay readable all the same.
     if (parts_->gone_unnoticed())
-      parts_->session.restart();
+      parts_->restart_session();
     return tl::make_unexpected(std::move(error));
   };
   const TimePoint deadline = parts.clock.now() + timeout;
@@ -336,7 +350,7 @@ void LibcameraScopeCamera::do_close() {
     // that can be given back needs that thread.
     const bool abandoned = parts.link->will_be_abandoned();
     if (restart && abandoned)
-      parts.session.restart();
+      parts.restart_session();
     parts.link.reset();
     if (restart && !abandoned)
       parts.session.restart();
