@@ -371,6 +371,8 @@ void AssembledAppliance::show_until_done(StopSignal& stop_signal) {
 void AssembledAppliance::follow_controls() {
   if (auto profile = devices_->new_control_profile())
     keeper_.lead_with(std::move(*profile), *loop_);
+  if (const auto complaint = devices_->new_keyboard_complaint())
+    faults_.add("keyboard", "not_opened", *complaint, clock_.now());
 }
 
 void AssembledAppliance::listen_to_scanner() {

@@ -1,6 +1,7 @@
 #include "firmware-host/configuration.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <string_view>
@@ -117,11 +118,26 @@ void read_display(ConfigTable table, Configuration& configuration) {
       table.number("veil_after_s", hal::to_seconds(configuration.veil_after), {0.5, 3600}));
 }
 
+// In lower case, as the kernel writes them.
+void read_keyboards(ConfigTable& table, DeviceWishes& wishes) {
+  for (std::string usb : table.texts("keyboards")) {
+    std::ranges::transform(usb, usb.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string_view digits = "0123456789abcdef";
+    if (usb.size() != 9 || usb[4] != ':' || usb.find_first_not_of(digits) != 4 ||
+        usb.find_first_not_of(digits, 5) != usb.npos)
+      table.complain(fmt::format("keyboards has \"{}\", expected vendor and product as "
+                                 "\"046d:c31c\"; `octascope devices` names those of each keyboard",
+                                 usb));
+    wishes.keyboards.push_back(std::move(usb));
+  }
+}
+
 void read_controls(ConfigTable table, Configuration& configuration) {
   if (table.has("profile") && table.has("file"))
     table.complain("profile and file are both there, expected one: the name of a profile that the "
                    "program brings with it, or the file of your own");
   configuration.control_file = table.path("file");
+  read_keyboards(table, configuration.devices);
   configuration.devices.control_device = table.path("device");
   if (const auto& device = configuration.devices.control_device)
     if (const auto learned = load_control_device(*device); !learned)

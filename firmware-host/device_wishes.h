@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hal/clock.h"
 
@@ -24,6 +25,8 @@ struct DeviceWishes {
   std::string control_input{automatic}; // auto, sim, hid (waited for)
   // Of a control that `devices --learn` has learned; it leads before the listed ones.
   std::optional<std::filesystem::path> control_device;
+  // Of the console display: vendor:product of each keyboard whose keys count; no other is opened.
+  std::vector<std::string> keyboards;
   std::string scope_camera{automatic}; // auto, sim, none, libcamera (waited for), or a camera's id
   std::string connector;               // of the console display: "HDMI-A-1"; empty: the first
   std::string mode;                    // "1920x1080@60"; empty: what the monitor prefers

@@ -71,6 +71,9 @@ public:
   // As RealDevices::new_control_profile().
   std::optional<ui::ControlProfile> new_control_profile() { return real_->new_control_profile(); }
 
+  // As RealDevices::new_keyboard_complaint().
+  std::optional<std::string> new_keyboard_complaint() { return real_->new_keyboard_complaint(); }
+
   // As RealDevices::new_missed_answers().
   std::uint64_t new_missed_answers() { return real_->new_missed_answers(); }
 

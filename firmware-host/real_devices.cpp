@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "firmware-host/configuration.h"
 #include "firmware-host/control_device_file.h"
@@ -189,9 +190,12 @@ DeviceFinding RealDevices::find_console_display() const {
   const backend::kms::Card& card = cards[output->card];
   const backend::kms::Connector& connector = card.connectors[output->connector];
   return {true,
-          fmt::format("{} {}{}, {}", backend::kms::card_name(card), connector.name,
+          fmt::format("{} {}{}, {}{}", backend::kms::card_name(card), connector.name,
                       connector.monitor.empty() ? "" : fmt::format(" ({})", connector.monitor),
-                      backend::kms::to_text(output->mode))};
+                      backend::kms::to_text(output->mode),
+                      wishes_.keyboards.empty()
+                          ? ""
+                          : fmt::format(", keyboards {}", fmt::join(wishes_.keyboards, ", ")))};
 }
 
 std::unique_ptr<hal::LineCamera> RealDevices::make_line_camera() {
@@ -255,7 +259,19 @@ hal::Result<std::unique_ptr<hal::ScopeCamera>> RealDevices::make_scope_camera() 
 }
 
 std::unique_ptr<hal::Display> RealDevices::make_display() {
-  return std::make_unique<backend::KmsDisplay>(clock_, kms_config(wishes_));
+  std::unique_ptr<backend::ConsoleKeyboards> keyboards;
+  if (!wishes_.keyboards.empty())
+    keyboards = std::make_unique<backend::ConsoleKeyboards>(clock_, wishes_.keyboards);
+  keyboards_ = keyboards.get();
+  return std::make_unique<backend::KmsDisplay>(clock_, kms_config(wishes_), std::move(keyboards));
+}
+
+std::optional<std::string> RealDevices::new_keyboard_complaint() {
+  if (keyboards_ == nullptr || keyboards_->complaints().empty() ||
+      keyboards_->complaints().front() == keyboard_complaint_)
+    return std::nullopt;
+  keyboard_complaint_ = keyboards_->complaints().front();
+  return keyboard_complaint_;
 }
 
 hal::Result<DeviceChoices> choices_of_run(const RunOptions& options, hal::Clock& clock) {

@@ -16,6 +16,7 @@
 #include "hal/galvo_trigger.h"
 #include "hal/line_camera.h"
 #include "hal/linux/gpio/gpio_galvo_trigger.h"
+#include "hal/linux/hid/console_keyboards.h"
 #include "hal/linux/hid/hid_controls.h"
 #include "hal/linux/libcamera/libcamera_session.h"
 #include "hal/result.h"
@@ -51,6 +52,9 @@ public:
   // where the leading one has none of its own, or none is there.
   std::optional<ui::ControlProfile> new_control_profile();
 
+  // Why a keyboard that the configuration lists cannot be read at the console, told once.
+  std::optional<std::string> new_keyboard_complaint();
+
   // Pulses that the scanner has not answered on its sync line, told once each.
   std::uint64_t new_missed_answers();
 
@@ -73,8 +77,10 @@ private:
   std::unique_ptr<hal::linux_backend::LibcameraSession> libcamera_;
   hal::linux_backend::GpioGalvoTrigger* trigger_ = nullptr; // made here, owned by who asked
   std::uint64_t missed_answers_ = 0;
-  const hal::linux_backend::HidControls* controls_ = nullptr; // likewise
-  std::uint64_t control_changes_ = 0;                         // that were told
+  const hal::linux_backend::HidControls* controls_ = nullptr;       // likewise
+  std::uint64_t control_changes_ = 0;                               // that were told
+  const hal::linux_backend::ConsoleKeyboards* keyboards_ = nullptr; // likewise
+  std::string keyboard_complaint_;                                  // that was told
 };
 
 // What `octascope run` would choose with these options, with every device looked for; an Error for

@@ -206,6 +206,8 @@ bool AssembledReplay::done() const {
 void AssembledReplay::follow_hands() {
   if (auto profile = devices_->new_control_profile())
     keeper_.lead_with(std::move(*profile), *loop_);
+  if (const auto complaint = devices_->new_keyboard_complaint())
+    faults_.add("keyboard", "not_opened", *complaint, clock_.now());
   if (const bool frozen = loop_->actions().state().frozen; frozen != held_) {
     held_ = frozen;
     volumes_->hold(frozen);

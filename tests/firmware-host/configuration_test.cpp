@@ -209,6 +209,21 @@ TEST_F(ConfigurationFile, chooses_what_the_controls_do) {
               HasSubstr("expected one"));
 }
 
+TEST_F(ConfigurationFile, lists_keyboards_by_vendor_and_product) {
+  EXPECT_TRUE(load("").value().devices.keyboards.empty());
+  const auto two = load("[controls]\nkeyboards = [\"046d:c31c\", \"04D9:A1CD\"]\n");
+  ASSERT_TRUE(two) << two.error().message;
+  EXPECT_EQ(two->devices.keyboards, (std::vector<std::string>{"046d:c31c", "04d9:a1cd"}));
+  for (const std::string wrong : {"", "046d", "046dc31c", "046d:c31", "046d:c31cc", "046g:c31c",
+                                  "0x46:c31c", "046d-c31c", "046d:*", "Logitech"}) {
+    const auto refused = load("[controls]\nkeyboards = \"" + wrong + "\"\n");
+    ASSERT_FALSE(refused) << wrong;
+    EXPECT_THAT(refused.error().message,
+                testing::AllOf(HasSubstr("c.toml:1: [controls]"), HasSubstr('"' + wrong + '"'),
+                               HasSubstr("046d:c31c"), HasSubstr("octascope devices")));
+  }
+}
+
 TEST_F(ConfigurationFile, that_is_missing_is_named) {
   const auto c = load_configuration(folder_ / "nowhere.toml");
   ASSERT_FALSE(c);

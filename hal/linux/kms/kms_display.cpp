@@ -183,8 +183,8 @@ struct KmsDisplay::Session {
   }
 };
 
-KmsDisplay::KmsDisplay(Clock& clock, KmsConfig config)
-    : clock_{clock}, config_{std::move(config)} {}
+KmsDisplay::KmsDisplay(Clock& clock, KmsConfig config, std::unique_ptr<KeySource> keys)
+    : clock_{clock}, config_{std::move(config)}, keys_{std::move(keys)} {}
 
 KmsDisplay::~KmsDisplay() {
   do_close();
@@ -203,6 +203,7 @@ Result<> KmsDisplay::do_open(const DisplayConfig& config) {
   refresh_period_ = from_seconds(1 / refresh_hz(session_->choice.mode));
   pacer_ = FlipPacer{refresh_period_, clock_.now()};
   flips_ = 0;
+  attend(true);
   set_state(DeviceState::ready);
   return {};
 }
@@ -222,7 +223,9 @@ Result<Flip> KmsDisplay::do_present() {
     return fail(Fault::disconnected, "kms display: lost; close() it and open() it again");
   if (auto there = session_->output->check(); !there)
     return lose(there.error());
-  if (!session_->may_show())
+  const bool ours = session_->may_show();
+  attend(ours);
+  if (!ours)
     return Flip{clock_.now(), flips_};
   session_->frame.copy_to_screen();
   const auto shown = session_->show();
@@ -230,6 +233,7 @@ Result<Flip> KmsDisplay::do_present() {
     return lose(shown.error());
   if (!*shown) {
     session_->paused = true;
+    attend(false);
     return Flip{clock_.now(), flips_};
   }
   const TimePoint completed = pacer_.completed(**shown);
@@ -242,7 +246,13 @@ Result<Flip> KmsDisplay::lose(const Error& error) {
   return tl::make_unexpected(error);
 }
 
+void KmsDisplay::attend(bool ours) {
+  if (keys_)
+    keys_->attend(ours);
+}
+
 void KmsDisplay::do_close() {
+  attend(false);
   session_.reset();
   description_.clear();
   set_state(DeviceState::absent);

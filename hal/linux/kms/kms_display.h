@@ -12,6 +12,7 @@
 
 #include "hal/clock.h"
 #include "hal/display.h"
+#include "hal/key_source.h"
 #include "hal/linux/kms/flip_pacing.h"
 #include "hal/linux/kms/overscan.h"
 
@@ -32,7 +33,8 @@ struct KmsConfig {
 };
 
 // The mode is KmsConfig's: width, height, refresh_hz, fullscreen and title of DisplayConfig are
-// checked but have no meaning here. Keyboards are not read: poll_events() gives nothing.
+// checked but have no meaning here. poll_events() tells what `keys` tells, which is listened to
+// while the display is open and its console in front; without one it tells nothing.
 //
 // While another console is in front, or another program has taken the card, present() shows nothing
 // and returns after 100 ms a Flip whose sequence has not moved; the first picture after that comes
@@ -40,7 +42,7 @@ struct KmsConfig {
 class KmsDisplay final : public Display {
 public:
   // The clock is borrowed and must outlive the display.
-  KmsDisplay(Clock& clock, KmsConfig config);
+  KmsDisplay(Clock& clock, KmsConfig config, std::unique_ptr<KeySource> keys = nullptr);
   ~KmsDisplay() override;
 
   // "/dev/dri/card0 HDMI-A-1 (DELL U2415), 1920x1080@60.00, atomic"; empty while absent.
@@ -58,13 +60,17 @@ private:
   int do_height() const override;
   Duration do_refresh_period() const override { return refresh_period_; }
   Result<Flip> do_present() override;
-  std::size_t do_poll_events(std::span<DisplayEvent>) override { return 0; }
+  std::size_t do_poll_events(std::span<DisplayEvent> events) override {
+    return keys_ ? keys_->poll_events(events) : 0;
+  }
   void do_close() override;
 
   Result<Flip> lose(const Error& error);
+  void attend(bool ours);
 
   Clock& clock_;
   const KmsConfig config_;
+  const std::unique_ptr<KeySource> keys_;
   std::unique_ptr<Session> session_;
   std::string description_;
   Duration refresh_period_{};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <linux/input-event-codes.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/program_run.h"
@@ -185,6 +186,35 @@ TEST_F(InTheatre, a_foot_on_the_pedal_changes_what_the_monitor_shows) {
   const nlohmann::json report = end();
   EXPECT_EQ(report["actions"]["freeze"], 2);
   EXPECT_EQ(report["actions"]["previous_parameter"], 1);
+}
+
+TEST_F(InTheatre, the_listed_keyboard_steers_and_a_strange_one_does_not) {
+  auto keyboard = Theatre::plug_keyboard();
+  const auto strange = Theatre::plug_strange_keyboard();
+  ASSERT_TRUE(keyboard && strange);
+  const auto type = [](VirtualKeyboard& on, std::uint16_t key) {
+    EXPECT_TRUE(on.set(key, true));
+    std::this_thread::sleep_for(100ms);
+    EXPECT_TRUE(on.set(key, false));
+    std::this_thread::sleep_for(1s);
+  };
+  start();
+  ASSERT_TRUE(scanned(3));
+  ASSERT_TRUE(within(20s, [&] { return (*keyboard)->is_grabbed(); }));
+  EXPECT_FALSE((*strange)->is_grabbed());
+  type(**strange, KEY_SPACE);
+  type(**strange, KEY_Q);
+  ASSERT_TRUE(run_->running());
+  type(**keyboard, KEY_SPACE); // freezes
+  keyboard->reset();
+  keyboard = Theatre::plug_keyboard();
+  ASSERT_TRUE(keyboard);
+  ASSERT_TRUE(within(20s, [&] { return (*keyboard)->is_grabbed(); }));
+  type(**keyboard, KEY_SPACE); // live again
+  type(**keyboard, KEY_ESC);
+  EXPECT_TRUE(within(20s, [&] { return !run_->running(); }));
+  const nlohmann::json report = end();
+  EXPECT_EQ(report["actions"]["freeze"], 2);
 }
 
 TEST_F(InTheatre, two_devices_vanish_at_once_and_come_back) {

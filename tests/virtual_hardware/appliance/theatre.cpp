@@ -88,6 +88,14 @@ hal::Result<> Theatre::plug_pedal() {
   return {};
 }
 
+hal::Result<std::unique_ptr<VirtualKeyboard>> Theatre::plug_keyboard() {
+  return VirtualKeyboard::plug_in(0x046d, 0xc31c);
+}
+
+hal::Result<std::unique_ptr<VirtualKeyboard>> Theatre::plug_strange_keyboard() {
+  return VirtualKeyboard::plug_in(0x1234, 0x5678);
+}
+
 hal::Result<> Theatre::write_configuration() const {
   std::filesystem::create_directories(configuration_folder);
   const std::filesystem::path folder{configuration_folder};
@@ -115,6 +123,8 @@ significant_bits = 12
 pulse_width_us = {}
 sync_line = "octascope-sync"
 seat = false
+[controls]
+keyboards = ["046d:c31c"]
 )",
       p.samples, p.a_scans, p.fly_back_lines, p.b_scans, p.line_rate_hz, p.a_spacing_um,
       p.b_spacing_um, pulse_width_us);

@@ -2,7 +2,7 @@
 // kernel's own drivers. A line camera (v4l2loopback) that a feeder fills with a phantom's spectra
 // whenever the scanner's trigger line (gpio-sim) is pulsed, which the scanner answers on its sync
 // line, a foot pedal (uhid), a microscope camera (vimc) and a monitor (vkms); and the appliance's
-// configuration in /etc/octascope.
+// configuration in /etc/octascope, which lists one keyboard.
 #pragma once
 
 #include <atomic>
@@ -18,6 +18,7 @@
 #include "sim/volume_loop.h"
 #include "tests/virtual_hardware/support/loopback_feeder.h"
 #include "tests/virtual_hardware/support/sim_gpio_chip.h"
+#include "tests/virtual_hardware/support/virtual_keyboard.h"
 #include "tests/virtual_hardware/support/virtual_pedal.h"
 
 namespace octascope::tests {
@@ -42,6 +43,10 @@ public:
   hal::Result<> plug_pedal();
   // The centre switch and its neighbours, as the real device's report: pressed, or 0 for released.
   hal::Result<> tread(std::uint8_t switches) { return pedal_->send({switches, 0}); }
+
+  // Plugged in by those who need one; the second kind is not listed.
+  static hal::Result<std::unique_ptr<VirtualKeyboard>> plug_keyboard();
+  static hal::Result<std::unique_ptr<VirtualKeyboard>> plug_strange_keyboard();
 
   // While it is blind, pulses go by and no frame comes, as from a camera without light or cable.
   void blind_camera(bool blind) { blind_ = blind; }

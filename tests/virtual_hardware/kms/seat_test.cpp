@@ -1,6 +1,8 @@
 // The display under a manager of seats: the console is switched away and back, as often and
 // whenever anybody likes.
+#include <array>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -26,6 +28,21 @@ using hal::linux_backend::KmsConfig;
 using hal::linux_backend::KmsDisplay;
 using testing::AllOf;
 using testing::HasSubstr;
+
+// Tells whether it is listened to, and one key for each time that it is asked.
+class KeysOfTest final : public hal::KeySource {
+public:
+  explicit KeysOfTest(bool& listened_to) : listened_to_{listened_to} {}
+
+private:
+  void do_attend(bool ours) override { listened_to_ = ours; }
+  std::size_t do_poll_events(std::span<hal::DisplayEvent> events) override {
+    events.front().key = 'o';
+    return 1;
+  }
+
+  bool& listened_to_;
+};
 
 class KmsSeat : public testing::TestWithParam<bool> {
 protected:
@@ -85,6 +102,26 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Calls, KmsSeat, testing::Bool(), [](const auto& with) {
   return std::string{with.param ? "atomic" : "legacy"};
 });
+
+TEST_P(KmsSeat, keys_are_ours_while_the_display_is_open_and_its_console_in_front) {
+  bool listened_to = false;
+  display_.emplace(clock_, config_, std::make_unique<KeysOfTest>(listened_to));
+  EXPECT_FALSE(listened_to);
+  ASSERT_TRUE(display_->open({}));
+  EXPECT_TRUE(listened_to);
+  std::array<hal::DisplayEvent, 1> events;
+  EXPECT_EQ(display_->poll_events(events), 1U);
+  EXPECT_EQ(events[0].key, 'o');
+  puppet_seat().switch_away();
+  show(1);
+  EXPECT_FALSE(listened_to);
+  puppet_seat().switch_back();
+  show(1);
+  show(1);
+  EXPECT_TRUE(listened_to);
+  display_->close();
+  EXPECT_FALSE(listened_to);
+}
 
 TEST_P(KmsSeat, the_card_comes_from_the_manager_and_goes_back) {
   open();
