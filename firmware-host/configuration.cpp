@@ -120,14 +120,15 @@ void read_display(ConfigTable table, Configuration& configuration) {
 
 // In lower case, as the kernel writes them.
 void read_keyboards(ConfigTable& table, DeviceWishes& wishes) {
-  for (std::string usb : table.texts("keyboards")) {
+  for (const std::string& written : table.texts("keyboards")) {
+    std::string usb = written;
     std::ranges::transform(usb, usb.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::string_view digits = "0123456789abcdef";
     if (usb.size() != 9 || usb[4] != ':' || usb.find_first_not_of(digits) != 4 ||
         usb.find_first_not_of(digits, 5) != usb.npos)
       table.complain(fmt::format("keyboards has \"{}\", expected vendor and product as "
                                  "\"046d:c31c\"; `octascope devices` names those of each keyboard",
-                                 usb));
+                                 written));
     wishes.keyboards.push_back(std::move(usb));
   }
 }
