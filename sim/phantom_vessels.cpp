@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "sim/noise.h"
 
@@ -92,15 +93,15 @@ VesselBed::VesselBed(std::vector<VesselSegment> segments) {
   }
   columns_ = static_cast<int>((x_max - x_min_mm_) / cell_mm) + 1;
   rows_ = static_cast<int>((y_max - y_min_mm_) / cell_mm) + 1;
-  std::vector<std::vector<VesselSegment>> cells(static_cast<std::size_t>(columns_) *
-                                                static_cast<std::size_t>(rows_));
+  // Counted before they are put in place: an eye has ten thousands, each in several cells.
+  first_of_cell_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1);
   for (const VesselSegment& s : segments)
-    for_each_cell_near(s, [&](std::size_t cell) { cells[cell].push_back(s); });
-  for (const std::vector<VesselSegment>& cell : cells) {
-    first_of_cell_.push_back(static_cast<std::uint32_t>(of_cells_.size()));
-    of_cells_.insert(of_cells_.end(), cell.begin(), cell.end());
-  }
-  first_of_cell_.push_back(static_cast<std::uint32_t>(of_cells_.size()));
+    for_each_cell_near(s, [&](std::size_t cell) { ++first_of_cell_[cell + 1]; });
+  std::partial_sum(first_of_cell_.begin(), first_of_cell_.end(), first_of_cell_.begin());
+  std::vector<std::uint32_t> next{first_of_cell_.begin(), first_of_cell_.end() - 1};
+  of_cells_.resize(first_of_cell_.back());
+  for (const VesselSegment& s : segments)
+    for_each_cell_near(s, [&](std::size_t cell) { of_cells_[next[cell]++] = s; });
 }
 
 template <class Visit>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,24 +31,22 @@ SimScopeCamera::make(const SimScopeCameraOptions& options, hal::Clock& clock) {
     return hal::fail(hal::Fault::invalid_argument,
                      fmt::format("scope camera: the loop lasts {} s, expected more than 0 to 10",
                                  hal::to_seconds(options.loop)));
-  const auto phantom = make_phantom(options.phantom, options.seed);
+  auto phantom = make_phantom(options.phantom, options.seed);
   if (!phantom)
     return tl::make_unexpected(phantom.error());
-  return std::unique_ptr<SimScopeCamera>(new SimScopeCamera(options, clock, **phantom));
+  return std::unique_ptr<SimScopeCamera>(new SimScopeCamera(options, clock, std::move(*phantom)));
 }
 
 SimScopeCamera::SimScopeCamera(const SimScopeCameraOptions& options, hal::Clock& clock,
-                               const Phantom& phantom)
-    : clock_(clock), width_(options.width), height_(options.height), loop_(options.loop) {
-  const ScopePicture picture(phantom, width_, height_);
-  scan_field_ = picture.field(options.field.a_mm(), options.field.b_mm());
+                               std::unique_ptr<const Phantom> phantom)
+    : clock_(clock), width_(options.width), height_(options.height), loop_(options.loop),
+      phantom_(std::move(phantom)), picture_(*phantom_, width_, height_),
+      scan_field_(picture_.field(options.field.a_mm(), options.field.b_mm())) {
   const double wanted =
-      phantom.instrument() != nullptr ? pictures_per_s * hal::to_seconds(loop_) : 1;
+      phantom_->instrument() != nullptr ? pictures_per_s * hal::to_seconds(loop_) : 1;
   pictures_.resize(static_cast<std::size_t>(std::max(std::lround(wanted), 1L)));
-  for (std::size_t i = 0; i < pictures_.size(); ++i) {
-    pictures_[i].resize(picture.bytes());
-    picture.draw(static_cast<double>(i) / static_cast<double>(pictures_.size()), pictures_[i]);
-  }
+  for (std::vector<std::uint8_t>& pixels : pictures_)
+    pixels.reserve(picture_.bytes());
 }
 
 hal::Result<> SimScopeCamera::check_cable() {
@@ -125,7 +124,18 @@ hal::Result<std::optional<hal::ScopeFrame>> SimScopeCamera::do_wait_frame(hal::D
   }
 }
 
-hal::ScopeFrame SimScopeCamera::frame(std::int64_t number, int buffer) const {
+std::span<const std::uint8_t> SimScopeCamera::pixels_at(double phase) {
+  const auto count = static_cast<double>(pictures_.size());
+  const auto index = std::min(static_cast<std::size_t>(phase * count), pictures_.size() - 1);
+  std::vector<std::uint8_t>& pixels = pictures_[index];
+  if (pixels.empty()) {
+    pixels.resize(picture_.bytes());
+    picture_.draw(static_cast<double>(index) / count, pixels);
+  }
+  return pixels;
+}
+
+hal::ScopeFrame SimScopeCamera::frame(std::int64_t number, int buffer) {
   hal::ScopeFrame frame;
   frame.buffer = buffer;
   frame.width = width_;
@@ -136,8 +146,7 @@ hal::ScopeFrame SimScopeCamera::frame(std::int64_t number, int buffer) const {
   frame.time = started_ + period_ * (number + 1);
   const double phase =
       hal::to_seconds(frame.time.time_since_epoch() % loop_) / hal::to_seconds(loop_);
-  const auto index = static_cast<std::size_t>(phase * static_cast<double>(pictures_.size()));
-  frame.pixels = std::as_bytes(std::span{pictures_[std::min(index, pictures_.size() - 1)]});
+  frame.pixels = std::as_bytes(pixels_at(phase));
   return frame;
 }
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,15 +25,15 @@ struct SimScopeCameraOptions {
   int height = 480;
 };
 
-// Pictures are drawn in advance, 30 for each second of the loop, and handed out where they lie:
-// streaming costs nothing to speak of. Frame n is exposed n periods after start(). Frames that
+// Pictures, 30 for each second of the loop, are drawn when they are first shown, and handed out where
+// they lie: from the second time round streaming costs nothing to speak of. Frame n is exposed n periods after start(). Frames that
 // nobody fetched, or that found all four buffers on loan, are lost, and their sequence numbers
 // with them.
 //
 // Threads as hal::ScopeCamera; unplug(), replug() and scan_field() may come from any.
 class SimScopeCamera final : public hal::ScopeCamera {
 public:
-  // Draws the pictures: some tenths of a second. Borrows the clock.
+  // Draws what stands still in them: a tenth of a second. Borrows the clock.
   static hal::Result<std::unique_ptr<SimScopeCamera>> make(const SimScopeCameraOptions& options,
                                                            hal::Clock& clock);
 
@@ -45,7 +46,8 @@ public:
   PictureRectangle scan_field() const { return scan_field_; }
 
 private:
-  SimScopeCamera(const SimScopeCameraOptions& options, hal::Clock& clock, const Phantom& phantom);
+  SimScopeCamera(const SimScopeCameraOptions& options, hal::Clock& clock,
+                 std::unique_ptr<const Phantom> phantom);
 
   std::string_view do_backend() const override { return "sim"; }
   bool do_simulated() const override { return true; }
@@ -59,14 +61,17 @@ private:
   hal::Result<> check_cable();
   void forget_loans();
   int borrow_buffer();
-  hal::ScopeFrame frame(std::int64_t number, int buffer) const;
+  hal::ScopeFrame frame(std::int64_t number, int buffer);
+  std::span<const std::uint8_t> pixels_at(double phase); // 0 ≤ phase < 1
 
   hal::Clock& clock_;
   int width_;
   int height_;
   hal::Duration loop_;
+  std::unique_ptr<const Phantom> phantom_;
+  ScopePicture picture_;
   PictureRectangle scan_field_;
-  std::vector<std::vector<std::uint8_t>> pictures_;
+  std::vector<std::vector<std::uint8_t>> pictures_; // empty: not drawn yet
 
   std::atomic<bool> plugged_{true};
   std::array<std::atomic<bool>, 4> on_loan_{};
