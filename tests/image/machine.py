@@ -53,7 +53,7 @@ class Shell:
             # What is typed is echoed; only what the shell makes of it has the mark.
             self._write("printf 'SHELL%s\\n' _THERE")
             if self._read_until(b"SHELL_THERE", 3) is not None:
-                self.run("stty -echo 2>/dev/null; PS1=; set +m; export SYSTEMD_PAGER= TERM=dumb", 30)
+                self.run("stty -echo 2>/dev/null; PS1= PS2=; set +m; export SYSTEMD_PAGER= TERM=dumb", 30)
                 return
         raise MachineError(f"no root shell on the serial line within {limit_s} s")
 
@@ -166,8 +166,13 @@ class UserModeLinux:
             [kernel, f"mem={memory}", f"ubda={image}", *arguments.split(),
              "con=null", "con0=null,fd:2", "ssl=null", "ssl0=fd:0,fd:1", "panic=-1"],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._log, env=environment,
-            start_new_session=True)
+            start_new_session=True, preexec_fn=self._stay_on_one_processor)
         self.shell = Shell(self._process.stdout.fileno(), self._process.stdin.fileno())
+
+    @staticmethod
+    def _stay_on_one_processor():
+        # As tests/virtual_hardware/boot does, and why.
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
 
     def console(self):
         with open(self._log.name, errors="replace") as log:
