@@ -25,10 +25,10 @@ struct SimScopeCameraOptions {
   int height = 480;
 };
 
-// Pictures, 30 for each second of the loop, are drawn when they are first shown, and handed out where
-// they lie: from the second time round streaming costs nothing to speak of. Frame n is exposed n periods after start(). Frames that
-// nobody fetched, or that found all four buffers on loan, are lost, and their sequence numbers
-// with them.
+// Pictures, 30 for each second of the loop, are drawn when they are first shown, and handed out
+// where they lie: from the second time round streaming costs nothing to speak of. Frame n is
+// exposed n periods after start(). Frames that nobody fetched, or that found all four buffers on
+// loan, are lost, and their sequence numbers with them.
 //
 // Threads as hal::ScopeCamera; unplug(), replug() and scan_field() may come from any.
 class SimScopeCamera final : public hal::ScopeCamera {
