@@ -147,6 +147,7 @@ public:
   }
 
 private:
+  bool open_display_in_time(hal::Display& display);
   void show_splash();
   hal::Result<> make_vessels();
   hal::Result<> make_reconstruction();
@@ -193,11 +194,27 @@ private:
   hal::TimePoint ended_;
 };
 
+// A service may be started before the graphics driver is loaded or the monitor is awake. It waits
+// for less than systemd waits for its end (TimeoutStopSec), and is started anew after that.
+bool AssembledAppliance::open_display_in_time(hal::Display& display) {
+  constexpr hal::Duration patience = 2500ms, between_tries = 100ms;
+  const hal::TimePoint limit = clock_.now() + patience;
+  for (;;) {
+    const auto opened = display.open(display_config(options_, configuration_));
+    if (opened)
+      return true;
+    if (opened.error().fault != hal::Fault::absent || !supervision_.is_service() ||
+        clock_.now() + between_tries > limit)
+      return false;
+    clock_.sleep_until(clock_.now() + between_tries);
+  }
+}
+
 // Finding the faster reconstruction and making the twins' loop take seconds. What fails here fails
 // again, and is told, when the render loop opens the display.
 void AssembledAppliance::show_splash() {
   hal::Display& display = devices_->display();
-  if (!display.open(display_config(options_, configuration_)))
+  if (!open_display_in_time(display))
     return;
   if (!ui::draw_splash(display.width(), display.height(), version(), "starting") ||
       !display.present())

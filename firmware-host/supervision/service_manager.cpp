@@ -37,7 +37,7 @@ bool stderr_is_journal() {
          fmt::format("{}:{}", found.st_dev, found.st_ino) == named;
 }
 
-ServiceManager::ServiceManager() {
+ServiceManager::ServiceManager() : there_{std::getenv("NOTIFY_SOCKET") != nullptr} {
   std::uint64_t interval_us = 0;
   if (sd_watchdog_enabled(0, &interval_us) > 0)
     watchdog_interval_ = std::chrono::microseconds{interval_us};

@@ -30,6 +30,9 @@ public:
   // The unit's WatchdogSec, if it has one and it is meant for this process.
   std::optional<hal::Duration> watchdog_interval() const { return watchdog_interval_; }
 
+  // Did systemd start this process, and does it wait for ready()?
+  bool there() const { return there_; }
+
   // A step on the way to the picture begins: it may take as long as the whole start otherwise.
   void starting(std::string_view step) const;
   void ready() const; // the picture is there
@@ -40,6 +43,7 @@ public:
   void status(const std::string& line) const;
 
 private:
+  bool there_;
   std::optional<hal::Duration> watchdog_interval_;
 };
 

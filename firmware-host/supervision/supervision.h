@@ -46,6 +46,7 @@ public:
   ~Supervision(); // in good order: the next run hears of no crash
 
   // Before start(): systemd is told which step of it has begun, and waits for that one.
+  bool is_service() const { return manager_.there(); } // of systemd
   void starting(std::string_view step) const { manager_.starting(step); }
 
   // `process_start` is when the program began.

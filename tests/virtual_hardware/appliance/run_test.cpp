@@ -16,6 +16,7 @@
 
 #include "tests/support/program_run.h"
 #include "tests/virtual_hardware/appliance/theatre.h"
+#include "tests/virtual_hardware/kms/vkms_card.h"
 #include "tests/virtual_hardware/support/scanout_reader.h"
 
 namespace octascope::tests {
@@ -37,12 +38,15 @@ protected:
     theatre_ = std::move(*made);
   }
 
-  void start() {
+  void start(const std::vector<std::string>& environment = {},
+             const std::vector<std::string>& options = {}) {
     std::filesystem::create_directories(runtime_folder);
     std::vector<std::string> words{"env", std::string{"RUNTIME_DIRECTORY="} + runtime_folder};
+    std::ranges::copy(environment, std::back_inserter(words));
     std::ranges::move(
         octascope_command({"run", "--report", report_file, "--snapshot", "/tmp/last.png"}),
         std::back_inserter(words));
+    std::ranges::copy(options, std::back_inserter(words));
     run_ = std::make_unique<ProgramRun>(std::move(words));
   }
 
@@ -215,6 +219,23 @@ TEST_F(InTheatre, the_listed_keyboard_steers_and_a_strange_one_does_not) {
   EXPECT_TRUE(within(20s, [&] { return !run_->running(); }));
   const nlohmann::json report = end();
   EXPECT_EQ(report["actions"]["freeze"], 2);
+}
+
+// As systemd starts it: the graphics driver may be loaded, and the monitor awake, a little later.
+TEST_F(InTheatre, as_a_service_it_waits_for_its_monitor_at_the_start) {
+  const auto card = find_vkms();
+  ASSERT_TRUE(card);
+  ASSERT_TRUE(set_cable(*card, "off"));
+  start({}, {"--display", "kms"});
+  const ProgramResult alone = run_->wait(30s);
+  EXPECT_EQ(alone.exit_status, 1) << "nobody would start it again\n" << alone.describe();
+  start({"NOTIFY_SOCKET=/run/nobody"}, {"--display", "kms"});
+  std::this_thread::sleep_for(1500ms);
+  const bool waits = run_->running();
+  ASSERT_TRUE(set_cable(*card, "detect"));
+  ASSERT_TRUE(waits);
+  ASSERT_TRUE(scanned(3));
+  EXPECT_GE(end()["volumes"]["displayed"], 1);
 }
 
 TEST_F(InTheatre, two_devices_vanish_at_once_and_come_back) {
