@@ -85,7 +85,7 @@ class Qemu:
     firmware = "/usr/share/OVMF/OVMF_CODE_4M.fd"
     firmware_memory = "/usr/share/OVMF/OVMF_VARS_4M.fd"
 
-    def __init__(self, image, folder, size=(800, 600), kernel=None, initrd=None, arguments=""):
+    def __init__(self, image, folder, size=(800, 600), stick=None):
         os.makedirs(folder, exist_ok=True)
         self._folder = folder
         serial, monitor = f"{folder}/serial", f"{folder}/monitor"
@@ -97,15 +97,14 @@ class Qemu:
                    "-display", "none", "-vga", "none",
                    "-device", f"virtio-gpu-pci,xres={size[0]},yres={size[1]}",
                    "-drive", f"file={image},format=raw,if=virtio,cache=writethrough",
-                   "-nic", "none", "-no-reboot" if kernel else "-no-shutdown",
+                   "-nic", "none", "-no-shutdown",
                    "-serial", f"unix:{serial},server=on,wait=off",
                    "-qmp", f"unix:{monitor},server=on,wait=off"]
-        if kernel:
-            command += ["-kernel", kernel, "-initrd", initrd, "-append", arguments]
-        else:
-            shutil.copy(self.firmware_memory, f"{folder}/efi-memory")
-            command += ["-drive", f"if=pflash,format=raw,unit=0,readonly=on,file={self.firmware}",
-                        "-drive", f"if=pflash,format=raw,unit=1,file={folder}/efi-memory"]
+        if stick:
+            command += ["-drive", f"file={stick},format=raw,if=virtio,readonly=on"]
+        shutil.copy(self.firmware_memory, f"{folder}/efi-memory")
+        command += ["-drive", f"if=pflash,format=raw,unit=0,readonly=on,file={self.firmware}",
+                    "-drive", f"if=pflash,format=raw,unit=1,file={folder}/efi-memory"]
         self._log = open(f"{folder}/qemu.log", "wb")
         self._process = subprocess.Popen(command, stdout=self._log, stderr=self._log, stdin=subprocess.DEVNULL)
         self._serial = self._connect(serial)
