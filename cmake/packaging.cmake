@@ -81,6 +81,8 @@ It is not a medical device.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl-mesa0, libgl1-mesa-dri, libcamera-ipa, seatd, \
 systemd (>= 252), udev, kmod, init-system-helpers (>= 1.54~), passwd")
+# For --display window, which an appliance on the console does without.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libsdl2-2.0-0)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
     ${OCTASCOPE_DEPLOY}/debian/postinst ${OCTASCOPE_DEPLOY}/debian/prerm

@@ -3,8 +3,9 @@
 #include <optional>
 
 #include <GLES3/gl3.h>
-#include <SDL.h>
 #include <fmt/format.h>
+
+#include "hal/linux/sdl_library.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -60,42 +61,44 @@ std::optional<DisplayEvent> translate(const SDL_Event& event, TimePoint time) {
   }
 }
 
-tl::unexpected<Error> refuse(Fault fault, std::string_view found, std::string_view expected) {
-  return fail(fault,
-              fmt::format("window display: {} ({}), expected {}", found, SDL_GetError(), expected));
-}
-
 } // namespace
 
 struct WindowDisplay::Window {
+  SdlLibrary sdl;
   SDL_Window* window = nullptr;
   SDL_GLContext context = nullptr;
   bool video = false;
 
-  Window() = default;
+  explicit Window(const SdlLibrary& loaded) : sdl{loaded} {}
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   ~Window() {
     if (context != nullptr)
-      SDL_GL_DeleteContext(context);
+      sdl.gl_delete_context(context);
     if (window != nullptr)
-      SDL_DestroyWindow(window);
+      sdl.destroy_window(window);
     if (video)
-      SDL_QuitSubSystem(SDL_INIT_VIDEO);
+      sdl.quit_sub_system(SDL_INIT_VIDEO);
+  }
+
+  tl::unexpected<Error> refuse(Fault fault, std::string_view found,
+                               std::string_view expected) const {
+    return fail(fault, fmt::format("window display: {} ({}), expected {}", found, sdl.get_error(),
+                                   expected));
   }
 
   Result<> start_video() {
     // Signals are the host's: SDL would turn Ctrl-C into a window event.
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
-    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "0");
-    SDL_SetHint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
-    if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
+    sdl.set_hint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    sdl.set_hint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "0");
+    sdl.set_hint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
+    if (sdl.init_sub_system(SDL_INIT_VIDEO) != 0)
       return refuse(Fault::absent, "no window system found",
                     "an X11 or Wayland display; set DISPLAY or WAYLAND_DISPLAY, or choose "
                     "--display offscreen");
     video = true;
-    const std::string_view driver = SDL_GetCurrentVideoDriver();
+    const std::string_view driver = sdl.get_current_video_driver();
     if (driver != "x11" && driver != "wayland")
       return fail(Fault::absent,
                   fmt::format("window display: SDL found only its driver \"{}\", expected an X11 "
@@ -106,27 +109,27 @@ struct WindowDisplay::Window {
   }
 
   Result<> make(const DisplayConfig& config) {
-    SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
-    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
-    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
-    SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
-    SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
+    sdl.gl_set_attribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
+    sdl.gl_set_attribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+    sdl.gl_set_attribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
+    sdl.gl_set_attribute(SDL_GL_DOUBLEBUFFER, 1);
+    sdl.gl_set_attribute(SDL_GL_DEPTH_SIZE, 0);
     Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
     if (config.fullscreen)
       flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
-    window = SDL_CreateWindow(config.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                              config.width, config.height, flags);
+    window = sdl.create_window(config.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                               config.width, config.height, flags);
     if (window == nullptr)
       return refuse(Fault::unsupported, "no window for GLES could be made",
                     "a window system with EGL or GLX for GLES 3; install libegl1 and "
                     "libgl1-mesa-dri");
-    context = SDL_GL_CreateContext(window);
+    context = sdl.gl_create_context(window);
     if (context == nullptr)
       return refuse(Fault::unsupported, "no GLES 3 context could be made",
                     "a driver with GLES 3; install libgl1-mesa-dri or choose --display offscreen");
-    SDL_GL_SetSwapInterval(1); // refused on some virtual outputs: present() paces then
+    sdl.gl_set_swap_interval(1); // refused on some virtual outputs: present() paces then
     if (config.fullscreen)
-      SDL_ShowCursor(SDL_DISABLE);
+      sdl.show_cursor(SDL_DISABLE);
     return {};
   }
 };
@@ -148,14 +151,18 @@ Result<> WindowDisplay::do_open(const DisplayConfig& config) {
     return fail(
         Fault::invalid_argument,
         fmt::format("window display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
-  auto window = std::make_unique<Window>();
+  const auto sdl = SdlLibrary::load();
+  if (!sdl)
+    return tl::make_unexpected(sdl.error());
+  auto window = std::make_unique<Window>(*sdl);
   if (auto ok = window->start_video(); !ok)
     return ok;
   if (auto ok = window->make(config); !ok)
     return ok;
 
   SDL_DisplayMode mode{};
-  const bool known = SDL_GetWindowDisplayMode(window->window, &mode) == 0 && mode.refresh_rate > 0;
+  const bool known =
+      sdl->get_window_display_mode(window->window, &mode) == 0 && mode.refresh_rate > 0;
   refresh_period_ = from_seconds(1.0 / (known ? mode.refresh_rate : config.refresh_hz));
   window_ = std::move(window);
   flips_ = 0;
@@ -167,21 +174,21 @@ Result<> WindowDisplay::do_open(const DisplayConfig& config) {
 int WindowDisplay::do_width() const {
   int width = 0;
   if (window_ != nullptr)
-    SDL_GL_GetDrawableSize(window_->window, &width, nullptr);
+    window_->sdl.gl_get_drawable_size(window_->window, &width, nullptr);
   return width;
 }
 
 int WindowDisplay::do_height() const {
   int height = 0;
   if (window_ != nullptr)
-    SDL_GL_GetDrawableSize(window_->window, nullptr, &height);
+    window_->sdl.gl_get_drawable_size(window_->window, nullptr, &height);
   return height;
 }
 
 Result<Flip> WindowDisplay::do_present() {
   if (window_ == nullptr)
     return fail(Fault::absent, "window display: not open; open() it first");
-  SDL_GL_SwapWindow(window_->window);
+  window_->sdl.gl_swap_window(window_->window);
   glFinish();
   const TimePoint completed = clock_.now();
   // Half a period is less than any synchronised flip takes: this one came at once.
@@ -196,7 +203,7 @@ std::size_t WindowDisplay::do_poll_events(std::span<DisplayEvent> events) {
     return 0;
   std::size_t count = 0;
   SDL_Event event;
-  while (count < events.size() && SDL_PollEvent(&event) != 0)
+  while (count < events.size() && window_->sdl.poll_event(&event) != 0)
     if (const auto translated = translate(event, clock_.now()))
       events[count++] = *translated;
   return count;

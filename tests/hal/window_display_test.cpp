@@ -9,6 +9,7 @@
 #include <SDL.h>
 
 #include "hal/linux/monotonic_clock.h"
+#include "hal/linux/sdl_library.h"
 #include "hal/linux/window_display.h"
 #include "tests/contract/display_contract.h"
 #include "tests/support/virtual_screen.h"
@@ -115,6 +116,17 @@ TEST_F(WindowDisplay, reports_the_close_button) {
   ASSERT_GE(count, 1U);
   EXPECT_EQ(events[count - 1].kind, hal::DisplayEventKind::close_requested);
   EXPECT_EQ(maker_.window.state(), hal::DeviceState::ready) << "closing is the host's to decide";
+}
+
+TEST(SdlLibrary, that_is_missing_or_another_one_says_what_to_install) {
+  for (const char* const wrong : {"libSDL-of-nobody.so.0", "libc.so.6"}) {
+    const auto loaded = hal::linux_backend::SdlLibrary::load(wrong);
+    ASSERT_FALSE(loaded) << wrong;
+    EXPECT_EQ(loaded.error().fault, hal::Fault::unsupported);
+    const std::string& said = loaded.error().message;
+    EXPECT_NE(said.find("apt install libsdl2-2.0-0"), std::string::npos) << said;
+    EXPECT_NE(said.find(wrong), std::string::npos) << said;
+  }
 }
 
 TEST(WindowDisplayWithoutScreen, says_what_is_missing) {

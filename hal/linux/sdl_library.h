@@ -1,0 +1,35 @@
+// SDL2's functions, loaded when a window is asked for: an appliance on the console has none, and is
+// spared SDL and the thirty libraries for sound and desktops that it brings into a program.
+#pragma once
+
+#include <SDL.h>
+
+#include "hal/result.h"
+
+namespace octascope::hal::linux_backend {
+
+// Copied at will: what was loaded stays to the program's end, as neither SDL nor the GL drivers
+// that it loads bear to be taken out. Threads: as SDL's.
+struct SdlLibrary {
+  // Fault::unsupported: it is not installed, or is not SDL2.
+  static Result<SdlLibrary> load(const char* file = "libSDL2-2.0.so.0");
+
+  decltype(&SDL_InitSubSystem) init_sub_system = nullptr;
+  decltype(&SDL_QuitSubSystem) quit_sub_system = nullptr;
+  decltype(&SDL_SetHint) set_hint = nullptr;
+  decltype(&SDL_GetError) get_error = nullptr;
+  decltype(&SDL_GetCurrentVideoDriver) get_current_video_driver = nullptr;
+  decltype(&SDL_CreateWindow) create_window = nullptr;
+  decltype(&SDL_DestroyWindow) destroy_window = nullptr;
+  decltype(&SDL_GetWindowDisplayMode) get_window_display_mode = nullptr;
+  decltype(&SDL_ShowCursor) show_cursor = nullptr;
+  decltype(&SDL_PollEvent) poll_event = nullptr;
+  decltype(&SDL_GL_SetAttribute) gl_set_attribute = nullptr;
+  decltype(&SDL_GL_CreateContext) gl_create_context = nullptr;
+  decltype(&SDL_GL_DeleteContext) gl_delete_context = nullptr;
+  decltype(&SDL_GL_SetSwapInterval) gl_set_swap_interval = nullptr;
+  decltype(&SDL_GL_GetDrawableSize) gl_get_drawable_size = nullptr;
+  decltype(&SDL_GL_SwapWindow) gl_swap_window = nullptr;
+};
+
+} // namespace octascope::hal::linux_backend
