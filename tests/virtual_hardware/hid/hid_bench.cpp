@@ -9,7 +9,7 @@ namespace octascope::tests {
 
 std::string virtual_controls_missing() {
   const std::string pedal = virtual_pedal_missing();
-  return pedal.empty() ? virtual_knob_missing() : pedal;
+  return pedal.empty() ? uinput_missing() : pedal;
 }
 
 std::unique_ptr<VirtualPedal> plug_in(const VirtualPedalKind& kind) {

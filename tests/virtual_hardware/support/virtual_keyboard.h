@@ -1,22 +1,21 @@
-// A keyboard without hardware, through /dev/uinput.
+// A keyboard without hardware.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
-#include "hal/linux/system/file_descriptor.h"
 #include "hal/result.h"
+#include "tests/virtual_hardware/support/uinput_device.h"
 
 namespace octascope::tests {
 
-// Threads: one at a time.
+// Pulled out when destroyed. Threads: one at a time.
 class VirtualKeyboard {
 public:
-  // Waits until its node in /dev is there.
   static hal::Result<std::unique_ptr<VirtualKeyboard>> plug_in(std::uint16_t vendor,
                                                                std::uint16_t product);
-  ~VirtualKeyboard(); // pulls it out
 
   // `key` as in linux/input-event-codes.h.
   hal::Result<> set(std::uint16_t key, bool is_down);
@@ -24,13 +23,12 @@ public:
   // Does somebody have it for himself alone?
   bool is_grabbed() const;
 
-  std::string event_node() const; // "/dev/input/event0"
+  std::string event_node() const { return device_->event_node(); }
 
 private:
-  VirtualKeyboard() = default;
+  explicit VirtualKeyboard(std::unique_ptr<UinputDevice> device) : device_{std::move(device)} {}
 
-  hal::linux_backend::FileDescriptor uinput_;
-  std::string folder_; // in sysfs
+  std::unique_ptr<UinputDevice> device_;
 };
 
 } // namespace octascope::tests
