@@ -37,7 +37,7 @@ VirtualPedalKind pcsensor_pedal(std::string name = "PCsensor FootSwitch"); // ke
 // Threads: one at a time.
 class VirtualPedal {
 public:
-  // Waits until its nodes in /dev are there.
+  // Waits until its driver is done and its nodes in /dev are there.
   static hal::Result<std::unique_ptr<VirtualPedal>> plug_in(const VirtualPedalKind& kind);
   ~VirtualPedal(); // pulls it out
 
