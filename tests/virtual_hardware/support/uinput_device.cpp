@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <filesystem>
-#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,6 +12,7 @@
 #include <unistd.h>
 
 #include "hal/linux/system/system_error.h"
+#include "tests/virtual_hardware/support/device_node.h"
 
 namespace octascope::tests {
 
@@ -60,14 +59,10 @@ UinputDevice::plug_in(const char* name, std::uint16_t vendor, std::uint16_t prod
       control(device->file_, UI_GET_SYSNAME(64), folder.data()) < 0)
     return system_failure(uinput_node, "making an input device", errno);
   device->folder_ = "/sys/devices/virtual/input/" + std::string{folder.data()};
-  for (int tries = 0; tries < 5000; ++tries) {
-    const std::string node = device->event_node();
-    if (!node.empty() && ::access(node.c_str(), F_OK) == 0)
-      return device;
-    std::this_thread::sleep_for(std::chrono::milliseconds{1});
-  }
-  return hal::fail(hal::Fault::timed_out,
-                   fmt::format("virtual {}: no event node within 5 s", name));
+  if (!node_appears([&] { return device->event_node(); }))
+    return hal::fail(hal::Fault::timed_out,
+                     fmt::format("virtual {}: no event node within 5 s", name));
+  return device;
 }
 
 UinputDevice::~UinputDevice() {

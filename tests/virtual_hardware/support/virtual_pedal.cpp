@@ -1,26 +1,23 @@
 #include "tests/virtual_hardware/support/virtual_pedal.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <string_view>
-#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <linux/input.h>
-#include <linux/netlink.h>
 #include <linux/uhid.h>
 #include <poll.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
+#include "hal/linux/system/device_watch.h"
 #include "hal/linux/system/system_error.h"
+#include "tests/virtual_hardware/support/device_node.h"
 
 namespace octascope::tests {
 
@@ -40,43 +37,18 @@ Result<> send_event(const hal::linux_backend::FileDescriptor& uhid, const uhid_e
   return {};
 }
 
-// Listens to the kernel's own words about devices (kobject_uevent, NETLINK_KOBJECT_UEVENT) from
-// when it is made. A node of a device is there before its driver is done, and what the device sends
-// in between is dropped: so a device is plugged in once the kernel says "bind".
-class DriverWatch {
-public:
-  static Result<DriverWatch> listen() {
-    hal::linux_backend::FileDescriptor socket{
-        ::socket(AF_NETLINK, SOCK_DGRAM | SOCK_CLOEXEC, NETLINK_KOBJECT_UEVENT)};
-    sockaddr_nl address{};
-    address.nl_family = AF_NETLINK;
-    address.nl_groups = 1; // the kernel's, not udev's
-    if (socket.get() < 0 ||
-        ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == -1)
-      return system_failure("kernel events", "listening to them", errno);
-    return DriverWatch{std::move(socket)};
+// Whether the device of that name got its driver within 5 s ("bind", a change). Its node is there
+// before, but what it sends before is dropped.
+bool gets_its_driver(hal::linux_backend::DeviceWatch& watch, const std::string& name) {
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds{5};
+  while (std::chrono::steady_clock::now() < limit) {
+    const auto change = watch.next(limit - std::chrono::steady_clock::now());
+    if (change && change->kind == hal::linux_backend::DeviceChange::Kind::changed &&
+        change->path.find(name) != std::string::npos)
+      return true;
   }
-
-  // Whether a device whose path has `part` in it got its driver within 5 s.
-  bool bound(const std::string& part) const {
-    pollfd waiting{socket_.get(), POLLIN, 0};
-    std::array<char, 4096> message{}; // "bind@/devices/…", then its properties, each ends with 0
-    while (::poll(&waiting, 1, 5000) > 0) {
-      const ssize_t size = ::recv(socket_.get(), message.data(), message.size() - 1, 0);
-      if (size <= 0)
-        return false;
-      message[static_cast<std::size_t>(size)] = 0;
-      const std::string_view what{message.data()};
-      if (what.starts_with("bind@") && what.find(part) != std::string_view::npos)
-        return true;
-    }
-    return false;
-  }
-
-private:
-  explicit DriverWatch(hal::linux_backend::FileDescriptor socket) : socket_{std::move(socket)} {}
-  hal::linux_backend::FileDescriptor socket_;
-};
+  return false;
+}
 
 // The first entry of `folder`, below /dev.
 std::string node_in(const fs::path& folder, const std::string& dev, const std::string& prefix) {
@@ -171,10 +143,10 @@ VirtualPedalKind pcsensor_pedal(std::string name) {
 }
 
 Result<std::unique_ptr<VirtualPedal>> VirtualPedal::plug_in(const VirtualPedalKind& kind) {
-  static std::atomic<unsigned> made{0}; // serial numbers differ within a process
-  const auto drivers = DriverWatch::listen();
-  if (!drivers)
-    return tl::make_unexpected(drivers.error());
+  static std::atomic<unsigned> made{0};                    // serial numbers differ within a process
+  auto watch = hal::linux_backend::DeviceWatch::on("hid"); // before there is anything to tell
+  if (!watch)
+    return tl::make_unexpected(watch.error());
   std::unique_ptr<VirtualPedal> pedal{new VirtualPedal};
   auto file = open_device(uhid_node, O_RDWR | O_NONBLOCK);
   if (!file)
@@ -199,17 +171,12 @@ Result<std::unique_ptr<VirtualPedal>> VirtualPedal::plug_in(const VirtualPedalKi
   if (const auto made_it = send_event(pedal->uhid_, event, "making a device"); !made_it)
     return tl::make_unexpected(made_it.error());
   // The kernel makes it on a worker of its own.
-  if (!drivers->bound(pedal->id_))
-    return hal::fail(hal::Fault::timed_out, kind.name + ": no driver within 5 s");
-  const auto there = [](const std::string& node) {
-    return !node.empty() && ::access(node.c_str(), F_OK) == 0;
-  };
-  for (int tries = 0; tries < 5000; ++tries) {
-    if (there(pedal->hidraw_node()))
-      return pedal;
-    std::this_thread::sleep_for(std::chrono::milliseconds{1});
-  }
-  return hal::fail(hal::Fault::timed_out, kind.name + ": no hidraw node within 5 s");
+  if (!gets_its_driver(*watch, pedal->id_))
+    return hal::fail(hal::Fault::timed_out,
+                     kind.name + ": no driver within 5 s; see `dmesg` for what it objects to");
+  if (!node_appears([&] { return pedal->hidraw_node(); }))
+    return hal::fail(hal::Fault::timed_out, kind.name + ": no hidraw node within 5 s");
+  return pedal;
 }
 
 VirtualPedal::~VirtualPedal() {

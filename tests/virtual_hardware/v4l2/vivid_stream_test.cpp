@@ -18,7 +18,6 @@ using namespace hal;
 using namespace hal::linux_backend;
 using namespace std::chrono_literals;
 using testing::Contains;
-using testing::ContainsRegex;
 using testing::HasSubstr;
 
 class VividStream : public VividTest {};
@@ -69,8 +68,7 @@ TEST_F(VividStream, buffers_are_fewer_than_asked_for_and_that_is_said) {
   LineCameraConfig config = usual_config();
   config.buffers = 96;
   ASSERT_TRUE(camera_.open(config));
-  // 32 at most up to Linux 6.8, then 64.
-  EXPECT_THAT(camera_.notes(), Contains(ContainsRegex("(32|64) buffers, 96 asked for")));
+  EXPECT_THAT(camera_.notes(), Contains(HasSubstr("32 buffers, 96 asked for")));
 }
 
 TEST_F(VividStream, loans_stay_as_they_are_and_frames_without_buffers_are_a_gap) {
