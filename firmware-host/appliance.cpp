@@ -93,6 +93,7 @@ public:
   ~AssembledAppliance() override { supervision_.crash_report().set_last_act(nullptr, nullptr); }
 
   hal::Result<> assemble() {
+    hal::linux_backend::keep_large_blocks_apart();
     if (auto checked = check_outputs(options_); !checked)
       return checked;
     auto controls = load_controls(configuration_);

@@ -4,6 +4,7 @@
 #include <string>
 #include <system_error>
 
+#include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -87,6 +88,11 @@ Result<> lock_memory() {
               "memory is not locked (" + system_message(error) +
                   "): a page fault may delay a volume; allow it with LimitMEMLOCK=infinity in the "
                   "service unit, or \"@video - memlock unlimited\" in limits.conf");
+}
+
+void keep_large_blocks_apart() {
+  constexpr int mebibyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, mebibyte);
 }
 
 } // namespace octascope::hal::linux_backend

@@ -28,4 +28,9 @@ void make_this_thread_background();
 // Keeps all memory of the process, now and later, out of the swap.
 Result<> lock_memory();
 
+// Blocks of a MiB and more are mappings of their own from now on, and go back to the system when
+// they are freed. Of itself the allocator puts them into its heap once one was freed, where each
+// display that is opened again leaves gaps. At the start, before there are any.
+void keep_large_blocks_apart();
+
 } // namespace octascope::hal::linux_backend

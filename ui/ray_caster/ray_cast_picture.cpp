@@ -14,7 +14,9 @@ hal::Result<RayCastPicture> RayCastPicture::create() {
   return RayCastPicture{std::move(*pass)};
 }
 
-void RayCastPicture::resize(int width, int height) {
+// With room for full quality at once: a finer picture later asks for no memory.
+void RayCastPicture::resize(int width, int height, const Rect& rect) {
+  image_.make_room(rect.width, rect.height);
   image_.resize(width, height);
   texture_ = gl::make_picture_texture(GL_RGBA8, width, height);
 }
@@ -73,7 +75,7 @@ hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene
     return {};
   drawn_.reset();
   if (key.width != image_.width || key.height != image_.height)
-    resize(key.width, key.height);
+    resize(key.width, key.height, rect);
   if (auto ok = cast(caster, scene, mode, key); !ok)
     return ok;
   upload_image();

@@ -13,7 +13,7 @@
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h. Allocates when the size changes.
+// Threads: as gl/objects.h. Allocates when `rect` grows; GL does when the picture's size changes.
 class RayCastPicture {
 public:
   static hal::Result<RayCastPicture> create();
@@ -31,7 +31,7 @@ public:
 
 private:
   explicit RayCastPicture(gl::PicturePass pass) : pass_{std::move(pass)} {}
-  void resize(int width, int height);
+  void resize(int width, int height, const Rect& rect);
   hal::Result<> cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                      const VolumePictureKey& key);
   void upload_image();

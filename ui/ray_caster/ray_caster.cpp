@@ -24,6 +24,13 @@ void set(float (&to)[3], const glm::vec3& from) {
 
 } // namespace
 
+// Written once, so that the memory is there and not only promised.
+void RayImage::make_room(int most_wide, int most_high) {
+  const auto pixels = static_cast<std::size_t>(most_wide) * static_cast<std::size_t>(most_high);
+  if (rgba.capacity() < pixels)
+    resize(most_wide, most_high);
+}
+
 void RayImage::resize(int new_width, int new_height) {
   width = new_width;
   height = new_height;

@@ -40,8 +40,9 @@ struct RayImage {
   Rect drawn;                      // everything outside is transparent, and so is its border, but
                                    // where that is the image's
 
-  void resize(int new_width, int new_height); // allocates only to grow; leaves it transparent
-  void draw_into(const Rect& rect);           // clears what was drawn and is not in it
+  void make_room(int most_wide, int most_high); // resize() up to this then allocates nothing
+  void resize(int new_width, int new_height);   // allocates only to grow; leaves it transparent
+  void draw_into(const Rect& rect);             // clears what was drawn and is not in it
 };
 
 struct RaySettings {
