@@ -140,11 +140,12 @@ void Acquisition::receive(const hal::LineFrame& frame) {
   const bool sized = frame.bytes.size() == config_.format.frame_bytes();
   if (frame.integrity != hal::FrameIntegrity::good || !sized) {
     unusable_.fetch_add(1, std::memory_order_relaxed);
-    faults_.add(device_name, sized ? "corrupted_frame" : "wrong_size",
-                sized ? std::string{"the driver flagged a frame as corrupted"}
-                      : fmt::format("a frame has {} bytes, expected {}", frame.bytes.size(),
-                                    config_.format.frame_bytes()),
-                clock_.now());
+    const auto complaint = [&] {
+      return sized ? std::string{"the driver flagged a frame as corrupted"}
+                   : fmt::format("a frame has {} bytes, expected {}", frame.bytes.size(),
+                                 config_.format.frame_bytes());
+    };
+    faults_.add(device_name, sized ? "corrupted_frame" : "wrong_size", complaint, clock_.now());
     camera_.release(frame.buffer);
     return;
   }
@@ -164,9 +165,10 @@ void Acquisition::receive(const hal::LineFrame& frame) {
 // A counter that hung jumps to where it should be: the frames that came meanwhile fill the gap.
 void Acquisition::check_sequence(std::uint64_t sequence) {
   if (last_sequence_ && sequence <= *last_sequence_) {
-    faults_.add(device_name, "stuck_sequence",
-                fmt::format("frame number {} came after {}", sequence, *last_sequence_),
-                clock_.now());
+    const auto complaint = [&] {
+      return fmt::format("frame number {} came after {}", sequence, *last_sequence_);
+    };
+    faults_.add(device_name, "stuck_sequence", complaint, clock_.now());
     repeated_ = sequence == *last_sequence_ ? repeated_ + 1 : 0; // smaller: it began anew
     last_sequence_ = sequence;
     return;
@@ -174,10 +176,11 @@ void Acquisition::check_sequence(std::uint64_t sequence) {
   if (const std::uint64_t step = last_sequence_ ? sequence - *last_sequence_ - 1 : 0;
       step > repeated_) {
     gaps_.fetch_add(step - repeated_, std::memory_order_relaxed);
-    faults_.add(
-        device_name, "dropped_frames",
-        fmt::format("the driver lost frames: number {} came after {}", sequence, *last_sequence_),
-        clock_.now(), step - repeated_);
+    const auto complaint = [&] {
+      return fmt::format("the driver lost frames: number {} came after {}", sequence,
+                         *last_sequence_);
+    };
+    faults_.add(device_name, "dropped_frames", complaint, clock_.now(), step - repeated_);
   }
   last_sequence_ = sequence;
   repeated_ = 0;

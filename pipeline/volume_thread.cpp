@@ -257,7 +257,8 @@ void VolumeThread::place(const hal::LineFrame& frame) {
     refused = "late_frame";
   if (refused != nullptr) {
     // The sweep that it should have been counts as lost when its volume is finished.
-    faults_.add(camera_name, refused, complaint_about(refused, frame.sequence), clock_.now());
+    const auto complaint = [&] { return complaint_about(refused, frame.sequence); };
+    faults_.add(camera_name, refused, complaint, clock_.now());
     acquisition_.release(frame.buffer);
     return;
   }

@@ -1,3 +1,5 @@
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "pipeline/fault_log.h"
@@ -25,6 +27,19 @@ TEST(FaultLog, gathers_faults_of_one_kind_in_one_record) {
   EXPECT_EQ(records[1].count, 1U);
   EXPECT_EQ(records[2].device, "trigger");
   EXPECT_EQ(records[2].count, 2U);
+}
+
+TEST(FaultLog, words_are_made_for_the_first_of_a_kind_alone) {
+  FaultLog log;
+  int made = 0;
+  for (int i = 0; i < 3; ++i)
+    log.add(
+        "camera", "lost", [&] { return "made " + std::to_string(++made); }, t0 + i * 1s, 2);
+  EXPECT_EQ(made, 1);
+  ASSERT_EQ(log.records().size(), 1U);
+  EXPECT_EQ(log.records()[0].message, "made 1");
+  EXPECT_EQ(log.records()[0].count, 6U);
+  EXPECT_EQ(log.records()[0].last, t0 + 2s);
 }
 
 } // namespace
