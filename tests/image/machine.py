@@ -154,16 +154,18 @@ class Qemu:
 
 
 class UserModeLinux:
-    """The image under the user-mode kernel of the bench: native speed, virtual devices, one processor."""
+    """The image under the user-mode kernel of the bench: native speed, virtual devices, one processor.
+    `first` is a shell command that runs before the image's init does."""
 
-    def __init__(self, kernel, image, folder, arguments="", memory="2G"):
+    def __init__(self, kernel, image, folder, arguments="", first=":", memory="2G"):
         os.makedirs(folder, exist_ok=True)
         self._log = open(f"{folder}/console", "wb")
         in_memory = shutil.disk_usage("/dev/shm").free > 6e9 if os.path.isdir("/dev/shm") else False
         environment = dict(os.environ, TMPDIR="/dev/shm" if in_memory else folder)
         self._process = subprocess.Popen(
             [kernel, f"mem={memory}", f"ubda={image}", *arguments.split(),
-             "con=null", "con0=null,fd:2", "ssl=null", "ssl0=fd:0,fd:1", "panic=-1"],
+             "con=null", "con0=null,fd:2", "ssl=null", "ssl0=fd:0,fd:1", "panic=-1",
+             "init=/bin/sh", "--", "-c", f'"{first}; exec /sbin/init"'],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._log, env=environment,
             start_new_session=True, preexec_fn=self._stay_on_one_processor)
         self.shell = Shell(self._process.stdout.fileno(), self._process.stdin.fileno())

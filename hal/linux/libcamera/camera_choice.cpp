@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "hal/linux/system/system_error.h"
+
 namespace octascope::hal::linux_backend {
 
 namespace {
@@ -95,6 +97,10 @@ Error explain_absence(const fs::path& root) {
             "scope camera: no udev daemon runs, and libcamera finds no camera without one; start "
             "it: sudo systemctl start systemd-udevd systemd-udev-trigger"};
   const MediaNodes nodes = media_nodes(root);
+  if (!nodes.refused.empty() && udev_is_at_work(root))
+    return {Fault::absent, fmt::format("scope camera: udev has not gone through {} yet; it is "
+                                       "tried again by itself",
+                                       nodes.refused)};
   if (!nodes.refused.empty())
     return {Fault::denied,
             fmt::format("scope camera: {} is there, but this user may not open it; join its "

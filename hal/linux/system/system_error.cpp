@@ -27,6 +27,11 @@ std::string usual_mend(std::string_view device, Fault fault) {
 
 } // namespace
 
+bool udev_is_at_work(const std::filesystem::path& root) {
+  std::error_code error;
+  return std::filesystem::exists(root / "run/udev/queue", error);
+}
+
 Fault fault_of(int error_number) {
   switch (error_number) {
   case ENODEV:
@@ -65,6 +70,10 @@ Result<FileDescriptor> open_device(const std::string& node, int flags) {
   } while (descriptor == -1 && errno == EINTR);
   if (descriptor == -1) {
     // A node whose driver has gone says ENODEV or ENXIO: to whoever opens it, it is not there.
+    if (errno == EACCES && udev_is_at_work())
+      return fail(Fault::absent, fmt::format("{}: udev has not gone through it yet; it is tried "
+                                             "again by itself",
+                                             node));
     const int why = errno == ENODEV || errno == ENXIO ? ENOENT : errno;
     return system_failure(node, "opening", why);
   }

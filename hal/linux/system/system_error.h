@@ -1,6 +1,7 @@
 // From errno to an Error that says what to do.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -18,7 +19,12 @@ Fault fault_of(int error_number);
 tl::unexpected<Error> system_failure(std::string_view device, std::string_view action,
                                      int error_number, std::string_view mend = {});
 
-// Opens with O_CLOEXEC; the Error's message has the device and what mends it.
+// While the machine starts, or something was plugged in: until udev has gone through a device it
+// belongs to root alone. Looks at `root`/run.
+bool udev_is_at_work(const std::filesystem::path& root = "/");
+
+// Opens with O_CLOEXEC; the Error's message has the device and what mends it. Fault::absent, not
+// denied, where udev may be about to allow it.
 Result<FileDescriptor> open_device(const std::string& node, int flags);
 
 } // namespace octascope::hal::linux_backend

@@ -33,9 +33,12 @@ protected:
   void SetUp() override {
     if (const std::string missing = theatre_missing(); !missing.empty())
       GTEST_SKIP() << missing;
-    auto made = Theatre::make();
+    auto phantom = theatre_phantom(2);
+    ASSERT_TRUE(phantom) << phantom.error().message;
+    auto made = Theatre::make(std::move(*phantom));
     ASSERT_TRUE(made) << made.error().message;
     theatre_ = std::move(*made);
+    ASSERT_TRUE(write_theatre_configuration("/etc/octascope", TheatreStart::by_hand));
   }
 
   void start(const std::vector<std::string>& environment = {},

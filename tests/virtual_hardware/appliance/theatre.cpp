@@ -2,11 +2,16 @@
 
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "hal/linux/realtime.h"
 #include "pipeline/calibration_writer.h"
+#include "sim/recorded_spectra.h"
+#include "sim/spectrometer.h"
+#include "sim/volume_loop.h"
 
 namespace octascope::tests {
 
@@ -14,7 +19,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr const char* configuration_folder = "/etc/octascope";
 constexpr unsigned trigger_line = 0, sync_line = 1;
 
 // Long enough to be seen by one who looks every half a millisecond.
@@ -48,15 +52,102 @@ pipeline::ScanPlan Theatre::plan() {
   return plan;
 }
 
-hal::Result<std::unique_ptr<Theatre>> Theatre::make() {
-  std::unique_ptr<Theatre> theatre{new Theatre};
+hal::Result<> write_theatre_configuration(const std::filesystem::path& folder, TheatreStart start) {
+  const pipeline::ScanPlan p = Theatre::plan();
+  sim::SpectrometerConfig config;
+  config.samples = p.samples;
+  const auto spectrometer = sim::Spectrometer::make(config);
+  if (!spectrometer)
+    return tl::make_unexpected(spectrometer.error());
+  pipeline::FoundCalibration found;
+  found.calibration = pipeline::Calibration::identity(p.samples);
+  found.calibration.positions = spectrometer->true_k_positions();
+  found.calibration.dispersion_rad = spectrometer->true_dispersion_rad();
+  found.provenance = {"bench", "the phantom's own", "none", "now", "exact"};
+  const bool at_boot = start == TheatreStart::at_boot;
+  std::filesystem::create_directories(folder);
+  if (auto written = pipeline::write_calibration(found, folder / "calibration.toml"); !written)
+    return written;
+  std::ofstream{folder / "octascope.toml"} << fmt::format(
+      R"([scan]
+samples = {}
+a_scans = {}
+fly_back_lines = {}
+b_scans = {}
+line_rate_hz = {}
+a_spacing_um = {}
+b_spacing_um = {}
+[calibration]
+file = "calibration.toml"
+[devices]
+significant_bits = {}
+pulse_width_us = {}
+sync_line = "octascope-sync"
+line_camera = "{}"
+scope_camera = "{}"
+seat = {}
+[controls]
+keyboards = ["046d:c31c"]
+)",
+      p.samples, p.a_scans, p.fly_back_lines, p.b_scans, p.line_rate_hz, p.a_spacing_um,
+      p.b_spacing_um, config.significant_bits, pulse_width_us, at_boot ? "v4l2" : "auto",
+      at_boot ? "libcamera" : "auto", at_boot);
+  return {};
+}
+
+hal::Result<std::unique_ptr<sim::SpectraSource>> theatre_phantom(int volumes) {
   sim::VolumeLoopConfig loop;
-  loop.plan = plan();
-  loop.volumes = 2;
+  loop.plan = Theatre::plan();
+  loop.volumes = volumes;
   auto spectra = sim::VolumeLoop::make(loop);
   if (!spectra)
     return tl::make_unexpected(spectra.error());
-  theatre->spectra_ = std::move(*spectra);
+  return std::move(*spectra);
+}
+
+hal::Result<> write_theatre_spectra(const std::filesystem::path& file) {
+  const auto spectra = theatre_phantom(1);
+  if (!spectra)
+    return tl::make_unexpected(spectra.error());
+  std::ofstream out{file, std::ios::binary};
+  for (int sweep = 0; sweep < (*spectra)->sweeps(); ++sweep) {
+    const std::span<const std::byte> frame = (*spectra)->frame(0, sweep);
+    out.write(reinterpret_cast<const char*>(frame.data()), std::ssize(frame));
+  }
+  if (!out.flush())
+    return hal::fail(hal::Fault::system, file.string() + " cannot be written");
+  return {};
+}
+
+hal::Result<std::unique_ptr<sim::SpectraSource>>
+read_theatre_spectra(const std::filesystem::path& file) {
+  const pipeline::ScanPlan plan = Theatre::plan();
+  const auto count = static_cast<std::size_t>(plan.sweeps()) *
+                     static_cast<std::size_t>(plan.lines_per_frame()) *
+                     static_cast<std::size_t>(plan.samples);
+  const auto samples = std::make_shared<std::vector<std::uint16_t>>(count);
+  std::ifstream in{file, std::ios::binary};
+  if (!in.read(reinterpret_cast<char*>(samples->data()), std::ssize(*samples) * 2))
+    return hal::fail(hal::Fault::system,
+                     fmt::format("{} cannot be read, or has less than {} samples; write it with "
+                                 "'theatre spectra'",
+                                 file.string(), count));
+  sim::SpectraRecording recording{.samples = *samples,
+                                  .b_scans = plan.sweeps(),
+                                  .a_scans = plan.lines_per_frame(),
+                                  .samples_per_line = plan.samples,
+                                  .significant_bits = 12,
+                                  .name = file.filename().string(),
+                                  .keep_alive = samples};
+  auto spectra = sim::RecordedSpectra::make(std::move(recording));
+  if (!spectra)
+    return tl::make_unexpected(spectra.error());
+  return std::move(*spectra);
+}
+
+hal::Result<std::unique_ptr<Theatre>> Theatre::make(std::unique_ptr<sim::SpectraSource> spectra) {
+  std::unique_ptr<Theatre> theatre{new Theatre};
+  theatre->spectra_ = std::move(spectra);
   auto chip = SimGpioChip::make("scanner", {"octascope-trigger", "octascope-sync"});
   if (!chip)
     return tl::make_unexpected(chip.error());
@@ -71,8 +162,6 @@ hal::Result<std::unique_ptr<Theatre>> Theatre::make() {
     return tl::make_unexpected(written.error());
   if (auto plugged = theatre->plug_pedal(); !plugged)
     return tl::make_unexpected(plugged.error());
-  if (auto written = theatre->write_configuration(); !written)
-    return tl::make_unexpected(written.error());
   Theatre& scene = *theatre;
   scene.scanner_ = std::jthread{[&scene](std::stop_token stop) { scene.scan(stop); }};
   return theatre;
@@ -96,41 +185,6 @@ hal::Result<std::unique_ptr<VirtualKeyboard>> Theatre::plug_strange_keyboard() {
   return VirtualKeyboard::plug_in(0x1234, 0x5678);
 }
 
-hal::Result<> Theatre::write_configuration() const {
-  std::filesystem::create_directories(configuration_folder);
-  const std::filesystem::path folder{configuration_folder};
-  pipeline::FoundCalibration found;
-  found.calibration = pipeline::Calibration::identity(plan().samples);
-  found.calibration.positions = spectra_->spectrometer().true_k_positions();
-  found.calibration.dispersion_rad = spectra_->spectrometer().true_dispersion_rad();
-  found.provenance = {"bench", "the phantom's own", "none", "now", "exact"};
-  if (auto written = pipeline::write_calibration(found, folder / "calibration.toml"); !written)
-    return written;
-  const pipeline::ScanPlan p = plan();
-  std::ofstream{folder / "octascope.toml"} << fmt::format(
-      R"([scan]
-samples = {}
-a_scans = {}
-fly_back_lines = {}
-b_scans = {}
-line_rate_hz = {}
-a_spacing_um = {}
-b_spacing_um = {}
-[calibration]
-file = "calibration.toml"
-[devices]
-significant_bits = 12
-pulse_width_us = {}
-sync_line = "octascope-sync"
-seat = false
-[controls]
-keyboards = ["046d:c31c"]
-)",
-      p.samples, p.a_scans, p.fly_back_lines, p.b_scans, p.line_rate_hz, p.a_spacing_um,
-      p.b_spacing_um, pulse_width_us);
-  return {};
-}
-
 void Theatre::scan(std::stop_token stop) {
   static_cast<void>(hal::linux_backend::make_this_thread_realtime(scanner_priority));
   while (wait_for_pulse(stop)) {
@@ -142,12 +196,14 @@ void Theatre::scan(std::stop_token stop) {
   }
 }
 
-// The rising edge; a line that was high already when the sweeps ended is a latched pulse.
+// The rising edge; a line that was high already when the sweeps ended is a latched pulse. Before
+// there is an appliance it looks ten times less often, which leaves the processor to what starts.
 bool Theatre::wait_for_pulse(std::stop_token stop) {
+  const hal::Duration pause = pulses_ == 0 ? 5ms : 500us;
   while (!stop.stop_requested()) {
     if (chip_->level(trigger_line))
       return true;
-    clock_.sleep_for(500us);
+    clock_.sleep_for(pause);
   }
   return false;
 }

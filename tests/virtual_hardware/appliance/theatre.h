@@ -1,12 +1,13 @@
 // An operating theatre without hardware: everything that the appliance is connected to, through the
 // kernel's own drivers. A line camera (v4l2loopback) that a feeder fills with a phantom's spectra
 // whenever the scanner's trigger line (gpio-sim) is pulsed, which the scanner answers on its sync
-// line, a foot pedal (uhid), a microscope camera (vimc) and a monitor (vkms); and the appliance's
-// configuration in /etc/octascope, which lists one keyboard.
+// line, a foot pedal (uhid), a microscope camera (vimc) and a monitor (vkms); and the configuration
+// of an appliance that stands in it.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -15,7 +16,7 @@
 #include "hal/linux/monotonic_clock.h"
 #include "hal/result.h"
 #include "pipeline/scan_plan.h"
-#include "sim/volume_loop.h"
+#include "sim/spectra_source.h"
 #include "tests/virtual_hardware/support/loopback_feeder.h"
 #include "tests/virtual_hardware/support/sim_gpio_chip.h"
 #include "tests/virtual_hardware/support/virtual_keyboard.h"
@@ -26,14 +27,30 @@ namespace octascope::tests {
 // Why there can be none here; empty when there can.
 std::string theatre_missing();
 
+// An eye, made when it is asked for; or one volume of that, written and read again: for kernels in
+// which a second of work is a second of somebody's start. 16-bit samples, [sweep][line][sample].
+hal::Result<std::unique_ptr<sim::SpectraSource>> theatre_phantom(int volumes);
+hal::Result<> write_theatre_spectra(const std::filesystem::path& file);
+hal::Result<std::unique_ptr<sim::SpectraSource>>
+read_theatre_spectra(const std::filesystem::path& file);
+
+enum class TheatreStart : std::uint8_t {
+  by_hand, // devices are what is found at the start, and no manager of seats runs
+  at_boot, // cameras are waited for, and the monitor is the seat manager's to give
+};
+
+// octascope.toml, which lists one keyboard, and the calibration that it names; the folder is made.
+hal::Result<> write_theatre_configuration(const std::filesystem::path& folder, TheatreStart start);
+
 // Threads: one at a time; the scanner and the camera work in a thread of their own.
 class Theatre {
 public:
   // What one processor without a GPU can carry: 1.2 volumes a second, 5000 lines a second.
   static pipeline::ScanPlan plan();
 
-  // Makes every device and the configuration; the scanner waits for its first pulse.
-  static hal::Result<std::unique_ptr<Theatre>> make();
+  // Makes every device; the scanner waits for its first pulse. The camera sees the spectra, whose
+  // sweeps are of the plan.
+  static hal::Result<std::unique_ptr<Theatre>> make(std::unique_ptr<sim::SpectraSource> spectra);
   ~Theatre();
 
   SimGpioChip& chip() { return *chip_; }
@@ -59,14 +76,13 @@ public:
 
 private:
   Theatre() = default;
-  hal::Result<> write_configuration() const;
   void scan(std::stop_token stop);
   bool wait_for_pulse(std::stop_token stop);
   void answer();
   void sweep(hal::TimePoint pulse);
 
   hal::linux_backend::MonotonicClock clock_;
-  std::unique_ptr<sim::VolumeLoop> spectra_;
+  std::unique_ptr<sim::SpectraSource> spectra_;
   std::unique_ptr<SimGpioChip> chip_;
   std::unique_ptr<LoopbackFeeder> feeder_;
   std::unique_ptr<VirtualPedal> pedal_;
