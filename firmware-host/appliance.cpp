@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware-host/calibrated_camera.h"
 #include "firmware-host/configuration.h"
 #include "firmware-host/configuration_choice.h"
 #include "firmware-host/configuration_keeper.h"
@@ -110,6 +111,7 @@ public:
     supervision_.starting("preparing the devices");
     if (auto made = devices_->make_others(choices, options_, configuration_, clock_); !made)
       return made;
+    make_calibrated_camera();
     supervision_.crash_report().set_last_act(
         [](void* made) { static_cast<Devices*>(made)->make_trigger_safe(); }, devices_.get());
     supervision_.starting("measuring the reconstruction");
@@ -152,6 +154,7 @@ private:
   void show_splash();
   hal::Result<> make_vessels();
   hal::Result<> make_reconstruction();
+  void make_calibrated_camera();
   void make_recordings();
   void make_threads();
   void make_render_loop();
@@ -176,6 +179,7 @@ private:
   PictureKeeper pictures_{picture_folder(), clock_, faults_};
   ReconstructionCache cache_; // before whatever plans a transform: it brings FFTW's wisdom
   std::unique_ptr<Devices> devices_;
+  std::unique_ptr<CalibratedCamera> calibrated_camera_;
   std::unique_ptr<pipeline::Reconstructor> reconstructor_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
   std::optional<pipeline::FrameBackgrounds> backgrounds_;      // running ones
@@ -244,6 +248,15 @@ hal::Result<> AssembledAppliance::make_reconstruction() {
   for (std::size_t worker = 0; worker < workers; ++worker)
     workspaces_.push_back(reconstructor_->make_workspace());
   return {};
+}
+
+// Raw spectra in a file are of a camera that nobody knows: there is nothing to ask for.
+void AssembledAppliance::make_calibrated_camera() {
+  const std::string& camera = devices_->calibration().camera;
+  calibrated_camera_ = std::make_unique<CalibratedCamera>(camera, faults_);
+  const auto& file = options_.calibration ? options_.calibration : configuration_.calibration;
+  if (file && camera.empty() && !options_.recording)
+    fmt::print(stderr, "octascope run: {}\n", words_on_unnamed_camera(*file));
 }
 
 void AssembledAppliance::make_recordings() {
@@ -419,6 +432,8 @@ void AssembledAppliance::update_status() {
   if (const hal::ScopeCamera* const camera = devices_->scope_camera())
     status.devices[status.device_count++] = {"scope", camera->backend(), camera->state()};
   const hal::TimePoint now = clock_.now();
+  calibrated_camera_->look(devices_->line_camera(), now);
+  status.another_camera = calibrated_camera_->verdict() == CameraVerdict::another;
   status.recording = recordings_->status(now);
   const auto devices = std::span<const ui::DeviceStatus>{status.devices}.first(status.device_count);
   std::string_view notice = compose_notice(faults_.records(), devices, now);
@@ -439,7 +454,8 @@ RunAccount AssembledAppliance::account() const {
           .worker_cores = *worker_cores_,
           .acquisition = *acquisition_,
           .volumes = *volumes_,
-          .loop = *loop_};
+          .loop = *loop_,
+          .calibrated_camera = *calibrated_camera_};
 }
 
 hal::Result<>

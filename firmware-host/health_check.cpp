@@ -11,12 +11,14 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 
+#include "firmware-host/calibrated_camera.h"
 #include "firmware-host/configuration_check.h"
 #include "firmware-host/device_choice.h"
 #include "firmware-host/hardware_checks.h"
 #include "firmware-host/real_devices.h"
 #include "firmware-host/reconstruction_cache.h"
 #include "hal/linux/realtime.h"
+#include "pipeline/calibration.h"
 #include "pipeline/reconstructor.h"
 #include "pipeline/scan_plan.h"
 #include "sim/offscreen_display.h"
@@ -199,6 +201,17 @@ HealthCheck check_devices(hal::Clock& clock) {
           "see octascope devices for what is plugged in and why it is not used"};
 }
 
+// Of a configuration without complaints.
+std::optional<HealthCheck> check_camera_of_calibration(const std::filesystem::path& file) {
+  const auto configuration = load_configuration(file);
+  if (!configuration || !configuration->calibration)
+    return std::nullopt;
+  const auto camera = pipeline::calibration_camera(*configuration->calibration);
+  if (!camera || !camera->empty())
+    return std::nullopt;
+  return good("calibration", words_on_unnamed_camera(*configuration->calibration));
+}
+
 } // namespace
 
 std::vector<HealthCheck> check_health(hal::Clock& clock) {
@@ -223,8 +236,11 @@ std::vector<HealthCheck> check_configuration(const std::optional<std::filesystem
   for (std::string& complaint : configuration_complaints(*used))
     checks.push_back({"configuration", Verdict::fails, std::move(complaint),
                       "mend it; docs/CONFIGURATION.md has every key"});
-  if (checks.empty())
+  if (checks.empty()) {
     checks.push_back(good("configuration", used->string()));
+    if (auto unnamed = check_camera_of_calibration(*used))
+      checks.push_back(std::move(*unnamed));
+  }
   return checks;
 }
 

@@ -52,6 +52,8 @@ constexpr std::array fault_notices{
     FaultNotice{"line_camera", "doubled_frame", "Line camera sends B-scans twice"},
     FaultNotice{"line_camera", "saturation", "Too much light: lines are saturated"},
     FaultNotice{"recording", "unreadable_volume", "The recording is damaged: volumes are missing"},
+    FaultNotice{"line_camera", "another_camera", "Depths unsure: change calibration",
+                std::chrono::seconds{20}}, // the badge stays
     FaultNotice{"host", "throttled", "The computer is too hot: it slows itself down"},
     FaultNotice{"host", "low_memory", "The computer is short of memory"},
     FaultNotice{"host", "disk_full", "The disk is full: pictures may be lost"},

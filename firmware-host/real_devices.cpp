@@ -119,8 +119,8 @@ DeviceFinding RealDevices::find_line_camera() {
     format_ = wanted;
     const auto found =
         std::ranges::find(candidates, *picked, [](const auto& c) { return c.identity.node; });
-    return {true, fmt::format("{} {} ({}) offers {}", *picked, found->identity.card,
-                              found->identity.driver, found->formats)};
+    return {true, fmt::format("{} is the camera \"{}\" ({}) and offers {}", *picked,
+                              found->identity.camera, found->identity.driver, found->formats)};
   }
   return {false, reason};
 }

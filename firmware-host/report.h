@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware-host/supervision/appliance_status.h"
 #include "hal/clock.h"
 #include "hal/result.h"
 #include "pipeline/duration_statistics.h"
@@ -28,6 +29,8 @@ struct RunReport {
   std::string reconstruction_reason; // pipeline::PathReason's name
   std::optional<pipeline::PathTimes> reconstruction_times;
   std::string line_camera, galvo_trigger, control_input, scope_camera, display; // backends
+
+  CalibrationAccount calibration;
 
   pipeline::ScanPlan plan;
   pipeline::PhaseStatus phase;

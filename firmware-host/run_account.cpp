@@ -3,6 +3,7 @@
 #include <span>
 #include <utility>
 
+#include "firmware-host/calibrated_camera.h"
 #include "firmware-host/devices.h"
 #include "firmware-host/render_loop.h"
 #include "firmware-host/thread_roles.h"
@@ -24,6 +25,10 @@ void add_devices(RunReport& report, const Devices& devices) {
   report.scope_camera = devices.scope_camera() ? devices.scope_camera()->backend() : "none";
   report.display = devices.display().backend();
   report.plan = devices.plan();
+}
+
+CalibrationAccount calibration_account(const CalibratedCamera& camera) {
+  return {camera.calibrated(), camera.open(), std::string{to_string(camera.verdict())}};
 }
 
 void add_reconstruction(RunReport& report, const pipeline::Reconstructor& reconstructor) {
@@ -98,7 +103,8 @@ PictureStatus picture_status(const RunAccount& run, hal::TimePoint now) {
                        .frames_drawn = frames.frames_drawn,
                        .frames_missed = frames.frames_missed,
                        .latency = frames.latency.summary(),
-                       .notice = shown.notice};
+                       .notice = shown.notice,
+                       .calibration = calibration_account(run.calibrated_camera)};
   for (const ui::DeviceStatus& device : std::span{shown.devices}.first(shown.device_count))
     status.devices.push_back({std::string{device.name}, std::string{device.backend}, device.state});
   return status;
@@ -109,6 +115,7 @@ RunReport report_on(const RunAccount& run, const RunTimes& times,
   RunReport report;
   add_devices(report, run.devices);
   add_reconstruction(report, run.reconstructor);
+  report.calibration = calibration_account(run.calibrated_camera);
   report.worker_cores = run.worker_cores.pinned();
   add_volumes(report, run.volumes);
   const FrameStatistics& frames = run.loop.statistics();

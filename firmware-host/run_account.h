@@ -15,6 +15,7 @@ class VolumeThread;
 
 namespace octascope::firmware_host {
 
+class CalibratedCamera;
 class Devices;
 class RenderLoop;
 class WorkerCores;
@@ -27,6 +28,7 @@ struct RunAccount {
   const pipeline::Acquisition& acquisition;
   const pipeline::VolumeThread& volumes;
   const RenderLoop& loop;
+  const CalibratedCamera& calibrated_camera;
 };
 
 // At any time, on the render thread.

@@ -123,6 +123,7 @@ hal::Result<> play_phantom(const RunOptions& options, const Configuration& confi
     twins.calibration = pipeline::Calibration::identity(twins.plan.samples);
     twins.calibration.positions = spectrometer.true_k_positions();
     twins.calibration.dispersion_rad = spectrometer.true_dispersion_rad();
+    twins.calibration.camera = sim::simulated_camera;
   }
   twins.spectra = std::move(*made);
   return {};
@@ -227,8 +228,10 @@ hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& co
   twins.format = twins.spectra->format();
   twins.source = twins.spectra->description();
   twins.link = std::make_unique<sim::GalvoLink>(twins.plan.sweep_duration());
-  twins.line_camera =
-      std::make_unique<sim::SimLineCamera>(*twins.spectra, *twins.link, clock, twins.faults.get());
+  // Nobody knows which camera a recording's spectra are from.
+  twins.line_camera = std::make_unique<sim::SimLineCamera>(
+      *twins.spectra, *twins.link, clock, twins.faults.get(), sim::ScanMotion{},
+      options.recording ? std::string{} : std::string{sim::simulated_camera});
   twins.galvo_trigger =
       std::make_unique<sim::SimGalvoTrigger>(*twins.link, clock, twins.faults.get());
   return scripted;

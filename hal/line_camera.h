@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "hal/clock.h"
 #include "hal/device.h"
@@ -61,7 +62,8 @@ struct LineFrame {
 };
 
 // Threads: open, start, wait_frame, stop and close belong to one thread at a time (the camera
-// thread). release() may come from any thread while the camera is open. state() is free.
+// thread). release() may come from any thread while the camera is open. state() and identity() are
+// free.
 class LineCamera : public Device {
 public:
   // absent → ready, or an Error and still absent. Fault::absent means: try again later.
@@ -86,6 +88,11 @@ public:
   // Any state → absent. All loans must have been released, or never be read again.
   void close() { do_close(); }
 
+  // Which camera the last open() found, so that it can be told from another of its kind: the same
+  // after a replug, in another socket and in another machine. One line, for people to copy. Empty
+  // before the first open(), and where nothing can be known of it. Allocates.
+  std::string identity() const { return do_identity(); }
+
 private:
   virtual Result<> do_open(const LineCameraConfig& config) = 0;
   virtual Result<> do_start() = 0;
@@ -93,6 +100,7 @@ private:
   virtual void do_release(int buffer) = 0;
   virtual void do_stop() = 0;
   virtual void do_close() = 0;
+  virtual std::string do_identity() const = 0;
 };
 
 } // namespace octascope::hal

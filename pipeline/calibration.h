@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hal/result.h"
@@ -31,6 +32,8 @@ inline constexpr int most_samples = 65536;
 // A plain value. All curves are resolved to `samples` values in double precision.
 struct Calibration {
   int samples = 1024;
+  std::string
+      camera; // hal::LineCamera::identity() of the one that it was made with; empty: not said
   std::vector<double> positions; // r[m], fractional pixels in [0, samples−1], uniform in k
   Interpolation interpolation = Interpolation::sinc8;
   std::vector<double> dispersion_rad; // θ[m] with its sign applied; empty: none
@@ -61,6 +64,9 @@ struct Calibration {
   // Every curve has `samples` finite values and every position lies on the line.
   hal::Result<> validate() const;
 };
+
+// The camera that a calibration names; empty: none. Reads nothing else of it and checks nothing.
+hal::Result<std::string> calibration_camera(const std::filesystem::path& file);
 
 class ConfigDocument;
 

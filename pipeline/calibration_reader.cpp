@@ -81,6 +81,7 @@ hal::Result<Calibration> CalibrationReader::read(int expected_samples) {
 // Without an agreed number of samples nothing else can be judged.
 bool CalibrationReader::read_samples(int expected_samples) {
   ConfigTable spectrometer = root_.table("spectrometer");
+  calibration_.camera = spectrometer.text("camera", "");
   if (!spectrometer.has("samples")) {
     keep({Fault::invalid_argument,
           fmt::format("{}: [spectrometer] samples is missing, expected samples = {}",
@@ -310,6 +311,12 @@ hal::Result<Calibration> Calibration::load(const fs::path& file, int expected_sa
   if (!document)
     return tl::make_unexpected(document.error());
   return CalibrationReader{*document, file}.read(expected_samples);
+}
+
+hal::Result<std::string> calibration_camera(const fs::path& file) {
+  return ConfigDocument::load(file).map([](const ConfigDocument& document) {
+    return document.root().table("spectrometer").text("camera", "");
+  });
 }
 
 hal::Result<ConfigDocument> calibration_document(const fs::path& file) {

@@ -87,8 +87,11 @@ struct CurveNames {
 std::string toml(const FoundCalibration& found, const CurveNames& names) {
   const Calibration& c = found.calibration;
   std::string text = fmt::format("# Found by measurement; [provenance] says how.\n"
-                                 "[spectrometer]\nsamples = {}\n\n[k_linear]\n",
+                                 "[spectrometer]\nsamples = {}\n",
                                  c.samples);
+  if (!c.camera.empty())
+    text += fmt::format("camera = {}\n", toml_text(c.camera));
+  text += "\n[k_linear]\n";
   text += names.k_linear.empty() ? fmt::format("wavelength_polynomial_nm = {}\n",
                                                toml_numbers(found.wavelength_polynomial_nm))
                                  : fmt::format("table = {}\n", toml_text(names.k_linear));

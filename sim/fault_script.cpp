@@ -90,6 +90,10 @@ void read_times(ConfigTable& table, ScriptedFault& fault) {
 
 void read_parameters(ConfigTable& table, ScriptedFault& fault) {
   switch (fault.kind) {
+  case FaultKind::unplug:
+    if (fault.device == FaultDevice::line_camera)
+      fault.comes_back_as = table.text("comes_back_as", "");
+    break;
   case FaultKind::late_frames: fault.late_by = milliseconds_of(table, "late_ms", 20, 60e3); break;
   case FaultKind::wrong_size:
     fault.size_share = table.number("size_share", 0.5, {0, 2});

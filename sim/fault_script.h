@@ -32,7 +32,8 @@ enum class FaultDevice : std::uint8_t {
 };
 
 enum class FaultKind : std::uint8_t {
-  unplug, // every device but the display: gone for duration_s, then back
+  unplug, // every device but the display: gone for duration_s, then back. The line camera may come
+          // back as another one of its kind: comes_back_as
 
   // Line camera, frame by frame; `every`, `probability` and `seed` choose among the frames:
   dropped_frames,   // made by the hardware, never delivered: a gap in the sequence
@@ -76,6 +77,7 @@ struct ScriptedFault {
   double probability = 1;
   std::uint64_t seed = 1;
 
+  std::string comes_back_as;     // unplug of the line camera: its identity then; empty: as it was
   hal::Duration late_by{};       // late_frames
   double size_share = 0.5;       // wrong_size: 0 … 2 of a frame's bytes, but not 1
   double line_share = 0.25;      // saturation

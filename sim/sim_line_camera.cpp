@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -32,9 +33,20 @@ std::string words(const hal::LineFormat& f) {
 } // namespace
 
 SimLineCamera::SimLineCamera(const SpectraSource& source, GalvoLink& link, hal::Clock& clock,
-                             const FaultSchedule* faults, ScanMotion motion)
+                             const FaultSchedule* faults, ScanMotion motion, std::string identity)
     : source_(source), link_(link), clock_(clock), motion_(motion),
-      probe_(faults, FaultDevice::line_camera) {}
+      probe_(faults, FaultDevice::line_camera), plugged_in_(std::move(identity)) {}
+
+std::string SimLineCamera::do_identity() const {
+  const std::lock_guard lock{identity_mutex_};
+  return identity_;
+}
+
+void SimLineCamera::look_what_is_plugged_in(TimePoint now) {
+  const ScriptedFault* const pulled = probe_.active(FaultKind::unplug, now);
+  if (pulled != nullptr && !pulled->comes_back_as.empty())
+    plugged_in_ = pulled->comes_back_as;
+}
 
 LineCameraTally SimLineCamera::tally() const {
   return {.made = made_.load(std::memory_order_relaxed),
@@ -78,12 +90,17 @@ hal::Result<> SimLineCamera::do_open(const hal::LineCameraConfig& config) {
   if (auto checked = check(config); !checked)
     return checked;
   const TimePoint now = clock_.now();
+  look_what_is_plugged_in(now);
   if (probe_.unplugged(now))
     return hal::fail(Fault::absent, "simulated line camera: not found, expected it on its cable; "
                                     "the fault script has unplugged it, try again later");
   probe_.watch_plug(now);
   config_ = config;
   allocate_buffers();
+  {
+    const std::lock_guard lock{identity_mutex_};
+    identity_ = plugged_in_;
+  }
   set_state(DeviceState::ready);
   return {};
 }
@@ -276,6 +293,7 @@ std::span<const std::byte> SimLineCamera::altered_bytes(const WaitingFrame& fram
 }
 
 hal::Error SimLineCamera::disconnect() {
+  look_what_is_plugged_in(clock_.now());
   discard_waiting();
   loans_.void_all();
   set_state(DeviceState::failed);

@@ -16,6 +16,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/line_camera.h"
@@ -36,11 +39,16 @@ struct LineCameraTally {
   std::uint64_t altered = 0; // handed out corrupted, in the wrong size, or saturated
 };
 
+// identity() of the twin that nothing was said about.
+inline constexpr std::string_view simulated_camera = "simulated spectrometer";
+
 class SimLineCamera final : public hal::LineCamera {
 public:
-  // All that is borrowed outlives the camera; `faults` may be null.
+  // All that is borrowed outlives the camera; `faults` may be null. `identity`: which camera it is
+  // until the fault script puts another one in its place; empty where nobody knows.
   SimLineCamera(const SpectraSource& source, GalvoLink& link, hal::Clock& clock,
-                const FaultSchedule* faults = nullptr, ScanMotion motion = {});
+                const FaultSchedule* faults = nullptr, ScanMotion motion = {},
+                std::string identity = std::string{simulated_camera});
 
   // Thread-safe.
   LineCameraTally tally() const;
@@ -76,10 +84,12 @@ private:
   void do_release(int buffer) override { loans_.give_back(buffer); }
   void do_stop() override;
   void do_close() override;
+  std::string do_identity() const override;
 
   hal::Result<> check(const hal::LineCameraConfig& config) const;
   hal::Result<> wrong_state(std::string_view call, std::string_view expected) const;
   hal::Error disconnect();
+  void look_what_is_plugged_in(hal::TimePoint now);
   void allocate_buffers();
 
   hal::Duration line_offset(std::int64_t line) const;
@@ -111,6 +121,10 @@ private:
   int next_in_volume_ = 0;
   std::uint64_t next_sequence_ = 0;
   std::uint64_t shown_sequence_ = 0; // of the newest frame, as the driver told it
+
+  std::string plugged_in_;            // which camera
+  mutable std::mutex identity_mutex_; // taken by open() and whoever asks
+  std::string identity_;
 
   std::atomic<std::uint64_t> made_{0};
   std::atomic<std::uint64_t> delivered_{0};

@@ -88,6 +88,7 @@ struct Status {
   std::string source_description;     // "phantom eye, loop of 2.3 s"; short
 
   ConfigurationState configuration = ConfigurationState::own;
+  bool another_camera = false; // than the calibration's
 
   Freshness freshness;
   int missing_b_scans = 0; // of the shown volume

@@ -292,6 +292,8 @@ void CalibrationRun::judge_curves() {
   for (const double theta : c.dispersion_rad)
     squares += theta * theta;
   verdict_.dispersion_rms_rad = std::sqrt(squares / samples_);
+  if (!options_.camera.empty())
+    c.camera = options_.camera;
   if (options_.spacing_um)
     verdict_.spacing_um = options_.spacing_um;
   if (verdict_.spacing_um) {

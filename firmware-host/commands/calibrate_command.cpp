@@ -156,6 +156,12 @@ void add_other_options(CLI::App& command, CommandLine& line) {
   command.add_option("--spacing-um", options.spacing_um, "Depth spacing of a bin, when known")
       ->check(CLI::Range(1e-3, 1e6))
       ->type_name("UM");
+  command
+      .add_option(
+          "--camera", options.camera,
+          "Which camera the spectra are of, as octascope devices tells it: with another one "
+          "the display will say so")
+      ->type_name("TEXT");
   command.add_option("--out", options.out, "Calibration to write; its curves go beside it")
       ->required()
       ->type_name("FILE.toml");

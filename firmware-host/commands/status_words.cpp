@@ -36,6 +36,20 @@ public:
   std::string text_;
 };
 
+// Which camera it is of, against the one that is open.
+std::string calibration_words(const Json& calibration) {
+  const std::string named = calibration.value("camera", "");
+  const std::string open = calibration.value("line_camera", "");
+  const std::string verdict = calibration.value("verdict", "unknown");
+  if (verdict == "another")
+    return fmt::format("ANOTHER CAMERA'S: of {}, and {} is open", named, open);
+  if (verdict == "same")
+    return "of this camera, " + open;
+  return named.empty() ? fmt::format("names no camera; open is {}",
+                                     open.empty() ? "one that tells nothing" : open)
+                       : fmt::format("of {}; the open one tells nothing of itself", named);
+}
+
 void add_picture(Words& words, const Json& json) {
   const Json& picture = json.at("picture");
   const bool simulated = json.value("simulated", false);
@@ -46,6 +60,8 @@ void add_picture(Words& words, const Json& json) {
     words.line("notice", "{}", notice);
   for (const auto& [name, device] : json.at("devices").items())
     words.line(name, "{}, {}", device.value("backend", ""), device.value("state", ""));
+  if (const auto calibration = json.find("calibration"); calibration != json.end())
+    words.line("calibration", "{}", calibration_words(*calibration));
   words.line("rates", "{:.2f} volumes/s, {:.0f} lines/s, {:.1f} frames/s",
              number(json, "rates", "volumes_per_s"), number(json, "rates", "lines_per_s"),
              number(json, "rates", "frames_per_s"));

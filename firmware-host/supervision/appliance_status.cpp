@@ -56,6 +56,9 @@ void add_picture(Json& json, const PictureStatus& p, hal::TimePoint now) {
   json["simulated"] = p.simulated;
   json["source"] = p.source;
   json["devices"] = devices_to_json(p);
+  json["calibration"] = {{"camera", p.calibration.camera},
+                         {"line_camera", p.calibration.line_camera},
+                         {"verdict", p.calibration.verdict}};
   json["picture"] = {{"liveness", to_string(p.freshness.liveness)},
                      {"age_ms", rounded(hal::to_ms(p.freshness.age))},
                      {"notice", p.notice}};

@@ -17,6 +17,13 @@
 
 namespace octascope::firmware_host {
 
+// Which camera the calibration is of, and which one is open.
+struct CalibrationAccount {
+  std::string camera;              // that the calibration names; empty: none
+  std::string line_camera;         // that was opened last; empty: it tells nothing of itself
+  std::string verdict = "unknown"; // CameraVerdict's name
+};
+
 // What the render thread knows; plain data, told once a second.
 struct PictureStatus {
   struct DeviceLine {
@@ -37,6 +44,7 @@ struct PictureStatus {
   std::uint64_t frames_drawn = 0, frames_missed = 0;
   pipeline::DurationSummary latency;
   std::string notice; // on the screen now; empty: none
+  CalibrationAccount calibration{};
 };
 
 // What is known beside it.

@@ -106,6 +106,17 @@ protected:
   hal::Clock& clock_ = bench_->clock();
 };
 
+TEST_P(LineCameraContract, tells_which_camera_it_is_from_the_first_open_on) {
+  EXPECT_EQ(camera_.identity(), "");
+  ASSERT_TRUE(camera_.open(bench_->config()));
+  const std::string identity = camera_.identity();
+  EXPECT_NE(identity, "");
+  camera_.close();
+  EXPECT_EQ(camera_.identity(), identity) << "until another one is opened";
+  ASSERT_TRUE(camera_.open(bench_->config()));
+  EXPECT_EQ(camera_.identity(), identity);
+}
+
 TEST_P(LineCameraContract, walks_through_its_states) {
   EXPECT_FALSE(camera_.backend().empty());
   EXPECT_EQ(camera_.state(), hal::DeviceState::absent);

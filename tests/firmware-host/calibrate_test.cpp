@@ -104,8 +104,9 @@ protected:
 
 TEST_F(CalibrateCommand, writes_what_loads_and_says_how_good_it_is) {
   const std::string png = (folder / "verdict.png").string();
-  const auto outcome = calibrate({"--mirror", far, "--mirror", near, "--dark", dark,
-                                  "--distance-um", "455", "--picture", png, "--json"});
+  const auto outcome =
+      calibrate({"--mirror", far, "--mirror", near, "--dark", dark, "--distance-um", "455",
+                 "--camera", "Octoplus, \"7\"", "--picture", png, "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.messages;
   EXPECT_EQ(folder.count(), files + 4); // TOML, two curves, picture
 
@@ -116,6 +117,7 @@ TEST_F(CalibrateCommand, writes_what_loads_and_says_how_good_it_is) {
     EXPECT_NEAR(loaded->dispersion_rad[m], spectrometer.true_dispersion_rad()[m], 0.3);
   }
   EXPECT_NEAR(loaded->depth_spacing_um, 3.5, 0.01); // 455 µm over 130 bins
+  EXPECT_EQ(loaded->camera, "Octoplus, \"7\"");
 
   const auto verdict = nlohmann::json::parse(outcome.out);
   EXPECT_NEAR(verdict["mirrors"][0]["depth_bins"].get<double>(), 190, 0.3);

@@ -74,6 +74,18 @@ TEST_F(CalibrationFile, loads_every_section) {
   EXPECT_EQ(c->b_spacing_um, 7);
 }
 
+TEST_F(CalibrationFile, may_name_its_camera) {
+  const std::string named = "[spectrometer]\nsamples = 64\ncamera = \"Octoplus, serial 7\"\n"
+                            "[k_linear]\npolynomial = [0.0, 63.0]\n";
+  const auto c = load(named);
+  ASSERT_TRUE(c) << c.error().message;
+  EXPECT_EQ(c->camera, "Octoplus, serial 7");
+  EXPECT_EQ(calibration_camera(folder / "c.toml").value(), "Octoplus, serial 7");
+  EXPECT_EQ(load(straight)->camera, "");
+  EXPECT_EQ(calibration_camera(folder / "c.toml").value(), "");
+  EXPECT_THAT(refusal("[spectrometer]\nsamples = 64\ncamera = 7\n"), HasSubstr("camera"));
+}
+
 TEST_F(CalibrationFile, has_defaults) {
   const auto c = load(straight);
   ASSERT_TRUE(c) << c.error().message;

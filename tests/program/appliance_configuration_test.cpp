@@ -218,5 +218,15 @@ TEST(DoctorOfConfigurations, tells_everything_that_is_wrong) {
   EXPECT_EQ(good.exit_status, 0) << good.describe();
 }
 
+TEST(DoctorOfConfigurations, tells_of_a_calibration_that_names_no_camera) {
+  const ScratchFolder folder;
+  folder.write("k.toml",
+               "[spectrometer]\nsamples = 1024\n[k_linear]\npolynomial = [0.0, 1023.0]\n");
+  const fs::path file = folder.write("c.toml", "[calibration]\nfile = \"k.toml\"\n");
+  const ProgramResult result = run_octascope({"doctor", "--config", file});
+  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  EXPECT_THAT(result.out, HasSubstr("k.toml names no camera"));
+}
+
 } // namespace
 } // namespace octascope::tests

@@ -243,6 +243,7 @@ TEST(Supervision, answers_with_all_that_is_known) {
   EXPECT_EQ(status.at("configuration_state"), "own");
   for (const char* device : {"camera", "trigger", "pedal", "display", "scope"})
     EXPECT_TRUE(status.at("devices").contains(device)) << device;
+  EXPECT_EQ(status.at("calibration").at("verdict"), "same") << "the twin's own";
   EXPECT_GT(status.at("volumes").at("displayed"), 0);
   EXPECT_GT(status.at("resident_bytes"), 1 << 20);
   std::set<std::string> threads;
@@ -253,7 +254,8 @@ TEST(Supervision, answers_with_all_that_is_known) {
   const ProgramResult words = run_program(
       {"env", "RUNTIME_DIRECTORY=" + service.runtime().string(), built_program(), "status"});
   EXPECT_EQ(words.exit_status, 0) << words.describe();
-  EXPECT_THAT(words.out, AllOf(HasSubstr("SIMULATED"), HasSubstr("volumes/s")));
+  EXPECT_THAT(words.out,
+              AllOf(HasSubstr("SIMULATED"), HasSubstr("of this camera"), HasSubstr("volumes/s")));
   EXPECT_THAT(text_of(service.runtime() / "metrics.prom"), HasSubstr("octascope_uptime_seconds "));
 }
 

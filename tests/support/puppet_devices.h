@@ -52,6 +52,7 @@ private:
 
   std::string_view do_backend() const override { return "puppet"; }
   bool do_simulated() const override { return true; }
+  std::string do_identity() const override { return {}; }
   hal::Result<> do_open(const hal::LineCameraConfig& config) override {
     const std::lock_guard lock{mutex_};
     if (!plugged_)

@@ -90,6 +90,28 @@ TEST_F(HudInAllSizes, all_badges_find_room) {
     }
 }
 
+// Where everything is said at once, no lower than what is said of a replay.
+TEST_F(HudInAllSizes, that_the_calibration_is_another_cameras_finds_room_beside_all_others) {
+  Status status = worst_status();
+  status.another_camera = true;
+  const HudText text = compose_hud_text({}, status, {});
+  for (const auto& [width, height] : sizes)
+    for (const LayoutKind kind : kinds) {
+      const Layout layout = lay_out(width, height, aspects, kind);
+      const auto fonts = Fonts::create(layout.unit);
+      ASSERT_TRUE(fonts) << fonts.error().message;
+      Canvas canvas;
+      canvas.begin(*fonts, width, height);
+      const BadgePlaces places = place_badges(canvas, layout, text);
+      for (std::size_t i = 0; i < text.badge_count; ++i)
+        if (text.badges[i].kind == BadgeKind::calibration) {
+          EXPECT_LE(places[i].right(), layout.marks.right()) << width << "x" << height;
+          EXPECT_LE(places[i].bottom(), layout.large.y + layout.large.height * 2 / 5)
+              << width << "x" << height << ", kind " << static_cast<int>(kind);
+        }
+    }
+}
+
 // A subject of any length is cut to what is the longest here.
 Status worst_replay() {
   Status status = worst_status();

@@ -29,6 +29,13 @@ std::vector<std::string> badges_of(const Status& status) {
   return words;
 }
 
+TEST(HudText, another_cameras_calibration_is_told_as_long_as_it_is_used) {
+  Status status = live_status();
+  status.simulated = false;
+  status.another_camera = true;
+  EXPECT_EQ(badges_of(status), std::vector<std::string>{"another camera's calibration"});
+}
+
 TEST(HudText, badges_say_what_is_not_live) {
   using std::chrono::milliseconds;
   using std::chrono::seconds;

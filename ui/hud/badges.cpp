@@ -20,6 +20,7 @@ BadgeLook look_of(BadgeKind kind) {
   case BadgeKind::veiled: return {palette::alarm, true};
   case BadgeKind::frozen: return {palette::frozen, true};
   case BadgeKind::configuration:
+  case BadgeKind::calibration:
   case BadgeKind::unregistered: return {palette::warning, false};
   case BadgeKind::incomplete: return {palette::warning, false};
   }
@@ -68,6 +69,18 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
     canvas.line({centre.x - half, centre.y + half}, {centre.x + half, centre.y - half}, ink,
                 size * 0.13F);
     break;
+  case BadgeKind::calibration: // two rulers of unequal divisions
+    for (const float side : {-1.0F, 1.0F}) {
+      const float y = centre.y + side * half * 0.35F;
+      canvas.line({centre.x - half, y}, {centre.x + half, y}, ink, size * 0.1F);
+      for (int mark = 0; mark < (side < 0 ? 4 : 3); ++mark) {
+        const float x =
+            centre.x - half +
+            (0.1F + static_cast<float>(mark) * (side < 0 ? 0.3F : 0.43F)) * size * 0.95F;
+        canvas.line({x, y}, {x, y + side * half * 0.6F}, ink, size * 0.1F);
+      }
+    }
+    break;
   case BadgeKind::unregistered: // two crosses that do not meet
     for (const float side : {-1.0F, 1.0F}) {
       const glm::vec2 at{centre.x + side * half * 0.42F, centre.y + side * half * 0.42F};
@@ -84,7 +97,7 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
 
 bool is_small(BadgeKind kind) {
   return kind == BadgeKind::incomplete || kind == BadgeKind::configuration ||
-         kind == BadgeKind::whose;
+         kind == BadgeKind::calibration || kind == BadgeKind::whose;
 }
 
 // What must be seen at once is larger than what explains it.

@@ -83,6 +83,8 @@ void compose_badges(HudText& hud, const Status& status) {
     add_badge(hud, BadgeKind::configuration)
         .text.format("{}", status.configuration == ConfigurationState::last_good ? "older setup"
                                                                                  : "scale unknown");
+  if (status.another_camera)
+    add_badge(hud, BadgeKind::calibration).text.format("another camera's calibration");
   if (status.replay && !status.replay->whose.empty())
     add_badge(hud, BadgeKind::whose).text.format("{}", status.replay->whose);
   add_incomplete_badge(hud, status.missing_b_scans, "B-scan missing", "B-scans missing");

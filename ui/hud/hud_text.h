@@ -25,6 +25,7 @@ enum class BadgeKind : std::uint8_t {
   veiled,
   frozen,
   configuration,
+  calibration,
   unregistered,
   incomplete
 };

@@ -9,6 +9,7 @@
 #include <linux/videodev2.h>
 
 #include "hal/linux/system/system_error.h"
+#include "hal/linux/v4l2/camera_identity.h"
 #include "hal/linux/v4l2/pixel_formats.h"
 
 namespace octascope::hal::linux_backend {
@@ -78,6 +79,7 @@ Result<CaptureNode> CaptureNode::open(const std::string& node) {
                                          : capability.capabilities;
   NodeIdentity identity{node, text(capability.card), text(capability.driver),
                         text(capability.bus_info)};
+  identity.camera = camera_identity(identity.card, usb_serial_number(sysfs_folder(*file)));
   constexpr std::uint32_t needed = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   if ((capabilities & needed) != needed ||
       (capabilities & (V4L2_CAP_VIDEO_M2M | V4L2_CAP_VIDEO_M2M_MPLANE)) != 0)

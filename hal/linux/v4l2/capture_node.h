@@ -14,10 +14,11 @@
 namespace octascope::hal::linux_backend {
 
 struct NodeIdentity {
-  std::string node;   // "/dev/video0"
-  std::string card;   // what the maker calls it
-  std::string driver; // what drives it
-  std::string bus;    // where it is plugged in: the same after a replug into the same socket
+  std::string node;        // "/dev/video0"
+  std::string card;        // what the maker calls it
+  std::string driver;      // what drives it
+  std::string bus;         // where it is plugged in: the same after a replug into the same socket
+  std::string camera = {}; // which one it is, wherever it is plugged in (camera_identity.h)
 };
 
 // Threads: one thread at a time. Errors name the node.

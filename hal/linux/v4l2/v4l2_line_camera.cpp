@@ -66,6 +66,11 @@ std::vector<std::string> V4l2LineCamera::notes() const {
   return notes_;
 }
 
+std::string V4l2LineCamera::do_identity() const {
+  const std::lock_guard lock{notes_mutex_};
+  return camera_;
+}
+
 void V4l2LineCamera::note(std::vector<std::string> words) {
   const std::lock_guard lock{notes_mutex_};
   notes_ = std::move(words);
@@ -110,7 +115,7 @@ Result<> V4l2LineCamera::open_node(const std::string& node, const LineCameraConf
   node_ = std::make_unique<CaptureNode>(std::move(*opened));
   const NodeIdentity& identity = node_->identity();
   std::vector<std::string> words{
-      fmt::format("{} is \"{}\" ({}) at {}", node, identity.card, identity.driver, identity.bus)};
+      fmt::format("{} is \"{}\" ({}) at {}", node, identity.camera, identity.driver, identity.bus)};
   if (options_.input) {
     if (auto selected = node_->select_input(*options_.input); !selected)
       return selected;
@@ -148,6 +153,8 @@ Result<> V4l2LineCamera::open_node(const std::string& node, const LineCameraConf
   bus_ = identity.bus;
   clocks_differ_ = tells_clocks_apart(clock_.now(), wall_clock_since_1970());
   note(std::move(words));
+  const std::lock_guard lock{notes_mutex_};
+  camera_ = identity.camera;
   return {};
 }
 

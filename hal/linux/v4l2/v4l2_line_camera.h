@@ -75,6 +75,7 @@ private:
   void do_release(int buffer) override;
   void do_stop() override;
   void do_close() override;
+  std::string do_identity() const override;
 
   Result<std::string> find_node(const LineFormat& wanted) const;
   Result<> open_node(const std::string& node, const LineCameraConfig& config);
@@ -97,8 +98,9 @@ private:
 
   std::atomic<std::uint64_t> own_stamps_{0};
   std::atomic<std::uint64_t> failed_returns_{0};
-  mutable std::mutex notes_mutex_; // never taken while streaming
+  mutable std::mutex notes_mutex_; // never taken by the camera thread while streaming
   std::vector<std::string> notes_;
+  std::string camera_; // of the last open
 };
 
 } // namespace octascope::hal::linux_backend
