@@ -31,6 +31,7 @@ void read_scan(ConfigTable root, Configuration& configuration) {
   plan.b_scans = scan.integer("b_scans", plan.b_scans, counts);
   plan.line_rate_hz = scan.number("line_rate_hz", plan.line_rate_hz, {1, 1e9});
   plan.depth_spacing_um = scan.number("depth_spacing_um", plan.depth_spacing_um, spacings_um);
+  configuration.depth_spacing_said = scan.has("depth_spacing_um");
   plan.a_spacing_um = scan.number("a_spacing_um", plan.a_spacing_um, spacings_um);
   plan.b_spacing_um = scan.number("b_spacing_um", plan.b_spacing_um, spacings_um);
   plan.bidirectional = scan.boolean("bidirectional", plan.bidirectional);

@@ -24,6 +24,7 @@ namespace octascope::firmware_host {
 struct Configuration {
   // [scan]; empty: the phantom's or the recording's own plan
   std::optional<pipeline::ScanPlan> plan;
+  bool depth_spacing_said = false; // in [scan]; else a real camera's calibration says it
   // [calibration], or the objective's
   std::optional<std::filesystem::path> calibration;
   // [[objective]] and [microscope]

@@ -88,6 +88,9 @@ hal::Result<> Devices::make_real_spectra(const DeviceChoices& choices, const Run
   if (!calibration)
     return tl::make_unexpected(calibration.error());
   calibration_ = std::move(*calibration);
+  if (is_calibrated(options, configuration) && !configuration.depth_spacing_said)
+    plan_.depth_spacing_um = calibration_.depth_spacing_um;
+  plan_.refractive_index = medium_of(plan_, calibration_);
   plan_.zero_padding = calibration_.zero_padding;
   format_ = real_->line_format();
   source_ = is_calibrated(options, configuration) ? "line camera" : "line camera, not calibrated";

@@ -40,6 +40,7 @@ hal::Result<pipeline::ScanPlan> recorded_plan(const pipeline::SpectraShape& shap
   plan.a_scans = shape.a_scans - (plan.bidirectional ? plan.turn_around_lines : 0);
   plan.b_scans = shape.b_scans / plan.repeats;
   plan.depth_spacing_um = calibration.depth_spacing_um;
+  plan.refractive_index = calibration.refractive_index;
   plan.a_spacing_um = calibration.a_spacing_um;
   plan.b_spacing_um = calibration.b_spacing_um;
   if (configuration.objective)
@@ -119,6 +120,8 @@ hal::Result<> play_phantom(const RunOptions& options, const Configuration& confi
 
   const sim::Spectrometer& spectrometer = (*made)->spectrometer();
   twins.plan = (*made)->plan();
+  if (calibration)
+    twins.plan.refractive_index = medium_of(twins.plan, twins.calibration);
   if (!calibration) { // the one that fits the simulated spectrometer exactly
     twins.calibration = pipeline::Calibration::identity(twins.plan.samples);
     twins.calibration.positions = spectrometer.true_k_positions();
@@ -181,6 +184,12 @@ hal::Result<> make_control_input(const RunOptions& options, const Configuration&
 }
 
 } // namespace
+
+std::optional<double> medium_of(const pipeline::ScanPlan& plan,
+                                const pipeline::Calibration& calibration) {
+  return plan.depth_spacing_um == calibration.depth_spacing_um ? calibration.refractive_index
+                                                               : std::nullopt;
+}
 
 bool Twins::concern_display() const {
   return std::ranges::any_of(faults->faults(), [](const sim::ScriptedFault& fault) {

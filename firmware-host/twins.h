@@ -48,6 +48,11 @@ struct Twins {
   void apply_faults(hal::TimePoint now, sim::OffscreenDisplay* display);
 };
 
+// The refractive index in which the plan's depths hold: the calibration's, where they are its own,
+// else nobody's. Pure.
+std::optional<double> medium_of(const pipeline::ScanPlan& plan,
+                                const pipeline::Calibration& calibration);
+
 // What no line camera is needed for: the fault script, and the pedal with its script.
 hal::Result<Twins> make_script_twins(const RunOptions& options, const Configuration& configuration,
                                      hal::Clock& clock);

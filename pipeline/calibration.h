@@ -15,6 +15,7 @@
 #include "pipeline/k_linearisation.h"
 #include "pipeline/spectral_shaping.h"
 #include "pipeline/spectral_window.h"
+#include "pipeline/volume_geometry.h"
 
 namespace octascope::pipeline {
 
@@ -47,6 +48,7 @@ struct Calibration {
   std::optional<SourceShaping> shaping;
   int zero_padding = 1;          // 1: none; 2: as many zeros behind each line as it has samples
   double depth_spacing_um = 3.5; // of one bin without zero-padding, in the medium
+  std::optional<double> refractive_index; // of that medium: 1 is air; empty: nobody said
   double a_spacing_um = 10;
   double b_spacing_um = 37.5;
 

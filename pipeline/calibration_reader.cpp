@@ -291,6 +291,11 @@ void CalibrationReader::read_depth() {
   ConfigTable depth = root_.table("depth");
   calibration_.depth_spacing_um =
       depth.number("spacing_um", calibration_.depth_spacing_um, spacing_range_um);
+  if (depth.has("refractive_index"))
+    calibration_.refractive_index = depth.number("refractive_index", least_refractive_index,
+                                                 {least_refractive_index, most_refractive_index});
+  if (depth.has("refractive_index") && !depth.has("spacing_um"))
+    depth.complain("refractive_index is given, but no spacing_um that it belongs to");
   calibration_.a_spacing_um =
       depth.number("a_spacing_um", calibration_.a_spacing_um, spacing_range_um);
   calibration_.b_spacing_um =

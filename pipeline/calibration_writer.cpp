@@ -102,9 +102,11 @@ std::string toml(const FoundCalibration& found, const CurveNames& names) {
   else if (!names.dispersion.empty())
     text += fmt::format("[dispersion]\ntable = {}\nsign = 1\n\n", toml_text(names.dispersion));
   text += options_toml(c, names.background, names.source);
-  text += fmt::format("[depth]{}\nspacing_um = {}\na_spacing_um = {}\nb_spacing_um = {}\n\n",
-                      found.spacing_known ? "" : " # not measured: assumed", c.depth_spacing_um,
-                      c.a_spacing_um, c.b_spacing_um);
+  text += fmt::format("[depth]{}\nspacing_um = {}\n",
+                      found.spacing_known ? "" : " # not measured: assumed", c.depth_spacing_um);
+  if (c.refractive_index)
+    text += fmt::format("refractive_index = {}\n", *c.refractive_index);
+  text += fmt::format("a_spacing_um = {}\nb_spacing_um = {}\n\n", c.a_spacing_um, c.b_spacing_um);
   const Provenance& p = found.provenance;
   return text + fmt::format("[provenance]\nprogram = {}\nmethod = {}\ninputs = {}\ncreated = {}\n"
                             "verdict = {}\n",

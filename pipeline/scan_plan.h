@@ -7,6 +7,8 @@
 // turns.
 #pragma once
 
+#include <optional>
+
 #include "hal/clock.h"
 #include "hal/line_camera.h"
 #include "hal/result.h"
@@ -29,6 +31,7 @@ struct ScanPlan {
   double depth_spacing_um = 3.5;
   double a_spacing_um = 10;
   double b_spacing_um = 37.5;
+  std::optional<double> refractive_index{}; // in which depth_spacing_um holds; empty: nobody said
 
   bool bidirectional = false;
   int turn_around_lines = 8; // bidirectional: at the end of each frame; best no fewer than the lag
@@ -59,8 +62,13 @@ struct ScanPlan {
   hal::Duration tick_period() const { return sweep_duration() + sweep_duration() / pause_divisor; }
   double volumes_per_s() const { return 1 / hal::to_seconds(tick_period()); }
   VolumeGeometry geometry() const {
-    return {samples * zero_padding / 2,      a_scans,      b_scans,
-            depth_spacing_um / zero_padding, a_spacing_um, b_spacing_um};
+    return {samples * zero_padding / 2,
+            a_scans,
+            b_scans,
+            depth_spacing_um / zero_padding,
+            a_spacing_um,
+            b_spacing_um,
+            refractive_index};
   }
 
   // Counts within reason and positive rates and spacings; the message names the first that is not,

@@ -2,8 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 namespace octascope::pipeline {
+
+// Refractive indices of whatever is looked into, from air on.
+inline constexpr double least_refractive_index = 1.0;
+inline constexpr double most_refractive_index = 2.0;
 
 // Counts and spacings of the three axes: depth z, A-scan a (fast axis), B-scan b (slow axis).
 struct VolumeGeometry {
@@ -13,6 +18,7 @@ struct VolumeGeometry {
   double depth_spacing_um = 1; // of one depth bin, in the medium
   double a_spacing_um = 1;
   double b_spacing_um = 1;
+  std::optional<double> refractive_index{}; // of that medium: 1 is air; empty: nobody said
 
   std::size_t b_scan_voxels() const {
     return static_cast<std::size_t>(depths) * static_cast<std::size_t>(a_scans);

@@ -36,25 +36,29 @@ hal::Result<> write_calibration(const Spectrometer& spectrometer, const pipeline
                                 const std::filesystem::path& file) {
   const std::string k_name = file.stem().string() + "_k_linear.txt";
   const std::string dispersion_name = file.stem().string() + "_dispersion_rad.txt";
-  const std::string toml = fmt::format("# The curves that went into the simulated spectrometer.\n"
-                                       "[spectrometer]\n"
-                                       "samples = {}\n\n"
-                                       "[k_linear]\n"
-                                       "table = \"{}\"\n"
-                                       "interpolation = \"sinc8\"\n\n"
-                                       "[dispersion]\n"
-                                       "table = \"{}\"\n"
-                                       "sign = 1\n\n"
-                                       "[background]\n"
-                                       "mode = \"mean\"\n\n"
-                                       "[window]\n"
-                                       "kind = \"hann\"\n\n"
-                                       "[depth]\n"
-                                       "spacing_um = {}\n"
-                                       "a_spacing_um = {}\n"
-                                       "b_spacing_um = {}\n",
-                                       spectrometer.samples(), k_name, dispersion_name,
-                                       plan.depth_spacing_um, plan.a_spacing_um, plan.b_spacing_um);
+  const std::string medium = plan.refractive_index
+                                 ? fmt::format("refractive_index = {}\n", *plan.refractive_index)
+                                 : std::string{};
+  const std::string toml =
+      fmt::format("# The curves that went into the simulated spectrometer.\n"
+                  "[spectrometer]\n"
+                  "samples = {}\n\n"
+                  "[k_linear]\n"
+                  "table = \"{}\"\n"
+                  "interpolation = \"sinc8\"\n\n"
+                  "[dispersion]\n"
+                  "table = \"{}\"\n"
+                  "sign = 1\n\n"
+                  "[background]\n"
+                  "mode = \"mean\"\n\n"
+                  "[window]\n"
+                  "kind = \"hann\"\n\n"
+                  "[depth]\n"
+                  "spacing_um = {}\n{}"
+                  "a_spacing_um = {}\n"
+                  "b_spacing_um = {}\n",
+                  spectrometer.samples(), k_name, dispersion_name, plan.depth_spacing_um, medium,
+                  plan.a_spacing_um, plan.b_spacing_um);
   if (auto done =
           write_text(file.parent_path() / k_name, curve_text(spectrometer.true_k_positions()));
       !done)

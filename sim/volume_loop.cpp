@@ -38,11 +38,15 @@ hal::Result<> VolumeLoopConfig::validate() const {
   return with_plan.validate();
 }
 
+// Phantoms are laid out in millimetres of tissue.
+constexpr double tissue_refractive_index = 1.38;
+
 hal::Result<VolumeLoopConfig> suggested_loop(std::string_view phantom) {
   return make_phantom(phantom, 1).map([&](const std::unique_ptr<Phantom>& made) {
     VolumeLoopConfig config;
     config.phantom = phantom;
     config.plan = made->suggested_plan();
+    config.plan.refractive_index = tissue_refractive_index;
     return config;
   });
 }

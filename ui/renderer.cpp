@@ -222,7 +222,7 @@ hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& view, const Layou
     if (view.box_visible)
       draw_wire_frame(*canvas, places.view, shown, places.unit, canvas == &overlay);
   }
-  draw_view_scale(overlay, places, shown.camera);
+  draw_view_scale(overlay, places, shown);
   if (volume.vessels() != nullptr && volume.vessels()->shows_unregistered(view))
     overlay.shadowed_text({16 * places.unit, 12 * places.unit}, TextStyle::label, palette::warning,
                           "Vessels not registered");

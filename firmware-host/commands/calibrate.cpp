@@ -186,7 +186,9 @@ hal::Result<> CalibrationRun::use_mirrors() {
     const bool opposite = pair_->theta_sign[0] != pair_->theta_sign[1];
     const double bins = opposite ? pair_->depth_bins[0] + pair_->depth_bins[1]
                                  : std::abs(pair_->depth_bins[1] - pair_->depth_bins[0]);
-    verdict_.spacing_um = *options_.mirror_distance_um / bins;
+    // Mirrors are moved in air; in a medium the same delay is a shorter way.
+    verdict_.refractive_index = options_.refractive_index.value_or(1.0);
+    verdict_.spacing_um = *options_.mirror_distance_um / bins / *verdict_.refractive_index;
   }
   judge_mirrors();
   return {};
@@ -235,6 +237,7 @@ hal::Result<> CalibrationRun::use_base() {
   found_.calibration = std::move(*base);
   found_.spacing_known = true;
   verdict_.spacing_um = found_.calibration.depth_spacing_um;
+  verdict_.refractive_index = found_.calibration.refractive_index;
   verdict_.method = fmt::format("k curve of {}", options_.base->filename().string());
   inputs_.push_back(options_.base->filename().string());
   return {};
@@ -294,10 +297,13 @@ void CalibrationRun::judge_curves() {
   verdict_.dispersion_rms_rad = std::sqrt(squares / samples_);
   if (!options_.camera.empty())
     c.camera = options_.camera;
-  if (options_.spacing_um)
+  if (options_.spacing_um) {
     verdict_.spacing_um = options_.spacing_um;
+    verdict_.refractive_index = options_.refractive_index;
+  }
   if (verdict_.spacing_um) {
     c.depth_spacing_um = *verdict_.spacing_um;
+    c.refractive_index = verdict_.refractive_index;
     found_.spacing_known = true;
   }
 }
@@ -375,6 +381,10 @@ hal::Result<> check(const CalibrateOptions& options) {
     return refuse("--spacing-um does not go with --distance-um, which gives it");
   if (options.mirror_distance_um && options.mirrors.empty())
     return refuse("--distance-um is the distance of two mirrors, expected --mirror");
+  if (options.refractive_index && !options.spacing_um && !options.mirror_distance_um)
+    return refuse(
+        "--refractive-index tells in what a depth spacing holds, expected --distance-um or "
+        "--spacing-um with it");
   if (options.picture && options.picture->lexically_normal() == options.out.lexically_normal())
     return refuse(
         fmt::format("--out and --picture are both {}, expected two files", options.out.string()));

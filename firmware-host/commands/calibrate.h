@@ -42,7 +42,8 @@ struct CalibrateOptions {
   std::optional<int> significant_bits;               // full scale of counts
   std::optional<double> mirror_distance_um;
   std::optional<double> spacing_um;
-  std::string camera; // which one the measurements are of; empty: not said
+  std::optional<double> refractive_index; // in which depths are to be told
+  std::string camera;                     // which one the measurements are of; empty: not said
   std::filesystem::path out;
   std::optional<std::filesystem::path> picture;
 };

@@ -158,6 +158,14 @@ void add_other_options(CLI::App& command, CommandLine& line) {
       ->type_name("UM");
   command
       .add_option(
+          "--refractive-index", options.refractive_index,
+          "Of the medium in which depths are to be told, 1.38 for tissue: the spacing found "
+          "from --distance-um is divided by it (1, air, if not given), --spacing-um holds "
+          "in it")
+      ->check(CLI::Range(pipeline::least_refractive_index, pipeline::most_refractive_index))
+      ->type_name("N");
+  command
+      .add_option(
           "--camera", options.camera,
           "Which camera the spectra are of, as octascope devices tells it: with another one "
           "the display will say so")

@@ -54,6 +54,17 @@ nlohmann::json mirrors_json(const CalibrationVerdict& v) {
   return mirrors;
 }
 
+// In what the lengths above hold.
+std::string medium_text(const CalibrationVerdict& v) {
+  if (!v.spacing_um)
+    return {};
+  return v.refractive_index
+             ? fmt::format("{:.4f} um a bin, for a refractive index of {:.4g}\n", *v.spacing_um,
+                           *v.refractive_index)
+             : fmt::format("{:.4f} um a bin, for a medium that nobody said: --refractive-index\n",
+                           *v.spacing_um);
+}
+
 } // namespace
 
 double CalibrationVerdict::residual_rad() const {
@@ -93,7 +104,7 @@ std::string summary(const CalibrationVerdict& v) {
 
 std::string to_text(const CalibrationVerdict& v) {
   std::string text = fmt::format("{}: {}, {} samples\n", v.file, v.method, v.samples);
-  text += mirrors_text(v);
+  text += mirrors_text(v) + medium_text(v);
   if (v.lamp) {
     for (std::size_t i = 0; i < v.lamp->pixels.size(); ++i)
       text += fmt::format("line {:.3f} nm at pixel {:.3f}, residual {:+.4f} nm\n",
@@ -120,6 +131,8 @@ std::string to_json(const CalibrationVerdict& v) {
                       {"dispersion_rms_rad", v.dispersion_rms_rad}};
   if (v.spacing_um)
     json["spacing_um"] = *v.spacing_um;
+  if (v.refractive_index)
+    json["refractive_index"] = *v.refractive_index;
   if (!v.mirrors.empty()) {
     json["mirrors"] = mirrors_json(v);
     json["sample_side"] = v.sample_side;

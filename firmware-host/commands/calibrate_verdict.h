@@ -38,7 +38,8 @@ struct CalibrationVerdict {
   std::string method;
   std::string file; // that was written
   int samples = 0;
-  std::optional<double> spacing_um; // of a bin, when known
+  std::optional<double> spacing_um;       // of a bin, when known
+  std::optional<double> refractive_index; // in which that holds; empty: nobody said
   std::vector<MirrorVerdict> mirrors;
   std::string sample_side; // which mirrors lie where samples do
   std::string side_source; // how that is known

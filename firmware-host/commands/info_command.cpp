@@ -47,13 +47,15 @@ hal::Result<RecordingReport> report_on(const std::string& file) {
 }
 
 ordered_json geometry_json(const VolumeGeometry& g) {
-  return {{"depths", g.depths},
-          {"a_scans", g.a_scans},
-          {"b_scans", g.b_scans},
-          {"depth_spacing_um", g.depth_spacing_um},
-          {"a_spacing_um", g.a_spacing_um},
-          {"b_spacing_um", g.b_spacing_um},
-          {"extent_mm", {{"depth", g.depth_mm()}, {"a", g.a_mm()}, {"b", g.b_mm()}}}};
+  return {
+      {"depths", g.depths},
+      {"a_scans", g.a_scans},
+      {"b_scans", g.b_scans},
+      {"depth_spacing_um", g.depth_spacing_um},
+      {"refractive_index", g.refractive_index ? ordered_json(*g.refractive_index) : ordered_json()},
+      {"a_spacing_um", g.a_spacing_um},
+      {"b_spacing_um", g.b_spacing_um},
+      {"extent_mm", {{"depth", g.depth_mm()}, {"a", g.a_mm()}, {"b", g.b_mm()}}}};
 }
 
 ordered_json losses_json(const RecordingReport& report) {
@@ -153,6 +155,9 @@ void print_text(const RecordingReport& report) {
              g.b_scans);
   fmt::print("               every {:.4g} × {:.4g} × {:.4g} µm: {:.4g} × {:.4g} × {:.4g} mm\n",
              g.depth_spacing_um, g.a_spacing_um, g.b_spacing_um, g.depth_mm(), g.a_mm(), g.b_mm());
+  fmt::print("               depths hold {}\n",
+             g.refractive_index ? fmt::format("for a refractive index of {}", *g.refractive_index)
+                                : "for a medium that nobody said");
   fmt::print("  levels       counts 0 to 255, {} dB and {} dB a count, to {} dB\n",
              pipeline::lowest_level_db, pipeline::level_step_db, pipeline::highest_level_db);
   fmt::print("  size         {}\n", size_in_words(report.bytes));

@@ -222,9 +222,10 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
     return tl::make_unexpected(reconstructor.error());
   static_cast<void>(cache.save()); // what was not kept is measured again; the doctor says why
 
-  const pipeline::VolumeGeometry geometry{reconstructor->depths(),   options.shape.a_scans,
-                                          options.shape.b_scans,     calibration->bin_spacing_um(),
-                                          calibration->a_spacing_um, calibration->b_spacing_um};
+  const pipeline::VolumeGeometry geometry{
+      reconstructor->depths(),       options.shape.a_scans,     options.shape.b_scans,
+      calibration->bin_spacing_um(), calibration->a_spacing_um, calibration->b_spacing_um,
+      calibration->refractive_index};
   auto writer = pipeline::NrrdWriter::create(options.volume, geometry,
                                              options.display_counts ? pipeline::NrrdType::uint8
                                                                     : pipeline::NrrdType::float32);

@@ -134,6 +134,9 @@ hal::Result<> check_format(hid_t file) {
   return {};
 }
 
+// In the place of a refractive index.
+constexpr double medium_not_said = 0;
+
 // Reads one attribute after the other until one is wrong.
 class FactReader {
 public:
@@ -158,6 +161,22 @@ public:
     take(value, [&] { return read_real(file_, name); });
     if (!error_ && !(std::isfinite(value) && value > 0))
       error_ = bad(name, fmt::format("found {}, expected more than zero", value)).value();
+  }
+  // Older recordings do not have it.
+  void read(const char* name, std::optional<double>& value) {
+    if (error_ || H5Aexists(file_, name) <= 0)
+      return;
+    double said = medium_not_said;
+    take(said, [&] { return read_real(file_, name); });
+    if (error_ || said == medium_not_said)
+      return;
+    if (said >= least_refractive_index && said <= most_refractive_index)
+      value = said;
+    else
+      error_ =
+          bad(name, fmt::format("found {}, expected {} to {}, or {}", said, least_refractive_index,
+                                most_refractive_index, medium_not_said))
+              .value();
   }
   const std::optional<hal::Error>& error() const { return error_; }
 
@@ -188,6 +207,7 @@ bool write_facts(hid_t file, const RecordingFacts& facts) {
          write_real(file, "depth_spacing_um", g.depth_spacing_um) &&
          write_real(file, "a_spacing_um", g.a_spacing_um) &&
          write_real(file, "b_spacing_um", g.b_spacing_um) &&
+         write_real(file, "refractive_index", g.refractive_index.value_or(medium_not_said)) &&
          write_real(file, "volume_period_s", facts.volume_period_s) &&
          write_text(file, "recorded_by", facts.recorded_by) &&
          write_text(file, "begun", facts.begun) && write_text(file, "source", facts.source) &&
@@ -213,6 +233,7 @@ hal::Result<RecordingFacts> read_facts(hid_t file) {
   reader.read("depth_spacing_um", facts.geometry.depth_spacing_um);
   reader.read("a_spacing_um", facts.geometry.a_spacing_um);
   reader.read("b_spacing_um", facts.geometry.b_spacing_um);
+  reader.read("refractive_index", facts.geometry.refractive_index);
   reader.read("volume_period_s", facts.volume_period_s);
   reader.read("recorded_by", facts.recorded_by);
   reader.read("begun", facts.begun);

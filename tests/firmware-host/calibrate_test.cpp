@@ -117,6 +117,7 @@ TEST_F(CalibrateCommand, writes_what_loads_and_says_how_good_it_is) {
     EXPECT_NEAR(loaded->dispersion_rad[m], spectrometer.true_dispersion_rad()[m], 0.3);
   }
   EXPECT_NEAR(loaded->depth_spacing_um, 3.5, 0.01); // 455 µm over 130 bins
+  EXPECT_EQ(loaded->refractive_index, 1.0) << "mirrors are moved in air";
   EXPECT_EQ(loaded->camera, "Octoplus, \"7\"");
 
   const auto verdict = nlohmann::json::parse(outcome.out);
@@ -180,6 +181,31 @@ TEST_F(CalibrateCommand, lamp_becomes_a_wavelength_polynomial) {
   EXPECT_NEAR(loaded->depth_spacing_um, 2.5, 1e-12);
   expect_refusal({"--lamp", lamp, "--lines", "800,x"}, 2, "--lines is");
   expect_refusal({"--lamp", lamp, "--lines", "800,801,802,803,804"}, 1, "do not fit");
+}
+
+TEST_F(CalibrateCommand, depths_are_told_in_the_medium_that_is_asked_for) {
+  const auto outcome = calibrate({"--mirror", far, "--mirror", near, "--dark", dark,
+                                  "--distance-um", "455", "--refractive-index", "1.38", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.messages;
+  const auto loaded = pipeline::Calibration::load(out, 1024);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_NEAR(loaded->depth_spacing_um, 3.5 / 1.38, 0.01)
+      << "a delay in air is a shorter way there";
+  EXPECT_EQ(loaded->refractive_index, 1.38);
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["refractive_index"], 1.38);
+  expect_refusal({"--mirror", far, "--mirror", near, "--refractive-index", "1.38"}, 2,
+                 "--refractive-index tells in what");
+}
+
+TEST_F(CalibrateCommand, a_spacing_that_is_given_holds_in_the_medium_that_is_given) {
+  const std::vector<std::string> mirrors{"--mirror", far, "--mirror", near, "--spacing-um", "2.5"};
+  ASSERT_EQ(calibrate(mirrors).status, 0);
+  EXPECT_FALSE(pipeline::Calibration::load(out, 1024)->refractive_index) << "nobody said";
+  auto said = mirrors;
+  said.insert(said.end(), {"--refractive-index", "1.34"});
+  ASSERT_EQ(calibrate(said).status, 0);
+  EXPECT_EQ(pipeline::Calibration::load(out, 1024)->refractive_index, 1.34);
+  EXPECT_EQ(pipeline::Calibration::load(out, 1024)->depth_spacing_um, 2.5);
 }
 
 TEST_F(CalibrateCommand, refuses_bad_measurements_and_leaves_nothing) {

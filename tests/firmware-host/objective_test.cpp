@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware-host/configuration.h"
+#include "firmware-host/twins.h"
 #include "tests/support/scratch_folder.h"
 
 namespace octascope::firmware_host {
@@ -77,6 +78,18 @@ TEST_F(Objectives, are_refused_where_one_is_wrong) {
   EXPECT_THAT(complaint(chosen + "[[objective]]\nname = \"a\"\n"), HasSubstr("twice"));
   EXPECT_THAT(complaint(chosen + "[[objective]]\na_mm = 3\n"), HasSubstr("name is missing"));
   EXPECT_THAT(complaint(chosen + "focus_mm = 200\n"), HasSubstr("unknown key \"focus_mm\""));
+}
+
+// A spacing of somebody else's is in a medium of somebody else's.
+TEST(MediumOf, a_plan_is_the_calibrations_where_its_depths_are) {
+  pipeline::Calibration calibration = pipeline::Calibration::identity(1024);
+  calibration.depth_spacing_um = 2.54;
+  calibration.refractive_index = 1.38;
+  pipeline::ScanPlan plan;
+  plan.depth_spacing_um = 2.54;
+  EXPECT_EQ(medium_of(plan, calibration), 1.38);
+  plan.depth_spacing_um = 3.5;
+  EXPECT_FALSE(medium_of(plan, calibration));
 }
 
 } // namespace

@@ -125,6 +125,8 @@ TEST_F(CalibrationOptions, come_back_from_the_writer) {
   c.background.assign(samples, 12.25F);
   c.fixed_pattern = {FixedPatternMode::minimum_variance, 11};
   c.zero_padding = 2;
+  c.refractive_index = 1.376;
+  c.camera = "Octoplus, serial 7";
   c.shaping = SourceShaping{source, 0.35, 25};
   c.window = *make_shaping_factors(*c.shaping, c.positions, c.interpolation);
   ASSERT_TRUE(write_calibration(found, folder / "out.toml"));
@@ -135,6 +137,8 @@ TEST_F(CalibrationOptions, come_back_from_the_writer) {
   EXPECT_EQ(read->fixed_pattern.mode, c.fixed_pattern.mode);
   EXPECT_EQ(read->fixed_pattern.segments, 11);
   EXPECT_EQ(read->zero_padding, 2);
+  EXPECT_EQ(read->refractive_index, 1.376);
+  EXPECT_EQ(read->camera, "Octoplus, serial 7");
   ASSERT_TRUE(read->shaping);
   EXPECT_EQ(read->shaping->source, source);
   EXPECT_EQ(read->shaping->fwhm, 0.35);

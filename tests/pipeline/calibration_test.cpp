@@ -86,6 +86,18 @@ TEST_F(CalibrationFile, may_name_its_camera) {
   EXPECT_THAT(refusal("[spectrometer]\nsamples = 64\ncamera = 7\n"), HasSubstr("camera"));
 }
 
+TEST_F(CalibrationFile, may_say_the_medium_of_its_depths) {
+  const auto c = load(straight + "[depth]\nspacing_um = 2.5\nrefractive_index = 1.38\n");
+  ASSERT_TRUE(c) << c.error().message;
+  EXPECT_EQ(c->refractive_index, 1.38);
+  EXPECT_FALSE(load(straight + "[depth]\nspacing_um = 2.5\n")->refractive_index) << "nobody said";
+  for (const char* wrong : {"0.99", "2.01", "nan", "\"air\""})
+    EXPECT_THAT(refusal(straight + "[depth]\nspacing_um = 2.5\nrefractive_index = " + wrong + "\n"),
+                HasSubstr("refractive_index"));
+  EXPECT_THAT(refusal(straight + "[depth]\nrefractive_index = 1.38\n"),
+              HasSubstr("no spacing_um that it belongs to"));
+}
+
 TEST_F(CalibrationFile, has_defaults) {
   const auto c = load(straight);
   ASSERT_TRUE(c) << c.error().message;

@@ -50,6 +50,7 @@ TEST_F(Info, as_json_says_everything) {
   EXPECT_EQ(said.at("geometry").at("a_scans"), 7);
   EXPECT_EQ(said.at("geometry").at("b_scans"), 5);
   EXPECT_EQ(said.at("geometry").at("depth_spacing_um"), 3.5);
+  EXPECT_EQ(said.at("geometry").at("refractive_index"), 1.38);
   EXPECT_EQ(said.at("geometry").at("a_spacing_um"), 10);
   EXPECT_EQ(said.at("geometry").at("b_spacing_um"), 37.5);
   EXPECT_NEAR(said.at("geometry").at("extent_mm").at("depth"), 0.042, 1e-12);

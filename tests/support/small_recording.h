@@ -11,7 +11,7 @@
 namespace octascope::tests {
 
 inline pipeline::RecordingFacts small_recording_facts() {
-  return {.geometry = {12, 7, 5, 3.5, 10, 37.5},
+  return {.geometry = {12, 7, 5, 3.5, 10, 37.5, 1.38},
           .volume_period_s = 0.141,
           .recorded_by = "octascope, in a test",
           .begun = "2026-11-22T12:10:03+01:00",

@@ -21,6 +21,15 @@ TEST(ScaleBar, lengths_are_round) {
   EXPECT_NEAR(round_scale_length_mm(0.049), 0.02, 1e-12);
 }
 
+TEST(ScaleBar, says_in_what_medium_depths_hold) {
+  EXPECT_EQ(medium_words(1.38).view(), "n 1.38");
+  EXPECT_EQ(medium_words(1.0).view(), "in air");
+  EXPECT_EQ(medium_words(1.0003).view(), "in air") << "air's own";
+  EXPECT_EQ(medium_words(1.01).view(), "n 1.01");
+  EXPECT_EQ(medium_words(2.0).view(), "n 2.00");
+  EXPECT_EQ(medium_words({}).view(), "n ?") << "nobody said";
+}
+
 std::vector<std::string> badges_of(const Status& status) {
   const HudText hud = compose_hud_text({}, status, {});
   std::vector<std::string> words;
@@ -261,6 +270,25 @@ TEST_F(HudPicture, badges_change_the_corner_and_never_the_centre) {
 }
 
 // REPLAY is told from every other state without its words: another plate, another frame.
+TEST_F(HudPicture, the_bars_along_depth_say_in_what_medium_they_hold) {
+  const auto with = [&](std::optional<double> refractive_index) {
+    pipeline::VolumeGeometry geometry = small_geometry;
+    geometry.refractive_index = refractive_index;
+    EXPECT_TRUE(renderer_->show_volume(tissue_volume(geometry)));
+    return draw({}, live_status());
+  };
+  const pipeline::Image tissue = with(1.38);
+  const pipeline::Image unknown = with(std::nullopt);
+  const Layout layout = lay_out(width, height, {});
+  const auto lower_left = [](const Rect& rect) {
+    return Rect{rect.x, rect.bottom() - rect.height / 4, rect.width / 2, rect.height / 4};
+  };
+  EXPECT_GT(changed(tissue, unknown, lower_left(layout.view)), 20);
+  EXPECT_GT(changed(tissue, unknown, lower_left(layout.b_scan.picture)), 20);
+  EXPECT_EQ(changed(tissue, unknown, layout.en_face.picture), 0) << "no depth is seen there";
+  EXPECT_GT(changed(tissue, with(1.0), lower_left(layout.view)), 20);
+}
+
 TEST_F(HudPicture, a_replay_looks_like_nothing_else) {
   ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
   Status status = live_status();

@@ -59,7 +59,8 @@ void draw_notice(Canvas& canvas, const Layout& layout, const HudText& text) {
 
 } // namespace
 
-void draw_view_scale(Canvas& canvas, const Layout& layout, const Camera& camera) {
+void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene) {
+  const Camera& camera = scene.camera;
   const float u = layout.unit;
   const float margin = (layout.view_frame.empty() ? 16 : 8) * u;
   const double mm_per_pixel =
@@ -68,7 +69,8 @@ void draw_view_scale(Canvas& canvas, const Layout& layout, const Camera& camera)
   draw_scale_bar(canvas,
                  {static_cast<float>(layout.view.x) + margin,
                   static_cast<float>(layout.view.bottom()) - margin},
-                 mm_per_pixel, 0.2F * static_cast<float>(layout.view.width), u);
+                 mm_per_pixel, 0.2F * static_cast<float>(layout.view.width), u,
+                 medium_words(scene.shown.geometry.refractive_index).view());
 }
 
 void draw_hud_ground(Canvas& canvas, const Layout& layout) {
@@ -93,7 +95,7 @@ void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const V
     draw_orientation_cube(canvas, layout.cube, scene.camera, layout.unit);
   draw_liveness_marks(canvas, layout, text.liveness);
   if (scene.shown.volume)
-    draw_view_scale(canvas, layout, scene.camera);
+    draw_view_scale(canvas, layout, scene);
   draw_vessel_marks(canvas, layout, text.vessels);
   draw_source(canvas, layout, text);
   draw_notice(canvas, layout, text);

@@ -60,7 +60,7 @@ void draw_wire_frame(Canvas& canvas, const Rect& view, const HudScene& scene, fl
 void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& marks);
 
 // How long a millimetre at the volume's centre is, at the view's lower left.
-void draw_view_scale(Canvas& canvas, const Layout& layout, const Camera& camera);
+void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene);
 
 // Which way the volume is turned: a cube with the surface side bright, a dot where the scan begins
 // (A-scan 0 of B-scan 0 at the surface), and the axes: x along a B-scan, y from B-scan to B-scan, z
@@ -68,9 +68,13 @@ void draw_view_scale(Canvas& canvas, const Layout& layout, const Camera& camera)
 void draw_orientation_cube(Canvas& canvas, const Rect& rect, const Camera& camera, float unit);
 
 // A bar of a round length (1, 2 or 5 times a power of ten of a millimetre), at most `most_pixels`
-// long, with its length; its left lower end is given.
+// long, with its length; its left lower end is given. `medium`, where lengths along depth are told,
+// is what medium_words() says; empty for others.
 void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, float most_pixels,
-                    float unit);
+                    float unit, std::string_view medium = {});
+
+// In what lengths along depth hold: "in air", "n 1.38", or "n ?" where nobody said. Pure.
+FixedText<8> medium_words(const std::optional<double>& refractive_index);
 
 // That length in mm. Pure.
 double round_scale_length_mm(double longest_mm);

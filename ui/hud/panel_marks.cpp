@@ -80,13 +80,27 @@ void draw_position_in_field(Canvas& canvas, const Rect& rect, const ScanField& f
     canvas.dot(at, 3 * unit, palette::accent);
 }
 
-void draw_panel_scale(Canvas& canvas, const Rect& rect, double width_mm, float unit) {
+void draw_panel_scale(Canvas& canvas, const Rect& rect, double width_mm, float unit,
+                      std::string_view medium = {}) {
   draw_scale_bar(
       canvas, {static_cast<float>(rect.x) + 8 * unit, static_cast<float>(rect.bottom()) - 8 * unit},
-      width_mm / rect.width, std::min(0.4F * static_cast<float>(rect.width), 240 * unit), unit);
+      width_mm / rect.width, std::min(0.4F * static_cast<float>(rect.width), 240 * unit), unit,
+      medium);
 }
 
 } // namespace
+
+FixedText<8> medium_words(const std::optional<double>& refractive_index) {
+  constexpr double told_apart = 0.005; // from air, with two digits
+  FixedText<8> words;
+  if (!refractive_index)
+    words.format("n ?");
+  else if (*refractive_index < 1 + told_apart)
+    words.format("in air");
+  else
+    words.format("n {:.2f}", *refractive_index);
+  return words;
+}
 
 double round_scale_length_mm(double longest_mm) {
   const double power = std::pow(10.0, std::floor(std::log10(longest_mm)));
@@ -97,7 +111,7 @@ double round_scale_length_mm(double longest_mm) {
 }
 
 void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, float most_pixels,
-                    float unit) {
+                    float unit, std::string_view medium) {
   const double length_mm = round_scale_length_mm(mm_per_pixel * static_cast<double>(most_pixels));
   const auto pixels = static_cast<float>(length_mm / mm_per_pixel);
   const glm::vec2 from{left_bottom.x, left_bottom.y - 2 * unit};
@@ -114,6 +128,11 @@ void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, 
     words.format("{:g} mm", length_mm);
   const float y = from.y - 3 * unit - canvas.text_height(TextStyle::label);
   canvas.shadowed_text({from.x, y}, TextStyle::label, palette::text, words.view());
+  if (medium.empty())
+    return;
+  const float width = canvas.text_width(TextStyle::label, words.view());
+  canvas.shadowed_text({from.x + width + 10 * unit, y}, TextStyle::label, palette::quiet_text,
+                       medium);
 }
 
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
@@ -132,7 +151,8 @@ void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
       draw_words_over(canvas, picture, palette::warning, "B-scan missing", u);
     if (shown.b_scan == pipeline::BScanState::saturated)
       canvas.frame(picture, palette::warning, 2 * u);
-    draw_panel_scale(canvas, picture, shown.geometry.a_mm(), u);
+    draw_panel_scale(canvas, picture, shown.geometry.a_mm(), u,
+                     medium_words(shown.geometry.refractive_index).view());
   }
   if (shown.volume && layout.en_face.shown()) {
     draw_position_line(canvas, layout.en_face.picture, share, u);

@@ -18,7 +18,7 @@ pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& geometry);
 ui::LevelShares level_shares(const pipeline::Volume& volume);
 
 // 300 × 80 × 512 as the instrument's, and a smaller one of the same extents for quick tests.
-inline constexpr pipeline::VolumeGeometry full_geometry{512, 300, 80, 3.5, 10, 37.5};
-inline constexpr pipeline::VolumeGeometry small_geometry{128, 100, 40, 14, 30, 75};
+inline constexpr pipeline::VolumeGeometry full_geometry{512, 300, 80, 3.5, 10, 37.5, 1.38};
+inline constexpr pipeline::VolumeGeometry small_geometry{128, 100, 40, 14, 30, 75, 1.38};
 
 } // namespace octascope::tests
