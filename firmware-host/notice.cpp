@@ -51,6 +51,7 @@ constexpr std::array fault_notices{
     FaultNotice{"line_camera", "unplaced_frame", "Line camera is out of step: B-scans are missing"},
     FaultNotice{"line_camera", "doubled_frame", "Line camera sends B-scans twice"},
     FaultNotice{"line_camera", "saturation", "Too much light: lines are saturated"},
+    FaultNotice{"picture", "upper_border", "Top may be upside down: refocus"},
     FaultNotice{"recording", "unreadable_volume", "The recording is damaged: volumes are missing"},
     FaultNotice{"line_camera", "another_camera", "Depths unsure: change calibration",
                 std::chrono::seconds{20}}, // the badge stays

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "hal/clock.h"
+#include "pipeline/upper_border.h"
 
 namespace octascope::pipeline {
 
@@ -23,6 +24,7 @@ struct VolumeLedger {
   // of those whose B-scan has others.
   std::int32_t lost_b_scans = 0;
   std::int32_t lost_lines = 0;
+  BorderCount upper_border{};       // A-scans whose tissue reaches it: what is above is folded
   std::int32_t saturated_lines = 0; // of all converted ones, turn-around included
 
   double phase_offset_a_scans = 0; // bidirectional: with which all its sweeps were placed

@@ -8,7 +8,8 @@ namespace octascope::pipeline {
 VolumeAssembler::VolumeAssembler(const VolumeGeometry& geometry, const NeighbourAverage& average)
     : geometry_{geometry}, average_{average},
       own_levels_(geometry.voxels()), progress_{std::make_unique<Progress[]>(
-                                          static_cast<std::size_t>(geometry.b_scans))} {}
+                                          static_cast<std::size_t>(geometry.b_scans))},
+      borders_(static_cast<std::size_t>(geometry.b_scans)) {}
 
 void VolumeAssembler::begin(Volume& volume) noexcept {
   volume_ = &volume;
@@ -54,6 +55,9 @@ void VolumeAssembler::finish() noexcept {
       continue;
     finish_b_scan(b);
   }
+  volume_->ledger.upper_border = {};
+  for (const BorderCount& border : borders_)
+    volume_->ledger.upper_border += border;
 }
 
 void VolumeAssembler::finish_b_scan(int b) noexcept {
@@ -64,6 +68,12 @@ void VolumeAssembler::finish_b_scan(int b) noexcept {
   if (is_built(b))
     average_.average(levels_of(b - 1), own_levels(b), levels_of(b + 1), volume_->b_scan(b));
   volume_->occupancy.update(b, volume_->b_scan(b));
+  // A saturated line is bright at all depths.
+  const auto at = static_cast<std::size_t>(b);
+  borders_[at] =
+      volume_->b_scan_states[at] == BScanState::good
+          ? count_at_upper_border(volume_->b_scan(b), geometry_.depths, geometry_.a_scans)
+          : BorderCount{};
 }
 
 } // namespace octascope::pipeline

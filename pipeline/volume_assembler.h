@@ -30,7 +30,8 @@ public:
   // B-scan `b` is built, with its state in the volume. Finishes those that waited for it.
   void built(int b) noexcept;
 
-  // What has not come will not come: finishes what still waits, and blanks what is missing.
+  // What has not come will not come: finishes what still waits, blanks what is missing, and notes
+  // in the volume's ledger what lies at the upper border.
   void finish() noexcept;
 
 private:
@@ -48,6 +49,7 @@ private:
   Volume* volume_ = nullptr;
   std::vector<std::uint8_t> own_levels_; // before averaging, [b][a][z]
   std::unique_ptr<Progress[]> progress_; // by B-scan
+  std::vector<BorderCount> borders_;     // likewise: written by whoever finishes it
 };
 
 } // namespace octascope::pipeline

@@ -396,6 +396,14 @@ void VolumeThread::fill_ledger(Volume& volume, const Construction& c) {
     faults_.add(camera_name, "saturation",
                 "lines reach the camera's full scale: less light, or a shorter exposure",
                 clock_.now(), static_cast<std::uint64_t>(ledger.saturated_lines));
+  if (is_at_upper_border(ledger.upper_border))
+    faults_.add(
+        "picture", "upper_border",
+        fmt::format("tissue reaches the upper border in {} of {} A-scans that were looked at: "
+                    "what is above it is shown upside down; move the tissue or the reference "
+                    "arm until there is a gap above the tissue",
+                    ledger.upper_border.lit, ledger.upper_border.looked_at),
+        clock_.now());
   counts_.lost_b_scans.fetch_add(static_cast<std::uint64_t>(ledger.lost_b_scans),
                                  std::memory_order_relaxed);
   counts_.lost_lines.fetch_add(static_cast<std::uint64_t>(ledger.lost_lines),
