@@ -279,7 +279,7 @@ TEST_F(HudPicture, the_bars_along_depth_say_in_what_medium_they_hold) {
   };
   const pipeline::Image tissue = with(1.38);
   const pipeline::Image unknown = with(std::nullopt);
-  const Layout layout = lay_out(width, height, {});
+  const Layout layout = lay_out(width, height, {3.0 / 1.792, 1, 4.0 / 3, false}); // nobody looks on
   const auto lower_left = [](const Rect& rect) {
     return Rect{rect.x, rect.bottom() - rect.height / 4, rect.width / 2, rect.height / 4};
   };
