@@ -17,9 +17,11 @@
 #include "firmware-host/configuration_watch.h"
 #include "firmware-host/device_choice.h"
 #include "firmware-host/devices.h"
+#include "firmware-host/late_camera.h"
 #include "firmware-host/notice.h"
 #include "firmware-host/picture_keeper.h"
 #include "firmware-host/process_start.h"
+#include "firmware-host/reconstruction.h"
 #include "firmware-host/reconstruction_cache.h"
 #include "firmware-host/recording_keeper.h"
 #include "firmware-host/render_loop.h"
@@ -33,8 +35,8 @@
 #include "firmware-host/version.h"
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/realtime.h"
+#include "hal/linux/system/system_error.h"
 #include "pipeline/png_image.h"
-#include "pipeline/reconstructor.h"
 #include "pipeline/volume_thread.h"
 #include "ui/splash.h"
 
@@ -49,6 +51,9 @@ namespace {
 int camera_buffers(const pipeline::ScanPlan& plan) {
   return std::clamp(plan.sweeps() * 7 / 6, 96, 512);
 }
+
+// Of a machine that starts, or of a device that sends udev events for ever.
+constexpr hal::Duration longest_wait_for_udev = 5s;
 
 // What another configuration could mend.
 bool is_about_configuration(const hal::Error& error) {
@@ -103,11 +108,15 @@ public:
     control_profile_ = std::move(*controls);
     auto real = std::make_unique<RealDevices>(configuration_.devices,
                                               plan_of(options_, configuration_), clock_);
-    const DeviceChoices choices =
+    DeviceChoices choices =
         choose_devices(real->find_for(options_), options_, configuration_.devices);
     devices_ = std::make_unique<Devices>(std::move(real), choices, clock_);
     supervision_.starting("opening the display");
     show_splash();
+    if (camera_may_come(choices, options_, configuration_.devices) && wait_for_udev())
+      choices = choose_devices(devices_->find_again(options_), options_, configuration_.devices);
+    if (camera_may_come(choices, options_, configuration_.devices))
+      look_out_for_camera();
     supervision_.starting("preparing the devices");
     if (auto made = devices_->make_others(choices, options_, configuration_, clock_); !made)
       return made;
@@ -115,8 +124,10 @@ public:
     supervision_.crash_report().set_last_act(
         [](void* made) { static_cast<Devices*>(made)->make_trigger_safe(); }, devices_.get());
     supervision_.starting("measuring the reconstruction");
-    if (auto made = make_reconstruction(); !made)
-      return made;
+    auto reconstruction = Reconstruction::make(*devices_, configuration_, cache_);
+    if (!reconstruction)
+      return tl::make_unexpected(reconstruction.error());
+    reconstruction_ = std::move(*reconstruction);
     if (auto made = make_vessels(); !made) // not before: reading a tree would disturb the measuring
       return made;
     make_recordings();
@@ -152,8 +163,10 @@ public:
 private:
   bool open_display_in_time(hal::Display& display);
   void show_splash();
+  bool wait_for_udev();
+  void look_out_for_camera();
+  void heed_late_camera();
   hal::Result<> make_vessels();
-  hal::Result<> make_reconstruction();
   void make_calibrated_camera();
   void make_recordings();
   void make_threads();
@@ -180,11 +193,7 @@ private:
   ReconstructionCache cache_; // before whatever plans a transform: it brings FFTW's wisdom
   std::unique_ptr<Devices> devices_;
   std::unique_ptr<CalibratedCamera> calibrated_camera_;
-  std::unique_ptr<pipeline::Reconstructor> reconstructor_;
-  std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
-  std::optional<pipeline::FrameBackgrounds> backgrounds_;      // running ones
-  std::unique_ptr<WorkerCores> worker_cores_;
-  std::optional<pipeline::NeighbourAverage> average_;
+  std::unique_ptr<Reconstruction> reconstruction_;
   pipeline::Wakeup arrived_; // B-scans, for the fixed-rate thread
   pipeline::Wakeup news_;    // anything new to show, for the render thread
   std::string configuration_text_;
@@ -195,6 +204,8 @@ private:
   std::unique_ptr<pipeline::ControlThread> controls_;
   std::unique_ptr<VesselDisplay> vessels_;
   std::unique_ptr<RenderLoop> loop_;
+  std::unique_ptr<LateCamera> late_camera_; // while a twin serves in its place
+  bool ends_for_camera_ = false;
   hal::TimePoint started_;
   hal::TimePoint ended_;
 };
@@ -226,28 +237,36 @@ void AssembledAppliance::show_splash() {
     display.close();
 }
 
-hal::Result<> AssembledAppliance::make_reconstruction() {
-  auto made =
-      pipeline::Reconstructor::create({.calibration = devices_->calibration(),
-                                       .format = pipeline::SpectrumFormat{devices_->format()},
-                                       .a_scans = devices_->plan().converted_lines(),
-                                       .memory = &cache_});
-  if (!made)
-    return tl::make_unexpected(made.error());
-  static_cast<void>(cache_.save()); // what was not kept is measured again; the doctor says why
-  reconstructor_ = std::make_unique<pipeline::Reconstructor>(std::move(*made));
-  auto average = pipeline::NeighbourAverage::create(configuration_.neighbour_weights);
-  if (!average)
-    return tl::make_unexpected(average.error());
-  average_ = *average;
-  const std::size_t workers = configuration_.workers > 0
-                                  ? configuration_.workers
-                                  : std::max(1U, std::thread::hardware_concurrency());
-  worker_cores_ = std::make_unique<WorkerCores>(workers, configuration_.worker_cores,
-                                                hal::linux_backend::allowed_cores());
-  for (std::size_t worker = 0; worker < workers; ++worker)
-    workspaces_.push_back(reconstructor_->make_workspace());
-  return {};
+// A service may be started with the machine: udev is about to give the cameras to their group.
+// False: it was done already, and nothing is new.
+bool AssembledAppliance::wait_for_udev() {
+  if (!supervision_.is_service() || !hal::linux_backend::udev_is_at_work())
+    return false;
+  supervision_.starting("waiting for the devices");
+  const hal::TimePoint latest = clock_.now() + longest_wait_for_udev;
+  while (hal::linux_backend::udev_is_at_work() && clock_.now() < latest)
+    clock_.sleep_for(20ms);
+  return true;
+}
+
+void AssembledAppliance::look_out_for_camera() {
+  late_camera_ = std::make_unique<LateCamera>([this] {
+    RealDevices now{configuration_.devices, plan_of(options_, configuration_), clock_};
+    return now.find_line_camera().usable;
+  });
+}
+
+// A service ends for it, and is started anew with it at once; whoever started the program by hand
+// is told.
+void AssembledAppliance::heed_late_camera() {
+  if (!late_camera_ || !late_camera_->came())
+    return;
+  late_camera_.reset();
+  faults_.add("line_camera", "came_late",
+              "a line camera is there now; octascope takes it when it is started again, which the "
+              "service does by itself",
+              clock_.now());
+  ends_for_camera_ = supervision_.is_service();
 }
 
 // Raw spectra in a file are of a camera that nobody knows: there is nothing to ask for.
@@ -282,28 +301,11 @@ void AssembledAppliance::make_threads() {
                                      .buffers = camera_buffers(devices_->plan())};
   acquisition_ = std::make_unique<pipeline::Acquisition>(devices_->line_camera(), camera, clock_,
                                                          faults_, arrived_);
-  if (auto running = reconstructor_->make_running_background())
-    backgrounds_.emplace(std::move(*running), reconstructor_->samples(), camera.buffers);
-  pipeline::VolumeThreadSetup setup{
-      .plan = devices_->plan(),
-      .trigger = {.pulse_width = configuration_.devices.pulse_width},
-      .workers = workspaces_.size(),
-      .reconstruct =
-          [this](std::size_t worker, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
-            const auto running = backgrounds_ ? backgrounds_->of(frame) : std::span<const float>{};
-            return reconstructor_
-                ->reconstruct_b_scan(workspaces_[worker], frame.bytes, levels, running)
-                .saturated_lines;
-          },
-      .observe =
-          [this](const hal::LineFrame& frame) {
-            if (backgrounds_)
-              backgrounds_->take(frame);
-          },
-      .observe_volume = [this](const pipeline::Volume& volume) { recordings_->offer(volume); },
-      .average = *average_,
-      .most_volumes = options_.volumes,
-  };
+  pipeline::VolumeThreadSetup setup =
+      reconstruction_->volume_thread_setup(devices_->plan(), camera.buffers);
+  setup.trigger = {.pulse_width = configuration_.devices.pulse_width};
+  setup.observe_volume = [this](const pipeline::Volume& volume) { recordings_->offer(volume); };
+  setup.most_volumes = options_.volumes;
   volumes_ = std::make_unique<pipeline::VolumeThread>(std::move(setup), devices_->galvo_trigger(),
                                                       *acquisition_, devices_->line_camera(),
                                                       clock_, faults_, arrived_, news_);
@@ -353,7 +355,8 @@ void AssembledAppliance::make_render_loop() {
               controls == nullptr
                   ? std::function<void(const hal::ControlEvent&)>{}
                   : [controls](const hal::ControlEvent& event) { controls->inject(event); },
-          .threads = make_thread_setup(clock_, faults_, *worker_cores_, &supervision_.threads()),
+          .threads = make_thread_setup(clock_, faults_, reconstruction_->worker_cores(),
+                                       &supervision_.threads()),
           .vessels = vessels_.get(),
           .proof = &supervision_.picture()},
       std::move(setup));
@@ -362,7 +365,7 @@ void AssembledAppliance::make_render_loop() {
 hal::Result<> AssembledAppliance::start_threads() {
   devices_->start_faults(started_);
   const pipeline::ThreadSetup setup =
-      make_thread_setup(clock_, faults_, *worker_cores_, &supervision_.threads());
+      make_thread_setup(clock_, faults_, reconstruction_->worker_cores(), &supervision_.threads());
   if (auto started = recordings_->start(setup); !started)
     return started;
   if (auto started = acquisition_->start(setup); !started)
@@ -390,6 +393,7 @@ void AssembledAppliance::show_until_done(StopSignal& stop_signal) {
     devices_->apply_faults(clock_.now());
     follow_controls();
     listen_to_scanner();
+    heed_late_camera();
     keeper_.advance(*loop_);
     update_status();
     tell_supervision();
@@ -415,6 +419,8 @@ void AssembledAppliance::listen_to_scanner() {
 }
 
 bool AssembledAppliance::done() const {
+  if (ends_for_camera_)
+    return true;
   if (options_.duration_s && clock_.now() - started_ >= hal::from_seconds(*options_.duration_s))
     return true;
   return options_.volumes && volumes_->counters().published >= *options_.volumes &&
@@ -450,8 +456,8 @@ void AssembledAppliance::tell_supervision() {
 
 RunAccount AssembledAppliance::account() const {
   return {.devices = *devices_,
-          .reconstructor = *reconstructor_,
-          .worker_cores = *worker_cores_,
+          .reconstructor = reconstruction_->reconstructor(),
+          .worker_cores = reconstruction_->worker_cores(),
           .acquisition = *acquisition_,
           .volumes = *volumes_,
           .loop = *loop_,

@@ -102,4 +102,10 @@ DeviceChoices choose_devices(const DeviceFindings& findings, const RunOptions& o
   return choices;
 }
 
+bool camera_may_come(const DeviceChoices& choices, const RunOptions& options,
+                     const DeviceWishes& wishes) {
+  return choices.line_camera.backend == "sim" && !options.simulate &&
+         wishes.line_camera == DeviceWishes::automatic;
+}
+
 } // namespace octascope::firmware_host

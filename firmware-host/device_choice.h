@@ -32,4 +32,8 @@ struct DeviceChoices {
 DeviceChoices choose_devices(const DeviceFindings& findings, const RunOptions& options,
                              const DeviceWishes& wishes = {});
 
+// The line camera's twin serves for want of a real one: one that comes later is wanted, too.
+bool camera_may_come(const DeviceChoices& choices, const RunOptions& options,
+                     const DeviceWishes& wishes);
+
 } // namespace octascope::firmware_host

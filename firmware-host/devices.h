@@ -30,6 +30,9 @@ public:
   // choices were made from. No real device is opened yet, neither here nor below.
   Devices(std::unique_ptr<RealDevices> real, const DeviceChoices& choices, hal::Clock& clock);
 
+  // What is there now, as RealDevices::find_for(): before make_others() alone.
+  DeviceFindings find_again(const RunOptions& options) { return real_->find_for(options); }
+
   // All others: the twins' files are read and their loop is made.
   hal::Result<> make_others(const DeviceChoices& choices, const RunOptions& options,
                             const Configuration& configuration, hal::Clock& clock);

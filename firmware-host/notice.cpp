@@ -66,6 +66,8 @@ constexpr std::array fault_notices{
                 std::chrono::seconds{20}},
     FaultNotice{"recording", "not_begun", "The recording cannot be begun: look at its folder",
                 std::chrono::seconds{20}},
+    FaultNotice{"line_camera", "came_late", "A line camera is there: start octascope again",
+                std::chrono::hours{24}},
     FaultNotice{"host", "picture_not_kept", "The picture was not kept"},
     FaultNotice{"control_input", "stuck_switch", "A pedal switch stays down: is it stuck?"},
     FaultNotice{"host", "restarted_after_crash",

@@ -92,7 +92,7 @@ DeviceFindings RealDevices::find_for(const RunOptions& options) {
   if (!findings.line_camera.usable && wishes_.line_camera == DeviceWishes::automatic)
     return findings;
   findings.galvo_trigger = find_galvo_trigger();
-  if (wishes_.scope_camera != DeviceWishes::nothing)
+  if (wishes_.scope_camera == DeviceWishes::automatic)
     findings.scope_camera = find_scope_camera();
   return findings;
 }

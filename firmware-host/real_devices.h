@@ -36,8 +36,11 @@ public:
   DeviceFindings find();
 
   // What decides over a run: a display alone where all else is simulated; and libcamera, which
-  // takes its time, only beside a real line camera.
+  // takes its time, only beside a real line camera, and where its camera is not asked for anyway.
   DeviceFindings find_for(const RunOptions& options);
+
+  // The line camera alone.
+  DeviceFinding find_line_camera();
 
   // What the line camera's frames are: as it offers them where one is found, else as it is asked.
   hal::LineFormat line_format() const { return format_; }
@@ -62,7 +65,6 @@ public:
   void make_trigger_safe() noexcept;
 
 private:
-  DeviceFinding find_line_camera();
   DeviceFinding find_galvo_trigger() const;
   DeviceFinding find_control_input() const;
   DeviceFinding find_scope_camera();

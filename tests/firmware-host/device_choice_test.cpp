@@ -97,6 +97,23 @@ TEST(DeviceChoice, a_device_that_the_configuration_names_is_waited_for) {
   EXPECT_EQ(choices.scope_camera.backend, "libcamera");
 }
 
+TEST(DeviceChoice, a_camera_may_come_where_its_twin_serves_for_want_of_it_alone) {
+  const DeviceFindings nothing;
+  const auto may_come = [](const DeviceFindings& found, const RunOptions& options,
+                           const DeviceWishes& wishes = {}) {
+    return camera_may_come(choose_devices(found, options, wishes), options, wishes);
+  };
+  EXPECT_TRUE(may_come(nothing, {}));
+  EXPECT_FALSE(may_come(everything(), {})) << "it is there";
+  EXPECT_FALSE(may_come(nothing, simulate())) << "the twin was asked for";
+  DeviceWishes twin;
+  twin.line_camera = DeviceWishes::twin;
+  EXPECT_FALSE(may_come(nothing, {}, twin)) << "likewise";
+  RunOptions recorded;
+  recorded.recording = RecordingOptions{"s.raw", {1, 2, 3}};
+  EXPECT_FALSE(may_come(nothing, recorded));
+}
+
 TEST(DeviceChoice, a_recording_stands_in_for_the_line_camera) {
   RunOptions options;
   options.recording = RecordingOptions{"s.raw", {1, 2, 3}};

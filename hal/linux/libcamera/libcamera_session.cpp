@@ -136,8 +136,6 @@ Result<std::unique_ptr<LibcameraSession>> LibcameraSession::start() {
   auto parts = std::make_unique<Parts>();
   if (std::getenv("LIBCAMERA_LOG_LEVELS") == nullptr)
     libcamera::logSetTarget(libcamera::LoggingTargetNone);
-  if (auto started = parts->start(); !started)
-    return tl::make_unexpected(started.error());
   return std::unique_ptr<LibcameraSession>(new LibcameraSession{std::move(parts)});
 }
 

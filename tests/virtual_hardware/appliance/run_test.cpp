@@ -33,12 +33,16 @@ protected:
   void SetUp() override {
     if (const std::string missing = theatre_missing(); !missing.empty())
       GTEST_SKIP() << missing;
+    ASSERT_TRUE(write_theatre_configuration("/etc/octascope", TheatreStart::by_hand));
+    open_theatre();
+  }
+
+  void open_theatre() {
     auto phantom = theatre_phantom(2);
     ASSERT_TRUE(phantom) << phantom.error().message;
     auto made = Theatre::make(std::move(*phantom));
     ASSERT_TRUE(made) << made.error().message;
     theatre_ = std::move(*made);
-    ASSERT_TRUE(write_theatre_configuration("/etc/octascope", TheatreStart::by_hand));
   }
 
   void start(const std::vector<std::string>& environment = {},
@@ -297,6 +301,49 @@ TEST_F(InTheatre, a_scanner_that_does_not_answer_is_told_until_it_does) {
   const nlohmann::json report = end();
   EXPECT_GE(trigger_fault(report, "unanswered_pulse").value("count", 0), 1) << report["faults"];
   EXPECT_GE(report["volumes"]["displayed"], 3);
+}
+
+// As if the camera were plugged in, or udev had just gone through it, when the twin serves already.
+class BeforeTheatre : public InTheatre {
+protected:
+  void SetUp() override {
+    if (const std::string missing = theatre_missing(); !missing.empty())
+      GTEST_SKIP() << missing;
+    ASSERT_TRUE(write_theatre_configuration("/etc/octascope", TheatreStart::by_hand));
+  }
+
+  void open_theatre_late() {
+    ASSERT_TRUE(within(30s, [] { return status().value("simulated", false); }));
+    open_theatre();
+    const ProgramResult told =
+        run_program({"udevadm", "trigger", "--action=change", "--subsystem-match=video4linux"});
+    ASSERT_EQ(told.exit_status, 0) << told.describe();
+  }
+};
+
+TEST_F(BeforeTheatre, a_camera_that_comes_later_is_told_beside_its_twin) {
+  start();
+  open_theatre_late();
+  EXPECT_TRUE(within(20s, [] {
+    const nlohmann::json told = status();
+    return told.contains("picture") &&
+           told["picture"]["notice"] == "A line camera is there: start octascope again";
+  }));
+  const nlohmann::json report = end();
+  EXPECT_EQ(report["devices"]["line_camera"], "sim");
+  EXPECT_EQ(fault_count(report, "line_camera"), 1U);
+}
+
+TEST_F(BeforeTheatre, a_service_ends_for_a_camera_that_comes_later_and_has_it_at_the_next_start) {
+  start({"NOTIFY_SOCKET=/run/nobody"}, {"--display", "kms"});
+  open_theatre_late();
+  const ProgramResult ended = run_->wait(20s);
+  EXPECT_EQ(ended.exit_status, 0) << ended.describe();
+  start({"NOTIFY_SOCKET=/run/nobody"}, {"--display", "kms"});
+  ASSERT_TRUE(scanned(3));
+  const nlohmann::json report = end();
+  EXPECT_EQ(report["devices"]["line_camera"], "v4l2");
+  EXPECT_EQ(report["simulated"], false);
 }
 
 } // namespace

@@ -94,6 +94,8 @@ TEST_F(HidFaults, a_pedal_that_somebody_has_grabbed_is_busy_until_it_is_let_go) 
 TEST_F(HidFaults, without_permission_the_message_names_the_udev_rule) {
   const auto pedal = plug_in(vec_pedal());
   ASSERT_TRUE(pedal);
+  while (hal::linux_backend::udev_is_at_work()) // it is not denied before
+    std::this_thread::sleep_for(10ms);
   ASSERT_EQ(::chmod(pedal->hidraw_node().c_str(), 0600), 0);
   const pid_t child = ::fork();
   if (child == 0) {
