@@ -16,7 +16,9 @@ FftPlan plan_line_transform(int length, bool complex_input, bool keep_input) {
   const FftBuffer in = make_fft_buffer(floats);
   const FftBuffer out = make_fft_buffer(floats);
   const std::scoped_lock lock{fft_planner_mutex()};
-  constexpr double longest_planning_s = 1; // lines of many samples: a good plan, not the best
+  // Lines of 512 to 8192 samples are planned in 0.05 to 0.17 s. In a machine whose clock is coarse
+  // or slow to ask, planning would go on to any limit, and somebody waits for a picture.
+  constexpr double longest_planning_s = 0.25;
   fftwf_set_timelimit(longest_planning_s);
   const unsigned flags = FFTW_MEASURE | (keep_input ? FFTW_PRESERVE_INPUT : FFTW_DESTROY_INPUT);
   return FftPlan{complex_input

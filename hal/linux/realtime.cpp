@@ -93,6 +93,9 @@ Result<> lock_memory() {
 void keep_large_blocks_apart() {
   constexpr int mebibyte = 1 << 20;
   mallopt(M_MMAP_THRESHOLD, mebibyte);
+  // The heap keeps what it has: to give it back and fetch it again is to wait for pages.
+  mallopt(M_TRIM_THRESHOLD, 64 * mebibyte);
+  mallopt(M_TOP_PAD, mebibyte);
 }
 
 } // namespace octascope::hal::linux_backend

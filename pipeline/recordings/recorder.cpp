@@ -38,13 +38,8 @@ std::int64_t wall_clock_ns() {
 
 Recorder::Recorder(const VolumeGeometry& geometry, std::size_t places, hal::Clock& clock,
                    FaultLog& faults, Wakeup& news)
-    : clock_(clock), faults_(faults), news_(news), places_(places), free_(places),
-      waiting_(places) {
-  for (std::size_t i = 0; i < places; ++i) {
-    places_[i].volume = Volume{geometry};
-    free_.push(static_cast<std::uint32_t>(i));
-  }
-}
+    : geometry_(geometry), clock_(clock), faults_(faults), news_(news), places_(places),
+      free_(places), waiting_(places) {}
 
 Recorder::~Recorder() {
   stop();
@@ -113,7 +108,15 @@ RecorderStatus Recorder::status() const {
           .not_kept = not_kept_.load(std::memory_order_relaxed)};
 }
 
+void Recorder::make_places() {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    places_[i].volume = Volume{geometry_};
+    free_.push(static_cast<std::uint32_t>(i));
+  }
+}
+
 void Recorder::run() {
+  make_places();
   bool stopping = false;
   while (!stopping) {
     Heartbeat::beat_here(clock_.now());

@@ -32,7 +32,8 @@ struct RecorderStatus {
 // device "recording". What is in the file by then stays.
 class Recorder {
 public:
-  // `places`: how many volumes the disk may be behind. All memory is taken here.
+  // `places`: how many volumes the disk may be behind. The thread takes the memory for all of them
+  // when it starts, as no picture should wait for that.
   Recorder(const VolumeGeometry& geometry, std::size_t places, hal::Clock& clock, FaultLog& faults,
            Wakeup& news);
   ~Recorder();
@@ -66,6 +67,7 @@ private:
   };
 
   void run();
+  void make_places();
   void serve();
   void take_volumes();
   bool open();
@@ -74,12 +76,13 @@ private:
   void finish();
   void give_up(const char* kind, const std::string& message);
 
+  const VolumeGeometry geometry_;
   hal::Clock& clock_;
   FaultLog& faults_;
   Wakeup& news_;
-  std::vector<Place> places_;
-  IndexRing free_;    // the thread's → the fixed-rate thread's
-  IndexRing waiting_; // and back
+  std::vector<Place> places_; // each has its volume before it is free for the first time
+  IndexRing free_;            // the thread's → the fixed-rate thread's
+  IndexRing waiting_;         // and back
   std::atomic<State> state_{State::idle};
   std::atomic<std::uint64_t> taking_{0}; // the number of the recording that volumes are taken for
   std::atomic<std::int64_t> since_ns_{0};

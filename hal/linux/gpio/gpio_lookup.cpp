@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "hal/linux/system/system_error.h"
+
 namespace octascope::hal::linux_backend {
 
 namespace fs = std::filesystem;
@@ -51,7 +53,7 @@ std::string listed_chips(const GpioSurvey& survey) {
 
 tl::unexpected<Error> missing(const GpioSurvey& survey, std::string_view wanted) {
   if (!survey.complaints.empty())
-    return fail(Fault::denied,
+    return fail(survey.udev_at_work ? Fault::absent : Fault::denied,
                 fmt::format("GPIO line \"{}\": not found in {}, and not every chip could be asked: "
                             "{}",
                             wanted, listed_chips(survey), survey.complaints.front()));
@@ -90,9 +92,12 @@ GpioSurvey survey_gpio(const fs::path& dev) {
   }
   std::ranges::sort(nodes);
   GpioSurvey survey;
+  survey.udev_at_work = udev_is_at_work(); // before: it may be done at any moment
   for (const auto& [number, node] : nodes) {
     if (auto chip = describe_gpio_chip(node))
       survey.chips.push_back(std::move(*chip));
+    else if (chip.error().fault == Fault::denied && survey.udev_at_work)
+      survey.complaints.push_back(fmt::format("{}: udev has not gone through it yet", node));
     else if (chip.error().fault == Fault::denied)
       survey.complaints.push_back(
           fmt::format("{}: permission denied; join the group that owns it (`sudo usermod -aG gpio "

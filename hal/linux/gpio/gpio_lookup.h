@@ -13,7 +13,8 @@ namespace octascope::hal::linux_backend {
 struct GpioSurvey {
   std::vector<GpioChipInfo> chips; // in the order of their numbers
   std::vector<std::string>
-      complaints; // one for each chip that could not be asked: why, and the mend
+      complaints;            // one for each chip that could not be asked: why, and the mend
+  bool udev_at_work = false; // such a chip may be allowed in a moment: absent, not denied
 };
 
 // Asks every chip in `dev`; takes no line.

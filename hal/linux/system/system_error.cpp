@@ -69,13 +69,13 @@ Result<FileDescriptor> open_device(const std::string& node, int flags) {
     descriptor = ::open(node.c_str(), flags | O_CLOEXEC);
   } while (descriptor == -1 && errno == EINTR);
   if (descriptor == -1) {
-    // A node whose driver has gone says ENODEV or ENXIO: to whoever opens it, it is not there.
-    if (errno == EACCES && udev_is_at_work())
+    const int why = errno;
+    if (why == EACCES && udev_is_at_work())
       return fail(Fault::absent, fmt::format("{}: udev has not gone through it yet; it is tried "
                                              "again by itself",
                                              node));
-    const int why = errno == ENODEV || errno == ENXIO ? ENOENT : errno;
-    return system_failure(node, "opening", why);
+    // A node whose driver has gone says ENODEV or ENXIO: to whoever opens it, it is not there.
+    return system_failure(node, "opening", why == ENODEV || why == ENXIO ? ENOENT : why);
   }
   return FileDescriptor{descriptor};
 }
