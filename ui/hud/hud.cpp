@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "ui/hud/legend.h"
+#include "ui/hud/two_lines.h"
 
 namespace octascope::ui {
 
@@ -42,19 +43,32 @@ void draw_notice(Canvas& canvas, const Layout& layout, const HudText& text) {
     return;
   const float u = layout.unit;
   const Rect& room = layout.notice;
-  // One line: a long one in smaller letters, and cut if it must be.
+  const float beside = 30 * u; // of the words: the coloured edge, and room to their left and right
+  const auto most = static_cast<float>(room.width) - beside;
   const auto width_in = [&](TextStyle style) {
-    return canvas.text_width(style, text.notice.view()) + 30 * u;
+    return [&canvas, style](std::string_view words) { return canvas.text_width(style, words); };
   };
-  const auto most = static_cast<float>(room.width);
-  const TextStyle style = width_in(TextStyle::value) <= most ? TextStyle::value : TextStyle::label;
-  const Rect plate{room.x, room.y, static_cast<int>(std::min(width_in(style), most)), room.height};
+  // What is too long for its line has smaller letters, and a second line above it if it must.
+  const std::string_view words = text.notice.view();
+  const TextStyle style =
+      width_in(TextStyle::value)(words) <= most ? TextStyle::value : TextStyle::label;
+  const TwoLines lines = break_to_fit(words, most, width_in(style));
+  const float line_height = canvas.text_height(style);
+  const bool two = !lines.second.empty();
+  const float width =
+      std::max(width_in(style)(lines.first), two ? width_in(style)(lines.second) : 0);
+  const int height = two ? static_cast<int>(2 * line_height + 14 * u) : room.height;
+  const Rect plate{room.x, room.bottom() - height, static_cast<int>(std::min(width, most) + beside),
+                   height};
   const Canvas::Clip clip{canvas, plate};
   canvas.plate(plate, palette::plate, 4 * u);
   canvas.plate({plate.x, plate.y, static_cast<int>(5 * u), plate.height}, palette::warning);
-  const float y = static_cast<float>(room.y) +
-                  (static_cast<float>(room.height) - canvas.text_height(style)) / 2;
-  canvas.text({static_cast<float>(room.x) + 16 * u, y}, style, palette::text, text.notice.view());
+  const float x = static_cast<float>(room.x) + 16 * u;
+  const float y =
+      static_cast<float>(plate.y) + (static_cast<float>(height) - (two ? 2 : 1) * line_height) / 2;
+  canvas.text({x, y}, style, palette::text, lines.first);
+  if (two)
+    canvas.text({x, y + line_height}, style, palette::text, lines.second);
 }
 
 } // namespace
