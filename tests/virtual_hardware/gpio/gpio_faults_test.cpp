@@ -1,6 +1,7 @@
 // What can be wrong with a GPIO line: told in words, survived, over when it is over.
 #include <cstring>
 #include <functional>
+#include <thread>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -104,6 +105,8 @@ TEST_F(GpioFaults, an_offset_that_the_chip_does_not_have_is_refused) {
 
 // In a child, because it cannot become root again.
 TEST_F(GpioFaults, without_permission_the_message_says_which_group) {
+  while (hal::linux_backend::udev_is_at_work()) // it is not denied before
+    std::this_thread::sleep_for(10ms);
   ASSERT_EQ(::chmod(chip_->node().c_str(), 0600), 0);
   const pid_t child = ::fork();
   if (child == 0) {

@@ -1,5 +1,6 @@
 // What can be wrong with a control: told in words, and nobody else's keyboard is touched.
 #include <array>
+#include <thread>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
