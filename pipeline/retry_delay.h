@@ -2,22 +2,26 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "hal/clock.h"
 
 namespace octascope::pipeline {
 
-// One thread. 0.1 s after the first failure, doubling up to 2 s; success() starts over.
+// One thread. After a failure, a quarter of the time for which the device has been away by then, at
+// least 0.1 s and at most 2 s: who waited for it so long hardly notices a quarter more. success()
+// starts over.
 class RetryDelay {
 public:
   bool due(hal::TimePoint now) const { return now >= next_; }
 
   void failure(hal::TimePoint now) {
-    next_ = now + delay_;
-    delay_ = std::min(2 * delay_, longest);
+    if (!away_since_)
+      away_since_ = now;
+    next_ = now + std::clamp((now - *away_since_) / 4, shortest, longest);
   }
   void success() {
-    delay_ = shortest;
+    away_since_.reset();
     next_ = hal::TimePoint{};
   }
 
@@ -27,7 +31,7 @@ private:
   static constexpr hal::Duration shortest = std::chrono::milliseconds{100};
   static constexpr hal::Duration longest = std::chrono::seconds{2};
 
-  hal::Duration delay_ = shortest;
+  std::optional<hal::TimePoint> away_since_;
   hal::TimePoint next_;
 };
 
