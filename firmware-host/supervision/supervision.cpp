@@ -21,6 +21,8 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr hal::Duration step_period = 100ms;
+constexpr hal::Duration first_step_period =
+    10ms; // the rest of the machine's start waits for the picture
 constexpr hal::Duration look_period = 1s;
 constexpr hal::Duration metrics_period = 10s;
 
@@ -127,7 +129,7 @@ void Supervision::tell(PictureStatus status) {
 void Supervision::run() {
   while (!stopping_.load()) {
     step(clock_.now());
-    wakeup_.wait_until(clock_.now() + step_period);
+    wakeup_.wait_until(clock_.now() + (ready_ ? step_period : first_step_period));
   }
   journal_.update(faults_.records(), clock_.now()); // what struck on the way to the end
 }
@@ -138,6 +140,12 @@ void Supervision::step(hal::TimePoint now) {
     manager_.set_watchdog(
         std::max(patience_before_settled, manager_.watchdog_interval().value_or(hal::Duration{})));
     manager_.ready();
+  }
+  if (setup_.journal && !volume_told_ && picture_.volume_frames() > 0) {
+    volume_told_ = true;
+    say(setup_, LOG_INFO,
+        fmt::format("the first volume is in the picture, {:.1f} s after the start",
+                    hal::to_seconds(now - process_start_)));
   }
   if (watchdog_.settles(picture_.volume_frames(), now))
     manager_.set_watchdog(*manager_.watchdog_interval());

@@ -34,8 +34,9 @@ struct SupervisionSetup {
   bool journal = false;                         // faults go there, too
 };
 
-// Its own ordinary thread looks ten times a second. It never waits for the render thread nor holds
-// it up: what that says is counters and, once a second, a copy behind a lock.
+// Its own ordinary thread looks ten times a second, and more often for the first picture. It never
+// waits for the render thread nor holds it up: what that says is counters and, once a second, a
+// copy behind a lock.
 //
 // Begins with start(). Outlives all threads that it watches.
 class Supervision {
@@ -86,6 +87,7 @@ private:
   hal::TimePoint next_status_{};
   hal::TimePoint next_look_{}, next_metrics_{};
   bool ready_ = false;
+  bool volume_told_ = false; // the journal, that there is one
 
   mutable std::mutex mutex_;
   std::optional<PictureStatus> told_; // by the render thread
