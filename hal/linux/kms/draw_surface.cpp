@@ -13,6 +13,7 @@
 #include <gbm.h>
 
 #include "hal/linux/kms/drm_resource.h"
+#include "hal/linux/kms/graphics_reset.h"
 #include "hal/linux/kms/output_choice.h"
 
 namespace octascope::hal::linux_backend::kms {
@@ -109,6 +110,7 @@ struct DrawSurface::Parts {
   EGLDisplay display = EGL_NO_DISPLAY;
   EGLContext context = EGL_NO_CONTEXT;
   EGLSurface surface = EGL_NO_SURFACE;
+  GraphicsReset reset;
   PFNEGLCREATESYNCKHRPROC create_sync = nullptr; // null: the driver has no fences of its own
   PFNEGLDESTROYSYNCKHRPROC destroy_sync = nullptr;
   PFNEGLDUPNATIVEFENCEFDANDROIDPROC fence_of = nullptr;
@@ -197,12 +199,15 @@ struct DrawSurface::Parts {
   }
 
   bool make_context(EGLConfig config) {
-    constexpr std::array<EGLint, 3> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
-    context = eglCreateContext(display, config, EGL_NO_CONTEXT, version.data());
+    for (const auto& attributes : GraphicsReset::context_attributes(display))
+      if (context == EGL_NO_CONTEXT)
+        context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
     surface = eglCreatePlatformWindowSurface(display, config, buffers, nullptr);
     if (context != EGL_NO_CONTEXT && surface != EGL_NO_SURFACE &&
-        eglMakeCurrent(display, surface, surface, context) == EGL_TRUE)
+        eglMakeCurrent(display, surface, surface, context) == EGL_TRUE) {
+      reset = GraphicsReset::of_current_context();
       return true;
+    }
     if (surface != EGL_NO_SURFACE)
       eglDestroySurface(display, surface);
     if (context != EGL_NO_CONTEXT)
@@ -249,6 +254,13 @@ bool DrawSurface::uses_modifiers() const {
 }
 
 Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
+  // Before the flip: it would show an old picture as if it were new.
+  if (const auto cause = parts_->reset.cause())
+    return fail(
+        Fault::disconnected,
+        fmt::format("kms display: the graphics processor was reset ({}), and what was drawn "
+                    "is lost; it is opened again",
+                    *cause));
   DrawnPicture picture;
   if (with_fence && parts_->create_sync != nullptr)
     picture.fence = parts_->swap_with_fence();

@@ -265,6 +265,28 @@ TEST_F(InTheatre, two_devices_vanish_at_once_and_come_back) {
   EXPECT_GE(fault_count(report, "control_input"), 1U);
 }
 
+// Flips would go on without a word: nothing is drawn any more into what they show.
+TEST_F(InTheatre, a_graphics_processor_that_is_reset_is_told_and_draws_again) {
+  start({std::string{"LD_PRELOAD="} + OCTASCOPE_PUPPET_DRIVER, "OCTASCOPE_PUPPET_RESET=25 3"});
+  nlohmann::json told;
+  ASSERT_TRUE(within(40s, [&] {
+    std::this_thread::sleep_for(500ms); // one processor: asking takes from what is asked
+    told = status();
+    return told.contains("faults") && fault_count(told, "display") > 0;
+  })) << told;
+  ASSERT_TRUE(scanned(3));
+  ASSERT_TRUE(within(20s, [&] { return status()["devices"]["display"]["state"] == "ready"; }));
+  const std::uint64_t displayed = status()["volumes"]["displayed"];
+  ASSERT_TRUE(scanned(3));
+  const ScanoutPicture before = screen();
+  EXPECT_TRUE(within(20s, [&] { return changed(before, screen()) > 0.002; })) << "it is live";
+  const nlohmann::json report = end();
+  EXPECT_GT(report["volumes"]["displayed"], displayed);
+  EXPECT_EQ(fault_count(report, "display"), 3U) << "a flip, and two tries to open it";
+  const std::string faults = report["faults"].dump();
+  EXPECT_NE(faults.find("was reset (by another program)"), std::string::npos) << faults;
+}
+
 TEST_F(InTheatre, a_camera_that_falls_silent_is_told_and_its_return_is_seen) {
   start();
   ASSERT_TRUE(scanned(4));
