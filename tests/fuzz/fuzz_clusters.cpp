@@ -92,8 +92,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     tests::expect_refusal(content.error().message);
     return 0;
   }
-  // A forger's segments may form a ring.
+  // A forger's segments may form a ring. Without segments the tree is empty: roots without a child
+  // are not in it.
   const auto tree = pipeline::unpack_tree(content->clusters);
-  tests::expect(tree ? tree->nodes() > 0 : !tree.error().message.empty(), "a tree, or words");
+  const std::uint64_t segments = content->facts.all_segments();
+  tests::expect(tree ? segments == 0 ? tree->nodes() == 0 : tree->nodes() > segments
+                     : !tree.error().message.empty(),
+                "a tree of all segments, or words");
   return 0;
 }
