@@ -16,7 +16,7 @@ namespace octascope::firmware_host {
 
 namespace {
 
-struct Arguments {
+struct BenchDisplayArguments {
   bool as_json = false;
   double seconds = 90;
   std::string volume;
@@ -50,7 +50,7 @@ void print_text(const DisplayBenchReport& report) {
                live->resting_latency_ms_p50, live->resting_latency_ms_p95);
 }
 
-int run(const Arguments& arguments) {
+int run(const BenchDisplayArguments& arguments) {
   const auto complain = [](const hal::Error& error) {
     fmt::print(stderr, "octascope bench display: {}\n", error.message);
     return error.fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
@@ -91,7 +91,7 @@ int run(const Arguments& arguments) {
 } // namespace
 
 void add_bench_display_command(CLI::App& bench, int& exit_status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<BenchDisplayArguments>();
   CLI::App* command = bench.add_subcommand(
       "display", "Milliseconds a picture of each technique, and of the whole appliance");
   command->add_flag("--json", arguments->as_json, "One JSON object");

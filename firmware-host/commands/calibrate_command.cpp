@@ -12,7 +12,7 @@ namespace octascope::firmware_host {
 
 namespace {
 
-struct CommandLine {
+struct CalibrateCommandLine {
   CalibrateOptions options;
   std::string lines;
   std::string shape;
@@ -39,7 +39,7 @@ hal::Result<std::vector<double>> parse_lines(std::string_view text) {
   return lines;
 }
 
-int run(CommandLine& line) {
+int run(CalibrateCommandLine& line) {
   const auto complain = [](const hal::Error& error, int status = exit_wrong_use) {
     fmt::print(stderr, "octascope calibrate: {}\n", error.message);
     return status;
@@ -109,7 +109,7 @@ void add_mirror_options(CLI::App& command, CalibrateOptions& options) {
       ->type_name("UM");
 }
 
-void add_other_options(CLI::App& command, CommandLine& line) {
+void add_other_options(CLI::App& command, CalibrateCommandLine& line) {
   CalibrateOptions& options = line.options;
   auto* lamp = command.add_option("--lamp", options.lamp, "Spectrum of an emission-line lamp")
                    ->type_name("FILE");
@@ -182,7 +182,7 @@ void add_other_options(CLI::App& command, CommandLine& line) {
 void add_calibrate_command(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand(
       "calibrate", "Measurements of a spectrometer to a calibration, with a verdict on it");
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<CalibrateCommandLine>();
   add_mirror_options(*command, line->options);
   add_other_options(*command, *line);
   command->footer("Examples:\n"

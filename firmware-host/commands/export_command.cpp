@@ -19,7 +19,7 @@ namespace octascope::firmware_host {
 namespace {
 
 // As text, the way CLI11 collects it.
-struct CommandLine {
+struct ExportCommandLine {
   std::string file, to, out, volumes, window, subject;
   int b_scan = 0;
   bool u8 = false, to_scale = false;
@@ -38,7 +38,7 @@ const std::map<std::string, Format>& formats() {
   return all;
 }
 
-hal::Result<ExportFormat> format_of(const CommandLine& line) {
+hal::Result<ExportFormat> format_of(const ExportCommandLine& line) {
   if (!line.to.empty())
     return formats().at(line.to).format;
   for (const auto& [word, format] : formats()) {
@@ -52,7 +52,7 @@ hal::Result<ExportFormat> format_of(const CommandLine& line) {
 }
 
 // Options that mean nothing to the chosen format.
-hal::Result<> check_use(const CommandLine& line, ExportFormat format) {
+hal::Result<> check_use(const ExportCommandLine& line, ExportFormat format) {
   const auto only_for = [](std::string_view option, std::string_view words) {
     return hal::fail(hal::Fault::invalid_argument,
                      fmt::format("{} is for --to {} only", option, words));
@@ -70,7 +70,7 @@ hal::Result<> check_use(const CommandLine& line, ExportFormat format) {
   return {};
 }
 
-hal::Result<ExportOptions> options_of(const CommandLine& line) {
+hal::Result<ExportOptions> options_of(const ExportCommandLine& line) {
   const auto format = format_of(line);
   if (!format)
     return tl::make_unexpected(format.error());
@@ -121,7 +121,7 @@ void tell(const ExportOutcome& outcome) {
                outcome.missing_b_scans, pipeline::lowest_level_db);
 }
 
-int run(const CommandLine& line) {
+int run(const ExportCommandLine& line) {
   const auto exported = options_of(line).and_then([&](const ExportOptions& options) {
     ProgressLine progress{fmt::format("exporting {}", line.file)};
     return export_recording(options, [&](double done) { progress.update(done); });
@@ -134,7 +134,7 @@ int run(const CommandLine& line) {
   return exported.error().fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
 }
 
-void add_picture_options(CLI::App& command, CommandLine& line) {
+void add_picture_options(CLI::App& command, ExportCommandLine& line) {
   line.b_scan_given = command
                           .add_option("--bscan", line.b_scan,
                                       "PNG: the B-scan to draw, from 0; without it the volume is "
@@ -152,7 +152,7 @@ void add_picture_options(CLI::App& command, CommandLine& line) {
 } // namespace
 
 void add_export_command(CLI::App& program, int& exit_status) {
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<ExportCommandLine>();
   CLI::App* command =
       program.add_subcommand("export", "Volumes of a recording as NRRD, DICOM or PNG files");
   command->add_option("file", line->file, "Recording")->required()->type_name("FILE.h5");

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware-host/commands/size_words.h"
 #include "pipeline/atomic_file.h"
 
 namespace octascope::firmware_host {
@@ -24,11 +25,6 @@ bool is_other_format(const fs::path& out, const std::string& extension) {
                                    known_extensions.end();
 }
 
-std::string size_in_words(std::uint64_t bytes) {
-  const auto size = static_cast<double>(bytes);
-  return size < 1e9 ? fmt::format("{:.1f} MB", size / 1e6) : fmt::format("{:.1f} GB", size / 1e9);
-}
-
 } // namespace
 
 hal::Result<> check_room(const fs::path& folder, std::uint64_t bytes, std::uint64_t available) {
@@ -37,7 +33,7 @@ hal::Result<> check_room(const fs::path& folder, std::uint64_t bytes, std::uint6
   return hal::fail(Fault::system,
                    fmt::format("{}: found {} free, expected {} for the files; fewer volumes "
                                "(--volumes) or another disk",
-                               folder.string(), size_in_words(available), size_in_words(bytes)));
+                               folder.string(), size_words(available), size_words(bytes)));
 }
 
 hal::Result<ExportPlace> ExportPlace::choose(const fs::path& out, const std::string& extension,

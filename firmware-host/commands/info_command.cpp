@@ -11,6 +11,7 @@
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/info.h"
 #include "firmware-host/commands/recording_summary.h"
+#include "firmware-host/commands/size_words.h"
 #include "pipeline/level_scale.h"
 #include "pipeline/recordings/recording_reader.h"
 
@@ -22,7 +23,7 @@ using nlohmann::ordered_json;
 using pipeline::RecordingFacts;
 using pipeline::VolumeGeometry;
 
-struct CommandLine {
+struct InfoCommandLine {
   std::string file;
   bool json = false;
   bool configuration = false;
@@ -107,11 +108,6 @@ void print_json(const RecordingReport& report) {
   fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
 }
 
-std::string size_in_words(std::uint64_t bytes) {
-  const auto size = static_cast<double>(bytes);
-  return size < 1e9 ? fmt::format("{:.3g} MB", size / 1e6) : fmt::format("{:.2f} GB", size / 1e9);
-}
-
 void print_volumes(const RecordingReport& report) {
   const RecordingSummary& s = report.summary;
   if (s.volumes == 0) {
@@ -160,7 +156,7 @@ void print_text(const RecordingReport& report) {
                                 : "for a medium that nobody said");
   fmt::print("  levels       counts 0 to 255, {} dB and {} dB a count, to {} dB\n",
              pipeline::lowest_level_db, pipeline::level_step_db, pipeline::highest_level_db);
-  fmt::print("  size         {}\n", size_in_words(report.bytes));
+  fmt::print("  size         {}\n", size_words(report.bytes));
   fmt::print("  finished     {}\n",
              report.end.finished
                  ? "yes"
@@ -168,7 +164,7 @@ void print_text(const RecordingReport& report) {
   print_losses(report);
 }
 
-int run(const CommandLine& line) {
+int run(const InfoCommandLine& line) {
   const auto report = report_on(line.file);
   if (!report) {
     fmt::print(stderr, "octascope info: {}\n", report.error().message);
@@ -186,7 +182,7 @@ int run(const CommandLine& line) {
 } // namespace
 
 void add_info_command(CLI::App& program, int& exit_status) {
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<InfoCommandLine>();
   CLI::App* command = program.add_subcommand("info", "What a recording holds, and what it lacks");
   command->add_option("file", line->file, "Recording, also one that is being written")
       ->required()

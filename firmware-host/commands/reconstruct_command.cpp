@@ -18,7 +18,7 @@ constexpr int failed = 1;
 constexpr int wrong_use = 2;
 
 // What CLI11 fills in; shape stays text until the callback, so that its message is ours.
-struct CommandLine {
+struct ReconstructCommandLine {
   std::string spectra;
   std::string shape;
   std::string type = "u16";
@@ -42,7 +42,7 @@ const std::map<std::string, TypeAndBits>& types() {
   return all;
 }
 
-int run(const CommandLine& line) {
+int run(const ReconstructCommandLine& line) {
   const auto complain = [](const hal::Error& error, int status) {
     fmt::print(stderr, "octascope reconstruct: {}\n", error.message);
     return status;
@@ -74,7 +74,7 @@ int run(const CommandLine& line) {
 
 void add_reconstruct_command(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand("reconstruct", "Raw spectra to a volume of levels (NRRD)");
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<ReconstructCommandLine>();
   command
       ->add_option("--spectra", line->spectra,
                    "Raw spectra, little-endian, [B-scan][A-scan][sample]")

@@ -27,7 +27,7 @@ namespace octascope::firmware_host {
 namespace {
 
 // As text, the way CLI11 collects it; what is not given stays as RenderOptions and ViewState begin.
-struct Arguments {
+struct RenderArguments {
   std::string configuration, volume, spectra, shape, calibration, phantom;
   std::string technique, size, window, transfer, colours, vessels, registration;
   std::string stereo = "off", drawn_by = "auto", out;
@@ -81,7 +81,7 @@ CLI::Validator within(ui::Parameter parameter) {
   return within(parameter_range(parameter, 1));
 }
 
-hal::Result<VolumeRequest> request_of(const Arguments& a) {
+hal::Result<VolumeRequest> request_of(const RenderArguments& a) {
   VolumeRequest request;
   if (!a.volume.empty())
     request.file = a.volume;
@@ -114,7 +114,7 @@ hal::Result<int> index_named(std::string_view option, const std::string& name, c
 }
 
 // The look of the configuration, and over it what the command line says.
-hal::Result<> read_look(const Arguments& a, RenderOptions& options) {
+hal::Result<> read_look(const RenderArguments& a, RenderOptions& options) {
   if (!a.configuration.empty()) {
     const auto configuration = load_configuration(a.configuration);
     if (!configuration)
@@ -147,7 +147,7 @@ hal::Result<> read_look(const Arguments& a, RenderOptions& options) {
   return {};
 }
 
-hal::Result<RenderOptions> options_of(const Arguments& a) {
+hal::Result<RenderOptions> options_of(const RenderArguments& a) {
   RenderOptions options;
   options.view = a.view;
   if (auto ok = read_look(a, options); !ok)
@@ -177,7 +177,7 @@ struct RenderVessels {
   std::optional<ui::PlacedVessels> placed; // borrows from it
 };
 
-hal::Result<RenderVessels> vessels_of(const Arguments& a) {
+hal::Result<RenderVessels> vessels_of(const RenderArguments& a) {
   RenderVessels vessels;
   if (a.vessels.empty())
     return vessels;
@@ -196,7 +196,7 @@ hal::Result<RenderVessels> vessels_of(const Arguments& a) {
   return vessels;
 }
 
-hal::Result<> render(const Arguments& arguments) {
+hal::Result<> render(const RenderArguments& arguments) {
   auto options = options_of(arguments);
   if (!options)
     return tl::make_unexpected(options.error());
@@ -224,7 +224,7 @@ hal::Result<> render(const Arguments& arguments) {
   return pipeline::write_png(arguments.out, *picture);
 }
 
-int run(const Arguments& arguments) {
+int run(const RenderArguments& arguments) {
   const auto done = render(arguments);
   if (done)
     return exit_done;
@@ -232,7 +232,7 @@ int run(const Arguments& arguments) {
   return done.error().fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
 }
 
-void add_volume_options(CLI::App& command, Arguments& a) {
+void add_volume_options(CLI::App& command, RenderArguments& a) {
   CLI::Option* volume =
       command
           .add_option(
@@ -262,7 +262,7 @@ void add_volume_options(CLI::App& command, Arguments& a) {
           std::vector<std::string>(sim::phantom_names.begin(), sim::phantom_names.end())));
 }
 
-void add_look_options(CLI::App& command, Arguments& a) {
+void add_look_options(CLI::App& command, RenderArguments& a) {
   std::vector<std::string> techniques;
   for (const ui::Technique technique : ui::all_techniques)
     techniques.emplace_back(to_string(technique));
@@ -296,7 +296,7 @@ void add_look_options(CLI::App& command, Arguments& a) {
       ->type_name("FILE.toml");
 }
 
-void add_vessel_options(CLI::App& command, Arguments& a) {
+void add_vessel_options(CLI::App& command, RenderArguments& a) {
   CLI::Option* vessels =
       command
           .add_option("--vessels", a.vessels, "Vessel tree to draw in the volume: ours, SWC or VTP")
@@ -321,7 +321,7 @@ void add_vessel_options(CLI::App& command, Arguments& a) {
   add_tree_options(command, a.tree);
 }
 
-void add_picture_options(CLI::App& command, Arguments& a) {
+void add_picture_options(CLI::App& command, RenderArguments& a) {
   const auto words = [](const auto& named) {
     std::vector<std::string> all;
     for (const auto& [word, value] : named)
@@ -351,7 +351,7 @@ void add_picture_options(CLI::App& command, Arguments& a) {
 } // namespace
 
 void add_render_command(CLI::App& program, int& exit_status) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RenderArguments>();
   CLI::App* command = program.add_subcommand("render", "A picture of a volume (PNG)");
   add_volume_options(*command, *arguments);
   add_look_options(*command, *arguments);

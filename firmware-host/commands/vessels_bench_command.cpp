@@ -27,7 +27,7 @@ namespace octascope::firmware_host {
 
 namespace {
 
-struct CommandLine {
+struct VesselsBenchCommandLine {
   std::string name; // of the command, for complaints
   std::string file; // empty: a tree is grown
   std::uint32_t segments = 200'000;
@@ -43,7 +43,7 @@ struct CommandLine {
   VesselsBenchOptions options;
 };
 
-hal::Result<VesselsBenchOptions> options_of(const CommandLine& line) {
+hal::Result<VesselsBenchOptions> options_of(const VesselsBenchCommandLine& line) {
   VesselsBenchOptions options = line.options;
   options.methods = line.methods;
   if (!line.views.empty())
@@ -84,7 +84,7 @@ double build_ms(const pipeline::VesselTree& tree, pipeline::ClusterArrays& array
   return 1000 * seconds_since(begin);
 }
 
-hal::Result<Loaded> grow(const CommandLine& line) {
+hal::Result<Loaded> grow(const VesselsBenchCommandLine& line) {
   ProgressLine progress{"growing"};
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const auto grown = sim::generate_coronary_tree({line.segments, 1, cores},
@@ -100,7 +100,7 @@ hal::Result<Loaded> grow(const CommandLine& line) {
   return loaded;
 }
 
-hal::Result<Loaded> load(const CommandLine& line) {
+hal::Result<Loaded> load(const VesselsBenchCommandLine& line) {
   ProgressLine progress{fmt::format("reading {}", line.file)};
   pipeline::TreeReadOptions reading = line.tree.options();
   reading.progress = [&](double done) { progress.update(done); };
@@ -121,7 +121,7 @@ hal::Result<Loaded> load(const CommandLine& line) {
   return loaded;
 }
 
-hal::Result<> bench(const CommandLine& line) {
+hal::Result<> bench(const VesselsBenchCommandLine& line) {
   const auto options = options_of(line);
   if (!options)
     return tl::make_unexpected(options.error());
@@ -138,7 +138,7 @@ hal::Result<> bench(const CommandLine& line) {
   return {};
 }
 
-int run(const CommandLine& line) {
+int run(const VesselsBenchCommandLine& line) {
   const auto done = bench(line);
   if (done)
     return exit_done;
@@ -153,7 +153,7 @@ std::vector<std::string> bench_method_names() {
   return names;
 }
 
-void add_options(CLI::App& command, CommandLine& line) {
+void add_options(CLI::App& command, VesselsBenchCommandLine& line) {
   add_tree_options(command, line.tree);
   command.add_flag("--json", line.as_json, "One JSON object");
   command.add_option("--size", line.size, "Of the pictures (1280x720 if not given)")
@@ -191,7 +191,7 @@ void add_options(CLI::App& command, CommandLine& line) {
 void add_vessels_bench_command(CLI::App& vessels, int& exit_status) {
   CLI::App* command =
       vessels.add_subcommand("bench", "How fast each method draws a tree on this machine");
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<VesselsBenchCommandLine>();
   line->name = "vessels bench";
   command->add_option("file", line->file, "Vessel tree: our own format, SWC or VTP")
       ->required()
@@ -205,7 +205,7 @@ void add_vessels_bench_command(CLI::App& vessels, int& exit_status) {
 void add_bench_vessels_command(CLI::App& bench, int& exit_status) {
   CLI::App* command =
       bench.add_subcommand("vessels", "Milliseconds a picture of each way to draw a vessel tree");
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<VesselsBenchCommandLine>();
   line->name = "bench vessels";
   command->add_option("file", line->file, "Vessel tree; one is grown if not given")
       ->type_name("FILE");

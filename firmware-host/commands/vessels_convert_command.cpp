@@ -19,7 +19,7 @@ namespace octascope::firmware_host {
 
 namespace {
 
-struct CommandLine {
+struct VesselsConvertCommandLine {
   std::filesystem::path file;
   std::filesystem::path out;
   TreeArguments tree;
@@ -32,7 +32,7 @@ std::string provenance_of(const pipeline::TreeFile& read, const std::filesystem:
                      read.unit == pipeline::LengthUnit::um ? "um" : "mm", version());
 }
 
-hal::Result<> run(const CommandLine& line) {
+hal::Result<> run(const VesselsConvertCommandLine& line) {
   pipeline::TreeReadOptions options = line.tree.options();
   auto read = [&] {
     ProgressLine progress{fmt::format("reading {}", line.file.string())};
@@ -57,7 +57,7 @@ hal::Result<> run(const CommandLine& line) {
 void add_vessels_convert_command(CLI::App& vessels, int& exit_status) {
   CLI::App* command =
       vessels.add_subcommand("convert", "SWC or VTP to our own format, or that to SWC");
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<VesselsConvertCommandLine>();
   command->add_option("file", line->file, "Vessel tree; its kind is told by its content")
       ->required()
       ->type_name("FILE");

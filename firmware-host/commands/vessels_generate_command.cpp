@@ -24,7 +24,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct CommandLine {
+struct VesselsGenerateCommandLine {
   std::uint32_t segments = 0;
   std::uint64_t seed = 1;
   std::string out;
@@ -32,7 +32,8 @@ struct CommandLine {
   bool json = false;
 };
 
-void print_json(const CommandLine& line, const sim::CoronaryTree& coronary, double seconds) {
+void print_json(const VesselsGenerateCommandLine& line, const sim::CoronaryTree& coronary,
+                double seconds) {
   const sim::MorphometryTable table = sim::compare_with_published(coronary);
   ordered_json json{{"segments", line.segments},
                     {"nodes", coronary.tree.nodes()},
@@ -46,7 +47,7 @@ void print_json(const CommandLine& line, const sim::CoronaryTree& coronary, doub
   fmt::print("{}\n", json.dump(2));
 }
 
-hal::Result<> run(const CommandLine& line) {
+hal::Result<> run(const VesselsGenerateCommandLine& line) {
   const auto begin = std::chrono::steady_clock::now();
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const sim::CoronaryTreeRequest request{line.segments, line.seed,
@@ -82,7 +83,7 @@ hal::Result<> run(const CommandLine& line) {
 void add_vessels_generate_command(CLI::App& vessels, int& exit_status) {
   CLI::App* command = vessels.add_subcommand(
       "generate", "A pig's coronary arteries by the published morphometry, from a seed");
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<VesselsGenerateCommandLine>();
   command
       ->add_option("--segments", line->segments,
                    fmt::format("Exactly so many, {} to {}", sim::fewest_coronary_segments,

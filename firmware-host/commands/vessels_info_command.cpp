@@ -34,7 +34,7 @@ using pipeline::VesselBranch;
 using pipeline::VesselFacts;
 using pipeline::VtpCounts;
 
-struct CommandLine {
+struct VesselsInfoCommandLine {
   std::string file;
   TreeArguments tree;
   bool json = false;
@@ -241,7 +241,7 @@ void print_text(const FileReport& report) {
     fmt::print("\n{}", sim::to_text(*report.morphometry));
 }
 
-int run(const CommandLine& line) {
+int run(const VesselsInfoCommandLine& line) {
   pipeline::TreeReadOptions options = line.tree.options();
   hal::Result<TreeFile> file;
   {
@@ -271,7 +271,7 @@ int run(const CommandLine& line) {
 void add_vessels_info_command(CLI::App& vessels, int& exit_status) {
   CLI::App* command =
       vessels.add_subcommand("info", "What is in a file of vessels (SWC, VTP, our own .vessels)");
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<VesselsInfoCommandLine>();
   command->add_option("file", line->file, "Vessel tree; its kind is told by its content")
       ->required()
       ->type_name("FILE");

@@ -26,7 +26,7 @@ namespace {
 using pipeline::PointPair;
 using pipeline::PointRegistration;
 
-struct CommandLine {
+struct VesselsRegisterCommandLine {
   std::filesystem::path points;
   std::filesystem::path out;
   std::string author;
@@ -53,7 +53,8 @@ hal::Result<PairsOfFile> read_pairs(const std::filesystem::path& file) {
   return read;
 }
 
-pipeline::Registration registration_of(const CommandLine& line, const PointRegistration& found) {
+pipeline::Registration registration_of(const VesselsRegisterCommandLine& line,
+                                       const PointRegistration& found) {
   pipeline::Registration registration;
   registration.volume_from_tree = found.volume_from_tree;
   registration.whose = {.subject = line.subject,
@@ -91,7 +92,7 @@ std::string to_text(const PointRegistration& found, const PairsOfFile& read) {
   return text;
 }
 
-std::string to_json(const PointRegistration& found, const CommandLine& line) {
+std::string to_json(const PointRegistration& found, const VesselsRegisterCommandLine& line) {
   auto matrix = nlohmann::json::array();
   for (std::size_t row = 0; row < 3; ++row) {
     const auto& r = found.volume_from_tree.rotation[row];
@@ -111,7 +112,7 @@ std::string to_json(const PointRegistration& found, const CommandLine& line) {
   return json.dump(2);
 }
 
-int run(const CommandLine& line) {
+int run(const VesselsRegisterCommandLine& line) {
   const auto complain = [](std::string_view message) {
     fmt::print(stderr, "octascope vessels register: {}\n", message);
     return exit_failed;
@@ -134,7 +135,7 @@ int run(const CommandLine& line) {
 void add_vessels_register_command(CLI::App& vessels, int& exit_status) {
   CLI::App* command = vessels.add_subcommand(
       "register", "Pairs of points to a registration: where a tree lies in an OCT volume");
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<VesselsRegisterCommandLine>();
   command
       ->add_option("--points", line->points,
                    "Pairs of points, one a line: x y z in the tree, x y z in the volume, in mm, "

@@ -21,7 +21,7 @@ namespace octascope::firmware_host {
 
 namespace {
 
-struct CommandLine {
+struct VesselsRenderCommandLine {
   std::string file;
   TreeArguments tree;
   std::string out;
@@ -34,7 +34,7 @@ struct CommandLine {
   VesselsRenderOptions options;
 };
 
-hal::Result<VesselsRenderOptions> options_of(const CommandLine& line) {
+hal::Result<VesselsRenderOptions> options_of(const VesselsRenderCommandLine& line) {
   VesselsRenderOptions options = line.options;
   options.method = *ui::vessel_method_named(line.method);
   options.view = views_by_name().at(line.view);
@@ -53,7 +53,7 @@ hal::Result<VesselsRenderOptions> options_of(const CommandLine& line) {
   return options;
 }
 
-hal::Result<> render(const CommandLine& line) {
+hal::Result<> render(const VesselsRenderCommandLine& line) {
   const auto options = options_of(line);
   if (!options)
     return tl::make_unexpected(options.error());
@@ -76,7 +76,7 @@ hal::Result<> render(const CommandLine& line) {
   return pipeline::write_png(line.out, rendering->picture);
 }
 
-int run(const CommandLine& line) {
+int run(const VesselsRenderCommandLine& line) {
   const auto done = render(line);
   if (done)
     return exit_done;
@@ -84,7 +84,7 @@ int run(const CommandLine& line) {
   return done.error().fault == hal::Fault::invalid_argument ? exit_wrong_use : exit_failed;
 }
 
-void add_view_options(CLI::App& command, CommandLine& line) {
+void add_view_options(CLI::App& command, VesselsRenderCommandLine& line) {
   VesselsRenderOptions& options = line.options;
   command
       .add_option("--view", line.view,
@@ -109,7 +109,7 @@ void add_view_options(CLI::App& command, CommandLine& line) {
       ->capture_default_str();
 }
 
-void add_picture_options(CLI::App& command, CommandLine& line) {
+void add_picture_options(CLI::App& command, VesselsRenderCommandLine& line) {
   command.add_option("--method", line.method, "How it is drawn")
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
@@ -141,7 +141,7 @@ void add_picture_options(CLI::App& command, CommandLine& line) {
 
 void add_vessels_render_command(CLI::App& vessels, int& exit_status) {
   CLI::App* command = vessels.add_subcommand("render", "A picture of a vessel tree (PNG)");
-  auto line = std::make_shared<CommandLine>();
+  auto line = std::make_shared<VesselsRenderCommandLine>();
   command->add_option("file", line->file, "Vessel tree: our own format, SWC or VTP")
       ->required()
       ->type_name("FILE");

@@ -1,4 +1,5 @@
-// What export and info are made of: ranges of volumes, names of files, room on the disk, gaps.
+// What export and info are made of: ranges of volumes, names of files, sizes, room on the disk,
+// gaps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -7,6 +8,7 @@
 #include "firmware-host/commands/export_place.h"
 #include "firmware-host/commands/level_picture.h"
 #include "firmware-host/commands/recording_summary.h"
+#include "firmware-host/commands/size_words.h"
 #include "tests/support/scratch_folder.h"
 
 namespace octascope::firmware_host {
@@ -25,6 +27,13 @@ TEST(VolumeRanges, are_one_volume_or_from_to_or_from) {
   for (const char* wrong : {"", "-", "-3", "a", "3-a", "7-3", "3-7-9", "3 -7", "3,7", "+3",
                             "3-99999999999999999999", "3.5"})
     EXPECT_FALSE(parse_volumes(wrong)) << wrong;
+}
+
+TEST(Sizes, are_megabytes_up_to_a_gigabyte) {
+  EXPECT_EQ(size_words(0), "0.0 MB");
+  EXPECT_EQ(size_words(69'840'000), "69.8 MB");
+  EXPECT_EQ(size_words(999'600'000), "999.6 MB");
+  EXPECT_EQ(size_words(4'213'000'000), "4.21 GB");
 }
 
 TEST(ExportPlaces, are_a_file_for_one_volume_and_a_folder_for_several) {
@@ -63,7 +72,7 @@ TEST(ExportPlaces, without_room_are_refused_and_leave_nothing) {
   ASSERT_TRUE(place);
   const auto prepared = place->prepare(std::uint64_t{1} << 62, 0);
   ASSERT_FALSE(prepared);
-  EXPECT_THAT(prepared.error().message, HasSubstr("expected 4611686018.4 GB for the files"));
+  EXPECT_THAT(prepared.error().message, HasSubstr("expected 4611686018.43 GB for the files"));
   place->remove_empty_folder();
   EXPECT_EQ(folder.count(), 0);
   EXPECT_TRUE(place->prepare(1, 0));
