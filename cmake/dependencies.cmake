@@ -40,10 +40,11 @@ if(OCTASCOPE_DISPLAY)
   pkg_check_modules(hdf5 REQUIRED hdf5)
   find_library(OCTASCOPE_HDF5_ARCHIVE NAMES libhdf5_serial.a libhdf5.a HINTS ${hdf5_LIBRARY_DIRS} REQUIRED)
   find_library(OCTASCOPE_SZ sz REQUIRED)
-  add_library(octascope_hdf5 INTERFACE)
-  target_include_directories(octascope_hdf5 SYSTEM INTERFACE ${hdf5_INCLUDE_DIRS})
-  target_link_libraries(octascope_hdf5 INTERFACE ${OCTASCOPE_HDF5_ARCHIVE} ${OCTASCOPE_SZ} ZLIB::ZLIB
-                                                 ${CMAKE_DL_LIBS} m)
+  add_library(octascope_hdf5 STATIC IMPORTED)
+  set_target_properties(octascope_hdf5 PROPERTIES
+    IMPORTED_LOCATION "${OCTASCOPE_HDF5_ARCHIVE}"
+    INTERFACE_INCLUDE_DIRECTORIES "${hdf5_INCLUDE_DIRS}"
+    INTERFACE_LINK_LIBRARIES "${OCTASCOPE_SZ};ZLIB::ZLIB;${CMAKE_DL_LIBS};m")
   # DCMTK's own lists of its libraries bring networks, sound and XML along; a file needs three.
   add_library(octascope_dcmtk INTERFACE)
   foreach(library dcmdata oflog ofstd)
