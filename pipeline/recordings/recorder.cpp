@@ -76,11 +76,12 @@ bool Recorder::begin(std::filesystem::path file, RecordingFacts facts) {
   return true;
 }
 
-// Of one that is only beginning nothing has been kept yet: it ends once it has begun.
+// Of one that is only beginning nothing has been kept yet: it ends once it has begun. It may come
+// on at any moment, so that is asked first; and what it takes is taken back last.
 void Recorder::end() {
-  taking_.store(0, std::memory_order_relaxed);
-  for (State expected : {State::on, State::beginning})
+  for (State expected : {State::beginning, State::on})
     state_.compare_exchange_strong(expected, State::ending, std::memory_order_acq_rel);
+  taking_.store(0, std::memory_order_release);
   wakeup_.post();
 }
 
@@ -133,14 +134,8 @@ void Recorder::run() {
 
 // The state goes back to idle last: from then on another one may begin.
 void Recorder::serve() {
-  if (state_.load(std::memory_order_acquire) == State::beginning) {
-    State expected = State::beginning; // else it was ended meanwhile
-    state_.compare_exchange_strong(expected, open() ? State::on : State::idle,
-                                   std::memory_order_acq_rel);
-    if (expected == State::beginning && writer_)
-      take_volumes();
-    news_.post();
-  }
+  if (state_.load(std::memory_order_acquire) == State::beginning)
+    come_on();
   write_waiting();
   State expected = State::on;
   if (!writer_ && state_.compare_exchange_strong(expected, State::idle, std::memory_order_acq_rel))
@@ -153,10 +148,16 @@ void Recorder::serve() {
   }
 }
 
-void Recorder::take_volumes() {
-  taking_.store(recordings_, std::memory_order_release);
-  if (state_.load(std::memory_order_acquire) != State::on) // ended just now
-    taking_.store(0, std::memory_order_relaxed);
+// Volumes are taken before it is said to be on: what is offered from then on is kept or counted.
+void Recorder::come_on() {
+  const bool opened = open();
+  if (opened)
+    taking_.store(recordings_, std::memory_order_release);
+  State expected = State::beginning;
+  if (!state_.compare_exchange_strong(expected, opened ? State::on : State::idle,
+                                      std::memory_order_acq_rel))
+    taking_.store(0, std::memory_order_release); // it was ended meanwhile
+  news_.post();
 }
 
 bool Recorder::open() {

@@ -69,7 +69,7 @@ private:
   void run();
   void make_places();
   void serve();
-  void take_volumes();
+  void come_on();
   bool open();
   void write_waiting();
   void write(const Place& place);
