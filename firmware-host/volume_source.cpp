@@ -7,6 +7,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -35,7 +36,7 @@ bool is_recording(const std::filesystem::path& file) {
   return in && std::string_view{begin.data(), begin.size()} == signature;
 }
 
-hal::Result<pipeline::Volume> read_recorded(const std::filesystem::path& file, std::size_t at) {
+hal::Result<LoadedVolume> read_recorded(const std::filesystem::path& file, std::size_t at) {
   auto reader = pipeline::RecordingReader::open(file);
   if (!reader)
     return tl::make_unexpected(reader.error());
@@ -48,13 +49,14 @@ hal::Result<pipeline::Volume> read_recorded(const std::filesystem::path& file, s
                      fmt::format("--at is {}, expected 0 to {}: {} has {} volumes", at,
                                  reader->volumes().size() - 1, file.string(),
                                  reader->volumes().size()));
-  pipeline::Volume volume{reader->facts().geometry};
-  if (const auto read = reader->read(at, volume); !read)
+  const pipeline::RecordingFacts& facts = reader->facts();
+  LoadedVolume loaded{pipeline::Volume{facts.geometry}, {facts.subject, facts.eye}};
+  if (const auto read = reader->read(at, loaded.volume); !read)
     return tl::make_unexpected(read.error());
-  return volume;
+  return loaded;
 }
 
-hal::Result<pipeline::Volume> read_volume(const std::filesystem::path& file) {
+hal::Result<LoadedVolume> read_volume(const std::filesystem::path& file) {
   const auto nrrd = pipeline::read_nrrd(file);
   if (!nrrd)
     return tl::make_unexpected(nrrd.error());
@@ -70,7 +72,7 @@ hal::Result<pipeline::Volume> read_volume(const std::filesystem::path& file) {
       },
       nrrd->levels);
   std::ranges::fill(volume.b_scan_states, pipeline::BScanState::good);
-  return volume;
+  return LoadedVolume{std::move(volume), {}};
 }
 
 // The sweeps of one volume, one after the other, the way the workers take them.
@@ -105,7 +107,7 @@ pipeline::Volume build_volume(const Twins& twins, const pipeline::Reconstructor&
   return volume;
 }
 
-hal::Result<pipeline::Volume> reconstruct(const VolumeRequest& request) {
+hal::Result<LoadedVolume> reconstruct(const VolumeRequest& request) {
   RunOptions options;
   options.recording = request.recording;
   options.calibration = request.calibration;
@@ -127,12 +129,12 @@ hal::Result<pipeline::Volume> reconstruct(const VolumeRequest& request) {
   const auto average = pipeline::NeighbourAverage::create(configuration.neighbour_weights);
   if (!average)
     return tl::make_unexpected(average.error());
-  return build_volume(*twins, *reconstructor, *average);
+  return LoadedVolume{build_volume(*twins, *reconstructor, *average), {}};
 }
 
 } // namespace
 
-hal::Result<pipeline::Volume> load_volume(const VolumeRequest& request) {
+hal::Result<LoadedVolume> load_volume(const VolumeRequest& request) {
   const int sources =
       (request.file ? 1 : 0) + (request.recording ? 1 : 0) + (request.phantom ? 1 : 0);
   if (sources != 1)

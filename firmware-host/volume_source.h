@@ -8,6 +8,7 @@
 #include "firmware-host/run_options.h"
 #include "hal/result.h"
 #include "pipeline/volume.h"
+#include "pipeline/whose_eye.h"
 
 namespace octascope::firmware_host {
 
@@ -20,9 +21,14 @@ struct VolumeRequest {
   std::optional<std::string> phantom;
 };
 
+struct LoadedVolume {
+  pipeline::Volume volume;
+  pipeline::WhoseEye whose; // as its recording says; what is no recording says nothing
+};
+
 // As the running appliance would have shown it: the same calibration, reconstruction and averaging
 // of neighbours for spectra and phantoms; a file's levels as they are. Fault::invalid_argument for
 // what a user can put right on the command line.
-hal::Result<pipeline::Volume> load_volume(const VolumeRequest& request);
+hal::Result<LoadedVolume> load_volume(const VolumeRequest& request);
 
 } // namespace octascope::firmware_host

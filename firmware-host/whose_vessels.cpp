@@ -20,8 +20,8 @@ hal::Result<> check_whose_vessels(const std::filesystem::path& registration,
   return hal::fail(
       hal::Fault::invalid_argument,
       fmt::format("{}: [whose] says that the vessels are those of {}, expected those in "
-                  "the picture, of {}; take this eye's tree and registration, or say "
-                  "--subject and --eye as they are",
+                  "the picture, of {}; take this eye's tree and registration; of a live picture "
+                  "--subject and --eye say whose it is",
                   registration.string(), in_words(vessels), in_words(picture)));
 }
 

@@ -71,14 +71,14 @@ int run(const BenchDisplayArguments& arguments) {
   if (!arguments.drawn_by.empty())
     options.rays =
         arguments.drawn_by == "processor" ? ui::RayBackend::processor : ui::RayBackend::shader;
-  const auto volume = load_volume(request);
-  if (!volume)
-    return complain(volume.error());
+  const auto loaded = load_volume(request);
+  if (!loaded)
+    return complain(loaded.error());
   options.seconds = arguments.seconds;
   options.live = !arguments.no_live;
   if (!arguments.dump.empty())
     options.dump = arguments.dump;
-  const auto report = bench_display(*volume, options);
+  const auto report = bench_display(loaded->volume, options);
   if (!report)
     return complain(report.error());
   if (arguments.as_json)

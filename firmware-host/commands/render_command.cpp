@@ -18,6 +18,7 @@
 #include "firmware-host/configuration.h"
 #include "firmware-host/vessel_place.h"
 #include "firmware-host/volume_source.h"
+#include "firmware-host/whose_vessels.h"
 #include "pipeline/atomic_file.h"
 #include "pipeline/vessels/registration.h"
 #include "sim/phantom.h"
@@ -177,7 +178,7 @@ struct RenderVessels {
   std::optional<ui::PlacedVessels> placed; // borrows from it
 };
 
-hal::Result<RenderVessels> vessels_of(const RenderArguments& a) {
+hal::Result<RenderVessels> vessels_of(const RenderArguments& a, const pipeline::WhoseEye& picture) {
   RenderVessels vessels;
   if (a.vessels.empty())
     return vessels;
@@ -186,6 +187,8 @@ hal::Result<RenderVessels> vessels_of(const RenderArguments& a) {
     const auto registration = pipeline::Registration::load(a.registration);
     if (!registration)
       return tl::make_unexpected(registration.error());
+    if (auto same = check_whose_vessels(a.registration, registration->whose, picture); !same)
+      return tl::make_unexpected(same.error());
     registered = registration->volume_from_tree;
   }
   auto loaded = load_vessels(a.vessels, a.tree.options());
@@ -206,10 +209,10 @@ hal::Result<> render(const RenderArguments& arguments) {
   // Said before the work, not after it.
   if (const auto writable = pipeline::AtomicFile::create(arguments.out); !writable)
     return tl::make_unexpected(writable.error());
-  const auto volume = load_volume(*request);
-  if (!volume)
-    return tl::make_unexpected(volume.error());
-  const auto vessels = vessels_of(arguments);
+  const auto loaded = load_volume(*request);
+  if (!loaded)
+    return tl::make_unexpected(loaded.error());
+  const auto vessels = vessels_of(arguments, loaded->whose);
   if (!vessels)
     return tl::make_unexpected(vessels.error());
   if (vessels->placed && !vessels->placed->volume_from_tree)
@@ -218,7 +221,7 @@ hal::Result<> render(const RenderArguments& arguments) {
                "volume (--registration)\n",
                arguments.vessels);
   options->vessels = vessels->placed;
-  const auto picture = render_volume(*volume, *options);
+  const auto picture = render_volume(loaded->volume, *options);
   if (!picture)
     return tl::make_unexpected(picture.error());
   return pipeline::write_png(arguments.out, *picture);

@@ -54,7 +54,7 @@ protected:
       OCTASCOPE_REQUIRE_TEST_DATA(tissue_spectra);
     auto loaded = firmware_host::load_volume(request_for(GetParam()));
     ASSERT_TRUE(loaded) << loaded.error().message;
-    volume_ = std::move(*loaded);
+    volume_ = std::move(loaded->volume);
   }
 
   pipeline::Image render(const RenderOptions& options) const {

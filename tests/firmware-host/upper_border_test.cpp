@@ -33,11 +33,11 @@ VolumeRequest of_spectra(const std::filesystem::path& file, const pipeline::Spec
 
 // Share of the A-scans that are lit.
 double share_of(const VolumeRequest& request, const std::string& what) {
-  const auto volume = load_volume(request);
-  EXPECT_TRUE(volume) << (volume ? "" : volume.error().message);
-  if (!volume)
+  const auto loaded = load_volume(request);
+  EXPECT_TRUE(loaded) << (loaded ? "" : loaded.error().message);
+  if (!loaded)
     return -1;
-  const pipeline::BorderCount& count = volume->ledger.upper_border;
+  const pipeline::BorderCount& count = loaded->volume.ledger.upper_border;
   EXPECT_GT(count.looked_at, 0) << what;
   EXPECT_EQ(pipeline::is_at_upper_border(count),
             count.lit >= pipeline::share_at_border * count.looked_at);

@@ -4,6 +4,7 @@
 
 #include "pipeline/nrrd.h"
 #include "tests/program/program_support.h"
+#include "tests/support/small_recording.h"
 
 namespace octascope::tests {
 namespace {
@@ -44,6 +45,16 @@ protected:
                                    folder_ / "out.png"};
     words.insert(words.end(), more.begin(), more.end());
     return run_octascope(words, 60s);
+  }
+
+  void record(const std::string& subject, pipeline::Eye eye) const {
+    pipeline::RecordingFacts facts = small_recording_facts();
+    facts.subject = subject;
+    facts.eye = eye;
+    auto writer = pipeline::RecordingWriter::create(folder_ / "eye.h5", facts);
+    ASSERT_TRUE(writer) << writer.error().message;
+    append_small_volumes(*writer, 0, 1);
+    ASSERT_TRUE(writer->finish({}));
   }
 
   // Bluish pixels: the LCX.
@@ -141,6 +152,28 @@ TEST_F(VesselOverlayProgram, another_eyes_vessels_are_refused) {
   EXPECT_THAT(others.err,
               HasSubstr("those of subject 4711, left eye, expected those in the picture, "
                         "of subject 4711, right eye"));
+}
+
+TEST_F(VesselOverlayProgram, another_eyes_vessels_are_not_drawn_into_a_recording) {
+  folder_.write("left.toml",
+                registration_at(0.2, 0.8, 0.6) + "[whose]\nsubject = \"4711\"\neye = \"left\"\n");
+  const auto render = [&](pipeline::Eye eye) {
+    record("4711", eye);
+    return run_octascope({"render", "--volume", folder_ / "eye.h5", "--size", "200x120",
+                          "--vessels", folder_ / "tree.swc", "--registration",
+                          folder_ / "left.toml", "--out", folder_ / "eye.png"},
+                         60s);
+  };
+  const ProgramResult own = render(pipeline::Eye::left);
+  EXPECT_EQ(own.exit_status, 0) << own.describe();
+  std::filesystem::remove(folder_ / "eye.h5");
+  std::filesystem::remove(folder_ / "eye.png");
+  const ProgramResult others = render(pipeline::Eye::right);
+  EXPECT_EQ(others.exit_status, 2) << others.describe();
+  EXPECT_THAT(others.err, HasSubstr("left.toml: [whose] says that the vessels are those of subject "
+                                    "4711, left eye, expected those in the picture, of subject "
+                                    "4711, right eye"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "eye.png"));
 }
 
 TEST_F(VesselOverlayProgram, a_display_without_its_tree_goes_on_and_says_why) {
