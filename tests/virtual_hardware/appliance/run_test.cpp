@@ -6,6 +6,8 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <sstream>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -103,6 +105,31 @@ protected:
     return picture ? std::move(*picture) : ScanoutPicture{};
   }
 
+  // What a user changes in a file of the configuration.
+  static void edit(const std::filesystem::path& file, const std::string& found,
+                   const std::string& instead) {
+    std::ostringstream read;
+    read << std::ifstream{file}.rdbuf();
+    std::string text = read.str();
+    const auto at = text.find(found);
+    ASSERT_NE(at, std::string::npos) << file << ": " << text;
+    std::ofstream{file} << text.replace(at, found.size(), instead);
+  }
+
+  // Of what the camera sees, as a recording of it says.
+  static double recorded_depth_spacing_um() {
+    constexpr const char* file = "/tmp/spacing.h5";
+    std::filesystem::remove(file);
+    const ProgramResult kept =
+        run_octascope({"record", "--out", file, "--volumes", "2", "--subject", "a bench"});
+    EXPECT_EQ(kept.exit_status, 0) << kept.describe();
+    const ProgramResult told = run_octascope({"info", "--json", file});
+    EXPECT_EQ(told.exit_status, 0) << told.describe();
+    const nlohmann::json info = nlohmann::json::parse(told.out, nullptr, false);
+    EXPECT_EQ(info.value("simulated", true), false) << told.out;
+    return info.value("/geometry/depth_spacing_um"_json_pointer, 0.0);
+  }
+
   // How much of the middle of the screen is another picture: a share of 0 to 1.
   static double changed(const ScanoutPicture& a, const ScanoutPicture& b) {
     if (a.width != b.width || a.height != b.height || a.width == 0)
@@ -172,6 +199,15 @@ TEST_F(InTheatre, finds_all_five_devices_by_itself_and_loses_nothing) {
   EXPECT_EQ(report["lost"]["volumes"], 0);
   EXPECT_EQ(report["hot_path"]["allocations"], 0);
   EXPECT_EQ(fault_count(report, "galvo_trigger"), 0U);
+}
+
+// Else every depth on the screen would be wrong by the same share, unnoticed.
+TEST_F(InTheatre, depths_are_as_far_apart_as_the_cameras_calibration_says) {
+  const std::filesystem::path folder = "/etc/octascope";
+  edit(folder / "calibration.toml", "spacing_um = 3.5", "spacing_um = 4.25");
+  EXPECT_EQ(recorded_depth_spacing_um(), 4.25);
+  edit(folder / "octascope.toml", "[scan]", "[scan]\ndepth_spacing_um = 6.5");
+  EXPECT_EQ(recorded_depth_spacing_um(), 6.5) << "what [scan] says itself goes first";
 }
 
 TEST_F(InTheatre, a_foot_on_the_pedal_changes_what_the_monitor_shows) {
