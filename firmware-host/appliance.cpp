@@ -19,6 +19,7 @@
 #include "firmware-host/devices.h"
 #include "firmware-host/late_camera.h"
 #include "firmware-host/notice.h"
+#include "firmware-host/opening_picture.h"
 #include "firmware-host/picture_keeper.h"
 #include "firmware-host/process_start.h"
 #include "firmware-host/reconstruction.h"
@@ -38,7 +39,6 @@
 #include "hal/linux/system/system_error.h"
 #include "pipeline/png_image.h"
 #include "pipeline/volume_thread.h"
-#include "ui/splash.h"
 
 namespace octascope::firmware_host {
 
@@ -112,7 +112,8 @@ public:
         choose_devices(real->find_for(options_), options_, configuration_.devices);
     devices_ = std::make_unique<Devices>(std::move(real), choices, clock_);
     supervision_.starting("opening the display");
-    show_splash();
+    show_opening_picture(devices_->display(), display_config(options_, configuration_),
+                         supervision_.is_service(), clock_);
     if (camera_may_come(choices, options_, configuration_.devices) && wait_for_udev())
       choices = choose_devices(devices_->find_again(options_), options_, configuration_.devices);
     if (camera_may_come(choices, options_, configuration_.devices))
@@ -161,8 +162,6 @@ public:
   }
 
 private:
-  bool open_display_in_time(hal::Display& display);
-  void show_splash();
   bool wait_for_udev();
   void look_out_for_camera();
   void heed_late_camera();
@@ -209,33 +208,6 @@ private:
   hal::TimePoint started_;
   hal::TimePoint ended_;
 };
-
-// A service may be started before the graphics driver is loaded or the monitor is awake. It waits
-// for less than systemd waits for its end (TimeoutStopSec), and is started anew after that.
-bool AssembledAppliance::open_display_in_time(hal::Display& display) {
-  constexpr hal::Duration patience = 2500ms, between_tries = 100ms;
-  const hal::TimePoint limit = clock_.now() + patience;
-  for (;;) {
-    const auto opened = display.open(display_config(options_, configuration_));
-    if (opened)
-      return true;
-    if (opened.error().fault != hal::Fault::absent || !supervision_.is_service() ||
-        clock_.now() + between_tries > limit)
-      return false;
-    clock_.sleep_until(clock_.now() + between_tries);
-  }
-}
-
-// Finding the faster reconstruction and making the twins' loop take seconds. What fails here fails
-// again, and is told, when the render loop opens the display.
-void AssembledAppliance::show_splash() {
-  hal::Display& display = devices_->display();
-  if (!open_display_in_time(display))
-    return;
-  if (!ui::draw_splash(display.width(), display.height(), version(), "starting") ||
-      !display.present())
-    display.close();
-}
 
 // A service may be started with the machine: udev is about to give the cameras to their group.
 // False: it was done already, and nothing is new.
