@@ -14,6 +14,7 @@
 
 #include "pipeline/scan_plan.h"
 #include "tests/soak/soak_verdict.h"
+#include "tests/soak/stolen_time.h"
 #include "tests/support/program_run.h"
 #include "tests/support/random_faults.h"
 #include "tests/support/scratch_folder.h"
@@ -43,6 +44,7 @@ struct Phase {
 struct Outcome {
   Phase phase;
   Held settled = {}, final = {};
+  double stolen_s = 0; // of the processors' time, by the host of a virtual machine
   nlohmann::json report = nlohmann::json::object();
   std::vector<std::string> complaints = {};
 };
@@ -139,6 +141,7 @@ Outcome soak(const SoakOptions& options, const Phase& phase, const std::filesyst
     std::ofstream{file("-faults.toml")} << phase.faults;
     words.insert(words.end(), {"--faults", file("-faults.toml")});
   }
+  const double stolen_before_s = stolen_seconds();
   const auto begin = WallClock::now();
   ProgramRun run{octascope_command(words)};
   const std::vector<ProcessSample> samples = watch(run, begin);
@@ -146,6 +149,7 @@ Outcome soak(const SoakOptions& options, const Phase& phase, const std::filesyst
   keep_samples(file(".csv"), samples);
 
   Outcome outcome{.phase = phase};
+  outcome.stolen_s = stolen_seconds() - stolen_before_s;
   const double last_s = samples.empty() ? 0 : samples.back().at_s;
   outcome.settled = held_between(samples, phase.times.settled_from_s, phase.times.settled_until_s);
   outcome.final = held_between(samples, phase.times.final_from_s, std::min(last_s, phase.seconds));
@@ -167,6 +171,9 @@ Outcome soak(const SoakOptions& options, const Phase& phase, const std::filesyst
 void print_complaints(const Outcome& outcome) {
   for (const std::string& complaint : outcome.complaints)
     fmt::print("FAILED, {}: {}\n", outcome.phase.name, complaint);
+  if (!outcome.complaints.empty() && outcome.stolen_s > 0)
+    fmt::print("meanwhile the host kept the processors from this machine for {:.1f} s\n",
+               outcome.stolen_s);
   std::fflush(stdout);
 }
 
@@ -215,6 +222,8 @@ void print_table(const Outcome& quiet, const Outcome& faulty) {
   counted("  unfinished at the end", "volumes", "unfinished");
   counted("B-scans lost", "lost", "b_scans");
   counted("allocations in hot paths", "hot_path", "allocations");
+  row("s of processors the host kept",
+      [](const Outcome& o) { return fmt::format("{:.1f}", o.stolen_s); });
   row("resident KiB, settled",
       [](const Outcome& o) { return fmt::format("{:.0f}", o.settled.resident_kib); });
   row("resident KiB, at the end",

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "tests/soak/soak_verdict.h"
+#include "tests/soak/stolen_time.h"
 #include "tests/support/random_faults.h"
 
 namespace octascope::tests {
@@ -86,6 +87,13 @@ TEST(ProcessSample, counts_what_this_process_holds) {
   EXPECT_GE(after->threads, 1U);
   EXPECT_GT(after->resident_kib, before->resident_kib + 60 * 1024);
   EXPECT_FALSE(sample_process(0));
+}
+
+TEST(StolenTime, is_the_eighth_column_of_all_processors) {
+  EXPECT_EQ(stolen_ticks("cpu  100 200 300 4000 5000 60 7 890 11 12\ncpu0 1 1\n"), 890);
+  EXPECT_FALSE(stolen_ticks(""));
+  EXPECT_FALSE(stolen_ticks("cpu 1 2 3\ncpu0 1 2 3 4 5 6 7 8\n"));
+  EXPECT_FALSE(stolen_ticks("intr 1 2 3 4 5 6 7 8\n"));
 }
 
 TEST(RandomFaults, are_scripts_within_their_time_and_the_same_for_a_seed) {
