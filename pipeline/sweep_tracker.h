@@ -20,8 +20,10 @@ struct SweepSlot {
 };
 
 // Pure logic, one thread. Follows the scanner: a volume's sweeps start at the trigger's pulse or,
-// when that was latched, at the end of those before. Each frame placed corrects the estimated start
-// by a quarter of its deviation, so the clock of the camera may drift against ours.
+// when that was latched, at the end of those before. Where those never came, as the scanner missed
+// their pulse, nothing was latched: the first frame tells by its time. Each frame placed corrects
+// the estimated start by a quarter of its deviation, so the clock of the camera may drift against
+// ours.
 class SweepTracker {
 public:
   explicit SweepTracker(const ScanPlan& plan)
@@ -37,7 +39,11 @@ private:
   struct Start {
     std::uint64_t volume = 0; // 0: none yet
     hal::TimePoint when;
+    hal::TimePoint pulse;
+    bool answered = false; // by a frame
   };
+
+  void reconsider_latch(Start& start, const Start& before, hal::TimePoint first_line) const;
 
   hal::Duration period_;
   hal::Duration duration_;

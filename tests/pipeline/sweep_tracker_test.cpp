@@ -50,6 +50,40 @@ TEST(SweepTracker, knows_that_a_pulse_during_a_sweep_is_latched) {
   EXPECT_EQ(first->sweep, 0);
 }
 
+// The first pulse came late, the scanner missed the second, and so nothing held up the third: its
+// frames are its own from the first on, none is taken for the end of the volume that never came.
+TEST(SweepTracker, knows_that_a_missed_pulse_latches_nothing) {
+  const ScanPlan plan;
+  SweepTracker tracker{plan};
+  const hal::TimePoint second = tracker.armed(1, start);
+  ASSERT_TRUE(tracker.place(start));
+  tracker.armed(2, second - 7ms);
+  const hal::TimePoint third = second - 7ms + plan.sweep_duration();
+  tracker.armed(3, third);
+  for (int b = 0; b < plan.b_scans; ++b) {
+    const auto slot = tracker.place(third + b * plan.frame_period());
+    ASSERT_TRUE(slot);
+    EXPECT_EQ(slot->volume, 3U);
+    EXPECT_EQ(slot->sweep, b);
+  }
+}
+
+// As above, but it was the camera that lost all frames of the second volume.
+TEST(SweepTracker, knows_that_a_volume_whose_frames_were_lost_latched_the_next) {
+  const ScanPlan plan;
+  SweepTracker tracker{plan};
+  const hal::TimePoint second = tracker.armed(1, start);
+  ASSERT_TRUE(tracker.place(start));
+  const hal::TimePoint third = tracker.armed(2, second - 2500us);
+  tracker.armed(3, third - 2500us);
+  for (int b = 0; b < plan.b_scans; ++b) {
+    const auto slot = tracker.place(third + b * plan.frame_period());
+    ASSERT_TRUE(slot);
+    EXPECT_EQ(slot->volume, 3U);
+    EXPECT_EQ(slot->sweep, b);
+  }
+}
+
 // A camera clock 0.5 % slow, and pulses latched for ever: without correction the second volume
 // would already be half a B-scan off, the tenth four.
 TEST(SweepTracker, follows_a_camera_whose_clock_drifts) {
