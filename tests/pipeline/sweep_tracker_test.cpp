@@ -9,6 +9,16 @@ using namespace std::chrono_literals;
 
 const hal::TimePoint start{1s};
 
+void expect_all_sweeps_placed(SweepTracker& tracker, const ScanPlan& plan, std::uint64_t volume,
+                              hal::TimePoint begin) {
+  for (int b = 0; b < plan.b_scans; ++b) {
+    const auto slot = tracker.place(begin + b * plan.frame_period());
+    ASSERT_TRUE(slot) << "B-scan " << b;
+    EXPECT_EQ(slot->volume, volume);
+    EXPECT_EQ(slot->sweep, b);
+  }
+}
+
 TEST(SweepTracker, places_frames_by_their_time) {
   const ScanPlan plan;
   SweepTracker tracker{plan};
@@ -60,12 +70,7 @@ TEST(SweepTracker, knows_that_a_missed_pulse_latches_nothing) {
   tracker.armed(2, second - 7ms);
   const hal::TimePoint third = second - 7ms + plan.sweep_duration();
   tracker.armed(3, third);
-  for (int b = 0; b < plan.b_scans; ++b) {
-    const auto slot = tracker.place(third + b * plan.frame_period());
-    ASSERT_TRUE(slot);
-    EXPECT_EQ(slot->volume, 3U);
-    EXPECT_EQ(slot->sweep, b);
-  }
+  expect_all_sweeps_placed(tracker, plan, 3, third);
 }
 
 // As above, but it was the camera that lost all frames of the second volume.
@@ -76,12 +81,7 @@ TEST(SweepTracker, knows_that_a_volume_whose_frames_were_lost_latched_the_next) 
   ASSERT_TRUE(tracker.place(start));
   const hal::TimePoint third = tracker.armed(2, second - 2500us);
   tracker.armed(3, third - 2500us);
-  for (int b = 0; b < plan.b_scans; ++b) {
-    const auto slot = tracker.place(third + b * plan.frame_period());
-    ASSERT_TRUE(slot);
-    EXPECT_EQ(slot->volume, 3U);
-    EXPECT_EQ(slot->sweep, b);
-  }
+  expect_all_sweeps_placed(tracker, plan, 3, third);
 }
 
 // A camera clock 0.5 % slow, and pulses latched for ever: without correction the second volume
