@@ -57,7 +57,7 @@ class Shell:
                 return
         raise MachineError(f"no root shell on the serial line within {limit_s} s")
 
-    def run(self, command, limit_s=180):
+    def run(self, command, limit_s=60):
         """Its output and exit status."""
         self._count += 1
         self._write(f"{{ {command}\n}} 2>&1; printf 'END%s %d.\\n' _{self._count}_ $?")
@@ -68,7 +68,7 @@ class Shell:
         text = output.decode(errors="replace").replace("\r", "")
         return text.strip("\n"), int(status)
 
-    def output(self, command, limit_s=180):
+    def output(self, command, limit_s=60):
         text, status = self.run(command, limit_s)
         if status != 0:
             raise MachineError(f"'{command}' ended with {status}: {text[-2000:]}")
