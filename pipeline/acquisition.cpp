@@ -14,7 +14,10 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr const char* device_name = "line_camera";
-constexpr hal::Duration frame_timeout = 50ms; // also how soon a stop is noticed
+// Also how soon a stop is noticed; a volume that misses frames waits for the end of a look that
+// began after its time was over.
+constexpr hal::Duration frame_timeout = 10ms;
+constexpr hal::Duration retry_step = 50ms; // how soon a stop is noticed while the camera is away
 constexpr hal::Duration first_patience = 3s;
 constexpr hal::Duration most_patience = 24s;
 
@@ -68,7 +71,8 @@ AcquisitionCounters Acquisition::counters() const {
 
 void Acquisition::run() {
   while (!stopping_.load(std::memory_order_acquire)) {
-    Heartbeat::beat_here(clock_.now());
+    const hal::TimePoint asked = clock_.now();
+    Heartbeat::beat_here(asked);
     if (camera_.state() != hal::DeviceState::streaming && !open_and_start()) {
       wait_before_retry();
       continue;
@@ -80,8 +84,10 @@ void Acquisition::run() {
       close_when_returned();
     } else if (*frame) {
       receive(**frame);
+      note_look(std::min((*frame)->last_line, clock_.now()));
     } else {
       mend_silence();
+      note_look(asked);
     }
   }
   camera_.stop();
@@ -191,11 +197,20 @@ void Acquisition::give_back(int buffer) {
   on_loan_.fetch_sub(1, std::memory_order_acq_rel);
 }
 
+void Acquisition::note_look(hal::TimePoint until) {
+  if (until > looked_until_.load(std::memory_order_relaxed))
+    looked_until_.store(until, std::memory_order_release);
+  hal::TimePoint awaited = awaited_look_.load(std::memory_order_relaxed);
+  if (until >= awaited && awaited_look_.compare_exchange_strong(awaited, hal::TimePoint::max(),
+                                                                std::memory_order_relaxed))
+    arrived_.post();
+}
+
 void Acquisition::wait_before_retry() {
   retry_.failure(clock_.now());
   while (!retry_.due(clock_.now()) && !stopping_.load(std::memory_order_acquire)) {
     Heartbeat::beat_here(clock_.now());
-    clock_.sleep_until(std::min(retry_.next(), clock_.now() + frame_timeout));
+    clock_.sleep_until(std::min(retry_.next(), clock_.now() + retry_step));
   }
 }
 

@@ -31,7 +31,8 @@ struct AcquisitionCounters {
 // may as well be the scanner that is off.
 class Acquisition {
 public:
-  // `camera`, `clock` and `faults` outlive this. `arrived` is posted after each queued frame.
+  // `camera`, `clock` and `faults` outlive this. `arrived` is posted after each queued frame, and
+  // after the look that somebody asked for.
   Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& config, hal::Clock& clock,
               FaultLog& faults, Wakeup& arrived);
   ~Acquisition();
@@ -49,6 +50,15 @@ public:
   // Any thread.
   void release(int buffer);
 
+  // Any thread, wait-free: what the camera had to give until then, by when it was exposed, is in
+  // the queue or was dropped. To know that nothing earlier will come, ask before taking what is
+  // queued.
+  hal::TimePoint looked_until() const { return looked_until_.load(std::memory_order_acquire); }
+
+  // Any thread, wait-free: `arrived` is posted after the first look that reaches `until`, be it
+  // with a frame or without. The last who asks is served.
+  void ask_for_look(hal::TimePoint until) { awaited_look_.store(until, std::memory_order_relaxed); }
+
   // Any thread, wait-free: a pulse should have brought frames, and brought none.
   void note_unanswered_pulse() { unanswered_.store(true, std::memory_order_relaxed); }
 
@@ -64,6 +74,7 @@ private:
   void check_sequence(std::uint64_t sequence);
   void give_back(int buffer);
   void wait_before_retry();
+  void note_look(hal::TimePoint until);
 
   hal::LineCamera& camera_;
   hal::LineCameraConfig config_;
@@ -81,6 +92,8 @@ private:
   hal::Duration patience_;                     // with that
 
   std::atomic<std::uint64_t> good_{0}, unusable_{0}, gaps_{0}, overflowed_{0};
+  std::atomic<hal::TimePoint> looked_until_{hal::TimePoint{}};
+  std::atomic<hal::TimePoint> awaited_look_{hal::TimePoint::max()};
   std::atomic<bool> unanswered_{false};
   std::atomic<bool> stopping_{false};
   std::thread thread_;

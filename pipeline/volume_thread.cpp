@@ -21,6 +21,9 @@ constexpr const char* trigger_name = "galvo_trigger";
 // How long after its sweep's end a volume waits for late B-scans, as a divisor of the sweep.
 constexpr int grace_divisor = 6;
 
+// How much longer at most until the camera's thread has looked at the camera that long, as another.
+constexpr int look_divisor = 2;
+
 // However slow a scan is: a thread that shows no life for longer is taken for stuck.
 constexpr hal::Duration longest_wait = 500ms;
 
@@ -112,9 +115,10 @@ void VolumeThread::run() {
       Heartbeat::beat_here(clock_.now());
       if (clock_.now() >= next_tick_)
         tick();
+      const hal::TimePoint looked_until = acquisition_.looked_until();
       while (const auto frame = acquisition_.take())
         place(*frame);
-      finish_due_volumes();
+      finish_due_volumes(looked_until);
     }
     arrived_.wait_until(next_deadline());
   }
@@ -208,6 +212,7 @@ void VolumeThread::open_volume(hal::TimePoint armed) {
   Construction& c = constructions_[index];
   c.open = true;
   c.accept_until = end + setup_.plan.sweep_duration() / grace_divisor;
+  c.give_up_at.reset();
   c.alignment = SweepAlignment{setup_.plan, phase_.in_use_a_scans()};
   c.sketch = phase_.borrow();
   std::ranges::fill(c.positions, Position{});
@@ -334,11 +339,25 @@ std::uint32_t VolumeThread::oldest_open() const {
   return oldest;
 }
 
-void VolumeThread::finish_due_volumes() {
+// Where others had the processor, the camera's frames came in time, and its thread wakes no sooner
+// than this one: until it has looked, they are late only here.
+bool VolumeThread::more_may_come(Construction& c, hal::TimePoint looked_until) const {
   const hal::TimePoint now = clock_.now();
+  if (now < c.accept_until)
+    return true;
+  if (looked_until >= c.accept_until || camera_.state() != hal::DeviceState::streaming)
+    return false;
+  if (!c.give_up_at) {
+    c.give_up_at = now + setup_.plan.sweep_duration() / look_divisor;
+    acquisition_.ask_for_look(c.accept_until);
+  }
+  return now < *c.give_up_at;
+}
+
+void VolumeThread::finish_due_volumes(hal::TimePoint looked_until) {
   for (std::uint32_t i = oldest_open(); i != none; i = oldest_open()) {
-    const Construction& c = constructions_[i];
-    if (c.sweeps_came < setup_.plan.sweeps() && now < c.accept_until)
+    Construction& c = constructions_[i];
+    if (c.sweeps_came < setup_.plan.sweeps() && more_may_come(c, looked_until))
       return;
     flush(i, setup_.plan.b_scans);
     if (c.finished.load(std::memory_order_acquire) < c.submitted)
@@ -415,7 +434,8 @@ void VolumeThread::fill_ledger(Volume& volume, const Construction& c) {
 hal::TimePoint VolumeThread::next_deadline() const {
   hal::TimePoint deadline = std::min(next_tick_, clock_.now() + longest_wait);
   if (const std::uint32_t i = oldest_open(); i != none)
-    deadline = std::min(deadline, constructions_[i].accept_until);
+    deadline =
+        std::min(deadline, constructions_[i].give_up_at.value_or(constructions_[i].accept_until));
   return std::max(deadline, clock_.now() + 100us);
 }
 

@@ -3,7 +3,8 @@
 // Each tick arms the galvo trigger. B-scans are handed to the workers as they come, not at the end
 // of the sweeps, so that almost nothing is left to do when the last one arrives. A volume is
 // published when it is complete, or, with its missing B-scans marked, shortly after its sweeps
-// should have ended: a late camera never delays the tick.
+// should have ended, once the camera's thread has looked at the camera that long: a late camera
+// never delays the tick, and a busy machine makes no frame late that the camera gave in time.
 //
 // With several sweeps of each B-scan, a B-scan goes to a worker when all of them have come; when
 // one is missing, once the B-scan after the next has begun, or when the volume's time is over. A
@@ -95,7 +96,8 @@ private:
   struct Construction {
     bool open = false;
     hal::TimePoint accept_until;
-    SweepAlignment alignment; // of all its sweeps
+    std::optional<hal::TimePoint> give_up_at; // set when that was over and the camera not looked at
+    SweepAlignment alignment;                 // of all its sweeps
     SweepSketch* sketch = nullptr;
     std::unique_ptr<VolumeAssembler> assembler;
     std::vector<Position> positions; // by B-scan
@@ -130,7 +132,8 @@ private:
   void flush(std::uint32_t index, int end);
   void release(Position& position);
   void reconstruct(std::size_t worker, std::uint32_t job);
-  void finish_due_volumes();
+  bool more_may_come(Construction& construction, hal::TimePoint looked_until) const;
+  void finish_due_volumes(hal::TimePoint looked_until);
   void finish(std::uint32_t index);
   void fill_ledger(Volume& volume, const Construction& construction);
   std::uint32_t oldest_open() const;

@@ -91,6 +91,40 @@ TEST_F(AcquisitionTest, a_counter_that_begins_anew_is_told_once) {
   EXPECT_EQ(count_of("dropped_frames"), 0U);
 }
 
+TEST_F(AcquisitionTest, what_the_camera_gave_is_queued_before_it_counts_as_looked_at) {
+  for (std::uint64_t sequence = 0; sequence < 200; ++sequence) {
+    const hal::TimePoint exposed = clock_.now();
+    camera_.deliver(sequence, exposed, 0);
+    while (acquisition_->looked_until() < exposed)
+      clock_.sleep_for(100us);
+    const auto frame = acquisition_->take();
+    ASSERT_TRUE(frame) << "number " << sequence;
+    acquisition_->release(frame->buffer);
+  }
+}
+
+TEST_F(AcquisitionTest, a_look_that_was_asked_for_is_told_once) {
+  const hal::TimePoint later = clock_.now() + 30ms;
+  acquisition_->ask_for_look(later);
+  ASSERT_TRUE(arrived_.wait_until(clock_.now() + 10s));
+  EXPECT_GE(acquisition_->looked_until(), later);
+  EXPECT_FALSE(arrived_.wait_until(clock_.now() + 100ms)) << "nobody asked for more";
+}
+
+TEST_F(AcquisitionTest, a_camera_that_has_nothing_is_looked_at_and_one_that_hangs_is_not) {
+  acquisition_->ask_for_look(clock_.now());
+  ASSERT_TRUE(arrived_.wait_until(clock_.now() + 10s));
+  camera_.hold();
+  camera_.wait_until_held();
+  const hal::TimePoint held = acquisition_->looked_until();
+  acquisition_->ask_for_look(clock_.now());
+  EXPECT_FALSE(arrived_.wait_until(clock_.now() + 50ms));
+  EXPECT_EQ(acquisition_->looked_until(), held);
+  camera_.let_go();
+  EXPECT_TRUE(arrived_.wait_until(clock_.now() + 10s));
+  EXPECT_GT(acquisition_->looked_until(), held);
+}
+
 TEST_F(AcquisitionTest, a_silent_stream_is_opened_anew_while_the_scanner_is_pulsed) {
   deliver({0, 1});
   const hal::TimePoint begin = clock_.now();

@@ -156,6 +156,39 @@ TEST_F(VolumeThreadTest, a_late_frame_of_a_published_volume_is_refused) {
   stop();
 }
 
+TEST_F(VolumeThreadTest, frames_that_came_in_time_to_a_camera_nobody_looked_at_are_not_late) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  for (int b = 0; b < 5; ++b)
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
+  camera.hold();
+  for (int b = 5; b < plan.b_scans; ++b)
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
+  // Past the time that a volume waits for frames.
+  clock.sleep_until(time_of(armed, plan.b_scans) + plan.sweep_duration() / 5);
+  camera.let_go();
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->ledger.index, 1U);
+  EXPECT_EQ(volume->missing_b_scans(), 0);
+  EXPECT_FALSE(has_fault("late_frame"));
+  stop();
+}
+
+TEST_F(VolumeThreadTest, a_volume_does_not_wait_for_ever_for_a_look_at_the_camera) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  for (int b = 0; b < 5; ++b)
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
+  while (acquisition->counters().frames < 5)
+    clock.sleep_for(1ms);
+  camera.hold();
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->ledger.index, 1U);
+  EXPECT_EQ(volume->missing_b_scans(), 3);
+  camera.let_go();
+  stop();
+}
+
 TEST_F(VolumeThreadTest, a_stuck_sequence_number_moves_no_b_scan) {
   start();
   const hal::TimePoint armed = trigger.wait_for_pulse(0);

@@ -24,6 +24,21 @@ public:
     queue_.push_back({sequence, first_line, fill, integrity});
     changed_.notify_one();
   }
+  // Whoever waits for a frame waits until let_go(), like a thread that gets no processor.
+  void hold() {
+    const std::lock_guard lock{mutex_};
+    hold_ = true;
+  }
+  // Until somebody does.
+  void wait_until_held() {
+    std::unique_lock lock{mutex_};
+    held_changed_.wait(lock, [this] { return held_; });
+  }
+  void let_go() {
+    const std::lock_guard lock{mutex_};
+    hold_ = false;
+    held_changed_.notify_all();
+  }
   void unplug() {
     const std::lock_guard lock{mutex_};
     plugged_ = false;
@@ -71,6 +86,12 @@ private:
   hal::Result<std::optional<hal::LineFrame>> do_wait_frame(hal::Duration timeout) override {
     std::unique_lock lock{mutex_};
     changed_.wait_for(lock, timeout, [this] { return !queue_.empty() || !plugged_; });
+    if (hold_) {
+      held_ = true;
+      held_changed_.notify_all();
+      held_changed_.wait(lock, [this] { return !hold_; });
+      held_ = false;
+    }
     if (!plugged_) {
       queue_.clear();
       set_state(hal::DeviceState::failed);
@@ -106,13 +127,14 @@ private:
   void do_close() override { set_state(hal::DeviceState::absent); }
 
   mutable std::mutex mutex_;
-  std::condition_variable changed_;
+  std::condition_variable changed_, held_changed_;
   std::deque<Order> queue_;
   std::set<int> loans_;
   std::vector<std::vector<std::byte>> memory_;
   hal::LineCameraConfig config_;
   int opened_ = 0;
   bool plugged_ = true;
+  bool hold_ = false, held_ = false;
 };
 
 class PuppetTrigger final : public hal::GalvoTrigger {
