@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/scan_plan.h"
+#include "tests/soak/processor_thief.h"
 #include "tests/soak/soak_verdict.h"
 #include "tests/soak/stolen_time.h"
 #include "tests/support/program_run.h"
@@ -27,6 +29,7 @@ struct SoakOptions {
   unsigned seed = std::random_device{}() % 1000000;
   double line_rate_hz = 215000;
   int samples = 1024, a_scans = 300, fly_back = 79, b_scans = 80;
+  double steal_ms = 0;
   std::string size = "1280x720";
   std::string keep; // a folder for scripts, reports and samples
 };
@@ -143,9 +146,13 @@ Outcome soak(const SoakOptions& options, const Phase& phase, const std::filesyst
   }
   const double stolen_before_s = stolen_seconds();
   const auto begin = WallClock::now();
+  std::optional<ProcessorThief> thief;
+  if (options.steal_ms > 0)
+    thief.emplace(std::chrono::duration<double, std::milli>{options.steal_ms}, options.seed);
   ProgramRun run{octascope_command(words)};
   const std::vector<ProcessSample> samples = watch(run, begin);
   const ProgramResult result = run.wait();
+  thief.reset();
   keep_samples(file(".csv"), samples);
 
   Outcome outcome{.phase = phase};
@@ -244,6 +251,11 @@ int soak(const SoakOptions& options) {
     fmt::print(stderr, "soak: {}\n", valid.error().message);
     return 2;
   }
+  if (options.steal_ms > 0 && !ProcessorThief::is_permitted()) {
+    fmt::print(stderr, "soak: --steal needs real-time priority, which this user may not have: "
+                       "start it as root\n");
+    return 2;
+  }
   const Phase quiet = quiet_phase(options);
   const Phase faulty = faulty_phase(options);
   fmt::print("soak: --seed {} --minutes {} --rate {}: {:.0f} s undisturbed, {:.0f} s with {}\n",
@@ -280,6 +292,9 @@ int main(int argc, char** argv) {
   app.add_option("--a-scans", options.a_scans, "Kept lines of a sweep")->capture_default_str();
   app.add_option("--fly-back", options.fly_back, "Other lines of a sweep")->capture_default_str();
   app.add_option("--b-scans", options.b_scans, "B-scans of a volume")->capture_default_str();
+  app.add_option("--steal", options.steal_ms,
+                 "Milliseconds for which all processors are taken away, about once a second")
+      ->check(CLI::Range(0.0, 500.0));
   app.add_option("--size", options.size, "Of the picture")->capture_default_str();
   app.add_option("--keep", options.keep, "Keep scripts, reports and samples in this folder");
   try {

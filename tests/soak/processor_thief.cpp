@@ -1,0 +1,60 @@
+#include "tests/soak/processor_thief.h"
+
+#include <random>
+
+#include <pthread.h>
+#include <sched.h>
+
+namespace octascope::tests {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+bool come_before_all_others() {
+  const sched_param highest{.sched_priority = sched_get_priority_max(SCHED_FIFO)};
+  return pthread_setschedparam(pthread_self(), SCHED_FIFO, &highest) == 0;
+}
+
+void stay_on(unsigned processor) {
+  cpu_set_t only;
+  CPU_ZERO(&only);
+  CPU_SET(processor, &only);
+  pthread_setaffinity_np(pthread_self(), sizeof only, &only);
+}
+
+// Every processor's thread draws the same times.
+void steal(const std::stop_token& end, Clock::time_point begin, Seconds each, unsigned seed) {
+  std::mt19937 random{seed};
+  std::uniform_real_distribution<double> wait_s{0.5, 1.5};
+  Seconds next{0};
+  while (true) {
+    next += Seconds{wait_s(random)};
+    const auto at = begin + std::chrono::duration_cast<Clock::duration>(next);
+    std::this_thread::sleep_until(at);
+    if (end.stop_requested())
+      return;
+    while (Clock::now() - at < each) {
+    }
+  }
+}
+
+} // namespace
+
+ProcessorThief::ProcessorThief(Seconds each, unsigned seed) {
+  const Clock::time_point begin = Clock::now();
+  for (unsigned processor = 0; processor < std::thread::hardware_concurrency(); ++processor)
+    threads_.emplace_back([=](const std::stop_token& end) {
+      stay_on(processor);
+      if (come_before_all_others())
+        steal(end, begin, each, seed);
+    });
+}
+
+bool ProcessorThief::is_permitted() {
+  bool permitted = false;
+  std::jthread{[&] { permitted = come_before_all_others(); }}.join();
+  return permitted;
+}
+
+} // namespace octascope::tests
