@@ -158,8 +158,7 @@ void LoopStage::SetUp() {
   scope_thread_ = std::make_unique<pipeline::ScopeThread>(scope_, hal::ScopeCameraConfig{},
                                                           real_clock_, faults_, news_);
   ASSERT_TRUE(acquisition_->start({}));
-  while (camera_.state() != hal::DeviceState::streaming)
-    real_clock_.sleep_for(1ms);
+  await("the camera", [&] { return camera_.state() == hal::DeviceState::streaming; });
   volumes_->start({});
   control_thread_->start({});
   scope_thread_->start({});
@@ -234,16 +233,22 @@ void LoopStage::send_volume(Tissue tissue) {
   for (int b = 0; b < small_geometry.b_scans; ++b)
     camera_.deliver(sequence_++, armed + b * plan().frame_period(),
                     static_cast<std::uint8_t>(frames_of_a_tissue * static_cast<int>(tissue) + b));
-  while (volumes_->counters().published == published)
-    real_clock_.sleep_for(1ms);
+  await("the volume", [&] { return volumes_->counters().published > published; });
 }
 
 void LoopStage::resume_sweeps() {
   next_pulse_ = trigger_.pulses();
   camera_.replug();
-  while (camera_.state() != hal::DeviceState::streaming)
-    real_clock_.sleep_for(1ms);
+  await("the camera", [&] { return camera_.state() == hal::DeviceState::streaming; });
   turn_until(clock_.now() + plan().tick_period());
+}
+
+void LoopStage::await(std::string_view what, const std::function<bool()>& came) {
+  const hal::TimePoint patience = real_clock_.now() + 60s;
+  while (!came()) {
+    ASSERT_LT(real_clock_.now(), patience) << what << " does not come";
+    real_clock_.sleep_for(1ms);
+  }
 }
 
 void LoopStage::await_news() {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -157,6 +158,7 @@ protected:
   hal::Duration longest_turn_ = std::chrono::milliseconds{40};
 
 private:
+  void await(std::string_view what, const std::function<bool()>& came);
   void await_news();
 
   std::size_t next_pulse_ = 0;
