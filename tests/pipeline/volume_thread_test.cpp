@@ -73,6 +73,12 @@ protected:
     return armed + sweep * plan.frame_period();
   }
 
+  // The B-scans from `begin` to before `end`, in order and each in its time.
+  void deliver(hal::TimePoint armed, int begin, int end) {
+    for (int b = begin; b < end; ++b)
+      camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
+  }
+
   // Waits until a volume with this number has been published.
   const Volume* wait_for_volume(std::uint64_t number) {
     while (true) {
@@ -159,11 +165,9 @@ TEST_F(VolumeThreadTest, a_late_frame_of_a_published_volume_is_refused) {
 TEST_F(VolumeThreadTest, frames_that_came_in_time_to_a_camera_nobody_looked_at_are_not_late) {
   start();
   const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  for (int b = 0; b < 5; ++b)
-    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
+  deliver(armed, 0, 5);
   camera.hold();
-  for (int b = 5; b < plan.b_scans; ++b)
-    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
+  deliver(armed, 5, plan.b_scans);
   // Past the time that a volume waits for frames.
   clock.sleep_until(time_of(armed, plan.b_scans) + plan.sweep_duration() / 5);
   camera.let_go();
@@ -177,8 +181,7 @@ TEST_F(VolumeThreadTest, frames_that_came_in_time_to_a_camera_nobody_looked_at_a
 TEST_F(VolumeThreadTest, a_volume_does_not_wait_for_ever_for_a_look_at_the_camera) {
   start();
   const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  for (int b = 0; b < 5; ++b)
-    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
+  deliver(armed, 0, 5);
   while (acquisition->counters().frames < 5)
     clock.sleep_for(1ms);
   camera.hold();

@@ -5,22 +5,18 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include "hal/linux/realtime.h"
+
 namespace octascope::tests {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
+// Beyond what hal::linux_backend lets the program have.
 bool come_before_all_others() {
   const sched_param highest{.sched_priority = sched_get_priority_max(SCHED_FIFO)};
   return pthread_setschedparam(pthread_self(), SCHED_FIFO, &highest) == 0;
-}
-
-void stay_on(unsigned processor) {
-  cpu_set_t only;
-  CPU_ZERO(&only);
-  CPU_SET(processor, &only);
-  pthread_setaffinity_np(pthread_self(), sizeof only, &only);
 }
 
 // Every processor's thread draws the same times.
@@ -43,10 +39,9 @@ void steal(const std::stop_token& end, Clock::time_point begin, Seconds each, un
 
 ProcessorThief::ProcessorThief(Seconds each, unsigned seed) {
   const Clock::time_point begin = Clock::now();
-  for (unsigned processor = 0; processor < std::thread::hardware_concurrency(); ++processor)
+  for (const int core : hal::linux_backend::allowed_cores())
     threads_.emplace_back([=](const std::stop_token& end) {
-      stay_on(processor);
-      if (come_before_all_others())
+      if (hal::linux_backend::pin_this_thread(core) && come_before_all_others())
         steal(end, begin, each, seed);
     });
 }

@@ -8,8 +8,8 @@
 namespace octascope::tests {
 
 // From construction to destruction: about once a second, at times drawn from `seed`, each processor
-// of this machine does nothing but count for `each`, at the highest real-time priority, all at
-// once.
+// that this process may use does nothing but count for `each`, at the highest real-time priority,
+// all at once.
 class ProcessorThief {
 public:
   ProcessorThief(std::chrono::duration<double> each, unsigned seed);
