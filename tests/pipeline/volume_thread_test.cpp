@@ -79,6 +79,14 @@ protected:
       camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
   }
 
+  // So many frames came, and then nobody looks at the camera any more.
+  void hold_camera_after(std::uint64_t frames) {
+    while (acquisition->counters().frames < frames)
+      clock.sleep_for(1ms);
+    camera.hold();
+    camera.wait_until_held();
+  }
+
   // Waits until a volume with this number has been published.
   const Volume* wait_for_volume(std::uint64_t number) {
     while (true) {
@@ -166,10 +174,10 @@ TEST_F(VolumeThreadTest, frames_that_came_in_time_to_a_camera_nobody_looked_at_a
   start();
   const hal::TimePoint armed = trigger.wait_for_pulse(0);
   deliver(armed, 0, 5);
-  camera.hold();
+  hold_camera_after(5);
   deliver(armed, 5, plan.b_scans);
-  // Past the time that a volume waits for frames.
-  clock.sleep_until(time_of(armed, plan.b_scans) + plan.sweep_duration() / 5);
+  // Past the time that a volume waits for frames, before it gives up a camera not looked at.
+  clock.sleep_until(time_of(armed, plan.b_scans) + plan.sweep_duration() / 3);
   camera.let_go();
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->ledger.index, 1U);
@@ -182,9 +190,7 @@ TEST_F(VolumeThreadTest, a_volume_does_not_wait_for_ever_for_a_look_at_the_camer
   start();
   const hal::TimePoint armed = trigger.wait_for_pulse(0);
   deliver(armed, 0, 5);
-  while (acquisition->counters().frames < 5)
-    clock.sleep_for(1ms);
-  camera.hold();
+  hold_camera_after(5);
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->ledger.index, 1U);
   EXPECT_EQ(volume->missing_b_scans(), 3);
