@@ -1,7 +1,8 @@
 # octascope_embed(TARGET NAMESPACE HEADER FILES...)
 #
-# Puts files into the program, so that it needs nothing beside it: HEADER (included as written)
-# declares one std::string_view per file, named after it (plane_stack.frag → plane_stack_frag).
+# Puts files into the program, so that it needs nothing beside it. Those that link TARGET may include
+# HEADER (as written), which declares one std::string_view per file, named after it
+# (plane_stack.frag → plane_stack_frag).
 function(octascope_embed target namespace header)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded/${header})
   add_custom_command(OUTPUT ${output}
@@ -9,6 +10,8 @@ function(octascope_embed target namespace header)
             -P ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake
     DEPENDS ${ARGN} ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake
     COMMENT "Embedding into ${header}" VERBATIM)
-  target_sources(${target} PRIVATE ${output})
-  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/embedded)
+  add_custom_target(${target}_file DEPENDS ${output})
+  add_library(${target} INTERFACE)
+  add_dependencies(${target} ${target}_file)
+  target_include_directories(${target} INTERFACE ${CMAKE_CURRENT_BINARY_DIR}/embedded)
 endfunction()

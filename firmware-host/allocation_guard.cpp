@@ -5,7 +5,7 @@
 // A sanitizer brings allocation functions of its own, and asks a hook.
 #include <cstddef>
 
-#include "pipeline/hot_path.h"
+#include "pipeline/threads/hot_path.h"
 
 using octascope::pipeline::HotPath;
 

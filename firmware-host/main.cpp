@@ -1,16 +1,16 @@
 // octascope: the command line.
 #include <string>
 
-#include "firmware-host/commands/bench.h"
-#include "firmware-host/commands/calibrate.h"
+#include "firmware-host/commands/bench/bench.h"
+#include "firmware-host/commands/calibrate/calibrate.h"
 #include "firmware-host/commands/command.h"
-#include "firmware-host/commands/export.h"
-#include "firmware-host/commands/info.h"
-#include "firmware-host/commands/reconstruct.h"
-#include "firmware-host/commands/render.h"
-#include "firmware-host/commands/status.h"
-#include "firmware-host/commands/vessels.h"
-#include "firmware-host/version.h"
+#include "firmware-host/commands/devices/status.h"
+#include "firmware-host/commands/recordings/export.h"
+#include "firmware-host/commands/recordings/info.h"
+#include "firmware-host/commands/vessels/vessels.h"
+#include "firmware-host/commands/volume/reconstruct.h"
+#include "firmware-host/commands/volume/render.h"
+#include "firmware-host/version/version.h"
 
 int main(int argc, char** argv) {
   namespace host = octascope::firmware_host;
@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   host::add_reconstruct_command(program, exit_status);
   host::add_render_command(program, exit_status);
   host::add_replay_command(program, exit_status);
-  host::add_bench_command(program, exit_status);
+  host::add_bench_vessels_command(host::add_bench_command(program, exit_status), exit_status);
   host::add_calibrate_command(program, exit_status);
   host::add_vessels_command(program, exit_status);
   host::add_info_command(program, exit_status);

@@ -36,7 +36,8 @@ public:
   // Waits at most `timeout` for events and writes up to events.size() of them, oldest first, with
   // times that never decrease; returns their number, 0 when nothing happened. Contact bounce under
   // 5 ms is already removed. A device that goes away in the middle of a press first reports the
-  // release of every pressed switch, then Fault::disconnected, and is `failed`; close() and open().
+  // release of every pressed switch, then ErrorCode::disconnected, and is `failed`; close() and
+  // open().
   Result<std::size_t> read(std::span<ControlEvent> events, Duration timeout) {
     return do_read(events, timeout);
   }

@@ -70,7 +70,7 @@ public:
   Duration refresh_period() const { return do_refresh_period(); }
 
   // Makes what was drawn visible, waits until it is, and until the next may be drawn.
-  // Fault::disconnected: the output is gone, the state is `failed` and the context lost: forget
+  // ErrorCode::disconnected: the output is gone, the state is `failed` and the context lost: forget
   // every GL name, close() and open() again.
   Result<Flip> present() { return do_present(); }
 

@@ -22,7 +22,7 @@ public:
   Result<> open(const GalvoTriggerConfig& config) { return do_open(config); }
 
   // Makes one pulse and returns when its rising edge was made. Neither allocates nor locks when it
-  // succeeds. Fault::disconnected: the line is gone, the state is `failed`; close() and open().
+  // succeeds. ErrorCode::disconnected: the line is gone, the state is `failed`; close() and open().
   Result<TimePoint> arm() { return do_arm(); }
 
   // Back to the safe level; any state → absent.

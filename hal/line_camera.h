@@ -66,16 +66,17 @@ struct LineFrame {
 // free.
 class LineCamera : public Device {
 public:
-  // absent → ready, or an Error and still absent. Fault::absent means: try again later.
-  // Fault::invalid_argument: the configuration is impossible, the message has found and expected.
+  // absent → ready, or an Error and still absent. ErrorCode::absent means: try again later.
+  // ErrorCode::invalid_argument: the configuration is impossible, the message has found and
+  // expected.
   Result<> open(const LineCameraConfig& config) { return do_open(config); }
 
   // ready → streaming. Sequence numbers begin anew at each start.
   Result<> start() { return do_start(); }
 
   // Waits for the next frame, at most `timeout`. Nothing in time (no trigger, no light, no cable):
-  // an empty optional, the stream goes on. Fault::disconnected: the device is gone, the state is
-  // `failed`; loans stay readable until close(); then open() again.
+  // an empty optional, the stream goes on. ErrorCode::disconnected: the device is gone, the state
+  // is `failed`; loans stay readable until close(); then open() again.
   Result<std::optional<LineFrame>> wait_frame(Duration timeout) { return do_wait_frame(timeout); }
 
   // Gives a loan back; its bytes must not be read afterwards. Numbers that are not on loan are

@@ -2,17 +2,17 @@
 
 namespace octascope::hal {
 
-std::string_view to_string(Fault fault) {
+std::string_view to_string(ErrorCode fault) {
   switch (fault) {
-  case Fault::absent: return "absent";
-  case Fault::busy: return "busy";
-  case Fault::denied: return "denied";
-  case Fault::disconnected: return "disconnected";
-  case Fault::timed_out: return "timed out";
-  case Fault::bad_data: return "bad data";
-  case Fault::invalid_argument: return "invalid argument";
-  case Fault::unsupported: return "unsupported";
-  case Fault::system: return "system error";
+  case ErrorCode::absent: return "absent";
+  case ErrorCode::busy: return "busy";
+  case ErrorCode::denied: return "denied";
+  case ErrorCode::disconnected: return "disconnected";
+  case ErrorCode::timed_out: return "timed out";
+  case ErrorCode::bad_data: return "bad data";
+  case ErrorCode::invalid_argument: return "invalid argument";
+  case ErrorCode::unsupported: return "unsupported";
+  case ErrorCode::system: return "system error";
   }
   return "unknown fault";
 }

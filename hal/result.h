@@ -13,7 +13,7 @@
 
 namespace octascope::hal {
 
-enum class Fault {
+enum class ErrorCode {
   absent,           // the device or file is not there; it may come (back)
   busy,             // somebody else holds it
   denied,           // missing permission
@@ -25,17 +25,36 @@ enum class Fault {
   system,           // the operating system refused; the message has its words
 };
 
-std::string_view to_string(Fault fault);
+std::string_view to_string(ErrorCode code);
 
 struct Error {
-  Fault fault = Fault::system;
+  ErrorCode code = ErrorCode::system;
   std::string message;
 };
 
 template <class T = void> using Result = tl::expected<T, Error>;
 
-inline tl::unexpected<Error> fail(Fault fault, std::string message) {
-  return tl::make_unexpected(Error{fault, std::move(message)});
+inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
+  return tl::make_unexpected(Error{code, std::move(message)});
 }
 
 } // namespace octascope::hal
+
+// Macros, because only a macro can return from the function that uses it; the arguments are
+// variadic so that they may hold commas.
+
+// HAL_TRY(const auto spectrum, read(file)): declares what a Result holds, or returns its error.
+#define HAL_TRY(declaration, ...)                                                                  \
+  HAL_TRY_NAMED(HAL_TRY_JOIN(hal_try_result_, __LINE__), declaration, __VA_ARGS__)
+#define HAL_TRY_NAMED(result, declaration, ...)                                                    \
+  auto result = __VA_ARGS__;                                                                       \
+  if (!result)                                                                                     \
+    return tl::make_unexpected(std::move(result).error());                                         \
+  declaration = *std::move(result)
+#define HAL_TRY_JOIN(a, b) HAL_TRY_JOIN_EXPANDED(a, b)
+#define HAL_TRY_JOIN_EXPANDED(a, b) a##b
+
+// HAL_CHECK(write(file)): returns the error of a Result that holds nothing of interest.
+#define HAL_CHECK(...)                                                                             \
+  if (auto hal_check_result = __VA_ARGS__; !hal_check_result)                                      \
+  return tl::make_unexpected(std::move(hal_check_result).error())

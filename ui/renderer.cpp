@@ -6,16 +6,16 @@
 #include <GLES3/gl3.h>
 #include <fmt/format.h>
 
-#include "ui/camera.h"
 #include "ui/gl/framebuffer.h"
 #include "ui/hud/canvas_renderer.h"
 #include "ui/hud/hud.h"
-#include "ui/layout.h"
+#include "ui/layout/layout.h"
+#include "ui/layout/stereo.h"
 #include "ui/panels/b_scan_panel.h"
 #include "ui/panels/en_face_panel.h"
 #include "ui/panels/scope_panel.h"
-#include "ui/stereo.h"
-#include "ui/volume/volume_painter.h"
+#include "ui/scene/volume_painter.h"
+#include "ui/view/camera.h"
 
 namespace octascope::ui {
 
@@ -46,7 +46,7 @@ void clear(int width, int height) {
 hal::Result<> check_size(int width, int height) {
   if (width >= 1 && height >= 1)
     return {};
-  return hal::fail(hal::Fault::invalid_argument,
+  return hal::fail(hal::ErrorCode::invalid_argument,
                    fmt::format("renderer: size is {}x{}, expected at least 1x1", width, height));
 }
 
@@ -101,9 +101,9 @@ struct Renderer::Parts {
   hal::Result<> prepare_fonts(float unit);
   void fill_canvases(const DrawnPicture& picture, const Layout& places, const HudScene& shown);
   hal::Result<> draw(const DrawnPicture& picture);
-  hal::Result<> draw_eye(const DrawnPicture& picture, const Layout& places, Eye eye);
+  hal::Result<> draw_eye(const DrawnPicture& picture, const Layout& places, StereoEye eye);
   hal::Result<> draw_eye_alone(const ViewState& view, const Layout& places,
-                               const DrawQuality& quality, Eye eye);
+                               const DrawQuality& quality, StereoEye eye);
 };
 
 ViewState Renderer::Parts::fitted(const ViewState& view) const {
@@ -159,10 +159,8 @@ Layout Renderer::Parts::layout(int width, int height, LayoutKind kind) const {
 hal::Result<> Renderer::Parts::prepare_fonts(float unit) {
   if (fonts && fonts_unit == unit)
     return {};
-  auto made = Fonts::create(unit);
-  if (!made)
-    return tl::make_unexpected(made.error());
-  fonts = std::move(*made);
+  HAL_TRY(auto made, Fonts::create(unit));
+  fonts = std::move(made);
   fonts_unit = unit;
   return {};
 }
@@ -179,7 +177,7 @@ void Renderer::Parts::fill_canvases(const DrawnPicture& picture, const Layout& p
 }
 
 hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layout& places,
-                                        Eye eye) {
+                                        StereoEye eye) {
   const ViewState& view = picture.view;
   const int height = picture.height;
   const EyeFrame frame = eye_frame(view.stereo, eye, picture.width, height);
@@ -188,8 +186,7 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   const Rect view_rect = frame.place(places.view);
   if (has_volume) {
     shown.camera = make_camera(view, shown.extents_mm, aspect_of(places.view), eye);
-    if (auto ok = volume.update(eye, view, shown.camera, picture.quality, view_rect); !ok)
-      return ok;
+    HAL_CHECK(volume.update(eye, view, shown.camera, picture.quality, view_rect));
   }
   fill_canvases(picture, places, shown);
   canvas_renderer.draw(ground, frame, height);
@@ -209,14 +206,13 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
 }
 
 hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& view, const Layout& places,
-                                              const DrawQuality& quality, Eye eye) {
+                                              const DrawQuality& quality, StereoEye eye) {
   const int height = places.view.height;
   const EyeFrame frame = eye_frame(view.stereo, eye, places.view.width, height);
   const Rect rect = frame.place(places.view);
   HudScene shown = scene(view);
   shown.camera = make_camera(view, shown.extents_mm, aspect_of(places.view), eye);
-  if (auto ok = volume.update(eye, view, shown.camera, quality, rect); !ok)
-    return ok;
+  HAL_CHECK(volume.update(eye, view, shown.camera, quality, rect));
   for (Canvas* canvas : {&under_volume, &overlay}) {
     canvas->begin(*fonts, places.view.width, height);
     if (view.box_visible)
@@ -234,14 +230,12 @@ hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& view, const Layou
 
 hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
   const Layout places = layout(picture.width, picture.height, picture.view.layout);
-  if (auto ok = prepare_fonts(places.unit); !ok)
-    return ok;
+  HAL_CHECK(prepare_fonts(places.unit));
   clear(picture.width, picture.height);
   const std::uint64_t before = volume.drawings();
   const hal::Duration spent_before = spent_on_vessels();
-  for (const Eye eye : eyes_of(picture.view.stereo))
-    if (auto ok = draw_eye(picture, places, eye); !ok)
-      return ok;
+  for (const StereoEye eye : eyes_of(picture.view.stereo))
+    HAL_CHECK(draw_eye(picture, places, eye));
   drew_volume = volume.drawings() != before;
   vessel_cost = spent_on_vessels() - spent_before;
   return {};
@@ -249,24 +243,13 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
 
 hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& transfers,
                                                         const pipeline::ThreadSetup& threads) {
-  auto volume = VolumePainter::create(transfers, threads);
-  if (!volume)
-    return tl::make_unexpected(volume.error());
-  auto b_scan = BScanPanel::create();
-  if (!b_scan)
-    return tl::make_unexpected(b_scan.error());
-  auto en_face = EnFacePanel::create();
-  if (!en_face)
-    return tl::make_unexpected(en_face.error());
-  auto scope = ScopePanel::create();
-  if (!scope)
-    return tl::make_unexpected(scope.error());
-  auto canvas = CanvasRenderer::create();
-  if (!canvas)
-    return tl::make_unexpected(canvas.error());
-  std::unique_ptr<Parts> parts{new Parts{std::move(*volume), std::move(*b_scan),
-                                         std::move(*en_face), std::move(*scope),
-                                         std::move(*canvas)}};
+  HAL_TRY(auto volume, VolumePainter::create(transfers, threads));
+  HAL_TRY(auto b_scan, BScanPanel::create());
+  HAL_TRY(auto en_face, EnFacePanel::create());
+  HAL_TRY(auto scope, ScopePanel::create());
+  HAL_TRY(auto canvas, CanvasRenderer::create());
+  std::unique_ptr<Parts> parts{new Parts{std::move(volume), std::move(b_scan), std::move(en_face),
+                                         std::move(scope), std::move(canvas)}};
   return std::unique_ptr<Renderer>{new Renderer{std::move(parts)}};
 }
 
@@ -275,8 +258,7 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_{std::move(parts)} {}
 Renderer::~Renderer() = default;
 
 hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
-  if (auto ok = parts_->volume.show(volume); !ok)
-    return ok;
+  HAL_CHECK(parts_->volume.show(volume));
   parts_->en_face_panel.show(volume);
   parts_->states.assign(volume.b_scan_states.begin(), volume.b_scan_states.end());
   return {};
@@ -284,8 +266,7 @@ hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
 
 hal::Result<> Renderer::show_scope_picture(const hal::ScopeFrame& frame,
                                            const std::optional<ScanField>& field) {
-  if (auto ok = parts_->scope_panel.show(frame, field); !ok)
-    return ok;
+  HAL_CHECK(parts_->scope_panel.show(frame, field));
   parts_->scope_shown = true;
   ++parts_->scope_uploads;
   return {};
@@ -314,32 +295,27 @@ void Renderer::forget_scope_picture() {
 
 hal::Result<> Renderer::draw(const ViewState& view, const Status& status, int width, int height,
                              const DrawQuality& quality) {
-  if (auto ok = check_size(width, height); !ok)
-    return ok;
+  HAL_CHECK(check_size(width, height));
   const DrawnPicture picture = parts_->picture_of(view, status, width, height, quality);
   parts_->drawn.reset();
-  if (auto ok = parts_->draw(picture); !ok)
-    return ok;
+  HAL_CHECK(parts_->draw(picture));
   parts_->drawn = picture;
   return {};
 }
 
 hal::Result<> Renderer::draw_volume_alone(const ViewState& view, int width, int height,
                                           const DrawQuality& quality) {
-  if (auto ok = check_size(width, height); !ok)
-    return ok;
+  HAL_CHECK(check_size(width, height));
   if (parts_->volume.empty())
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      "renderer: found no volume to draw alone, expected show_volume() before");
   const ViewState fitted = parts_->fitted(view);
   const Layout places = lay_out_alone(width, height);
   parts_->drawn.reset(); // what draw() made is not what stands there now
-  if (auto ok = parts_->prepare_fonts(places.unit); !ok)
-    return ok;
+  HAL_CHECK(parts_->prepare_fonts(places.unit));
   clear(width, height);
-  for (const Eye eye : eyes_of(fitted.stereo))
-    if (auto ok = parts_->draw_eye_alone(fitted, places, quality, eye); !ok)
-      return ok;
+  for (const StereoEye eye : eyes_of(fitted.stereo))
+    HAL_CHECK(parts_->draw_eye_alone(fitted, places, quality, eye));
   return {};
 }
 

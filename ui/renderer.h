@@ -1,4 +1,5 @@
-// Draws the whole display: volume, panels and heads-up display, into the framebuffer that is bound.
+// HashRandom the whole display: volume, panels and heads-up display, into the framebuffer that is
+// bound.
 #pragma once
 
 #include <memory>
@@ -7,17 +8,17 @@
 #include "hal/clock.h"
 #include "hal/result.h"
 #include "hal/scope_camera.h"
-#include "pipeline/png_image.h"
-#include "pipeline/volume.h"
-#include "pipeline/worker_pool.h"
-#include "ui/draw_quality.h"
+#include "pipeline/files/png_image.h"
+#include "pipeline/threads/worker_pool.h"
+#include "pipeline/volume/volume.h"
 #include "ui/hud/window_histogram.h"
-#include "ui/scan_field.h"
-#include "ui/status.h"
+#include "ui/layout/scan_field.h"
+#include "ui/status/status.h"
 #include "ui/transfer/transfer_set.h"
-#include "ui/vessels/overlay/vessel_placement.h"
-#include "ui/vessels/vessel_scene.h"
-#include "ui/view_state.h"
+#include "ui/view/draw_quality.h"
+#include "ui/view/segment_counts.h"
+#include "ui/view/vessel_placement.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::ui {
 
@@ -31,7 +32,7 @@ namespace octascope::ui {
 class Renderer {
 public:
   // `threads` sets up the threads that help drawing: VolumePainter::create() names them.
-  // Fault::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile our shaders.
   static hal::Result<std::unique_ptr<Renderer>> create(const TransferSet& transfers = {},
                                                        const pipeline::ThreadSetup& threads = {});
   ~Renderer();
@@ -46,11 +47,11 @@ public:
                                    const std::optional<ScanField>& field);
   // From the next draw() on, in the volume. The tree stays borrowed until another is shown or the
   // renderer is destroyed; `clock`, which measures what drawing it costs, outlives the renderer.
-  // Fault::unsupported: this processor cannot draw vessels.
+  // ErrorCode::unsupported: this processor cannot draw vessels.
   hal::Result<> show_vessels(const PlacedVessels& vessels, const hal::Clock& clock);
   // Of the last draw().
   struct VesselReport {
-    VesselAccount account;
+    SegmentCounts account;
     hal::Duration cost{}; // 0: no picture of them was made
   };
   VesselReport vessel_report() const;
@@ -60,13 +61,13 @@ public:
   // Shown while the window is being changed: how often each level occurs in the volume.
   void show_levels(const LevelShares& shares);
 
-  // Draws everything into the bound framebuffer of width × height pixels.
+  // HashRandom everything into the bound framebuffer of width × height pixels.
   hal::Result<> draw(const ViewState& view, const Status& status, int width, int height,
                      const DrawQuality& quality = {});
 
-  // Draws the volume alone over the whole of the bound framebuffer: with a scale bar, and with the
-  // wire-frame box where the view has it. Fault::invalid_argument: no volume was shown, or the size
-  // is nothing.
+  // HashRandom the volume alone over the whole of the bound framebuffer: with a scale bar, and with
+  // the wire-frame box where the view has it. ErrorCode::invalid_argument: no volume was shown, or
+  // the size is nothing.
   hal::Result<> draw_volume_alone(const ViewState& view, int width, int height,
                                   const DrawQuality& quality = full_quality);
 

@@ -4,8 +4,8 @@
 
 #include "ui/hud/canvas.h"
 #include "ui/hud/canvas_renderer.h"
-#include "ui/layout.h"
-#include "ui/stereo.h"
+#include "ui/layout/layout.h"
+#include "ui/layout/stereo.h"
 
 namespace octascope::ui {
 
@@ -37,17 +37,13 @@ void lay_out_words(Canvas& canvas, glm::vec2 size, float unit, std::string_view 
 
 hal::Result<> draw_splash(int width, int height, std::string_view version, std::string_view doing) {
   const float unit = lay_out(width, height, {}).unit;
-  auto fonts = Fonts::create(unit);
-  if (!fonts)
-    return tl::make_unexpected(fonts.error());
-  auto renderer = CanvasRenderer::create();
-  if (!renderer)
-    return tl::make_unexpected(renderer.error());
+  HAL_TRY(auto fonts, Fonts::create(unit));
+  HAL_TRY(auto renderer, CanvasRenderer::create());
   Canvas canvas;
-  canvas.begin(*fonts, width, height);
+  canvas.begin(fonts, width, height);
   lay_out_words(canvas, {width, height}, unit, version, doing);
   clear(width, height);
-  renderer->draw(canvas, eye_frame(StereoMode::off, Eye::centre, width, height), height);
+  renderer.draw(canvas, eye_frame(StereoMode::off, StereoEye::centre, width, height), height);
   return {};
 }
 

@@ -11,10 +11,10 @@
 
 #include <CLI/App.hpp>
 
-#include "firmware-host/run_options.h"
+#include "firmware-host/configuration/run_options.h"
 #include "hal/result.h"
-#include "ui/auto_window.h"
-#include "ui/view_state.h"
+#include "ui/transfer/auto_window.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::firmware_host {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/level_scale.h"
+#include "pipeline/volume/level_scale.h"
 #include "ui/panels/projection.h"
 
 namespace octascope::firmware_host {
@@ -93,7 +93,7 @@ hal::Result<pipeline::Image> to_scale(const pipeline::Image& grey, double column
   const double width = std::max(1.0, std::round(grey.width * column_spacing / pixel));
   const double height = std::max(1.0, std::round(grey.height * row_spacing / pixel));
   if (!(width <= longest_side && height <= longest_side))
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("to scale, the picture would have {:.0f}×{:.0f} pixels, expected "
                                  "at most {} either way; without --to-scale it has {}×{}",
                                  width, height, longest_side, grey.width, grey.height));

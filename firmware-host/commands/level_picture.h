@@ -6,9 +6,9 @@
 #include <span>
 
 #include "hal/result.h"
-#include "pipeline/png_image.h"
-#include "pipeline/volume.h"
-#include "ui/auto_window.h"
+#include "pipeline/files/png_image.h"
+#include "pipeline/volume/volume.h"
+#include "ui/transfer/auto_window.h"
 
 namespace octascope::firmware_host {
 
@@ -28,7 +28,7 @@ pipeline::Image draw_en_face(const pipeline::Volume& volume,
                              const std::optional<ui::DisplayWindow>& window);
 
 // With square pixels, of the smaller spacing; each becomes several where they lay farther apart.
-// Fault::invalid_argument: that would be too large a picture.
+// ErrorCode::invalid_argument: that would be too large a picture.
 hal::Result<pipeline::Image> to_scale(const pipeline::Image& grey, double column_spacing,
                                       double row_spacing);
 

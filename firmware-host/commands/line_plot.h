@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pipeline/png_image.h"
+#include "pipeline/files/png_image.h"
 
 namespace octascope::firmware_host {
 

@@ -7,8 +7,7 @@ hal::Result<std::unique_ptr<OffscreenGl>> OffscreenGl::open(int width, int heigh
   hal::DisplayConfig config;
   config.width = width;
   config.height = height;
-  if (auto opened = made->display_.open(config); !opened)
-    return tl::make_unexpected(opened.error());
+  HAL_CHECK(made->display_.open(config));
   return made;
 }
 

@@ -5,7 +5,7 @@
 
 #include "hal/linux/monotonic_clock.h"
 #include "hal/result.h"
-#include "sim/offscreen_display.h"
+#include "sim/devices/offscreen_display.h"
 
 namespace octascope::firmware_host {
 

@@ -5,7 +5,7 @@
 
 #include <CLI/App.hpp>
 
-#include "pipeline/vessels/tree_reading.h"
+#include "pipeline/vessels/files/tree_reading.h"
 
 namespace octascope::firmware_host {
 

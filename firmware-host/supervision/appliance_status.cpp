@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "firmware-host/version.h"
+#include "firmware-host/version/version.h"
 
 namespace octascope::firmware_host {
 

@@ -10,10 +10,10 @@
 #include "firmware-host/supervision/thread_watch.h"
 #include "hal/clock.h"
 #include "hal/device.h"
-#include "pipeline/duration_statistics.h"
-#include "pipeline/fault_log.h"
-#include "ui/freshness.h"
-#include "ui/status.h"
+#include "pipeline/threads/duration_statistics.h"
+#include "pipeline/faults/fault_log.h"
+#include "ui/status/freshness.h"
+#include "ui/status/status.h"
 
 namespace octascope::firmware_host {
 

@@ -20,7 +20,7 @@
 
 #include "firmware-host/supervision/module_map.h"
 #include "firmware-host/supervision/signal_text.h"
-#include "firmware-host/version.h"
+#include "firmware-host/version/version.h"
 
 namespace octascope::firmware_host {
 
@@ -233,7 +233,7 @@ hal::Result<> CrashReport::keep_in(const fs::path& folder) {
     const int number = errno;
     if (descriptor >= 0)
       ::close(descriptor);
-    return hal::fail(hal::Fault::denied,
+    return hal::fail(hal::ErrorCode::denied,
                      fmt::format("{}: reports of crashes cannot be written ({}); expected a folder "
                                  "that this user may write",
                                  folder.string(), std::generic_category().message(number)));

@@ -1,4 +1,4 @@
-// What a crash leaves behind: a report for whoever mends it, and the trigger line at its safe
+// What a crash leaves behind: a report for whoever fixes it, and the trigger line at its safe
 // level.
 #pragma once
 
@@ -34,7 +34,7 @@ public:
   CrashReport& operator=(const CrashReport&) = delete;
 
   // From now on it goes into the folder, which is made where it is missing; reports that are more
-  // than are kept are deleted. Fault::denied: it cannot be made or written.
+  // than are kept are deleted. ErrorCode::denied: it cannot be made or written.
   hal::Result<> keep_in(const std::filesystem::path& folder);
 
   // Which configuration is in use, with its text; what is too long is cut.

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hal/clock.h"
-#include "pipeline/fault_log.h"
+#include "pipeline/faults/fault_log.h"
 
 namespace octascope::firmware_host {
 

@@ -36,7 +36,7 @@ hal::Result<sockaddr_un> address_of(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.native().size() >= sizeof address.sun_path)
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("{}: {} characters long, expected at most {}; choose a folder "
                                  "nearer to the root",
                                  path.string(), path.native().size(), sizeof address.sun_path - 1));
@@ -53,23 +53,21 @@ FileDescriptor make_socket() {
 }
 
 hal::Result<FileDescriptor> connect_to(const std::filesystem::path& path) {
-  const auto address = address_of(path);
-  if (!address)
-    return tl::make_unexpected(address.error());
+  HAL_TRY(const auto address, address_of(path));
   FileDescriptor file = make_socket();
-  if (::connect(file.get(), general(*address), sizeof *address) == 0)
+  if (::connect(file.get(), general(address), sizeof address) == 0)
     return file;
   const int error = errno;
   if (error == ENOENT || error == ECONNREFUSED)
-    return hal::fail(hal::Fault::absent,
+    return hal::fail(hal::ErrorCode::absent,
                      fmt::format("{}: no appliance answers there; is it running (systemctl status "
                                  "octascope), and is this its socket (--socket)?",
                                  path.string()));
   if (error == EAGAIN)
-    return hal::fail(hal::Fault::timed_out,
+    return hal::fail(hal::ErrorCode::timed_out,
                      fmt::format("{}: too many ask at once; try again", path.string()));
   if (error == EACCES)
-    return hal::fail(hal::Fault::denied,
+    return hal::fail(hal::ErrorCode::denied,
                      fmt::format("{}: this user may not ask; expected root or a member of the "
                                  "group that the socket belongs to",
                                  path.string()));
@@ -78,18 +76,16 @@ hal::Result<FileDescriptor> connect_to(const std::filesystem::path& path) {
 }
 
 hal::Result<FileDescriptor> listen_on(const std::filesystem::path& path) {
-  const auto address = address_of(path);
-  if (!address)
-    return tl::make_unexpected(address.error());
+  HAL_TRY(const auto address, address_of(path));
   if (connect_to(path))
-    return hal::fail(hal::Fault::busy,
+    return hal::fail(hal::ErrorCode::busy,
                      fmt::format("{}: another octascope answers there; end it, or give this one a "
                                  "RUNTIME_DIRECTORY of its own",
                                  path.string()));
   FileDescriptor file = make_socket();
   ::unlink(path.c_str()); // of one that has ended
   // Nobody can connect before it listens, and by then the rights are there.
-  if (::bind(file.get(), general(*address), sizeof *address) != 0 ||
+  if (::bind(file.get(), general(address), sizeof address) != 0 ||
       ::chmod(path.c_str(), 0660) != 0 || ::listen(file.get(), most_waiting) != 0)
     return hal::linux_backend::system_failure(path.string(), "listening", errno,
                                               "octascope status will not answer");
@@ -100,12 +96,10 @@ hal::Result<FileDescriptor> listen_on(const std::filesystem::path& path) {
 
 hal::Result<std::unique_ptr<StatusServer>> StatusServer::start(const std::filesystem::path& socket,
                                                                Answer answer) {
-  auto listener = listen_on(socket);
-  if (!listener)
-    return tl::make_unexpected(listener.error());
+  HAL_TRY(auto listener, listen_on(socket));
   FileDescriptor stop{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
   return std::unique_ptr<StatusServer>{
-      new StatusServer{socket, std::move(*listener), std::move(stop), std::move(answer)}};
+      new StatusServer{socket, std::move(listener), std::move(stop), std::move(answer)}};
 }
 
 StatusServer::StatusServer(std::filesystem::path path, FileDescriptor listener, FileDescriptor stop,
@@ -157,7 +151,7 @@ bool StatusServer::serve(Client& client) {
 hal::Result<std::string> ask_status(const std::filesystem::path& socket) {
   const auto until = std::chrono::steady_clock::now() + patience;
   auto file = connect_to(socket);
-  while (!file && file.error().fault == hal::Fault::timed_out &&
+  while (!file && file.error().code == hal::ErrorCode::timed_out &&
          std::chrono::steady_clock::now() < until) {
     std::this_thread::sleep_for(10ms);
     file = connect_to(socket);
@@ -177,7 +171,7 @@ hal::Result<std::string> ask_status(const std::filesystem::path& socket) {
     if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR))
       break;
   }
-  return hal::fail(hal::Fault::timed_out,
+  return hal::fail(hal::ErrorCode::timed_out,
                    fmt::format("{}: no whole answer within 2 s; the appliance is busy or ending, "
                                "try again",
                                socket.string()));

@@ -27,7 +27,8 @@ public:
 
   // Listens on `socket`, which owner and group may use; what an ended program left there is
   // replaced. `answer` is called on the server's thread and outlives it.
-  // Fault::busy: another program listens there. Fault::invalid_argument: the path is too long.
+  // ErrorCode::busy: another program listens there. ErrorCode::invalid_argument: the path is too
+  // long.
   static hal::Result<std::unique_ptr<StatusServer>> start(const std::filesystem::path& socket,
                                                           Answer answer);
   ~StatusServer(); // the socket is gone then
@@ -57,8 +58,9 @@ private:
   std::thread thread_;
 };
 
-// The answer of an appliance that listens there. Fault::absent: none does. Fault::denied: this user
-// may not ask. Fault::timed_out: it has not answered within two seconds, or too many ask.
+// The answer of an appliance that listens there. ErrorCode::absent: none does. ErrorCode::denied:
+// this user may not ask. ErrorCode::timed_out: it has not answered within two seconds, or too many
+// ask.
 hal::Result<std::string> ask_status(const std::filesystem::path& socket);
 
 } // namespace octascope::firmware_host

@@ -11,7 +11,7 @@
 #include <syslog.h>
 
 #include "hal/linux/realtime.h"
-#include "pipeline/atomic_file.h"
+#include "pipeline/files/atomic_file.h"
 
 namespace octascope::firmware_host {
 
@@ -51,10 +51,8 @@ std::string text_of(const fs::path& file) {
 }
 
 hal::Result<> write_whole(const fs::path& file, const std::string& text) {
-  auto out = pipeline::AtomicFile::create(file);
-  if (!out)
-    return tl::make_unexpected(out.error());
-  return out->write_at(0, std::as_bytes(std::span{text})).and_then([&] { return out->commit(); });
+  HAL_TRY(auto out, pipeline::AtomicFile::create(file));
+  return out.write_at(0, std::as_bytes(std::span{text})).and_then([&] { return out.commit(); });
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // Watches the running appliance and tells about it: to systemd, to `octascope status`, to the
-// journal, to a metrics file, and, when it crashes, to whoever mends it.
+// journal, to a metrics file, and, when it crashes, to whoever fixes it.
 #pragma once
 
 #include <atomic>
@@ -21,8 +21,8 @@
 #include "firmware-host/supervision/thread_watch.h"
 #include "firmware-host/supervision/watchdog.h"
 #include "hal/clock.h"
-#include "pipeline/fault_log.h"
-#include "pipeline/wakeup.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/wakeup.h"
 
 namespace octascope::firmware_host {
 

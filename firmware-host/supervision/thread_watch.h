@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "hal/clock.h"
-#include "pipeline/fault_log.h"
-#include "pipeline/heartbeat.h"
-#include "pipeline/worker_pool.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/heartbeat.h"
+#include "pipeline/threads/worker_pool.h"
 
 namespace octascope::firmware_host {
 

@@ -19,8 +19,8 @@ std::string system_message(int error) {
   return std::generic_category().message(error);
 }
 
-Fault fault_of(int error) {
-  return error == EPERM || error == EACCES ? Fault::denied : Fault::system;
+ErrorCode error_code_of(int error) {
+  return error == EPERM || error == EACCES ? ErrorCode::denied : ErrorCode::system;
 }
 
 } // namespace
@@ -36,9 +36,9 @@ Result<> make_this_thread_realtime(int priority) {
   const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
   if (error == 0)
     return {};
-  return fail(fault_of(error), "no real-time priority (" + system_message(error) +
-                                   "): ticks may jitter; allow it with LimitRTPRIO=49 in the "
-                                   "service unit, or \"@video - rtprio 49\" in limits.conf");
+  return fail(error_code_of(error), "no real-time priority (" + system_message(error) +
+                                        "): ticks may jitter; allow it with LimitRTPRIO=49 in the "
+                                        "service unit, or \"@video - rtprio 49\" in limits.conf");
 }
 
 std::vector<int> allowed_cores() {
@@ -67,7 +67,7 @@ Result<> pin_this_thread(int core) {
   std::string allowed;
   for (const int one : allowed_cores())
     allowed += (allowed.empty() ? "" : ", ") + std::to_string(one);
-  return fail(error == EINVAL ? Fault::invalid_argument : fault_of(error),
+  return fail(error == EINVAL ? ErrorCode::invalid_argument : error_code_of(error),
               "a thread is not pinned to core " + std::to_string(core) + " (" +
                   system_message(error) + "): expected one of the allowed cores, " + allowed +
                   "; the system chooses instead");
@@ -84,7 +84,7 @@ Result<> lock_memory() {
   if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0)
     return {};
   const int error = errno;
-  return fail(fault_of(error == ENOMEM ? EPERM : error),
+  return fail(error_code_of(error == ENOMEM ? EPERM : error),
               "memory is not locked (" + system_message(error) +
                   "): a page fault may delay a volume; allow it with LimitMEMLOCK=infinity in the "
                   "service unit, or \"@video - memlock unlimited\" in limits.conf");

@@ -12,13 +12,13 @@ namespace octascope::hal::linux_backend {
 void name_this_thread(std::string_view name);
 
 // SCHED_FIFO for the calling thread. `priority` 1…49: below the kernel's threaded interrupts (50),
-// which feed us. Fault::denied with the mend in the message where the privilege is missing.
+// which feed us. ErrorCode::denied with the remedy in the message where the privilege is missing.
 Result<> make_this_thread_realtime(int priority);
 
 // The cores that the process may use, in order: what taskset, cgroups and the service unit leave.
 std::vector<int> allowed_cores();
 
-// The calling thread runs on this core and no other. Fault::invalid_argument: there is no such
+// The calling thread runs on this core and no other. ErrorCode::invalid_argument: there is no such
 // core, or it is not allowed.
 Result<> pin_this_thread(int core);
 

@@ -8,7 +8,7 @@ namespace octascope::hal::linux_backend {
 namespace {
 
 tl::unexpected<Error> refuse() {
-  return fail(Fault::unsupported,
+  return fail(ErrorCode::unsupported,
               fmt::format("window display: SDL 2 cannot be loaded ({}), expected its library; "
                           "install it with `apt install libsdl2-2.0-0`, or choose --display kms or "
                           "--display offscreen",

@@ -11,7 +11,7 @@ namespace octascope::hal::linux_backend {
 // Copied at will: what was loaded stays to the program's end, as neither SDL nor the GL drivers
 // that it loads bear to be taken out. Threads: as SDL's.
 struct SdlLibrary {
-  // Fault::unsupported: it is not installed, or is not SDL2.
+  // ErrorCode::unsupported: it is not installed, or is not SDL2.
   static Result<SdlLibrary> load(const char* file = "libSDL2-2.0.so.0");
 
   decltype(&SDL_InitSubSystem) init_sub_system = nullptr;

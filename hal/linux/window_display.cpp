@@ -82,7 +82,7 @@ struct WindowDisplay::Window {
       sdl.quit_sub_system(SDL_INIT_VIDEO);
   }
 
-  tl::unexpected<Error> refuse(Fault fault, std::string_view found,
+  tl::unexpected<Error> refuse(ErrorCode fault, std::string_view found,
                                std::string_view expected) const {
     return fail(fault, fmt::format("window display: {} ({}), expected {}", found, sdl.get_error(),
                                    expected));
@@ -94,13 +94,13 @@ struct WindowDisplay::Window {
     sdl.set_hint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "0");
     sdl.set_hint(SDL_HINT_VIDEO_X11_NET_WM_BYPASS_COMPOSITOR, "0");
     if (sdl.init_sub_system(SDL_INIT_VIDEO) != 0)
-      return refuse(Fault::absent, "no window system found",
+      return refuse(ErrorCode::absent, "no window system found",
                     "an X11 or Wayland display; set DISPLAY or WAYLAND_DISPLAY, or choose "
                     "--display offscreen");
     video = true;
     const std::string_view driver = sdl.get_current_video_driver();
     if (driver != "x11" && driver != "wayland")
-      return fail(Fault::absent,
+      return fail(ErrorCode::absent,
                   fmt::format("window display: SDL found only its driver \"{}\", expected an X11 "
                               "or Wayland display; set DISPLAY or WAYLAND_DISPLAY, or choose "
                               "--display offscreen",
@@ -120,12 +120,12 @@ struct WindowDisplay::Window {
     window = sdl.create_window(config.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
                                config.width, config.height, flags);
     if (window == nullptr)
-      return refuse(Fault::unsupported, "no window for GLES could be made",
+      return refuse(ErrorCode::unsupported, "no window for GLES could be made",
                     "a window system with EGL or GLX for GLES 3; install libegl1 and "
                     "libgl1-mesa-dri");
     context = sdl.gl_create_context(window);
     if (context == nullptr)
-      return refuse(Fault::unsupported, "no GLES 3 context could be made",
+      return refuse(ErrorCode::unsupported, "no GLES 3 context could be made",
                     "a driver with GLES 3; install libgl1-mesa-dri or choose --display offscreen");
     sdl.gl_set_swap_interval(1); // refused on some virtual outputs: present() paces then
     if (config.fullscreen)
@@ -142,27 +142,23 @@ WindowDisplay::~WindowDisplay() {
 
 Result<> WindowDisplay::do_open(const DisplayConfig& config) {
   if (state() != DeviceState::absent)
-    return fail(Fault::busy, "window display: open already; close() it first");
+    return fail(ErrorCode::busy, "window display: open already; close() it first");
   if (config.width < 1 || config.height < 1)
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("window display: size is {}x{}, expected at least 1x1", config.width,
                             config.height));
   if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
     return fail(
-        Fault::invalid_argument,
+        ErrorCode::invalid_argument,
         fmt::format("window display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
-  const auto sdl = SdlLibrary::load();
-  if (!sdl)
-    return tl::make_unexpected(sdl.error());
-  auto window = std::make_unique<Window>(*sdl);
-  if (auto ok = window->start_video(); !ok)
-    return ok;
-  if (auto ok = window->make(config); !ok)
-    return ok;
+  HAL_TRY(const auto sdl, SdlLibrary::load());
+  auto window = std::make_unique<Window>(sdl);
+  HAL_CHECK(window->start_video());
+  HAL_CHECK(window->make(config));
 
   SDL_DisplayMode mode{};
   const bool known =
-      sdl->get_window_display_mode(window->window, &mode) == 0 && mode.refresh_rate > 0;
+      sdl.get_window_display_mode(window->window, &mode) == 0 && mode.refresh_rate > 0;
   refresh_period_ = from_seconds(1.0 / (known ? mode.refresh_rate : config.refresh_hz));
   window_ = std::move(window);
   flips_ = 0;
@@ -187,7 +183,7 @@ int WindowDisplay::do_height() const {
 
 Result<Flip> WindowDisplay::do_present() {
   if (window_ == nullptr)
-    return fail(Fault::absent, "window display: not open; open() it first");
+    return fail(ErrorCode::absent, "window display: not open; open() it first");
   window_->sdl.gl_swap_window(window_->window);
   glFinish();
   const TimePoint completed = clock_.now();

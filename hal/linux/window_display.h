@@ -21,7 +21,8 @@ private:
 
   std::string_view do_backend() const override { return "window"; }
   bool do_simulated() const override { return false; }
-  // Fault::absent: no X11 or Wayland display to be found. Fault::unsupported: no GLES 3 there.
+  // ErrorCode::absent: no X11 or Wayland display to be found. ErrorCode::unsupported: no GLES 3
+  // there.
   Result<> do_open(const DisplayConfig& config) override;
   int do_width() const override;
   int do_height() const override;

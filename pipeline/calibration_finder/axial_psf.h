@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/calibration.h"
+#include "pipeline/calibration/calibration.h"
 
 namespace octascope::pipeline {
 

@@ -15,7 +15,7 @@ namespace octascope::pipeline {
 
 namespace {
 
-using hal::Fault;
+using hal::ErrorCode;
 using Complex = std::complex<double>;
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr int highest_degree = 10;
@@ -63,7 +63,7 @@ private:
   SmoothFit first_phase(const Band& band);
   SmoothFit refine(const SmoothCurve& phase);
   tl::unexpected<hal::Error> refuse(std::string_view words) const {
-    return hal::fail(Fault::bad_data, fmt::format("{}: {}", name_, words));
+    return hal::fail(ErrorCode::bad_data, fmt::format("{}: {}", name_, words));
   }
 
   std::string_view name_;
@@ -222,14 +222,11 @@ SmoothFit FringeFinder::refine(const SmoothCurve& phase) {
 }
 
 hal::Result<Fringe> FringeFinder::find() {
-  if (const auto checked = check(); !checked)
-    return tl::make_unexpected(checked.error());
+  HAL_CHECK(check());
   const std::size_t n = spectrum_.size();
   spectrum_ = remove_slow_part(spectrum_);
-  const auto band = find_band();
-  if (!band)
-    return tl::make_unexpected(band.error());
-  SmoothFit fit = first_phase(*band);
+  HAL_TRY(const auto band, find_band());
+  SmoothFit fit = first_phase(band);
   for (int i = 0; i < refinements; ++i) {
     fit = refine(fit.curve);
     const std::size_t bright = bright_.last - bright_.first + 1;

@@ -31,9 +31,8 @@ struct Fringe {
   double residual_rad = 0;          // rms of the phase that the smooth curve leaves, weighted
 };
 
-// `spectrum` is one line, best without its background. Fault::bad_data, with `name`, index, found
-// and expected: not finite, too short, constant, without a clear
-// fringe.
+// `spectrum` is one line, best without its background. ErrorCode::bad_data, with `name`, index,
+// found and expected: not finite, too short, constant, without a clear fringe.
 hal::Result<Fringe> find_fringe(std::span<const double> spectrum, std::string_view name);
 
 // The spectrum less its Gaussian moving average: what makes fewer than about five fringes over the

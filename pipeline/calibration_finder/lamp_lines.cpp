@@ -6,14 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/calibration/k_linearisation.h"
 #include "pipeline/calibration_finder/gaussian_smoothing.h"
-#include "pipeline/k_linearisation.h"
 
 namespace octascope::pipeline {
 
 namespace {
 
-using hal::Fault;
+using hal::ErrorCode;
 constexpr std::size_t fewest_lines = 3;
 
 struct Peak {
@@ -29,17 +29,17 @@ double median(std::vector<double> values) {
 
 hal::Result<> check_lines(std::span<const double> lines_nm) {
   if (lines_nm.size() < fewest_lines)
-    return hal::fail(Fault::invalid_argument,
+    return hal::fail(ErrorCode::invalid_argument,
                      fmt::format("{} emission lines are given, expected at least {}",
                                  lines_nm.size(), fewest_lines));
   const bool rising = lines_nm.back() > lines_nm.front();
   for (std::size_t i = 0; i < lines_nm.size(); ++i) {
     if (!std::isfinite(lines_nm[i]) || lines_nm[i] <= 0)
       return hal::fail(
-          Fault::invalid_argument,
+          ErrorCode::invalid_argument,
           fmt::format("emission line {} is {} nm, expected more than 0", i, lines_nm[i]));
     if (i > 0 && (rising ? lines_nm[i] <= lines_nm[i - 1] : lines_nm[i] >= lines_nm[i - 1]))
-      return hal::fail(Fault::invalid_argument,
+      return hal::fail(ErrorCode::invalid_argument,
                        fmt::format("emission line {} is {} nm after {} nm, expected them in the "
                                    "order of the pixels, rising or falling",
                                    i, lines_nm[i], lines_nm[i - 1]));
@@ -130,10 +130,9 @@ void unscale(std::vector<double>& coefficients, double scale) {
 hal::Result<LampCalibration> find_lamp_lines(std::span<const double> spectrum,
                                              std::span<const double> lines_nm,
                                              std::string_view name) {
-  if (const auto checked = check_lines(lines_nm); !checked)
-    return tl::make_unexpected(checked.error());
+  HAL_CHECK(check_lines(lines_nm));
   const auto refuse = [&](std::string_view words) {
-    return hal::fail(Fault::bad_data, fmt::format("{}: {}", name, words));
+    return hal::fail(ErrorCode::bad_data, fmt::format("{}: {}", name, words));
   };
   for (std::size_t p = 0; p < spectrum.size(); ++p) {
     if (!std::isfinite(spectrum[p]))

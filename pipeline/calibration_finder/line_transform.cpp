@@ -5,7 +5,7 @@
 
 #include <fftw3.h>
 
-#include "pipeline/fft_plan.h"
+#include "pipeline/reconstruction/fft_plan.h"
 
 namespace octascope::pipeline {
 

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/k_linearisation.h"
+#include "pipeline/calibration/k_linearisation.h"
 
 namespace octascope::pipeline {
 
 namespace {
 
-using hal::Fault;
+using hal::ErrorCode;
 constexpr double two_pi = 2 * std::numbers::pi;
 // Between the mirrors, over the line: with fewer, noise of the phase bends k too much.
 constexpr double fewest_fringes_apart = 8;
@@ -46,7 +46,7 @@ hal::Result<std::vector<double>> invert(const WavenumberPhase& k, std::size_t sa
     const auto x = static_cast<double>(p);
     if (k.at(x) <= k.at(x - 1))
       return hal::fail(
-          Fault::bad_data,
+          ErrorCode::bad_data,
           fmt::format("wavenumber is not monotone: the mirrors' phases give {:.4f} rad "
                       "at pixel {} and {:.4f} rad at pixel {}, expected it to rise; "
                       "measure with more light, or farther apart",
@@ -101,15 +101,13 @@ hal::Result<MirrorPair> combine_fringes(const std::array<Fringe, 2>& fringes, Sa
   const WavenumberPhase k{fringes, side};
   const double apart = std::abs(k.at(static_cast<double>(samples - 1)) - k.at(0)) / two_pi;
   if (apart < fewest_fringes_apart)
-    return hal::fail(Fault::bad_data,
+    return hal::fail(ErrorCode::bad_data,
                      fmt::format("the mirrors are too close to each other: {:.2f} fringes over the "
                                  "line apart, expected at least {}; move the mirror farther",
                                  apart, fewest_fringes_apart));
-  auto positions = invert(k, samples);
-  if (!positions)
-    return tl::make_unexpected(positions.error());
+  HAL_TRY(auto positions, invert(k, samples));
 
-  MirrorPair pair{fringes, {}, {1, 1}, std::move(*positions), {}};
+  MirrorPair pair{fringes, {}, {1, 1}, std::move(positions), {}};
   if (side == SampleSide::first_mirror || side == SampleSide::no_mirror)
     pair.theta_sign[1] = -1;
   if (side == SampleSide::second_mirror || side == SampleSide::no_mirror)
@@ -133,25 +131,22 @@ hal::Result<MirrorPair> combine_fringes(const std::array<Fringe, 2>& fringes, Sa
           pair.theta_sign[i] / 2 * (phase[m] - line.offset - line.slope * static_cast<double>(m));
   }
   if (const auto fault = find_position_fault(pair.positions))
-    return hal::fail(Fault::bad_data, *fault);
+    return hal::fail(ErrorCode::bad_data, *fault);
   if (const auto jump = find_position_jump(pair.positions))
-    return hal::fail(Fault::bad_data, *jump);
+    return hal::fail(ErrorCode::bad_data, *jump);
   return pair;
 }
 
 hal::Result<MirrorPair> find_mirror_pair(std::span<const double> first,
                                          std::span<const double> second, SampleSide side) {
   if (first.size() != second.size())
-    return hal::fail(Fault::bad_data, fmt::format("the first mirror has {} samples, the second {}, "
-                                                  "expected equal lines",
-                                                  first.size(), second.size()));
-  auto one = find_fringe(first, "first mirror");
-  if (!one)
-    return tl::make_unexpected(one.error());
-  auto two = find_fringe(second, "second mirror");
-  if (!two)
-    return tl::make_unexpected(two.error());
-  return combine_fringes({std::move(*one), std::move(*two)}, side);
+    return hal::fail(ErrorCode::bad_data,
+                     fmt::format("the first mirror has {} samples, the second {}, "
+                                 "expected equal lines",
+                                 first.size(), second.size()));
+  HAL_TRY(auto one, find_fringe(first, "first mirror"));
+  HAL_TRY(auto two, find_fringe(second, "second mirror"));
+  return combine_fringes({std::move(one), std::move(two)}, side);
 }
 
 } // namespace octascope::pipeline

@@ -33,7 +33,7 @@ struct MirrorPair {
 };
 
 // `spectra` are one line each, of equal length, best without their background, in any order of
-// depth. Fault::bad_data as find_fringe(), and for depths that are too close, and for positions
+// depth. ErrorCode::bad_data as find_fringe(), and for depths that are too close, and for positions
 // that do not rise, with the index.
 hal::Result<MirrorPair> find_mirror_pair(std::span<const double> first,
                                          std::span<const double> second,

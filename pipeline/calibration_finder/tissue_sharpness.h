@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/calibration.h"
+#include "pipeline/calibration/calibration.h"
 
 namespace octascope::pipeline {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/heartbeat.h"
+#include "pipeline/threads/heartbeat.h"
 
 namespace octascope::pipeline {
 
@@ -96,7 +96,7 @@ void Recorder::offer(const Volume& volume) {
   }
   Place& place = places_[*index];
   copy(volume, place.volume);
-  place.entry = entry_of(volume.ledger, wall_clock_ns());
+  place.entry = entry_of(volume.metadata, wall_clock_ns());
   place.recording = recording;
   waiting_.push(*index); // there is a place for each
   wakeup_.post();

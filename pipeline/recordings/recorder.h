@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "hal/clock.h"
-#include "pipeline/fault_log.h"
-#include "pipeline/index_ring.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/index_ring.h"
 #include "pipeline/recordings/recording_writer.h"
-#include "pipeline/wakeup.h"
-#include "pipeline/worker_pool.h"
+#include "pipeline/threads/wakeup.h"
+#include "pipeline/threads/worker_pool.h"
 
 namespace octascope::pipeline {
 

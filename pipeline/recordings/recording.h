@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "pipeline/eye.h"
-#include "pipeline/volume.h"
+#include "pipeline/volume/eye.h"
+#include "pipeline/volume/volume.h"
 
 namespace octascope::pipeline {
 
@@ -26,7 +26,7 @@ struct RecordingFacts {
 // The history of a volume as it is kept. Times are nanoseconds: of the monotonic clock that stamped
 // the lines, and, for people, of the wall clock when the volume was ready (since 1970, UTC).
 struct RecordedVolume {
-  std::uint64_t index = 0; // VolumeLedger::index: a gap is a volume that was lost or not kept
+  std::uint64_t index = 0; // VolumeMetadata::index: a gap is a volume that was lost or not kept
   std::int64_t first_line_ns = 0;
   std::int64_t last_line_ns = 0;
   std::int64_t published_ns = 0;
@@ -34,12 +34,12 @@ struct RecordedVolume {
   std::int32_t lost_b_scans = 0;
   std::int32_t lost_lines = 0;
   std::int32_t saturated_lines = 0;
-  double phase_offset_a_scans = 0;
+  double scan_lag_a_scans = 0;
 
   bool operator==(const RecordedVolume&) const = default;
 };
 
-RecordedVolume entry_of(const VolumeLedger& ledger, std::int64_t wall_clock_ns);
+RecordedVolume entry_of(const VolumeMetadata& metadata, std::int64_t wall_clock_ns);
 
 // How it ended.
 struct RecordingEnd {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/level_scale.h"
 #include "pipeline/recordings/recording_layout.h"
+#include "pipeline/volume/level_scale.h"
 
 namespace octascope::pipeline {
 
@@ -49,7 +49,7 @@ bool write_real(hid_t file, const char* name, double value) {
 }
 
 tl::unexpected<hal::Error> bad(const char* name, const std::string& what) {
-  return hal::fail(hal::Fault::bad_data, fmt::format("attribute {}: {}", name, what));
+  return hal::fail(hal::ErrorCode::bad_data, fmt::format("attribute {}: {}", name, what));
 }
 
 // A scalar attribute of one class of types.
@@ -72,65 +72,54 @@ hal::Result<FoundAttribute> find(hid_t file, const char* name, H5T_class_t wante
 }
 
 hal::Result<std::string> read_text(hid_t file, const char* name) {
-  const auto found = find(file, name, H5T_STRING, "a text");
-  if (!found)
-    return tl::make_unexpected(found.error());
-  const std::size_t size = H5Tget_size(found->type);
-  if (H5Tis_variable_str(found->type) > 0 || size == 0 || size > longest_text)
+  HAL_TRY(const auto found, find(file, name, H5T_STRING, "a text"));
+  const std::size_t size = H5Tget_size(found.type);
+  if (H5Tis_variable_str(found.type) > 0 || size == 0 || size > longest_text)
     return bad(name, fmt::format("found a text of {} bytes, expected a fixed length of at most {}",
                                  size, longest_text));
   std::string text(size, '\0');
-  if (H5Aread(found->attribute, found->type, text.data()) < 0)
+  if (H5Aread(found.attribute, found.type, text.data()) < 0)
     return bad(name, "cannot be read: " + hdf5_reason());
   return text.substr(0, text.find('\0'));
 }
 
 hal::Result<std::int64_t> read_whole(hid_t file, const char* name) {
-  const auto found = find(file, name, H5T_INTEGER, "a whole number");
-  if (!found)
-    return tl::make_unexpected(found.error());
+  HAL_TRY(const auto found, find(file, name, H5T_INTEGER, "a whole number"));
   std::int64_t value = 0;
-  if (H5Aread(found->attribute, H5T_NATIVE_INT64, &value) < 0)
+  if (H5Aread(found.attribute, H5T_NATIVE_INT64, &value) < 0)
     return bad(name, "cannot be read: " + hdf5_reason());
   return value;
 }
 
 hal::Result<double> read_real(hid_t file, const char* name) {
-  const auto found = find(file, name, H5T_FLOAT, "a number");
-  if (!found)
-    return tl::make_unexpected(found.error());
+  HAL_TRY(const auto found, find(file, name, H5T_FLOAT, "a number"));
   double value = 0;
-  if (H5Aread(found->attribute, H5T_NATIVE_DOUBLE, &value) < 0)
+  if (H5Aread(found.attribute, H5T_NATIVE_DOUBLE, &value) < 0)
     return bad(name, "cannot be read: " + hdf5_reason());
   return value;
 }
 
 hal::Result<> expect(hid_t file, const char* name, double expected) {
-  const auto value = read_real(file, name);
-  if (!value)
-    return tl::make_unexpected(value.error());
-  if (*value != expected)
-    return bad(name, fmt::format("found {}, expected {}", *value, expected));
+  HAL_TRY(const auto value, read_real(file, name));
+  if (value != expected)
+    return bad(name, fmt::format("found {}, expected {}", value, expected));
   return {};
 }
 
 hal::Result<> check_format(hid_t file) {
   const auto format = read_text(file, "format");
   if (!format || *format != recording_layout::format_name)
-    return hal::fail(hal::Fault::bad_data,
+    return hal::fail(hal::ErrorCode::bad_data,
                      fmt::format("is no recording of octascope: found the format \"{}\", "
                                  "expected \"{}\"",
                                  format ? *format : "", recording_layout::format_name));
-  const auto version = read_whole(file, "format_version");
-  if (!version)
-    return tl::make_unexpected(version.error());
-  if (*version != recording_layout::format_version)
-    return bad("format_version", fmt::format("found {}, this program reads {}", *version,
+  HAL_TRY(const auto version, read_whole(file, "format_version"));
+  if (version != recording_layout::format_version)
+    return bad("format_version", fmt::format("found {}, this program reads {}", version,
                                              recording_layout::format_version));
   for (const auto& [name, value] :
        {std::pair{"lowest_level_db", lowest_level_db}, std::pair{"level_step_db", level_step_db}})
-    if (auto same = expect(file, name, static_cast<double>(value)); !same)
-      return same;
+    HAL_CHECK(expect(file, name, static_cast<double>(value)));
   return {};
 }
 
@@ -223,8 +212,7 @@ bool write_end(hid_t file, const RecordingEnd& end) {
 }
 
 hal::Result<RecordingFacts> read_facts(hid_t file) {
-  if (auto format = check_format(file); !format)
-    return tl::make_unexpected(format.error());
+  HAL_CHECK(check_format(file));
   RecordingFacts facts;
   FactReader reader{file};
   reader.read("depths", facts.geometry.depths);
@@ -250,14 +238,10 @@ hal::Result<RecordingFacts> read_facts(hid_t file) {
 }
 
 hal::Result<RecordingEnd> read_end(hid_t file) {
-  const auto finished = read_whole(file, "finished");
-  if (!finished)
-    return tl::make_unexpected(finished.error());
-  const auto not_kept = read_whole(file, "not_kept");
-  if (!not_kept)
-    return tl::make_unexpected(not_kept.error());
-  return RecordingEnd{.finished = *finished != 0,
-                      .not_kept = static_cast<std::uint64_t>(std::max<std::int64_t>(*not_kept, 0))};
+  HAL_TRY(const auto finished, read_whole(file, "finished"));
+  HAL_TRY(const auto not_kept, read_whole(file, "not_kept"));
+  return RecordingEnd{.finished = finished != 0,
+                      .not_kept = static_cast<std::uint64_t>(std::max<std::int64_t>(not_kept, 0))};
 }
 
 } // namespace octascope::pipeline

@@ -11,7 +11,7 @@ namespace octascope::pipeline {
 bool write_facts(hid_t file, const RecordingFacts& facts);
 bool write_end(hid_t file, const RecordingEnd& end);
 
-// Fault::bad_data: the message names the attribute, what was found, and what was expected.
+// ErrorCode::bad_data: the message names the attribute, what was found, and what was expected.
 hal::Result<RecordingFacts> read_facts(hid_t file);
 hal::Result<RecordingEnd> read_end(hid_t file);
 

@@ -17,7 +17,7 @@ Hdf5Handle ledger_type() {
   member("lost_b_scans", offsetof(RecordedVolume, lost_b_scans), H5T_NATIVE_INT32);
   member("lost_lines", offsetof(RecordedVolume, lost_lines), H5T_NATIVE_INT32);
   member("saturated_lines", offsetof(RecordedVolume, saturated_lines), H5T_NATIVE_INT32);
-  member("phase_offset_a_scans", offsetof(RecordedVolume, phase_offset_a_scans), H5T_NATIVE_DOUBLE);
+  member("phase_offset_a_scans", offsetof(RecordedVolume, scan_lag_a_scans), H5T_NATIVE_DOUBLE);
   return type;
 }
 

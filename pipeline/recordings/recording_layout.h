@@ -15,7 +15,7 @@ inline constexpr std::int64_t format_version = 1;
 // Datasets; the first dimension of each is the volume.
 inline constexpr const char* levels = "levels";               // [volume][b][a][z], counts
 inline constexpr const char* b_scan_states = "b_scan_states"; // [volume][b], BScanState
-inline constexpr const char* ledger = "ledger";               // [volume], RecordedVolume
+inline constexpr const char* metadata = "ledger";             // [volume], RecordedVolume
 
 // RecordedVolume, as it lies in memory, under the names that the file uses.
 Hdf5Handle ledger_type();

@@ -40,7 +40,7 @@ hal::Result<Hdf5Handle> open_file(const std::filesystem::path& path) {
   if (!file.valid())
     file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose};
   if (!file.valid()) // asked now: HDF5 forgets it with the next call
-    return hal::fail(hal::Fault::bad_data,
+    return hal::fail(hal::ErrorCode::bad_data,
                      "is no recording, or a damaged one; expected a file that octascope record "
                      "or a pedal made: " +
                          hdf5_reason());
@@ -63,7 +63,7 @@ hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t t
   H5Pset_chunk_cache(access, 0, 0, 0);
   Hdf5Handle dataset{H5Dopen2(file, name, access), H5Dclose};
   if (!dataset.valid())
-    return hal::fail(hal::Fault::bad_data,
+    return hal::fail(hal::ErrorCode::bad_data,
                      fmt::format("found no dataset /{}, expected one: the file is damaged, or "
                                  "another program changed it",
                                  name));
@@ -72,12 +72,12 @@ hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t t
   std::array<hsize_t, 4> found{};
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 1 || rank > 4 || H5Sget_simple_extent_dims(space, found.data(), nullptr) != rank)
-    return hal::fail(hal::Fault::bad_data, fmt::format("/{}: found {} dimensions, expected {}",
-                                                       name, rank, expected.size()));
+    return hal::fail(hal::ErrorCode::bad_data, fmt::format("/{}: found {} dimensions, expected {}",
+                                                           name, rank, expected.size()));
   const auto sizes = std::span{found}.first(static_cast<std::size_t>(rank));
   if (H5Tget_class(type) != type_class || sizes.size() != expected.size() ||
       !std::ranges::equal(sizes.subspan(1), expected.subspan(1)))
-    return hal::fail(hal::Fault::bad_data,
+    return hal::fail(hal::ErrorCode::bad_data,
                      fmt::format("/{}: found {} of {}, expected [volumes{}{}] of {}, as the "
                                  "attributes say: the file is damaged, or another program changed "
                                  "it",
@@ -89,16 +89,16 @@ hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t t
 }
 
 // The first `count` of them.
-hal::Result<std::vector<RecordedVolume>> read_entries(hid_t ledger, hsize_t count) {
+hal::Result<std::vector<RecordedVolume>> read_entries(hid_t metadata, hsize_t count) {
   std::vector<RecordedVolume> entries(count);
   const hsize_t start = 0;
   const Hdf5Handle type = layout::ledger_type();
-  const Hdf5Handle from{H5Dget_space(ledger), H5Sclose};
+  const Hdf5Handle from{H5Dget_space(metadata), H5Sclose};
   const Hdf5Handle to{H5Screate_simple(1, &count, nullptr), H5Sclose};
   if (count > 0 &&
       (H5Sselect_hyperslab(from, H5S_SELECT_SET, &start, nullptr, &count, nullptr) < 0 ||
-       H5Dread(ledger, type, to, from, H5P_DEFAULT, entries.data()) < 0))
-    return hal::fail(hal::Fault::bad_data, "/ledger: cannot be read: " + hdf5_reason());
+       H5Dread(metadata, type, to, from, H5P_DEFAULT, entries.data()) < 0))
+    return hal::fail(hal::ErrorCode::bad_data, "/ledger: cannot be read: " + hdf5_reason());
   return entries;
 }
 
@@ -125,11 +125,12 @@ hal::Result<> check_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status))
-    return hal::fail(hal::Fault::absent, "there is no such file");
+    return hal::fail(hal::ErrorCode::absent, "there is no such file");
   if (std::filesystem::is_directory(status))
-    return hal::fail(hal::Fault::invalid_argument, "found a folder, expected a recording");
+    return hal::fail(hal::ErrorCode::invalid_argument, "found a folder, expected a recording");
   if (::access(path.c_str(), R_OK) != 0)
-    return hal::fail(hal::Fault::denied, std::string{"cannot be read: "} + std::strerror(errno));
+    return hal::fail(hal::ErrorCode::denied,
+                     std::string{"cannot be read: "} + std::strerror(errno));
   return {};
 }
 
@@ -147,7 +148,7 @@ RecordingReader::~RecordingReader() {
 hal::Result<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
   const Hdf5Silence silence;
   const auto refused = [&](const hal::Error& error) {
-    return hal::fail(error.fault, fmt::format("{}: {}", path.string(), error.message));
+    return hal::fail(error.code, fmt::format("{}: {}", path.string(), error.message));
   };
   if (const auto checked = check_file(path); !checked)
     return refused(checked.error());
@@ -178,17 +179,17 @@ hal::Result<RecordingReader> RecordingReader::open(const std::filesystem::path& 
   if (!states)
     return refused(states.error());
   opened->states = std::move(*states);
-  const auto ledger =
-      open_dataset(opened->file, layout::ledger, H5T_COMPOUND, std::array<hsize_t, 1>{}, counts[2]);
-  if (!ledger)
-    return refused(ledger.error());
+  const auto metadata = open_dataset(opened->file, layout::metadata, H5T_COMPOUND,
+                                     std::array<hsize_t, 1>{}, counts[2]);
+  if (!metadata)
+    return refused(metadata.error());
   if (geometry.voxels() > most_voxels || std::ranges::min(counts) > most_volumes)
     return refused(
-        {hal::Fault::bad_data,
+        {hal::ErrorCode::bad_data,
          fmt::format("found {} volumes of {} voxels, expected at most {} of {}",
                      std::ranges::min(counts), geometry.voxels(), most_volumes, most_voxels)});
   // Of one that broke off, the last volume may lack its entry.
-  auto entries = read_entries(*ledger, std::ranges::min(counts));
+  auto entries = read_entries(*metadata, std::ranges::min(counts));
   if (!entries)
     return refused(entries.error());
   opened->volumes = std::move(*entries);
@@ -209,31 +210,31 @@ hal::Result<> RecordingReader::read(std::size_t n, Volume& volume) {
   const Hdf5Silence silence;
   const VolumeGeometry& geometry = file_->facts.geometry;
   if (n >= file_->volumes.size() || volume.geometry != geometry)
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("{}: found a wish for volume {}, expected 0 to {}, into one of "
                                  "the recording's geometry",
                                  file_->path.string(), n,
                                  static_cast<std::int64_t>(file_->volumes.size()) - 1));
   if (!read_row(file_->levels, layout::levels_size(geometry, 0), n, volume.levels.data()) ||
       !read_row(file_->states, layout::states_size(geometry, 0), n, volume.b_scan_states.data()))
-    return hal::fail(hal::Fault::bad_data, fmt::format("{}: volume {} cannot be read: {}",
-                                                       file_->path.string(), n, hdf5_reason()));
+    return hal::fail(hal::ErrorCode::bad_data, fmt::format("{}: volume {} cannot be read: {}",
+                                                           file_->path.string(), n, hdf5_reason()));
   for (BScanState& state : volume.b_scan_states)
     if (state > BScanState::saturated)
-      return hal::fail(hal::Fault::bad_data,
+      return hal::fail(hal::ErrorCode::bad_data,
                        fmt::format("{}: volume {}: found {} as a B-scan's state, expected 0 "
                                    "(missing), 1 (good) or 2 (saturated)",
                                    file_->path.string(), n, static_cast<int>(state)));
   const RecordedVolume& entry = file_->volumes[n];
-  volume.ledger = {.index = entry.index,
-                   .armed = time_point(entry.first_line_ns),
-                   .first_line = time_point(entry.first_line_ns),
-                   .last_line = time_point(entry.last_line_ns),
-                   .published = time_point(entry.published_ns),
-                   .lost_b_scans = entry.lost_b_scans,
-                   .lost_lines = entry.lost_lines,
-                   .saturated_lines = entry.saturated_lines,
-                   .phase_offset_a_scans = entry.phase_offset_a_scans};
+  volume.metadata = {.index = entry.index,
+                     .armed = time_point(entry.first_line_ns),
+                     .first_line = time_point(entry.first_line_ns),
+                     .last_line = time_point(entry.last_line_ns),
+                     .published = time_point(entry.published_ns),
+                     .lost_b_scans = entry.lost_b_scans,
+                     .lost_lines = entry.lost_lines,
+                     .saturated_lines = entry.saturated_lines,
+                     .scan_lag_a_scans = entry.scan_lag_a_scans};
   return {};
 }
 

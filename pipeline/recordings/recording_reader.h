@@ -14,7 +14,7 @@ namespace octascope::pipeline {
 // Bound to one thread at a time.
 class RecordingReader {
 public:
-  // Checks the whole structure. Fault::bad_data: no recording, a damaged one, or one of a newer
+  // Checks the whole structure. ErrorCode::bad_data: no recording, a damaged one, or one of a newer
   // version; the message says what was found and expected.
   static hal::Result<RecordingReader> open(const std::filesystem::path& file);
   RecordingReader(RecordingReader&&) noexcept;
@@ -28,7 +28,7 @@ public:
   const std::vector<RecordedVolume>& volumes() const;
 
   // The `n`th, into a volume of the same geometry: levels, states of the B-scans and what the entry
-  // tells of the ledger. The occupancy is left alone.
+  // tells of the metadata. The occupancy is left alone.
   hal::Result<> read(std::size_t n, Volume& volume);
 
 private:

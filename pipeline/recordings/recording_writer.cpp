@@ -78,21 +78,22 @@ struct RecordingWriter::File {
   tl::unexpected<hal::Error> failed(std::string_view what) {
     const std::string reason = hdf5_reason();
     broken = true;
-    return hal::fail(hal::Fault::system, fmt::format("{}: {}: {}{}", path.string(), what, reason,
-                                                     reason.find("No space") == std::string::npos
-                                                         ? ""
-                                                         : "; free some room on the disk"));
+    return hal::fail(hal::ErrorCode::system,
+                     fmt::format("{}: {}: {}{}", path.string(), what, reason,
+                                 reason.find("No space") == std::string::npos
+                                     ? ""
+                                     : "; free some room on the disk"));
   }
   bool make_datasets();
   bool append_levels(const Volume& volume);
-  bool flush() { return H5Dflush(levels) >= 0 && H5Dflush(states) >= 0 && H5Dflush(ledger) >= 0; }
+  bool flush() { return H5Dflush(levels) >= 0 && H5Dflush(states) >= 0 && H5Dflush(metadata) >= 0; }
 
   std::filesystem::path path;
   Descriptor descriptor; // of the same file, to have it written to the disk
   VolumeGeometry geometry;
   hsize_t volumes = 0;
   bool broken = false;
-  Hdf5Handle file, levels, states, ledger, entry_type; // the file closes last but for its types
+  Hdf5Handle file, levels, states, metadata, entry_type; // the file closes last but for its types
 };
 
 bool RecordingWriter::File::make_datasets() {
@@ -100,8 +101,8 @@ bool RecordingWriter::File::make_datasets() {
   levels = make_dataset(file, layout::levels, H5T_STD_U8LE, layout::levels_size(geometry, 1));
   states = make_dataset(file, layout::b_scan_states, H5T_STD_U8LE,
                         layout::states_size(geometry, entries_a_chunk));
-  ledger = make_dataset(file, layout::ledger, entry_type, std::array{entries_a_chunk});
-  return levels.valid() && states.valid() && ledger.valid();
+  metadata = make_dataset(file, layout::metadata, entry_type, std::array{entries_a_chunk});
+  return levels.valid() && states.valid() && metadata.valid();
 }
 
 // As one chunk, past HDF5's buffers.
@@ -129,10 +130,10 @@ hal::Result<RecordingWriter> RecordingWriter::create(const std::filesystem::path
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor < 0) {
     const int reason = errno;
-    return hal::fail(reason == EEXIST   ? hal::Fault::invalid_argument
-                     : reason == ENOENT ? hal::Fault::absent
-                     : reason == EACCES ? hal::Fault::denied
-                                        : hal::Fault::system,
+    return hal::fail(reason == EEXIST   ? hal::ErrorCode::invalid_argument
+                     : reason == ENOENT ? hal::ErrorCode::absent
+                     : reason == EACCES ? hal::ErrorCode::denied
+                                        : hal::ErrorCode::system,
                      fmt::format("{}: cannot be made: {}{}", path.string(), std::strerror(reason),
                                  reason == EEXIST ? "; a recording is never written over" : ""));
   }
@@ -156,7 +157,7 @@ hal::Result<> RecordingWriter::append(const Volume& volume, const RecordedVolume
   const Hdf5Silence silence;
   File& f = *file_;
   if (f.broken || volume.geometry != f.geometry)
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("{}: found a volume {}, expected one of the recording's own "
                                  "geometry, before any failure",
                                  f.path.string(), f.broken ? "after a failure" : "of another one"));
@@ -164,7 +165,7 @@ hal::Result<> RecordingWriter::append(const Volume& volume, const RecordedVolume
   if (!f.append_levels(volume) ||
       !append_row(f.states, H5T_NATIVE_UINT8, layout::states_size(f.geometry, rows[0]),
                   volume.b_scan_states.data()) ||
-      !append_row(f.ledger, f.entry_type, rows, &entry) || !f.flush())
+      !append_row(f.metadata, f.entry_type, rows, &entry) || !f.flush())
     return f.failed("a volume cannot be written");
   ++f.volumes;
   return {};
@@ -174,8 +175,8 @@ hal::Result<> RecordingWriter::sync() {
   if (::fdatasync(file_->descriptor) == 0)
     return {};
   file_->broken = true;
-  return hal::fail(hal::Fault::system, fmt::format("{}: cannot be written to the disk: {}",
-                                                   file_->path.string(), std::strerror(errno)));
+  return hal::fail(hal::ErrorCode::system, fmt::format("{}: cannot be written to the disk: {}",
+                                                       file_->path.string(), std::strerror(errno)));
 }
 
 // Attributes cannot change while readers may look on: the file is closed and opened once more.
@@ -183,7 +184,7 @@ hal::Result<> RecordingWriter::finish(const RecordingEnd& end) {
   const Hdf5Silence silence;
   File& f = *file_;
   bool closed = true;
-  for (Hdf5Handle* const handle : {&f.ledger, &f.states, &f.levels, &f.file})
+  for (Hdf5Handle* const handle : {&f.metadata, &f.states, &f.levels, &f.file})
     closed = handle->close() >= 0 && closed;
   if (!closed)
     return f.failed("cannot be closed");

@@ -18,8 +18,8 @@ namespace octascope::pipeline {
 // operating system when it is appended.
 class RecordingWriter {
 public:
-  // Makes the file, readable by its owner alone: it shows a patient. Fault::invalid_argument: there
-  // is one of that name already.
+  // Makes the file, readable by its owner alone: it shows a patient. ErrorCode::invalid_argument:
+  // there is one of that name already.
   static hal::Result<RecordingWriter> create(const std::filesystem::path& file,
                                              const RecordingFacts& facts);
   RecordingWriter(RecordingWriter&&) noexcept;

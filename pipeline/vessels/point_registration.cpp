@@ -98,7 +98,7 @@ hal::Result<> check_spread(std::span<const PointPair> pairs, Point PointPair::*s
   constexpr double narrowest = 0.01; // of the length
   if (along > 0 && across >= narrowest * along)
     return {};
-  return hal::fail(hal::Fault::invalid_argument,
+  return hal::fail(hal::ErrorCode::invalid_argument,
                    fmt::format("the {} points spread {:.4g} mm along a line and {:.4g} mm across "
                                "it, expected at least {:.4g} mm across: the tree could turn about "
                                "the line; add a point beside it",
@@ -113,10 +113,8 @@ std::array<std::array<double, 3>, 3> rotation_of(const std::array<double, quater
 }
 
 hal::Result<RigidTransform> fit(std::span<const PointPair> pairs) {
-  if (auto good = check_spread(pairs, &PointPair::tree, "tree's"); !good)
-    return tl::make_unexpected(good.error());
-  if (auto good = check_spread(pairs, &PointPair::volume, "volume's"); !good)
-    return tl::make_unexpected(good.error());
+  HAL_CHECK(check_spread(pairs, &PointPair::tree, "tree's"));
+  HAL_CHECK(check_spread(pairs, &PointPair::volume, "volume's"));
   // Horn's matrix N; its greatest eigenvalue's vector is the turn.
   const Matrix<3> s = products(pairs, &PointPair::tree, &PointPair::volume);
   const Matrix<quaternion> n{
@@ -126,7 +124,7 @@ hal::Result<RigidTransform> fit(std::span<const PointPair> pairs) {
        {s[0][1] - s[1][0], s[2][0] + s[0][2], s[1][2] + s[2][1], s[2][2] - s[0][0] - s[1][1]}}};
   const auto eigen = eigen_of(n);
   if (!(eigen.values[0] - eigen.values[1] > 1e-9 * std::fabs(eigen.values[0])))
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      "two turns fit the points equally well, expected one; do the pairs belong "
                      "together, and has no frame mirrored axes?");
   RigidTransform transform;
@@ -172,16 +170,14 @@ std::vector<double> leave_each_out(std::span<const PointPair> pairs) {
 
 hal::Result<PointRegistration> register_points(std::span<const PointPair> pairs) {
   if (pairs.size() < fewest_point_pairs)
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("found {} pairs of points, expected at least {}", pairs.size(),
                                  fewest_point_pairs));
-  const auto transform = fit(pairs);
-  if (!transform)
-    return tl::make_unexpected(transform.error());
+  HAL_TRY(const auto transform, fit(pairs));
   PointRegistration registration;
-  registration.volume_from_tree = *transform;
+  registration.volume_from_tree = transform;
   for (const PointPair& pair : pairs)
-    registration.residuals_mm.push_back(distance_left(*transform, pair));
+    registration.residuals_mm.push_back(distance_left(transform, pair));
   registration.rms_mm = rms(registration.residuals_mm);
   registration.largest_mm = std::ranges::max(registration.residuals_mm);
   registration.left_out_mm = leave_each_out(pairs);

@@ -31,8 +31,8 @@ struct PointRegistration {
 };
 
 // Least squares, in closed form: B. K. P. Horn, "Closed-form solution of absolute orientation using
-// unit quaternions", J Opt Soc Am A 4, 1987. Never mirrors. Fault::invalid_argument for fewer than
-// three pairs, and for points that coincide or lie on a line, about which the tree could turn.
+// unit quaternions", J Opt Soc Am A 4, 1987. Never mirrors. ErrorCode::invalid_argument for fewer
+// than three pairs, and for points that coincide or lie on a line, about which the tree could turn.
 hal::Result<PointRegistration> register_points(std::span<const PointPair> pairs);
 
 } // namespace octascope::pipeline

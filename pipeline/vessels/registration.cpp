@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/atomic_file.h"
-#include "pipeline/config_document.h"
-#include "pipeline/toml_text.h"
+#include "pipeline/files/atomic_file.h"
+#include "pipeline/files/config_document.h"
+#include "pipeline/files/toml_text.h"
 
 namespace octascope::pipeline {
 
@@ -80,8 +80,8 @@ RigidTransform read_transform(ConfigTable table) {
   return transform;
 }
 
-WhoseEye read_whose(ConfigTable table) {
-  WhoseEye whose;
+PatientEye read_whose(ConfigTable table) {
+  PatientEye whose;
   whose.subject = table.text("subject", "");
   if (!table.has("eye"))
     return whose;
@@ -93,7 +93,7 @@ WhoseEye read_whose(ConfigTable table) {
   return whose;
 }
 
-std::string toml(const WhoseEye& whose) {
+std::string toml(const PatientEye& whose) {
   if (!whose.said())
     return {};
   std::string text = "\n[whose]\n";
@@ -140,28 +140,22 @@ std::string toml(const Registration& registration) {
 } // namespace
 
 hal::Result<Registration> Registration::load(const fs::path& file) {
-  auto document = ConfigDocument::load(file);
-  if (!document)
-    return tl::make_unexpected(document.error());
+  HAL_TRY(auto document, ConfigDocument::load(file));
   Registration registration;
-  registration.volume_from_tree = read_transform(document->root().table("registration"));
-  registration.whose = read_whose(document->root().table("whose"));
-  registration.provenance = read_provenance(document->root().table("provenance"));
-  if (const auto finished = document->finish(); !finished)
-    return tl::make_unexpected(finished.error());
+  registration.volume_from_tree = read_transform(document.root().table("registration"));
+  registration.whose = read_whose(document.root().table("whose"));
+  registration.provenance = read_provenance(document.root().table("provenance"));
+  HAL_CHECK(document.finish());
   return registration;
 }
 
 hal::Result<> write_registration(const Registration& registration, const fs::path& file) {
   if (const std::string fault = fault_of(registration.volume_from_tree); !fault.empty())
-    return hal::fail(hal::Fault::invalid_argument, fmt::format("{}: {}", file.string(), fault));
-  auto out = AtomicFile::create(file);
-  if (!out)
-    return tl::make_unexpected(out.error());
+    return hal::fail(hal::ErrorCode::invalid_argument, fmt::format("{}: {}", file.string(), fault));
+  HAL_TRY(auto out, AtomicFile::create(file));
   const std::string text = toml(registration);
-  if (auto written = out->write_at(0, std::as_bytes(std::span{text})); !written)
-    return written;
-  return out->commit();
+  HAL_CHECK(out.write_at(0, std::as_bytes(std::span{text})));
+  return out.commit();
 }
 
 RigidTransform world_from_volume(const VolumeGeometry& geometry) {

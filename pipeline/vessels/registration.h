@@ -14,8 +14,8 @@
 
 #include "hal/result.h"
 #include "pipeline/vessels/rigid_transform.h"
-#include "pipeline/volume_geometry.h"
-#include "pipeline/whose_eye.h"
+#include "pipeline/volume/patient_eye.h"
+#include "pipeline/volume/volume_geometry.h"
 
 namespace octascope::pipeline {
 
@@ -37,7 +37,7 @@ struct RegistrationProvenance {
 
 struct Registration {
   RigidTransform volume_from_tree; // millimetres to millimetres
-  WhoseEye whose;                  // the vessels are, and the volume that they were registered to
+  PatientEye whose;                // the vessels are, and the volume that they were registered to
   RegistrationProvenance provenance;
 
   // TOML:
@@ -56,11 +56,11 @@ struct Registration {
 };
 
 // The file appears complete or not at all; load() gives the same numbers. Faults as AtomicFile's,
-// and Fault::invalid_argument for a transform that load() would refuse.
+// and ErrorCode::invalid_argument for a transform that load() would refuse.
 hal::Result<> write_registration(const Registration& registration,
                                  const std::filesystem::path& file);
 
-// From the volume's frame to the axes of pictures (ui/camera.h): origin in the middle of the
+// From the volume's frame to the axes of pictures (ui/view/camera.h): origin in the middle of the
 // volume, x along the fast axis, y against the depth, z along the slow axis.
 RigidTransform world_from_volume(const VolumeGeometry& geometry);
 

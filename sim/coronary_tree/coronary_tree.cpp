@@ -5,12 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "sim/coronary_tree/main_courses.h"
-#include "sim/coronary_tree/muscle_cells.h"
+#include "sim/coronary_tree/heart/main_courses.h"
+#include "sim/coronary_tree/myocardium_voxels.h"
 #include "sim/coronary_tree/tree_layout.h"
 #include "sim/coronary_tree/trunk_growth.h"
 #include "sim/coronary_tree/twig_growth.h"
-#include "sim/noise.h"
+#include "sim/spectrometer/noise.h"
 
 namespace octascope::sim {
 namespace {
@@ -44,7 +44,7 @@ Trunks grow_trunks(std::uint64_t seed) {
     return main_course(coronary_branches[b], key_of(seed, Purpose::course, b));
   };
   const std::array<Course, 3> courses{course(0), course(1), course(2)};
-  trunks.cells = muscle_cells();
+  trunks.cells = myocardium_voxels();
   const auto counts = share_out(trunks.cells, courses, shares);
   std::size_t first = 0;
   for (std::size_t b = 0; b < 3; ++b) {
@@ -171,12 +171,12 @@ void write_trunks(const Trunks& trunks, const TreeLayout& layout, pipeline::Vess
 hal::Result<CoronaryTree> generate_coronary_tree(const CoronaryTreeRequest& request,
                                                  const std::function<void(double)>& progress) {
   if (request.segments < fewest_coronary_segments || request.segments > most_coronary_segments)
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("{} segments asked for, expected {} to {}", request.segments,
                                  fewest_coronary_segments, most_coronary_segments));
   constexpr std::size_t most_threads = 256;
   if (request.threads < 1 || request.threads > most_threads)
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("{} threads, expected 1 to {}", request.threads, most_threads));
   const Trunks trunks = grow_trunks(request.seed);
   const TreeLayout layout =

@@ -1,7 +1,7 @@
 // The arteries of a pig's heart, drawn by lot from what was measured on casts.
 //
 // Orders, connectivity, diameters and lengths follow sim/coronary_tree/morphometry.h; the shape of
-// the heart is sim/coronary_tree/heart_wall.h. Layout after Kaimovitz, Lanir, Kassab (Ann Biomed
+// the heart is sim/coronary_tree/heart/heart_wall.h. Layout after Kaimovitz, Lanir, Kassab (Ann Biomed
 // Eng 33, 2005): orders 11 to 9 upon the heart, 8 to 5 through its wall, 4 to 0 filling it. The
 // space is filled by dividing the muscle from the trunk to the twigs, each vessel heading for the
 // middle of its own piece.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "sim/coronary_tree/draws.h"
+#include "sim/coronary_tree/hash_random.h"
 
 namespace octascope::sim {
 namespace {

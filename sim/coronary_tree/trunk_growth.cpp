@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "sim/coronary_tree/course_regions.h"
-#include "sim/coronary_tree/heart_wall.h"
+#include "sim/coronary_tree/heart/course_regions.h"
+#include "sim/coronary_tree/heart/heart_wall.h"
 #include "sim/coronary_tree/vessel_steps.h"
 
 namespace octascope::sim {
@@ -60,7 +60,7 @@ private:
   TrunkPlan& plan_;
   const Course& course_;
   Region cells_;
-  Draws draws_;
+  HashRandom draws_;
   GrownTrunk grown_;
   double along_mm_ = 0; // how far the artery has come on its course
 };

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/coronary_tree/main_courses.h"
-#include "sim/coronary_tree/region.h"
+#include "sim/coronary_tree/heart/main_courses.h"
+#include "sim/coronary_tree/heart/region.h"
 #include "sim/coronary_tree/trunk_plan.h"
 
 namespace octascope::sim {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sim/coronary_tree/draws.h"
+#include "sim/coronary_tree/hash_random.h"
 
 namespace octascope::sim {
 namespace {
@@ -43,7 +43,7 @@ std::array<Counts, pipeline::vessel_order_count> joint_counts(const BranchMorpho
 // Segments of so many elements: their mean as published, as far as so many daughters allow. A
 // segment ends where something springs off, the last one where at least two do.
 std::vector<std::uint32_t> segment_counts(const OrderMorphometry& order, std::size_t elements,
-                                          std::size_t daughters, Draws& draws) {
+                                          std::size_t daughters, HashRandom& draws) {
   std::vector<std::uint32_t> counts(elements);
   std::size_t sum = 0;
   for (std::uint32_t& count : counts) {
@@ -168,7 +168,7 @@ private:
   }
 
   const BranchMorphometry& branch_;
-  Draws draws_;
+  HashRandom draws_;
   TrunkPlan plan_;
 };
 

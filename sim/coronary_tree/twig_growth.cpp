@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/coronary_tree/heart_wall.h"
+#include "sim/coronary_tree/heart/heart_wall.h"
 #include "sim/coronary_tree/vessel_steps.h"
 
 namespace octascope::sim {
@@ -43,7 +43,7 @@ private:
 
   const TwigRules& rules_;
   pipeline::VesselTree& tree_;
-  Draws draws_;
+  HashRandom draws_;
 };
 
 std::size_t Grower::draw_order(std::size_t mother) {

@@ -6,7 +6,7 @@
 
 #include "pipeline/vessels/tree.h"
 #include "sim/coronary_tree/low_orders.h"
-#include "sim/coronary_tree/region.h"
+#include "sim/coronary_tree/heart/region.h"
 
 namespace octascope::sim {
 

@@ -10,7 +10,7 @@ constexpr double sqrt_3 = 1.7320508075688772;
 } // namespace
 
 Calibre::Calibre(const BranchMorphometry& branch, std::size_t order, std::size_t segments,
-                 double mother_um, Draws& draws) {
+                 double mother_um, HashRandom& draws) {
   const OrderMorphometry& facts = branch.orders[order];
   const DiameterRange range = diameter_range(branch, order);
   most_um_ = std::min(range.most_um * 0.9999, mother_um);
@@ -36,7 +36,7 @@ double Calibre::diameter_um(std::size_t segment) const {
                     most_um_);
 }
 
-double segment_length_mm(const OrderMorphometry& order, double needed_mm, Draws& draws) {
+double segment_length_mm(const OrderMorphometry& order, double needed_mm, HashRandom& draws) {
   constexpr int more = 3;
   double best = draws.positive(order.length_mm);
   for (int i = 0; i < more; ++i) {
@@ -64,7 +64,7 @@ Vector3 daughter_direction(Vector3 mother, Vector3 target, double mother_um, dou
 }
 
 Vector3 onward_direction(Vector3 direction, Vector3 target, double least_cosine, double winding,
-                         Draws& draws) {
+                         HashRandom& draws) {
   const Vector3 to = turned(direction, target, least_cosine, 1);
   const Vector3 lot{draws.normal(), draws.normal(), draws.normal()};
   return unit(to + winding * across(lot, to), to);

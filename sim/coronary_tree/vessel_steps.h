@@ -1,9 +1,9 @@
 // What large and small vessels do alike at each fork: their diameters, lengths and angles.
 #pragma once
 
-#include "sim/coronary_tree/draws.h"
+#include "sim/coronary_tree/hash_random.h"
+#include "sim/coronary_tree/heart/vector3.h"
 #include "sim/coronary_tree/morphometry.h"
-#include "sim/coronary_tree/vector3.h"
 
 namespace octascope::sim {
 
@@ -12,7 +12,7 @@ class Calibre {
 public:
   // Not wider than the mother.
   Calibre(const BranchMorphometry& branch, std::size_t order, std::size_t segments,
-          double mother_um, Draws& draws);
+          double mother_um, HashRandom& draws);
 
   double diameter_um(std::size_t segment) const;
 
@@ -27,7 +27,7 @@ private:
 // A segment's length: of four drawn from the published distribution the one nearest to what the
 // vessel needs on its way. Most need more than the mean, so that lengths come out at about one
 // deviation above it; with less the published number of vessels would not reach all of the muscle.
-double segment_length_mm(const OrderMorphometry& order, double needed_mm, Draws& draws);
+double segment_length_mm(const OrderMorphometry& order, double needed_mm, HashRandom& draws);
 
 // The direction of a daughter that wants to go to `target` (unit vectors): at about the angle to
 // its mother that costs the least work to maintain and perfuse (Murray, J Gen Physiol 9, 1926),
@@ -37,6 +37,6 @@ Vector3 daughter_direction(Vector3 mother, Vector3 target, double mother_um, dou
 
 // Onwards towards `target`, turning no further than this cosine, and winding a little.
 Vector3 onward_direction(Vector3 direction, Vector3 target, double least_cosine, double winding,
-                         Draws& draws);
+                         HashRandom& draws);
 
 } // namespace octascope::sim

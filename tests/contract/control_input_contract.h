@@ -74,9 +74,9 @@ protected:
     }
   }
 
-  template <class R> static void expect_fault(const R& result, hal::Fault fault) {
+  template <class R> static void expect_fault(const R& result, hal::ErrorCode fault) {
     ASSERT_FALSE(result.has_value());
-    EXPECT_EQ(result.error().fault, fault) << result.error().message;
+    EXPECT_EQ(result.error().code, fault) << result.error().message;
     EXPECT_GT(result.error().message.size(), 20U) << "a message says what to do";
   }
 
@@ -103,12 +103,12 @@ TEST_P(ControlInputContract, walks_through_its_states) {
 }
 
 TEST_P(ControlInputContract, refuses_calls_in_the_wrong_order) {
-  expect_fault(input_.read(buffer_, {}), hal::Fault::invalid_argument);
+  expect_fault(input_.read(buffer_, {}), hal::ErrorCode::invalid_argument);
   ASSERT_TRUE(input_.open());
-  expect_fault(input_.open(), hal::Fault::invalid_argument);
+  expect_fault(input_.open(), hal::ErrorCode::invalid_argument);
   EXPECT_EQ(input_.state(), hal::DeviceState::ready);
   input_.close();
-  expect_fault(input_.read(buffer_, {}), hal::Fault::invalid_argument);
+  expect_fault(input_.read(buffer_, {}), hal::ErrorCode::invalid_argument);
 }
 
 TEST_P(ControlInputContract, when_nothing_happens_the_wait_is_kept) {
@@ -194,13 +194,13 @@ TEST_P(ControlInputContract, an_unplugged_press_is_released_first_and_then_told)
     EXPECT_EQ(buffer_[0].index, release);
     EXPECT_EQ(buffer_[0].value, 0);
   }
-  expect_fault(input_.read(buffer_, std::chrono::seconds{5}), hal::Fault::disconnected);
+  expect_fault(input_.read(buffer_, std::chrono::seconds{5}), hal::ErrorCode::disconnected);
   EXPECT_EQ(input_.state(), hal::DeviceState::failed);
-  expect_fault(input_.read(buffer_, {}), hal::Fault::disconnected);
-  expect_fault(input_.open(), hal::Fault::invalid_argument);
+  expect_fault(input_.read(buffer_, {}), hal::ErrorCode::disconnected);
+  expect_fault(input_.open(), hal::ErrorCode::invalid_argument);
   input_.close();
   EXPECT_EQ(input_.state(), hal::DeviceState::absent);
-  expect_fault(input_.open(), hal::Fault::absent);
+  expect_fault(input_.open(), hal::ErrorCode::absent);
 
   bench_->replug();
   ASSERT_TRUE(input_.open());

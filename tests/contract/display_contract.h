@@ -105,7 +105,7 @@ TYPED_TEST_P(DisplayContract, refuses_what_makes_no_sense_and_stays_absent) {
   for (const hal::DisplayConfig& config : {no_width, no_rate}) {
     const auto opened = display.open(config);
     ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().fault, hal::Fault::invalid_argument);
+    EXPECT_EQ(opened.error().code, hal::ErrorCode::invalid_argument);
     EXPECT_NE(opened.error().message.find("expected"), std::string::npos);
     EXPECT_EQ(display.state(), hal::DeviceState::absent);
   }
@@ -115,11 +115,11 @@ TYPED_TEST_P(DisplayContract, says_so_when_it_is_not_open_or_opened_twice) {
   hal::Display& display = this->display();
   const auto flip = display.present();
   ASSERT_FALSE(flip);
-  EXPECT_EQ(flip.error().fault, hal::Fault::absent);
+  EXPECT_EQ(flip.error().code, hal::ErrorCode::absent);
   ASSERT_TRUE(display.open(this->config()));
   const auto again = display.open(this->config());
   ASSERT_FALSE(again);
-  EXPECT_EQ(again.error().fault, hal::Fault::busy);
+  EXPECT_EQ(again.error().code, hal::ErrorCode::busy);
   EXPECT_EQ(display.state(), hal::DeviceState::ready);
 }
 

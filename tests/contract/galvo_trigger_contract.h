@@ -38,9 +38,9 @@ struct GalvoTriggerCase {
 
 class GalvoTriggerContract : public testing::TestWithParam<GalvoTriggerCase> {
 protected:
-  template <class R> static void expect_fault(const R& result, hal::Fault fault) {
+  template <class R> static void expect_fault(const R& result, hal::ErrorCode fault) {
     ASSERT_FALSE(result.has_value());
-    EXPECT_EQ(result.error().fault, fault) << result.error().message;
+    EXPECT_EQ(result.error().code, fault) << result.error().message;
     EXPECT_GT(result.error().message.size(), 20U) << "a message says what to do";
   }
 
@@ -63,20 +63,20 @@ TEST_P(GalvoTriggerContract, walks_through_its_states) {
 }
 
 TEST_P(GalvoTriggerContract, refuses_calls_in_the_wrong_order) {
-  expect_fault(trigger_.arm(), hal::Fault::invalid_argument);
+  expect_fault(trigger_.arm(), hal::ErrorCode::invalid_argument);
   ASSERT_TRUE(trigger_.open(config_));
-  expect_fault(trigger_.open(config_), hal::Fault::invalid_argument);
+  expect_fault(trigger_.open(config_), hal::ErrorCode::invalid_argument);
   EXPECT_EQ(trigger_.state(), hal::DeviceState::ready);
   EXPECT_TRUE(trigger_.arm());
   trigger_.close();
-  expect_fault(trigger_.arm(), hal::Fault::invalid_argument);
+  expect_fault(trigger_.arm(), hal::ErrorCode::invalid_argument);
   EXPECT_EQ(bench_->pulses_seen(), 1U);
 }
 
 TEST_P(GalvoTriggerContract, refuses_impossible_pulses) {
   for (const std::int64_t width_ns : {0, -1}) {
     expect_fault(trigger_.open({.pulse_width = hal::Duration{width_ns}}),
-                 hal::Fault::invalid_argument);
+                 hal::ErrorCode::invalid_argument);
     EXPECT_EQ(trigger_.state(), hal::DeviceState::absent);
   }
   EXPECT_TRUE(trigger_.open(config_));
@@ -120,13 +120,13 @@ TEST_P(GalvoTriggerContract, a_disconnect_is_told_and_survived) {
   ASSERT_TRUE(trigger_.open(config_));
   ASSERT_TRUE(trigger_.arm());
   bench_->unplug();
-  expect_fault(trigger_.arm(), hal::Fault::disconnected);
+  expect_fault(trigger_.arm(), hal::ErrorCode::disconnected);
   EXPECT_EQ(trigger_.state(), hal::DeviceState::failed);
-  expect_fault(trigger_.arm(), hal::Fault::disconnected);
-  expect_fault(trigger_.open(config_), hal::Fault::invalid_argument);
+  expect_fault(trigger_.arm(), hal::ErrorCode::disconnected);
+  expect_fault(trigger_.open(config_), hal::ErrorCode::invalid_argument);
   trigger_.close();
   EXPECT_EQ(trigger_.state(), hal::DeviceState::absent);
-  expect_fault(trigger_.open(config_), hal::Fault::absent);
+  expect_fault(trigger_.open(config_), hal::ErrorCode::absent);
   EXPECT_EQ(trigger_.state(), hal::DeviceState::absent);
   EXPECT_EQ(bench_->pulses_seen(), 1U);
   bench_->replug();

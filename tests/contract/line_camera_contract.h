@@ -95,9 +95,9 @@ protected:
     EXPECT_FALSE(frame->has_value());
   }
 
-  template <class R> static void expect_fault(const R& result, hal::Fault fault) {
+  template <class R> static void expect_fault(const R& result, hal::ErrorCode fault) {
     ASSERT_FALSE(result.has_value());
-    EXPECT_EQ(result.error().fault, fault) << result.error().message;
+    EXPECT_EQ(result.error().code, fault) << result.error().message;
     EXPECT_GT(result.error().message.size(), 20U) << "a message says what to do";
   }
 
@@ -132,21 +132,21 @@ TEST_P(LineCameraContract, walks_through_its_states) {
 }
 
 TEST_P(LineCameraContract, refuses_calls_in_the_wrong_order) {
-  using hal::Fault;
-  expect_fault(camera_.start(), Fault::invalid_argument);
-  expect_fault(camera_.wait_frame({}), Fault::invalid_argument);
+  using hal::ErrorCode;
+  expect_fault(camera_.start(), ErrorCode::invalid_argument);
+  expect_fault(camera_.wait_frame({}), ErrorCode::invalid_argument);
   camera_.stop();
   EXPECT_EQ(camera_.state(), hal::DeviceState::absent);
 
   ASSERT_TRUE(camera_.open(bench_->config()));
-  expect_fault(camera_.open(bench_->config()), Fault::invalid_argument);
-  expect_fault(camera_.wait_frame({}), Fault::invalid_argument);
+  expect_fault(camera_.open(bench_->config()), ErrorCode::invalid_argument);
+  expect_fault(camera_.wait_frame({}), ErrorCode::invalid_argument);
   camera_.stop();
   EXPECT_EQ(camera_.state(), hal::DeviceState::ready);
 
   ASSERT_TRUE(camera_.start());
-  expect_fault(camera_.start(), Fault::invalid_argument);
-  expect_fault(camera_.open(bench_->config()), Fault::invalid_argument);
+  expect_fault(camera_.start(), ErrorCode::invalid_argument);
+  expect_fault(camera_.open(bench_->config()), ErrorCode::invalid_argument);
   EXPECT_EQ(camera_.state(), hal::DeviceState::streaming);
   bench_->trigger();
   EXPECT_EQ(expect_frame().sequence, 0U) << "the refused calls did no harm";
@@ -170,7 +170,7 @@ TEST_P(LineCameraContract, refuses_impossible_configurations_and_stays_absent) {
   const auto refused = [&](auto change) {
     hal::LineCameraConfig config = bench_->config();
     change(config);
-    expect_fault(camera_.open(config), hal::Fault::invalid_argument);
+    expect_fault(camera_.open(config), hal::ErrorCode::invalid_argument);
     EXPECT_EQ(camera_.state(), hal::DeviceState::absent);
   };
   refused([](hal::LineCameraConfig& c) { c.buffers = 0; });

@@ -109,17 +109,17 @@ TEST_P(LineCameraLoansContract, a_disconnect_is_told_and_survived) {
   open_and_start_with_few_buffers();
   const std::vector<hal::LineFrame> ended_loans = take_all_buffers();
   bench_->unplug();
-  expect_fault(camera_.wait_frame(long_enough()), hal::Fault::disconnected);
+  expect_fault(camera_.wait_frame(long_enough()), hal::ErrorCode::disconnected);
   EXPECT_EQ(camera_.state(), hal::DeviceState::failed);
-  expect_fault(camera_.wait_frame({}), hal::Fault::disconnected);
-  expect_fault(camera_.start(), hal::Fault::disconnected);
-  expect_fault(camera_.open(bench_->config()), hal::Fault::invalid_argument);
+  expect_fault(camera_.wait_frame({}), hal::ErrorCode::disconnected);
+  expect_fault(camera_.start(), hal::ErrorCode::disconnected);
+  expect_fault(camera_.open(bench_->config()), hal::ErrorCode::invalid_argument);
   camera_.stop();
   EXPECT_EQ(camera_.state(), hal::DeviceState::failed) << "only close leads out";
   camera_.close();
   EXPECT_EQ(camera_.state(), hal::DeviceState::absent);
   release(ended_loans);
-  expect_fault(camera_.open(bench_->config()), hal::Fault::absent);
+  expect_fault(camera_.open(bench_->config()), hal::ErrorCode::absent);
   EXPECT_EQ(camera_.state(), hal::DeviceState::absent);
 
   bench_->replug();
@@ -135,7 +135,7 @@ TEST_P(LineCameraLoansContract, a_disconnect_before_start_is_told_by_start) {
     GTEST_SKIP() << "this bench cannot unplug its camera";
   ASSERT_TRUE(camera_.open(bench_->config()));
   bench_->unplug();
-  expect_fault(camera_.start(), hal::Fault::disconnected);
+  expect_fault(camera_.start(), hal::ErrorCode::disconnected);
   EXPECT_EQ(camera_.state(), hal::DeviceState::failed);
   camera_.close();
   EXPECT_EQ(camera_.state(), hal::DeviceState::absent);

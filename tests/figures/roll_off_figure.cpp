@@ -1,4 +1,4 @@
-// Draws docs/roll-off.png: what each interpolation loses and adds over depth, measured on the
+// HashRandom docs/roll-off.png: what each interpolation loses and adds over depth, measured on the
 // reconstruction of reflectors through a chirp of 70 pixels in 1024 and dispersion.
 //
 //   build/release/tests/roll_off_figure docs/roll-off.png
@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "firmware-host/commands/line_plot.h"
-#include "tests/support/roll_off.h"
+#include "tests/support/spectra/roll_off.h"
 
 namespace octascope {
 namespace {
@@ -36,15 +36,13 @@ hal::Result<Curves> measure(pipeline::Interpolation interpolation) {
     std::vector<double> depths;
     for (int i = 0; i < 20; ++i)
       depths.push_back(percent * samples / 200.0 + (i - 10) / 10.0);
-    const auto points =
-        tests::measure_roll_off(calibration, depths, static_cast<std::uint64_t>(percent),
-                                pipeline::ReconstructionPath::automatic);
-    if (!points)
-      return tl::make_unexpected(points.error());
+    HAL_TRY(const auto points,
+            tests::measure_roll_off(calibration, depths, static_cast<std::uint64_t>(percent),
+                                    pipeline::ReconstructionPath::automatic));
     double loss = 0;
     double artefact = -999;
-    for (const tests::RollOffPoint& point : *points) {
-      loss += point.loss_db / static_cast<double>(points->size());
+    for (const tests::RollOffPoint& point : points) {
+      loss += point.loss_db / static_cast<double>(points.size());
       artefact = std::max(artefact, point.peak.artefact_db);
     }
     curves.level_db[static_cast<std::size_t>(percent)] = -loss;
@@ -69,14 +67,12 @@ hal::Result<> draw(const std::string& file) {
       "HIGHEST ARTEFACT AGAINST THE PEAK (DB) OVER DEPTH (PER CENT)", {}, 1, steps, -100, 0};
   fmt::print("{:8}{:>12}{:>12}{:>14}\n", "", "depth, %", "loss, dB", "artefacts, dB");
   for (const Kind& kind : kinds) {
-    auto curves = measure(kind.interpolation);
-    if (!curves)
-      return tl::make_unexpected(curves.error());
+    HAL_TRY(auto curves, measure(kind.interpolation));
     for (const std::size_t percent : {5U, 25U, 50U, 75U, 90U, 95U})
-      fmt::print("{:8}{:12}{:12.2f}{:14.1f}\n", kind.name, percent, -curves->level_db[percent],
-                 curves->artefact_db[percent]);
-    levels.curves.push_back({std::move(curves->level_db), kind.colour, kind.name});
-    artefacts.curves.push_back({std::move(curves->artefact_db), kind.colour, kind.name});
+      fmt::print("{:8}{:12}{:12.2f}{:14.1f}\n", kind.name, percent, -curves.level_db[percent],
+                 curves.artefact_db[percent]);
+    levels.curves.push_back({std::move(curves.level_db), kind.colour, kind.name});
+    artefacts.curves.push_back({std::move(curves.artefact_db), kind.colour, kind.name});
   }
   pipeline::Image image;
   image.width = 900;

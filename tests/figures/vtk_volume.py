@@ -20,10 +20,10 @@ import numpy
 import vtk
 from vtk.util import numpy_support
 
-FIELD_OF_VIEW_DEG = 36  # ui/camera.h
-LOWEST_LEVEL_DB, LEVEL_STEP_DB = -40.0, 0.5  # pipeline/level_scale.h
-BLANK_DEPTH_BINS = 2  # pipeline/volume_geometry.h
-REFERENCE_STEPS_PER_DIAGONAL = 192  # ui/volume/plane_box.cpp
+FIELD_OF_VIEW_DEG = 36  # ui/view/camera.h
+LOWEST_LEVEL_DB, LEVEL_STEP_DB = -40.0, 0.5  # pipeline/volume/level_scale.h
+BLANK_DEPTH_BINS = 2  # pipeline/volume/volume_geometry.h
+REFERENCE_STEPS_PER_DIAGONAL = 192  # ui/view/plane_box.cpp
 
 
 def read_volume(path):
@@ -85,7 +85,7 @@ def make_mapper(kind, image, step_mm):
 
 
 def place_camera(camera, extents, yaw_deg, tilt_deg, distance):
-    """ui/camera.h: x fast, y against the depth, z slow; here the axes are depth, fast, slow."""
+    """ui/view/camera.h: x fast, y against the depth, z slow; here the axes are depth, fast, slow."""
     yaw, tilt = math.radians(yaw_deg), math.radians(tilt_deg)
     radius = math.hypot(*extents) / 2 * distance
     eye = [radius * math.sin(yaw) * math.cos(tilt), radius * math.sin(tilt),

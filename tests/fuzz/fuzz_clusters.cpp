@@ -13,14 +13,14 @@
 
 #include <unistd.h>
 
-#include "pipeline/vessels/cluster_builder.h"
-#include "pipeline/vessels/cluster_checker.h"
-#include "pipeline/vessels/cluster_facts.h"
-#include "pipeline/vessels/cluster_file.h"
-#include "pipeline/vessels/cluster_file_format.h"
-#include "pipeline/vessels/cluster_unpacker.h"
+#include "pipeline/vessels/clusters/cluster_builder.h"
+#include "pipeline/vessels/clusters/cluster_checker.h"
+#include "pipeline/vessels/clusters/cluster_facts.h"
+#include "pipeline/vessels/clusters/cluster_file.h"
+#include "pipeline/vessels/clusters/cluster_file_format.h"
+#include "pipeline/vessels/clusters/cluster_unpacker.h"
 #include "tests/fuzz/expect.h"
-#include "tests/support/random_tree.h"
+#include "tests/support/vessels/random_tree.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hal/linux/kms/edid.h"
+#include "hal/linux/kms/drm/edid.h"
 #include "tests/fuzz/expect.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

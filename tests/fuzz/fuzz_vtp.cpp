@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "pipeline/vessels/vtp_reader.h"
+#include "pipeline/vessels/files/vtp_reader.h"
 #include "tests/fuzz/tree_check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

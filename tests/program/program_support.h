@@ -8,12 +8,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "pipeline/png_image.h"
-#include "tests/support/picture_counts.h"
-#include "tests/support/program_run.h"
-#include "tests/support/scratch_folder.h"
+#include "pipeline/files/png_image.h"
+#include "tests/support/pictures/picture_counts.h"
+#include "tests/support/program/program_run.h"
+#include "tests/support/files/scratch_folder.h"
 #include "ui/hud/palette.h"
-#include "ui/layout.h"
+#include "ui/layout/layout.h"
 
 namespace octascope::tests {
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/beam_path.h"
-#include "sim/scan_motion.h"
+#include "sim/spectra/beam_path.h"
+#include "sim/spectra/scan_motion.h"
 
 namespace octascope::sim {
 namespace {

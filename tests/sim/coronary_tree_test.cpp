@@ -9,12 +9,12 @@
 #include <gtest/gtest.h>
 
 #include "sim/coronary_tree/coronary_tree.h"
-#include "sim/coronary_tree/draws.h"
-#include "sim/coronary_tree/heart_wall.h"
+#include "sim/coronary_tree/hash_random.h"
+#include "sim/coronary_tree/heart/heart_wall.h"
+#include "sim/coronary_tree/heart/region.h"
 #include "sim/coronary_tree/low_orders.h"
 #include "sim/coronary_tree/morphometry_table.h"
-#include "sim/coronary_tree/region.h"
-#include "sim/noise.h"
+#include "sim/spectrometer/noise.h"
 
 namespace octascope::sim {
 namespace {
@@ -246,8 +246,8 @@ TEST(CoronaryTree, tells_how_far_it_is) {
   EXPECT_EQ(told.back(), 1);
 }
 
-TEST(Draws, have_the_moments_they_promise) {
-  Draws draws{3};
+TEST(HashRandom, have_the_moments_they_promise) {
+  HashRandom draws{3};
   for (const MeanAndDeviation wanted : {MeanAndDeviation{0.069, 0.046}, {1, 0.95}, {3.24, 2.09}}) {
     constexpr int count = 200'000;
     double sum = 0;
@@ -265,7 +265,7 @@ TEST(Draws, have_the_moments_they_promise) {
 }
 
 TEST(Region, puts_the_lowest_first) {
-  Draws draws{11};
+  HashRandom draws{11};
   for (int round = 0; round < 200; ++round) {
     std::vector<Vector3> places(1 + draws.below(60));
     for (Vector3& p : places)

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/fault_probe.h"
-#include "sim/fault_schedule.h"
+#include "sim/faults/fault_probe.h"
+#include "sim/faults/fault_schedule.h"
 #include "tests/sim/twin_support.h"
 
 namespace octascope::sim {

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/fault_script.h"
-#include "tests/support/built_places.h"
+#include "sim/faults/fault_script.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::sim {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/galvo_link.h"
+#include "sim/devices/galvo_link.h"
 
 namespace octascope::sim {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/control_script.h"
-#include "sim/fault_script.h"
-#include "tests/support/built_places.h"
-#include "tests/support/fresh_seed.h"
-#include "tests/support/mutation.h"
+#include "sim/devices/control_script.h"
+#include "sim/faults/fault_script.h"
+#include "tests/support/program/built_places.h"
+#include "tests/support/files/fresh_seed.h"
+#include "tests/support/files/mutation.h"
 
 namespace octascope::sim {
 namespace {

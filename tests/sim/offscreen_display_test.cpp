@@ -2,8 +2,8 @@
 #include <string>
 #include <thread>
 
-#include "sim/offscreen_display.h"
-#include "sim/virtual_clock.h"
+#include "sim/clock/virtual_clock.h"
+#include "sim/devices/offscreen_display.h"
 #include "tests/contract/display_contract.h"
 
 namespace octascope::tests {
@@ -58,13 +58,13 @@ TEST_F(OffscreenDisplay, a_lost_display_fails_and_comes_back) {
   for (int i = 0; i < 2; ++i) {
     const auto flip = display_.present();
     ASSERT_FALSE(flip);
-    EXPECT_EQ(flip.error().fault, hal::Fault::disconnected);
+    EXPECT_EQ(flip.error().code, hal::ErrorCode::disconnected);
     EXPECT_EQ(display_.state(), hal::DeviceState::failed);
   }
   display_.close();
   const auto refused = display_.open({});
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().fault, hal::Fault::absent);
+  EXPECT_EQ(refused.error().code, hal::ErrorCode::absent);
   EXPECT_EQ(display_.state(), hal::DeviceState::absent);
 
   display_.restore();
@@ -90,7 +90,7 @@ TEST_F(OffscreenDisplay, refuses_a_size_beyond_the_gpu) {
   config.width = 1'000'000;
   const auto opened = display_.open(config);
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().fault, hal::Fault::invalid_argument);
+  EXPECT_EQ(opened.error().code, hal::ErrorCode::invalid_argument);
   EXPECT_NE(opened.error().message.find("1000000x720"), std::string::npos);
 }
 

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/phantom.h"
-#include "sim/phantom_anterior_eye.h"
-#include "sim/phantom_profile.h"
+#include "sim/phantoms/phantom.h"
+#include "sim/phantoms/phantom_anterior_eye.h"
+#include "sim/phantoms/phantom_profile.h"
 
 namespace octascope::sim {
 namespace {

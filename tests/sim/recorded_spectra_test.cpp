@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/recorded_spectra.h"
+#include "sim/spectra/recorded_spectra.h"
 
 namespace octascope::sim {
 namespace {

@@ -1,7 +1,7 @@
 // The twins under the contracts of their devices, in virtual time and in real time.
-#include "sim/sim_control_input.h"
-#include "sim/sim_galvo_trigger.h"
-#include "sim/sim_line_camera.h"
+#include "sim/devices/sim_control_input.h"
+#include "sim/devices/sim_galvo_trigger.h"
+#include "sim/devices/sim_line_camera.h"
 #include "tests/contract/clock_contract.h"
 #include "tests/contract/control_input_contract.h"
 #include "tests/contract/galvo_trigger_contract.h"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/sim_control_input.h"
+#include "sim/devices/sim_control_input.h"
 #include "tests/sim/twin_support.h"
 
 namespace octascope::sim {
@@ -160,7 +160,7 @@ TEST(SimControlInput, unplugged_in_the_middle_of_a_press_at_the_scripted_time) {
   EXPECT_EQ(events[1], (ControlEvent{t + 200ms, pedal, 0, 0}));
   const auto gone = input.read(events, {});
   ASSERT_FALSE(gone);
-  EXPECT_EQ(gone.error().fault, hal::Fault::disconnected);
+  EXPECT_EQ(gone.error().code, hal::ErrorCode::disconnected);
   input.close();
   ASSERT_TRUE(input.open());
   EXPECT_THAT(read_for(input, clock, 400ms), ElementsAre(ControlEvent{t + 1100ms, pedal, 0, 1}))

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/sim_galvo_trigger.h"
-#include "sim/sim_line_camera.h"
+#include "sim/devices/sim_galvo_trigger.h"
+#include "sim/devices/sim_line_camera.h"
 #include "tests/sim/twin_support.h"
 
 namespace octascope::sim {
@@ -191,7 +191,7 @@ TEST_F(SimLineCameraTest, a_short_unplugging_while_nobody_looked_is_told) {
   clock_.advance(2s);
   const auto frame = camera_->wait_frame(10ms);
   ASSERT_FALSE(frame);
-  EXPECT_EQ(frame.error().fault, hal::Fault::disconnected);
+  EXPECT_EQ(frame.error().code, hal::ErrorCode::disconnected);
   camera_->close();
   EXPECT_TRUE(camera_->open({.format = source_->format(), .line_rate_hz = 4e3, .buffers = 4}));
 }

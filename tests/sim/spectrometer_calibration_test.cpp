@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/config_document.h"
-#include "sim/spectrometer_calibration.h"
+#include "pipeline/files/config_document.h"
+#include "sim/spectrometer/spectrometer_calibration.h"
 
 namespace octascope::sim {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/spectrometer.h"
-#include "sim/spectrometer_synthesis.h"
+#include "sim/spectrometer/spectrometer.h"
+#include "sim/spectrometer/spectrometer_synthesis.h"
 #include "tests/sim/exact_inverse.h"
 
 namespace octascope::sim {
@@ -96,7 +96,7 @@ TEST(Spectrometer, settings_that_make_no_sense_are_named) {
   EXPECT_NE(Spectrometer::make(odd).error().message.find("1023"), std::string::npos);
   SpectrometerConfig folded;
   folded.chirp_bow = 0.3;
-  EXPECT_EQ(Spectrometer::make(folded).error().fault, hal::Fault::invalid_argument);
+  EXPECT_EQ(Spectrometer::make(folded).error().code, hal::ErrorCode::invalid_argument);
   SpectrometerConfig nan;
   nan.electrons_per_count = std::nan("");
   EXPECT_NE(Spectrometer::make(nan).error().message.find("electrons_per_count"), std::string::npos);

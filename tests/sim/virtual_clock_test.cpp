@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "sim/virtual_clock.h"
+#include "sim/clock/virtual_clock.h"
 
 namespace octascope::sim {
 namespace {

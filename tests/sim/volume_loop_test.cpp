@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/phantom_anterior_eye.h"
-#include "sim/volume_loop.h"
+#include "sim/phantoms/phantom_anterior_eye.h"
+#include "sim/spectra/volume_loop.h"
 #include "tests/sim/exact_inverse.h"
 
 namespace octascope::sim {
@@ -243,7 +243,7 @@ TEST(VolumeLoop, its_end_does_not_wait_for_the_ring) {
 TEST(VolumeLoop, impossible_loops_are_refused) {
   VolumeLoopConfig none = small_loop("cap");
   none.volumes = 0;
-  EXPECT_EQ(VolumeLoop::make(none).error().fault, hal::Fault::invalid_argument);
+  EXPECT_EQ(VolumeLoop::make(none).error().code, hal::ErrorCode::invalid_argument);
   VolumeLoopConfig unknown = small_loop("cap");
   unknown.phantom = "teapot";
   EXPECT_FALSE(VolumeLoop::make(unknown));

@@ -13,13 +13,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "pipeline/scan_plan.h"
-#include "tests/soak/processor_thief.h"
+#include "pipeline/scan/scan_plan.h"
+#include "tests/soak/cpu_hog.h"
 #include "tests/soak/soak_verdict.h"
 #include "tests/soak/stolen_time.h"
-#include "tests/support/program_run.h"
-#include "tests/support/random_faults.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/devices/random_faults.h"
+#include "tests/support/files/scratch_folder.h"
+#include "tests/support/program/program_run.h"
 
 namespace octascope::tests {
 namespace {
@@ -146,13 +146,13 @@ Outcome soak(const SoakOptions& options, const Phase& phase, const std::filesyst
   }
   const double stolen_before_s = stolen_seconds();
   const auto begin = WallClock::now();
-  std::optional<ProcessorThief> thief;
+  std::optional<CpuHog> hog;
   if (options.steal_ms > 0)
-    thief.emplace(std::chrono::duration<double, std::milli>{options.steal_ms}, options.seed);
+    hog.emplace(std::chrono::duration<double, std::milli>{options.steal_ms}, options.seed);
   ProgramRun run{octascope_command(words)};
   const std::vector<ProcessSample> samples = watch(run, begin);
   const ProgramResult result = run.wait();
-  thief.reset();
+  hog.reset();
   keep_samples(file(".csv"), samples);
 
   Outcome outcome{.phase = phase};
@@ -251,7 +251,7 @@ int soak(const SoakOptions& options) {
     fmt::print(stderr, "soak: {}\n", valid.error().message);
     return 2;
   }
-  if (options.steal_ms > 0 && !ProcessorThief::is_permitted()) {
+  if (options.steal_ms > 0 && !CpuHog::is_permitted()) {
     fmt::print(stderr, "soak: --steal needs real-time priority, which this user may not have: "
                        "start it as root\n");
     return 2;

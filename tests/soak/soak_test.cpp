@@ -10,7 +10,7 @@
 
 #include "tests/soak/soak_verdict.h"
 #include "tests/soak/stolen_time.h"
-#include "tests/support/random_faults.h"
+#include "tests/support/devices/random_faults.h"
 
 namespace octascope::tests {
 namespace {

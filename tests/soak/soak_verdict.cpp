@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "tests/support/report_sums.h"
+#include "tests/support/program/report_sums.h"
 
 namespace octascope::tests {
 

@@ -33,7 +33,7 @@ hal::Result<ControlProfile> built_in_profile(std::string_view name) {
   std::string known;
   for (const BuiltInProfile& profile : all)
     known += (known.empty() ? "" : ", ") + std::string{profile.name};
-  return hal::fail(hal::Fault::invalid_argument,
+  return hal::fail(hal::ErrorCode::invalid_argument,
                    fmt::format("control profile \"{}\" is not known, expected one of {}; for one "
                                "of your own, give its file",
                                name, known));

@@ -19,7 +19,7 @@ struct BuiltInProfile {
 };
 std::span<const BuiltInProfile> built_in_profiles();
 
-// Fault::invalid_argument: there is none of that name; the message lists those that there are.
+// ErrorCode::invalid_argument: there is none of that name; the message lists those that there are.
 hal::Result<ControlProfile> built_in_profile(std::string_view name);
 
 // The one made for the device "05f3:00ff"; of several, one with so many switches, as models with

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "pipeline/config_document.h"
+#include "pipeline/files/config_document.h"
 #include "ui/controls/profile_rules.h"
 
 namespace octascope::ui {
@@ -208,8 +208,7 @@ hal::Result<ControlProfile> read_profile(const ConfigDocument& document) {
   for (ConfigTable& table : root.tables("bind"))
     read_bind(table, profile);
   check_whole(root, profile);
-  if (auto finished = document.finish(); !finished)
-    return tl::make_unexpected(finished.error());
+  HAL_CHECK(document.finish());
   return profile;
 }
 

@@ -20,7 +20,7 @@
 //   [[bind]]                                   # exactly one of switch, with, knob, axis
 //   switch = "left"                            # a name or an index
 //   gesture = "long"                           # press, long, double or hold (repeats while held)
-//   action = "technique"                       # ui/controls/action.h
+//   action = "technique"                       # ui/view/action.h
 //   step = -1                                  # so many detents, or back; else 1
 //   [[bind]]
 //   with = ["left", "right"]                   # down together
@@ -47,7 +47,7 @@
 #include <vector>
 
 #include "hal/result.h"
-#include "ui/controls/action.h"
+#include "ui/view/action.h"
 #include "ui/controls/gesture_recogniser.h"
 
 namespace octascope::ui {

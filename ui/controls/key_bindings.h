@@ -7,7 +7,7 @@
 #include <string>
 
 #include "hal/display.h"
-#include "ui/controls/action.h"
+#include "ui/view/action.h"
 
 namespace octascope::ui {
 

@@ -1,7 +1,7 @@
 // What may stand beside what in a profile of controls.
 #pragma once
 
-#include "pipeline/config_document.h"
+#include "pipeline/files/config_document.h"
 #include "ui/controls/control_profile.h"
 
 namespace octascope::ui {

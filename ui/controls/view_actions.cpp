@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ui/controls/view_words.h"
+#include "ui/controls/view_text.h"
 
 namespace octascope::ui {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "hal/clock.h"
-#include "ui/controls/action.h"
-#include "ui/view_state.h"
+#include "ui/view/action.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::ui {
 

@@ -12,7 +12,7 @@
 #include "ui/controls/gesture_recogniser.h"
 #include "ui/controls/knob_acceleration.h"
 #include "ui/controls/view_actions.h"
-#include "ui/view_state.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::ui {
 

@@ -1,7 +1,7 @@
 // The framebuffer that is bound.
 #pragma once
 
-#include "pipeline/png_image.h"
+#include "pipeline/files/png_image.h"
 
 namespace octascope::ui::gl {
 

@@ -6,10 +6,8 @@ namespace octascope::ui::gl {
 
 hal::Result<PicturePass> PicturePass::create(std::string_view name,
                                              std::string_view fragment_source) {
-  auto program = Program::build(name, shaders::picture_vert, fragment_source);
-  if (!program)
-    return tl::make_unexpected(program.error());
-  return PicturePass{std::move(*program)};
+  HAL_TRY(auto program, Program::build(name, shaders::picture_vert, fragment_source));
+  return PicturePass{std::move(program)};
 }
 
 void PicturePass::fill(const Rect& rect, int target_height) const {

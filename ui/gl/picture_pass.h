@@ -6,7 +6,7 @@
 #include "hal/result.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/program.h"
-#include "ui/layout.h"
+#include "ui/layout/layout.h"
 
 namespace octascope::ui::gl {
 

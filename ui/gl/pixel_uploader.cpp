@@ -21,7 +21,7 @@ PixelUploader PixelUploader::create(std::size_t bytes) {
 hal::Result<> PixelUploader::stage(std::span<const std::uint8_t> pixels) {
   if (pixels.size() > bytes_)
     return hal::fail(
-        hal::Fault::invalid_argument,
+        hal::ErrorCode::invalid_argument,
         fmt::format("pixel upload: {} bytes given, expected at most {}", pixels.size(), bytes_));
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffers_[next_].name());
   next_ = (next_ + 1) % buffers_.size();
@@ -29,7 +29,7 @@ hal::Result<> PixelUploader::stage(std::span<const std::uint8_t> pixels) {
                                   GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
   if (memory == nullptr) {
     unbind();
-    return hal::fail(hal::Fault::system,
+    return hal::fail(hal::ErrorCode::system,
                      fmt::format("pixel upload: the driver maps no {} bytes (GL error 0x{:04x}); "
                                  "free graphics memory",
                                  pixels.size(), glGetError()));
@@ -37,7 +37,7 @@ hal::Result<> PixelUploader::stage(std::span<const std::uint8_t> pixels) {
   std::memcpy(memory, pixels.data(), pixels.size());
   if (glUnmapBuffer(GL_PIXEL_UNPACK_BUFFER) != GL_TRUE) {
     unbind();
-    return hal::fail(hal::Fault::system,
+    return hal::fail(hal::ErrorCode::system,
                      "pixel upload: the driver lost the buffer's contents; upload again");
   }
   return {};

@@ -31,7 +31,7 @@ hal::Result<> compile(const Shader& shader, std::string_view what, std::string_v
     return {};
   std::array<char, 2048> log{};
   glGetShaderInfoLog(shader.name, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  return hal::fail(hal::Fault::unsupported,
+  return hal::fail(hal::ErrorCode::unsupported,
                    fmt::format("shader {}: found an error, expected GLSL ES 3.00 that this driver "
                                "({}) compiles: {}",
                                what, reinterpret_cast<const char*>(glGetString(GL_VERSION)),
@@ -43,11 +43,9 @@ hal::Result<> compile(const Shader& shader, std::string_view what, std::string_v
 hal::Result<Program> Program::build(std::string_view name, std::string_view vertex_source,
                                     std::string_view fragment_source) {
   const Shader vertex{GL_VERTEX_SHADER};
-  if (auto ok = compile(vertex, fmt::format("{}.vert", name), vertex_source); !ok)
-    return tl::make_unexpected(ok.error());
+  HAL_CHECK(compile(vertex, fmt::format("{}.vert", name), vertex_source));
   const Shader fragment{GL_FRAGMENT_SHADER};
-  if (auto ok = compile(fragment, fmt::format("{}.frag", name), fragment_source); !ok)
-    return tl::make_unexpected(ok.error());
+  HAL_CHECK(compile(fragment, fmt::format("{}.frag", name), fragment_source));
 
   Program program{glCreateProgram()};
   glAttachShader(program.name_, vertex.name);
@@ -59,7 +57,7 @@ hal::Result<Program> Program::build(std::string_view name, std::string_view vert
     std::array<char, 2048> log{};
     glGetProgramInfoLog(program.name_, static_cast<GLsizei>(log.size()), nullptr, log.data());
     return hal::fail(
-        hal::Fault::unsupported,
+        hal::ErrorCode::unsupported,
         fmt::format("shader program {}: its stages do not link: {}", name, log.data()));
   }
   return program;

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "ui/hud/hud.h"
-#include "ui/volume/box_edges.h"
+#include "ui/layout/box_edges.h"
 
 namespace octascope::ui {
 

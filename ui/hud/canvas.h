@@ -12,7 +12,7 @@
 
 #include "ui/hud/fonts.h"
 #include "ui/hud/palette.h"
-#include "ui/layout.h"
+#include "ui/layout/layout.h"
 
 struct ImDrawList;
 struct ImDrawListSharedData;

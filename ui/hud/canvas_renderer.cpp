@@ -25,10 +25,8 @@ const void* byte_offset(std::size_t bytes) {
 } // namespace
 
 hal::Result<CanvasRenderer> CanvasRenderer::create() {
-  auto program = gl::Program::build("hud", shaders::hud_vert, shaders::hud_frag);
-  if (!program)
-    return tl::make_unexpected(program.error());
-  return CanvasRenderer{std::move(*program)};
+  HAL_TRY(auto program, gl::Program::build("hud", shaders::hud_vert, shaders::hud_frag));
+  return CanvasRenderer{std::move(program)};
 }
 
 CanvasRenderer::CanvasRenderer(gl::Program program)

@@ -1,11 +1,11 @@
-// Draws a Canvas with GLES 3.
+// HashRandom a Canvas with GLES 3.
 #pragma once
 
 #include "hal/result.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/program.h"
 #include "ui/hud/canvas.h"
-#include "ui/stereo.h"
+#include "ui/layout/stereo.h"
 
 namespace octascope::ui {
 

@@ -4,9 +4,9 @@
 #include <string_view>
 
 #include "ui/hud/canvas.h"
-#include "ui/hud/fixed_text.h"
-#include "ui/layout.h"
-#include "ui/view_state.h"
+#include "ui/view/fixed_text.h"
+#include "ui/layout/layout.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::ui {
 

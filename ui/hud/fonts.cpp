@@ -76,12 +76,13 @@ hal::Result<Fonts> Fonts::create(float unit) {
   int height = 0;
   atlas.GetTexDataAsAlpha8(&coverage, &width, &height);
   if (coverage == nullptr)
-    return hal::fail(hal::Fault::system, "heads-up display: FreeType builds no glyphs from the "
-                                         "embedded fonts; the program is damaged, install it anew");
+    return hal::fail(hal::ErrorCode::system,
+                     "heads-up display: FreeType builds no glyphs from the "
+                     "embedded fonts; the program is damaged, install it anew");
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (width > largest || height > largest)
-    return hal::fail(hal::Fault::unsupported,
+    return hal::fail(hal::ErrorCode::unsupported,
                      fmt::format("heads-up display: found that this GL takes textures up to {}, "
                                  "expected {}x{} for the glyphs of this size; choose a smaller one",
                                  largest, width, height));

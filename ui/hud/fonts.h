@@ -26,7 +26,7 @@ inline constexpr int text_style_count = 4;
 // Threads: as gl/objects.h.
 class Fonts {
 public:
-  // `unit` as in Layout. Fault::unsupported: this GL takes no texture of that size.
+  // `unit` as in Layout. ErrorCode::unsupported: this GL takes no texture of that size.
   static hal::Result<Fonts> create(float unit);
   Fonts(Fonts&& other) noexcept;
   Fonts& operator=(Fonts&& other) noexcept;

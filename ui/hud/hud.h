@@ -7,12 +7,12 @@
 
 #include <glm/vec3.hpp>
 
-#include "ui/camera.h"
+#include "ui/view/camera.h"
 #include "ui/hud/canvas.h"
 #include "ui/hud/hud_text.h"
 #include "ui/hud/window_histogram.h"
-#include "ui/layout.h"
-#include "ui/scan_field.h"
+#include "ui/layout/layout.h"
+#include "ui/layout/scan_field.h"
 
 namespace octascope::ui {
 

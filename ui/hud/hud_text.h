@@ -8,11 +8,12 @@
 #include <optional>
 #include <string_view>
 
-#include "pipeline/volume.h"
+#include "pipeline/volume/volume.h"
 #include "ui/hud/echo.h"
-#include "ui/hud/fixed_text.h"
-#include "ui/status.h"
-#include "ui/view_state.h"
+#include "ui/view/fixed_text.h"
+#include "ui/status/status.h"
+#include "ui/view/segment_counts.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::ui {
 
@@ -58,7 +59,7 @@ struct VesselMarks {
   bool registered = false;
   VesselColouring colouring = VesselColouring::branch;
   std::array<bool, pipeline::vessel_branch_count> branches{};
-  std::optional<VesselAccount> account; // where it is asked for
+  std::optional<SegmentCounts> account; // where it is asked for
   bool operator==(const VesselMarks&) const = default;
 };
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "ui/hud/fixed_text.h"
+#include "ui/view/fixed_text.h"
 
 namespace octascope::ui {
 

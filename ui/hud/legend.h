@@ -3,7 +3,7 @@
 
 #include "ui/controls/legend_lines.h"
 #include "ui/hud/canvas.h"
-#include "ui/layout.h"
+#include "ui/layout/layout.h"
 
 namespace octascope::ui {
 

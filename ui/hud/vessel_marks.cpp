@@ -5,7 +5,8 @@
 #include <utility>
 
 #include "ui/hud/hud.h"
-#include "ui/vessels/vessel_look.h"
+#include "ui/view/segment_counts.h"
+#include "ui/view/vessel_look.h"
 
 namespace octascope::ui {
 
@@ -62,7 +63,7 @@ void add_colours(MarkRows& rows, const VesselMarks& marks) {
 }
 
 // Numbers that add up, whole.
-void add_account(MarkRows& rows, const VesselAccount& account) {
+void add_account(MarkRows& rows, const SegmentCounts& account) {
   rows.add().words.format("{} drawn by GL", account.drawn);
   rows.add().words.format("+ {} by the processor", account.splatted);
   rows.add().words.format("+ {} merged", account.merged);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/level_scale.h"
-#include "ui/hud/fixed_text.h"
+#include "pipeline/volume/level_scale.h"
+#include "ui/view/fixed_text.h"
 
 namespace octascope::ui {
 

@@ -4,12 +4,12 @@
 #include <array>
 
 #include "ui/hud/canvas.h"
-#include "ui/layout.h"
-#include "ui/view_state.h"
+#include "ui/layout/layout.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::ui {
 
-// Shares of the voxels, evenly over the range of levels (pipeline/level_scale.h), the lowest first.
+// Shares of the voxels, evenly over the range of levels (pipeline/volume/level_scale.h), the lowest first.
 using LevelShares = std::array<float, 128>;
 
 // A plate with the histogram, the window's opacity over it (0 below, a ramp, 1 above), and levels

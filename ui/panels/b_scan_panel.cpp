@@ -5,15 +5,13 @@
 #include "embedded_shaders.h"
 
 #include "ui/panels/hatch.h"
-#include "ui/window.h"
+#include "ui/view/window.h"
 
 namespace octascope::ui {
 
 hal::Result<BScanPanel> BScanPanel::create() {
-  auto pass = gl::PicturePass::create("b_scan", with_hatch(shaders::b_scan_frag));
-  if (!pass)
-    return tl::make_unexpected(pass.error());
-  return BScanPanel{std::move(*pass)};
+  HAL_TRY(auto pass, gl::PicturePass::create("b_scan", with_hatch(shaders::b_scan_frag)));
+  return BScanPanel{std::move(pass)};
 }
 
 BScanPanel::BScanPanel(gl::PicturePass pass)

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "hal/result.h"
-#include "pipeline/volume.h"
+#include "pipeline/volume/volume.h"
 #include "ui/gl/picture_pass.h"
-#include "ui/layout.h"
-#include "ui/view_state.h"
+#include "ui/layout/layout.h"
+#include "ui/view/view_state.h"
 #include "ui/volume/volume_texture.h"
 
 namespace octascope::ui {

@@ -10,10 +10,8 @@
 namespace octascope::ui {
 
 hal::Result<EnFacePanel> EnFacePanel::create() {
-  auto pass = gl::PicturePass::create("en_face", with_hatch(shaders::en_face_frag));
-  if (!pass)
-    return tl::make_unexpected(pass.error());
-  return EnFacePanel{std::move(*pass)};
+  HAL_TRY(auto pass, gl::PicturePass::create("en_face", with_hatch(shaders::en_face_frag)));
+  return EnFacePanel{std::move(pass)};
 }
 
 EnFacePanel::EnFacePanel(gl::PicturePass pass)

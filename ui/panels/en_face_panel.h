@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "hal/result.h"
-#include "pipeline/volume.h"
+#include "pipeline/volume/volume.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
-#include "ui/layout.h"
+#include "ui/layout/layout.h"
 
 namespace octascope::ui {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "pipeline/volume.h"
+#include "pipeline/volume/volume.h"
 
 namespace octascope::ui {
 

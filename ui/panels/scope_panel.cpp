@@ -5,13 +5,9 @@
 namespace octascope::ui {
 
 hal::Result<ScopePanel> ScopePanel::create() {
-  auto pass = gl::PicturePass::create("picture", shaders::picture_frag);
-  if (!pass)
-    return tl::make_unexpected(pass.error());
-  auto picture = ScopeTexture::create();
-  if (!picture)
-    return tl::make_unexpected(picture.error());
-  return ScopePanel{std::move(*pass), std::move(*picture)};
+  HAL_TRY(auto pass, gl::PicturePass::create("picture", shaders::picture_frag));
+  HAL_TRY(auto picture, ScopeTexture::create());
+  return ScopePanel{std::move(pass), std::move(picture)};
 }
 
 ScopePanel::ScopePanel(gl::PicturePass pass, ScopeTexture picture)
@@ -21,8 +17,7 @@ ScopePanel::ScopePanel(gl::PicturePass pass, ScopeTexture picture)
 
 hal::Result<> ScopePanel::show(const hal::ScopeFrame& frame,
                                const std::optional<ScanField>& field) {
-  if (auto ok = picture_.show(frame); !ok)
-    return ok;
+  HAL_CHECK(picture_.show(frame));
   time_ = frame.time;
   field_ = field;
   return {};

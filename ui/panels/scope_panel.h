@@ -7,9 +7,9 @@
 #include "hal/scope_camera.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
-#include "ui/layout.h"
+#include "ui/layout/layout.h"
 #include "ui/panels/scope_texture.h"
-#include "ui/scan_field.h"
+#include "ui/layout/scan_field.h"
 
 namespace octascope::ui {
 

@@ -35,14 +35,14 @@ std::size_t row_count(const hal::ScopeFrame& frame) {
 hal::Result<> check(const hal::ScopeFrame& frame) {
   if (frame.width < 1 || frame.height < 1 || frame.stride_bytes < 0 ||
       static_cast<std::size_t>(frame.stride_bytes) < row_bytes(frame))
-    return hal::fail(hal::Fault::bad_data,
+    return hal::fail(hal::ErrorCode::bad_data,
                      fmt::format("microscope picture: {}x{} with a stride of {} bytes, expected "
                                  "a stride of at least {}",
                                  frame.width, frame.height, frame.stride_bytes, row_bytes(frame)));
   const std::size_t needed =
       static_cast<std::size_t>(frame.stride_bytes) * (row_count(frame) - 1) + row_bytes(frame);
   if (frame.pixels.size() < needed)
-    return hal::fail(hal::Fault::bad_data,
+    return hal::fail(hal::ErrorCode::bad_data,
                      fmt::format("microscope picture: {} bytes for {}x{}, expected {}",
                                  frame.pixels.size(), frame.width, frame.height, needed));
   return {};
@@ -82,10 +82,8 @@ gl::Texture make_plane(GLenum format, int width, int height) {
 } // namespace
 
 hal::Result<ScopeTexture> ScopeTexture::create() {
-  auto pass = gl::PicturePass::create("scope_yuv", shaders::scope_yuv_frag);
-  if (!pass)
-    return tl::make_unexpected(pass.error());
-  return ScopeTexture{std::move(*pass)};
+  HAL_TRY(auto pass, gl::PicturePass::create("scope_yuv", shaders::scope_yuv_frag));
+  return ScopeTexture{std::move(pass)};
 }
 
 ScopeTexture::ScopeTexture(gl::PicturePass conversion)
@@ -97,7 +95,7 @@ hal::Result<> ScopeTexture::resize(const hal::ScopeFrame& frame) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (frame.width > largest || frame.height > largest)
-    return hal::fail(hal::Fault::unsupported,
+    return hal::fail(hal::ErrorCode::unsupported,
                      fmt::format("microscope picture: {}x{}, this GL draws at most {}x{}; set the "
                                  "camera to a smaller size",
                                  frame.width, frame.height, largest, largest));
@@ -150,11 +148,9 @@ void ScopeTexture::convert(const hal::ScopeFrame& frame) const {
 }
 
 hal::Result<> ScopeTexture::show(const hal::ScopeFrame& frame) {
-  if (auto good = check(frame); !good)
-    return good;
+  HAL_CHECK(check(frame));
   if (format_ != frame.format || frame.width != width_ || frame.height != height_)
-    if (auto resized = resize(frame); !resized)
-      return resized;
+    HAL_CHECK(resize(frame));
   switch (frame.format) {
   case PixelFormat::rgb8:
     upload(colour_, {GL_RGB, 3, width_, height_, frame.pixels.data()}, frame.stride_bytes);

@@ -19,9 +19,9 @@ class ScopeTexture {
 public:
   static hal::Result<ScopeTexture> create();
 
-  // Copies the frame before it returns; the bound framebuffer stays bound. Fault::bad_data: the
+  // Copies the frame before it returns; the bound framebuffer stays bound. ErrorCode::bad_data: the
   // frame is shorter than its format, size and stride say; the message has both lengths.
-  // Fault::unsupported: larger than this GL's textures.
+  // ErrorCode::unsupported: larger than this GL's textures.
   hal::Result<> show(const hal::ScopeFrame& frame);
 
   // Row 0 is the top; alpha is of no meaning.

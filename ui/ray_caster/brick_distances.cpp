@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "pipeline/cpu_clones.h"
+#include "pipeline/threads/cpu_clones.h"
 
 namespace octascope::ui {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pipeline/occupancy.h"
+#include "pipeline/volume/occupancy.h"
 #include "ui/ray_caster/brick_grid.h"
 
 namespace octascope::ui {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "pipeline/cpu_clones.h"
+#include "pipeline/threads/cpu_clones.h"
 
 namespace octascope::ui {
 

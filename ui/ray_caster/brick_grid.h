@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/occupancy.h"
+#include "pipeline/volume/occupancy.h"
 #include "ui/transfer/visible_levels.h"
 
 namespace octascope::ui {

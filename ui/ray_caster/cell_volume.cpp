@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "pipeline/cpu_clones.h"
+#include "pipeline/threads/cpu_clones.h"
 
 namespace octascope::ui {
 

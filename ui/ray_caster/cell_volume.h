@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <span>
 
-#include "pipeline/volume.h"
+#include "pipeline/volume/volume.h"
 #include "ui/ray_caster/large_buffer.h"
 
 namespace octascope::ui {
 
 // Levels of two neighbouring A-scans interleaved, depth fastest: [b cell row][a cell][z][2]. Row r
-// holds B-scan r−1, the first and last are repeated; cells as pipeline/occupancy.h numbers them.
+// holds B-scan r−1, the first and last are repeated; cells as pipeline/volume/occupancy.h numbers them.
 // Twice the volume's memory and one pass of copying, for half of the loads of every sample.
 //
 // Threads: update() of different B-scans may run at the same time. Allocates when it is made.

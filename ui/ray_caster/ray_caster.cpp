@@ -11,7 +11,7 @@
 #include <glm/vec2.hpp>
 
 #include "ui/ray_caster/ray_geometry.h"
-#include "ui/volume/plane_box.h"
+#include "ui/view/plane_box.h"
 
 namespace octascope::ui {
 
@@ -61,7 +61,7 @@ hal::Result<RayCaster> RayCaster::create(std::size_t helpers, const pipeline::Th
                                          std::string_view isa) {
   const RayKernels* kernels = ray_kernels(isa);
   if (kernels == nullptr)
-    return hal::fail(hal::Fault::unsupported,
+    return hal::fail(hal::ErrorCode::unsupported,
                      fmt::format("ray caster: this processor has no {}; let GL draw the volume",
                                  isa.empty() ? "instruction set that it is compiled for" : isa));
   return RayCaster{*kernels, std::make_unique<WorkTeam>(helpers, setup)};
@@ -75,12 +75,12 @@ hal::Result<> RayCaster::show(const pipeline::Volume& volume,
                               const pipeline::Occupancy& occupancy) {
   const pipeline::VolumeGeometry& g = volume.geometry;
   if (!CellVolume::fits(g) || volume.levels.size() != g.voxels())
-    return hal::fail(hal::Fault::unsupported,
+    return hal::fail(hal::ErrorCode::unsupported,
                      fmt::format("ray caster: found {} levels of {} depths x {} A-scans x {} "
                                  "B-scans, expected a whole volume below 1 GiB; scan fewer",
                                  volume.levels.size(), g.depths, g.a_scans, g.b_scans));
   if (occupancy.geometry() != g)
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("ray caster: found the occupancy of a volume of {} depths x {} "
                                  "A-scans x {} B-scans, expected that of {} x {} x {}",
                                  occupancy.geometry().depths, occupancy.geometry().a_scans,
@@ -170,7 +170,7 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
   if (!cells_ || image.width < 1 || image.height < 1 ||
       !(settings.step_mm * most_samples >= diagonal) || !(settings.step_mm <= diagonal) ||
       !(camera.aspect > 0))
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("ray caster: found an image of {}x{} with an aspect of {} and a "
                                  "step of {} mm, expected pixels and a step of {} to {} mm",
                                  image.width, image.height, camera.aspect, settings.step_mm,
@@ -178,7 +178,7 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
   if (settings.stops != nullptr &&
       (settings.stops->width != image.width || settings.stops->height != image.height))
     return hal::fail(
-        hal::Fault::invalid_argument,
+        hal::ErrorCode::invalid_argument,
         fmt::format("ray caster: found vessels of {}x{} pixels, expected as many as of "
                     "the volume's picture, {}x{}",
                     settings.stops->width, settings.stops->height, image.width, image.height));

@@ -11,17 +11,17 @@
 #include <vector>
 
 #include "hal/result.h"
-#include "pipeline/occupancy.h"
-#include "pipeline/volume.h"
-#include "ui/camera.h"
-#include "ui/layout.h"
+#include "pipeline/threads/work_team.h"
+#include "pipeline/volume/occupancy.h"
+#include "pipeline/volume/volume.h"
+#include "ui/depth_mask/depth_image.h"
+#include "ui/layout/layout.h"
 #include "ui/ray_caster/brick_distances.h"
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/cell_volume.h"
 #include "ui/ray_caster/ray_kernels.h"
 #include "ui/ray_caster/step_table.h"
-#include "ui/vessels/splatter/splat_image.h"
-#include "ui/work_team.h"
+#include "ui/view/camera.h"
 
 namespace octascope::ui {
 
@@ -49,27 +49,27 @@ struct RaySettings {
   RayMode mode = RayMode::composite;
   float step_mm = 0;                 // along each ray
   bool leap_empty = true;            // false changes no picture, only the time that it takes
-  const SplatImage* stops = nullptr; // of the same size: where vessels end the rays
+  const DepthImage* stops = nullptr; // of the same size: where vessels end the rays
 };
 
 // Threads: bound to one, but for its own helpers. draw() allocates nothing but the image.
 class RayCaster {
 public:
   // `helpers` threads beside the caller's. `isa` names an instruction set, else the widest is
-  // taken. Fault::unsupported: this processor has none that is compiled in.
+  // taken. ErrorCode::unsupported: this processor has none that is compiled in.
   static hal::Result<RayCaster> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
                                        std::string_view isa = {});
 
-  // Copies both. Fault::unsupported: too large for 32-bit offsets. Fault::invalid_argument: the
-  // occupancy is of another geometry. The last volume then stays.
+  // Copies both. ErrorCode::unsupported: too large for 32-bit offsets. ErrorCode::invalid_argument:
+  // the occupancy is of another geometry. The last volume then stays.
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
 
   // Shows in the next draw(). Compares, and forgets nothing when both are the same.
   void set_transfer(const TransferTable& transfer);
 
-  // The camera is that of ui/camera.h for the volume's extents. Fault::invalid_argument: there is
-  // no volume, the image has no pixels, or the step is not a positive share of the box,
-  // or the stops are of another size.
+  // The camera is that of ui/view/camera.h for the volume's extents. ErrorCode::invalid_argument:
+  // there is no volume, the image has no pixels, or the step is not a positive share of the box, or
+  // the stops are of another size.
   hal::Result<> draw(const Camera& camera, const RaySettings& settings, RayImage& image);
 
   bool empty() const { return !cells_; }

@@ -22,8 +22,9 @@ inline constexpr float depth_cue = 0.4F;         // what the far end of the box 
 // Of the polynomial that gives opacity from grey.
 inline constexpr int ramp_terms = 6;
 
-// Axes in the order depth, fast, slow; lengths along them in cells (pipeline/occupancy.h), so
-// depth bin 0 has its middle at 0, A-scan 0 and B-scan 0 have theirs at 1. Pointers are borrowed.
+// Axes in the order depth, fast, slow; lengths along them in cells (pipeline/volume/occupancy.h),
+// so depth bin 0 has its middle at 0, A-scan 0 and B-scan 0 have theirs at 1. Pointers are
+// borrowed.
 struct RayFrame {
   // The volume.
   const std::uint8_t* cells;
@@ -67,7 +68,7 @@ struct RayFrame {
   int height;
   std::uint32_t* rgba; // premultiplied, red in the lowest 8 bits
   // Where rays end, pixel by pixel: the bits of a distance along the view in the upper half of each
-  // (ui/vessels/splatter/splat_image.h). Null: nowhere before the volume does.
+  // (ui/depth_mask/depth_image.h). Null: nowhere before the volume does.
   const std::uint64_t* stops;
   float* depth_mm; // along the view; no_depth where there is nothing
 };

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "pipeline/volume_geometry.h"
+#include "pipeline/volume/volume_geometry.h"
 
 namespace octascope::ui {
 
@@ -19,7 +19,7 @@ RayGeometry ray_geometry(const pipeline::VolumeGeometry& g, const Camera& camera
   const glm::vec3 per_mm{1e3 / g.depth_spacing_um, 1e3 / g.a_spacing_um, 1e3 / g.b_spacing_um};
   const glm::vec3 counts{g.depths, g.a_scans, g.b_scans};
   const glm::vec3 middle = counts / 2.0F + glm::vec3{-0.5F, 0.5F, 0.5F};
-  // From the world's axes (ui/camera.h).
+  // From the world's axes (ui/view/camera.h).
   const auto cells = [&](const glm::vec3& world) {
     return glm::vec3{-world.y, world.x, world.z} * per_mm;
   };

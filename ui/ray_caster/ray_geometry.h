@@ -3,12 +3,12 @@
 
 #include <glm/vec3.hpp>
 
-#include "pipeline/volume.h"
-#include "ui/camera.h"
+#include "pipeline/volume/volume.h"
+#include "ui/view/camera.h"
 
 namespace octascope::ui {
 
-// Axes in the order depth, fast, slow; lengths along them in cells (pipeline/occupancy.h), so
+// Axes in the order depth, fast, slow; lengths along them in cells (pipeline/volume/occupancy.h), so
 // depth bin 0 has its middle at 0, A-scan 0 and B-scan 0 have theirs at 1.
 struct RayGeometry {
   glm::vec3 lower; // the box that is shown: without the blank depth bins

@@ -17,7 +17,7 @@
 
 #include <hwy/highway.h>
 
-#include "pipeline/occupancy.h"
+#include "pipeline/volume/occupancy.h"
 #include "ui/ray_caster/ray_frame.h"
 #include "ui/ray_caster/step_table.h"
 

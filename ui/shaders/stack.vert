@@ -1,4 +1,4 @@
-// One vertex of a polygon of a stack, in mm around the centre of the box (ui/camera.h has the axes).
+// One vertex of a polygon of a stack, in mm around the centre of the box (ui/view/camera.h has the axes).
 layout(location = 0) in vec3 a_position;
 
 uniform mat4 u_view_projection;

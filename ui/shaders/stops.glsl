@@ -1,4 +1,4 @@
-// Where vessels end the rays of the volume (ui/vessels/overlay/vessel_stops.h). The picture of the
+// Where vessels end the rays of the volume (ui/depth_mask/depth_mask.h). The picture of the
 // vessels is as large as the target.
 precision highp float;
 precision highp sampler2D;

@@ -1,4 +1,4 @@
-// A corner of an iso-surface (pipeline/iso_surface.h), in mm along depth, fast and slow axis.
+// A corner of an iso-surface (pipeline/surface/iso_surface.h), in mm along depth, fast and slow axis.
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
 
@@ -11,7 +11,7 @@ out vec3 v_normal;
 out vec3 v_from_eye;
 out float v_depth; // mm from the eye, along the view
 
-// ui/camera.h has the axes of the world.
+// ui/view/camera.h has the axes of the world.
 vec3 to_world(vec3 axes) { return vec3(axes.y, -axes.x, axes.z); }
 
 void main() {

@@ -1,4 +1,4 @@
-// Colour, light from the eye, and depth cue of a vessel: ui/vessels/vessel_look.h. For fragment
+// Colour, light from the eye, and depth cue of a vessel: ui/view/vessel_look.h. For fragment
 // shaders.
 precision highp float;
 precision highp int;

@@ -1,5 +1,5 @@
 // The nodes of a cluster (pipeline/vessels/clusters.h) and its place in the frame
-// (ui/vessels/vessel_frame.h). For vertex shaders that draw one cluster an instance.
+// (ui/vessels/scene/vessel_frame.h). For vertex shaders that draw one cluster an instance.
 precision highp usampler2DArray;
 
 layout(location = 0) in vec4 i_across;
@@ -10,7 +10,7 @@ layout(location = 4) in uvec4 i_nodes; // first node, references, segments, colo
 
 uniform usampler2DArray u_nodes;
 
-// As ui/vessels/node_texture.h lays them out.
+// As ui/vessels/scene/node_texture.h lays them out.
 uvec2 packed_node(uint local) {
   uint i = i_nodes.x + local;
   return texelFetch(u_nodes, ivec3(int(i & 2047u), int(i >> 11 & 255u), int(i >> 19)), 0).xy;
@@ -18,7 +18,7 @@ uvec2 packed_node(uint local) {
 
 uint parent_of(uvec2 node) { return node.y >> 20 & 255u; }
 
-// Not GLSL's own, whose accuracy is the driver's choice: ui/vessels/segment_projection.h has the
+// Not GLSL's own, whose accuracy is the driver's choice: ui/vessels/scene/segment_projection.h has the
 // same steps.
 float power_of_two(float x) {
   float whole = floor(x + 0.5);
@@ -45,7 +45,7 @@ vec4 place_of(uvec2 node) {
               i_radius.x * power_of_two(i_radius.y * radius));
 }
 
-// In pixels, of the segment that ends at the node: least_radius_px of ui/vessels/vessel_scene.h.
+// In pixels, of the segment that ends at the node: least_radius_px of ui/vessels/scene/vessel_scene.h.
 float least_radius(uvec2 node) { return node.y >> 28 >= LEAST_ORDER_KEPT_VISIBLE ? LEAST_RADIUS : 0.0; }
 
 // In the palette.

@@ -1,4 +1,4 @@
-// A pixel of a segment's quad: ui/vessels/vessel_scene.h. After vessel_light.glsl
+// A pixel of a segment's quad: ui/vessels/scene/vessel_scene.h. After vessel_light.glsl
 // and, where ROUNDED, vessel_relief.glsl.
 #ifndef ROUNDED
 flat in vec4 v_axis;

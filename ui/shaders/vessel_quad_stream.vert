@@ -1,4 +1,4 @@
-// Quads expanded by the processor (ui/vessels/quad_expander.h). After vessel_quad.glsl.
+// Quads expanded by the processor (ui/vessels/quads/quad_expander.h). After vessel_quad.glsl.
 layout(location = 0) in vec4 a_axis;
 layout(location = 1) in vec4 a_shape;
 layout(location = 2) in uint a_colour;

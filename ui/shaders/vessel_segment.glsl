@@ -1,5 +1,5 @@
-// From a segment's ends (place_of) to its outline on the screen: ui/vessels/vessel_scene.h. Step by
-// step what ui/vessels/segment_projection.h does, so that both come to the same numbers.
+// From a segment's ends (place_of) to its outline on the screen: ui/vessels/scene/vessel_scene.h. Step by
+// step what ui/vessels/scene/segment_projection.h does, so that both come to the same numbers.
 uniform float u_near; // mm along the view
 uniform float u_widest_start;
 

@@ -1,4 +1,4 @@
-// Tubes expanded by the processor (ui/vessels/tube_expander.h). After vessel_tube.glsl.
+// Tubes expanded by the processor (ui/vessels/tubes/tube_expander.h). After vessel_tube.glsl.
 layout(location = 0) in vec3 a_place;
 layout(location = 1) in vec4 a_normal; // and the colour's number
 

@@ -9,33 +9,31 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/png_image.h"
-#include "pipeline/text_curve.h"
+#include "pipeline/files/png_image.h"
+#include "pipeline/files/text_curve.h"
 #include "ui/transfer/transfer_curve.h"
 
 namespace octascope::ui {
 
 namespace fs = std::filesystem;
-using hal::Fault;
+using hal::ErrorCode;
 
 namespace {
 
 constexpr std::size_t most_entries = TransferCurve::most_entries;
 
 hal::Result<LookUpTable> read_text(const fs::path& file) {
-  const auto rows = pipeline::read_text_rows(file, most_entries, {1, 4});
-  if (!rows)
-    return tl::make_unexpected(rows.error());
-  if (rows->size() < 2)
-    return hal::fail(Fault::bad_data,
+  HAL_TRY(const auto rows, pipeline::read_text_rows(file, most_entries, {1, 4}));
+  if (rows.size() < 2)
+    return hal::fail(ErrorCode::bad_data,
                      fmt::format("{}: found {} entries, expected 2 to {}, one a line",
-                                 file.string(), rows->size(), most_entries));
+                                 file.string(), rows.size(), most_entries));
   LookUpTable table;
   std::vector<TransferTable::Colour> colours;
-  for (const pipeline::TextRow& row : *rows) {
+  for (const pipeline::TextRow& row : rows) {
     for (const double value : row.numbers)
       if (value < 0 || value > 1)
-        return hal::fail(Fault::bad_data,
+        return hal::fail(ErrorCode::bad_data,
                          fmt::format("{}:{}: found {}, expected numbers from 0 to 1; divide all by "
                                      "their highest, as 255",
                                      file.string(), row.line, value));
@@ -76,7 +74,7 @@ private:
 hal::Result<> check(const fs::path& file, const pipeline::Image& image, const Strip& strip) {
   const auto refuse = [&](std::string found) {
     return hal::fail(
-        Fault::bad_data,
+        ErrorCode::bad_data,
         fmt::format("{}: found {}, expected a strip of 2 to {} pixels whose rows along "
                     "it are all the same; draw it one pixel wide",
                     file.string(), found, most_entries));
@@ -91,12 +89,9 @@ hal::Result<> check(const fs::path& file, const pipeline::Image& image, const St
 }
 
 hal::Result<LookUpTable> read_strip(const fs::path& file) {
-  const auto image = pipeline::read_png_with_opacity(file);
-  if (!image)
-    return tl::make_unexpected(image.error());
-  const Strip strip{*image};
-  if (auto ok = check(file, *image, strip); !ok)
-    return tl::make_unexpected(ok.error());
+  HAL_TRY(const auto image, pipeline::read_png_with_opacity(file));
+  const Strip strip{image};
+  HAL_CHECK(check(file, image, strip));
   LookUpTable table;
   std::vector<TransferTable::Colour> colours;
   for (std::size_t entry = 0; entry < strip.entries(); ++entry) {
@@ -104,10 +99,10 @@ hal::Result<LookUpTable> read_strip(const fs::path& file) {
     std::ranges::transform(strip.pixel(entry, 0), values.begin(),
                            [](std::uint8_t value) { return static_cast<float>(value) / 255; });
     const float ramp = static_cast<float>(entry) / static_cast<float>(strip.entries() - 1);
-    table.opacities.push_back(image->channels == 1   ? values[0]
-                              : image->channels == 4 ? values[3]
-                                                     : ramp);
-    if (image->channels > 1)
+    table.opacities.push_back(image.channels == 1   ? values[0]
+                              : image.channels == 4 ? values[3]
+                                                    : ramp);
+    if (image.channels > 1)
       colours.push_back({values[0], values[1], values[2]});
   }
   if (!colours.empty())

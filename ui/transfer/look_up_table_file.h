@@ -21,7 +21,7 @@ struct LookUpTable {
 //   all the same. Grey means opacity; RGB means colour, with the window's own ramp as opacity; RGB
 //   with transparency means both.
 // - text (any other name): a line an entry, `opacity` or `red, green, blue, opacity`, all from 0 to
-//   1; pipeline/text_curve.h has the rest.
+//   1; pipeline/files/text_curve.h has the rest.
 // An Error names file and line, what was found, what was expected and what to do.
 hal::Result<LookUpTable> read_look_up_table(const std::filesystem::path& file);
 

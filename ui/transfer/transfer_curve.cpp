@@ -16,7 +16,7 @@ bool within_unit(float value) {
 
 hal::Result<> check(std::span<const CurvePoint> points) {
   const auto refuse = [](std::string message) {
-    return hal::fail(hal::Fault::invalid_argument, std::move(message));
+    return hal::fail(hal::ErrorCode::invalid_argument, std::move(message));
   };
   if (points.size() < 2 || points.size() > TransferCurve::most_points)
     return refuse(fmt::format("found {} points, expected 2 to {}", points.size(),
@@ -41,8 +41,7 @@ TransferCurve TransferCurve::ramp() {
 }
 
 hal::Result<TransferCurve> TransferCurve::piecewise(std::span<const CurvePoint> points) {
-  if (auto ok = check(points); !ok)
-    return tl::make_unexpected(ok.error());
+  HAL_CHECK(check(points));
   TransferCurve curve;
   for (const CurvePoint& point : points)
     curve.knots_.push_back({point.u, point.opacity, 0});
@@ -81,14 +80,15 @@ hal::Result<TransferCurve> TransferCurve::spline(std::span<const CurvePoint> poi
 
 hal::Result<TransferCurve> TransferCurve::table(std::span<const float> opacities) {
   if (opacities.size() < 2 || opacities.size() > most_entries)
-    return hal::fail(hal::Fault::invalid_argument, fmt::format("found {} entries, expected 2 to {}",
-                                                               opacities.size(), most_entries));
+    return hal::fail(
+        hal::ErrorCode::invalid_argument,
+        fmt::format("found {} entries, expected 2 to {}", opacities.size(), most_entries));
   TransferCurve curve;
   const auto last = static_cast<float>(opacities.size() - 1);
   for (std::size_t i = 0; i < opacities.size(); ++i) {
     if (!within_unit(opacities[i]))
       return hal::fail(
-          hal::Fault::invalid_argument,
+          hal::ErrorCode::invalid_argument,
           fmt::format("the opacity of entry {} is {}, expected 0 to 1", i + 1, opacities[i]));
     curve.knots_.push_back({static_cast<float>(i) / last, opacities[i], 0});
   }

@@ -24,8 +24,8 @@ public:
   // The paper's formula (1): opacity = u.
   static TransferCurve ramp();
 
-  // 2 to 64 points, u rising, all within 0…1; Fault::invalid_argument says which is not. Before the
-  // first and after the last point the opacity stays.
+  // 2 to 64 points, u rising, all within 0…1; ErrorCode::invalid_argument says which is not. Before
+  // the first and after the last point the opacity stays.
   static hal::Result<TransferCurve> piecewise(std::span<const CurvePoint> points);
   // A cubic Hermite spline that rises and falls only where its points do, so that it never leaves
   // their range (F. N. Fritsch, R. E. Carlson, "Monotone piecewise cubic interpolation", SIAM

@@ -49,7 +49,7 @@ hal::Result<TransferSet> TransferSet::with(std::vector<TransferFunction> functio
   TransferSet grown = *this;
   for (TransferFunction& function : functions) {
     if (grown.function_named(function.name))
-      return hal::fail(hal::Fault::invalid_argument,
+      return hal::fail(hal::ErrorCode::invalid_argument,
                        fmt::format("a transfer function \"{}\" is there already; choose another "
                                    "name",
                                    function.name));

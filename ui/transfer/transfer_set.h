@@ -12,7 +12,7 @@
 #include "ui/transfer/colour_map.h"
 #include "ui/transfer/transfer_curve.h"
 #include "ui/transfer/transfer_table.h"
-#include "ui/view_state.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::ui {
 
@@ -32,7 +32,7 @@ public:
   // Colour maps: "grey", "amber", "blue-green", "dawn".
   TransferSet();
 
-  // These after the built-in ones. Fault::invalid_argument: a name that is there already.
+  // These after the built-in ones. ErrorCode::invalid_argument: a name that is there already.
   hal::Result<TransferSet> with(std::vector<TransferFunction> functions) const;
 
   // In the order of ViewState::transfer and ViewState::colour_map.

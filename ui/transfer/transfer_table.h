@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "ui/view_state.h"
-#include "ui/window.h"
+#include "ui/view/view_state.h"
+#include "ui/view/window.h"
 
 namespace octascope::ui {
 

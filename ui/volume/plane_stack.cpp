@@ -5,10 +5,8 @@
 namespace octascope::ui {
 
 hal::Result<PlaneStack> PlaneStack::create() {
-  auto stack = PolygonStack::create();
-  if (!stack)
-    return tl::make_unexpected(stack.error());
-  return PlaneStack{std::move(*stack)};
+  HAL_TRY(auto stack, PolygonStack::create());
+  return PlaneStack{std::move(stack)};
 }
 
 void PlaneStack::do_draw(const VolumeScene& scene) {

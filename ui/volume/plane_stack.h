@@ -6,7 +6,7 @@
 namespace octascope::ui {
 
 // As many planes as the step asks for, spread evenly, half of their spacing from the borders of the
-// volume: ui/volume/plane_box.h has the source.
+// volume: ui/view/plane_box.h has the source.
 //
 // Threads: as gl/objects.h. Allocates when it is made, never afterwards.
 class PlaneStack : public VolumeTechnique {

@@ -3,7 +3,7 @@
 #include "embedded_shaders.h"
 #include <glm/gtc/type_ptr.hpp>
 
-#include "pipeline/volume_geometry.h"
+#include "pipeline/volume/volume_geometry.h"
 
 namespace octascope::ui {
 
@@ -19,10 +19,9 @@ float first_depth_share(int depths) {
 } // namespace
 
 hal::Result<PolygonStack> PolygonStack::create() {
-  auto program = TransferProgram::create({"stack", shaders::stack_vert, shaders::stack_frag});
-  if (!program)
-    return tl::make_unexpected(program.error());
-  return PolygonStack{std::move(*program)};
+  HAL_TRY(auto program,
+          TransferProgram::create({"stack", shaders::stack_vert, shaders::stack_frag}));
+  return PolygonStack{std::move(program)};
 }
 
 PolygonStack::PolygonStack(TransferProgram program)
@@ -61,7 +60,7 @@ void PolygonStack::draw(const VolumeScene& scene, const Spacing& spacing) {
   glUniform1f(program.uniform("u_first_depth"), first_depth_share(scene.volume.geometry().depths));
 
   glUniform3fv(program.uniform("u_forward"), 1, glm::value_ptr(scene.camera.forward));
-  set_stops(program, scene.vessels, scene.camera);
+  set_depth_mask(program, scene.vessels, scene.camera);
 
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_3D, scene.volume.name());

@@ -1,4 +1,4 @@
-// Draws parallel polygons through the volume, front to back: what plane stack and slice stack
+// HashRandom parallel polygons through the volume, front to back: what plane stack and slice stack
 // share.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #include "hal/result.h"
 #include "ui/gl/objects.h"
-#include "ui/volume/plane_box.h"
+#include "ui/view/plane_box.h"
 #include "ui/volume/transfer_program.h"
 #include "ui/volume/volume_technique.h"
 

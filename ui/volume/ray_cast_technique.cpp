@@ -8,7 +8,7 @@
 
 #include "ui/ray_caster/ray_frame.h"
 #include "ui/ray_caster/ray_geometry.h"
-#include "ui/volume/plane_box.h"
+#include "ui/view/plane_box.h"
 
 namespace octascope::ui {
 
@@ -38,10 +38,8 @@ void set(const gl::Program& program, const char* name, float value) {
 } // namespace
 
 hal::Result<RayCastTechnique> RayCastTechnique::create(RayMode mode) {
-  auto program = TransferProgram::create(shader_of(mode));
-  if (!program)
-    return tl::make_unexpected(program.error());
-  return RayCastTechnique{mode, std::move(*program)};
+  HAL_TRY(auto program, TransferProgram::create(shader_of(mode)));
+  return RayCastTechnique{mode, std::move(program)};
 }
 
 RayCastTechnique::RayCastTechnique(RayMode mode, TransferProgram program)
@@ -116,7 +114,7 @@ void RayCastTechnique::do_draw(const VolumeScene& scene) {
     prepare_bricks(scene);
   const gl::Program& program = program_.use(scene.transfer);
   set_rays(program, scene);
-  set_stops(program, scene.vessels, scene.camera);
+  set_depth_mask(program, scene.vessels, scene.camera);
   if (mode_ == RayMode::shaded)
     set_light(program, scene);
   glUniform1i(program.uniform("u_leap"), leap ? 1 : 0);

@@ -3,15 +3,15 @@
 
 #include <glm/vec3.hpp>
 
-#include "pipeline/volume.h"
-#include "ui/camera.h"
+#include "pipeline/volume/volume.h"
+#include "ui/view/camera.h"
 
 namespace octascope::ui {
 
 // Slices perpendicular to one of the volume's axes, from the eye on. Where the step is longer than
 // what lies between two slices of the volume, only every second, third … of them is drawn.
 struct SliceSpacing {
-  int axis;         // of the world (ui/camera.h): 0 fast, 1 depth, 2 slow
+  int axis;         // of the world (ui/view/camera.h): 0 fast, 1 depth, 2 slow
   float direction;  // +1 or −1: away from the eye along that axis
   int slices;       // of the volume along it
   int drawn;        // how many of them

@@ -5,10 +5,8 @@
 namespace octascope::ui {
 
 hal::Result<SliceStack> SliceStack::create() {
-  auto stack = PolygonStack::create();
-  if (!stack)
-    return tl::make_unexpected(stack.error());
-  return SliceStack{std::move(*stack)};
+  HAL_TRY(auto stack, PolygonStack::create());
+  return SliceStack{std::move(stack)};
 }
 
 void SliceStack::do_draw(const VolumeScene& scene) {

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "pipeline/level_scale.h"
+#include "pipeline/volume/level_scale.h"
 #include "ui/ray_caster/ray_frame.h"
 
 namespace octascope::ui {
@@ -33,13 +33,11 @@ const void* offset(std::size_t bytes) {
 
 hal::Result<std::unique_ptr<SurfaceTechnique>>
 SurfaceTechnique::create(TransferSet transfers, pipeline::ThreadSetup threads) {
-  auto program =
-      gl::Program::build("surface", shaders::surface_vert,
-                         fmt::format("{}{}", shaders::stops_glsl, shaders::surface_frag));
-  if (!program)
-    return tl::make_unexpected(program.error());
+  HAL_TRY(auto program,
+          gl::Program::build("surface", shaders::surface_vert,
+                             fmt::format("{}{}", shaders::stops_glsl, shaders::surface_frag)));
   return std::unique_ptr<SurfaceTechnique>{
-      new SurfaceTechnique{std::move(*program), std::move(transfers), std::move(threads)}};
+      new SurfaceTechnique{std::move(program), std::move(transfers), std::move(threads)}};
 }
 
 SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers,
@@ -118,7 +116,7 @@ void SurfaceTechnique::do_draw(const VolumeScene& scene) {
     return;
   program_.use();
   set_uniforms(scene.camera, scene.view);
-  set_stops(program_, scene.vessels, scene.camera);
+  set_depth_mask(program_, scene.vessels, scene.camera);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "hal/result.h"
-#include "pipeline/iso_surface_thread.h"
+#include "pipeline/surface/iso_surface_thread.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/program.h"
 #include "ui/transfer/transfer_set.h"
@@ -14,10 +14,10 @@
 
 namespace octascope::ui {
 
-// The mesh is made beside the render thread (pipeline/iso_surface_thread.h). While a new one is
-// being made, for a new volume or a turn of the window's knobs, the last one is drawn; before the
-// first, nothing. A picture depends on the number that prepare() returns, and has to be drawn again
-// when has_newer() turns true.
+// The mesh is made beside the render thread (pipeline/surface/iso_surface_thread.h). While a new
+// one is being made, for a new volume or a turn of the window's knobs, the last one is drawn;
+// before the first, nothing. A picture depends on the number that prepare() returns, and has to be
+// drawn again when has_newer() turns true.
 //
 // The framebuffer needs a depth attachment of at least 16 bits, which draw() clears; without one,
 // far parts are drawn over near ones.
@@ -26,7 +26,7 @@ namespace octascope::ui {
 class SurfaceTechnique final : public VolumeTechnique {
 public:
   // `threads` is called on the thread that makes the meshes.
-  // Fault::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile our shaders.
   static hal::Result<std::unique_ptr<SurfaceTechnique>> create(TransferSet transfers = {},
                                                                pipeline::ThreadSetup threads = {});
 

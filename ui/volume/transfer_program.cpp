@@ -21,13 +21,9 @@ hal::Result<gl::Program> build(const VolumeShader& shader, bool window) {
 } // namespace
 
 hal::Result<TransferProgram> TransferProgram::create(const VolumeShader& shader) {
-  auto window = build(shader, true);
-  if (!window)
-    return tl::make_unexpected(window.error());
-  auto table = build(shader, false);
-  if (!table)
-    return tl::make_unexpected(table.error());
-  return TransferProgram{std::move(*window), std::move(*table)};
+  HAL_TRY(auto window, build(shader, true));
+  HAL_TRY(auto table, build(shader, false));
+  return TransferProgram{std::move(window), std::move(table)};
 }
 
 const gl::Program& TransferProgram::use(const TransferTexture& transfer) const {

@@ -36,13 +36,9 @@ GLenum accumulation_format() {
 } // namespace
 
 hal::Result<VolumePicture> VolumePicture::create() {
-  auto pass = gl::PicturePass::create("composite", shaders::composite_frag);
-  if (!pass)
-    return tl::make_unexpected(pass.error());
-  auto mix = gl::PicturePass::create("vessel_mix", shaders::vessel_mix_frag);
-  if (!mix)
-    return tl::make_unexpected(mix.error());
-  return VolumePicture{std::move(*pass), std::move(*mix)};
+  HAL_TRY(auto pass, gl::PicturePass::create("composite", shaders::composite_frag));
+  HAL_TRY(auto mix, gl::PicturePass::create("vessel_mix", shaders::vessel_mix_frag));
+  return VolumePicture{std::move(pass), std::move(mix)};
 }
 
 VolumePicture::VolumePicture(gl::PicturePass pass, gl::PicturePass vessel_mix)
@@ -67,7 +63,7 @@ hal::Result<> VolumePicture::resize(int width, int height) {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, nearest_.name(), 0);
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    return hal::fail(hal::Fault::system,
+    return hal::fail(hal::ErrorCode::system,
                      fmt::format("volume display: a picture of {}x{} is no complete framebuffer "
                                  "(status 0x{:04x}); choose a smaller size",
                                  width, height, status));
@@ -85,7 +81,7 @@ void VolumePicture::clear() const {
 }
 
 // Under what the rays have gathered; and the whole of it over the volume alone.
-void VolumePicture::add_vessels(const VesselStops& vessels, const VolumePicture* alone) const {
+void VolumePicture::add_vessels(const DepthMask& vessels, const VolumePicture* alone) const {
   const auto bind = [](GLint unit, GLuint texture) {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(GL_TEXTURE_2D, texture);
@@ -116,20 +112,17 @@ hal::Result<> VolumePicture::update(VolumeTechniques& techniques, const VolumeSc
   if (drawn_ == key)
     return {};
   drawn_.reset();
-  const auto technique = techniques.get(scene.view.technique);
-  if (!technique)
-    return tl::make_unexpected(technique.error());
+  HAL_TRY(const auto technique, techniques.get(scene.view.technique));
   const gl::KeptFramebuffer kept;
   if (key.width != width_ || key.height != height_)
-    if (auto ok = resize(key.width, key.height); !ok)
-      return ok;
+    HAL_CHECK(resize(key.width, key.height));
   constexpr std::array<GLenum, 2> buffers{GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);
   glDrawBuffers(depth_ ? 2 : 1, buffers.data());
   clear();
-  glDrawBuffers(depth_ && (*technique)->writes_depth() ? 2 : 1, buffers.data());
-  (*technique)->draw(scene);
+  glDrawBuffers(depth_ && technique->writes_depth() ? 2 : 1, buffers.data());
+  technique->draw(scene);
   if (scene.vessels != nullptr) {
     glDrawBuffers(1, buffers.data());
     add_vessels(*scene.vessels, alone);

@@ -20,9 +20,10 @@ class VolumePicture {
 public:
   static hal::Result<VolumePicture> create();
 
-  // Draws into the texture if the key has changed; the bound framebuffer stays bound. `techniques`
-  // may be shared with other pictures. `alone` is the same picture without vessels, and may be null
-  // where they are opaque. Fault::system: this GL cannot render to a texture of that size.
+  // HashRandom into the texture if the key has changed; the bound framebuffer stays bound.
+  // `techniques` may be shared with other pictures. `alone` is the same picture without vessels,
+  // and may be null where they are opaque. ErrorCode::system: this GL cannot render to a texture of
+  // that size.
   hal::Result<> update(VolumeTechniques& techniques, const VolumeScene& scene,
                        const DrawQuality& quality, const Rect& rect,
                        const VolumePicture* alone = nullptr);
@@ -44,7 +45,7 @@ private:
   VolumePicture(gl::PicturePass pass, gl::PicturePass vessel_mix);
   hal::Result<> resize(int width, int height);
   void clear() const;
-  void add_vessels(const VesselStops& vessels, const VolumePicture* alone) const;
+  void add_vessels(const DepthMask& vessels, const VolumePicture* alone) const;
 
   gl::PicturePass pass_;
   gl::PicturePass vessel_mix_;

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 
-#include "pipeline/occupancy.h"
-#include "ui/camera.h"
+#include "pipeline/volume/occupancy.h"
+#include "ui/depth_mask/depth_mask.h"
 #include "ui/transfer/transfer_texture.h"
-#include "ui/vessels/overlay/vessel_stops.h"
-#include "ui/view_state.h"
+#include "ui/view/camera.h"
+#include "ui/view/view_state.h"
 #include "ui/volume/volume_texture.h"
 
 namespace octascope::ui {
@@ -20,10 +20,10 @@ struct VolumeScene {
   const ViewState& view;
   float step_mm; // distance between samples along the view
   const pipeline::Occupancy* occupancy =
-      nullptr;                          // of the volume; without it, nothing is leapt over
-  std::uint64_t upload = 0;             // counts the volumes shown
-  std::uint64_t mesh = 0;               // counts the iso-surfaces
-  const VesselStops* vessels = nullptr; // without them, no ray ends before its time
+      nullptr;                        // of the volume; without it, nothing is leapt over
+  std::uint64_t upload = 0;           // counts the volumes shown
+  std::uint64_t mesh = 0;             // counts the iso-surfaces
+  const DepthMask* vessels = nullptr; // without them, no ray ends before its time
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first of a size.
@@ -31,7 +31,7 @@ class VolumeTechnique {
 public:
   virtual ~VolumeTechnique() = default;
 
-  // Draws into the bound framebuffer and viewport, which have alpha and are cleared to zero:
+  // HashRandom into the bound framebuffer and viewport, which have alpha and are cleared to zero:
   // premultiplied colour and opacity come out. Lengths are physical, opacity is corrected for the
   // step, samples are trilinear, and the transfer function is the scene's. Nothing is drawn behind
   // the nearest vessel of a pixel; for these, the viewport begins in the framebuffer's corner.

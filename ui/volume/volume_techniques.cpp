@@ -35,10 +35,8 @@ Made make(Technique technique, const TransferSet& transfers, const pipeline::Thr
 hal::Result<VolumeTechnique*> VolumeTechniques::get(Technique technique) {
   std::unique_ptr<VolumeTechnique>& kept = made_[static_cast<std::size_t>(technique)];
   if (!kept) {
-    auto made = make(technique, transfers_, threads_);
-    if (!made)
-      return tl::make_unexpected(made.error());
-    kept = std::move(*made);
+    HAL_TRY(auto made, make(technique, transfers_, threads_));
+    kept = std::move(made);
   }
   return kept.get();
 }

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "hal/result.h"
-#include "ui/technique.h"
 #include "ui/transfer/transfer_set.h"
+#include "ui/view/technique.h"
 #include "ui/volume/surface_technique.h"
 #include "ui/volume/volume_technique.h"
 
@@ -20,7 +20,7 @@ public:
   explicit VolumeTechniques(TransferSet transfers, pipeline::ThreadSetup threads = {})
       : transfers_{std::move(transfers)}, threads_{std::move(threads)} {}
 
-  // Stays ours. Fault::unsupported: this GL cannot compile its shaders.
+  // Stays ours. ErrorCode::unsupported: this GL cannot compile its shaders.
   hal::Result<VolumeTechnique*> get(Technique technique);
   // Of Technique::surface, which lives on meshes of its own; null before it was first got.
   SurfaceTechnique* surface() const;

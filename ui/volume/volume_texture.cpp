@@ -12,7 +12,7 @@ hal::Result<> check(const pipeline::Volume& volume) {
   const pipeline::VolumeGeometry& g = volume.geometry;
   if (g.depths < 1 || g.a_scans < 1 || g.b_scans < 1 || volume.levels.size() != g.voxels() ||
       volume.b_scan_states.size() != static_cast<std::size_t>(g.b_scans))
-    return hal::fail(hal::Fault::bad_data,
+    return hal::fail(hal::ErrorCode::bad_data,
                      fmt::format("volume display: found {} levels and {} B-scan states, expected "
                                  "those of {} depths x {} A-scans x {} B-scans",
                                  volume.levels.size(), volume.b_scan_states.size(), g.depths,
@@ -20,7 +20,7 @@ hal::Result<> check(const pipeline::Volume& volume) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
   if (std::max({g.depths, g.a_scans, g.b_scans}) > largest)
-    return hal::fail(hal::Fault::unsupported,
+    return hal::fail(hal::ErrorCode::unsupported,
                      fmt::format("volume display: found {} depths x {} A-scans x {} B-scans, "
                                  "expected at most {} along each axis on this GPU; scan fewer",
                                  g.depths, g.a_scans, g.b_scans, largest));
@@ -47,13 +47,11 @@ void VolumeTexture::allocate(const pipeline::VolumeGeometry& geometry) {
 }
 
 hal::Result<> VolumeTexture::upload(const pipeline::Volume& volume) {
-  if (auto ok = check(volume); !ok)
-    return ok;
+  HAL_CHECK(check(volume));
   if (empty() || volume.geometry != geometry_)
     allocate(volume.geometry);
   geometry_ = volume.geometry;
-  if (auto ok = uploader_.stage(volume.levels); !ok)
-    return ok;
+  HAL_CHECK(uploader_.stage(volume.levels));
   const std::size_t back = 1 - front_;
   glBindTexture(GL_TEXTURE_3D, textures_[back].name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "hal/result.h"
-#include "pipeline/volume.h"
+#include "pipeline/volume/volume.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/pixel_uploader.h"
 
@@ -17,8 +17,8 @@ namespace octascope::ui {
 // Threads: as gl/objects.h. Allocates only when the geometry changes.
 class VolumeTexture {
 public:
-  // Copies the levels before it returns. Fault::unsupported: larger than this GL's 3D textures.
-  // Fault::bad_data: fewer voxels than the geometry says. The last volume then stays.
+  // Copies the levels before it returns. ErrorCode::unsupported: larger than this GL's 3D textures.
+  // ErrorCode::bad_data: fewer voxels than the geometry says. The last volume then stays.
   hal::Result<> upload(const pipeline::Volume& volume);
 
   bool empty() const { return !textures_[front_]; }

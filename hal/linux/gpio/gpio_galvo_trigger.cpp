@@ -15,15 +15,13 @@ namespace {
 using Take = Result<GpioLine> (*)(const std::string& node, unsigned offset);
 
 Result<GpioLine> take(std::string_view wanted, Take request) {
-  const auto address = find_gpio_line(survey_gpio(), wanted);
-  if (!address)
-    return tl::make_unexpected(address.error());
-  auto line = request(address->node, address->offset);
-  if (line || line.error().fault != Fault::busy)
+  HAL_TRY(const auto address, find_gpio_line(survey_gpio(), wanted));
+  auto line = request(address.node, address.offset);
+  if (line || line.error().code != ErrorCode::busy)
     return line;
   // Who has it is known to the chip alone; it may have been given back meanwhile.
   const std::string holder = gpio_complaint(survey_gpio(), wanted);
-  return fail(Fault::busy, holder.empty() ? line.error().message : holder);
+  return fail(ErrorCode::busy, holder.empty() ? line.error().message : holder);
 }
 
 } // namespace
@@ -38,17 +36,17 @@ GpioGalvoTrigger::~GpioGalvoTrigger() {
 
 Result<> GpioGalvoTrigger::do_open(const GalvoTriggerConfig& config) {
   if (state() != DeviceState::absent)
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("GPIO galvo trigger: open while {}, expected absent; call close first",
                             to_string(state())));
   if (config.pulse_width <= Duration{})
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("GPIO galvo trigger: pulse_width is {} ns, expected more than 0",
                             config.pulse_width.count()));
   if (settings_.sync_edges_per_pulse < 1 ||
       std::cmp_greater(settings_.sync_edges_per_pulse, GpioLine::kernel_buffer))
     return fail(
-        Fault::invalid_argument,
+        ErrorCode::invalid_argument,
         fmt::format("GPIO galvo trigger: sync_edges_per_pulse is {}, expected 1 to {}, what "
                     "the kernel keeps",
                     settings_.sync_edges_per_pulse, GpioLine::kernel_buffer));
@@ -65,28 +63,24 @@ Result<> GpioGalvoTrigger::do_open(const GalvoTriggerConfig& config) {
 }
 
 Result<> GpioGalvoTrigger::take_lines() {
-  auto line = take(settings_.line, GpioLine::output);
-  if (!line)
-    return tl::make_unexpected(line.error());
-  line_.emplace(std::move(*line));
+  HAL_TRY(auto line, take(settings_.line, GpioLine::output));
+  line_.emplace(std::move(line));
   held_.store(&*line_, std::memory_order_release);
   level_.store(Level::low, std::memory_order_release);
   if (settings_.sync_line.empty())
     return {};
-  auto sync = take(settings_.sync_line, GpioLine::rising_edges);
-  if (!sync)
-    return tl::make_unexpected(sync.error());
-  sync_.emplace(std::move(*sync));
+  HAL_TRY(auto sync, take(settings_.sync_line, GpioLine::rising_edges));
+  sync_.emplace(std::move(sync));
   sync_works_.store(true, std::memory_order_relaxed);
   return {};
 }
 
 Result<TimePoint> GpioGalvoTrigger::do_arm() {
   if (state() == DeviceState::absent)
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 "GPIO galvo trigger: arm while absent, expected ready; call open first");
   if (state() == DeviceState::failed)
-    return fail(Fault::disconnected,
+    return fail(ErrorCode::disconnected,
                 fmt::format("GPIO galvo trigger: line \"{}\" failed before; close it and open it "
                             "again",
                             settings_.line));

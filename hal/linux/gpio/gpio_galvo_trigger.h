@@ -79,7 +79,7 @@ private:
   std::atomic<Level> level_{Level::low};
   TimePoint pulse_end_{};
   PulseTimer timer_;
-  SyncLedger ledger_;
+  SyncMonitor ledger_;
   std::array<TimePoint, GpioLine::kernel_buffer> edges_{};
 
   std::atomic<std::uint64_t> pulses_{0}, sync_edges_{0}, missed_{0}, unexpected_{0};

@@ -30,7 +30,7 @@ struct GpioChipInfo {
   std::vector<GpioLineInfo> lines;
 };
 
-// Fault::denied, absent …: why the chip cannot be asked.
+// ErrorCode::denied, absent …: why the chip cannot be asked.
 Result<GpioChipInfo> describe_gpio_chip(const std::string& node);
 
 // Threads: set() from one thread at a time, and from a signal handler; the rest from one thread.

@@ -45,10 +45,8 @@ struct GpioLine::Handle {
   }
 
   static Result<std::unique_ptr<Handle>> find(const std::string& node, unsigned offset) {
-    auto chip = open_chip(node);
-    if (!chip)
-      return tl::make_unexpected(chip.error());
-    auto handle = std::make_unique<Handle>(std::move(*chip));
+    HAL_TRY(auto chip, open_chip(node));
+    auto handle = std::make_unique<Handle>(std::move(chip));
     handle->line = gpiod_chip_get_line(handle->chip.get(), offset);
     if (handle->line == nullptr)
       return system_failure(node, "asking for line " + std::to_string(offset), errno);
@@ -57,12 +55,10 @@ struct GpioLine::Handle {
 };
 
 Result<GpioChipInfo> describe_gpio_chip(const std::string& node) {
-  const auto chip = open_chip(node);
-  if (!chip)
-    return tl::make_unexpected(chip.error());
-  GpioChipInfo info{node, text(gpiod_chip_label(chip->get())), {}};
-  for (unsigned offset = 0; offset < gpiod_chip_num_lines(chip->get()); ++offset) {
-    gpiod_line* const line = gpiod_chip_get_line(chip->get(), offset);
+  HAL_TRY(const auto chip, open_chip(node));
+  GpioChipInfo info{node, text(gpiod_chip_label(chip.get())), {}};
+  for (unsigned offset = 0; offset < gpiod_chip_num_lines(chip.get()); ++offset) {
+    gpiod_line* const line = gpiod_chip_get_line(chip.get(), offset);
     if (line == nullptr)
       return system_failure(node, "asking for line " + std::to_string(offset), errno);
     info.lines.push_back({offset, text(gpiod_line_name(line)), text(gpiod_line_consumer(line)),
@@ -72,21 +68,17 @@ Result<GpioChipInfo> describe_gpio_chip(const std::string& node) {
 }
 
 Result<GpioLine> GpioLine::output(const std::string& node, unsigned offset) {
-  auto handle = Handle::find(node, offset);
-  if (!handle)
-    return tl::make_unexpected(handle.error());
-  if (gpiod_line_request_output((*handle)->line, gpio_consumer, 0) != 0)
+  HAL_TRY(auto handle, Handle::find(node, offset));
+  if (gpiod_line_request_output(handle->line, gpio_consumer, 0) != 0)
     return system_failure(node, "taking line " + std::to_string(offset) + " as output", errno);
-  return GpioLine{std::move(*handle)};
+  return GpioLine{std::move(handle)};
 }
 
 Result<GpioLine> GpioLine::rising_edges(const std::string& node, unsigned offset) {
-  auto handle = Handle::find(node, offset);
-  if (!handle)
-    return tl::make_unexpected(handle.error());
-  if (gpiod_line_request_rising_edge_events((*handle)->line, gpio_consumer) != 0)
+  HAL_TRY(auto handle, Handle::find(node, offset));
+  if (gpiod_line_request_rising_edge_events(handle->line, gpio_consumer) != 0)
     return system_failure(node, "taking line " + std::to_string(offset) + " for its edges", errno);
-  return GpioLine{std::move(*handle)};
+  return GpioLine{std::move(handle)};
 }
 
 int GpioLine::set(bool high) noexcept {

@@ -62,9 +62,7 @@ struct GpioLine::Handle {
 
   static Result<std::unique_ptr<Handle>> take(const std::string& node, unsigned offset,
                                               bool output) {
-    const auto chip = open_chip(node);
-    if (!chip)
-      return tl::make_unexpected(chip.error());
+    HAL_TRY(const auto chip, open_chip(node));
     const Settings settings{gpiod_line_settings_new()};
     const bool described =
         settings &&
@@ -81,7 +79,7 @@ struct GpioLine::Handle {
     auto handle = std::make_unique<Handle>();
     handle->offset = offset;
     if (described)
-      handle->request = take_line(chip->get(), offset, settings.get());
+      handle->request = take_line(chip.get(), offset, settings.get());
     if (handle->request && !output)
       handle->edges.reset(gpiod_edge_event_buffer_new(kernel_buffer));
     if (!handle->request || (!output && !handle->edges))
@@ -94,15 +92,13 @@ struct GpioLine::Handle {
 };
 
 Result<GpioChipInfo> describe_gpio_chip(const std::string& node) {
-  const auto chip = open_chip(node);
-  if (!chip)
-    return tl::make_unexpected(chip.error());
-  const ChipInfo about{gpiod_chip_get_info(chip->get())};
+  HAL_TRY(const auto chip, open_chip(node));
+  const ChipInfo about{gpiod_chip_get_info(chip.get())};
   if (!about)
     return system_failure(node, "asking what it is", absent_if_gone(errno));
   GpioChipInfo info{node, text(gpiod_chip_info_get_label(about.get())), {}};
   for (unsigned offset = 0; offset < gpiod_chip_info_get_num_lines(about.get()); ++offset) {
-    const LineInfo line{gpiod_chip_get_line_info(chip->get(), offset)};
+    const LineInfo line{gpiod_chip_get_line_info(chip.get(), offset)};
     if (!line)
       return system_failure(node, "asking for line " + std::to_string(offset), errno);
     info.lines.push_back({offset, text(gpiod_line_info_get_name(line.get())),
@@ -113,17 +109,13 @@ Result<GpioChipInfo> describe_gpio_chip(const std::string& node) {
 }
 
 Result<GpioLine> GpioLine::output(const std::string& node, unsigned offset) {
-  auto handle = Handle::take(node, offset, true);
-  if (!handle)
-    return tl::make_unexpected(handle.error());
-  return GpioLine{std::move(*handle)};
+  HAL_TRY(auto handle, Handle::take(node, offset, true));
+  return GpioLine{std::move(handle)};
 }
 
 Result<GpioLine> GpioLine::rising_edges(const std::string& node, unsigned offset) {
-  auto handle = Handle::take(node, offset, false);
-  if (!handle)
-    return tl::make_unexpected(handle.error());
-  return GpioLine{std::move(*handle)};
+  HAL_TRY(auto handle, Handle::take(node, offset, false));
+  return GpioLine{std::move(handle)};
 }
 
 int GpioLine::set(bool high) noexcept {

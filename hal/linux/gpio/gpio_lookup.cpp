@@ -53,11 +53,11 @@ std::string listed_chips(const GpioSurvey& survey) {
 
 tl::unexpected<Error> missing(const GpioSurvey& survey, std::string_view wanted) {
   if (!survey.complaints.empty())
-    return fail(survey.udev_at_work ? Fault::absent : Fault::denied,
+    return fail(survey.udev_at_work ? ErrorCode::absent : ErrorCode::denied,
                 fmt::format("GPIO line \"{}\": not found in {}, and not every chip could be asked: "
                             "{}",
                             wanted, listed_chips(survey), survey.complaints.front()));
-  return fail(Fault::absent,
+  return fail(ErrorCode::absent,
               fmt::format("GPIO line \"{}\": found {}, expected one with a line of that name; name "
                           "the line in the device tree (gpio-line-names), or give it in the "
                           "configuration as \"gpiochip0:17\"; `gpioinfo` lists lines",
@@ -71,7 +71,7 @@ Result<GpioLineAddress> by_offset(const GpioSurvey& survey, std::string_view wan
       continue;
     if (place.offset < chip.lines.size())
       return GpioLineAddress{chip.node, place.offset};
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("GPIO line \"{}\": offset {} found, expected 0 to {}, the lines of {}",
                             wanted, place.offset, chip.lines.size() - 1, chip.node));
   }
@@ -96,14 +96,14 @@ GpioSurvey survey_gpio(const fs::path& dev) {
   for (const auto& [number, node] : nodes) {
     if (auto chip = describe_gpio_chip(node))
       survey.chips.push_back(std::move(*chip));
-    else if (chip.error().fault == Fault::denied && survey.udev_at_work)
+    else if (chip.error().code == ErrorCode::denied && survey.udev_at_work)
       survey.complaints.push_back(fmt::format("{}: udev has not gone through it yet", node));
-    else if (chip.error().fault == Fault::denied)
+    else if (chip.error().code == ErrorCode::denied)
       survey.complaints.push_back(
           fmt::format("{}: permission denied; join the group that owns it (`sudo usermod -aG gpio "
                       "$USER`, log in again) and install the udev rule deploy/70-octascope.rules",
                       node));
-    else if (chip.error().fault != Fault::absent) // it may go between listing and asking
+    else if (chip.error().code != ErrorCode::absent) // it may go between listing and asking
       survey.complaints.push_back(chip.error().message);
   }
   return survey;
@@ -111,8 +111,9 @@ GpioSurvey survey_gpio(const fs::path& dev) {
 
 Result<GpioLineAddress> find_gpio_line(const GpioSurvey& survey, std::string_view wanted) {
   if (wanted.empty())
-    return fail(Fault::invalid_argument, "GPIO line: its name is empty, expected a line's name or "
-                                         "\"gpiochip0:17\"");
+    return fail(ErrorCode::invalid_argument,
+                "GPIO line: its name is empty, expected a line's name or "
+                "\"gpiochip0:17\"");
   if (const auto place = chip_and_offset(wanted))
     return by_offset(survey, wanted, *place);
   std::vector<GpioLineAddress> found;
@@ -123,7 +124,7 @@ Result<GpioLineAddress> find_gpio_line(const GpioSurvey& survey, std::string_vie
   if (found.empty())
     return missing(survey, wanted);
   if (found.size() > 1)
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("GPIO line \"{}\": {} lines have that name ({}:{} and {}:{}), expected "
                             "one; give chip and offset",
                             wanted, found.size(), file_name(found[0].node), found[0].offset,

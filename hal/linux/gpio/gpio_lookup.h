@@ -13,7 +13,7 @@ namespace octascope::hal::linux_backend {
 struct GpioSurvey {
   std::vector<GpioChipInfo> chips; // in the order of their numbers
   std::vector<std::string>
-      complaints;            // one for each chip that could not be asked: why, and the mend
+      complaints;            // one for each chip that could not be asked: why, and the remedy
   bool udev_at_work = false; // such a chip may be allowed in a moment: absent, not denied
 };
 
@@ -27,7 +27,7 @@ struct GpioLineAddress {
 };
 
 // A line is never guessed: only a name that exactly one line has, or an explicit chip and offset.
-// Fault::absent: there is no such line; denied: nor could a chip be asked that may have it;
+// ErrorCode::absent: there is no such line; denied: nor could a chip be asked that may have it;
 // invalid_argument: more than one line has the name. Pure.
 Result<GpioLineAddress> find_gpio_line(const GpioSurvey& survey, std::string_view wanted);
 

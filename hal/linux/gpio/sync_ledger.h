@@ -13,9 +13,9 @@
 
 namespace octascope::hal::linux_backend {
 
-class SyncLedger {
+class SyncMonitor {
 public:
-  explicit SyncLedger(std::uint64_t expected = 1) : expected_(expected) {}
+  explicit SyncMonitor(std::uint64_t expected = 1) : expected_(expected) {}
 
   void pulse(TimePoint t) {
     settle();

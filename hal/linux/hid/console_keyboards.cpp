@@ -90,10 +90,10 @@ void ConsoleKeyboards::look_for_keyboards() {
     if (!node.evdev || is_open || !is_listed(usb_id(node.vendor, node.product)))
       continue;
     auto file = EvdevFile::open(node.node);
-    if (!file && file.error().fault != Fault::absent) // it may go while we look
+    if (!file && file.error().code != ErrorCode::absent) // it may go while we look
       complaints_.push_back(fmt::format("keyboard {} ({}): {}{}", node.name,
                                         usb_id(node.vendor, node.product), file.error().message,
-                                        mend_of_control(node.node, file.error().fault)));
+                                        remedy_of_control(node.node, file.error().code)));
     if (file && has_keys(*file))
       keyboards_.push_back({std::move(*file), {}});
   }

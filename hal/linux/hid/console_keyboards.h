@@ -26,7 +26,7 @@ public:
 
   // The nodes that are read.
   std::vector<std::string> serving() const;
-  // One for each listed keyboard that is plugged in and could not be opened: why, and the mend.
+  // One for each listed keyboard that is plugged in and could not be opened: why, and the remedy.
   const std::vector<std::string>& complaints() const { return complaints_; }
 
 private:

@@ -11,17 +11,17 @@ Result<std::unique_ptr<ControlPort>> ControlPort::open(const HidNode& node,
                                                        const ControlModel& model) {
   auto port = model.by_evdev() ? open_evdev_port(node, model) : HidrawPort::open(node, model);
   if (!port)
-    return fail(port.error().fault,
+    return fail(port.error().code,
                 fmt::format("{} ({}): {}{}", model.name, usb_id(model.vendor, model.product),
-                            port.error().message, mend_of_control(node.node, port.error().fault)));
+                            port.error().message, remedy_of_control(node.node, port.error().code)));
   return port;
 }
 
-std::string mend_of_control(const std::string& node, Fault fault) {
-  if (fault == Fault::denied)
+std::string remedy_of_control(const std::string& node, ErrorCode fault) {
+  if (fault == ErrorCode::denied)
     return "; or let the udev rule give access: `sudo cp deploy/70-octascope.rules "
            "/etc/udev/rules.d/ && sudo udevadm control --reload && sudo udevadm trigger`";
-  if (fault == Fault::busy)
+  if (fault == ErrorCode::busy)
     return fmt::format("; a key remapper or another octascope may have grabbed {}", node);
   return {};
 }

@@ -16,7 +16,7 @@ class ControlPort {
 public:
   virtual ~ControlPort() = default;
 
-  // Fault::denied, busy, absent …; a keyboard is grabbed, so that it types nowhere else.
+  // ErrorCode::denied, busy, absent …; a keyboard is grabbed, so that it types nowhere else.
   static Result<std::unique_ptr<ControlPort>> open(const HidNode& node, const ControlModel& model);
 
   // Readable when read() has something to tell.
@@ -36,6 +36,6 @@ private:
 };
 
 // What to do about a control that may not be opened or is held by somebody.
-std::string mend_of_control(const std::string& node, Fault fault);
+std::string remedy_of_control(const std::string& node, ErrorCode fault);
 
 } // namespace octascope::hal::linux_backend

@@ -18,16 +18,14 @@ EvdevFile::EvdevFile(FileDescriptor file, std::unique_ptr<libevdev, Freer> devic
     : file_{std::move(file)}, device_{std::move(device)}, node_{std::move(node)} {}
 
 Result<EvdevFile> EvdevFile::open(const std::string& node) {
-  auto file = open_device(node, O_RDWR | O_NONBLOCK);
-  if (!file)
-    return tl::make_unexpected(file.error());
+  HAL_TRY(auto file, open_device(node, O_RDWR | O_NONBLOCK));
   libevdev* made = nullptr;
-  if (const int status = libevdev_new_from_fd(file->get(), &made); status < 0)
+  if (const int status = libevdev_new_from_fd(file.get(), &made); status < 0)
     return system_failure(node, "asking what it is", -status);
   std::unique_ptr<libevdev, Freer> device{made};
   if (const int status = libevdev_grab(device.get(), LIBEVDEV_GRAB); status < 0)
     return system_failure(node, "taking it for octascope alone", -status);
-  return EvdevFile{std::move(*file), std::move(device), node};
+  return EvdevFile{std::move(file), std::move(device), node};
 }
 
 bool EvdevFile::has_key(std::uint16_t code) const {

@@ -16,7 +16,7 @@ namespace octascope::hal::linux_backend {
 // Threads: one at a time.
 class EvdevFile {
 public:
-  // Grabbed: what is typed goes to us alone until it is closed. Fault::busy: somebody else has
+  // Grabbed: what is typed goes to us alone until it is closed. ErrorCode::busy: somebody else has
   // grabbed it.
   static Result<EvdevFile> open(const std::string& node);
 

@@ -50,10 +50,8 @@ private:
 
 Result<std::unique_ptr<ControlPort>> open_evdev_port(const HidNode& node,
                                                      const ControlModel& model) {
-  auto file = EvdevFile::open(node.node);
-  if (!file)
-    return tl::make_unexpected(file.error());
-  return std::make_unique<EvdevPort>(std::move(*file), model);
+  HAL_TRY(auto file, EvdevFile::open(node.node));
+  return std::make_unique<EvdevPort>(std::move(file), model);
 }
 
 } // namespace octascope::hal::linux_backend

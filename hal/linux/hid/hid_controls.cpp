@@ -46,7 +46,7 @@ std::vector<std::string> HidControls::complaints() const {
 
 Result<> HidControls::do_open() {
   if (state() != DeviceState::absent)
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("HID controls: open while {}, expected absent; call close first",
                             to_string(state())));
   // Watched before they are looked for: what is plugged in between is not missed.
@@ -82,7 +82,7 @@ Result<> HidControls::open_all() {
   if (!refused.empty())
     return tl::make_unexpected(refused.front());
   return fail(
-      Fault::absent,
+      ErrorCode::absent,
       fmt::format("HID controls: found {}, expected a pedal or knob that is listed in "
                   "docs/DEVICES.md; plug one in, or teach a new one with `octascope devices "
                   "--learn`",
@@ -95,7 +95,7 @@ void HidControls::open_one(const PluggedControl& control, std::vector<ServingCon
   for (const HidNode& node : control.nodes) {
     if (auto file = ControlPort::open(node, control.model))
       opened.push_back({std::move(*file), node.node});
-    else if (file.error().fault != Fault::absent) // it may go while we look
+    else if (file.error().code != ErrorCode::absent) // it may go while we look
       refused.push_back(file.error());
   }
   if (opened.empty())
@@ -125,7 +125,7 @@ void HidControls::publish(std::vector<ServingControl> serving, const std::vector
 
 Result<std::size_t> HidControls::do_read(std::span<ControlEvent> events, Duration timeout) {
   if (state() == DeviceState::absent)
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 "HID controls: read while absent, expected ready; call open first");
   TimePoint now = clock_.now();
   const TimePoint deadline = now + std::max(timeout, Duration{});
@@ -191,7 +191,7 @@ void HidControls::read_port(Port& port) {
   while (!lost_ && board_.has_room()) {
     const auto more = port.file->read(reading);
     if (!more) {
-      lost_ = Error{Fault::disconnected, "HID controls: " + more.error().message};
+      lost_ = Error{ErrorCode::disconnected, "HID controls: " + more.error().message};
       return;
     }
     if (!*more)
@@ -221,7 +221,7 @@ void HidControls::look_for_new_ones() {
   board_.release_all(clock_.now());
   close_ports();
   if (const auto opened = open_all(); !opened)
-    lost_ = Error{Fault::disconnected, opened.error().message};
+    lost_ = Error{ErrorCode::disconnected, opened.error().message};
 }
 
 void HidControls::close_ports() {

@@ -39,7 +39,7 @@ public:
 
   // The leading control first; empty while none is open. For the choice of a profile.
   std::vector<ServingControl> serving() const;
-  // One for each known control that is plugged in and could not be opened: why, and the mend.
+  // One for each known control that is plugged in and could not be opened: why, and the remedy.
   std::vector<std::string> complaints() const;
   // Grows whenever serving() changes.
   std::uint64_t changes() const { return changes_.load(std::memory_order_acquire); }

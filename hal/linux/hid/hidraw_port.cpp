@@ -11,10 +11,8 @@ namespace octascope::hal::linux_backend {
 
 Result<std::unique_ptr<ControlPort>> HidrawPort::open(const HidNode& node,
                                                       const ControlModel& model) {
-  auto file = open_device(node.node, O_RDWR | O_NONBLOCK);
-  if (!file)
-    return tl::make_unexpected(file.error());
-  return std::make_unique<HidrawPort>(std::move(*file), node.node, model);
+  HAL_TRY(auto file, open_device(node.node, O_RDWR | O_NONBLOCK));
+  return std::make_unique<HidrawPort>(std::move(file), node.node, model);
 }
 
 HidrawPort::HidrawPort(FileDescriptor file, std::string node, const ControlModel& model)

@@ -42,20 +42,18 @@ Result<LearningSession> LearningSession::listen_to(std::vector<HidNode> nodes) {
   if (!session.files_.empty())
     return session;
   if (refused)
-    return fail(refused->fault, refused->message + mend_of_control("it", refused->fault));
-  return fail(Fault::absent,
+    return fail(refused->code, refused->message + remedy_of_control("it", refused->code));
+  return fail(ErrorCode::absent,
               "learning: found no HID device, expected the one that is to be learned; "
               "plug it in, or name it with --device VENDOR:PRODUCT");
 }
 
 Result<LearningSession::File> LearningSession::open(const HidNode& node) {
-  auto file = open_device(node.node, O_RDONLY | O_NONBLOCK);
-  if (!file)
-    return tl::make_unexpected(file.error());
-  if (node.evdev && ::ioctl(file->get(), EVIOCGRAB, 1) != 0)
+  HAL_TRY(auto file, open_device(node.node, O_RDONLY | O_NONBLOCK));
+  if (node.evdev && ::ioctl(file.get(), EVIOCGRAB, 1) != 0)
     return system_failure(node.node, "taking it for octascope alone", errno);
-  const bool numbered = !node.evdev && numbers_its_reports(*file);
-  return File{std::move(*file), node, ControlLearner{numbered}};
+  const bool numbered = !node.evdev && numbers_its_reports(file);
+  return File{std::move(file), node, ControlLearner{numbered}};
 }
 
 Result<std::vector<std::string>> LearningSession::listen(Duration timeout) {
@@ -66,8 +64,7 @@ Result<std::vector<std::string>> LearningSession::listen(Duration timeout) {
   ::poll(waiting.data(), waiting.size(), static_cast<int>(ms));
   std::vector<std::string> lines;
   for (File& file : files_)
-    if (const auto done = read(file, lines); !done)
-      return tl::make_unexpected(done.error());
+    HAL_CHECK(read(file, lines));
   return lines;
 }
 

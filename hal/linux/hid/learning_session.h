@@ -20,7 +20,7 @@ public:
   static Result<LearningSession> listen_to(std::vector<HidNode> nodes);
 
   // What has been sent, a line for each report that changes something; waits at most `timeout` for
-  // the first. Fault::disconnected: it was pulled out.
+  // the first. ErrorCode::disconnected: it was pulled out.
   Result<std::vector<std::string>> listen(Duration timeout);
 
   std::optional<ControlModel> learned() const;

@@ -12,16 +12,16 @@
 #include <fmt/format.h>
 #include <gbm.h>
 
-#include "hal/linux/kms/drm_resource.h"
+#include "hal/linux/kms/drm/drm_resource.h"
 #include "hal/linux/kms/graphics_reset.h"
-#include "hal/linux/kms/output_choice.h"
+#include "hal/linux/kms/mode/output_choice.h"
 
 namespace octascope::hal::linux_backend::kms {
 
 namespace {
 
 tl::unexpected<Error> no_egl(const Card& card, std::string_view found) {
-  return fail(Fault::unsupported,
+  return fail(ErrorCode::unsupported,
               fmt::format("kms display: {} on {} ({}; EGL error 0x{:04x}), expected GLES 3 on GBM; "
                           "install libegl-mesa0, libgbm1 and libgl1-mesa-dri, or the driver's own "
                           "EGL; where no GPU is meant to be, set LIBGL_ALWAYS_SOFTWARE=1",
@@ -242,10 +242,8 @@ Result<std::unique_ptr<DrawSurface>> DrawSurface::create(const FileDescriptor& c
   auto parts = std::make_unique<Parts>();
   parts->card = card.get();
   parts->can_name_modifiers = setup.card.modifiers;
-  if (auto started = parts->start_egl(setup.card); !started)
-    return tl::make_unexpected(started.error());
-  if (auto made = parts->make_surface(setup); !made)
-    return tl::make_unexpected(made.error());
+  HAL_CHECK(parts->start_egl(setup.card));
+  HAL_CHECK(parts->make_surface(setup));
   return std::unique_ptr<DrawSurface>{new DrawSurface{std::move(parts)}};
 }
 
@@ -257,7 +255,7 @@ Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
   // Before the flip: it would show an old picture as if it were new.
   if (const auto cause = parts_->reset.cause())
     return fail(
-        Fault::disconnected,
+        ErrorCode::disconnected,
         fmt::format("kms display: the graphics processor was reset ({}), and what was drawn "
                     "is lost; it is opened again",
                     *cause));
@@ -267,13 +265,13 @@ Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
   else
     parts_->swapped = eglSwapBuffers(parts_->display, parts_->surface) == EGL_TRUE;
   if (!parts_->swapped)
-    return fail(Fault::disconnected,
+    return fail(ErrorCode::disconnected,
                 fmt::format("kms display: the picture could not be finished (EGL error 0x{:04x}): "
                             "the graphics device is gone or has been reset; it is opened again",
                             static_cast<unsigned>(eglGetError())));
   picture.buffer = gbm_surface_lock_front_buffer(parts_->buffers);
   if (picture.buffer == nullptr)
-    return fail(Fault::system, "kms display: no buffer with the picture; it is opened again");
+    return fail(ErrorCode::system, "kms display: no buffer with the picture; it is opened again");
   auto* added = static_cast<AddedFramebuffer*>(gbm_bo_get_user_data(picture.buffer));
   if (added == nullptr) {
     auto made = std::make_unique<AddedFramebuffer>();
@@ -281,7 +279,7 @@ Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
     if (const int error =
             add_framebuffer(parts_->card, parts_->can_name_modifiers, picture.buffer, made->id)) {
       release(picture.buffer);
-      return fail(Fault::system,
+      return fail(ErrorCode::system,
                   fmt::format("kms display: the card did not take a buffer as a picture: {}; it is "
                               "opened again",
                               std::generic_category().message(error)));

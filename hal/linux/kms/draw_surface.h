@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/linux/kms/topology.h"
+#include "hal/linux/kms/drm/topology.h"
 #include "hal/linux/system/file_descriptor.h"
 
 struct gbm_bo;
@@ -32,7 +32,7 @@ struct DrawSurfaceSetup {
 // Threads: bound to the one that makes it, where its context is current.
 class DrawSurface {
 public:
-  // Fault::unsupported: no EGL for this card, or no format that both can.
+  // ErrorCode::unsupported: no EGL for this card, or no format that both can.
   static Result<std::unique_ptr<DrawSurface>> create(const FileDescriptor& card,
                                                      const DrawSurfaceSetup& setup);
   DrawSurface(const DrawSurface&) = delete;

@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "hal/linux/kms/card_survey.h"
 #include "hal/linux/kms/draw_surface.h"
+#include "hal/linux/kms/drm/card_survey.h"
+#include "hal/linux/kms/mode/output_choice.h"
+#include "hal/linux/kms/mode/visible_frame.h"
 #include "hal/linux/kms/output.h"
-#include "hal/linux/kms/output_choice.h"
 #include "hal/linux/kms/seat.h"
-#include "hal/linux/kms/visible_frame.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -24,12 +24,12 @@ constexpr std::chrono::milliseconds paused_wait{100};
 
 Result<> check_config(const DisplayConfig& config) {
   if (config.width < 1 || config.height < 1)
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("kms display: size is {}x{}, expected at least 1x1", config.width,
                             config.height));
   if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
     return fail(
-        Fault::invalid_argument,
+        ErrorCode::invalid_argument,
         fmt::format("kms display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
   return {};
 }
@@ -39,7 +39,7 @@ Result<std::unique_ptr<Seat>> open_seat(KmsConfig::SeatUse use) {
     return open_plain_seat();
   auto managed = open_managed_seat();
   // "Another console is in front" is an answer; only where nobody answers may we help ourselves.
-  if (managed || use == KmsConfig::SeatUse::managed || managed.error().fault != Fault::absent)
+  if (managed || use == KmsConfig::SeatUse::managed || managed.error().code != ErrorCode::absent)
     return managed;
   return open_plain_seat();
 }
@@ -72,25 +72,19 @@ struct KmsDisplay::Session {
 
   Result<> open(const KmsConfig& config, Clock& clock) {
     OutputWish wish{config.connector, {}, config.atomic};
-    auto mode = parse_mode_wish(config.mode);
-    if (!mode)
-      return tl::make_unexpected(mode.error());
-    wish.mode = *mode;
+    HAL_TRY(auto mode, parse_mode_wish(config.mode));
+    wish.mode = mode;
     auto opened = open_seat(config.seat);
     if (!opened)
       return tl::make_unexpected(opened.error());
     seat = *std::move(opened);
-    if (auto chosen = choose(wish); !chosen)
-      return chosen;
-    if (auto taken = seat->take_card(device); !taken)
-      return taken;
-    const auto part = visible_part(choice.mode.width, choice.mode.height, config.overscan);
-    if (!part)
-      return tl::make_unexpected(part.error());
-    auto shown_with = show_black(*part, true, clock);
+    HAL_CHECK(choose(wish));
+    HAL_CHECK(seat->take_card(device));
+    HAL_TRY(const auto part, visible_part(choice.mode.width, choice.mode.height, config.overscan));
+    auto shown_with = show_black(part, true, clock);
     // A layout that draws best may be more than the output can read at this mode.
     if (!shown_with && surface && surface->uses_modifiers())
-      shown_with = show_black(*part, false, clock);
+      shown_with = show_black(part, false, clock);
     return shown_with;
   }
 
@@ -132,30 +126,26 @@ struct KmsDisplay::Session {
     if (!made)
       return tl::make_unexpected(made.error());
     surface = *std::move(made);
-    if (auto created = frame.create(width, height, part); !created)
-      return created;
+    HAL_CHECK(frame.create(width, height, part));
     output.emplace(clock, *seat, device, card, choice);
     frame.copy_to_screen();
-    auto shown_at = show();
+    HAL_TRY(auto shown_at, show());
     if (!shown_at)
-      return tl::make_unexpected(shown_at.error());
-    if (!*shown_at)
-      return fail(Fault::busy, fmt::format("{}: another program took the card while it was opened; "
-                                           "end that program; it is tried again by itself",
-                                           output->name()));
+      return fail(ErrorCode::busy,
+                  fmt::format("{}: another program took the card while it was opened; "
+                              "end that program; it is tried again by itself",
+                              output->name()));
     return {};
   }
 
   // Empty: nothing was shown, the card is not ours now.
   Result<std::optional<FlipTimes>> show() {
-    auto picture = surface->take_picture(output->takes_fences());
-    if (!picture)
-      return tl::make_unexpected(picture.error());
-    auto times = output->show(*picture);
+    HAL_TRY(auto picture, surface->take_picture(output->takes_fences()));
+    auto times = output->show(picture);
     if (times && *times)
-      surface->release(std::exchange(shown, picture->buffer));
+      surface->release(std::exchange(shown, picture.buffer));
     else
-      surface->release(picture->buffer);
+      surface->release(picture.buffer);
     return times;
   }
 
@@ -192,12 +182,10 @@ KmsDisplay::~KmsDisplay() {
 
 Result<> KmsDisplay::do_open(const DisplayConfig& config) {
   if (state() != DeviceState::absent)
-    return fail(Fault::busy, "kms display: open already; close() it first");
-  if (auto sound = check_config(config); !sound)
-    return sound;
+    return fail(ErrorCode::busy, "kms display: open already; close() it first");
+  HAL_CHECK(check_config(config));
   auto session = std::make_unique<Session>();
-  if (auto opened = session->open(config_, clock_); !opened)
-    return opened;
+  HAL_CHECK(session->open(config_, clock_));
   session_ = std::move(session);
   description_ = session_->describe();
   refresh_period_ = from_seconds(1 / refresh_hz(session_->choice.mode));
@@ -218,9 +206,9 @@ int KmsDisplay::do_height() const {
 
 Result<Flip> KmsDisplay::do_present() {
   if (!session_)
-    return fail(Fault::absent, "kms display: not open; open() it first");
+    return fail(ErrorCode::absent, "kms display: not open; open() it first");
   if (state() == DeviceState::failed)
-    return fail(Fault::disconnected, "kms display: lost; close() it and open() it again");
+    return fail(ErrorCode::disconnected, "kms display: lost; close() it and open() it again");
   if (auto there = session_->output->check(); !there)
     return lose(there.error());
   const bool ours = session_->may_show();

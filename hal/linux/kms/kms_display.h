@@ -13,8 +13,8 @@
 #include "hal/clock.h"
 #include "hal/display.h"
 #include "hal/key_source.h"
-#include "hal/linux/kms/flip_pacing.h"
-#include "hal/linux/kms/overscan.h"
+#include "hal/linux/kms/mode/overscan.h"
+#include "hal/linux/kms/scanout/flip_pacing.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -53,8 +53,8 @@ private:
 
   std::string_view do_backend() const override { return "kms"; }
   bool do_simulated() const override { return false; }
-  // Fault::absent: no monitor, no card. Fault::denied: the card must not be opened. Fault::busy:
-  // another program shows on it. Fault::unsupported: no such mode, no GLES 3.
+  // ErrorCode::absent: no monitor, no card. ErrorCode::denied: the card must not be opened.
+  // ErrorCode::busy: another program shows on it. ErrorCode::unsupported: no such mode, no GLES 3.
   Result<> do_open(const DisplayConfig& config) override;
   int do_width() const override;
   int do_height() const override;

@@ -9,7 +9,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "hal/linux/kms/object_properties.h"
+#include "hal/linux/kms/drm/object_properties.h"
 #include "hal/linux/system/system_error.h"
 
 namespace octascope::hal::linux_backend::kms {
@@ -54,7 +54,7 @@ Output::~Output() {
 
 Result<> Output::check() {
   if (watch_.disconnected())
-    return fail(Fault::disconnected,
+    return fail(ErrorCode::disconnected,
                 fmt::format("{}: the monitor is gone, expected it to stay plugged in and switched "
                             "on; check its cable and power; it is tried again by itself",
                             name_));
@@ -82,9 +82,9 @@ Result<std::optional<FlipTimes>> Output::show(const DrawnPicture& picture) {
   if (error == EINVAL || error == ENOENT)
     return set_mode(picture);
   if (error == EBUSY)
-    return fail(Fault::timed_out, fmt::format("{}: the flip before is not done after {} s; the "
-                                              "output is opened again",
-                                              name_, patience.count()));
+    return fail(ErrorCode::timed_out, fmt::format("{}: the flip before is not done after {} s; the "
+                                                  "output is opened again",
+                                                  name_, patience.count()));
   return system_failure(name_, "showing a picture", error, "the output is opened again");
 }
 
@@ -144,10 +144,9 @@ Result<std::optional<FlipTimes>> Output::wait_for_flip(FlipTimes times) {
     }
     if (!seat_.active())
       return std::nullopt;
-    if (auto there = check(); !there)
-      return tl::make_unexpected(there.error());
+    HAL_CHECK(check());
   }
-  return fail(Fault::timed_out,
+  return fail(ErrorCode::timed_out,
               fmt::format("{}: a picture was not shown within {} s; the output is opened again",
                           name_, patience.count()));
 }

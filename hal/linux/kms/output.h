@@ -7,12 +7,12 @@
 #include <string>
 
 #include "hal/clock.h"
-#include "hal/linux/kms/connector_watch.h"
 #include "hal/linux/kms/draw_surface.h"
-#include "hal/linux/kms/flip_events.h"
-#include "hal/linux/kms/flip_pacing.h"
-#include "hal/linux/kms/output_choice.h"
-#include "hal/linux/kms/scanout.h"
+#include "hal/linux/kms/drm/connector_watch.h"
+#include "hal/linux/kms/mode/output_choice.h"
+#include "hal/linux/kms/scanout/flip_events.h"
+#include "hal/linux/kms/scanout/flip_pacing.h"
+#include "hal/linux/kms/scanout/scanout.h"
 #include "hal/linux/kms/seat.h"
 
 namespace octascope::hal::linux_backend::kms {
@@ -31,15 +31,15 @@ public:
   bool takes_fences() const { return scanout_->takes_fences(); }
   const std::string& name() const { return name_; } // "/dev/dri/card0 HDMI-A-1"
 
-  // Fault::disconnected: the monitor is gone. Hears of a link that must be trained again: the next
-  // picture then comes with the mode.
+  // ErrorCode::disconnected: the monitor is gone. Hears of a link that must be trained again: the
+  // next picture then comes with the mode.
   Result<> check();
 
   // The next picture comes with the mode, whatever the output shows by then.
   void want_mode() { mode_wanted_ = true; }
 
   // Returns when the picture is shown. Empty: the card is not ours now, nothing was shown.
-  // Fault::disconnected, timed_out, unsupported, system: open everything anew.
+  // ErrorCode::disconnected, timed_out, unsupported, system: open everything anew.
   Result<std::optional<FlipTimes>> show(const DrawnPicture& picture);
 
 private:

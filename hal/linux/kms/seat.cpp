@@ -28,7 +28,7 @@ int milliseconds(Duration duration) {
 }
 
 tl::unexpected<Error> taken(std::string_view reason) {
-  return fail(Fault::busy,
+  return fail(ErrorCode::busy,
               fmt::format("kms display: the card is another program's ({}), expected it to be free "
                           "to show pictures; `sudo fuser -v /dev/dri/card*` names who has it "
                           "(a desktop, a login screen, another octascope): end that program, or "
@@ -49,7 +49,7 @@ bool has_manager() {
 }
 
 tl::unexpected<Error> no_manager(std::string_view found) {
-  return fail(Fault::absent,
+  return fail(ErrorCode::absent,
               fmt::format("kms display: no manager of seats answers ({}), expected seatd or "
                           "logind; start octascope from a console login or by its systemd unit, "
                           "or `sudo apt install seatd`, or as root with --no-seat",
@@ -70,7 +70,7 @@ public:
       return no_manager(std::generic_category().message(errno));
     for (Duration waited{}; !active(); waited += slice) {
       if (broken_ || waited >= patience)
-        return fail(Fault::busy,
+        return fail(ErrorCode::busy,
                     fmt::format("kms display: another console is in front of seat {}, expected "
                                 "ours; switch to it (Ctrl-Alt-F1 and on)",
                                 libseat_seat_name(seat_)));
@@ -164,8 +164,7 @@ Result<std::unique_ptr<Seat>> open_managed_seat() {
   if (!has_manager())
     return no_manager("neither its socket nor a session");
   auto seat = std::make_unique<ManagedSeat>();
-  if (auto opened = seat->open(); !opened)
-    return tl::make_unexpected(opened.error());
+  HAL_CHECK(seat->open());
   return seat;
 }
 

@@ -28,7 +28,7 @@ public:
   virtual Result<SeatDevice> open_device(const std::string& node) = 0;
   virtual void close_device(SeatDevice device) = 0;
 
-  // Makes an open card ours to set modes on. Fault::busy: another program has it.
+  // Makes an open card ours to set modes on. ErrorCode::busy: another program has it.
   virtual Result<> take_card(const SeatDevice& card) = 0;
 
   // Hears what the manager says, without waiting; false while another console is in front: devices
@@ -40,7 +40,7 @@ public:
   virtual void wait(Duration timeout) = 0;
 };
 
-// Waits up to two seconds for the console to be ours. Fault::absent: no manager answers.
+// Waits up to two seconds for the console to be ours. ErrorCode::absent: no manager answers.
 Result<std::unique_ptr<Seat>> open_managed_seat();
 std::unique_ptr<Seat> open_plain_seat();
 

@@ -74,7 +74,7 @@ Result<std::size_t> choose_camera(const std::vector<LibcameraFound>& found,
     if (const auto free = first(found, [](const LibcameraFound& c) { return !c.taken; }))
       return *free;
     return fail(
-        Fault::absent,
+        ErrorCode::absent,
         fmt::format("scope camera: found only {}, expected one more; plug it in", list(found)));
   }
   if (const auto same =
@@ -84,7 +84,7 @@ Result<std::size_t> choose_camera(const std::vector<LibcameraFound>& found,
         return c.id.find(wish) != std::string::npos || c.model.find(wish) != std::string::npos;
       }))
     return *part;
-  return fail(Fault::absent,
+  return fail(ErrorCode::absent,
               fmt::format("scope camera: expected \"{}\", found {}; plug it in, or name one of "
                           "those that are there",
                           wish, list(found)));
@@ -93,27 +93,27 @@ Result<std::size_t> choose_camera(const std::vector<LibcameraFound>& found,
 Error explain_absence(const fs::path& root) {
   std::error_code error;
   if (!fs::exists(root / "run/udev/control", error))
-    return {Fault::absent,
+    return {ErrorCode::absent,
             "scope camera: no udev daemon runs, and libcamera finds no camera without one; start "
             "it: sudo systemctl start systemd-udevd systemd-udev-trigger"};
   const MediaNodes nodes = media_nodes(root);
   if (!nodes.refused.empty() && udev_is_at_work(root))
-    return {Fault::absent, fmt::format("scope camera: udev has not gone through {} yet; it is "
-                                       "tried again by itself",
-                                       nodes.refused)};
+    return {ErrorCode::absent, fmt::format("scope camera: udev has not gone through {} yet; it is "
+                                           "tried again by itself",
+                                           nodes.refused)};
   if (!nodes.refused.empty())
-    return {Fault::denied,
+    return {ErrorCode::denied,
             fmt::format("scope camera: {} is there, but this user may not open it; join its "
                         "group: sudo usermod -aG video $USER, then log in again",
                         nodes.refused)};
   if (nodes.count > 0 && !has_ipa_modules(root))
-    return {Fault::absent,
+    return {ErrorCode::absent,
             "scope camera: a camera may be there, but the modules by which libcamera steers "
             "cameras are not installed: sudo apt-get install libcamera-ipa"};
   if (nodes.count == 0)
-    return {Fault::absent, "scope camera: no camera is plugged in (there is no /dev/media*); "
-                           "check the plug and the cable; it is tried again by itself"};
-  return {Fault::absent,
+    return {ErrorCode::absent, "scope camera: no camera is plugged in (there is no /dev/media*); "
+                               "check the plug and the cable; it is tried again by itself"};
+  return {ErrorCode::absent,
           fmt::format("scope camera: {} media device{} plugged in, but libcamera knows no camera "
                       "among them; LIBCAMERA_LOG_LEVELS=*:DEBUG says why, `cam --list` lists what "
                       "it knows",

@@ -17,14 +17,15 @@ struct LibcameraFound {
 };
 
 // The first whose id or model is `wish`, else the first whose id or model contains it; without a
-// wish the first that is not taken. Pure. Fault::absent: none; the message lists those that are.
+// wish the first that is not taken. Pure. ErrorCode::absent: none; the message lists those that
+// are.
 Result<std::size_t> choose_camera(const std::vector<LibcameraFound>& found,
                                   const std::string& wish);
 
-// Why libcamera lists no camera at all, with what mends it: no udev daemon (it finds cameras in
+// Why libcamera lists no camera at all, with what fixes it: no udev daemon (it finds cameras in
 // udevd's database alone), media nodes that this user may not open (it skips them silently:
-// Fault::denied), the package libcamera-ipa missing, or nothing plugged in. Looks at `root`/run,
-// /dev and /usr/lib, opens nothing.
+// ErrorCode::denied), the package libcamera-ipa missing, or nothing plugged in. Looks at
+// `root`/run, /dev and /usr/lib, opens nothing.
 Error explain_absence(const std::filesystem::path& root = "/");
 
 } // namespace octascope::hal::linux_backend

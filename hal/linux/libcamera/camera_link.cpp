@@ -119,7 +119,7 @@ struct CameraLink::Parts {
 Result<> CameraLink::Parts::configure(const ScopeCameraConfig& config) {
   configuration = display_configuration(*camera);
   if (!configuration || configuration->empty())
-    return fail(Fault::unsupported,
+    return fail(ErrorCode::unsupported,
                 fmt::format("scope camera \"{}\": it has no stream for a display; take another "
                             "camera",
                             model));
@@ -144,7 +144,7 @@ Result<> CameraLink::Parts::configure(const ScopeCameraConfig& config) {
     stream = wish.stream();
     return {};
   }
-  return fail(Fault::unsupported,
+  return fail(ErrorCode::unsupported,
               fmt::format("scope camera \"{}\": found the formats {}, expected NV12, YUYV, BGR888, "
                           "XBGR8888, ABGR8888 or MJPEG; take another camera",
                           model, names_of(offers)));
@@ -157,22 +157,18 @@ Result<> CameraLink::Parts::allocate() {
   for (const auto& buffer : allocator->buffers(stream)) {
     if (requests.size() == most_buffers)
       break;
-    auto plan = plan_planes(planes_of(*buffer), layout);
-    if (!plan)
-      return tl::make_unexpected(plan.error());
-    auto picture = MappedPicture::map(*plan, layout.bytes(), "scope camera");
-    if (!picture)
-      return tl::make_unexpected(picture.error());
+    HAL_TRY(auto plan, plan_planes(planes_of(*buffer), layout));
+    HAL_TRY(auto picture, MappedPicture::map(plan, layout.bytes(), "scope camera"));
     auto request = camera->createRequest(requests.size());
     if (!request)
       return tl::make_unexpected(failure(model, "making a request", -ENODEV));
     if (const int result = request->addBuffer(stream, buffer.get()); result < 0)
       return tl::make_unexpected(failure(model, "giving a request its buffer", result));
-    pictures.push_back(std::move(*picture));
+    pictures.push_back(std::move(picture));
     requests.push_back(std::move(request));
   }
   if (requests.empty())
-    return fail(Fault::bad_data,
+    return fail(ErrorCode::bad_data,
                 fmt::format("scope camera \"{}\": its driver gave no buffer, expected {}; plug it "
                             "in again",
                             model, wished_buffers));

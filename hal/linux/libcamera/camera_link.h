@@ -51,7 +51,7 @@ private:
 // ends.
 class CameraLink {
 public:
-  // Fault::busy: another program has it. Fault::unsupported: no format that can be drawn.
+  // ErrorCode::busy: another program has it. ErrorCode::unsupported: no format that can be drawn.
   static Result<std::unique_ptr<CameraLink>> open(const LibcameraSession::Chosen& chosen,
                                                   const ScopeCameraConfig& config);
   // Nobody has it, in this program or in another one that uses libcamera.

@@ -25,11 +25,11 @@ constexpr int largest_side = 1 << 14;
 Result<> check(const ScopeCameraConfig& wish) {
   const auto side = [](int pixels) { return pixels >= 1 && pixels <= largest_side; };
   if (!side(wish.width) || !side(wish.height))
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("scope camera: the wish is {}x{}, expected 1x1 to {}x{}", wish.width,
                             wish.height, largest_side, largest_side));
   if (!(wish.frames_per_s > 0 && wish.frames_per_s <= most_frames_per_s))
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("scope camera: the wish is {} frames/s, expected more than 0 to {}",
                             wish.frames_per_s, most_frames_per_s));
   return {};
@@ -37,8 +37,9 @@ Result<> check(const ScopeCameraConfig& wish) {
 
 tl::unexpected<Error> wrong_state(std::string_view call, DeviceState found,
                                   std::string_view expected) {
-  return fail(Fault::invalid_argument, fmt::format("scope camera: {}() found it {}, expected {}",
-                                                   call, to_string(found), expected));
+  return fail(
+      ErrorCode::invalid_argument,
+      fmt::format("scope camera: {}() found it {}, expected {}", call, to_string(found), expected));
 }
 
 enum class Place : std::uint8_t { idle, in_camera, on_loan, returned };
@@ -78,7 +79,7 @@ struct LibcameraScopeCamera::Parts {
 };
 
 Error LibcameraScopeCamera::Parts::lost() const {
-  return {Fault::disconnected,
+  return {ErrorCode::disconnected,
           fmt::format("scope camera \"{}\": found it gone, expected it to stream; check the plug "
                       "and the cable; it is tried again by itself",
                       link->model())};
@@ -99,8 +100,7 @@ Result<> LibcameraScopeCamera::Parts::queue_those_back() {
     Place expected = Place::returned;
     // In the camera before it is told so: the request may be done at once.
     if (places[i].compare_exchange_strong(expected, Place::in_camera, std::memory_order_acquire))
-      if (auto queued = queue(i); !queued)
-        return queued;
+      HAL_CHECK(queue(i));
   }
   return {};
 }
@@ -153,8 +153,7 @@ Result<std::optional<ScopeFrame>> LibcameraScopeCamera::Parts::take_newest() {
   const CameraLink::Completed done = link->completed(*newest);
   const auto frame = accept(*newest, done);
   places[*newest].store(frame ? Place::on_loan : Place::returned, std::memory_order_relaxed);
-  if (auto queued = queue_those_back(); !queued)
-    return tl::make_unexpected(queued.error());
+  HAL_CHECK(queue_those_back());
   return frame;
 }
 
@@ -165,7 +164,7 @@ std::optional<Error> LibcameraScopeCamera::Parts::silence(TimePoint now) {
     return lost();
   if (now - last_sign < longest_silence)
     return std::nullopt;
-  return Error{Fault::timed_out,
+  return Error{ErrorCode::timed_out,
                fmt::format("scope camera \"{}\": no good picture for {:.1f} s, expected one every "
                            "{:.0f} ms; check the cable; it is opened again by itself",
                            link->model(), to_seconds(now - last_sign), to_ms(period))};
@@ -220,36 +219,31 @@ LibcameraScopeCamera::Losses LibcameraScopeCamera::losses() const {
 
 Result<> LibcameraScopeCamera::do_open(const ScopeCameraConfig& config) {
   if (state() != DeviceState::absent)
-    return fail(Fault::busy,
+    return fail(ErrorCode::busy,
                 fmt::format("scope camera: open() found it {}, expected absent; close it first",
                             to_string(state())));
-  if (auto good = check(config); !good)
-    return good;
-  auto chosen = parts_->session.choose(parts_->options.camera, parts_->options.taken_nodes);
-  if (!chosen)
-    return tl::make_unexpected(chosen.error());
-  auto link = CameraLink::open(*chosen, config);
+  HAL_CHECK(check(config));
+  HAL_TRY(auto chosen, parts_->session.choose(parts_->options.camera, parts_->options.taken_nodes));
+  auto link = CameraLink::open(chosen, config);
   if (!link) {
     // Nobody has it, and its nodes are busy: where it could not be stopped in order, libcamera
     // 0.0.3 itself streams on, and gives them back only at its end.
-    if (link.error().fault == Fault::busy && CameraLink::is_free(*chosen)) {
-      chosen->camera.reset();
+    if (link.error().code == ErrorCode::busy && CameraLink::is_free(chosen)) {
+      chosen.camera.reset();
       parts_->session.restart();
     }
     return tl::make_unexpected(link.error());
   }
   if ((*link)->layout().encoding == Encoding::motion_jpeg) {
-    auto decoder = MotionJpegDecoder::make();
-    if (!decoder)
-      return tl::make_unexpected(decoder.error());
-    parts_->decoder.emplace(std::move(*decoder));
+    HAL_TRY(auto decoder, MotionJpegDecoder::make());
+    parts_->decoder.emplace(std::move(decoder));
     const PictureSize size = (*link)->layout().size;
     parts_->decoded.assign((*link)->buffers(),
                            std::vector<std::byte>(row_bytes(Encoding::rgb8, size.width) *
                                                   static_cast<std::size_t>(size.height)));
   }
   parts_->link = std::move(*link);
-  parts_->ear.listen_to(chosen->camera);
+  parts_->ear.listen_to(chosen.camera);
   parts_->period = from_seconds(1 / config.frames_per_s);
   parts_->broken = 0;
   parts_->undecodable = 0;
@@ -280,7 +274,7 @@ Result<> LibcameraScopeCamera::do_start() {
 
 Result<std::optional<ScopeFrame>> LibcameraScopeCamera::do_wait_frame(Duration timeout) {
   if (state() == DeviceState::failed)
-    return fail(Fault::disconnected,
+    return fail(ErrorCode::disconnected,
                 "scope camera: found failed, expected streaming; close it and open it again");
   if (state() != DeviceState::streaming)
     return wrong_state("wait_frame", state(), "streaming; start it first");

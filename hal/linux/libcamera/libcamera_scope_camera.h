@@ -24,8 +24,8 @@ struct LibcameraScopeOptions {
 // is decoded into buffers of ours, and an NV12 picture whose planes lie apart is put together. A
 // wait hands out the newest frame; older ones that nobody fetched go back to the camera and show as
 // a gap in the sequence, like those that arrive broken. A camera that fills no buffer for three
-// seconds, with buffers to fill, has failed: Fault::timed_out. The camera is asked for the wished
-// rate, but some have one of their own.
+// seconds, with buffers to fill, has failed: ErrorCode::timed_out. The camera is asked for the
+// wished rate, but some have one of their own.
 //
 // Threads as hal::ScopeCamera. libcamera's thread puts completed requests into a bounded queue.
 // Nothing here allocates or locks once it streams; libcamera itself does both for each frame.

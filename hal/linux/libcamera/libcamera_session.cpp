@@ -108,8 +108,7 @@ Result<std::vector<LibcameraSession::Parts::Listed>>
 LibcameraSession::Parts::list(const std::vector<std::string>& taken_nodes) {
   const std::vector<dev_t> taken = device_numbers(taken_nodes);
   for (bool again = false;; again = true) {
-    if (auto started = start(); !started)
-      return tl::make_unexpected(started.error());
+    HAL_CHECK(start());
     std::vector<Listed> cameras;
     bool one_is_gone = false;
     for (const auto& camera : manager->cameras()) {
@@ -131,8 +130,9 @@ LibcameraSession::Parts::list(const std::vector<std::string>& taken_nodes) {
 
 Result<std::unique_ptr<LibcameraSession>> LibcameraSession::start() {
   if (session_lives.test_and_set())
-    return fail(Fault::busy, "libcamera: this process uses it already, expected once; share the "
-                             "session that is there");
+    return fail(ErrorCode::busy,
+                "libcamera: this process uses it already, expected once; share the "
+                "session that is there");
   auto parts = std::make_unique<Parts>();
   if (std::getenv("LIBCAMERA_LOG_LEVELS") == nullptr)
     libcamera::logSetTarget(libcamera::LoggingTargetNone);
@@ -154,16 +154,14 @@ std::vector<LibcameraFound> LibcameraSession::cameras(const std::vector<std::str
 Result<LibcameraSession::Chosen>
 LibcameraSession::choose(const std::string& wish, const std::vector<std::string>& taken_nodes) {
   const std::lock_guard lock{parts_->mutex};
-  const auto listed = parts_->list(taken_nodes);
-  if (!listed)
-    return tl::make_unexpected(listed.error());
-  if (listed->empty())
+  HAL_TRY(const auto listed, parts_->list(taken_nodes));
+  if (listed.empty())
     return tl::make_unexpected(explain_absence());
   std::vector<LibcameraFound> found;
-  for (const Parts::Listed& one : *listed)
+  for (const Parts::Listed& one : listed)
     found.push_back(one.facts);
   return choose_camera(found, wish).map([&](std::size_t index) {
-    const Parts::Listed& one = (*listed)[index];
+    const Parts::Listed& one = listed[index];
     return Chosen{one.camera, one.facts.model, one.nodes};
   });
 }

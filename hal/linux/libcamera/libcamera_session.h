@@ -21,8 +21,8 @@ namespace octascope::hal::linux_backend {
 class LibcameraSession {
 public:
   // libcamera begins at the first question, in whose thread it is asked: it opens each media device
-  // for a moment, some tens of ms. Fault::busy: this process has a session already (libcamera would
-  // end the program). No camera is no error.
+  // for a moment, some tens of ms. ErrorCode::busy: this process has a session already (libcamera
+  // would end the program). No camera is no error.
   static Result<std::unique_ptr<LibcameraSession>> start();
   LibcameraSession(const LibcameraSession&) = delete;
   LibcameraSession& operator=(const LibcameraSession&) = delete;

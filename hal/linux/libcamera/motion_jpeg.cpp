@@ -11,7 +11,8 @@ namespace octascope::hal::linux_backend {
 Result<MotionJpegDecoder> MotionJpegDecoder::make() {
   void* const handle = tjInitDecompress();
   if (handle == nullptr)
-    return fail(Fault::system, "scope camera: no memory for the JPEG decoder; end other programs");
+    return fail(ErrorCode::system,
+                "scope camera: no memory for the JPEG decoder; end other programs");
   return MotionJpegDecoder{handle};
 }
 
@@ -44,7 +45,8 @@ Result<> MotionJpegDecoder::decode(std::span<const std::byte> jpeg, PictureSize 
 Result<> MotionJpegDecoder::try_to_decode(std::span<const std::byte> jpeg, PictureSize size,
                                           std::span<std::byte> rgb) {
   if (handle_ == nullptr)
-    return fail(Fault::system, "scope camera: no memory for the JPEG decoder; end other programs");
+    return fail(ErrorCode::system,
+                "scope camera: no memory for the JPEG decoder; end other programs");
   const auto* const bytes = reinterpret_cast<const unsigned char*>(jpeg.data());
   int width = 0;
   int height = 0;
@@ -52,12 +54,13 @@ Result<> MotionJpegDecoder::try_to_decode(std::span<const std::byte> jpeg, Pictu
   int colours = 0;
   if (tjDecompressHeader3(handle_, bytes, jpeg.size(), &width, &height, &subsampling, &colours) !=
       0)
-    return fail(Fault::bad_data, fmt::format("scope camera: a JPEG of {} bytes has no header: {}",
-                                             jpeg.size(), tjGetErrorStr2(handle_)));
+    return fail(ErrorCode::bad_data,
+                fmt::format("scope camera: a JPEG of {} bytes has no header: {}", jpeg.size(),
+                            tjGetErrorStr2(handle_)));
   if (width != size.width || height != size.height ||
       rgb.size() < static_cast<std::size_t>(3 * width) * static_cast<std::size_t>(height))
-    return fail(Fault::bad_data, fmt::format("scope camera: a JPEG of {}x{}, expected {}x{}", width,
-                                             height, size.width, size.height));
+    return fail(ErrorCode::bad_data, fmt::format("scope camera: a JPEG of {}x{}, expected {}x{}",
+                                                 width, height, size.width, size.height));
   if (tjDecompress2(handle_, bytes, jpeg.size(), reinterpret_cast<unsigned char*>(rgb.data()),
                     width, 3 * width, height, TJPF_RGB, 0) == 0)
     return {};
@@ -65,7 +68,7 @@ Result<> MotionJpegDecoder::try_to_decode(std::span<const std::byte> jpeg, Pictu
   if (tjGetErrorCode(handle_) == TJERR_WARNING &&
       why.find("extraneous bytes") != std::string_view::npos)
     return {};
-  return fail(Fault::bad_data,
+  return fail(ErrorCode::bad_data,
               fmt::format("scope camera: a damaged JPEG of {} bytes: {}", jpeg.size(), why));
 }
 

@@ -13,14 +13,14 @@ namespace octascope::hal::linux_backend {
 // Threads: one at a time.
 class MotionJpegDecoder {
 public:
-  // Fault::system: no memory.
+  // ErrorCode::system: no memory.
   static Result<MotionJpegDecoder> make();
   MotionJpegDecoder(MotionJpegDecoder&&) noexcept;
   MotionJpegDecoder& operator=(MotionJpegDecoder&&) noexcept;
   ~MotionJpegDecoder();
 
   // One picture into `rgb`, rows of 3 · width bytes from the top. Cameras leave out the Huffman
-  // tables and put a few bytes too many between segments: both are fine. Fault::bad_data: it is
+  // tables and put a few bytes too many between segments: both are fine. ErrorCode::bad_data: it is
   // broken off, damaged, or not of this size; `rgb` then holds no picture.
   Result<> decode(std::span<const std::byte> jpeg, PictureSize size, std::span<std::byte> rgb);
 

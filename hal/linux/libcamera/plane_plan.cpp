@@ -24,7 +24,7 @@ std::size_t file_of(std::vector<PlanePlan::File>& files, const BufferPlane& plan
 
 tl::unexpected<Error> too_short(const PictureLayout& layout, std::size_t found,
                                 std::size_t expected) {
-  return fail(Fault::bad_data,
+  return fail(ErrorCode::bad_data,
               fmt::format("scope camera: a plane of {} bytes for {}x{} with rows of {}, expected "
                           "at least {}: the camera's driver contradicts itself",
                           found, layout.size.width, layout.size.height, layout.stride, expected));
@@ -50,10 +50,10 @@ bool sound(const BufferPlane& plane) {
 
 Result<PlanePlan> plan_planes(const std::vector<BufferPlane>& planes, const PictureLayout& layout) {
   if (planes.empty() || !std::all_of(planes.begin(), planes.end(), sound))
-    return fail(Fault::bad_data, "scope camera: its driver gave a buffer without memory");
+    return fail(ErrorCode::bad_data, "scope camera: its driver gave a buffer without memory");
   if (layout.size.width < 1 || layout.size.height < 1 ||
       layout.stride < row_bytes(layout.encoding, layout.size.width))
-    return fail(Fault::bad_data,
+    return fail(ErrorCode::bad_data,
                 fmt::format("scope camera: {}x{} with rows of {} bytes, expected rows of at least "
                             "{}",
                             layout.size.width, layout.size.height, layout.stride,

@@ -45,7 +45,7 @@ struct PlanePlan {
   std::vector<Piece> pieces; // one: the picture lies in one piece. Two: luma, chroma of NV12
 };
 
-// Fault::bad_data: the planes cannot hold such a picture; the message has both sizes.
+// ErrorCode::bad_data: the planes cannot hold such a picture; the message has both sizes.
 Result<PlanePlan> plan_planes(const std::vector<BufferPlane>& planes, const PictureLayout& layout);
 
 } // namespace octascope::hal::linux_backend

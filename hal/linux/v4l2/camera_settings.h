@@ -31,13 +31,13 @@ struct SettingRange {
 };
 
 // The value that the control takes for the wanted one: on its steps, the nearest. Pure.
-// Fault::invalid_argument with found and expected outside its range; Fault::unsupported for one
-// that cannot be set.
+// ErrorCode::invalid_argument with found and expected outside its range; ErrorCode::unsupported for
+// one that cannot be set.
 Result<std::int64_t> fit_setting(const SettingRange& range, std::int64_t wanted);
 
 // How long a sensor pauses after each line for a line rate, in pixels (kernel documentation,
 // "Image Source Control Reference": line rate = pixel rate / (width + horizontal blanking)). Pure.
-// Fault::unsupported with the rates that are possible.
+// ErrorCode::unsupported with the rates that are possible.
 Result<std::int64_t> blanking_for(double line_rate_hz, std::int64_t pixel_rate_hz, int width,
                                   const SettingRange& blanking);
 

@@ -63,15 +63,13 @@ std::string_view what_it_is(std::uint32_t capabilities) {
 } // namespace
 
 Result<CaptureNode> CaptureNode::open(const std::string& node) {
-  auto file = open_device(node, O_RDWR | O_NONBLOCK);
-  if (!file)
-    return tl::make_unexpected(file.error());
+  HAL_TRY(auto file, open_device(node, O_RDWR | O_NONBLOCK));
   v4l2_capability capability{};
-  if (control(*file, VIDIOC_QUERYCAP, &capability) == -1) {
+  if (control(file, VIDIOC_QUERYCAP, &capability) == -1) {
     if (errno == ENOTTY)
-      return fail(Fault::unsupported, fmt::format("{}: it is no video device; expected a V4L2 "
-                                                  "camera, `octascope devices` lists them",
-                                                  node));
+      return fail(ErrorCode::unsupported, fmt::format("{}: it is no video device; expected a V4L2 "
+                                                      "camera, `octascope devices` lists them",
+                                                      node));
     return system_failure(node, "asking what it can do", errno);
   }
   const std::uint32_t capabilities = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0
@@ -79,18 +77,18 @@ Result<CaptureNode> CaptureNode::open(const std::string& node) {
                                          : capability.capabilities;
   NodeIdentity identity{node, text(capability.card), text(capability.driver),
                         text(capability.bus_info)};
-  identity.camera = camera_identity(identity.card, usb_serial_number(sysfs_folder(*file)));
+  identity.camera = camera_identity(identity.card, usb_serial_number(sysfs_folder(file)));
   constexpr std::uint32_t needed = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   if ((capabilities & needed) != needed ||
       (capabilities & (V4L2_CAP_VIDEO_M2M | V4L2_CAP_VIDEO_M2M_MPLANE)) != 0)
-    return fail(Fault::unsupported,
+    return fail(ErrorCode::unsupported,
                 fmt::format("{}: \"{}\" is {}; expected a camera that streams mapped buffers", node,
                             identity.card, what_it_is(capabilities)));
-  return CaptureNode{std::move(*file), std::move(identity)};
+  return CaptureNode{std::move(file), std::move(identity)};
 }
 
 Error CaptureNode::named(Error error) const {
-  return {error.fault,
+  return {error.code,
           fmt::format("{} (\"{}\"): {}", identity_.node, identity_.card, std::move(error.message))};
 }
 
@@ -135,10 +133,8 @@ std::vector<OfferedSize> CaptureNode::sizes(std::uint32_t code) const {
 }
 
 Result<FormatRequest> CaptureNode::choose_format(const LineFormat& wanted) const {
-  const auto offered = formats();
-  if (!offered)
-    return tl::make_unexpected(offered.error());
-  const auto requests = rank_formats(*offered, wanted);
+  HAL_TRY(const auto offered, formats());
+  const auto requests = rank_formats(offered, wanted);
   if (!requests)
     return tl::make_unexpected(named(requests.error()));
   std::optional<Error> refusal;
@@ -195,7 +191,7 @@ Result<> CaptureNode::set_window(const SensorWindow& window) const {
   const SensorWindow made{got.left, got.top, static_cast<int>(got.width),
                           static_cast<int>(got.height)};
   if (made != window)
-    return fail(Fault::unsupported,
+    return fail(ErrorCode::unsupported,
                 fmt::format("{}: the sensor's window became {}×{} at {},{}; expected {}×{} at "
                             "{},{}: configure one that the sensor can do",
                             identity_.node, made.width, made.height, made.left, made.top,

@@ -24,7 +24,7 @@ struct NodeIdentity {
 // Threads: one thread at a time. Errors name the node.
 class CaptureNode {
 public:
-  // Opened without blocking. Fault::unsupported for a node that brings no pictures by mapped
+  // Opened without blocking. ErrorCode::unsupported for a node that brings no pictures by mapped
   // buffers: an output, metadata, a memory-to-memory converter.
   static Result<CaptureNode> open(const std::string& node);
 

@@ -72,7 +72,7 @@ tl::unexpected<Error> nothing_fits(std::span<const OfferedFormat> offered,
     if (line_pixel_format(format.code) == nullptr && (known_turned || offered.size() == 1))
       reason += fmt::format("; {} has {}", fourcc_text(format.code), why_unreadable(format.code));
   }
-  return fail(Fault::unsupported,
+  return fail(ErrorCode::unsupported,
               fmt::format("it offers {}{}; expected {} at {}×{} pixels ({})", words(offered),
                           reason, serving(wanted), wanted.samples_per_line, wanted.lines_per_frame,
                           words(wanted)));
@@ -104,7 +104,7 @@ std::string words(const LineFormat& wanted) {
 
 Result<> check_wish(const LineFormat& wanted) {
   const auto refuse = [&](std::string_view expected) {
-    return fail(Fault::invalid_argument,
+    return fail(ErrorCode::invalid_argument,
                 fmt::format("the format is {}; expected {}", words(wanted), expected));
   };
   if (wanted.samples_per_line < 1 || wanted.lines_per_frame < 1)
@@ -120,11 +120,10 @@ Result<> check_wish(const LineFormat& wanted) {
 
 Result<std::vector<FormatRequest>> rank_formats(std::span<const OfferedFormat> offered,
                                                 const LineFormat& wanted) {
-  if (auto checked = check_wish(wanted); !checked)
-    return tl::make_unexpected(checked.error());
+  HAL_CHECK(check_wish(wanted));
   if (offered.empty())
-    return fail(Fault::absent, "it offers no format yet: is what feeds it running, and is its "
-                               "cable plugged in? It is tried again by itself");
+    return fail(ErrorCode::absent, "it offers no format yet: is what feeds it running, and is its "
+                                   "cable plugged in? It is tried again by itself");
   const auto width = static_cast<std::uint32_t>(wanted.samples_per_line);
   const auto height = static_cast<std::uint32_t>(wanted.lines_per_frame);
   std::vector<FormatRequest> requests;
@@ -143,7 +142,7 @@ Result<std::vector<FormatRequest>> rank_formats(std::span<const OfferedFormat> o
 
 Result<> check_given(const FormatRequest& asked, const GivenFormat& given) {
   const auto refuse = [](std::string found_and_expected) {
-    return fail(Fault::unsupported, "the driver gave " + std::move(found_and_expected));
+    return fail(ErrorCode::unsupported, "the driver gave " + std::move(found_and_expected));
   };
   if (given.code != asked.code)
     return refuse(fmt::format("{}, expected {}", fourcc_text(given.code), fourcc_text(asked.code)));

@@ -44,18 +44,18 @@ struct GivenFormat {
   std::uint32_t field = 0;
 };
 
-// Fault::invalid_argument for what no camera can bring: sizes that are not positive, or of more
+// ErrorCode::invalid_argument for what no camera can bring: sizes that are not positive, or of more
 // than 2 GB, more bits than the sample holds.
 Result<> check_wish(const LineFormat& wanted);
 
-// What to ask the driver for, best first; never empty. Fault::absent: nothing is offered (yet).
-// Fault::unsupported: nothing fits, the message has what is offered and what is expected.
+// What to ask the driver for, best first; never empty. ErrorCode::absent: nothing is offered (yet).
+// ErrorCode::unsupported: nothing fits, the message has what is offered and what is expected.
 // Sizes between a driver's steps are asked for all the same: not every driver means its steps.
 Result<std::vector<FormatRequest>> rank_formats(std::span<const OfferedFormat> offered,
                                                 const LineFormat& wanted);
 
-// Fault::unsupported with found and expected where lines or samples would not lie where they are
-// read: another format or size, padded lines, interlaced lines, too small a picture.
+// ErrorCode::unsupported with found and expected where lines or samples would not lie where they
+// are read: another format or size, padded lines, interlaced lines, too small a picture.
 Result<> check_given(const FormatRequest& asked, const GivenFormat& given);
 
 // "GREY 320×180 to 4096×2160, Y12 and 20 other formats": what is offered, for messages. Those that

@@ -21,7 +21,7 @@ namespace {
 
 Result<> check(const LineCameraConfig& config, const V4l2CameraOptions& options) {
   const auto refuse = [](std::string why) {
-    return fail(Fault::invalid_argument, "line camera: " + std::move(why));
+    return fail(ErrorCode::invalid_argument, "line camera: " + std::move(why));
   };
   if (const auto wish = check_wish(config.format); !wish)
     return refuse(wish.error().message);
@@ -47,8 +47,8 @@ Duration wall_clock_since_1970() {
 
 // Gone in the middle of open(): to whoever opens, it is not there.
 Error absent_if_gone(Error error) {
-  if (error.fault == Fault::disconnected)
-    error.fault = Fault::absent;
+  if (error.code == ErrorCode::disconnected)
+    error.code = ErrorCode::absent;
   return error;
 }
 
@@ -82,15 +82,14 @@ V4l2CameraTally V4l2LineCamera::tally() const {
 }
 
 Result<> V4l2LineCamera::wrong_state(std::string_view call, std::string_view expected) const {
-  return fail(Fault::invalid_argument, fmt::format("line camera: {} while {}, expected {}", call,
-                                                   to_string(state()), expected));
+  return fail(ErrorCode::invalid_argument, fmt::format("line camera: {} while {}, expected {}",
+                                                       call, to_string(state()), expected));
 }
 
 Result<> V4l2LineCamera::do_open(const LineCameraConfig& config) {
   if (state() != DeviceState::absent)
     return wrong_state("open", "absent; call close first");
-  if (auto checked = check(config, options_); !checked)
-    return checked;
+  HAL_CHECK(check(config, options_));
   const auto opened = find_node(config.format).and_then([&](const std::string& node) {
     return open_node(node, config);
   });
@@ -109,47 +108,34 @@ Result<std::string> V4l2LineCamera::find_node(const LineFormat& wanted) const {
 }
 
 Result<> V4l2LineCamera::open_node(const std::string& node, const LineCameraConfig& config) {
-  auto opened = CaptureNode::open(node);
-  if (!opened)
-    return tl::make_unexpected(opened.error());
-  node_ = std::make_unique<CaptureNode>(std::move(*opened));
+  HAL_TRY(auto opened, CaptureNode::open(node));
+  node_ = std::make_unique<CaptureNode>(std::move(opened));
   const NodeIdentity& identity = node_->identity();
   std::vector<std::string> words{
       fmt::format("{} is \"{}\" ({}) at {}", node, identity.camera, identity.driver, identity.bus)};
   if (options_.input) {
-    if (auto selected = node_->select_input(*options_.input); !selected)
-      return selected;
+    HAL_CHECK(node_->select_input(*options_.input));
     words.push_back(fmt::format("input {} selected", *options_.input));
   }
   if (options_.window) {
-    if (auto set = node_->set_window(*options_.window); !set)
-      return set;
+    HAL_CHECK(node_->set_window(*options_.window));
   }
-  const auto request = node_->choose_format(config.format);
-  if (!request)
-    return tl::make_unexpected(request.error());
-  const auto given = node_->set_format(*request);
-  if (!given)
-    return tl::make_unexpected(given.error());
-  words.push_back(
-      fmt::format("{} at {}×{}", fourcc_text(given->code), given->width, given->height));
+  HAL_TRY(const auto request, node_->choose_format(config.format));
+  HAL_TRY(const auto given, node_->set_format(request));
+  words.push_back(fmt::format("{} at {}×{}", fourcc_text(given.code), given.width, given.height));
   const int width = options_.window ? options_.window->width : config.format.samples_per_line;
-  auto settings =
-      apply_settings(node_->file(), node, options_.settings, config.line_rate_hz, width);
-  if (!settings)
-    return tl::make_unexpected(settings.error());
-  std::ranges::move(*settings, std::back_inserter(words));
+  HAL_TRY(auto settings,
+          apply_settings(node_->file(), node, options_.settings, config.line_rate_hz, width));
+  std::ranges::move(settings, std::back_inserter(words));
 
-  auto buffers =
-      CaptureBuffers::map(node_->file(), node, config.buffers,
-                          std::min(config.buffers, least_buffers), config.format.frame_bytes());
-  if (!buffers)
-    return tl::make_unexpected(buffers.error());
-  buffers_ = std::move(*buffers);
+  HAL_TRY(auto buffers, CaptureBuffers::map(node_->file(), node, config.buffers,
+                                            std::min(config.buffers, least_buffers),
+                                            config.format.frame_bytes()));
+  buffers_ = std::move(buffers);
   words.push_back(fmt::format("{} buffers, {} asked for", buffers_->count(), config.buffers));
 
   config_ = config;
-  image_bytes_ = given->image_bytes;
+  image_bytes_ = given.image_bytes;
   bus_ = identity.bus;
   clocks_differ_ = tells_clocks_apart(clock_.now(), wall_clock_since_1970());
   note(std::move(words));
@@ -165,7 +151,7 @@ Result<> V4l2LineCamera::do_start() {
     return wrong_state("start", "ready");
   sequence_ = {};
   if (auto started = buffers_->start(); !started) {
-    if (started.error().fault == Fault::disconnected) {
+    if (started.error().code == ErrorCode::disconnected) {
       failure_ = started.error();
       set_state(DeviceState::failed);
     }

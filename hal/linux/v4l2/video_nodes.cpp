@@ -78,7 +78,7 @@ Result<std::string> pick_line_camera(const std::vector<LineCameraCandidate>& can
         return candidate.identity.node;
       if (first == nullptr)
         first = &candidate;
-    } else if (candidate.unsuitable->fault == Fault::denied) {
+    } else if (candidate.unsuitable->code == ErrorCode::denied) {
       denial = denial != nullptr ? denial : &*candidate.unsuitable;
       ++denied;
     } else if (candidate.captures) {
@@ -89,7 +89,7 @@ Result<std::string> pick_line_camera(const std::vector<LineCameraCandidate>& can
     return first->identity.node;
   if (denial != nullptr)
     reasons += fmt::format("; {} of them may not be opened: {}", denied, denial->message);
-  return fail(denial != nullptr ? Fault::denied : Fault::absent,
+  return fail(denial != nullptr ? ErrorCode::denied : ErrorCode::absent,
               fmt::format("no line camera among {} video devices, expected one with {}{}",
                           candidates.size(), words(wanted),
                           reasons.empty() ? "; check its plug and its driver" : reasons));

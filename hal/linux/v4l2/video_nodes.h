@@ -32,8 +32,8 @@ LineCameraCandidate assess_line_camera(const std::string& node, const LineFormat
 std::vector<LineCameraCandidate> line_camera_candidates(const LineFormat& wanted);
 
 // The one to open: the first that suits, one on `bus` before others (empty: no preference).
-// Fault::denied where nodes could not be opened for want of permission, else Fault::absent; the
-// message has each camera and why it does not serve. Pure.
+// ErrorCode::denied where nodes could not be opened for want of permission, else ErrorCode::absent;
+// the message has each camera and why it does not serve. Pure.
 Result<std::string> pick_line_camera(const std::vector<LineCameraCandidate>& candidates,
                                      const std::string& bus, const LineFormat& wanted);
 

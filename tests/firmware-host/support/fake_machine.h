@@ -11,8 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "firmware-host/hardware_survey.h"
-#include "tests/support/scratch_folder.h"
+#include "firmware-host/devices/hardware_survey.h"
+#include "tests/support/files/scratch_folder.h"
 
 namespace octascope::tests {
 

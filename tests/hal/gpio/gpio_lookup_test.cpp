@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "hal/linux/gpio/gpio_lookup.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/files/scratch_folder.h"
 
 namespace octascope::hal::linux_backend {
 namespace {
@@ -31,30 +31,30 @@ TEST(GpioLookup, chip_and_offset_are_taken_as_they_are) {
             (GpioLineAddress{"/dev/gpiochip10", 2}));
 }
 
-void expect_refusal(const GpioSurvey& survey, std::string_view wanted, Fault fault,
+void expect_refusal(const GpioSurvey& survey, std::string_view wanted, ErrorCode fault,
                     std::string_view message) {
   const auto found = find_gpio_line(survey, wanted);
   ASSERT_FALSE(found) << wanted;
-  EXPECT_EQ(found.error().fault, fault) << found.error().message;
+  EXPECT_EQ(found.error().code, fault) << found.error().message;
   EXPECT_THAT(found.error().message, HasSubstr(std::string{message}));
 }
 
 TEST(GpioLookup, nothing_is_guessed) {
-  expect_refusal(two_chips(), "LED", Fault::invalid_argument, "gpiochip0:0 and gpiochip10:1");
-  expect_refusal(two_chips(), "", Fault::invalid_argument, "empty");
-  expect_refusal(two_chips(), "Trigger", Fault::absent, "pinctrl-a, 2 lines");
-  expect_refusal(two_chips(), "gpiochip1:0", Fault::absent, "gpiochip1:0");
-  expect_refusal(two_chips(), "gpiochip0:2", Fault::invalid_argument, "0 to 1");
+  expect_refusal(two_chips(), "LED", ErrorCode::invalid_argument, "gpiochip0:0 and gpiochip10:1");
+  expect_refusal(two_chips(), "", ErrorCode::invalid_argument, "empty");
+  expect_refusal(two_chips(), "Trigger", ErrorCode::absent, "pinctrl-a, 2 lines");
+  expect_refusal(two_chips(), "gpiochip1:0", ErrorCode::absent, "gpiochip1:0");
+  expect_refusal(two_chips(), "gpiochip0:2", ErrorCode::invalid_argument, "0 to 1");
   for (const char* const odd : {"gpiochip0:", "gpiochip:1", "gpiochip0:-1", "gpiochip0:1x",
                                 "gpiochipx:1", "gpiochip0:99999999999999999999"})
-    expect_refusal(two_chips(), odd, Fault::absent, odd);
-  expect_refusal({}, "trigger", Fault::absent, "no GPIO chip");
+    expect_refusal(two_chips(), odd, ErrorCode::absent, odd);
+  expect_refusal({}, "trigger", ErrorCode::absent, "no GPIO chip");
 }
 
 TEST(GpioLookup, a_chip_that_may_not_be_asked_may_be_the_one) {
   GpioSurvey survey = two_chips();
   survey.complaints = {"/dev/gpiochip3: permission denied"};
-  expect_refusal(survey, "elsewhere", Fault::denied, "/dev/gpiochip3: permission denied");
+  expect_refusal(survey, "elsewhere", ErrorCode::denied, "/dev/gpiochip3: permission denied");
   EXPECT_TRUE(find_gpio_line(survey, "trigger"));
 }
 

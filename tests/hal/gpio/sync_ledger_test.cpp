@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/gpio/sync_ledger.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::hal::linux_backend {
 namespace {
@@ -12,49 +12,49 @@ TimePoint at_us(std::int64_t us) {
   return TimePoint{std::chrono::microseconds{us}};
 }
 
-TEST(SyncLedger, tells_answered_missed_and_unexpected) {
-  SyncLedger ledger;
-  ledger.edge(at_us(1)); // nobody asked
-  ledger.pulse(at_us(10));
-  EXPECT_FALSE(ledger.delay());
-  ledger.edge(at_us(13));
-  EXPECT_EQ(ledger.delay(), std::chrono::microseconds{3});
-  ledger.edge(at_us(14));
-  EXPECT_EQ(ledger.delay(), std::chrono::microseconds{3}) << "the first one counts";
-  ledger.pulse(at_us(20));
-  ledger.pulse(at_us(30));
-  EXPECT_EQ(ledger.edges(), 3U);
-  EXPECT_EQ(ledger.missed(), 1U);
-  EXPECT_EQ(ledger.unexpected(), 2U);
+TEST(SyncMonitor, tells_answered_missed_and_unexpected) {
+  SyncMonitor metadata;
+  metadata.edge(at_us(1)); // nobody asked
+  metadata.pulse(at_us(10));
+  EXPECT_FALSE(metadata.delay());
+  metadata.edge(at_us(13));
+  EXPECT_EQ(metadata.delay(), std::chrono::microseconds{3});
+  metadata.edge(at_us(14));
+  EXPECT_EQ(metadata.delay(), std::chrono::microseconds{3}) << "the first one counts";
+  metadata.pulse(at_us(20));
+  metadata.pulse(at_us(30));
+  EXPECT_EQ(metadata.edges(), 3U);
+  EXPECT_EQ(metadata.missed(), 1U);
+  EXPECT_EQ(metadata.unexpected(), 2U);
 }
 
-TEST(SyncLedger, the_pulse_before_a_pause_is_not_asked_about) {
-  SyncLedger ledger;
-  ledger.pulse(at_us(10));
-  ledger.forget_pulse();
-  ledger.edge(at_us(500));
-  ledger.pulse(at_us(1000));
-  EXPECT_EQ(ledger.missed(), 0U);
-  EXPECT_EQ(ledger.unexpected(), 1U);
+TEST(SyncMonitor, the_pulse_before_a_pause_is_not_asked_about) {
+  SyncMonitor metadata;
+  metadata.pulse(at_us(10));
+  metadata.forget_pulse();
+  metadata.edge(at_us(500));
+  metadata.pulse(at_us(1000));
+  EXPECT_EQ(metadata.missed(), 0U);
+  EXPECT_EQ(metadata.unexpected(), 1U);
 }
 
 // What is expected and not missed, and what was not expected, are all the edges there were.
-TEST(SyncLedger, keeps_its_books_balanced) {
+TEST(SyncMonitor, keeps_its_books_balanced) {
   std::mt19937 random{tests::fresh_seed()};
   for (int round = 0; round < 1000; ++round) {
     const std::uint64_t expected = 1 + random() % 16;
-    SyncLedger ledger{expected};
+    SyncMonitor metadata{expected};
     const std::uint64_t pulses = random() % 20;
     std::uint64_t edges = 0;
     std::int64_t us = 0;
     for (std::uint64_t pulse = 0; pulse < pulses; ++pulse) {
-      ledger.pulse(at_us(++us));
+      metadata.pulse(at_us(++us));
       for (auto answers = random() % 20; answers > 0; --answers, ++edges)
-        ledger.edge(at_us(++us));
+        metadata.edge(at_us(++us));
     }
-    ledger.pulse(at_us(++us)); // closes the last one
-    EXPECT_EQ(ledger.edges(), edges);
-    EXPECT_EQ(pulses * expected + ledger.unexpected(), edges + ledger.missed());
+    metadata.pulse(at_us(++us)); // closes the last one
+    EXPECT_EQ(metadata.edges(), edges);
+    EXPECT_EQ(pulses * expected + metadata.unexpected(), edges + metadata.missed());
   }
 }
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/hid/control_board.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::hal::linux_backend {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "hal/linux/hid/control_learner.h"
 #include "hal/linux/hid/hid_decoder.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::hal::linux_backend {
 namespace {

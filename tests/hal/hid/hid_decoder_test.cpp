@@ -8,7 +8,7 @@
 
 #include "hal/linux/hid/hid_decoder.h"
 #include "hal/linux/hid/key_decoder.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::hal::linux_backend {
 namespace {

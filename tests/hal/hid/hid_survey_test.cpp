@@ -7,9 +7,9 @@
 
 #include "hal/linux/hid/hid_survey.h"
 #include "hal/linux/hid/udev_rules.h"
-#include "tests/support/built_places.h"
-#include "tests/support/mutation.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/program/built_places.h"
+#include "tests/support/files/mutation.h"
+#include "tests/support/files/scratch_folder.h"
 
 namespace octascope::hal::linux_backend {
 namespace {

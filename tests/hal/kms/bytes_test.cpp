@@ -10,10 +10,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/linux/kms/edid.h"
-#include "hal/linux/kms/flip_events.h"
-#include "hal/linux/kms/format_blob.h"
-#include "tests/support/mutation.h"
+#include "hal/linux/kms/drm/edid.h"
+#include "hal/linux/kms/scanout/flip_events.h"
+#include "hal/linux/kms/drm/format_blob.h"
+#include "tests/support/files/mutation.h"
 
 namespace octascope::tests {
 namespace {

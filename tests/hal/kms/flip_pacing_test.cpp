@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/linux/kms/flip_pacing.h"
+#include "hal/linux/kms/scanout/flip_pacing.h"
 
 namespace octascope::tests {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/linux/kms/card_survey.h"
+#include "hal/linux/kms/drm/card_survey.h"
 #include "hal/linux/kms/kms_display.h"
 #include "hal/linux/monotonic_clock.h"
 
@@ -34,7 +34,7 @@ TEST(KmsDisplay, without_an_output_stays_absent_and_says_why) {
   }
   const auto flip = display.present();
   ASSERT_FALSE(flip);
-  EXPECT_EQ(flip.error().fault, hal::Fault::absent);
+  EXPECT_EQ(flip.error().code, hal::ErrorCode::absent);
   EXPECT_EQ(display.width(), 0);
   EXPECT_EQ(display.poll_events({}), 0U);
   EXPECT_EQ(display.description(), "");
@@ -46,10 +46,10 @@ TEST(KmsDisplay, refuses_nonsense_before_it_touches_anything) {
   KmsDisplay display{clock, config_of("big")};
   const auto opened = display.open({});
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().fault, hal::Fault::invalid_argument);
+  EXPECT_EQ(opened.error().code, hal::ErrorCode::invalid_argument);
   hal::DisplayConfig nothing;
   nothing.width = 0;
-  EXPECT_EQ(display.open(nothing).error().fault, hal::Fault::invalid_argument);
+  EXPECT_EQ(display.open(nothing).error().code, hal::ErrorCode::invalid_argument);
 }
 
 TEST(KmsSurvey, has_every_card_once) {

@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/linux/kms/mode_choice.h"
-#include "tests/support/mutation.h"
+#include "hal/linux/kms/mode/mode_choice.h"
+#include "tests/support/files/mutation.h"
 
 namespace octascope::tests {
 namespace {
@@ -95,7 +95,7 @@ TEST(ModeWish, that_makes_no_sense_is_refused_with_examples) {
         "1920 x 1080", "-5x100", "99x99", "99999x10", "1920x1080m", "1920x1080@inf", "prefered"}) {
     const auto wish = parse_mode_wish(text);
     ASSERT_FALSE(wish) << text;
-    EXPECT_EQ(wish.error().fault, hal::Fault::invalid_argument);
+    EXPECT_EQ(wish.error().code, hal::ErrorCode::invalid_argument);
     EXPECT_THAT(wish.error().message, HasSubstr(text));
     EXPECT_THAT(wish.error().message, HasSubstr("\"1920x1080@60\""));
   }
@@ -136,7 +136,7 @@ TEST(ModeChoice, takes_the_nearest_rate_but_not_another_one) {
   EXPECT_NEAR(refresh_hz(*choose_mode(modes, {1920, 1080, 50.2})), 50, 0.01);
   const auto none = choose_mode(modes, {1920, 1080, 75.0});
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().fault, hal::Fault::unsupported);
+  EXPECT_EQ(none.error().code, hal::ErrorCode::unsupported);
   EXPECT_THAT(none.error().message, HasSubstr("1280x720@75.00"));
   EXPECT_THAT(none.error().message, HasSubstr("1920x1080M"));
 }

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "hal/linux/kms/output_choice.h"
+#include "hal/linux/kms/mode/output_choice.h"
 
 namespace octascope::tests {
 namespace {
@@ -95,7 +95,7 @@ TEST(OutputChoice, leaves_other_monitors_their_crtc) {
 TEST(OutputChoice, goes_on_with_the_next_card_where_the_first_only_computes) {
   std::vector<Card> cards{Card{}, card_of("/dev/dri/card1")};
   cards[0].node = "/dev/dri/card0";
-  cards[0].problem = hal::Error{hal::Fault::unsupported, "only computes"};
+  cards[0].problem = hal::Error{hal::ErrorCode::unsupported, "only computes"};
   EXPECT_EQ(choose_output(cards, {})->card, 1U);
 }
 
@@ -131,37 +131,37 @@ TEST(OutputChoice, never_takes_a_writeback_socket) {
 }
 
 TEST(OutputChoice, says_what_is_missing) {
-  const auto message_of = [](const std::vector<Card>& cards, hal::Fault fault,
+  const auto message_of = [](const std::vector<Card>& cards, hal::ErrorCode fault,
                              const std::string& name = {}) {
     const auto choice = choose_output(cards, {name, {}, true});
     EXPECT_FALSE(choice);
-    EXPECT_EQ(choice.error().fault, fault);
+    EXPECT_EQ(choice.error().code, fault);
     return choice.error().message;
   };
-  EXPECT_THAT(message_of({}, hal::Fault::absent),
+  EXPECT_THAT(message_of({}, hal::ErrorCode::absent),
               AllOf(HasSubstr("lspci"), HasSubstr("offscreen")));
 
   std::vector<Card> cards{Card{}};
-  EXPECT_THAT(message_of(cards, hal::Fault::absent), HasSubstr("no sockets"));
-  cards[0].problem = hal::Error{hal::Fault::denied, "/dev/dri/card0: opening failed"};
-  EXPECT_EQ(message_of(cards, hal::Fault::denied), "/dev/dri/card0: opening failed");
+  EXPECT_THAT(message_of(cards, hal::ErrorCode::absent), HasSubstr("no sockets"));
+  cards[0].problem = hal::Error{hal::ErrorCode::denied, "/dev/dri/card0: opening failed"};
+  EXPECT_EQ(message_of(cards, hal::ErrorCode::denied), "/dev/dri/card0: opening failed");
 
   cards = {card_of()};
-  EXPECT_THAT(message_of(cards, hal::Fault::absent, "DP-9"),
+  EXPECT_THAT(message_of(cards, hal::ErrorCode::absent, "DP-9"),
               AllOf(HasSubstr("\"DP-9\""), HasSubstr("card0:DP-1 (disconnected)"),
                     HasSubstr("card0:HDMI-A-1 (connected)")));
-  EXPECT_THAT(message_of(cards, hal::Fault::absent, "DP-1"),
+  EXPECT_THAT(message_of(cards, hal::ErrorCode::absent, "DP-1"),
               AllOf(HasSubstr("at DP-1"), HasSubstr("cable")));
 
   cards[0].connectors[1].possible_crtcs = 0;
-  EXPECT_THAT(message_of(cards, hal::Fault::unsupported), HasSubstr("expected a CRTC"));
+  EXPECT_THAT(message_of(cards, hal::ErrorCode::unsupported), HasSubstr("expected a CRTC"));
 }
 
 TEST(OutputChoice, names_the_socket_whose_mode_is_not_to_be_had) {
   const std::vector<Card> cards{card_of()};
   const auto choice = choose_output(cards, {"", {800, 600, {}}, true});
   ASSERT_FALSE(choice);
-  EXPECT_EQ(choice.error().fault, hal::Fault::unsupported);
+  EXPECT_EQ(choice.error().code, hal::ErrorCode::unsupported);
   EXPECT_THAT(choice.error().message, AllOf(HasSubstr("HDMI-A-1"), HasSubstr("1920x1080")));
 }
 
@@ -203,7 +203,7 @@ public:
       card.node = "/dev/dri/card" + std::to_string(c);
       card.atomic = below(2) == 0;
       if (below(5) == 0) {
-        card.problem = hal::Error{hal::Fault::denied, "denied"};
+        card.problem = hal::Error{hal::ErrorCode::denied, "denied"};
         continue;
       }
       for (std::size_t i = below(5); i > 0; --i)

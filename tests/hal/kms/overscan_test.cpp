@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/linux/kms/overscan.h"
+#include "hal/linux/kms/mode/overscan.h"
 
 namespace octascope::tests {
 namespace {
@@ -45,7 +45,7 @@ TEST(Overscan, that_makes_no_sense_is_refused) {
                                      Overscan{0, 0, margin, 0}, Overscan{0, 0, 0, margin}}) {
       const auto part = visible_part(100, 100, overscan);
       ASSERT_FALSE(part);
-      EXPECT_EQ(part.error().fault, hal::Fault::invalid_argument);
+      EXPECT_EQ(part.error().code, hal::ErrorCode::invalid_argument);
       EXPECT_NE(part.error().message.find("expected 0 to 25"), std::string::npos);
     }
 }

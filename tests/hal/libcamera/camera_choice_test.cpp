@@ -3,7 +3,7 @@
 #include <unistd.h>
 
 #include "hal/linux/libcamera/camera_choice.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/files/scratch_folder.h"
 
 namespace octascope::tests {
 namespace {
@@ -19,7 +19,7 @@ TEST(CameraChoice, takes_the_first_that_is_not_the_line_camera) {
   EXPECT_EQ(choose_camera(three, ""), 1U);
   const auto none = choose_camera({three[0]}, "");
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().fault, hal::Fault::absent);
+  EXPECT_EQ(none.error().code, hal::ErrorCode::absent);
   EXPECT_NE(none.error().message.find("Line grabber"), std::string::npos);
 }
 
@@ -53,7 +53,7 @@ TEST_F(Absence, without_udevd_says_how_to_start_it) {
   make("dev/media0");
   EXPECT_TRUE(says("no udev daemon runs")) << explained().message;
   EXPECT_TRUE(says("systemctl start systemd-udevd"));
-  EXPECT_EQ(explained().fault, hal::Fault::absent);
+  EXPECT_EQ(explained().code, hal::ErrorCode::absent);
 }
 
 TEST_F(Absence, without_the_modules_that_steer_cameras_says_which_package) {
@@ -68,11 +68,11 @@ TEST_F(Absence, with_a_node_that_may_not_be_opened_says_which_group) {
   make("run/udev/control");
   make("dev/media0");
   ::chmod((folder_.path() / "dev/media0").c_str(), 0);
-  EXPECT_EQ(explained().fault, hal::Fault::denied);
+  EXPECT_EQ(explained().code, hal::ErrorCode::denied);
   EXPECT_TRUE(says("/dev/media0"));
   EXPECT_TRUE(says("usermod -aG video"));
   make("run/udev/queue");
-  EXPECT_EQ(explained().fault, hal::Fault::absent) << "udev may be about to allow it";
+  EXPECT_EQ(explained().code, hal::ErrorCode::absent) << "udev may be about to allow it";
 }
 
 TEST_F(Absence, with_nothing_plugged_in_says_so) {

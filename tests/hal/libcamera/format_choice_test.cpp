@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/libcamera/format_choice.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::tests {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/libcamera/frame_order.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::tests {
 namespace {

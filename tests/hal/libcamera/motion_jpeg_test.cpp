@@ -5,8 +5,8 @@
 #include <turbojpeg.h>
 
 #include "hal/linux/libcamera/motion_jpeg.h"
-#include "tests/support/fresh_seed.h"
-#include "tests/support/mutation.h"
+#include "tests/support/files/fresh_seed.h"
+#include "tests/support/files/mutation.h"
 
 namespace octascope::tests {
 namespace {
@@ -94,7 +94,7 @@ TEST_F(MotionJpeg, refuses_what_is_broken_off_or_of_another_size) {
   const std::string whole = jpeg();
   const auto cut = decode(whole.substr(0, whole.size() / 2));
   ASSERT_FALSE(cut);
-  EXPECT_EQ(cut.error().fault, hal::Fault::bad_data);
+  EXPECT_EQ(cut.error().code, hal::ErrorCode::bad_data);
   EXPECT_FALSE(decode(""));
   const auto other = decode(whole, {48, 64});
   ASSERT_FALSE(other);

@@ -9,7 +9,7 @@
 #include "hal/linux/libcamera/plane_plan.h"
 #include "hal/linux/system/file_descriptor.h"
 #include "tests/support/allocation_counter.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::tests {
 namespace {
@@ -47,7 +47,7 @@ TEST(PlanePlan, planes_apart_are_two_pieces) {
 TEST(PlanePlan, a_plane_that_is_too_short_is_refused_with_both_sizes) {
   const auto plan = backend::plan_planes({{7, 0, 62}}, {Encoding::yuyv, {6, 4}, 17});
   ASSERT_FALSE(plan);
-  EXPECT_EQ(plan.error().fault, hal::Fault::bad_data);
+  EXPECT_EQ(plan.error().code, hal::ErrorCode::bad_data);
   EXPECT_NE(plan.error().message.find("62 bytes"), std::string::npos) << plan.error().message;
   EXPECT_FALSE(backend::plan_planes({{7, 0, 32}, {8, 0, 13}}, nv12)) << "chroma";
   EXPECT_FALSE(backend::plan_planes({}, yuyv));

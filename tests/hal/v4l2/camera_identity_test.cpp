@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/v4l2/camera_identity.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/files/scratch_folder.h"
 
 namespace octascope::hal::linux_backend {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/v4l2/camera_settings.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::hal::linux_backend {
 namespace {
@@ -28,7 +28,7 @@ TEST(CameraSettings, outside_of_the_range_both_are_said) {
   EXPECT_FALSE(fit_setting(range, -1));
   SettingRange fixed = range;
   fixed.settable = false;
-  EXPECT_EQ(fit_setting(fixed, 3).error().fault, Fault::unsupported);
+  EXPECT_EQ(fit_setting(fixed, 3).error().code, ErrorCode::unsupported);
 }
 
 TEST(CameraSettings, whatever_a_driver_says_of_its_range_the_value_is_within) {
@@ -63,7 +63,7 @@ TEST(CameraSettings, blanking_makes_the_line_rate) {
   EXPECT_EQ(blanking_for(215e3, 300'000'000, 1024, range).value(), 371);
   const auto too_fast = blanking_for(300e3, 300'000'000, 1024, range);
   ASSERT_FALSE(too_fast);
-  EXPECT_EQ(too_fast.error().fault, Fault::unsupported);
+  EXPECT_EQ(too_fast.error().code, ErrorCode::unsupported);
   EXPECT_THAT(too_fast.error().message, HasSubstr("expected 2969.6 to 266903.9 Hz"));
   EXPECT_FALSE(blanking_for(100, 300'000'000, 1024, range));
   EXPECT_FALSE(blanking_for(215e3, 0, 1024, range));

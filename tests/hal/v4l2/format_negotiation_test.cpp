@@ -105,11 +105,11 @@ TEST(FormatNegotiation, refusals_have_found_and_expected) {
   const auto format = wanted(SampleType::u16, 12);
   const auto nothing = rank_formats({}, format);
   ASSERT_FALSE(nothing);
-  EXPECT_EQ(nothing.error().fault, Fault::absent);
+  EXPECT_EQ(nothing.error().code, ErrorCode::absent);
   const auto wrong =
       rank_formats(std::vector{of_size(y12, 640, 480), OfferedFormat{yuyv, {}}}, format);
   ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().fault, Fault::unsupported);
+  EXPECT_EQ(wrong.error().code, ErrorCode::unsupported);
   EXPECT_EQ(wrong.error().message,
             "it offers Y12 640×480 and 1 other formats; expected Y12 or Y16 at 1024×379 pixels "
             "(379 lines of 1024 samples, 12 bits in u16, shift 0)");
@@ -128,7 +128,7 @@ TEST(FormatNegotiation, impossible_wishes_are_the_callers_fault) {
     change(format);
     const auto checked = check_wish(format);
     ASSERT_FALSE(checked);
-    EXPECT_EQ(checked.error().fault, Fault::invalid_argument);
+    EXPECT_EQ(checked.error().code, ErrorCode::invalid_argument);
     EXPECT_THAT(checked.error().message, HasSubstr("expected"));
   };
   refused([](LineFormat& f) { f.samples_per_line = 0; });
@@ -152,7 +152,7 @@ TEST(FormatNegotiation, what_the_driver_gave_is_checked) {
     change(given);
     const auto checked = check_given(asked, given);
     ASSERT_FALSE(checked) << words;
-    EXPECT_EQ(checked.error().fault, Fault::unsupported);
+    EXPECT_EQ(checked.error().code, ErrorCode::unsupported);
     EXPECT_THAT(checked.error().message, HasSubstr(words));
   };
   refused([](GivenFormat& g) { g.code = yuyv; }, "YUYV, expected Y12");

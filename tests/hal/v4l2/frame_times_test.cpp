@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/v4l2/frame_times.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::hal::linux_backend {
 namespace {

@@ -1,7 +1,7 @@
 // The line camera on a modelled driver under its whole contract, in virtual time and in real time.
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/v4l2/v4l2_line_camera.h"
-#include "sim/virtual_clock.h"
+#include "sim/clock/virtual_clock.h"
 #include "tests/contract/line_camera_loans_contract.h"
 #include "tests/hal/v4l2/modelled_driver.h"
 
@@ -59,7 +59,7 @@ TEST(ModelledCamera, an_impossible_window_is_refused_before_anything_is_opened) 
   V4l2LineCamera camera{{.node = "/dev/video-none", .window = {{0, 0, -1, 8}}}, clock};
   const auto refused = camera.open(small_config());
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().fault, hal::Fault::invalid_argument);
+  EXPECT_EQ(refused.error().code, hal::ErrorCode::invalid_argument);
 }
 
 TEST(ModelledCamera, the_sequence_wraps_unseen) {

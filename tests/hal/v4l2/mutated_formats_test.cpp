@@ -7,7 +7,7 @@
 
 #include "hal/linux/v4l2/format_negotiation.h"
 #include "hal/linux/v4l2/pixel_formats.h"
-#include "tests/support/fresh_seed.h"
+#include "tests/support/files/fresh_seed.h"
 
 namespace octascope::hal::linux_backend {
 namespace {
@@ -97,10 +97,10 @@ TEST(MutatedFormats, give_a_request_or_words) {
     const auto ranked = rank_formats(offered, wanted);
     if (!ranked) {
       ++refused;
-      ASSERT_TRUE(ranked.error().fault == Fault::absent ||
-                  ranked.error().fault == Fault::unsupported ||
-                  ranked.error().fault == Fault::invalid_argument);
-      if (ranked.error().fault != Fault::absent)
+      ASSERT_TRUE(ranked.error().code == ErrorCode::absent ||
+                  ranked.error().code == ErrorCode::unsupported ||
+                  ranked.error().code == ErrorCode::invalid_argument);
+      if (ranked.error().code != ErrorCode::absent)
         expect_words(ranked.error());
       continue;
     }

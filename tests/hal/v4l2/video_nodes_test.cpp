@@ -6,7 +6,7 @@
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/v4l2/v4l2_line_camera.h"
 #include "hal/linux/v4l2/video_nodes.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/files/scratch_folder.h"
 
 namespace octascope::hal::linux_backend {
 namespace {
@@ -21,9 +21,9 @@ LineCameraCandidate camera(const char* node, const char* bus) {
           .unsuitable = std::nullopt};
 }
 
-LineCameraCandidate unsuitable(const char* node, Fault fault, const char* message) {
+LineCameraCandidate unsuitable(const char* node, ErrorCode fault, const char* message) {
   LineCameraCandidate candidate = camera(node, "bus");
-  candidate.captures = fault != Fault::denied;
+  candidate.captures = fault != ErrorCode::denied;
   candidate.unsuitable = Error{fault, message};
   return candidate;
 }
@@ -40,7 +40,7 @@ TEST(VideoNodes, are_listed_by_their_numbers) {
 }
 
 TEST(VideoNodes, the_first_that_suits_is_picked_but_the_one_of_last_time_before) {
-  const std::vector candidates{unsuitable("/dev/video0", Fault::unsupported, "a web camera"),
+  const std::vector candidates{unsuitable("/dev/video0", ErrorCode::unsupported, "a web camera"),
                                camera("/dev/video1", "usb-1"), camera("/dev/video4", "usb-2")};
   EXPECT_EQ(pick_line_camera(candidates, "", {}).value(), "/dev/video1");
   EXPECT_EQ(pick_line_camera(candidates, "usb-2", {}).value(), "/dev/video4");
@@ -50,21 +50,21 @@ TEST(VideoNodes, the_first_that_suits_is_picked_but_the_one_of_last_time_before)
 TEST(VideoNodes, without_one_it_is_absent_and_each_camera_has_its_reason) {
   const auto none = pick_line_camera({}, "", {});
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().fault, Fault::absent);
+  EXPECT_EQ(none.error().code, ErrorCode::absent);
   EXPECT_THAT(none.error().message, HasSubstr("0 video devices, expected one with 379 lines"));
   const auto wrong =
-      pick_line_camera({unsuitable("/dev/video0", Fault::unsupported, "a web camera")}, "", {});
+      pick_line_camera({unsuitable("/dev/video0", ErrorCode::unsupported, "a web camera")}, "", {});
   ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().fault, Fault::absent);
+  EXPECT_EQ(wrong.error().code, ErrorCode::absent);
   EXPECT_THAT(wrong.error().message, HasSubstr("a web camera"));
 }
 
 TEST(VideoNodes, missing_permission_is_said_once) {
-  const auto denied = pick_line_camera({unsuitable("/dev/video0", Fault::denied, "join video"),
-                                        unsuitable("/dev/video1", Fault::denied, "join video")},
+  const auto denied = pick_line_camera({unsuitable("/dev/video0", ErrorCode::denied, "join video"),
+                                        unsuitable("/dev/video1", ErrorCode::denied, "join video")},
                                        "", {});
   ASSERT_FALSE(denied);
-  EXPECT_EQ(denied.error().fault, Fault::denied);
+  EXPECT_EQ(denied.error().code, ErrorCode::denied);
   EXPECT_THAT(denied.error().message, HasSubstr("2 of them may not be opened: join video"));
 }
 
@@ -73,12 +73,12 @@ TEST(VideoNodes, what_is_no_video_device_is_refused_in_words) {
   V4l2LineCamera nowhere{{.node = "/dev/video-none"}, clock};
   const auto absent = nowhere.open({});
   ASSERT_FALSE(absent);
-  EXPECT_EQ(absent.error().fault, Fault::absent);
+  EXPECT_EQ(absent.error().code, ErrorCode::absent);
   EXPECT_EQ(nowhere.state(), DeviceState::absent);
   V4l2LineCamera other{{.node = "/dev/null"}, clock};
   const auto refused = other.open({});
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().fault, Fault::unsupported);
+  EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
   EXPECT_THAT(refused.error().message, HasSubstr("/dev/null: it is no video device"));
 }
 

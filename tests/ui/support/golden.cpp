@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/built_places.h"
+#include "tests/support/program/built_places.h"
 #include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/structural_similarity.h"
 

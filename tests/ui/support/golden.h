@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "pipeline/png_image.h"
+#include "pipeline/files/png_image.h"
 
 namespace octascope::tests {
 

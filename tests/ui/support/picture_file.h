@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "pipeline/png_image.h"
+#include "pipeline/files/png_image.h"
 
 namespace octascope::tests {
 

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "pipeline/level_scale.h"
+#include "pipeline/volume/level_scale.h"
 #include "ui/ray_caster/ray_geometry.h"
 
 namespace octascope::tests {

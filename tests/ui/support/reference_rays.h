@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "pipeline/volume.h"
-#include "ui/camera.h"
+#include "pipeline/volume/volume.h"
+#include "ui/view/camera.h"
 #include "ui/ray_caster/ray_caster.h"
-#include "ui/view_state.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::tests {
 

@@ -1,4 +1,4 @@
-// The segments of a vessel tree on the screen (ui/vessels/vessel_scene.h), in double precision.
+// The segments of a vessel tree on the screen (ui/vessels/scene/vessel_scene.h), in double precision.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "ui/vessels/vessel_scene.h"
+#include "ui/vessels/scene/vessel_scene.h"
 
 namespace octascope::tests {
 

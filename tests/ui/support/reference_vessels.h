@@ -1,10 +1,10 @@
-// The shape of ui/vessels/vessel_scene.h in double precision, pixel by pixel, with nothing left
+// The shape of ui/vessels/scene/vessel_scene.h in double precision, pixel by pixel, with nothing left
 // out.
 #pragma once
 
 #include <vector>
 
-#include "ui/vessels/vessel_scene.h"
+#include "ui/vessels/scene/vessel_scene.h"
 
 namespace octascope::tests {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "hal/scope_camera.h"
-#include "pipeline/volume.h"
-#include "ui/scan_field.h"
-#include "ui/status.h"
+#include "pipeline/volume/volume.h"
+#include "ui/layout/scan_field.h"
+#include "ui/status/status.h"
 
 namespace octascope::tests {
 

@@ -34,7 +34,7 @@ bool may_be(const ui::VesselScene& scene, const ReferenceSegment& s, const Refer
 
 class Checker {
 public:
-  Checker(const ui::VesselScene& scene, const ui::SplatImage& image)
+  Checker(const ui::VesselScene& scene, const ui::DepthImage& image)
       : scene_{scene}, image_{image}, explained_(pixels(), 0), missed_(pixels(), 0) {}
 
   void add(const ReferenceSegment& s) {
@@ -47,7 +47,7 @@ public:
 
   SplatCheck result() {
     for (std::size_t i = 0; i < pixels(); ++i) {
-      const bool covered = image_.pixels[i] != ui::empty_splat;
+      const bool covered = image_.pixels[i] != ui::empty_depth_pixel;
       result_.covered += covered;
       result_.unexplained += covered && !explained_[i];
       result_.missed += missed_[i];
@@ -74,7 +74,7 @@ private:
   }
 
   const ui::VesselScene& scene_;
-  const ui::SplatImage& image_;
+  const ui::DepthImage& image_;
   std::vector<std::uint8_t> explained_;
   std::vector<std::uint8_t> missed_;
   SplatCheck result_;
@@ -82,7 +82,7 @@ private:
 
 } // namespace
 
-SplatCheck check_splats(const ui::VesselScene& scene, const ui::SplatImage& image) {
+SplatCheck check_splats(const ui::VesselScene& scene, const ui::DepthImage& image) {
   Checker checker{scene, image};
   for (const ReferenceSegment& segment : reference_segments(scene))
     checker.add(segment);

@@ -1,11 +1,11 @@
-// A picture of vessels compared with their definition (ui/vessels/vessel_scene.h), segment by
+// A picture of vessels compared with their definition (ui/vessels/scene/vessel_scene.h), segment by
 // segment and pixel by pixel, in double precision.
 #pragma once
 
 #include <cstddef>
 
-#include "ui/vessels/splatter/splat_image.h"
-#include "ui/vessels/vessel_scene.h"
+#include "ui/depth_mask/depth_image.h"
+#include "ui/vessels/scene/vessel_scene.h"
 
 namespace octascope::tests {
 
@@ -19,6 +19,6 @@ struct SplatCheck {
   std::size_t sub_pixel = 0; // segments drawn with a radius below half a pixel
 };
 
-SplatCheck check_splats(const ui::VesselScene& scene, const ui::SplatImage& image);
+SplatCheck check_splats(const ui::VesselScene& scene, const ui::DepthImage& image);
 
 } // namespace octascope::tests

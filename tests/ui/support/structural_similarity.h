@@ -1,7 +1,7 @@
 // How alike two pictures are in structure: what a mean difference overlooks, a small shift or blur.
 #pragma once
 
-#include "pipeline/png_image.h"
+#include "pipeline/files/png_image.h"
 
 namespace octascope::tests {
 

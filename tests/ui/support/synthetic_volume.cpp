@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "pipeline/level_scale.h"
+#include "pipeline/volume/level_scale.h"
 
 namespace octascope::tests {
 

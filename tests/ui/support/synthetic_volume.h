@@ -1,7 +1,7 @@
 // Volumes with known contents.
 #pragma once
 
-#include "pipeline/volume.h"
+#include "pipeline/volume/volume.h"
 #include "ui/hud/window_histogram.h"
 
 namespace octascope::tests {

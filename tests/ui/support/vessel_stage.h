@@ -6,17 +6,18 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/vessels/cluster_builder.h"
-#include "ui/vessels/vessel_methods.h"
-#include "ui/vessels/vessel_picture.h"
-#include "ui/vessels/vessel_view.h"
+#include "pipeline/vessels/clusters/cluster_builder.h"
+#include "ui/vessels/pictures/vessel_methods.h"
+#include "ui/vessels/pictures/vessel_picture.h"
+#include "ui/vessels/view/vessel_view.h"
+#include "ui/view/segment_counts.h"
 
 namespace octascope::tests {
 
 struct DrawnVessels {
   pipeline::Image colour;
   std::vector<float> depth; // of the window, 0…1
-  ui::VesselAccount account;
+  ui::SegmentCounts account;
 
   bool covered(std::size_t pixel) const { return depth[pixel] < 1; }
 };

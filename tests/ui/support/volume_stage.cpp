@@ -6,7 +6,7 @@
 #include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/volume_geometry.h"
+#include "pipeline/volume/volume_geometry.h"
 
 namespace octascope::tests {
 

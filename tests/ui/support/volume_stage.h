@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "pipeline/volume.h"
+#include "pipeline/volume/volume.h"
 #include "ui/ray_caster/ray_caster.h"
 #include "ui/volume/volume_picture.h"
 

@@ -5,7 +5,7 @@
 
 #include "hal/linux/kms/kms_display.h"
 #include "hal/linux/monotonic_clock.h"
-#include "sim/offscreen_display.h"
+#include "sim/devices/offscreen_display.h"
 #include "tests/ui/support/scene.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "tests/virtual_hardware/support/scanout_reader.h"

@@ -1,5 +1,5 @@
-// The whole program in a theatre without hardware: started without a flag, as the service starts
-// it.
+// The whole program in a virtual_rig without hardware: started without a flag, as the service
+// starts it.
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -16,8 +16,8 @@
 #include <linux/input-event-codes.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/program_run.h"
-#include "tests/virtual_hardware/appliance/theatre.h"
+#include "tests/support/program/program_run.h"
+#include "tests/virtual_hardware/appliance/virtual_rig.h"
 #include "tests/virtual_hardware/kms/vkms_card.h"
 #include "tests/virtual_hardware/support/scanout_reader.h"
 
@@ -30,21 +30,21 @@ constexpr const char* report_file = "/tmp/report.json";
 constexpr const char* runtime_folder = "/run/octascope";
 constexpr std::uint8_t left = 1, centre = 2;
 
-class InTheatre : public testing::Test {
+class InVirtualRig : public testing::Test {
 protected:
   void SetUp() override {
-    if (const std::string missing = theatre_missing(); !missing.empty())
+    if (const std::string missing = virtual_rig_missing(); !missing.empty())
       GTEST_SKIP() << missing;
-    ASSERT_TRUE(write_theatre_configuration("/etc/octascope", TheatreStart::by_hand));
-    open_theatre();
+    ASSERT_TRUE(write_virtual_rig_configuration("/etc/octascope", VirtualRigStart::by_hand));
+    open_virtual_rig();
   }
 
-  void open_theatre() {
-    auto phantom = theatre_phantom(2);
+  void open_virtual_rig() {
+    auto phantom = virtual_rig_phantom(2);
     ASSERT_TRUE(phantom) << phantom.error().message;
-    auto made = Theatre::make(std::move(*phantom));
+    auto made = VirtualRig::make(std::move(*phantom));
     ASSERT_TRUE(made) << made.error().message;
-    theatre_ = std::move(*made);
+    virtual_rig_ = std::move(*made);
   }
 
   void start(const std::vector<std::string>& environment = {},
@@ -76,7 +76,7 @@ protected:
     nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
     EXPECT_FALSE(report.is_discarded());
     RecordProperty("report", report.dump());
-    std::cout << theatre_->pulses() << " pulses, " << theatre_->frames() << " B-scans fed; "
+    std::cout << virtual_rig_->pulses() << " pulses, " << virtual_rig_->frames() << " B-scans fed; "
               << report.value("volumes", nlohmann::json{}) << report.value("lost", nlohmann::json{})
               << report.value("rates", nlohmann::json{}) << report.value("faults", nlohmann::json{})
               << '\n';
@@ -95,8 +95,8 @@ protected:
 
   // So many more volumes were scanned.
   bool scanned(std::uint64_t volumes, WallClock::duration most = 40s) {
-    const std::uint64_t first = theatre_->pulses();
-    return within(most, [&] { return theatre_->pulses() >= first + volumes; });
+    const std::uint64_t first = virtual_rig_->pulses();
+    return within(most, [&] { return virtual_rig_->pulses() >= first + volumes; });
   }
 
   static ScanoutPicture screen() {
@@ -172,13 +172,13 @@ protected:
     return count;
   }
 
-  std::unique_ptr<Theatre> theatre_;
+  std::unique_ptr<VirtualRig> virtual_rig_;
   std::unique_ptr<ProgramRun> run_;
 };
 
 // The bench has one processor, in a machine that may be busy: it has three tries to keep the rate.
 // A program that loses volumes loses them in each.
-TEST_F(InTheatre, finds_all_five_devices_by_itself_and_loses_nothing) {
+TEST_F(InVirtualRig, finds_all_five_devices_by_itself_and_loses_nothing) {
   nlohmann::json report;
   for (int attempt = 0; attempt < 3; ++attempt) {
     start();
@@ -202,7 +202,7 @@ TEST_F(InTheatre, finds_all_five_devices_by_itself_and_loses_nothing) {
 }
 
 // Else every depth on the screen would be wrong by the same share, unnoticed.
-TEST_F(InTheatre, depths_are_as_far_apart_as_the_cameras_calibration_says) {
+TEST_F(InVirtualRig, depths_are_as_far_apart_as_the_cameras_calibration_says) {
   const std::filesystem::path folder = "/etc/octascope";
   edit(folder / "calibration.toml", "spacing_um = 3.5", "spacing_um = 4.25");
   EXPECT_EQ(recorded_depth_spacing_um(), 4.25);
@@ -210,12 +210,12 @@ TEST_F(InTheatre, depths_are_as_far_apart_as_the_cameras_calibration_says) {
   EXPECT_EQ(recorded_depth_spacing_um(), 6.5) << "what [scan] says itself goes first";
 }
 
-TEST_F(InTheatre, a_foot_on_the_pedal_changes_what_the_monitor_shows) {
+TEST_F(InVirtualRig, a_foot_on_the_pedal_changes_what_the_monitor_shows) {
   start();
   ASSERT_TRUE(scanned(4));
-  ASSERT_TRUE(theatre_->tread(centre)); // freezes
+  ASSERT_TRUE(virtual_rig_->tread(centre)); // freezes
   std::this_thread::sleep_for(100ms);
-  ASSERT_TRUE(theatre_->tread(0));
+  ASSERT_TRUE(virtual_rig_->tread(0));
   // Frozen, the picture comes to rest, however many volumes are scanned meanwhile.
   ScanoutPicture frozen = screen();
   ASSERT_TRUE(within(30s, [&] {
@@ -223,21 +223,21 @@ TEST_F(InTheatre, a_foot_on_the_pedal_changes_what_the_monitor_shows) {
     const ScanoutPicture before = std::exchange(frozen, screen());
     return changed(before, frozen) < 0.01;
   }));
-  ASSERT_TRUE(theatre_->tread(left)); // held: back to the first view; then released
+  ASSERT_TRUE(virtual_rig_->tread(left)); // held: back to the first view; then released
   std::this_thread::sleep_for(100ms);
-  ASSERT_TRUE(theatre_->tread(0));
-  ASSERT_TRUE(theatre_->tread(centre));
+  ASSERT_TRUE(virtual_rig_->tread(0));
+  ASSERT_TRUE(virtual_rig_->tread(centre));
   std::this_thread::sleep_for(100ms);
-  ASSERT_TRUE(theatre_->tread(0)); // live again
+  ASSERT_TRUE(virtual_rig_->tread(0)); // live again
   EXPECT_TRUE(within(20s, [&] { return changed(frozen, screen()) > 0.02; })) << "live again";
   const nlohmann::json report = end();
   EXPECT_EQ(report["actions"]["freeze"], 2);
   EXPECT_EQ(report["actions"]["previous_parameter"], 1);
 }
 
-TEST_F(InTheatre, the_listed_keyboard_steers_and_a_strange_one_does_not) {
-  auto keyboard = Theatre::plug_keyboard();
-  const auto strange = Theatre::plug_strange_keyboard();
+TEST_F(InVirtualRig, the_listed_keyboard_steers_and_a_strange_one_does_not) {
+  auto keyboard = VirtualRig::plug_keyboard();
+  const auto strange = VirtualRig::plug_strange_keyboard();
   ASSERT_TRUE(keyboard && strange);
   const auto type = [](VirtualKeyboard& on, std::uint16_t key) {
     EXPECT_TRUE(on.set(key, true));
@@ -254,7 +254,7 @@ TEST_F(InTheatre, the_listed_keyboard_steers_and_a_strange_one_does_not) {
   ASSERT_TRUE(run_->running());
   type(**keyboard, KEY_SPACE); // freezes
   keyboard->reset();
-  keyboard = Theatre::plug_keyboard();
+  keyboard = VirtualRig::plug_keyboard();
   ASSERT_TRUE(keyboard);
   ASSERT_TRUE(within(20s, [&] { return (*keyboard)->is_grabbed(); }));
   type(**keyboard, KEY_SPACE); // live again
@@ -265,7 +265,7 @@ TEST_F(InTheatre, the_listed_keyboard_steers_and_a_strange_one_does_not) {
 }
 
 // As systemd starts it: the graphics driver may be loaded, and the monitor awake, a little later.
-TEST_F(InTheatre, as_a_service_it_waits_for_its_monitor_at_the_start) {
+TEST_F(InVirtualRig, as_a_service_it_waits_for_its_monitor_at_the_start) {
   const auto card = find_vkms();
   ASSERT_TRUE(card);
   ASSERT_TRUE(set_cable(*card, "off"));
@@ -281,19 +281,19 @@ TEST_F(InTheatre, as_a_service_it_waits_for_its_monitor_at_the_start) {
   EXPECT_GE(end()["volumes"]["displayed"], 1);
 }
 
-TEST_F(InTheatre, two_devices_vanish_at_once_and_come_back) {
+TEST_F(InVirtualRig, two_devices_vanish_at_once_and_come_back) {
   start();
   ASSERT_TRUE(scanned(4));
-  theatre_->pull_pedal();
-  ASSERT_TRUE(theatre_->chip().remove());
+  virtual_rig_->pull_pedal();
+  ASSERT_TRUE(virtual_rig_->chip().remove());
   std::this_thread::sleep_for(3s);
   ASSERT_TRUE(run_->running());
-  ASSERT_TRUE(theatre_->chip().restore());
-  ASSERT_TRUE(theatre_->plug_pedal());
+  ASSERT_TRUE(virtual_rig_->chip().restore());
+  ASSERT_TRUE(virtual_rig_->plug_pedal());
   ASSERT_TRUE(scanned(4)) << "the scanner is triggered again";
-  ASSERT_TRUE(theatre_->tread(centre));
+  ASSERT_TRUE(virtual_rig_->tread(centre));
   std::this_thread::sleep_for(100ms);
-  ASSERT_TRUE(theatre_->tread(0));
+  ASSERT_TRUE(virtual_rig_->tread(0));
   std::this_thread::sleep_for(1s);
   const nlohmann::json report = end();
   EXPECT_EQ(report["actions"]["freeze"], 1) << "the pedal serves again";
@@ -302,8 +302,8 @@ TEST_F(InTheatre, two_devices_vanish_at_once_and_come_back) {
 }
 
 // Flips would go on without a word: nothing is drawn any more into what they show.
-TEST_F(InTheatre, a_graphics_processor_that_is_reset_is_told_and_draws_again) {
-  start({std::string{"LD_PRELOAD="} + OCTASCOPE_PUPPET_DRIVER, "OCTASCOPE_PUPPET_RESET=25 3"});
+TEST_F(InVirtualRig, a_graphics_processor_that_is_reset_is_told_and_draws_again) {
+  start({std::string{"LD_PRELOAD="} + OCTASCOPE_FAKE_DRIVER, "OCTASCOPE_FAKE_RESET=25 3"});
   nlohmann::json told;
   ASSERT_TRUE(within(40s, [&] {
     std::this_thread::sleep_for(500ms); // one processor: asking takes from what is asked
@@ -323,13 +323,13 @@ TEST_F(InTheatre, a_graphics_processor_that_is_reset_is_told_and_draws_again) {
   EXPECT_NE(faults.find("was reset (by another program)"), std::string::npos) << faults;
 }
 
-TEST_F(InTheatre, a_camera_that_falls_silent_is_told_and_its_return_is_seen) {
+TEST_F(InVirtualRig, a_camera_that_falls_silent_is_told_and_its_return_is_seen) {
   start();
   ASSERT_TRUE(scanned(4));
-  theatre_->blind_camera(true);
+  virtual_rig_->blind_camera(true);
   std::this_thread::sleep_for(3s);
   EXPECT_GT(share_of_amber(screen()), 0.005) << "STALE, and a frame around what is old";
-  theatre_->blind_camera(false);
+  virtual_rig_->blind_camera(false);
   ASSERT_TRUE(scanned(4));
   const nlohmann::json report = end();
   EXPECT_GE(report["lost"]["volumes"], 2);
@@ -338,11 +338,11 @@ TEST_F(InTheatre, a_camera_that_falls_silent_is_told_and_its_return_is_seen) {
 }
 
 // The scanner scans on, so nothing but its sync line says that something is wrong.
-TEST_F(InTheatre, a_scanner_that_does_not_answer_is_told_until_it_does) {
+TEST_F(InVirtualRig, a_scanner_that_does_not_answer_is_told_until_it_does) {
   constexpr const char* words = "The scanner does not answer: is it on?";
   start();
   ASSERT_TRUE(scanned(3));
-  theatre_->mute_scanner(true);
+  virtual_rig_->mute_scanner(true);
   nlohmann::json told;
   const auto says_so = [&] {
     std::this_thread::sleep_for(300ms); // one processor: asking takes from what is asked
@@ -350,10 +350,10 @@ TEST_F(InTheatre, a_scanner_that_does_not_answer_is_told_until_it_does) {
     return told.contains("picture") && told["picture"]["notice"] == words;
   };
   EXPECT_TRUE(within(40s, says_so)) << told;
-  theatre_->mute_scanner(false);
-  const std::uint64_t answered = theatre_->pulses();
+  virtual_rig_->mute_scanner(false);
+  const std::uint64_t answered = virtual_rig_->pulses();
   EXPECT_TRUE(within(40s, [&] {
-    return !says_so() && theatre_->pulses() >= answered + 3 &&
+    return !says_so() && virtual_rig_->pulses() >= answered + 3 &&
            trigger_fault(told, "unanswered_pulse").value("last_s_ago", 0.0) > 2.5;
   })) << told;
   const nlohmann::json report = end();
@@ -362,26 +362,26 @@ TEST_F(InTheatre, a_scanner_that_does_not_answer_is_told_until_it_does) {
 }
 
 // As if the camera were plugged in, or udev had just gone through it, when the twin serves already.
-class BeforeTheatre : public InTheatre {
+class BeforeVirtualRig : public InVirtualRig {
 protected:
   void SetUp() override {
-    if (const std::string missing = theatre_missing(); !missing.empty())
+    if (const std::string missing = virtual_rig_missing(); !missing.empty())
       GTEST_SKIP() << missing;
-    ASSERT_TRUE(write_theatre_configuration("/etc/octascope", TheatreStart::by_hand));
+    ASSERT_TRUE(write_virtual_rig_configuration("/etc/octascope", VirtualRigStart::by_hand));
   }
 
-  void open_theatre_late() {
+  void open_virtual_rig_late() {
     ASSERT_TRUE(within(30s, [] { return status().value("simulated", false); }));
-    open_theatre();
+    open_virtual_rig();
     const ProgramResult told =
         run_program({"udevadm", "trigger", "--action=change", "--subsystem-match=video4linux"});
     ASSERT_EQ(told.exit_status, 0) << told.describe();
   }
 };
 
-TEST_F(BeforeTheatre, a_camera_that_comes_later_is_told_beside_its_twin) {
+TEST_F(BeforeVirtualRig, a_camera_that_comes_later_is_told_beside_its_twin) {
   start();
-  open_theatre_late();
+  open_virtual_rig_late();
   EXPECT_TRUE(within(20s, [] {
     const nlohmann::json told = status();
     return told.contains("picture") &&
@@ -392,9 +392,10 @@ TEST_F(BeforeTheatre, a_camera_that_comes_later_is_told_beside_its_twin) {
   EXPECT_EQ(fault_count(report, "line_camera"), 1U);
 }
 
-TEST_F(BeforeTheatre, a_service_ends_for_a_camera_that_comes_later_and_has_it_at_the_next_start) {
+TEST_F(BeforeVirtualRig,
+       a_service_ends_for_a_camera_that_comes_later_and_has_it_at_the_next_start) {
   start({"NOTIFY_SOCKET=/run/nobody"}, {"--display", "kms"});
-  open_theatre_late();
+  open_virtual_rig_late();
   const ProgramResult ended = run_->wait(20s);
   EXPECT_EQ(ended.exit_status, 0) << ended.describe();
   start({"NOTIFY_SOCKET=/run/nobody"}, {"--display", "kms"});

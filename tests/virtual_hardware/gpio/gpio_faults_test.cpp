@@ -19,7 +19,7 @@
 namespace octascope::tests {
 namespace {
 
-using hal::Fault;
+using hal::ErrorCode;
 using hal::linux_backend::FileDescriptor;
 using hal::linux_backend::GpioGalvoTrigger;
 using testing::AllOf;
@@ -28,9 +28,9 @@ using namespace std::chrono_literals;
 
 class GpioFaults : public GpioTest {
 protected:
-  static void expect_fault(const auto& result, Fault fault, const auto& message) {
+  static void expect_fault(const auto& result, ErrorCode fault, const auto& message) {
     ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().fault, fault) << result.error().message;
+    EXPECT_EQ(result.error().code, fault) << result.error().message;
     EXPECT_THAT(result.error().message, message);
   }
 
@@ -62,7 +62,7 @@ FileDescriptor hold(const std::string& node, unsigned line, const char* consumer
 TEST_F(GpioFaults, a_line_held_by_another_names_the_holder_until_it_is_free) {
   FileDescriptor other = hold(chip_->node(), trigger_line, "pump-control");
   GpioGalvoTrigger trigger{clock_};
-  expect_fault(trigger.open({}), Fault::busy,
+  expect_fault(trigger.open({}), ErrorCode::busy,
                AllOf(HasSubstr("octascope-trigger"), HasSubstr("pump-control")));
   EXPECT_EQ(trigger.state(), hal::DeviceState::absent);
   other.reset();
@@ -72,14 +72,14 @@ TEST_F(GpioFaults, a_line_held_by_another_names_the_holder_until_it_is_free) {
 TEST_F(GpioFaults, an_open_trigger_holds_its_line_under_its_name) {
   GpioGalvoTrigger first{clock_}, second{clock_};
   ASSERT_TRUE(first.open({}));
-  expect_fault(second.open({}), Fault::busy, HasSubstr("held by \"octascope\""));
+  expect_fault(second.open({}), ErrorCode::busy, HasSubstr("held by \"octascope\""));
   first.close();
   EXPECT_TRUE(second.open({}));
 }
 
 TEST_F(GpioFaults, an_unknown_line_is_never_guessed) {
   GpioGalvoTrigger trigger{clock_, {.line = "pump"}};
-  expect_fault(trigger.open({}), Fault::absent,
+  expect_fault(trigger.open({}), ErrorCode::absent,
                AllOf(HasSubstr("\"pump\""), HasSubstr("6 lines"), HasSubstr("gpioinfo")));
 }
 
@@ -88,7 +88,7 @@ TEST_F(GpioFaults, a_name_that_two_lines_have_is_refused) {
       SimGpioChip::make("octascope-second-" + std::to_string(::getpid()), {"octascope-trigger"});
   ASSERT_TRUE(second);
   GpioGalvoTrigger trigger{clock_};
-  expect_fault(trigger.open({}), Fault::invalid_argument, HasSubstr("2 lines"));
+  expect_fault(trigger.open({}), ErrorCode::invalid_argument, HasSubstr("2 lines"));
   const std::string chip = chip_->node().substr(std::strlen("/dev/"));
   GpioGalvoTrigger exact{clock_, {.line = chip + ":3"}};
   ASSERT_TRUE(exact.open({.pulse_width = 10s}));
@@ -100,7 +100,7 @@ TEST_F(GpioFaults, a_name_that_two_lines_have_is_refused) {
 TEST_F(GpioFaults, an_offset_that_the_chip_does_not_have_is_refused) {
   const std::string chip = chip_->node().substr(std::strlen("/dev/"));
   GpioGalvoTrigger trigger{clock_, {.line = chip + ":6"}};
-  expect_fault(trigger.open({}), Fault::invalid_argument, HasSubstr("0 to 5"));
+  expect_fault(trigger.open({}), ErrorCode::invalid_argument, HasSubstr("0 to 5"));
 }
 
 // In a child, because it cannot become root again.
@@ -114,7 +114,7 @@ TEST_F(GpioFaults, without_permission_the_message_says_which_group) {
       ::_exit(2);
     GpioGalvoTrigger trigger{clock_};
     const auto opened = trigger.open({});
-    const bool told = !opened && opened.error().fault == Fault::denied &&
+    const bool told = !opened && opened.error().code == ErrorCode::denied &&
                       opened.error().message.find("usermod -aG gpio") != std::string::npos;
     if (!told)
       std::fprintf(stderr, "%s\n", opened ? "it opened" : opened.error().message.c_str());
@@ -130,10 +130,10 @@ TEST_F(GpioFaults, a_chip_that_goes_in_the_middle_of_a_long_pulse_is_survived) {
   ASSERT_TRUE(trigger.open({.pulse_width = 20ms}));
   ASSERT_TRUE(trigger.arm());
   ASSERT_TRUE(chip_->remove());
-  expect_fault(trigger.arm(), Fault::disconnected, HasSubstr("octascope-trigger"));
+  expect_fault(trigger.arm(), ErrorCode::disconnected, HasSubstr("octascope-trigger"));
   EXPECT_EQ(trigger.state(), hal::DeviceState::failed);
   trigger.close();
-  expect_fault(trigger.open({}), Fault::absent, HasSubstr("octascope-trigger"));
+  expect_fault(trigger.open({}), ErrorCode::absent, HasSubstr("octascope-trigger"));
   ASSERT_TRUE(chip_->restore());
   ASSERT_TRUE(trigger.open({.pulse_width = 20ms}));
   EXPECT_FALSE(chip_->level(trigger_line));

@@ -83,7 +83,7 @@ TEST_F(GpioSync, a_sync_line_that_is_not_there_is_told) {
   GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-answer"}};
   const auto opened = trigger.open({});
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().fault, hal::Fault::absent);
+  EXPECT_EQ(opened.error().code, hal::ErrorCode::absent);
   EXPECT_NE(opened.error().message.find("octascope-answer"), std::string::npos);
   GpioGalvoTrigger other{clock_};
   EXPECT_TRUE(other.open({})) << "the trigger line was given back";

@@ -17,7 +17,7 @@
 namespace octascope::tests {
 namespace {
 
-using hal::Fault;
+using hal::ErrorCode;
 using hal::linux_backend::HidControls;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -25,9 +25,9 @@ using namespace std::chrono_literals;
 
 class HidFaults : public HidTest {
 protected:
-  static void expect_fault(const auto& result, Fault fault, const auto& message) {
+  static void expect_fault(const auto& result, ErrorCode fault, const auto& message) {
     ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().fault, fault) << result.error().message;
+    EXPECT_EQ(result.error().code, fault) << result.error().message;
     EXPECT_THAT(result.error().message, message);
   }
 };
@@ -53,10 +53,10 @@ bool is_heard(VirtualPedal& pedal) {
 }
 
 TEST_F(HidFaults, nothing_that_is_known_is_told_with_what_is_there) {
-  expect_fault(controls_.open(), Fault::absent, HasSubstr("no HID device"));
+  expect_fault(controls_.open(), ErrorCode::absent, HasSubstr("no HID device"));
   const auto keyboard = plug_in(strange_keyboard());
   ASSERT_TRUE(keyboard);
-  expect_fault(controls_.open(), Fault::absent,
+  expect_fault(controls_.open(), ErrorCode::absent,
                AllOf(HasSubstr("1234:5678 Somebody's keyboard"), HasSubstr("--learn")));
 }
 
@@ -85,7 +85,7 @@ TEST_F(HidFaults, a_pedal_that_somebody_has_grabbed_is_busy_until_it_is_let_go) 
   ASSERT_TRUE(pedal);
   HidControls other{clock_};
   ASSERT_TRUE(other.open());
-  expect_fault(controls_.open(), Fault::busy,
+  expect_fault(controls_.open(), ErrorCode::busy,
                AllOf(HasSubstr("PCsensor"), HasSubstr(pedal->event_node()), HasSubstr("grabbed")));
   other.close();
   EXPECT_TRUE(controls_.open());
@@ -104,7 +104,7 @@ TEST_F(HidFaults, without_permission_the_message_names_the_udev_rule) {
       ::_exit(2);
     HidControls controls{clock_};
     const auto opened = controls.open();
-    const bool told = !opened && opened.error().fault == Fault::denied &&
+    const bool told = !opened && opened.error().code == ErrorCode::denied &&
                       opened.error().message.find("70-octascope.rules") != std::string::npos &&
                       opened.error().message.find("VEC Infinity") != std::string::npos;
     if (!told)

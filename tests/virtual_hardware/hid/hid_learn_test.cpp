@@ -65,7 +65,7 @@ TEST_F(HidLearn, one_that_goes_meanwhile_is_told) {
   pedal_.reset();
   const auto lines = session->listen(1s);
   ASSERT_FALSE(lines);
-  EXPECT_EQ(lines.error().fault, hal::Fault::disconnected);
+  EXPECT_EQ(lines.error().code, hal::ErrorCode::disconnected);
 }
 
 } // namespace

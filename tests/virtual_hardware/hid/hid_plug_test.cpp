@@ -8,7 +8,7 @@
 namespace octascope::tests {
 namespace {
 
-using hal::Fault;
+using hal::ErrorCode;
 using namespace std::chrono_literals;
 
 class HidPlug : public HidTest {
@@ -31,7 +31,7 @@ protected:
       if (!count)
         return count.error();
       if (*count == 0)
-        return {Fault::timed_out, "nothing happened"};
+        return {ErrorCode::timed_out, "nothing happened"};
       for (const hal::ControlEvent& event : std::span{events}.first(*count))
         moves.push_back({event.kind, event.index, event.value});
     }
@@ -87,7 +87,7 @@ TEST_F(HidPlug, when_one_of_two_goes_the_other_serves_on_after_reopening) {
   EXPECT_EQ(read_all().size(), 2U);
   knob.reset();
   Moves moves;
-  EXPECT_EQ(read_to_the_end(moves).fault, Fault::disconnected);
+  EXPECT_EQ(read_to_the_end(moves).code, ErrorCode::disconnected);
   EXPECT_EQ(moves, (Moves{released(0), released(3)}));
   controls_.close();
   EXPECT_TRUE(controls_.serving().empty());
@@ -105,7 +105,7 @@ TEST_F(HidPlug, a_puck_pulled_out_while_pushed_is_centred) {
   EXPECT_EQ(read_all(), (Moves{pushed(0, 1000), pressed(0)}));
   puck.reset();
   Moves moves;
-  EXPECT_EQ(read_to_the_end(moves).fault, Fault::disconnected);
+  EXPECT_EQ(read_to_the_end(moves).code, ErrorCode::disconnected);
   EXPECT_EQ(moves, (Moves{released(0), pushed(0, 0)}));
 }
 
@@ -124,7 +124,7 @@ TEST_F(HidPlug, two_hundred_plug_cycles_leak_nothing) {
     pedal.reset();
     if (i % 2 != 0) {
       Moves moves;
-      ASSERT_EQ(read_to_the_end(moves).fault, Fault::disconnected);
+      ASSERT_EQ(read_to_the_end(moves).code, ErrorCode::disconnected);
       ASSERT_EQ(moves, (Moves{released(0)}));
       controls_.close();
     }

@@ -126,7 +126,7 @@ TEST_P(KmsFault, a_pulled_cable_is_said_and_over_when_it_is_back) {
   ASSERT_TRUE(set_cable(card_, "off"));
   const auto flip = display.present();
   ASSERT_FALSE(flip);
-  EXPECT_EQ(flip.error().fault, hal::Fault::disconnected);
+  EXPECT_EQ(flip.error().code, hal::ErrorCode::disconnected);
   EXPECT_THAT(flip.error().message, AllOf(HasSubstr("Virtual-1"), HasSubstr("cable")));
   EXPECT_EQ(display.state(), hal::DeviceState::failed);
   EXPECT_FALSE(display.present()) << "only close() and open() lead on";
@@ -135,7 +135,7 @@ TEST_P(KmsFault, a_pulled_cable_is_said_and_over_when_it_is_back) {
 
   const auto opened = display.open({});
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().fault, hal::Fault::absent);
+  EXPECT_EQ(opened.error().code, hal::ErrorCode::absent);
   EXPECT_THAT(opened.error().message,
               AllOf(HasSubstr("Virtual-1 (disconnected)"), HasSubstr("cable")));
 
@@ -186,7 +186,7 @@ TEST_P(KmsFault, another_program_on_the_card_is_named_as_the_reason) {
   FileDescriptor other{::open(card_.node.c_str(), O_RDWR | O_CLOEXEC)};
   ASSERT_NE(drmIsMaster(other.get()), 0);
   const hal::Error error = failure_of(config_);
-  EXPECT_EQ(error.fault, hal::Fault::busy);
+  EXPECT_EQ(error.code, hal::ErrorCode::busy);
   EXPECT_THAT(error.message, AllOf(HasSubstr("another program"), HasSubstr("fuser")));
   other.reset();
   KmsDisplay display = make();
@@ -201,7 +201,7 @@ TEST_P(KmsFault, a_card_that_must_not_be_opened_is_said_with_the_mend) {
     // A user without groups: nothing else is inherited that could open the card.
     const bool changed = ::setgid(65534) == 0 && ::setuid(65534) == 0;
     const hal::Error error = changed ? failure_of(config_) : hal::Error{};
-    const std::string told = std::string{to_string(error.fault)} + "|" + error.message;
+    const std::string told = std::string{to_string(error.code)} + "|" + error.message;
     const ssize_t written = ::write(pipe[1], told.data(), told.size());
     ::_exit(written > 0 ? 0 : 1);
   }
@@ -212,7 +212,7 @@ TEST_P(KmsFault, a_card_that_must_not_be_opened_is_said_with_the_mend) {
   ::close(pipe[0]);
   ::close(pipe[1]);
   EXPECT_EQ(status, 0);
-  EXPECT_THAT(told.data(), AllOf(HasSubstr(std::string{to_string(hal::Fault::denied)} + "|"),
+  EXPECT_THAT(told.data(), AllOf(HasSubstr(std::string{to_string(hal::ErrorCode::denied)} + "|"),
                                  HasSubstr(card_.node), HasSubstr("usermod")));
 }
 
@@ -220,20 +220,20 @@ TEST_P(KmsFault, wishes_that_cannot_be_met_are_answered_with_what_there_is) {
   KmsConfig config = config_;
   config.mode = "1234x777";
   hal::Error error = failure_of(config);
-  EXPECT_EQ(error.fault, hal::Fault::unsupported);
+  EXPECT_EQ(error.code, hal::ErrorCode::unsupported);
   EXPECT_THAT(error.message, AllOf(HasSubstr("1234x777"), HasSubstr("1024x768@60.00")));
   config.mode = "large";
   error = failure_of(config);
-  EXPECT_EQ(error.fault, hal::Fault::invalid_argument);
+  EXPECT_EQ(error.code, hal::ErrorCode::invalid_argument);
   config = config_;
   config.connector = "DP-7";
   error = failure_of(config);
-  EXPECT_EQ(error.fault, hal::Fault::absent);
+  EXPECT_EQ(error.code, hal::ErrorCode::absent);
   EXPECT_THAT(error.message, AllOf(HasSubstr("DP-7"), HasSubstr("Virtual-1")));
   config = config_;
   config.overscan.left = 60;
   error = failure_of(config);
-  EXPECT_EQ(error.fault, hal::Fault::invalid_argument);
+  EXPECT_EQ(error.code, hal::ErrorCode::invalid_argument);
 }
 
 // The kernel says "something changed" where nothing did: the picture stays.
@@ -292,7 +292,7 @@ TEST_P(KmsFault, two_hundred_pulled_cables_leave_nothing_behind) {
     ASSERT_TRUE(set_cable(card_, "off"));
     const auto flip = display.present();
     ASSERT_FALSE(flip);
-    EXPECT_EQ(flip.error().fault, hal::Fault::disconnected);
+    EXPECT_EQ(flip.error().code, hal::ErrorCode::disconnected);
     display.close();
     EXPECT_FALSE(display.open({}));
     ASSERT_TRUE(set_cable(card_, "detect"));

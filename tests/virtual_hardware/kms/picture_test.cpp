@@ -142,7 +142,7 @@ TEST_P(KmsPicture, leaves_the_output_as_it_was) {
   display_->close();
   const auto after = read_scanout();
   ASSERT_FALSE(after) << "it was off before";
-  EXPECT_EQ(after.error().fault, hal::Fault::absent);
+  EXPECT_EQ(after.error().code, hal::ErrorCode::absent);
 }
 
 } // namespace

@@ -9,7 +9,7 @@
 
 #include "hal/linux/kms/kms_display.h"
 #include "hal/linux/monotonic_clock.h"
-#include "tests/virtual_hardware/kms/puppet_driver.h"
+#include "tests/virtual_hardware/kms/fake_driver.h"
 #include "tests/virtual_hardware/kms/vkms_card.h"
 #include "tests/virtual_hardware/support/scanout_reader.h"
 
@@ -26,10 +26,10 @@ protected:
   void SetUp() override {
     if (!find_vkms())
       GTEST_SKIP() << no_vkms;
-    puppet_driver() = {};
-    puppet_driver().tells_of_resets = true;
+    fake_driver() = {};
+    fake_driver().tells_of_resets = true;
   }
-  void TearDown() override { puppet_driver() = {}; }
+  void TearDown() override { fake_driver() = {}; }
 
   static KmsConfig config() {
     KmsConfig config;
@@ -68,15 +68,15 @@ INSTANTIATE_TEST_SUITE_P(Statuses, EveryKmsReset,
 TEST_P(EveryKmsReset, is_found_before_the_next_flip_and_over_when_the_display_is_opened_again) {
   ASSERT_TRUE(display_.open({}));
   ASSERT_TRUE(show(0.2F));
-  puppet_driver().status = GetParam();
+  fake_driver().status = GetParam();
   const auto flip = show(1);
   ASSERT_FALSE(flip);
-  EXPECT_EQ(flip.error().fault, hal::Fault::disconnected);
+  EXPECT_EQ(flip.error().code, hal::ErrorCode::disconnected);
   EXPECT_THAT(flip.error().message, AllOf(HasSubstr("was reset"), HasSubstr("opened again")));
   EXPECT_EQ(display_.state(), hal::DeviceState::failed);
 
   display_.close();
-  puppet_driver().status = GL_NO_ERROR;
+  fake_driver().status = GL_NO_ERROR;
   const auto opened = display_.open({});
   ASSERT_TRUE(opened) << opened.error().message;
   const auto again = show(0.6F);
@@ -87,14 +87,14 @@ TEST_P(EveryKmsReset, is_found_before_the_next_flip_and_over_when_the_display_is
 // The processor may take a while: until it is there again, every context is lost, and the render
 // thread tries again.
 TEST_P(EveryKmsReset, that_takes_long_lets_no_display_open) {
-  puppet_driver().status = GetParam();
+  fake_driver().status = GetParam();
   for (int i = 0; i < 3; ++i) {
     const auto opened = display_.open({});
     ASSERT_FALSE(opened);
     EXPECT_THAT(opened.error().message, HasSubstr("was reset"));
     EXPECT_EQ(display_.state(), hal::DeviceState::absent);
   }
-  puppet_driver().status = GL_NO_ERROR;
+  fake_driver().status = GL_NO_ERROR;
   ASSERT_TRUE(display_.open({}));
   ASSERT_TRUE(show(0.4F));
   EXPECT_EQ(red_on_screen(), 102);
@@ -102,34 +102,34 @@ TEST_P(EveryKmsReset, that_takes_long_lets_no_display_open) {
 
 TEST_F(KmsReset, is_asked_for_once_a_picture) {
   ASSERT_TRUE(display_.open({}));
-  const int before = puppet_driver().asked;
+  const int before = fake_driver().asked;
   for (int i = 0; i < 5; ++i)
     ASSERT_TRUE(show(0.5F));
-  EXPECT_EQ(puppet_driver().asked - before, 5);
+  EXPECT_EQ(fake_driver().asked - before, 5);
 }
 
 TEST_F(KmsReset, that_no_specification_knows_is_none) {
   ASSERT_TRUE(display_.open({}));
-  puppet_driver().status = 0xdead;
+  fake_driver().status = 0xdead;
   EXPECT_TRUE(show(0.5F));
 }
 
 TEST_F(KmsReset, of_a_driver_that_makes_no_such_context_is_never_known) {
-  puppet_driver().refuses = true;
-  puppet_driver().status = GL_GUILTY_CONTEXT_RESET_KHR;
+  fake_driver().refuses = true;
+  fake_driver().status = GL_GUILTY_CONTEXT_RESET_KHR;
   const auto opened = display_.open({});
   ASSERT_TRUE(opened) << opened.error().message;
   EXPECT_TRUE(show(0.5F));
-  EXPECT_EQ(puppet_driver().asked, 0);
+  EXPECT_EQ(fake_driver().asked, 0);
 }
 
 // As the bench's own driver, and Mesa's wherever no GPU is.
 TEST_F(KmsReset, of_a_driver_that_cannot_tell_is_never_known) {
-  puppet_driver().tells_of_resets = false;
-  puppet_driver().status = GL_GUILTY_CONTEXT_RESET_KHR;
+  fake_driver().tells_of_resets = false;
+  fake_driver().status = GL_GUILTY_CONTEXT_RESET_KHR;
   ASSERT_TRUE(display_.open({}));
   EXPECT_TRUE(show(0.5F));
-  EXPECT_EQ(puppet_driver().asked, 0);
+  EXPECT_EQ(fake_driver().asked, 0);
   EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR}) << "the question is left behind as an error";
 }
 

@@ -16,7 +16,7 @@
 #include "hal/linux/kms/kms_display.h"
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/system/file_descriptor.h"
-#include "tests/virtual_hardware/kms/puppet_seat.h"
+#include "tests/virtual_hardware/kms/fake_seat.h"
 #include "tests/virtual_hardware/kms/vkms_card.h"
 #include "tests/virtual_hardware/support/scanout_reader.h"
 
@@ -51,16 +51,16 @@ protected:
     if (!card)
       GTEST_SKIP() << no_vkms;
     card_ = *std::move(card);
-    setenv("LIBSEAT_BACKEND", "puppet", 1);
-    puppet_seat() = {};
+    setenv("LIBSEAT_BACKEND", "fake", 1);
+    fake_seat() = {};
     config_.mode = "320x200M@60";
     config_.atomic = GetParam();
     config_.seat = KmsConfig::SeatUse::managed;
   }
   void TearDown() override {
     display_.reset();
-    EXPECT_EQ(puppet_seat().seats, 0);
-    EXPECT_EQ(puppet_seat().opened, 0);
+    EXPECT_EQ(fake_seat().seats, 0);
+    EXPECT_EQ(fake_seat().opened, 0);
     unsetenv("LIBSEAT_BACKEND");
   }
 
@@ -112,10 +112,10 @@ TEST_P(KmsSeat, keys_are_ours_while_the_display_is_open_and_its_console_in_front
   std::array<hal::DisplayEvent, 1> events;
   EXPECT_EQ(display_->poll_events(events), 1U);
   EXPECT_EQ(events[0].key, 'o');
-  puppet_seat().switch_away();
+  fake_seat().switch_away();
   show(1);
   EXPECT_FALSE(listened_to);
-  puppet_seat().switch_back();
+  fake_seat().switch_back();
   show(1);
   show(1);
   EXPECT_TRUE(listened_to);
@@ -125,27 +125,27 @@ TEST_P(KmsSeat, keys_are_ours_while_the_display_is_open_and_its_console_in_front
 
 TEST_P(KmsSeat, the_card_comes_from_the_manager_and_goes_back) {
   open();
-  EXPECT_EQ(puppet_seat().opened, 1);
+  EXPECT_EQ(fake_seat().opened, 1);
   EXPECT_EQ(show(1).sequence, 1U);
   EXPECT_EQ(red_on_screen(), 255);
   display_->close();
-  EXPECT_EQ(puppet_seat().opened, 0);
-  EXPECT_EQ(puppet_seat().seats, 0);
+  EXPECT_EQ(fake_seat().opened, 0);
+  EXPECT_EQ(fake_seat().seats, 0);
 }
 
 TEST_P(KmsSeat, away_it_shows_nothing_and_back_it_sets_the_mode) {
   open();
   EXPECT_EQ(show(1).sequence, 1U);
   for (unsigned round = 1; round <= 3; ++round) {
-    puppet_seat().switch_away();
+    fake_seat().switch_away();
     const hal::TimePoint begin = clock_.now();
     for (int i = 0; i < 3; ++i)
       EXPECT_EQ(show(0.2F).sequence, round) << "nothing was shown";
-    EXPECT_TRUE(puppet_seat().acknowledged) << "the manager waits for it";
+    EXPECT_TRUE(fake_seat().acknowledged) << "the manager waits for it";
     EXPECT_GE(hal::to_seconds(clock_.now() - begin), 0.15) << "no busy loop";
 
     switch_output_off(); // as the other console's program leaves it
-    puppet_seat().switch_back();
+    fake_seat().switch_back();
     EXPECT_EQ(show(0.2F * static_cast<float>(round)).sequence, round + 1);
     EXPECT_EQ(red_on_screen(), 51 * static_cast<int>(round));
   }
@@ -155,9 +155,9 @@ TEST_P(KmsSeat, away_it_shows_nothing_and_back_it_sets_the_mode) {
 TEST_P(KmsSeat, away_and_back_between_two_pictures_is_survived) {
   open();
   EXPECT_EQ(show(1).sequence, 1U);
-  puppet_seat().switch_away();
+  fake_seat().switch_away();
   switch_output_off();
-  puppet_seat().switch_back();
+  fake_seat().switch_back();
   unsigned tries = 0;
   while (show(0.4F).sequence < 2 && tries < 5)
     ++tries;
@@ -166,35 +166,35 @@ TEST_P(KmsSeat, away_and_back_between_two_pictures_is_survived) {
 
 TEST_P(KmsSeat, a_cable_pulled_while_away_is_noticed) {
   open();
-  puppet_seat().switch_away();
+  fake_seat().switch_away();
   EXPECT_EQ(show(1).sequence, 0U);
   ASSERT_TRUE(set_cable(card_, "off"));
   const auto flip = display_->present();
   ASSERT_TRUE(set_cable(card_, "detect"));
   ASSERT_FALSE(flip);
-  EXPECT_EQ(flip.error().fault, hal::Fault::disconnected);
+  EXPECT_EQ(flip.error().code, hal::ErrorCode::disconnected);
 }
 
 TEST_P(KmsSeat, it_may_be_closed_while_away) {
   open();
-  puppet_seat().switch_away();
+  fake_seat().switch_away();
   EXPECT_EQ(show(1).sequence, 0U);
   display_->close();
   EXPECT_EQ(display_->state(), hal::DeviceState::absent);
   const auto opened = display_->open({});
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().fault, hal::Fault::busy);
+  EXPECT_EQ(opened.error().code, hal::ErrorCode::busy);
   EXPECT_THAT(opened.error().message, AllOf(HasSubstr("another console"), HasSubstr("seat0")));
-  puppet_seat().in_front = true;
+  fake_seat().in_front = true;
   EXPECT_TRUE(display_->open({}));
 }
 
 TEST_P(KmsSeat, where_nobody_manages_seats_it_says_so_or_helps_itself) {
-  puppet_seat().answers = false;
+  fake_seat().answers = false;
   display_.emplace(clock_, config_);
   const auto opened = display_->open({});
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().fault, hal::Fault::absent);
+  EXPECT_EQ(opened.error().code, hal::ErrorCode::absent);
   EXPECT_THAT(opened.error().message, AllOf(HasSubstr("seatd"), HasSubstr("--no-seat")));
   config_.seat = KmsConfig::SeatUse::automatic;
   open();

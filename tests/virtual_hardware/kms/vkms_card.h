@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "hal/linux/kms/card_survey.h"
+#include "hal/linux/kms/drm/card_survey.h"
 
 namespace octascope::tests {
 

@@ -18,7 +18,7 @@ namespace {
 namespace backend = hal::linux_backend;
 using namespace std::chrono_literals;
 
-// What libcamera 0.0.3 does, and nothing of ours can mend. None is a fault that Linux is known to
+// What libcamera 0.0.3 does, and nothing of ours can fix. None is a fault that Linux is known to
 // give there: an eventfd is written to and read without waiting and without memory.
 constexpr KnownDeath known_deaths[]{
     // Camera::configure(), start(), stop() … and CameraManager::stop() leave their work to the

@@ -10,7 +10,7 @@
 #include <malloc.h>
 
 #include "hal/linux/libcamera/libcamera_scope_camera.h"
-#include "pipeline/scope_thread.h"
+#include "pipeline/controls/scope_thread.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/virtual_hardware/libcamera/vimc.h"
 
@@ -149,7 +149,7 @@ TEST_F(Vimc, is_listed_and_chosen_by_name_and_never_when_it_is_the_line_cameras)
   EXPECT_TRUE(make_camera({cameras[0].id, {}})->open({}));
   const auto other = make_camera({"another camera", {}})->open({});
   ASSERT_FALSE(other);
-  EXPECT_EQ(other.error().fault, hal::Fault::absent);
+  EXPECT_EQ(other.error().code, hal::ErrorCode::absent);
   EXPECT_NE(other.error().message.find(cameras[0].id), std::string::npos);
 
   std::vector<std::string> nodes;
@@ -158,7 +158,7 @@ TEST_F(Vimc, is_listed_and_chosen_by_name_and_never_when_it_is_the_line_cameras)
   EXPECT_TRUE(session_->cameras(nodes)[0].taken);
   const auto taken = make_camera({"", nodes})->open({});
   ASSERT_FALSE(taken);
-  EXPECT_EQ(taken.error().fault, hal::Fault::absent);
+  EXPECT_EQ(taken.error().code, hal::ErrorCode::absent);
   EXPECT_NE(taken.error().message.find("line camera"), std::string::npos);
 }
 
@@ -167,7 +167,7 @@ TEST_F(Vimc, a_camera_in_use_is_busy_and_then_free) {
   const auto second = make_camera({});
   const auto refused = second->open({});
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().fault, hal::Fault::busy) << refused.error().message;
+  EXPECT_EQ(refused.error().code, hal::ErrorCode::busy) << refused.error().message;
   EXPECT_NE(refused.error().message.find("fuser"), std::string::npos);
   camera_->close();
   EXPECT_TRUE(second->open({}));
@@ -176,7 +176,7 @@ TEST_F(Vimc, a_camera_in_use_is_busy_and_then_free) {
 TEST_F(Vimc, a_second_session_is_refused_in_words) {
   const auto second = backend::LibcameraSession::start();
   ASSERT_FALSE(second);
-  EXPECT_EQ(second.error().fault, hal::Fault::busy);
+  EXPECT_EQ(second.error().code, hal::ErrorCode::busy);
 }
 
 TEST_F(Vimc, opens_200_times_and_leaves_nothing) {
@@ -206,7 +206,7 @@ TEST_F(Vimc, is_unplugged_200_times_and_leaves_nothing) {
     camera_->close();
     const auto without = camera_->open({});
     ASSERT_FALSE(without);
-    EXPECT_EQ(without.error().fault, hal::Fault::absent) << without.error().message;
+    EXPECT_EQ(without.error().code, hal::ErrorCode::absent) << without.error().message;
     ASSERT_TRUE(replug_vimc(*session_));
   };
   const int cycles = plug_cycles();
@@ -239,7 +239,7 @@ TEST_F(Vimc, unplugged_in_mid_stream_it_leaves_what_libcamera_cannot_drop_and_no
       frame = camera_->wait_frame(2s);
     }
     ASSERT_FALSE(frame);
-    EXPECT_EQ(frame.error().fault, hal::Fault::disconnected) << frame.error().message;
+    EXPECT_EQ(frame.error().code, hal::ErrorCode::disconnected) << frame.error().message;
     camera_->close();
     ASSERT_TRUE(replug_vimc(*session_));
   }
@@ -324,7 +324,7 @@ TEST_F(Vimc, without_udevd_it_says_so_and_with_it_the_camera_is_there_again) {
   camera_ = make_camera({});
   const auto without = camera_->open({});
   ASSERT_FALSE(without);
-  EXPECT_EQ(without.error().fault, hal::Fault::absent);
+  EXPECT_EQ(without.error().code, hal::ErrorCode::absent);
   EXPECT_NE(without.error().message.find("no udev daemon runs"), std::string::npos)
       << without.error().message;
   ASSERT_EQ(std::system("/lib/systemd/systemd-udevd --daemon && udevadm trigger && "

@@ -29,9 +29,7 @@ std::optional<std::string> LoopbackFeeder::find() {
 
 Result<LoopbackFeeder> LoopbackFeeder::open(const std::string& node, int samples_per_line,
                                             int lines_per_frame) {
-  auto file = open_device(node, O_RDWR);
-  if (!file)
-    return tl::make_unexpected(file.error());
+  HAL_TRY(auto file, open_device(node, O_RDWR));
   v4l2_format format{};
   format.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
   v4l2_pix_format& pixels = format.fmt.pix;
@@ -41,18 +39,18 @@ Result<LoopbackFeeder> LoopbackFeeder::open(const std::string& node, int samples
   pixels.field = V4L2_FIELD_NONE;
   const __u32 line_bytes = 2 * pixels.width;
   const std::size_t frame_bytes = std::size_t{line_bytes} * pixels.height;
-  if (control(*file, VIDIOC_S_FMT, &format) == -1)
+  if (control(file, VIDIOC_S_FMT, &format) == -1)
     return system_failure(node, "setting the feeder's format", errno);
   if (pixels.pixelformat != V4L2_PIX_FMT_Y16 || pixels.bytesperline != line_bytes ||
       pixels.height != static_cast<__u32>(lines_per_frame))
     return fail(
-        Fault::busy,
+        ErrorCode::busy,
         fmt::format("{}: it keeps {}×{} pixels, expected {}×{} in Y16: somebody has it open", node,
                     pixels.width, pixels.height, samples_per_line, lines_per_frame));
   int type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
-  if (control(*file, VIDIOC_STREAMON, &type) == -1)
+  if (control(file, VIDIOC_STREAMON, &type) == -1)
     return system_failure(node, "starting the feeder's stream", errno);
-  return LoopbackFeeder{std::move(*file), node, frame_bytes};
+  return LoopbackFeeder{std::move(file), node, frame_bytes};
 }
 
 Result<> LoopbackFeeder::write(std::span<const std::byte> frame) {
@@ -63,8 +61,8 @@ Result<> LoopbackFeeder::write(std::span<const std::byte> frame) {
   if (written == -1)
     return system_failure(node_, "writing a frame", errno);
   if (static_cast<std::size_t>(written) != frame.size())
-    return fail(Fault::bad_data, fmt::format("{}: {} bytes of a frame were taken, expected {}",
-                                             node_, written, frame.size()));
+    return fail(ErrorCode::bad_data, fmt::format("{}: {} bytes of a frame were taken, expected {}",
+                                                 node_, written, frame.size()));
   return {};
 }
 

@@ -23,8 +23,8 @@ public:
   // The first node of such a driver; nothing where there is none.
   static std::optional<std::string> find();
 
-  // From then on the node is a camera of 16-bit samples of that size. Fault::busy while the node
-  // keeps another size for somebody who has it open.
+  // From then on the node is a camera of 16-bit samples of that size. ErrorCode::busy while the
+  // node keeps another size for somebody who has it open.
   static hal::Result<LoopbackFeeder> open(const std::string& node, int samples_per_line,
                                           int lines_per_frame);
 

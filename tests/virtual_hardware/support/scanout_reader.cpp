@@ -13,7 +13,7 @@
 #include <xf86drm.h>
 #include <xf86drmMode.h>
 
-#include "hal/linux/kms/card_survey.h"
+#include "hal/linux/kms/drm/card_survey.h"
 #include "hal/linux/system/file_descriptor.h"
 #include "hal/linux/system/system_error.h"
 
@@ -21,7 +21,7 @@ namespace octascope::tests {
 
 namespace {
 
-using hal::Fault;
+using hal::ErrorCode;
 using hal::linux_backend::FileDescriptor;
 using hal::linux_backend::system_failure;
 
@@ -97,7 +97,7 @@ hal::Result<ScanoutPicture> read_framebuffer(const FileDescriptor& card, const s
   if (!framebuffer)
     return system_failure(node, "asking for what is on the screen", errno);
   if (framebuffer->handles[0] == 0)
-    return hal::fail(Fault::denied, node + ": what is on the screen is for root only");
+    return hal::fail(ErrorCode::denied, node + ": what is on the screen is for root only");
   const std::size_t pitch = framebuffer->pitches[0];
   const std::size_t start = framebuffer->offsets[0];
   const MappedBuffer mapped{card, framebuffer->handles[0], start + pitch * framebuffer->height};
@@ -105,7 +105,7 @@ hal::Result<ScanoutPicture> read_framebuffer(const FileDescriptor& card, const s
   const bool linear = (framebuffer->flags & DRM_MODE_FB_MODIFIERS) == 0 ||
                       framebuffer->modifier == DRM_FORMAT_MOD_LINEAR;
   if (places == nullptr || !linear)
-    return hal::fail(Fault::unsupported,
+    return hal::fail(ErrorCode::unsupported,
                      fmt::format("{}: format 0x{:08x} with modifier 0x{:x} on the screen, expected "
                                  "8 bits a colour in plain rows",
                                  node, framebuffer->pixel_format, framebuffer->modifier));
@@ -131,14 +131,12 @@ hal::Result<ScanoutPicture> read_scanout(const std::string& card) {
   const auto nodes =
       card.empty() ? hal::linux_backend::kms::card_nodes() : std::vector<std::string>{card};
   for (const std::string& node : nodes) {
-    auto file = hal::linux_backend::open_device(node, O_RDWR);
-    if (!file)
-      return tl::make_unexpected(file.error());
-    drmDropMaster(file->get()); // whoever opens a card that nobody has is its master: we only look
-    if (const std::uint32_t id = scanned_framebuffer(*file))
-      return read_framebuffer(*file, node, id);
+    HAL_TRY(auto file, hal::linux_backend::open_device(node, O_RDWR));
+    drmDropMaster(file.get()); // whoever opens a card that nobody has is its master: we only look
+    if (const std::uint32_t id = scanned_framebuffer(file))
+      return read_framebuffer(file, node, id);
   }
-  return hal::fail(Fault::absent, "no output is on, expected a program that shows a picture");
+  return hal::fail(ErrorCode::absent, "no output is on, expected a program that shows a picture");
 }
 
 int largest_difference(const ScanoutPicture& a, const ScanoutPicture& b) {

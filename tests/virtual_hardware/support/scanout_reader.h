@@ -22,8 +22,8 @@ struct ScanoutPicture {
 };
 
 // Of the first output that is on, of `card` ("/dev/dri/card0") or, where that is empty, of any
-// card. Needs root: to others the kernel does not show what is on the screen. Fault::absent: no
-// output is on. Fault::unsupported: a format or a layout of pixels that is not plain 8 bits a
+// card. Needs root: to others the kernel does not show what is on the screen. ErrorCode::absent: no
+// output is on. ErrorCode::unsupported: a format or a layout of pixels that is not plain 8 bits a
 // colour.
 hal::Result<ScanoutPicture> read_scanout(const std::string& card = {});
 

@@ -21,10 +21,8 @@ namespace {
 const std::string root = "/sys/kernel/config/gpio-sim";
 
 Result<> write_text(const std::string& file, const std::string& text) {
-  const auto opened = open_device(file, O_WRONLY);
-  if (!opened)
-    return tl::make_unexpected(opened.error());
-  if (::write(opened->get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+  HAL_TRY(const auto opened, open_device(file, O_WRONLY));
+  if (::write(opened.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
     return system_failure(file, "writing \"" + text + "\"", errno);
   return {};
 }
@@ -55,10 +53,8 @@ std::string sim_gpio_missing() {
 Result<std::unique_ptr<SimGpioChip>> SimGpioChip::make(std::string name,
                                                        std::vector<std::string> line_names) {
   std::unique_ptr<SimGpioChip> chip{new SimGpioChip{std::move(name), std::move(line_names)}};
-  if (const auto made = chip->describe(); !made)
-    return tl::make_unexpected(made.error());
-  if (const auto live = chip->restore(); !live)
-    return tl::make_unexpected(live.error());
+  HAL_CHECK(chip->describe());
+  HAL_CHECK(chip->restore());
   return chip;
 }
 
@@ -104,10 +100,8 @@ Result<> SimGpioChip::find_lines() {
   chip_ = read_line(folder_ + "/bank0/chip_name");
   levels_.clear();
   for (unsigned line = 0; line < line_names_.size(); ++line) {
-    auto level = open_device(line_folder(line) + "/value", O_RDONLY);
-    if (!level)
-      return tl::make_unexpected(level.error());
-    levels_.push_back(std::move(*level));
+    HAL_TRY(auto level, open_device(line_folder(line) + "/value", O_RDONLY));
+    levels_.push_back(std::move(level));
   }
   return {};
 }

@@ -45,10 +45,8 @@ Result<std::unique_ptr<UinputDevice>>
 UinputDevice::plug_in(const char* name, std::uint16_t vendor, std::uint16_t product,
                       std::span<const UinputAbility> abilities) {
   std::unique_ptr<UinputDevice> device{new UinputDevice};
-  auto file = hal::linux_backend::open_device(uinput_node, O_RDWR | O_NONBLOCK);
-  if (!file)
-    return tl::make_unexpected(file.error());
-  device->file_ = std::move(*file);
+  HAL_TRY(auto file, hal::linux_backend::open_device(uinput_node, O_RDWR | O_NONBLOCK));
+  device->file_ = std::move(file);
   uinput_setup setup{};
   setup.id = {BUS_USB, vendor, product, 1};
   std::strncpy(setup.name, name, sizeof setup.name - 1);
@@ -60,7 +58,7 @@ UinputDevice::plug_in(const char* name, std::uint16_t vendor, std::uint16_t prod
     return system_failure(uinput_node, "making an input device", errno);
   device->folder_ = "/sys/devices/virtual/input/" + std::string{folder.data()};
   if (!node_appears([&] { return device->event_node(); }))
-    return hal::fail(hal::Fault::timed_out,
+    return hal::fail(hal::ErrorCode::timed_out,
                      fmt::format("virtual {}: no event node within 5 s", name));
   return device;
 }

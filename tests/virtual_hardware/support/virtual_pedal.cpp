@@ -148,10 +148,8 @@ Result<std::unique_ptr<VirtualPedal>> VirtualPedal::plug_in(const VirtualPedalKi
   if (!watch)
     return tl::make_unexpected(watch.error());
   std::unique_ptr<VirtualPedal> pedal{new VirtualPedal};
-  auto file = open_device(uhid_node, O_RDWR | O_NONBLOCK);
-  if (!file)
-    return tl::make_unexpected(file.error());
-  pedal->uhid_ = std::move(*file);
+  HAL_TRY(auto file, open_device(uhid_node, O_RDWR | O_NONBLOCK));
+  pedal->uhid_ = std::move(file);
   pedal->unique_ = "octascope-" + std::to_string(::getpid()) + "-" + std::to_string(made++);
   pedal->id_ = fmt::format(":{:04X}:{:04X}.", kind.vendor, kind.product);
   uhid_event event{};
@@ -168,14 +166,13 @@ Result<std::unique_ptr<VirtualPedal>> VirtualPedal::plug_in(const VirtualPedalKi
   create.bus = BUS_USB;
   create.vendor = kind.vendor;
   create.product = kind.product;
-  if (const auto made_it = send_event(pedal->uhid_, event, "making a device"); !made_it)
-    return tl::make_unexpected(made_it.error());
+  HAL_CHECK(send_event(pedal->uhid_, event, "making a device"));
   // The kernel makes it on a worker of its own.
   if (!gets_its_driver(*watch, pedal->id_))
-    return hal::fail(hal::Fault::timed_out,
+    return hal::fail(hal::ErrorCode::timed_out,
                      kind.name + ": no driver within 5 s; see `dmesg` for what it objects to");
   if (!node_appears([&] { return pedal->hidraw_node(); }))
-    return hal::fail(hal::Fault::timed_out, kind.name + ": no hidraw node within 5 s");
+    return hal::fail(hal::ErrorCode::timed_out, kind.name + ": no hidraw node within 5 s");
   return pedal;
 }
 

@@ -62,7 +62,7 @@ TEST_F(LoopbackFault, without_a_writer_it_is_absent_and_comes_with_one) {
   V4l2LineCamera camera{{.node = node_}, clock_};
   const auto opened = camera.open(config_of());
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().fault, Fault::absent) << opened.error().message;
+  EXPECT_EQ(opened.error().code, ErrorCode::absent) << opened.error().message;
   EXPECT_THAT(opened.error().message, HasSubstr("no format yet"));
   const auto fed = feeder();
   EXPECT_TRUE(camera.open(config_of()));
@@ -75,7 +75,7 @@ TEST_F(LoopbackFault, another_size_is_refused_with_found_and_expected) {
   V4l2LineCamera camera{{.node = node_}, clock_};
   const auto opened = camera.open(config_of());
   ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().fault, Fault::unsupported);
+  EXPECT_EQ(opened.error().code, ErrorCode::unsupported);
   EXPECT_THAT(opened.error().message, HasSubstr("640×64"));
   EXPECT_THAT(opened.error().message, HasSubstr("320×48"));
   EXPECT_EQ(camera.state(), DeviceState::absent);

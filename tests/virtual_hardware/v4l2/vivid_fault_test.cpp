@@ -30,9 +30,9 @@ protected:
     camera_.release(frame.buffer);
   }
 
-  template <class R> static void expect_fault(const R& result, Fault fault) {
+  template <class R> static void expect_fault(const R& result, ErrorCode fault) {
     ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().fault, fault) << result.error().message;
+    EXPECT_EQ(result.error().code, fault) << result.error().message;
     std::printf("  %s\n", result.error().message.c_str());
   }
 };
@@ -86,16 +86,16 @@ TEST_F(VividFault, a_disconnect_is_told_and_loans_stay_readable) {
   const std::vector<std::byte> copy{loan.bytes.begin(), loan.bytes.end()};
   FileDescriptor held = vivid_->hold();
   ASSERT_TRUE(vivid_->set("Disconnect"));
-  expect_fault(camera_.wait_frame(2s), Fault::disconnected);
+  expect_fault(camera_.wait_frame(2s), ErrorCode::disconnected);
   EXPECT_EQ(camera_.state(), DeviceState::failed);
   EXPECT_TRUE(std::ranges::equal(loan.bytes, copy));
   camera_.release(loan.buffer);
-  expect_fault(camera_.wait_frame({}), Fault::disconnected);
-  expect_fault(camera_.start(), Fault::disconnected);
+  expect_fault(camera_.wait_frame({}), ErrorCode::disconnected);
+  expect_fault(camera_.start(), ErrorCode::disconnected);
   camera_.stop();
   EXPECT_EQ(camera_.state(), DeviceState::failed);
   camera_.close();
-  expect_fault(camera_.open(usual_config()), Fault::absent);
+  expect_fault(camera_.open(usual_config()), ErrorCode::absent);
   EXPECT_EQ(camera_.state(), DeviceState::absent);
   held.reset(); // the driver comes back when nobody has it open
   ASSERT_NO_FATAL_FAILURE(open_and_start(usual_config()));
@@ -105,7 +105,7 @@ TEST_F(VividFault, a_disconnect_is_told_and_loans_stay_readable) {
 TEST_F(VividFault, a_disconnect_before_start_is_told_by_start) {
   ASSERT_TRUE(camera_.open(usual_config()));
   ASSERT_TRUE(vivid_->set("Disconnect"));
-  expect_fault(camera_.start(), Fault::disconnected);
+  expect_fault(camera_.start(), ErrorCode::disconnected);
   EXPECT_EQ(camera_.state(), DeviceState::failed);
   camera_.close();
   ASSERT_NO_FATAL_FAILURE(open_and_start(usual_config()));
@@ -115,7 +115,7 @@ TEST_F(VividFault, a_disconnect_before_start_is_told_by_start) {
 TEST_F(VividFault, a_refused_reqbufs_fails_open_and_leaves_nothing) {
   const Holdings before = Holdings::now();
   ASSERT_TRUE(vivid_->set("Inject VIDIOC_REQBUFS Error"));
-  expect_fault(camera_.open(usual_config()), Fault::unsupported);
+  expect_fault(camera_.open(usual_config()), ErrorCode::unsupported);
   EXPECT_EQ(camera_.state(), DeviceState::absent);
   EXPECT_TRUE(Holdings::now() == before);
   ASSERT_NO_FATAL_FAILURE(open_and_start(usual_config()));
@@ -125,7 +125,7 @@ TEST_F(VividFault, a_refused_reqbufs_fails_open_and_leaves_nothing) {
 TEST_F(VividFault, a_refused_qbuf_fails_start_and_the_next_start_does) {
   ASSERT_TRUE(camera_.open(usual_config()));
   ASSERT_TRUE(vivid_->set("Inject VIDIOC_QBUF Error"));
-  expect_fault(camera_.start(), Fault::unsupported);
+  expect_fault(camera_.start(), ErrorCode::unsupported);
   EXPECT_EQ(camera_.state(), DeviceState::ready);
   ASSERT_TRUE(camera_.start());
   expect_health();
@@ -152,7 +152,7 @@ TEST_F(VividFault, a_buffer_refused_while_streaming_is_queued_later) {
 TEST_F(VividFault, a_refused_streamon_fails_start_and_the_next_start_does) {
   ASSERT_TRUE(camera_.open(usual_config()));
   ASSERT_TRUE(vivid_->set("Inject VIDIOC_STREAMON Error"));
-  expect_fault(camera_.start(), Fault::unsupported);
+  expect_fault(camera_.start(), ErrorCode::unsupported);
   EXPECT_EQ(camera_.state(), DeviceState::ready);
   ASSERT_TRUE(camera_.start());
   expect_health();
@@ -162,7 +162,7 @@ TEST_F(VividFault, a_fatal_error_of_the_stream_fails_it_until_it_is_opened_again
   ASSERT_NO_FATAL_FAILURE(open_and_start(usual_config()));
   expect_health();
   ASSERT_TRUE(vivid_->set("Inject Fatal Streaming Error"));
-  expect_fault(camera_.wait_frame(2s), Fault::disconnected);
+  expect_fault(camera_.wait_frame(2s), ErrorCode::disconnected);
   EXPECT_EQ(camera_.state(), DeviceState::failed);
   camera_.close();
   ASSERT_NO_FATAL_FAILURE(open_and_start(usual_config()));
@@ -215,7 +215,7 @@ TEST_F(VividFault, a_camera_in_use_is_busy_and_free_afterwards) {
   ASSERT_NO_FATAL_FAILURE(open_and_start(usual_config()));
   V4l2LineCamera second{usual_options(), clock_};
   const auto refused = second.open(usual_config());
-  expect_fault(refused, Fault::busy);
+  expect_fault(refused, ErrorCode::busy);
   EXPECT_THAT(refused.error().message, HasSubstr("fuser"));
   expect_health(); // the first is not disturbed
   camera_.close();
@@ -230,9 +230,9 @@ TEST_F(VividFault, a_camera_without_permission_says_what_to_do) {
   V4l2LineCamera any{{}, clock_};
   const auto none = any.open(usual_config());
   ASSERT_EQ(::seteuid(0), 0);
-  expect_fault(denied, Fault::denied);
+  expect_fault(denied, ErrorCode::denied);
   EXPECT_THAT(denied.error().message, HasSubstr("usermod"));
-  expect_fault(none, Fault::denied);
+  expect_fault(none, ErrorCode::denied);
   ASSERT_NO_FATAL_FAILURE(open_and_start(usual_config()));
   expect_health();
 }

@@ -171,7 +171,7 @@ TEST_F(VividStream, settings_are_checked_and_told) {
   V4l2LineCamera without{options, clock_};
   const auto none = without.open(usual_config());
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().fault, Fault::unsupported);
+  EXPECT_EQ(none.error().code, ErrorCode::unsupported);
   EXPECT_THAT(none.error().message, HasSubstr("no control \"Exposure Time\""));
 }
 

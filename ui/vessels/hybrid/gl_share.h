@@ -3,7 +3,8 @@
 
 #include "hal/result.h"
 #include "ui/vessels/hybrid/vessel_split.h"
-#include "ui/vessels/vessel_scene.h"
+#include "ui/vessels/scene/vessel_scene.h"
+#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 
@@ -14,12 +15,12 @@ public:
 
   // Submits the segments that `split` gives to GL, under the conditions of VesselMethod, and does
   // not wait for them. The account is of these alone: drawn and culled.
-  hal::Result<VesselAccount> draw(const VesselScene& scene, const VesselSplit& split) {
+  hal::Result<SegmentCounts> draw(const VesselScene& scene, const VesselSplit& split) {
     return do_draw(scene, split);
   }
 
 private:
-  virtual hal::Result<VesselAccount> do_draw(const VesselScene& scene,
+  virtual hal::Result<SegmentCounts> do_draw(const VesselScene& scene,
                                              const VesselSplit& split) = 0;
 };
 

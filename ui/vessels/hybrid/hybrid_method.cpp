@@ -2,17 +2,15 @@
 
 #include <GLES3/gl3.h>
 
+#include "ui/view/segment_counts.h"
+
 namespace octascope::ui {
 
 hal::Result<HybridMethod> HybridMethod::create(std::size_t helpers,
                                                const pipeline::ThreadSetup& setup, Share share) {
-  auto splatter = Splatter::create(helpers, setup);
-  if (!splatter)
-    return tl::make_unexpected(splatter.error());
-  auto picture = SplatPicture::create();
-  if (!picture)
-    return tl::make_unexpected(picture.error());
-  return HybridMethod{std::move(*splatter), std::move(*picture), std::move(share)};
+  HAL_TRY(auto splatter, Splatter::create(helpers, setup));
+  HAL_TRY(auto picture, SplatPicture::create());
+  return HybridMethod{std::move(splatter), std::move(picture), std::move(share)};
 }
 
 void HybridMethod::hold_frame_time(hal::Duration target) {
@@ -27,25 +25,20 @@ void HybridMethod::note_cost(hal::Duration cost) {
     governor_->note(cost);
 }
 
-hal::Result<VesselAccount> HybridMethod::do_draw(const VesselScene& scene) {
+hal::Result<SegmentCounts> HybridMethod::do_draw(const VesselScene& scene) {
   shown_detail_px_ = governor_ ? governor_->detail_px(at_rest_) : detail_px_;
-  VesselAccount account;
+  SegmentCounts account;
   if (share_.gl) {
     split_by_radius(scene, share_.gl_radius_px, split_);
-    const auto by_gl = share_.gl->draw(scene, split_);
-    if (!by_gl)
-      return by_gl;
-    account = *by_gl;
+    HAL_TRY(const auto by_gl, share_.gl->draw(scene, split_));
+    account = by_gl;
     glFlush(); // GL begins now, beside the splatter
   }
-  const auto by_processor = splatter_.draw(scene, image_, {split_, shown_detail_px_});
-  if (!by_processor)
-    return by_processor;
-  account.splatted += by_processor->splatted;
-  account.merged += by_processor->merged;
-  account.culled += by_processor->culled;
-  if (const auto drawn = picture_.draw(image_, scene.camera); !drawn)
-    return tl::make_unexpected(drawn.error());
+  HAL_TRY(const auto by_processor, splatter_.draw(scene, image_, {split_, shown_detail_px_}));
+  account.splatted += by_processor.splatted;
+  account.merged += by_processor.merged;
+  account.culled += by_processor.culled;
+  HAL_CHECK(picture_.draw(image_, scene.camera));
   return account;
 }
 

@@ -9,12 +9,13 @@
 #include <optional>
 
 #include "hal/result.h"
-#include "pipeline/worker_pool.h"
+#include "pipeline/threads/worker_pool.h"
 #include "ui/vessels/hybrid/detail_governor.h"
 #include "ui/vessels/hybrid/gl_share.h"
+#include "ui/vessels/scene/vessel_method.h"
 #include "ui/vessels/splatter/splat_picture.h"
 #include "ui/vessels/splatter/splatter.h"
-#include "ui/vessels/vessel_method.h"
+#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 
@@ -49,17 +50,17 @@ public:
   float shown_detail_px() const { return shown_detail_px_; }
 
   // What the processor drew in the last frame, with distances.
-  const SplatImage& splats() const { return image_; }
+  const DepthImage& splats() const { return image_; }
 
 private:
   HybridMethod(Splatter splatter, SplatPicture picture, Share share)
       : splatter_{std::move(splatter)}, picture_{std::move(picture)}, share_{std::move(share)} {}
-  hal::Result<VesselAccount> do_draw(const VesselScene& scene) override;
+  hal::Result<SegmentCounts> do_draw(const VesselScene& scene) override;
 
   Splatter splatter_;
   SplatPicture picture_;
   Share share_;
-  SplatImage image_;
+  DepthImage image_;
   VesselSplit split_; // empty without a share of GL's
   std::optional<DetailGovernor> governor_;
   bool at_rest_ = false;

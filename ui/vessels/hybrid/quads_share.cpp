@@ -2,22 +2,20 @@
 
 #include <utility>
 
-#include "ui/vessels/vessel_uniforms.h"
+#include "ui/vessels/scene/vessel_uniforms.h"
+#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 
 hal::Result<std::unique_ptr<QuadsShare>> QuadsShare::create(std::shared_ptr<NodeTexture> nodes) {
-  auto painter = QuadNodePainter::create(std::move(nodes));
-  if (!painter)
-    return tl::make_unexpected(painter.error());
-  return std::unique_ptr<QuadsShare>{new QuadsShare{std::move(*painter)}};
+  HAL_TRY(auto painter, QuadNodePainter::create(std::move(nodes)));
+  return std::unique_ptr<QuadsShare>{new QuadsShare{std::move(painter)}};
 }
 
-hal::Result<VesselAccount> QuadsShare::do_draw(const VesselScene& scene, const VesselSplit& split) {
+hal::Result<SegmentCounts> QuadsShare::do_draw(const VesselScene& scene, const VesselSplit& split) {
   const auto& clusters = scene.tree.clusters;
   const VesselFrame frame = make_vessel_frame(scene);
-  if (auto begun = painter_.begin(frame, scene.tree); !begun)
-    return tl::make_unexpected(begun.error());
+  HAL_CHECK(painter_.begin(frame, scene.tree));
   parts_.clear();
   parts_.reserve(clusters.size());
   choose_clusters(frame, scene.tree, ClusterChoice::visible, parts_);
@@ -28,7 +26,7 @@ hal::Result<VesselAccount> QuadsShare::do_draw(const VesselScene& scene, const V
   const auto given = [&](std::size_t i) {
     return static_cast<std::uint32_t>(split[i] - clusters[i].references);
   };
-  VesselAccount account;
+  SegmentCounts account;
   for (std::size_t i = 0; i < clusters.size(); ++i)
     account.culled += given(i);
   for (const ClusterPart& part : parts_) {

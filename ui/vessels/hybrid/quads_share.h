@@ -5,21 +5,22 @@
 #include <memory>
 #include <vector>
 
-#include "ui/vessels/cluster_culling.h"
 #include "ui/vessels/hybrid/gl_share.h"
-#include "ui/vessels/quad_node_painter.h"
+#include "ui/vessels/quads/quad_node_painter.h"
+#include "ui/vessels/scene/cluster_culling.h"
+#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 
 // Threads: as gl/objects.h.
 class QuadsShare final : public GlShare {
 public:
-  // Fault::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile our shaders.
   static hal::Result<std::unique_ptr<QuadsShare>> create(std::shared_ptr<NodeTexture> nodes);
 
 private:
   explicit QuadsShare(QuadNodePainter painter) : painter_{std::move(painter)} {}
-  hal::Result<VesselAccount> do_draw(const VesselScene& scene, const VesselSplit& split) override;
+  hal::Result<SegmentCounts> do_draw(const VesselScene& scene, const VesselSplit& split) override;
 
   QuadNodePainter painter_;
   std::vector<ClusterPart> parts_;

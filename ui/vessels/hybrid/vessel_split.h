@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ui/vessels/vessel_scene.h"
+#include "ui/vessels/scene/vessel_scene.h"
 
 namespace octascope::ui {
 

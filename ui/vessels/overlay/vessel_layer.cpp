@@ -10,7 +10,7 @@
 namespace octascope::ui {
 
 hal::Result<> VesselLayer::update(Splatter& splatter, const VesselScene& scene, std::uint64_t tree,
-                                  float detail_px, StopsFor target) {
+                                  float detail_px, MaskReader target) {
   const Key key{
       tree,        scene.world_from_tree, scene.camera.view_projection, scene.look, detail_px,
       scene.width, scene.height};
@@ -23,7 +23,7 @@ hal::Result<> VesselLayer::update(Splatter& splatter, const VesselScene& scene, 
     drawn_ = key;
     ++drawings_;
   }
-  return target == StopsFor::gl && laid_ != drawings_ ? lay_into_gl(scene) : hal::Result<>{};
+  return target == MaskReader::gl && laid_ != drawings_ ? lay_into_gl(scene) : hal::Result<>{};
 }
 
 hal::Result<> VesselLayer::resize(int width, int height) {
@@ -41,7 +41,7 @@ hal::Result<> VesselLayer::resize(int width, int height) {
   depth_ = attach(GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
-    return hal::fail(hal::Fault::system,
+    return hal::fail(hal::ErrorCode::system,
                      fmt::format("vessel display: a picture of {}x{} is no complete framebuffer "
                                  "(status 0x{:04x}); choose a smaller size",
                                  width, height, status));
@@ -52,15 +52,12 @@ hal::Result<> VesselLayer::resize(int width, int height) {
 
 hal::Result<> VesselLayer::lay_into_gl(const VesselScene& scene) {
   if (!picture_) {
-    auto made = SplatPicture::create();
-    if (!made)
-      return tl::make_unexpected(made.error());
-    picture_.emplace(std::move(*made));
+    HAL_TRY(auto made, SplatPicture::create());
+    picture_.emplace(std::move(made));
   }
   const gl::KeptFramebuffer kept;
   if (scene.width != width_ || scene.height != height_)
-    if (auto ok = resize(scene.width, scene.height); !ok)
-      return ok;
+    HAL_CHECK(resize(scene.width, scene.height));
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);
   constexpr std::array<GLfloat, 4> nothing{0, 0, 0, 0};
@@ -68,17 +65,16 @@ hal::Result<> VesselLayer::lay_into_gl(const VesselScene& scene) {
   glDepthMask(GL_TRUE);
   glClearBufferfv(GL_COLOR, 0, nothing.data());
   glClearBufferfv(GL_DEPTH, 0, &far);
-  if (auto drawn = picture_->draw(image_, scene.camera); !drawn)
-    return drawn;
+  HAL_CHECK(picture_->draw(image_, scene.camera));
   laid_ = drawings_;
   return {};
 }
 
-VesselStops VesselLayer::stops(StopsFor target, float opacity) const {
-  VesselStops stops;
+DepthMask VesselLayer::stops(MaskReader target, float opacity) const {
+  DepthMask stops;
   stops.version = drawings_;
   stops.opacity = opacity;
-  if (target == StopsFor::processor) {
+  if (target == MaskReader::processor) {
     stops.image = &image_;
   } else {
     stops.colour = colour_.name();

@@ -5,29 +5,30 @@
 #include <optional>
 
 #include "hal/result.h"
+#include "ui/depth_mask/depth_mask.h"
 #include "ui/gl/objects.h"
-#include "ui/vessels/overlay/vessel_stops.h"
+#include "ui/vessels/scene/vessel_scene.h"
 #include "ui/vessels/splatter/splat_picture.h"
 #include "ui/vessels/splatter/splatter.h"
-#include "ui/vessels/vessel_scene.h"
+#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 
 // Who draws the volume, and so needs to know where vessels are.
-enum class StopsFor : std::uint8_t { gl, processor };
+enum class MaskReader : std::uint8_t { gl, processor };
 
 // Threads: as gl/objects.h. Allocates when the size changes, or GL is served for the first time.
 class VesselLayer {
 public:
-  // `tree` counts the trees shown. Fault::system: this GL cannot render to a picture of that size;
-  // other faults as Splatter::draw(). The bound framebuffer stays bound.
+  // `tree` counts the trees shown. ErrorCode::system: this GL cannot render to a picture of that
+  // size; other faults as Splatter::draw(). The bound framebuffer stays bound.
   hal::Result<> update(Splatter& splatter, const VesselScene& scene, std::uint64_t tree,
-                       float detail_px, StopsFor target);
+                       float detail_px, MaskReader target);
 
   // Of the last update(); `opacity` is handed on.
-  VesselStops stops(StopsFor target, float opacity) const;
+  DepthMask stops(MaskReader target, float opacity) const;
 
-  const VesselAccount& account() const { return account_; }
+  const SegmentCounts& account() const { return account_; }
   std::uint64_t drawings() const { return drawings_; } // counts the pictures made
 
 private:
@@ -45,8 +46,8 @@ private:
   hal::Result<> lay_into_gl(const VesselScene& scene);
   hal::Result<> resize(int width, int height);
 
-  SplatImage image_;
-  VesselAccount account_;
+  DepthImage image_;
+  SegmentCounts account_;
   std::optional<Key> drawn_;
   std::uint64_t drawings_ = 0;
   // In GL.

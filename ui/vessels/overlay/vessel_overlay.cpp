@@ -27,10 +27,8 @@ hal::Result<VesselOverlay> VesselOverlay::create(const pipeline::ThreadSetup& th
   constexpr unsigned most_helpers = 15;
   const unsigned helpers =
       std::clamp(std::thread::hardware_concurrency(), 1U, most_helpers + 1) - 1;
-  auto splatter = Splatter::create(helpers, threads);
-  if (!splatter)
-    return tl::make_unexpected(splatter.error());
-  return VesselOverlay{std::move(*splatter), clock};
+  HAL_TRY(auto splatter, Splatter::create(helpers, threads));
+  return VesselOverlay{std::move(splatter), clock};
 }
 
 void VesselOverlay::show(const PlacedVessels& vessels) {
@@ -42,11 +40,11 @@ bool VesselOverlay::shows(const ViewState& view) const {
   return view.vessels_visible && view.vessel_opacity > 0 && !vessels_.tree.clusters.empty();
 }
 
-hal::Result<std::optional<VesselStops>> VesselOverlay::update(const Request& request) {
+hal::Result<std::optional<DepthMask>> VesselOverlay::update(const Request& request) {
   const ViewState& view = request.view;
   if (!shows(view))
     return std::nullopt;
-  VesselLayer& layer = layers_[request.eye == Eye::right ? 1 : 0];
+  VesselLayer& layer = layers_[request.eye == StereoEye::right ? 1 : 0];
   const VesselScene scene{vessels_.tree,
                           request.camera,
                           world_from_tree(vessels_, view.vessel_nudge, request.geometry),
@@ -55,8 +53,7 @@ hal::Result<std::optional<VesselStops>> VesselOverlay::update(const Request& req
                           request.height};
   const std::uint64_t drawings = layer.drawings();
   const hal::TimePoint begin = clock_->now();
-  if (auto ok = layer.update(splatter_, scene, shown_, request.detail_px, request.target); !ok)
-    return tl::make_unexpected(ok.error());
+  HAL_CHECK(layer.update(splatter_, scene, shown_, request.detail_px, request.target));
   if (layer.drawings() != drawings)
     spent_ += clock_->now() - begin;
   account_ = layer.account();

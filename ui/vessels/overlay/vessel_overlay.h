@@ -9,11 +9,12 @@
 
 #include "hal/clock.h"
 #include "hal/result.h"
-#include "pipeline/worker_pool.h"
-#include "ui/camera.h"
+#include "pipeline/threads/worker_pool.h"
 #include "ui/vessels/overlay/vessel_layer.h"
-#include "ui/vessels/overlay/vessel_placement.h"
-#include "ui/view_state.h"
+#include "ui/view/camera.h"
+#include "ui/view/segment_counts.h"
+#include "ui/view/vessel_placement.h"
+#include "ui/view/view_state.h"
 
 namespace octascope::ui {
 
@@ -21,7 +22,7 @@ namespace octascope::ui {
 // eye or a target is served for the first time.
 class VesselOverlay {
 public:
-  // Costs are measured with `clock`, which outlives this. Fault::unsupported: as
+  // Costs are measured with `clock`, which outlives this. ErrorCode::unsupported: as
   // Splatter::create().
   static hal::Result<VesselOverlay> create(const pipeline::ThreadSetup& threads,
                                            const hal::Clock& clock);
@@ -30,17 +31,17 @@ public:
   void show(const PlacedVessels& vessels);
 
   struct Request {
-    Eye eye;
+    StereoEye eye;
     const ViewState& view;
     const Camera& camera; // for the volume's extents
     const pipeline::VolumeGeometry& geometry;
     int width; // of the volume's picture
     int height;
     float detail_px; // SplatShare has what it means
-    StopsFor target;
+    MaskReader target;
   };
   // Brings the eye's picture up to date. Nothing: the view shows no vessels.
-  hal::Result<std::optional<VesselStops>> update(const Request& request);
+  hal::Result<std::optional<DepthMask>> update(const Request& request);
 
   // Vessels are shown and nobody has said where they lie in the volume.
   bool shows_unregistered(const ViewState& view) const {
@@ -48,7 +49,7 @@ public:
   }
 
   // Of the newest picture.
-  const VesselAccount& account() const { return account_; }
+  const SegmentCounts& account() const { return account_; }
   // Since create(): of all drawings of vessels.
   hal::Duration spent() const { return spent_; }
 
@@ -62,7 +63,7 @@ private:
   PlacedVessels vessels_;
   std::uint64_t shown_ = 0;
   std::array<VesselLayer, 2> layers_; // the second is the right eye's
-  VesselAccount account_;
+  SegmentCounts account_;
   hal::Duration spent_{};
 };
 

@@ -122,7 +122,7 @@ public:
     for (std::size_t i = 0; i < count_; i += lanes)
       shade(i);
     for (std::size_t i = 0; i < count_; ++i)
-      bring(frame_.pixels[pixels_[i]], splat_pixel(distances_[i], colours_[i]));
+      bring(frame_.pixels[pixels_[i]], depth_pixel(distances_[i], colours_[i]));
     count_ = 0;
   }
 
@@ -131,9 +131,9 @@ private:
   static constexpr std::size_t room = most + 2 * lanes;
 
   // The smaller number stays, whatever other threads do.
-  static HWY_INLINE void bring(SplatPixel& pixel, SplatPixel found) {
-    std::atomic_ref<SplatPixel> shared{pixel};
-    SplatPixel there = shared.load(std::memory_order_relaxed);
+  static HWY_INLINE void bring(DepthPixel& pixel, DepthPixel found) {
+    std::atomic_ref<DepthPixel> shared{pixel};
+    DepthPixel there = shared.load(std::memory_order_relaxed);
     while (found < there &&
            !shared.compare_exchange_weak(there, found, std::memory_order_relaxed)) {
     }

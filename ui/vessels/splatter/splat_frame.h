@@ -6,8 +6,9 @@
 #include <span>
 
 #include "pipeline/vessels/clusters.h"
-#include "ui/vessels/splatter/splat_image.h"
-#include "ui/vessels/vessel_scene.h"
+#include "ui/depth_mask/depth_image.h"
+#include "ui/vessels/scene/vessel_scene.h"
+#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 
@@ -19,7 +20,7 @@ using AffineRow = std::array<double, 4>;
 using BaseColour = std::uint32_t;
 inline constexpr BaseColour kept_visible = 1U << 30U;
 
-// Where the segments went; see VesselAccount.
+// Where the segments went; see SegmentCounts.
 struct SplatCounts {
   std::uint64_t splatted = 0;
   std::uint64_t merged = 0;
@@ -32,7 +33,7 @@ struct SplatFrame {
   // draws. Empty: none.
   std::span<const std::uint8_t> taken;
   float detail_px = 0; // see merged_order.h; 0: every segment is drawn
-  SplatPixel* pixels = nullptr;
+  DepthPixel* pixels = nullptr;
   int width = 0;
   int height = 0;
   // Pixel centres are whole numbers, rows run from the top: column = column_row / distance_row.

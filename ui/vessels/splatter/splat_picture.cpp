@@ -11,15 +11,13 @@ namespace octascope::ui {
 static_assert(std::endian::native == std::endian::little, "a pixel's colour is its first half");
 
 hal::Result<SplatPicture> SplatPicture::create() {
-  auto pass = gl::PicturePass::create("vessel_splats", shaders::vessel_splats_frag);
-  if (!pass)
-    return tl::make_unexpected(pass.error());
-  return SplatPicture{std::move(*pass)};
+  HAL_TRY(auto pass, gl::PicturePass::create("vessel_splats", shaders::vessel_splats_frag));
+  return SplatPicture{std::move(pass)};
 }
 
-hal::Result<> SplatPicture::upload(const SplatImage& image) {
+hal::Result<> SplatPicture::upload(const DepthImage& image) {
   const std::size_t bytes = static_cast<std::size_t>(image.width) *
-                            static_cast<std::size_t>(image.height) * sizeof(SplatPixel);
+                            static_cast<std::size_t>(image.height) * sizeof(DepthPixel);
   if (image.width != width_ || image.height != height_) {
     uploader_ = gl::PixelUploader::create(bytes);
     texture_ = gl::Texture::make();
@@ -30,10 +28,7 @@ hal::Result<> SplatPicture::upload(const SplatImage& image) {
     width_ = image.width;
     height_ = image.height;
   }
-  if (auto ok =
-          uploader_.stage({reinterpret_cast<const std::uint8_t*>(image.pixels.data()), bytes});
-      !ok)
-    return ok;
+  HAL_CHECK(uploader_.stage({reinterpret_cast<const std::uint8_t*>(image.pixels.data()), bytes}));
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RG_INTEGER, GL_UNSIGNED_INT,
@@ -42,10 +37,9 @@ hal::Result<> SplatPicture::upload(const SplatImage& image) {
   return {};
 }
 
-hal::Result<> SplatPicture::draw(const SplatImage& image, const Camera& camera) {
+hal::Result<> SplatPicture::draw(const DepthImage& image, const Camera& camera) {
   glActiveTexture(GL_TEXTURE0);
-  if (auto ok = upload(image); !ok)
-    return ok;
+  HAL_CHECK(upload(image));
   pass_.use();
   glUniform1i(pass_.uniform("u_splats"), 0);
   glUniform2f(pass_.uniform("u_size"), static_cast<float>(image.width),

@@ -1,13 +1,13 @@
-// A SplatImage in GL: laid into the bound framebuffer with its depth, so that what GL draws and
+// A DepthImage in GL: laid into the bound framebuffer with its depth, so that what GL draws and
 // what the processor has drawn hide each other as they should.
 #pragma once
 
 #include "hal/result.h"
-#include "ui/camera.h"
+#include "ui/depth_mask/depth_image.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
 #include "ui/gl/pixel_uploader.h"
-#include "ui/vessels/splatter/splat_image.h"
+#include "ui/view/camera.h"
 
 namespace octascope::ui {
 
@@ -18,11 +18,11 @@ public:
 
   // Over the whole viewport, which is as large as the image, with GL_LESS: where there is no
   // vessel, what is there stays. Leaves the depth test off.
-  hal::Result<> draw(const SplatImage& image, const Camera& camera);
+  hal::Result<> draw(const DepthImage& image, const Camera& camera);
 
 private:
   explicit SplatPicture(gl::PicturePass pass) : pass_{std::move(pass)} {}
-  hal::Result<> upload(const SplatImage& image);
+  hal::Result<> upload(const DepthImage& image);
 
   gl::PicturePass pass_;
   gl::PixelUploader uploader_;

@@ -1,4 +1,4 @@
-// The rounded trapezoids of ui/vessels/vessel_scene.h, pixel centre by pixel centre. For one
+// The rounded trapezoids of ui/vessels/scene/vessel_scene.h, pixel centre by pixel centre. For one
 // instruction set; see splat_kernels.h.
 //
 // Small ones are drawn side by side, one in each lane: along the axis that they follow more, each
@@ -69,7 +69,7 @@ public:
   // add() may be called so many times more before there must be a draw_full().
   HWY_INLINE std::size_t space() const { return room - count_; }
 
-  // Draws what fills whole registers and keeps the rest.
+  // HashRandom what fills whole registers and keeps the rest.
   void draw_full() {
     std::size_t i = 0;
     for (; i + lanes <= count_; i += lanes)
@@ -81,7 +81,7 @@ public:
     count_ = rest;
   }
 
-  // Draws all, into the picture.
+  // HashRandom all, into the picture.
   void finish() {
     draw_full();
     if (count_ > 0) {

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "ui/view/segment_counts.h"
+
 namespace octascope::ui {
 
 namespace {
@@ -41,7 +43,7 @@ AffineRow scaled_sum(double p, const AffineRow& a, double q, const AffineRow& b)
   return {p * a[0] + q * b[0], p * a[1] + q * b[1], p * a[2] + q * b[2], p * a[3] + q * b[3]};
 }
 
-SplatFrame frame_of(const VesselScene& scene, SplatImage& image) {
+SplatFrame frame_of(const VesselScene& scene, DepthImage& image) {
   SplatFrame frame;
   frame.tree = scene.tree;
   frame.pixels = image.pixels.data();
@@ -82,23 +84,23 @@ hal::Result<Splatter> Splatter::create(std::size_t helpers, const pipeline::Thre
                                        std::string_view isa) {
   const SplatKernels* kernels = splat_kernels(isa);
   if (kernels == nullptr)
-    return hal::fail(hal::Fault::unsupported,
+    return hal::fail(hal::ErrorCode::unsupported,
                      fmt::format("vessel splatter: found no instruction set {}of those compiled in "
                                  "on this processor; draw vessels with GL",
                                  isa.empty() ? std::string{} : fmt::format("'{}' ", isa)));
   return Splatter{*kernels, std::make_unique<WorkTeam>(helpers, setup)};
 }
 
-hal::Result<VesselAccount> Splatter::draw(const VesselScene& scene, SplatImage& image,
+hal::Result<SegmentCounts> Splatter::draw(const VesselScene& scene, DepthImage& image,
                                           const SplatShare& share) {
   if (scene.width <= 0 || scene.height <= 0)
-    return hal::fail(hal::Fault::invalid_argument,
+    return hal::fail(hal::ErrorCode::invalid_argument,
                      fmt::format("vessel splatter: a picture of {} by {} pixels, expected at least "
                                  "one; give the window a size",
                                  scene.width, scene.height));
   if (!share.taken.empty() && share.taken.size() != scene.tree.clusters.size())
     return hal::fail(
-        hal::Fault::invalid_argument,
+        hal::ErrorCode::invalid_argument,
         fmt::format("vessel splatter: shares of {} clusters, expected {}; give one for "
                     "each cluster or none",
                     share.taken.size(), scene.tree.clusters.size()));
@@ -107,7 +109,7 @@ hal::Result<VesselAccount> Splatter::draw(const VesselScene& scene, SplatImage& 
       static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
   in_parts(*team_, pixels, pixels_at_a_time, [&](std::size_t first, std::size_t end) {
     std::fill(image.pixels.begin() + static_cast<std::ptrdiff_t>(first),
-              image.pixels.begin() + static_cast<std::ptrdiff_t>(end), empty_splat);
+              image.pixels.begin() + static_cast<std::ptrdiff_t>(end), empty_depth_pixel);
   });
   SplatFrame frame = frame_of(scene, image);
   frame.taken = share.taken;
@@ -123,7 +125,7 @@ hal::Result<VesselAccount> Splatter::draw(const VesselScene& scene, SplatImage& 
              merged.fetch_add(counts.merged, std::memory_order_relaxed);
              culled.fetch_add(counts.culled, std::memory_order_relaxed);
            });
-  return VesselAccount{0, splatted, merged, culled};
+  return SegmentCounts{0, splatted, merged, culled};
 }
 
 } // namespace octascope::ui

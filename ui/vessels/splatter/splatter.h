@@ -1,6 +1,6 @@
-// Vessel trees drawn by the processor: each segment's rounded trapezoid (ui/vessels/vessel_scene.h)
-// in the pixels whose centres it covers, the nearest in front. No order of drawing matters, so
-// threads share one picture and the result is the same to the bit.
+// Vessel trees drawn by the processor: each segment's rounded trapezoid
+// (ui/vessels/scene/vessel_scene.h) in the pixels whose centres it covers, the nearest in front. No
+// order of drawing matters, so threads share one picture and the result is the same to the bit.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,12 @@
 #include <string_view>
 
 #include "hal/result.h"
-#include "pipeline/worker_pool.h"
-#include "ui/vessels/splatter/splat_image.h"
+#include "pipeline/threads/work_team.h"
+#include "pipeline/threads/worker_pool.h"
+#include "ui/depth_mask/depth_image.h"
+#include "ui/vessels/scene/vessel_scene.h"
 #include "ui/vessels/splatter/splat_kernels.h"
-#include "ui/vessels/vessel_scene.h"
-#include "ui/work_team.h"
+#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 
@@ -31,14 +32,14 @@ struct SplatShare {
 class Splatter {
 public:
   // `helpers` threads beside the caller's. `isa` names an instruction set, else the widest is
-  // taken. Fault::unsupported: this processor has none that is compiled in.
+  // taken. ErrorCode::unsupported: this processor has none that is compiled in.
   static hal::Result<Splatter> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
                                       std::string_view isa = {});
 
-  // Draws into `image`, which becomes as large as the scene says. The account is of the segments
-  // that are not taken. Fault::invalid_argument: the scene has no pixels, or `taken` is not as long
-  // as there are clusters.
-  hal::Result<VesselAccount> draw(const VesselScene& scene, SplatImage& image,
+  // HashRandom into `image`, which becomes as large as the scene says. The account is of the
+  // segments that are not taken. ErrorCode::invalid_argument: the scene has no pixels, or `taken`
+  // is not as long as there are clusters.
+  hal::Result<SegmentCounts> draw(const VesselScene& scene, DepthImage& image,
                                   const SplatShare& share = {});
 
   std::string_view isa() const { return kernels_->isa; }

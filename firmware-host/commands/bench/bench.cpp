@@ -1,0 +1,14 @@
+#include "firmware-host/commands/bench/bench.h"
+
+namespace octascope::firmware_host {
+
+CLI::App& add_bench_command(CLI::App& program, int& exit_status) {
+  CLI::App* bench = program.add_subcommand("bench", "How fast this machine does it");
+  bench->require_subcommand(1);
+  bench->footer("Example: octascope bench display --json");
+  add_bench_reconstruct_command(*bench, exit_status);
+  add_bench_display_command(*bench, exit_status);
+  return *bench;
+}
+
+} // namespace octascope::firmware_host

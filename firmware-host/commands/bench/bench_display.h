@@ -1,0 +1,65 @@
+// octascope bench display: how long each technique takes for the volume's picture on this machine,
+// that the pictures are right, and what the whole appliance makes of it.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware-host/commands/bench/live_probe.h"
+#include "hal/result.h"
+#include "pipeline/volume/volume.h"
+#include "ui/view/draw_quality.h"
+#include "ui/view/technique.h"
+
+namespace octascope::firmware_host {
+
+struct DisplayBenchOptions {
+  // Width and height, from the smallest to the largest.
+  std::vector<std::array<int, 2>> sizes{{640, 360}, {1280, 720}, {1920, 1080}};
+  std::optional<ui::Technique> technique;    // none: all
+  std::optional<ui::RayBackend> rays;        // of techniques that cast them, who does; none: both
+  double seconds = 90;                       // about how long the drawing is measured
+  std::optional<std::filesystem::path> dump; // folder for pictures and the volume
+  bool live = true;                          // also run the appliance
+};
+
+struct DisplayBenchCase {
+  ui::Technique technique = ui::Technique::rays;
+  ui::RayBackend backend = ui::RayBackend::shader; // of slices, planes and surface always that
+  int width = 1280;
+  int height = 720;
+  int steps = 512; // along the longest edge of the volume
+  bool opaque = true;
+};
+
+struct DisplayBenchResult {
+  DisplayBenchCase what;
+  int frames = 0; // each drawn anew, from eight directions in turn; at least 4
+  double ms_p50 = 0;
+  double ms_p95 = 0;
+  // Mean absolute difference of 255, over the picture, from the same technique drawn by the other
+  // backend, or, of slices and planes, from cast rays; at the smallest size.
+  std::optional<double> difference;
+};
+
+struct DisplayBenchReport {
+  std::string cpu;
+  std::string gl_renderer;
+  pipeline::VolumeGeometry geometry;
+  double window_offset_db = 0;
+  double window_size_db = 0;
+  std::vector<DisplayBenchResult> cases;
+  double upload_ms_p50 = 0;
+  double occupancy_ms_per_b_scan = 0;
+  std::optional<LiveFigures> live;
+};
+
+hal::Result<DisplayBenchReport> bench_display(const pipeline::Volume& volume,
+                                              const DisplayBenchOptions& options);
+
+std::string to_json(const DisplayBenchReport& report);
+
+} // namespace octascope::firmware_host

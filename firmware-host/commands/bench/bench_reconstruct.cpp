@@ -1,0 +1,387 @@
+#include "firmware-host/commands/bench/bench_reconstruct.h"
+
+#include <algorithm>
+#include <barrier>
+#include <chrono>
+#include <cmath>
+#include <complex>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <thread>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "firmware-host/commands/bench/bench.h"
+#include "firmware-host/commands/bench/bench_timing.h"
+#include "firmware-host/commands/command.h"
+#include "firmware-host/reconstruction/reconstruction_cache.h"
+#include "pipeline/reconstruction/fft_plan.h"
+#include "pipeline/volume/level_scale.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using pipeline::BackgroundMode;
+using pipeline::Interpolation;
+using pipeline::ReconstructionPath;
+
+constexpr int samples = 1024;
+constexpr int a_scans = 300;
+constexpr int fewest_repeats = 9;
+constexpr double source_counts = 20000;
+constexpr std::size_t b_scan_counts = std::size_t{a_scans} * samples;
+constexpr std::size_t ring_b_scans = 90; // 55 MB: larger than last-level caches, or what VMs see
+
+pipeline::Calibration make_calibration(const BenchCase& what) {
+  pipeline::Calibration calibration = pipeline::Calibration::identity(samples);
+  calibration.interpolation = what.interpolation;
+  for (std::size_t m = 0; m < samples; ++m) {
+    const double u = static_cast<double>(m) / (samples - 1);
+    calibration.positions[m] = (samples - 1) * u + 280 * u * (1 - u);
+    if (what.dispersion)
+      calibration.dispersion_rad.push_back(40 * (u - 0.5) * (u - 0.5));
+  }
+  calibration.background_mode = what.background;
+  if (what.background == BackgroundMode::file)
+    calibration.background.assign(samples, static_cast<float>(source_counts));
+  return calibration;
+}
+
+// Reflectors, a source spectrum and noise, different in every B-scan.
+std::vector<std::uint16_t> make_ring() {
+  std::mt19937 generator{7};
+  std::uniform_real_distribution<double> depth{0.02, 0.9};
+  std::vector<std::uint16_t> ring(ring_b_scans * b_scan_counts);
+  for (std::size_t b = 0; b < ring_b_scans; ++b) {
+    const double near = depth(generator);
+    const double far = depth(generator);
+    std::vector<double> fringes(samples);
+    for (std::size_t p = 0; p < samples; ++p)
+      fringes[p] = source_counts +
+                   4000 * std::cos(std::numbers::pi * near * static_cast<double>(p)) +
+                   400 * std::cos(std::numbers::pi * far * static_cast<double>(p));
+    for (std::size_t i = 0; i < b_scan_counts; ++i)
+      ring[b * b_scan_counts + i] =
+          static_cast<std::uint16_t>(fringes[i % samples] * (i / samples % 2 == 0 ? 1.0 : 0.9) +
+                                     static_cast<double>(generator() % 512));
+  }
+  return ring;
+}
+
+// The bare transform: in and out in the first-level cache, the best plan of the planner's efforts.
+class BareTransform {
+public:
+  BareTransform() {
+    std::fill_n(in_.get(), 2 * samples, 0.5F);
+    const pipeline::FftPlan measured = plan(FFTW_MEASURE);
+    const pipeline::FftPlan patient = plan(FFTW_PATIENT);
+    std::fill_n(in_.get(), 2 * samples, 0.5F);
+    double best[2] = {1, 1};
+    for (int repeat = 0; repeat < 5; ++repeat) {
+      best[0] = std::min(best[0], time_once(measured.get(), 500));
+      best[1] = std::min(best[1], time_once(patient.get(), 500));
+    }
+    plan_ = plan(best[1] < best[0] ? FFTW_PATIENT : FFTW_MEASURE); // known by now: no planning
+    std::fill_n(in_.get(), 2 * samples, 0.5F);
+  }
+
+  double seconds() { return time_once(plan_.get(), 400); }
+
+private:
+  struct Free {
+    void operator()(float* memory) const { fftwf_free(memory); }
+  };
+  using Buffer = std::unique_ptr<float[], Free>;
+
+  pipeline::FftPlan plan(unsigned effort) {
+    const std::scoped_lock lock{pipeline::fft_planner_mutex()};
+    fftwf_set_timelimit(5);
+    return pipeline::FftPlan{fftwf_plan_dft_1d(samples, reinterpret_cast<fftwf_complex*>(in_.get()),
+                                               reinterpret_cast<fftwf_complex*>(out_.get()),
+                                               FFTW_FORWARD, effort)};
+  }
+  static double time_once(fftwf_plan plan, int transforms) {
+    const auto start = BenchClock::now();
+    for (int i = 0; i < transforms; ++i)
+      fftwf_execute(plan);
+    return seconds_since(start) / transforms;
+  }
+
+  Buffer in_{fftwf_alloc_real(2 * samples)};
+  Buffer out_{fftwf_alloc_real(2 * samples)};
+  pipeline::FftPlan plan_;
+};
+
+// Levels of line `a` in double precision: sums as they stand in books, the transform included.
+std::vector<double> reference_levels_db(std::span<const std::uint16_t> b_scan, std::size_t a,
+                                        const pipeline::Calibration& calibration) {
+  std::vector<double> line(samples);
+  if (calibration.background_mode == BackgroundMode::file)
+    std::ranges::transform(calibration.background, line.begin(), [](float b) { return -b; });
+  else
+    for (std::size_t i = 0; i < b_scan.size(); ++i)
+      line[i % samples] -= static_cast<double>(b_scan[i]) / a_scans;
+  for (std::size_t p = 0; p < samples; ++p)
+    line[p] += b_scan[a * samples + p];
+  const auto taps =
+      pipeline::make_resampling_taps(calibration.positions, calibration.interpolation);
+  const auto width = static_cast<std::size_t>(taps.width);
+  std::vector<std::complex<double>> shaped(samples);
+  std::vector<std::complex<double>> roots(samples);
+  for (std::size_t m = 0; m < samples; ++m) {
+    double count = 0;
+    for (std::size_t t = 0; t < width; ++t)
+      count += static_cast<double>(taps.weights[m * width + t]) *
+               line[static_cast<std::size_t>(taps.first[m]) + t];
+    const double theta = calibration.dispersion_rad.empty() ? 0 : calibration.dispersion_rad[m];
+    shaped[m] = std::polar(count * calibration.window[m] / samples, theta);
+    if (count < 0)
+      shaped[m] = -std::polar(-count * calibration.window[m] / samples, theta);
+    roots[m] = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(m) / samples);
+  }
+  std::vector<double> levels(samples / 2);
+  for (std::size_t z = 0; z < levels.size(); ++z) {
+    std::complex<double> sum = 0;
+    for (std::size_t m = 0; m < samples; ++m)
+      sum += shaped[m] * roots[m * z % samples];
+    levels[z] = 10 * std::log10(std::norm(sum));
+  }
+  return levels;
+}
+
+class CaseBench {
+public:
+  CaseBench(const BenchCase& what, pipeline::Reconstructor reconstructor,
+            const std::vector<std::uint16_t>& ring)
+      : reconstructor_(std::move(reconstructor)), ring_(ring) {
+    result_.what = what;
+    result_.what.isa = reconstructor_.isa();
+    for (int thread = 0; thread < what.threads; ++thread) {
+      workspaces_.push_back(reconstructor_.make_workspace());
+      levels_.emplace_back(reconstructor_.levels());
+    }
+  }
+
+  BenchResult measure(BareTransform& bare, double seconds, std::vector<double>& bare_seconds) {
+    check(make_calibration(result_.what));
+    // Short repeats, many of them: on a busy machine most fall between two interruptions, and the
+    // median is one of those. Starting threads takes its time, so that two work for longer.
+    const std::size_t b_scans = workspaces_.size() == 1 ? 2 : 16 * workspaces_.size();
+    seconds_a_line(b_scans);
+    std::vector<double> ratios;
+    std::vector<double> rates;
+    const auto start = BenchClock::now();
+    while (ratios.size() < fewest_repeats || seconds_since(start) < seconds) {
+      const double before = bare.seconds();
+      const double line = seconds_a_line(b_scans);
+      const double transform = (before + bare.seconds()) / 2;
+      bare_seconds.push_back(transform);
+      ratios.push_back(line / transform);
+      rates.push_back(1 / line);
+    }
+    result_.repeats = static_cast<int>(ratios.size());
+    result_.lines_per_s = quantile(rates, 0.5);
+    result_.ratio_to_fftw = quantile(ratios, 0.5);
+    result_.spread = (quantile(ratios, 0.75) - quantile(ratios, 0.25)) / result_.ratio_to_fftw;
+    return result_;
+  }
+
+private:
+  // `b_scans` over all threads, on through the ring.
+  double seconds_a_line(std::size_t b_scans) {
+    const auto threads = workspaces_.size();
+    const std::size_t each = (b_scans + threads - 1) / threads;
+    BenchClock::time_point start;
+    std::barrier together{static_cast<std::ptrdiff_t>(threads), [&]() noexcept {
+                            if (start == BenchClock::time_point{})
+                              start = BenchClock::now();
+                          }};
+    const auto work = [&](std::size_t thread) {
+      together.arrive_and_wait();
+      for (std::size_t i = 0; i < each; ++i)
+        reconstruct((next_ + i * threads + thread) % ring_b_scans, thread);
+      together.arrive_and_wait();
+    };
+    std::vector<std::jthread> others;
+    for (std::size_t thread = 1; thread < threads; ++thread)
+      others.emplace_back(work, thread);
+    work(0);
+    const double elapsed = seconds_since(start);
+    next_ = (next_ + each * threads) % ring_b_scans;
+    return elapsed / static_cast<double>(each * threads * a_scans);
+  }
+
+  void reconstruct(std::size_t b_scan, std::size_t thread) {
+    const std::span counts{ring_.data() + b_scan * b_scan_counts, b_scan_counts};
+    reconstructor_.reconstruct_b_scan(workspaces_[thread], std::as_bytes(counts), levels_[thread]);
+  }
+
+  void check(const pipeline::Calibration& calibration) {
+    constexpr std::size_t checked_lines = 6;
+    reconstruct(3, 0);
+    const std::span counts{ring_.data() + 3 * b_scan_counts, b_scan_counts};
+    int differing = 0;
+    for (std::size_t i = 0; i < checked_lines; ++i) {
+      const std::size_t a = i * (a_scans - 1) / (checked_lines - 1);
+      const auto reference = reference_levels_db(counts, a, calibration);
+      for (std::size_t z = 0; z < reference.size(); ++z) {
+        const int expected = pipeline::quantise_level(static_cast<float>(reference[z]));
+        const int error = std::abs(expected - levels_[0][a * reference.size() + z]);
+        differing += error > 0 ? 1 : 0;
+        result_.max_count_error = std::max(result_.max_count_error, error);
+      }
+    }
+    result_.share_differing = differing / static_cast<double>(checked_lines * samples / 2);
+  }
+
+  pipeline::Reconstructor reconstructor_;
+  const std::vector<std::uint16_t>& ring_;
+  std::vector<pipeline::Reconstructor::Workspace> workspaces_;
+  std::vector<std::vector<std::uint8_t>> levels_;
+  std::size_t next_ = 0;
+  BenchResult result_;
+};
+
+hal::Result<pipeline::Reconstructor> make_reconstructor(const BenchCase& what) {
+  return pipeline::Reconstructor::create(
+      {.calibration = make_calibration(what),
+       .format = pipeline::SpectrumFormat{samples, pipeline::SpectrumType::u16},
+       .a_scans = a_scans,
+       .path = what.path,
+       .fused_isa = what.isa});
+}
+
+// Fused kernels of every instruction set that this processor has, and FFTW's path.
+std::vector<BenchCase> all_cases() {
+  std::vector<BenchCase> cases;
+  for (const char* isa : {"AVX3", "AVX2", "SSE4", "NEON", ""}) {
+    const bool fused = std::strlen(isa) > 0;
+    BenchCase what{.path = fused ? ReconstructionPath::fused : ReconstructionPath::fftw,
+                   .isa = isa};
+    const auto reconstructor = make_reconstructor(what);
+    if (!reconstructor || reconstructor->path() != what.path)
+      continue;
+    for (const auto interpolation :
+         {Interpolation::sinc8, Interpolation::cubic, Interpolation::linear})
+      for (const auto& [dispersion, background] : {std::pair{true, BackgroundMode::file},
+                                                   {true, BackgroundMode::mean},
+                                                   {false, BackgroundMode::file}})
+        for (const int threads : {1, 2}) {
+          what.interpolation = interpolation;
+          what.dispersion = dispersion;
+          what.background = background;
+          what.threads = threads;
+          cases.push_back(what);
+        }
+  }
+  return cases;
+}
+
+const char* path_name(ReconstructionPath path) {
+  return path == ReconstructionPath::fused ? "fused" : "fftw";
+}
+
+const char* interpolation_name(Interpolation interpolation) {
+  switch (interpolation) {
+  case Interpolation::linear: return "linear";
+  case Interpolation::cubic: return "cubic";
+  case Interpolation::sinc8: break;
+  }
+  return "sinc8";
+}
+
+const char* background_name(BackgroundMode background) {
+  return background == BackgroundMode::file ? "recorded" : "mean";
+}
+
+void print_text(const BenchReport& report) {
+  fmt::print("{}\nbare FFTW c2c {}: {:.0f} ns; raw data from a ring of {:.0f} MB; medians, "
+             "spread between the quartiles\n\n"
+             "path   isa     taps    dispersion background threads  lines/s   "
+             "x FFTW  spread  "
+             "error  differing\n",
+             report.cpu, samples, report.fftw_c2c_ns, report.ring_mb);
+  for (const BenchResult& result : report.cases)
+    fmt::print(
+        "{:<6} {:<7} {:<7} {:<10} {:<10} {:>7} {:>8.0f} k {:>7.3f} {:>6.1f} % {:>5} {:>8.3f} %\n",
+        path_name(result.what.path), result.what.isa, interpolation_name(result.what.interpolation),
+        result.what.dispersion ? "yes" : "no", background_name(result.what.background),
+        result.what.threads, result.lines_per_s / 1000, result.ratio_to_fftw, 100 * result.spread,
+        result.max_count_error, 100 * result.share_differing);
+}
+
+} // namespace
+
+hal::Result<BenchReport> bench_reconstruct(double seconds) {
+  const std::vector<std::uint16_t> ring = make_ring();
+  BareTransform bare;
+  BenchReport report;
+  report.cpu = processor_name();
+  report.ring_mb = static_cast<double>(ring.size() * sizeof ring[0]) / 1e6;
+  const std::vector<BenchCase> cases = all_cases();
+  std::vector<double> bare_seconds;
+  for (const BenchCase& what : cases) {
+    HAL_TRY(auto reconstructor, make_reconstructor(what));
+    report.cases.push_back(CaseBench{what, std::move(reconstructor), ring}.measure(
+        bare, seconds / static_cast<double>(cases.size()), bare_seconds));
+  }
+  report.fftw_c2c_ns = 1e9 * quantile(bare_seconds, 0.5);
+  return report;
+}
+
+std::string to_json(const BenchReport& report) {
+  nlohmann::ordered_json json{
+      {"cpu", report.cpu}, {"fftw_c2c_1024_ns", report.fftw_c2c_ns}, {"ring_mb", report.ring_mb}};
+  auto& list = json["cases"] = nlohmann::ordered_json::array();
+  for (const BenchResult& result : report.cases)
+    list.push_back({{"path", path_name(result.what.path)},
+                    {"isa", result.what.isa},
+                    {"samples", samples},
+                    {"interpolation", interpolation_name(result.what.interpolation)},
+                    {"dispersion", result.what.dispersion},
+                    {"background", background_name(result.what.background)},
+                    {"threads", result.what.threads},
+                    {"lines_per_s", result.lines_per_s},
+                    {"ratio_to_fftw", result.ratio_to_fftw},
+                    {"spread", result.spread},
+                    {"repeats", result.repeats},
+                    {"max_count_error", result.max_count_error},
+                    {"share_differing", result.share_differing}});
+  return json.dump(2);
+}
+
+void add_bench_reconstruct_command(CLI::App& bench, int& exit_status) {
+  struct Options {
+    bool as_json = false;
+    double seconds = 30;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = bench.add_subcommand(
+      "reconstruct", "Lines a second of each path, relative to bare FFTW transforms");
+  command->add_flag("--json", options->as_json, "One JSON object");
+  command->add_option("--seconds", options->seconds, "About how long to measure (30 if not given)")
+      ->check(CLI::Range(0.1, 3600.0));
+  command->footer("Example: octascope bench reconstruct --json");
+  command->callback([options, &exit_status] {
+    const auto report = bench_reconstruct(options->seconds);
+    if (!report) {
+      fmt::print(stderr, "octascope bench reconstruct: {}\n", report.error().message);
+      exit_status = exit_failed;
+      return;
+    }
+    if (options->as_json)
+      fmt::print("{}\n", to_json(*report));
+    else
+      print_text(*report);
+    exit_status = exit_done;
+  });
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,49 @@
+// octascope bench reconstruct: how fast each path reconstructs on this machine, relative to bare
+// FFTW transforms measured in between on the same core, and that the results are right.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hal/result.h"
+#include "pipeline/reconstruction/reconstructor.h"
+
+namespace octascope::firmware_host {
+
+// What is measured: 300 lines of 1024 u16 samples a B-scan, Hann window, a chirp of 70 pixels,
+// 8-bit levels. The background is recorded, or the mean of the B-scan's lines: then they are read
+// twice.
+struct BenchCase {
+  pipeline::ReconstructionPath path = pipeline::ReconstructionPath::fftw;
+  std::string isa;
+  pipeline::Interpolation interpolation = pipeline::Interpolation::sinc8;
+  bool dispersion = true;
+  pipeline::BackgroundMode background = pipeline::BackgroundMode::file;
+  int threads = 1;
+};
+
+struct BenchResult {
+  BenchCase what;
+  double lines_per_s = 0;   // median
+  double ratio_to_fftw = 0; // time a line / time a bare transform: median of the repeats' ratios
+  double spread = 0;        // of that ratio: between its quartiles / median
+  int repeats = 0;          // at least 9
+  int max_count_error = 0;  // of 255, against double precision, over a sample of lines
+  double share_differing = 0;
+};
+
+struct BenchReport {
+  std::string cpu;
+  double fftw_c2c_ns = 0; // median over all repeats
+  double ring_mb = 0;
+  std::vector<BenchResult> cases;
+};
+
+// Every path, instruction set, interpolation, with and without dispersion, on one thread and two;
+// with dispersion, both backgrounds.
+// `seconds` is about what all the measuring takes.
+hal::Result<BenchReport> bench_reconstruct(double seconds);
+
+std::string to_json(const BenchReport& report);
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,60 @@
+// octascope calibrate: measurements of a spectrometer → the calibration that every command takes,
+// and a verdict on it.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "firmware-host/commands/calibrate/calibrate_verdict.h"
+#include "hal/result.h"
+#include "pipeline/calibration_finder/mirror_pair.h"
+#include "pipeline/reconstruction/spectra_file.h"
+
+namespace octascope::firmware_host {
+
+// Light that is not interference. With `plain`, their mean is subtracted from each mirror; else
+// sample arm and reference arm, each with the other one blocked, are subtracted, and what both
+// contain (no light at all) is added once where both are given.
+struct DarkFiles {
+  std::vector<std::filesystem::path> plain;
+  std::optional<std::filesystem::path> none;
+  std::optional<std::filesystem::path> reference;
+  std::vector<std::filesystem::path> sample; // one, or one for each mirror
+};
+
+struct CalibrateOptions {
+  std::vector<std::filesystem::path> mirrors; // none or two
+  DarkFiles darks;
+  std::optional<pipeline::SampleSide> side; // not given: the tissue decides, else both mirrors
+  std::optional<std::filesystem::path> lamp;
+  std::vector<double> lines_nm;
+  std::optional<std::filesystem::path> tissue;
+  pipeline::SpectraShape tissue_shape;
+  std::optional<std::filesystem::path> base;  // calibration whose k curve is used for the tissue
+  std::optional<int> samples;                 // not given: each file is one line
+  std::optional<pipeline::SpectrumType> type; // not given: as the file's name says, else u16
+  std::optional<pipeline::SpectrumType> tissue_type; // likewise
+  std::optional<int> significant_bits;               // full scale of counts
+  std::optional<double> mirror_distance_um;
+  std::optional<double> spacing_um;
+  std::optional<double> refractive_index; // in which depths are to be told
+  std::string camera;                     // which one the measurements are of; empty: not said
+  std::filesystem::path out;
+  std::optional<std::filesystem::path> picture;
+};
+
+// What does not go together on the command line.
+hal::Result<> check(const CalibrateOptions& options);
+
+// Checks, and writes the files only when all of it went well.
+hal::Result<CalibrationVerdict> calibrate(const CalibrateOptions& options);
+
+// As add_reconstruct_command().
+void add_calibrate_command(CLI::App& app, int& exit_status);
+
+} // namespace octascope::firmware_host

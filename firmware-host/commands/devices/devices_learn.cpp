@@ -1,0 +1,127 @@
+#include "firmware-host/commands/devices/devices_learn.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "firmware-host/commands/command.h"
+#include "firmware-host/configuration/control_device_file.h"
+#include "firmware-host/run/stop_signal.h"
+#include "hal/linux/hid/learning_session.h"
+#include "hal/linux/monotonic_clock.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using hal::linux_backend::HidNode;
+using hal::linux_backend::LearningSession;
+using namespace std::chrono_literals;
+
+constexpr hal::Duration look_every = 200ms;
+constexpr hal::Duration settling = 500ms; // a device's files come one after the other
+
+std::vector<HidNode> nodes_of(std::string_view usb) {
+  std::vector<HidNode> nodes = hal::linux_backend::survey_hid();
+  std::erase_if(nodes, [&](const HidNode& node) {
+    return hal::linux_backend::usb_id(node.vendor, node.product) != usb;
+  });
+  return nodes;
+}
+
+// Vendor and product of the next device that is plugged in; empty when a signal comes first.
+std::string wait_for_new_device(hal::Clock& clock, StopSignal& stop) {
+  std::vector<HidNode> known = hal::linux_backend::survey_hid();
+  while (!stop.requested()) {
+    clock.sleep_for(look_every);
+    std::vector<HidNode> now = hal::linux_backend::survey_hid();
+    for (const HidNode& node : now)
+      if (std::ranges::find(known, node) == known.end()) {
+        clock.sleep_for(settling);
+        return hal::linux_backend::usb_id(node.vendor, node.product);
+      }
+    known = std::move(now); // one that was pulled out is new when it comes back
+  }
+  return {};
+}
+
+// Until it is quiet, a signal comes or the device goes.
+void listen(LearningSession& session, const LearnOptions& options, hal::Clock& clock,
+            StopSignal& stop) {
+  hal::TimePoint last = clock.now();
+  while (!stop.requested()) {
+    const auto lines = session.listen(50ms);
+    if (!lines) {
+      fmt::print(stderr, "{}\n", lines.error().message);
+      return;
+    }
+    for (const std::string& line : *lines)
+      fmt::print("  {}\n", line);
+    if (!lines->empty())
+      last = clock.now();
+    std::fflush(stdout);
+    if (session.learned() && clock.now() - last > hal::from_seconds(options.quiet_s))
+      return;
+  }
+}
+
+bool write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out{file};
+  out << text;
+  out.close();
+  if (!out)
+    fmt::print(stderr, "{}: not written; is its folder there, and may you write to it?\n",
+               file.string());
+  return static_cast<bool>(out);
+}
+
+int write_files(const hal::linux_backend::ControlModel& model, const LearnOptions& options) {
+  const std::string device = options.out.string() + ".device.toml";
+  const std::string profile = options.out.string() + ".profile.toml";
+  if (!write(device, control_device_text(model)) || !write(profile, first_profile_text(model)))
+    return exit_failed;
+  fmt::print("{} switches learned. Say in the configuration:\n[controls]\ndevice = \"{}\"\n"
+             "file = \"{}\"\nand give each switch its action in {}.\n",
+             model.switches, device, profile, profile);
+  return exit_done;
+}
+
+} // namespace
+
+int learn_control(const LearnOptions& options) {
+  StopSignal stop;
+  hal::linux_backend::MonotonicClock clock;
+  std::string usb = options.usb;
+  if (usb.empty()) {
+    fmt::print("Plug the new device in now, or pull it out and put it in again.\n");
+    std::fflush(stdout);
+    usb = wait_for_new_device(clock, stop);
+    if (usb.empty())
+      return exit_failed;
+  }
+  auto session = LearningSession::listen_to(nodes_of(usb));
+  if (!session) {
+    fmt::print(stderr, "{}: {}\n", usb, session.error().message);
+    return exit_failed;
+  }
+  fmt::print("Listening to {}. Press each switch and let it go, one after the other, the left one "
+             "first. Ctrl+C ends it, or {} s without a press.\n",
+             usb, options.quiet_s);
+  std::fflush(stdout);
+  listen(*session, options, clock, stop);
+  const auto model = session->learned();
+  if (!model) {
+    fmt::print(stderr,
+               "{}: no switch was learned, expected at least one to be pressed and let go "
+               "alone; try again\n",
+               usb);
+    return exit_failed;
+  }
+  return write_files(*model, options);
+}
+
+} // namespace octascope::firmware_host

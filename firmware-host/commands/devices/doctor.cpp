@@ -1,0 +1,80 @@
+// octascope doctor: what would fail on this machine, and the remedy.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "firmware-host/commands/command.h"
+#include "firmware-host/diagnosis/health_check.h"
+#include "hal/linux/monotonic_clock.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+const char* word(Verdict verdict) {
+  switch (verdict) {
+  case Verdict::good: return "good";
+  case Verdict::limited: return "limited";
+  case Verdict::fails: return "fails";
+  }
+  return "unknown";
+}
+
+void print_text(const std::vector<HealthCheck>& checks) {
+  for (const HealthCheck& check : checks) {
+    fmt::print("{:<8} {:<19} {}\n", word(check.verdict), check.subject, check.found);
+    if (!check.remedy.empty())
+      fmt::print("{:<28} → {}\n", "", check.remedy);
+  }
+}
+
+void print_json(const std::vector<HealthCheck>& checks) {
+  auto json = nlohmann::ordered_json::array();
+  for (const HealthCheck& check : checks)
+    json.push_back({{"subject", check.subject},
+                    {"verdict", word(check.verdict)},
+                    {"found", check.found},
+                    {"remedy", check.remedy},
+                    {"mend", check.remedy}}); // its old name
+  fmt::print("{}\n", nlohmann::ordered_json{{"checks", json}}.dump(2));
+}
+
+} // namespace
+
+void add_doctor_command(CLI::App& program, int& exit_status) {
+  auto as_json = std::make_shared<bool>(false);
+  auto file = std::make_shared<std::string>();
+  CLI::App* command =
+      program.add_subcommand("doctor", "What would fail on this machine, and the remedy");
+  command->footer("Exit status 1 when the appliance would not run at all.\n"
+                  "Examples:\n"
+                  "  octascope doctor\n"
+                  "  octascope doctor --config octascope.toml");
+  command->add_option("--config", *file, "Check this configuration and nothing else (TOML)");
+  command->add_flag("--json", *as_json, "One JSON object");
+  command->callback([as_json, file, &exit_status] {
+    hal::linux_backend::MonotonicClock clock;
+    auto checks = file->empty() ? check_health(clock) : std::vector<HealthCheck>{};
+    for (HealthCheck& check :
+         check_configuration(file->empty() ? std::optional<std::filesystem::path>{} : *file))
+      checks.push_back(std::move(check));
+    if (*as_json)
+      print_json(checks);
+    else
+      print_text(checks);
+    const bool fails = std::any_of(checks.begin(), checks.end(), [](const HealthCheck& check) {
+      return check.verdict == Verdict::fails;
+    });
+    exit_status = fails ? exit_failed : exit_done;
+  });
+}
+
+} // namespace octascope::firmware_host

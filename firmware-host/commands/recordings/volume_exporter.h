@@ -1,0 +1,39 @@
+// One volume to one file, in each of the formats.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+
+#include "firmware-host/commands/recordings/export.h"
+#include "hal/result.h"
+#include "pipeline/recordings/recording.h"
+
+namespace octascope::firmware_host {
+
+// What is written besides the levels.
+struct VolumeToExport {
+  const pipeline::Volume& volume;
+  const pipeline::RecordedVolume& entry;
+  std::size_t n = 0; // of the recording, from 0
+};
+
+// Bound to one thread.
+class VolumeExporter {
+public:
+  virtual ~VolumeExporter() = default;
+
+  // Complete or not at all, for its owner alone.
+  virtual hal::Result<> write(const std::filesystem::path& file, const VolumeToExport& volume) = 0;
+
+  // A file's size, nearly; 0 where it is not known beforehand, and small.
+  virtual std::uint64_t file_bytes() const = 0;
+};
+
+// `options.window` is given where the format needs one; `facts` must outlive it.
+hal::Result<std::unique_ptr<VolumeExporter>>
+make_volume_exporter(const ExportOptions& options, const pipeline::RecordingFacts& facts,
+                     const pipeline::RecordedVolume& first);
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,140 @@
+// octascope run: the appliance. octascope record: the same, with its volumes kept from the first
+// on.
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "firmware-host/commands/arguments.h"
+#include "firmware-host/commands/command.h"
+#include "firmware-host/configuration/run_options.h"
+#include "firmware-host/run/appliance.h"
+#include "firmware-host/run/stop_signal.h"
+#include "firmware-host/supervision/crash_report.h"
+#include "firmware-host/supervision/service_manager.h"
+#include "pipeline/scan/scan_plan.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+// As text, the way CLI11 collects it.
+struct RunArguments {
+  std::string spectra, shape, calibration, faults, controls, phantom, record_to, subject, eye;
+  bool simulate = false;
+  bool bidirectional = false;
+  int repeats = 0;
+  ShowArguments show;
+};
+
+hal::Result<RecordingOptions> recording_of(const RunArguments& a) {
+  if (a.shape.empty())
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "--spectra needs --shape B,A,N: B-scans, A-scans, samples");
+  return pipeline::SpectraShape::parse(a.shape).map([&](const pipeline::SpectraShape& shape) {
+    return RecordingOptions{a.spectra, shape};
+  });
+}
+
+hal::Result<RunOptions> options_of(const RunArguments& a) {
+  RunOptions o;
+  HAL_CHECK(read_show_options(a.show, o));
+  o.calibration = path_of(a.calibration);
+  o.faults = path_of(a.faults);
+  o.controls = path_of(a.controls);
+  o.simulate = a.simulate;
+  if (!a.phantom.empty())
+    o.phantom = a.phantom;
+  o.bidirectional = a.bidirectional;
+  o.record_to = path_of(a.record_to);
+  o.subject = a.subject;
+  o.eye = pipeline::eye_named(a.eye).value_or(pipeline::Eye::not_said);
+  if (a.repeats > 0)
+    o.repeats = a.repeats;
+  if (!a.spectra.empty()) {
+    HAL_TRY(const auto recording, recording_of(a));
+    o.recording = recording;
+  } else if (!a.shape.empty()) {
+    return hal::fail(hal::ErrorCode::invalid_argument, "--shape needs --spectra FILE");
+  }
+  return o;
+}
+
+int run(const char* command, const RunArguments& arguments) {
+  const auto options = options_of(arguments);
+  if (!options)
+    return complain(command, options.error());
+  StopSignal stop_signal; // before the first thread
+  CrashReport crash_report;
+  if (const auto state = service_folders().state)
+    if (const auto kept = crash_report.keep_in(crash_folder(*state)); !kept)
+      fmt::print(stderr, "octascope {}: {}\n", command, kept.error().message);
+  auto appliance = Appliance::assemble(*options, crash_report);
+  if (!appliance)
+    return complain(command, appliance.error());
+  if (const auto ran = (*appliance)->run(stop_signal); !ran)
+    return complain(command, ran.error());
+  return exit_done;
+}
+
+void add_options(CLI::App& command, RunArguments& a) {
+  add_show_options(command, a.show);
+  command.add_flag("--sim", a.simulate, "Use the simulated devices, whatever is plugged in");
+  command.add_option("--spectra", a.spectra,
+                     "Play raw spectra (u16, little-endian, [B][A][N]) instead of a phantom");
+  command.add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024");
+  command.add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)");
+  command.add_option("--phantom", a.phantom, "What the simulated camera sees");
+  command.add_flag("--bidirectional", a.bidirectional,
+                   "Scan there and back, without fly-back, whatever the configuration says");
+  command.add_option("--repeats", a.repeats, "Sweeps of each B-scan, averaged (1 to 4)")
+      ->check(CLI::Range(1, pipeline::ScanPlan::most_repeats));
+  command.add_option("--faults", a.faults, "Faults that the simulated devices suffer (TOML)");
+  command.add_option("--controls", a.controls, "What the simulated pedal and knob do (TOML)");
+  command.add_option("--subject", a.subject,
+                     "Whose recordings these are, as they shall say it; not kept for later runs");
+  command.add_option("--eye", a.eye, "Of which eye they are")
+      ->check(CLI::IsMember({"left", "right"}));
+}
+
+} // namespace
+
+void add_run_command(CLI::App& program, int& exit_status) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command =
+      program.add_subcommand("run", "Run the appliance: acquire, reconstruct, show");
+  command->footer(
+      "Examples:\n"
+      "  octascope run --sim --duration 20\n"
+      "  octascope run --spectra s.raw --shape 100,100,1024 --calibration c.toml "
+      "--display offscreen --volumes 5 --snapshot t.png --report t.json\n"
+      "Keys in a window: arrows turn and tilt; page up, page down closer and farther; o O "
+      "window offset; s S window size; w automatic window; [ ] B-scan; space freezes; t "
+      "technique; f transfer; c colours; l layout; d stereo (shift: back); x X parallax; v "
+      "vessels; a A their opacity; e their colours; i I j J k K shift and u U y Y z Z turn them; m "
+      "keeps their place; g undoes it; n their account; b box; p keeps the picture; r records; "
+      "home first "
+      "view; tab next function; h, F1 what each "
+      "control does; 1 2 3 , . the simulated pedal and knob; q ends.");
+  add_options(*command, *arguments);
+  command->callback([arguments, &exit_status] { exit_status = run("run", *arguments); });
+}
+
+void add_record_command(CLI::App& program, int& exit_status) {
+  auto arguments = std::make_shared<RunArguments>();
+  CLI::App* command =
+      program.add_subcommand("record", "Run the appliance and keep its volumes (HDF5)");
+  command->footer("Example:\n"
+                  "  octascope record --out eye.h5 --sim --duration 20 --eye left\n"
+                  "In a run that is under way, r or the pedal's recording begins and ends one.\n"
+                  "octascope info, export and replay take it from there.");
+  command->add_option("--out", arguments->record_to, "The recording: a file that is not there yet")
+      ->required()
+      ->type_name("FILE.h5");
+  add_options(*command, *arguments);
+  command->callback([arguments, &exit_status] { exit_status = run("record", *arguments); });
+}
+
+} // namespace octascope::firmware_host

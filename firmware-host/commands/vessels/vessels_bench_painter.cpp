@@ -1,0 +1,28 @@
+#include "firmware-host/commands/vessels/vessels_bench_painter.h"
+
+#include "ui/gl/framebuffer.h"
+#include "ui/view/segment_counts.h"
+
+namespace octascope::firmware_host {
+
+ui::Camera VesselsBenchPainter::camera(const ui::VesselView& view) const {
+  return ui::make_vessel_camera(view, bounds_, width_, height_);
+}
+
+hal::Result<ui::SegmentCounts> VesselsBenchPainter::draw(ui::VesselMethod& method,
+                                                         const ui::VesselView& view) {
+  const ui::Camera seen = camera(view);
+  ui::VesselScene scene{tree_, seen, glm::mat4{1}, {}, width_, height_};
+  scene.look = ui::with_cue({}, view, bounds_, width_, height_);
+  auto account = picture_.draw(method, scene);
+  ui::gl::finish();
+  return account;
+}
+
+hal::Result<pipeline::Image> VesselsBenchPainter::picture(ui::VesselMethod& method,
+                                                          const ui::VesselView& view) {
+  HAL_CHECK(draw(method, view));
+  return read();
+}
+
+} // namespace octascope::firmware_host

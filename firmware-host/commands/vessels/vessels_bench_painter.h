@@ -1,0 +1,44 @@
+// Pictures of a vessel tree by any method, for measuring.
+#pragma once
+
+#include <utility>
+
+#include "hal/result.h"
+#include "pipeline/files/png_image.h"
+#include "pipeline/vessels/clusters.h"
+#include "ui/vessels/scene/vessel_method.h"
+#include "ui/vessels/pictures/vessel_picture.h"
+#include "ui/vessels/view/vessel_view.h"
+#include "ui/view/segment_counts.h"
+
+namespace octascope::firmware_host {
+
+// Threads: as gl/objects.h. What is borrowed outlives it.
+class VesselsBenchPainter {
+public:
+  VesselsBenchPainter(const pipeline::VesselClusters& tree, ui::VesselPicture picture, int width,
+                      int height)
+      : tree_{tree}, bounds_{ui::vessel_bounds(tree)}, picture_{std::move(picture)}, width_{width},
+        height_{height} {}
+
+  const pipeline::VesselClusters& tree() const { return tree_; }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  ui::Camera camera(const ui::VesselView& view) const;
+
+  // Complete, when it returns.
+  hal::Result<ui::SegmentCounts> draw(ui::VesselMethod& method, const ui::VesselView& view);
+  // What was drawn last.
+  pipeline::Image read() const { return picture_.read_colour(); }
+  // Both.
+  hal::Result<pipeline::Image> picture(ui::VesselMethod& method, const ui::VesselView& view);
+
+private:
+  const pipeline::VesselClusters& tree_;
+  ui::VesselBounds bounds_;
+  ui::VesselPicture picture_;
+  int width_;
+  int height_;
+};
+
+} // namespace octascope::firmware_host

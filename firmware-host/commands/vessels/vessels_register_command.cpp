@@ -1,0 +1,162 @@
+// octascope vessels register: pairs of points to where a tree lies in a volume.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "firmware-host/commands/command.h"
+#include "firmware-host/commands/vessels/vessels.h"
+#include "firmware-host/version/version.h"
+#include "pipeline/files/text_curve.h"
+#include "pipeline/vessels/point_registration.h"
+#include "pipeline/vessels/registration.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using pipeline::PointPair;
+using pipeline::PointRegistration;
+
+struct VesselsRegisterCommandLine {
+  std::filesystem::path points;
+  std::filesystem::path out;
+  std::string author;
+  std::string subject, eye;
+  bool json = false;
+};
+
+struct PairsOfFile {
+  std::vector<PointPair> pairs;
+  std::vector<std::size_t> lines; // where each stands, from 1
+};
+
+hal::Result<PairsOfFile> read_pairs(const std::filesystem::path& file) {
+  constexpr std::size_t most = 10000;
+  HAL_TRY(const auto rows, pipeline::read_text_rows(file, most, {6}));
+  PairsOfFile read;
+  for (const pipeline::TextRow& row : rows) {
+    const auto& n = row.numbers;
+    read.pairs.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
+    read.lines.push_back(row.line);
+  }
+  return read;
+}
+
+pipeline::Registration registration_of(const VesselsRegisterCommandLine& line,
+                                       const PointRegistration& found) {
+  pipeline::Registration registration;
+  registration.volume_from_tree = found.volume_from_tree;
+  registration.whose = {.subject = line.subject,
+                        .eye = pipeline::eye_named(line.eye).value_or(pipeline::Eye::not_said)};
+  registration.provenance = {
+      .program = fmt::format("octascope {}", version()),
+      .author = line.author,
+      .created = fmt::format(
+          "{:%Y-%m-%dT%H:%M:%SZ}",
+          fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))),
+      .method = "least squares of point pairs (Horn 1987)",
+      .source = line.points.filename().string(),
+      .points = static_cast<int>(found.residuals_mm.size()),
+      .residual_mm = found.rms_mm};
+  return registration;
+}
+
+std::string to_text(const PointRegistration& found, const PairsOfFile& read) {
+  const bool left_out = found.left_out_rms_mm.has_value();
+  std::string text = fmt::format("line  residual mm{}\n", left_out ? "  left out mm" : "");
+  for (std::size_t i = 0; i < read.lines.size(); ++i)
+    text += fmt::format("{:4}  {:11.4f}{}\n", read.lines[i], found.residuals_mm[i],
+                        left_out ? fmt::format("  {:11.4f}", found.left_out_mm[i]) : "");
+  text += fmt::format("residual {:.4f} mm rms over {} pairs, at most {:.4f} mm\n", found.rms_mm,
+                      read.pairs.size(), found.largest_mm);
+  text += left_out ? fmt::format("each pair is {:.4f} mm rms from where the others put it\n",
+                                 *found.left_out_rms_mm)
+                   : "too few pairs beside a line to tell how well they foretell each other; one "
+                     "more would\n";
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto& r = found.volume_from_tree.rotation[row];
+    text += fmt::format("[{:9.6f} {:9.6f} {:9.6f} {:10.4f}]\n", r[0], r[1], r[2],
+                        found.volume_from_tree.shift_mm[row]);
+  }
+  return text;
+}
+
+std::string to_json(const PointRegistration& found, const VesselsRegisterCommandLine& line) {
+  auto matrix = nlohmann::json::array();
+  for (std::size_t row = 0; row < 3; ++row) {
+    const auto& r = found.volume_from_tree.rotation[row];
+    matrix.push_back({r[0], r[1], r[2], found.volume_from_tree.shift_mm[row]});
+  }
+  matrix.push_back({0, 0, 0, 1});
+  nlohmann::json json{{"out", line.out.string()},
+                      {"points", found.residuals_mm.size()},
+                      {"volume_from_tree", matrix},
+                      {"residual_mm", found.rms_mm},
+                      {"largest_residual_mm", found.largest_mm},
+                      {"residuals_mm", found.residuals_mm}};
+  if (found.left_out_rms_mm) {
+    json["left_out_mm"] = *found.left_out_rms_mm;
+    json["left_outs_mm"] = found.left_out_mm;
+  }
+  return json.dump(2);
+}
+
+int run(const VesselsRegisterCommandLine& line) {
+  const auto complain = [](std::string_view message) {
+    fmt::print(stderr, "octascope vessels register: {}\n", message);
+    return exit_failed;
+  };
+  const auto read = read_pairs(line.points);
+  if (!read)
+    return complain(read.error().message);
+  const auto found = pipeline::register_points(read->pairs);
+  if (!found)
+    return complain(fmt::format("{}: {}", line.points.string(), found.error().message));
+  if (const auto written = pipeline::write_registration(registration_of(line, *found), line.out);
+      !written)
+    return complain(written.error().message);
+  fmt::print("{}", line.json ? to_json(*found, line) + "\n" : to_text(*found, *read));
+  return exit_done;
+}
+
+} // namespace
+
+void add_vessels_register_command(CLI::App& vessels, int& exit_status) {
+  CLI::App* command = vessels.add_subcommand(
+      "register", "Pairs of points to a registration: where a tree lies in an OCT volume");
+  auto line = std::make_shared<VesselsRegisterCommandLine>();
+  command
+      ->add_option("--points", line->points,
+                   "Pairs of points, one a line: x y z in the tree, x y z in the volume, in mm, "
+                   "with commas, semicolons, blanks or tabs between them; # begins a comment. In "
+                   "the volume x runs along A-scans, y along B-scans, z along the depth, from the "
+                   "outer corner of the first voxel")
+      ->required()
+      ->type_name("FILE.csv");
+  command->add_option("--out", line->out, "Registration to write")
+      ->required()
+      ->type_name("FILE.toml");
+  command->add_option("--author", line->author, "Who marked the points; kept in the file")
+      ->type_name("NAME");
+  command
+      ->add_option("--subject", line->subject,
+                   "Whose vessels they are: they are then drawn in no other one's picture")
+      ->type_name("ID");
+  command->add_option("--eye", line->eye, "Of which eye")->check(CLI::IsMember({"left", "right"}));
+  command->add_flag("--json", line->json, "The result as one JSON object");
+  command->footer("At least three pairs that do not lie on a line; with four, each is also "
+                  "compared with where the others put it.\n"
+                  "Example: octascope vessels register --points pairs.csv --out registration.toml");
+  command->callback([line, &exit_status] { exit_status = run(*line); });
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,234 @@
+#include "firmware-host/configuration/configuration.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "firmware-host/configuration/control_device_file.h"
+#include "pipeline/files/config_document.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using pipeline::ConfigTable;
+using pipeline::NumberRange;
+
+void read_scan(ConfigTable root, Configuration& configuration) {
+  const bool present = root.has("scan");
+  ConfigTable scan = root.table("scan");
+  pipeline::ScanPlan plan;
+  const NumberRange counts{1, 65536};
+  const NumberRange spacings_um{1e-3, 1e6};
+  plan.samples = scan.integer("samples", plan.samples, {16, 65536});
+  plan.a_scans = scan.integer("a_scans", plan.a_scans, counts);
+  plan.fly_back_lines = scan.integer("fly_back_lines", plan.fly_back_lines, {0, 65536});
+  plan.b_scans = scan.integer("b_scans", plan.b_scans, counts);
+  plan.line_rate_hz = scan.number("line_rate_hz", plan.line_rate_hz, {1, 1e9});
+  plan.depth_spacing_um = scan.number("depth_spacing_um", plan.depth_spacing_um, spacings_um);
+  configuration.depth_spacing_said = scan.has("depth_spacing_um");
+  plan.a_spacing_um = scan.number("a_spacing_um", plan.a_spacing_um, spacings_um);
+  plan.b_spacing_um = scan.number("b_spacing_um", plan.b_spacing_um, spacings_um);
+  plan.bidirectional = scan.boolean("bidirectional", plan.bidirectional);
+  plan.turn_around_lines = scan.integer("turn_around_lines", plan.turn_around_lines, {0, 65536});
+  plan.scan_lag_a_scans =
+      scan.number("phase_offset_a_scans", plan.scan_lag_a_scans,
+                  {-static_cast<double>(plan.a_scans), static_cast<double>(plan.a_scans)});
+  plan.find_scan_lag = scan.boolean("find_phase_offset", plan.find_scan_lag);
+  plan.repeats = scan.integer("repeats", plan.repeats, {1, pipeline::ScanPlan::most_repeats});
+  if (present)
+    configuration.plan = plan;
+}
+
+void read_worker_cores(ConfigTable table, Configuration& configuration) {
+  constexpr double highest_core = 1023; // of the sets that the system takes
+  for (const double core : table.numbers("worker_cores")) {
+    if (core < 0 || core > highest_core || core != std::floor(core)) {
+      table.complain("worker_cores must be core numbers from 0 to 1023, as in [2, 3]");
+      return;
+    }
+    configuration.worker_cores.push_back(static_cast<int>(core));
+  }
+}
+
+void read_pipeline(ConfigTable table, Configuration& configuration) {
+  configuration.workers = static_cast<std::size_t>(table.integer("workers", 0, {0, 256}));
+  read_worker_cores(table, configuration);
+  const auto weights = table.numbers("neighbour_weights");
+  if (weights.empty())
+    return;
+  if (weights.size() != 3 || weights[1] <= 0 || weights[0] < 0 || weights[2] < 0) {
+    table.complain("neighbour_weights must be three numbers, before, own (> 0) and after, as in "
+                   "[0.25, 0.5, 0.25]");
+    return;
+  }
+  configuration.neighbour_weights = {weights[0], weights[1], weights[2]};
+}
+
+enum class OtherWords { refused, allowed }; // allowed: a node's name, an id
+
+std::string read_wish(ConfigTable& table, const char* key, std::string_view fallback,
+                      std::initializer_list<std::string_view> known, OtherWords others) {
+  std::string wish = table.text(key, std::string{fallback});
+  const bool is_known = std::ranges::find(known, wish) != known.end();
+  if (!is_known && (others == OtherWords::refused || wish.empty()))
+    table.complain(
+        fmt::format("{} is \"{}\", expected one of: {}", key, wish, fmt::join(known, ", ")));
+  return wish;
+}
+
+void read_devices(ConfigTable table, DeviceConfig& config) {
+  config.line_camera = read_wish(table, "line_camera", config.line_camera, {"auto", "sim", "v4l2"},
+                                 OtherWords::allowed);
+  config.galvo_trigger = read_wish(table, "galvo_trigger", config.galvo_trigger,
+                                   {"auto", "sim", "gpio"}, OtherWords::refused);
+  config.control_input = read_wish(table, "control_input", config.control_input,
+                                   {"auto", "sim", "hid"}, OtherWords::refused);
+  config.scope_camera = read_wish(table, "scope_camera", config.scope_camera,
+                                  {"auto", "sim", "none", "libcamera"}, OtherWords::allowed);
+  config.trigger_line = table.text("trigger_line", config.trigger_line);
+  config.sync_line = table.text("sync_line", config.sync_line);
+  config.pulse_width = hal::from_seconds(
+      table.number("pulse_width_us", hal::to_seconds(config.pulse_width) * 1e6, {1, 1e5}) * 1e-6);
+  config.connector = table.text("connector", config.connector);
+  config.mode = table.text("mode", config.mode);
+  config.overscan_percent = table.number("overscan_percent", config.overscan_percent, {0, 20});
+  config.seat = table.boolean("seat", config.seat);
+  if (table.has("exposure_us"))
+    config.exposure_us = table.number("exposure_us", 1, {0.01, 1e6});
+  if (table.has("gain"))
+    config.gain = table.integer("gain", 0, {-1000000, 1000000});
+  if (table.has("camera_input"))
+    config.camera_input = table.integer("camera_input", 0, {0, 255});
+  if (table.has("significant_bits"))
+    config.significant_bits = table.integer("significant_bits", 12, {8, 16});
+  config.right_shift = table.integer("right_shift", config.right_shift, {0, 8});
+}
+
+void read_display(ConfigTable table, Configuration& configuration) {
+  configuration.width = table.integer("width", configuration.width, {320, 16384});
+  configuration.height = table.integer("height", configuration.height, {180, 16384});
+  configuration.fullscreen = table.boolean("fullscreen", configuration.fullscreen);
+  configuration.window = read_window(table);
+  configuration.veil_after = hal::from_seconds(
+      table.number("veil_after_s", hal::to_seconds(configuration.veil_after), {0.5, 3600}));
+}
+
+// In lower case, as the kernel writes them.
+void read_keyboards(ConfigTable& table, DeviceConfig& config) {
+  for (const std::string& written : table.texts("keyboards")) {
+    std::string usb = written;
+    std::ranges::transform(usb, usb.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string_view digits = "0123456789abcdef";
+    if (usb.size() != 9 || usb[4] != ':' || usb.find_first_not_of(digits) != 4 ||
+        usb.find_first_not_of(digits, 5) != usb.npos)
+      table.complain(fmt::format("keyboards has \"{}\", expected vendor and product as "
+                                 "\"046d:c31c\"; `octascope devices` names those of each keyboard",
+                                 written));
+    config.keyboards.push_back(std::move(usb));
+  }
+}
+
+void read_controls(ConfigTable table, Configuration& configuration) {
+  if (table.has("profile") && table.has("file"))
+    table.complain("profile and file are both there, expected one: the name of a profile that the "
+                   "program brings with it, or the file of your own");
+  configuration.control_file = table.path("file");
+  read_keyboards(table, configuration.devices);
+  configuration.devices.control_device = table.path("device");
+  if (const auto& device = configuration.devices.control_device)
+    if (const auto learned = load_control_device(*device); !learned)
+      table.complain(learned.error().message);
+  const std::string profile = table.text("profile", "auto");
+  if (profile == "auto")
+    return;
+  configuration.control_profile = profile;
+  if (const auto known = ui::built_in_profile(profile); !known)
+    table.complain(known.error().message);
+}
+
+void read_sim(ConfigTable table, Configuration& configuration) {
+  configuration.phantom = table.text("phantom", configuration.phantom);
+  configuration.loop_volumes = table.integer("loop_volumes", configuration.loop_volumes, {1, 64});
+  configuration.galvo_lag_us = table.number("galvo_lag_us", configuration.galvo_lag_us, {0, 1e6});
+  configuration.faults = table.path("faults");
+  configuration.controls = table.path("controls");
+}
+
+// What the lens decides comes before what is said of every lens.
+void read_optics(ConfigTable root, Configuration& configuration) {
+  configuration.objectives = read_objectives(root);
+  configuration.objective = chosen_objective(root.table("microscope"), configuration.objectives);
+  if (!configuration.objective)
+    return;
+  if (configuration.objective->calibration)
+    configuration.calibration = configuration.objective->calibration;
+  if (configuration.objective->window)
+    configuration.window = configuration.objective->window;
+}
+
+} // namespace
+
+void override_plan(const RunOptions& options, const Configuration& configuration,
+                   pipeline::ScanPlan& plan) {
+  if (configuration.objective)
+    configuration.objective->scale(plan);
+  plan.bidirectional |= options.bidirectional;
+  plan.repeats = options.repeats.value_or(plan.repeats);
+}
+
+std::optional<std::filesystem::path> configuration_file(const RunOptions& options) {
+  if (options.configuration || options.simulate || options.recording)
+    return options.configuration;
+  std::error_code error;
+  if (!std::filesystem::exists(machine_configuration, error))
+    return std::nullopt;
+  return machine_configuration;
+}
+
+hal::Result<Configuration> load_configuration(const std::filesystem::path& file) {
+  return pipeline::ConfigDocument::load(file).and_then(read_configuration);
+}
+
+hal::Result<Configuration> read_configuration(const pipeline::ConfigDocument& document) {
+  Configuration configuration;
+  ConfigTable root = document.root();
+  read_scan(root, configuration);
+  configuration.calibration = root.table("calibration").path("file");
+  read_pipeline(root.table("pipeline"), configuration);
+  read_devices(root.table("devices"), configuration.devices);
+  ConfigTable display = root.table("display");
+  read_display(display, configuration);
+  configuration.look = read_look(root, display);
+  read_controls(root.table("controls"), configuration);
+  configuration.metrics = root.table("observation").output_path("metrics");
+  configuration.recording_folder = root.table("recordings").output_path("folder");
+  read_sim(root.table("sim"), configuration);
+  read_optics(root, configuration);
+  HAL_CHECK(document.finish());
+  return configuration;
+}
+
+hal::Result<Configuration> configuration_of(const RunOptions& options) {
+  const auto file = configuration_file(options);
+  return file ? load_configuration(*file) : Configuration{};
+}
+
+pipeline::ScanPlan plan_of(const RunOptions& options, const Configuration& configuration) {
+  pipeline::ScanPlan plan = configuration.plan.value_or(pipeline::ScanPlan{});
+  override_plan(options, configuration, plan);
+  return plan;
+}
+
+hal::Result<ui::ControlProfile> load_controls(const Configuration& configuration) {
+  return configuration.control_file ? ui::ControlProfile::load(*configuration.control_file)
+                                    : ui::built_in_profile(configuration.control_profile.value_or(
+                                          std::string{ui::default_profile}));
+}
+
+} // namespace octascope::firmware_host

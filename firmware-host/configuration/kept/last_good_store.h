@@ -1,0 +1,44 @@
+// Finds out when a configuration has proved itself, and has it kept.
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <optional>
+
+#include "firmware-host/configuration/kept/last_good.h"
+#include "hal/clock.h"
+#include "pipeline/faults/fault_log.h"
+
+namespace octascope::firmware_host {
+
+// Bound to one thread; reading and writing happen on threads of their own.
+class LastGoodStore {
+public:
+  // So long a run without a picture proves a configuration, too: the scanner may be switched on
+  // later.
+  static constexpr hal::Duration proved_after = std::chrono::seconds{10};
+
+  // `clock` and `faults` outlive it.
+  LastGoodStore(std::filesystem::path state_folder, hal::Clock& clock, pipeline::FaultLog& faults)
+      : folder_{std::move(state_folder)}, clock_{clock}, faults_{faults} {}
+
+  // This file is run on from now on: it is read at once, as it is, since it may be edited later.
+  void begin(const std::filesystem::path& configuration);
+
+  // Every turn. With the first picture of a volume since begin(), or after a while, what was read
+  // is written. A failure is a fault ("host", "configuration_not_kept").
+  void advance(bool picture_shown);
+
+  // At the end of a run, which may be shorter than reading the file takes: waits for it.
+  void finish(bool picture_shown);
+
+private:
+  LastGood folder_;
+  hal::Clock& clock_;
+  pipeline::FaultLog& faults_;
+  hal::TimePoint began_{};
+  std::future<hal::Result<ConfigurationBundle>> read_;
+  std::future<hal::Result<>> written_; // their destructors wait
+};
+
+} // namespace octascope::firmware_host

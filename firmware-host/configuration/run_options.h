@@ -1,0 +1,55 @@
+// What a user asked `octascope run` or `octascope replay` for.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "pipeline/volume/eye.h"
+#include "pipeline/reconstruction/spectra_file.h"
+
+namespace octascope::firmware_host {
+
+enum class DisplayChoice : std::uint8_t { automatic, kms, window, offscreen };
+
+struct RecordingOptions {
+  std::filesystem::path file;
+  pipeline::SpectraShape shape;
+};
+
+// Of `octascope replay`: volumes come from a file, and no camera takes part.
+struct ReplayOptions {
+  std::filesystem::path file;
+  double rate = 1;
+  bool once = false;
+  std::size_t from = 0; // the first volume, counted from 0
+};
+
+struct RunOptions {
+  std::optional<std::filesystem::path> configuration;
+  DisplayChoice display = DisplayChoice::automatic;
+  std::optional<std::array<int, 2>> size; // width, height
+  bool simulate = false;                  // twins even where there is a real device
+  std::optional<double> duration_s;
+  std::optional<std::uint64_t> volumes;
+  std::optional<RecordingOptions> recording;
+  std::optional<ReplayOptions> replay;
+  std::optional<std::filesystem::path> calibration;
+  std::optional<std::filesystem::path> snapshot;
+  std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> faults;   // fault script for the twins
+  std::optional<std::filesystem::path> controls; // what the pedal's twin does, and when
+  std::optional<std::string> phantom;
+  std::optional<std::filesystem::path> vessels;      // a tree, shown in the volume
+  std::optional<std::filesystem::path> registration; // of it to the volume
+  bool bidirectional = false;                        // whatever the plan says otherwise
+  std::optional<std::filesystem::path> record_to;    // all volumes, from the first on
+  std::string subject;                               // of recordings; empty: not said
+  pipeline::Eye eye = pipeline::Eye::not_said;       // likewise
+  std::optional<int> repeats;                        // likewise
+};
+
+} // namespace octascope::firmware_host

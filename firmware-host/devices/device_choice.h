@@ -1,0 +1,39 @@
+// Which backend serves each device, and why: the one place that decides between a real device and
+// its twin. `run` follows it, `devices` prints it.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware-host/configuration/device_config.h"
+#include "firmware-host/configuration/run_options.h"
+#include "firmware-host/devices/detected_devices.h"
+
+namespace octascope::firmware_host {
+
+struct DeviceChoice {
+  std::string_view device;  // "line_camera" …
+  std::string_view backend; // "v4l2", "sim", "window" …; "none"
+  std::string reason;       // for people
+};
+
+struct DeviceChoices {
+  DeviceChoice line_camera, galvo_trigger, control_input, scope_camera, display;
+
+  std::vector<DeviceChoice> all() const {
+    return {line_camera, galvo_trigger, control_input, scope_camera, display};
+  }
+};
+
+// A twin never stands beside a real line camera in what the picture shows: where the spectra are
+// the patient's, the microscope's picture is, too, or there is none. A real line camera is
+// triggered by a real line, a simulated one by its twin; a pedal serves with either.
+DeviceChoices choose_devices(const DetectedDevices& detected, const RunOptions& options,
+                             const DeviceConfig& config = {});
+
+// The line camera's twin serves for want of a real one: one that comes later is wanted, too.
+bool camera_may_come(const DeviceChoices& choices, const RunOptions& options,
+                     const DeviceConfig& config);
+
+} // namespace octascope::firmware_host

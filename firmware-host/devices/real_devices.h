@@ -1,0 +1,92 @@
+// The real devices: what is there, and how each is made.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware-host/configuration/device_config.h"
+#include "firmware-host/configuration/run_options.h"
+#include "firmware-host/devices/detected_devices.h"
+#include "firmware-host/devices/device_choice.h"
+#include "hal/clock.h"
+#include "hal/control_input.h"
+#include "hal/display.h"
+#include "hal/galvo_trigger.h"
+#include "hal/line_camera.h"
+#include "hal/linux/gpio/gpio_galvo_trigger.h"
+#include "hal/linux/hid/console_keyboards.h"
+#include "hal/linux/hid/hid_controls.h"
+#include "hal/linux/libcamera/libcamera_session.h"
+#include "hal/result.h"
+#include "hal/scope_camera.h"
+#include "pipeline/scan/scan_plan.h"
+#include "ui/controls/control_profile.h"
+
+namespace octascope::firmware_host {
+
+// Asks once and remembers; whoever wants to know anew makes another. What it makes borrows from it.
+class RealDevices {
+public:
+  // `plan` says which frames a line camera has to deliver. `clock` outlives this.
+  RealDevices(DeviceConfig config, const pipeline::ScanPlan& plan, hal::Clock& clock);
+
+  // All that there are.
+  DetectedDevices find();
+
+  // What decides over a run: a display alone where all else is simulated; and libcamera, which
+  // takes its time, only beside a real line camera, and where its camera is not asked for anyway.
+  DetectedDevices find_for(const RunOptions& options);
+
+  // The line camera alone.
+  DeviceFinding find_line_camera();
+
+  // What the line camera's frames are: as it offers them where one is found, else as it is asked.
+  hal::LineFormat line_format() const { return format_; }
+
+  std::unique_ptr<hal::LineCamera> make_line_camera();
+  std::unique_ptr<hal::GalvoTrigger> make_galvo_trigger();
+  std::unique_ptr<hal::ControlInput> make_control_input();
+  hal::Result<std::unique_ptr<hal::ScopeCamera>> make_scope_camera();
+  std::unique_ptr<hal::Display> make_display();
+
+  // What the leading control does, told once each time that another one leads; the default profile
+  // where the leading one has none of its own, or none is there.
+  std::optional<ui::ControlProfile> new_control_profile();
+
+  // Why a keyboard that the configuration lists cannot be read at the console, told once.
+  std::optional<std::string> new_keyboard_complaint();
+
+  // Pulses that the scanner has not answered on its sync line, told once each.
+  std::uint64_t new_missed_answers();
+
+  // The trigger's line to its safe level, where a real one is held. Async-signal-safe.
+  void make_trigger_safe() noexcept;
+
+private:
+  DeviceFinding find_galvo_trigger() const;
+  DeviceFinding find_control_input() const;
+  DeviceFinding find_scope_camera();
+  DeviceFinding find_console_display() const;
+  hal::Result<> start_libcamera();
+  std::vector<std::string> taken_nodes() const;
+
+  const DeviceConfig config_;
+  hal::Clock& clock_;
+  hal::LineFormat format_;
+  std::string line_node_; // of the line camera; empty: none found yet
+  std::unique_ptr<hal::linux_backend::LibcameraSession> libcamera_;
+  hal::linux_backend::GpioGalvoTrigger* trigger_ = nullptr; // made here, owned by who asked
+  std::uint64_t missed_answers_ = 0;
+  const hal::linux_backend::HidControls* controls_ = nullptr;       // likewise
+  std::uint64_t control_changes_ = 0;                               // that were told
+  const hal::linux_backend::ConsoleKeyboards* keyboards_ = nullptr; // likewise
+  std::string keyboard_complaint_;                                  // that was told
+};
+
+// What `octascope run` would choose with these options, with every device looked for; an Error for
+// a configuration that it would refuse.
+hal::Result<DeviceChoices> choices_of_run(const RunOptions& options, hal::Clock& clock);
+
+} // namespace octascope::firmware_host

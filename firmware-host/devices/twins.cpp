@@ -1,0 +1,249 @@
+#include "firmware-host/devices/twins.h"
+
+#include <algorithm>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "pipeline/reconstruction/spectra_file.h"
+#include "sim/devices/control_script.h"
+#include "sim/faults/fault_script.h"
+#include "sim/phantoms/phantom.h"
+#include "sim/spectra/recorded_spectra.h"
+#include "sim/spectra/volume_loop.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+constexpr std::uint64_t phantom_seed = 1;
+
+tl::unexpected<hal::Error> pass_on(const hal::Error& error) {
+  return tl::make_unexpected(error);
+}
+
+// --calibration comes before the configuration's.
+std::optional<std::filesystem::path> calibration_file(const RunOptions& options,
+                                                      const Configuration& configuration) {
+  return options.calibration ? options.calibration : configuration.calibration;
+}
+
+// What the recording says (counts) and what its calibration says (spacings). A recording has no
+// fly-back; of a bidirectional scan it has the turn-around lines, and of repeats every sweep.
+hal::Result<pipeline::ScanPlan> recorded_plan(const pipeline::SpectraShape& shape,
+                                              const pipeline::Calibration& calibration,
+                                              const RunOptions& options,
+                                              const Configuration& configuration) {
+  pipeline::ScanPlan plan = plan_of(options, configuration);
+  plan.samples = shape.samples;
+  plan.fly_back_lines = 0;
+  plan.a_scans = shape.a_scans - (plan.bidirectional ? plan.turn_around_lines : 0);
+  plan.b_scans = shape.b_scans / plan.repeats;
+  plan.depth_spacing_um = calibration.depth_spacing_um;
+  plan.refractive_index = calibration.refractive_index;
+  plan.a_spacing_um = calibration.a_spacing_um;
+  plan.b_spacing_um = calibration.b_spacing_um;
+  if (configuration.objective)
+    configuration.objective->scale(plan);
+  if (plan.sweeps() != shape.b_scans)
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     fmt::format("--shape has {} sweeps, expected a multiple of the {} repeats of "
+                                 "each B-scan",
+                                 shape.b_scans, plan.repeats));
+  if (plan.a_scans < 1)
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     fmt::format("--shape has {} lines a sweep, expected more than the {} "
+                                 "turn-around lines of a bidirectional scan",
+                                 shape.a_scans, plan.turn_around_lines));
+  return plan.validate().map([&] { return plan; });
+}
+
+hal::Result<> play_recording(const RunOptions& options, const Configuration& configuration,
+                             Twins& twins) {
+  const RecordingOptions& recording = *options.recording;
+  auto file =
+      pipeline::SpectraFile::open(recording.file, recording.shape, pipeline::SpectrumType::u16);
+  if (!file)
+    return pass_on(file.error());
+  const auto shared = std::make_shared<pipeline::SpectraFile>(std::move(*file));
+
+  twins.calibration = pipeline::Calibration::identity(recording.shape.samples);
+  if (const auto path = calibration_file(options, configuration)) {
+    auto loaded = pipeline::Calibration::load(*path, recording.shape.samples);
+    if (!loaded)
+      return pass_on(loaded.error());
+    twins.calibration = std::move(*loaded);
+  }
+  auto plan = recorded_plan(recording.shape, twins.calibration, options, configuration);
+  if (!plan)
+    return pass_on(plan.error());
+  twins.plan = *plan;
+
+  const std::byte* first = shared->b_scan(0).data();
+  const std::size_t samples =
+      recording.shape.lines() * static_cast<std::size_t>(recording.shape.samples);
+  auto spectra = sim::RecordedSpectra::make(
+      {.samples = {reinterpret_cast<const std::uint16_t*>(first), samples},
+       .b_scans = recording.shape.b_scans,
+       .a_scans = recording.shape.a_scans,
+       .samples_per_line = recording.shape.samples,
+       .significant_bits = 16,
+       .name = recording.file.filename().string(),
+       .keep_alive = shared});
+  if (!spectra)
+    return pass_on(spectra.error());
+  twins.spectra = std::move(*spectra);
+  return {};
+}
+
+hal::Result<> play_phantom(const RunOptions& options, const Configuration& configuration,
+                           Twins& twins) {
+  auto loop = sim::suggested_loop(options.phantom.value_or(configuration.phantom));
+  if (!loop)
+    return pass_on(loop.error());
+  loop->volumes = configuration.loop_volumes;
+  loop->galvo_lag_us = configuration.galvo_lag_us;
+  loop->seed = phantom_seed;
+  if (configuration.plan)
+    loop->plan = *configuration.plan;
+  override_plan(options, configuration, loop->plan);
+  const auto calibration = calibration_file(options, configuration);
+  if (calibration) { // before the loop, which takes its time
+    auto loaded = pipeline::Calibration::load(*calibration, loop->plan.samples);
+    if (!loaded)
+      return pass_on(loaded.error());
+    twins.calibration = std::move(*loaded);
+  }
+  auto made = sim::VolumeLoop::make(*loop);
+  if (!made)
+    return pass_on(made.error());
+
+  const sim::Spectrometer& spectrometer = (*made)->spectrometer();
+  twins.plan = (*made)->plan();
+  if (calibration)
+    twins.plan.refractive_index = medium_of(twins.plan, twins.calibration);
+  if (!calibration) { // the one that fits the simulated spectrometer exactly
+    twins.calibration = pipeline::Calibration::identity(twins.plan.samples);
+    twins.calibration.positions = spectrometer.true_k_positions();
+    twins.calibration.dispersion_rad = spectrometer.true_dispersion_rad();
+    twins.calibration.camera = sim::simulated_camera;
+  }
+  twins.spectra = std::move(*made);
+  return {};
+}
+
+// The corners of the scan within the picture; A-scan 0 of B-scan 0 is at the upper left.
+ui::ScanField corners(const sim::PictureRectangle& r) {
+  const auto corner = [](double x, double y) {
+    return ui::ScanField::Corner{static_cast<float>(x), static_cast<float>(y)};
+  };
+  return {{corner(r.x, r.y), corner(r.x + r.width, r.y), corner(r.x + r.width, r.y + r.height),
+           corner(r.x, r.y + r.height)}};
+}
+
+hal::Result<> make_scope_camera(const RunOptions& options, const Configuration& configuration,
+                                hal::Clock& clock, Twins& twins) {
+  auto made =
+      sim::SimScopeCamera::make({.phantom = options.phantom.value_or(configuration.phantom),
+                                 .seed = phantom_seed,
+                                 .field = twins.plan.geometry(),
+                                 .loop = twins.plan.tick_period() * configuration.loop_volumes},
+                                clock);
+  if (!made)
+    return pass_on(made.error());
+  twins.scope_camera = std::move(*made);
+  twins.scan_field = corners(twins.scope_camera->scan_field());
+  return {};
+}
+
+hal::Result<> load_faults(const RunOptions& options, const Configuration& configuration,
+                          Twins& twins) {
+  sim::FaultScript script;
+  if (const auto& file = options.faults ? options.faults : configuration.faults) {
+    auto loaded = sim::FaultScript::load(*file);
+    if (!loaded)
+      return pass_on(loaded.error());
+    script = std::move(*loaded);
+  }
+  twins.faults = std::make_unique<sim::FaultSchedule>(std::move(script));
+  return {};
+}
+
+hal::Result<> make_control_input(const RunOptions& options, const Configuration& configuration,
+                                 hal::Clock& clock, Twins& twins) {
+  sim::ControlScript script;
+  if (const auto& file = options.controls ? options.controls : configuration.controls) {
+    auto loaded = sim::ControlScript::load(*file);
+    if (!loaded)
+      return pass_on(loaded.error());
+    script = std::move(*loaded);
+  }
+  twins.control_input =
+      std::make_unique<sim::SimControlInput>(clock, std::move(script), twins.faults.get());
+  return {};
+}
+
+} // namespace
+
+std::optional<double> medium_of(const pipeline::ScanPlan& plan,
+                                const pipeline::Calibration& calibration) {
+  return plan.depth_spacing_um == calibration.depth_spacing_um ? calibration.refractive_index
+                                                               : std::nullopt;
+}
+
+bool Twins::concern_display() const {
+  return std::ranges::any_of(faults->faults(), [](const sim::ScriptedFault& fault) {
+    return fault.device == sim::FaultDevice::display;
+  });
+}
+
+void Twins::apply_faults(hal::TimePoint now, sim::OffscreenDisplay* display) {
+  if (scope_camera && faults->active(sim::FaultDevice::scope_camera, sim::FaultKind::unplug, now))
+    scope_camera->unplug();
+  else if (scope_camera)
+    scope_camera->replug();
+  if (display == nullptr)
+    return;
+  if (faults->active(sim::FaultDevice::display, sim::FaultKind::lost, now))
+    display->lose();
+  else
+    display->restore();
+}
+
+hal::Result<Twins> make_script_twins(const RunOptions& options, const Configuration& configuration,
+                                     hal::Clock& clock) {
+  Twins twins;
+  auto made = load_faults(options, configuration, twins);
+  if (made)
+    made = make_control_input(options, configuration, clock, twins);
+  if (!made)
+    return pass_on(made.error());
+  return twins;
+}
+
+hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& configuration,
+                              hal::Clock& clock) {
+  auto scripted = make_script_twins(options, configuration, clock);
+  if (!scripted)
+    return scripted;
+  Twins& twins = *scripted;
+  auto made = options.recording ? play_recording(options, configuration, twins)
+                                : play_phantom(options, configuration, twins);
+  twins.plan.zero_padding = twins.calibration.zero_padding;
+  if (made && !options.recording)
+    made = make_scope_camera(options, configuration, clock, twins);
+  if (!made)
+    return pass_on(made.error());
+  twins.format = twins.spectra->format();
+  twins.source = twins.spectra->description();
+  twins.link = std::make_unique<sim::GalvoLink>(twins.plan.sweep_duration());
+  // Nobody knows which camera a recording's spectra are from.
+  twins.line_camera = std::make_unique<sim::SimLineCamera>(
+      *twins.spectra, *twins.link, clock, twins.faults.get(), sim::ScanMotion{},
+      options.recording ? std::string{} : std::string{sim::simulated_camera});
+  twins.galvo_trigger =
+      std::make_unique<sim::SimGalvoTrigger>(*twins.link, clock, twins.faults.get());
+  return scripted;
+}
+
+} // namespace octascope::firmware_host

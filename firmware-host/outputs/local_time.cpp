@@ -1,0 +1,19 @@
+#include "firmware-host/outputs/local_time.h"
+
+#include <ctime>
+
+#include <fmt/format.h>
+
+namespace octascope::firmware_host {
+
+std::string local_date_and_time(std::int64_t wall_clock_ns) {
+  constexpr std::int64_t ns_per_s = 1'000'000'000;
+  const std::time_t seconds = wall_clock_ns / ns_per_s;
+  std::tm local{};
+  if (wall_clock_ns <= 0 || localtime_r(&seconds, &local) == nullptr || local.tm_year > 8099)
+    return "time not said";
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}", local.tm_year + 1900, local.tm_mon + 1,
+                     local.tm_mday, local.tm_hour, local.tm_min, local.tm_sec);
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,32 @@
+// Writes pictures that the surgeon asked for, beside the running display.
+#pragma once
+
+#include <filesystem>
+#include <future>
+
+#include "hal/clock.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/files/png_image.h"
+
+namespace octascope::firmware_host {
+
+// One thread asks; a thread of its own compresses and writes, one picture at a time.
+class PictureWriter {
+public:
+  // Pictures go into `folder`, named by date and time; they show a patient, so that nobody but
+  // their owner may read them.
+  PictureWriter(std::filesystem::path folder, hal::Clock& clock, pipeline::FaultLog& faults)
+      : folder_(std::move(folder)), clock_(clock), faults_(faults) {}
+
+  // Returns at once. A picture that is asked for while the last is still being written is not kept,
+  // and that is recorded; false.
+  bool keep(pipeline::Image picture);
+
+private:
+  std::filesystem::path folder_;
+  hal::Clock& clock_;
+  pipeline::FaultLog& faults_;
+  std::future<void> writing_; // its destructor waits
+};
+
+} // namespace octascope::firmware_host

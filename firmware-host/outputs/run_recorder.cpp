@@ -1,0 +1,124 @@
+#include "firmware-host/outputs/run_recorder.h"
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <system_error>
+#include <utility>
+
+#include <fmt/chrono.h>
+
+#include "firmware-host/outputs/dated_file.h"
+#include "pipeline/files/atomic_file.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+// A second of volumes: what a disk that is busy with something else may hold up. Fewer of very
+// large ones.
+constexpr std::size_t most_places = 8;
+constexpr std::size_t memory_for_places = std::size_t{128} << 20;
+
+std::size_t places_for(const pipeline::VolumeGeometry& geometry) {
+  return std::clamp(memory_for_places / geometry.voxels(), std::size_t{2}, most_places);
+}
+
+constexpr hal::Duration patience_with_disk = 10s;
+
+std::string now_in_iso_8601() {
+  const std::tm local = fmt::localtime(std::time(nullptr));
+  const std::string offset = fmt::format("{:%z}", local); // +0100
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
+}
+
+} // namespace
+
+RunRecorder::RunRecorder(RecordingSetup setup, hal::Clock& clock, pipeline::FaultLog& faults,
+                         pipeline::Wakeup& news)
+    : setup_(std::move(setup)), clock_(clock), faults_(faults),
+      recorder_(setup_.facts.geometry, places_for(setup_.facts.geometry), clock, faults, news) {}
+
+hal::Result<> RunRecorder::check() const {
+  if (!setup_.file)
+    return {};
+  std::error_code ignored;
+  if (std::filesystem::exists(*setup_.file, ignored))
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     setup_.file->string() + " is there already, and a recording is never written "
+                                             "over: choose another name, or remove it");
+  HAL_CHECK(pipeline::AtomicFile::create(*setup_.file));
+  return {};
+}
+
+hal::Result<> RunRecorder::start(const pipeline::ThreadSetup& setup) {
+  recorder_.start(setup);
+  if (!setup_.file)
+    return {};
+  begin(*setup_.file);
+  const hal::TimePoint deadline = clock_.now() + patience_with_disk;
+  while (!recorder_.status().on) {
+    for (const pipeline::FaultRecord& fault : faults_.records())
+      if (fault.device == "recording")
+        return hal::fail(hal::ErrorCode::system, fault.message);
+    if (clock_.now() > deadline)
+      return hal::fail(hal::ErrorCode::timed_out,
+                       setup_.file->string() +
+                           ": its disk has not answered for ten seconds: look at it, or "
+                           "record to another one");
+    clock_.sleep_for(1ms);
+  }
+  return {};
+}
+
+void RunRecorder::stop() {
+  recorder_.stop();
+  note_counts();
+}
+
+std::string_view RunRecorder::toggle() {
+  if (recorder_.status().on) {
+    recorder_.end();
+    return "ended";
+  }
+  std::error_code ignored; // a file that cannot be made is a fault of its own
+  std::filesystem::create_directories(setup_.folder, ignored);
+  return begin(free_dated_name(setup_.folder, "octascope", ".h5"))
+             ? "begun"
+             : "not begun: the last one is being finished";
+}
+
+bool RunRecorder::begin(const std::filesystem::path& file) {
+  note_counts();
+  pipeline::RecordingFacts facts = setup_.facts;
+  facts.begun = now_in_iso_8601();
+  if (!recorder_.begin(file, std::move(facts)))
+    return false;
+  kept_.push_back({file});
+  return true;
+}
+
+// Of the newest; the recorder counts anew for each.
+void RunRecorder::note_counts() {
+  if (kept_.empty())
+    return;
+  const pipeline::RecorderStatus status = recorder_.status();
+  kept_.back().kept = status.kept;
+  kept_.back().not_kept = status.not_kept;
+}
+
+ui::RecordingStatus RunRecorder::status(hal::TimePoint now) const {
+  const pipeline::RecorderStatus recorder = recorder_.status();
+  ui::RecordingStatus status;
+  status.on = recorder.on;
+  if (!status.on)
+    return status;
+  status.lasted = now - recorder.since;
+  status.not_kept = recorder.not_kept;
+  status.eye = setup_.facts.eye;
+  return status;
+}
+
+} // namespace octascope::firmware_host

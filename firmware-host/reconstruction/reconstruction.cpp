@@ -1,0 +1,64 @@
+#include "firmware-host/reconstruction/reconstruction.h"
+
+#include <algorithm>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "hal/linux/realtime.h"
+
+namespace octascope::firmware_host {
+
+hal::Result<std::unique_ptr<Reconstruction>>
+Reconstruction::make(const Devices& devices, const Configuration& configuration,
+                     ReconstructionCache& cache) {
+  auto made = pipeline::Reconstructor::create({.calibration = devices.calibration(),
+                                               .format = pipeline::SpectrumFormat{devices.format()},
+                                               .a_scans = devices.plan().converted_lines(),
+                                               .memory = &cache});
+  if (!made)
+    return tl::make_unexpected(made.error());
+  static_cast<void>(cache.save()); // what was not kept is measured again; the doctor says why
+  HAL_TRY(const auto average, pipeline::NeighbourAverage::create(configuration.neighbour_weights));
+  const std::size_t workers = configuration.workers > 0
+                                  ? configuration.workers
+                                  : std::max(1U, std::thread::hardware_concurrency());
+  return std::unique_ptr<Reconstruction>(
+      new Reconstruction{std::move(*made), average, workers, configuration.worker_cores});
+}
+
+Reconstruction::Reconstruction(pipeline::Reconstructor reconstructor,
+                               const pipeline::NeighbourAverage& average, std::size_t workers,
+                               const std::vector<int>& cores)
+    : reconstructor_{std::move(reconstructor)}, average_{average},
+      worker_cores_{workers, cores, hal::linux_backend::allowed_cores()} {
+  for (std::size_t worker = 0; worker < workers; ++worker)
+    workspaces_.push_back(reconstructor_.make_workspace());
+}
+
+pipeline::VolumeThreadSetup Reconstruction::volume_thread_setup(const pipeline::ScanPlan& plan,
+                                                                int camera_buffers) {
+  if (auto running = reconstructor_.make_running_background())
+    backgrounds_.emplace(std::move(*running), reconstructor_.samples(), camera_buffers);
+  return {
+      .plan = plan,
+      .trigger = {},
+      .workers = workspaces_.size(),
+      .reconstruct =
+          [this](std::size_t worker, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
+            const auto running = backgrounds_ ? backgrounds_->of(frame) : std::span<const float>{};
+            return reconstructor_
+                .reconstruct_b_scan(workspaces_[worker], frame.bytes, levels, running)
+                .saturated_lines;
+          },
+      .observe =
+          [this](const hal::LineFrame& frame) {
+            if (backgrounds_)
+              backgrounds_->take(frame);
+          },
+      .observe_volume = {},
+      .average = average_,
+      .most_volumes = {}};
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,48 @@
+// What turns a run's frames into levels: the reconstructor that is the faster one here, room for
+// each worker, and the backgrounds that run along with the frames.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "firmware-host/configuration/configuration.h"
+#include "firmware-host/devices/devices.h"
+#include "firmware-host/reconstruction/reconstruction_cache.h"
+#include "firmware-host/supervision/thread_roles.h"
+#include "hal/result.h"
+#include "pipeline/reconstruction/background.h"
+#include "pipeline/acquisition/neighbour_average.h"
+#include "pipeline/reconstruction/reconstructor.h"
+#include "pipeline/acquisition/volume_thread.h"
+
+namespace octascope::firmware_host {
+
+// Outlives the volumes' thread, whose workers use it.
+class Reconstruction {
+public:
+  // Measures what the cache does not remember, which takes some tenths of a second, and keeps that.
+  // The devices' cameras and plan are made.
+  static hal::Result<std::unique_ptr<Reconstruction>>
+  make(const Devices& devices, const Configuration& configuration, ReconstructionCache& cache);
+
+  // The volumes' thread, as far as it is concerned. `camera_buffers`: frames that may be under way.
+  pipeline::VolumeThreadSetup volume_thread_setup(const pipeline::ScanPlan& plan,
+                                                  int camera_buffers);
+
+  const pipeline::Reconstructor& reconstructor() const { return reconstructor_; }
+  WorkerCores& worker_cores() { return worker_cores_; }
+  const WorkerCores& worker_cores() const { return worker_cores_; }
+
+private:
+  Reconstruction(pipeline::Reconstructor reconstructor, const pipeline::NeighbourAverage& average,
+                 std::size_t workers, const std::vector<int>& cores);
+
+  pipeline::Reconstructor reconstructor_;
+  pipeline::NeighbourAverage average_;
+  std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
+  std::optional<pipeline::FrameBackgrounds> backgrounds_;      // running ones
+  WorkerCores worker_cores_;
+};
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,43 @@
+// The report of a replay: its keys stay, tools read them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/result.h"
+#include "pipeline/threads/duration_statistics.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/recordings/recording.h"
+#include "pipeline/acquisition/volume_feed.h"
+
+namespace octascope::firmware_host {
+
+struct ReplayReport {
+  std::filesystem::path file;
+  pipeline::RecordingFacts facts;
+  pipeline::RecordingEnd end;
+  std::size_t recorded = 0;           // volumes in the file
+  std::string control_input, display; // backends
+  pipeline::VolumeCounters volumes;
+  std::uint64_t displayed = 0;
+  double duration_s = 0;
+  pipeline::DurationSummary latency;
+  std::uint64_t frames_drawn = 0;
+  std::uint64_t hot_path_allocations = 0;
+  std::vector<pipeline::FaultRecord> faults;
+  hal::TimePoint started; // fault times are relative to it
+};
+
+// One JSON object, indented.
+std::string to_json(const ReplayReport& report);
+
+// The same for a person: a few lines.
+std::string to_text(const ReplayReport& report);
+
+// Whole or not at all.
+hal::Result<> write_report(const ReplayReport& report, const std::filesystem::path& file);
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,184 @@
+#include "firmware-host/report/report.h"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "firmware-host/report/report_parts.h"
+#include "firmware-host/version/version.h"
+#include "pipeline/files/atomic_file.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using Json = ReportJson;
+
+// The times are null where there was no choice to make.
+Json reconstruction_to_json(const RunReport& report) {
+  Json json = {{"path", report.reconstruction_path},
+               {"isa", report.reconstruction_isa},
+               {"reason", report.reconstruction_reason},
+               {"fused_ns_per_line", nullptr},
+               {"fftw_ns_per_line", nullptr}};
+  if (report.reconstruction_times) {
+    json["fused_ns_per_line"] = std::round(report.reconstruction_times->fused_ns);
+    json["fftw_ns_per_line"] = std::round(report.reconstruction_times->fftw_ns);
+  }
+  return json;
+}
+
+// Null where there was no choice to make.
+Json rays_to_json(const RunReport& report) {
+  if (!report.rays)
+    return {};
+  return {{"cast_by", report.rays->faster() == ui::RayBackend::processor ? "processor" : "shader"},
+          {"processor_ms", rounded(hal::to_ms(report.rays->processor))},
+          {"shader_ms", rounded(hal::to_ms(report.rays->shader))}};
+}
+
+Json scan_to_json(const RunReport& report) {
+  const pipeline::ScanPlan& plan = report.plan;
+  Json scan = {{"bidirectional", plan.bidirectional},
+               {"repeats", plan.repeats},
+               {"lines_per_sweep", plan.lines_per_frame()},
+               {"kept_lines_per_sweep", plan.a_scans},
+               {"sweeps_per_volume", plan.sweeps()},
+               {"planned_volumes_per_s", rounded(plan.volumes_per_s())}};
+  if (plan.bidirectional) {
+    const pipeline::ScanLagStatus& phase = report.phase;
+    scan["phase_offset"] = {{"a_scans", rounded(phase.in_use_a_scans)},
+                            {"automatic", phase.automatic},
+                            {"estimates_used", phase.used},
+                            {"estimates_refused", phase.refused},
+                            {"correlation", rounded(phase.correlation)},
+                            {"significance", rounded(phase.significance)}};
+  }
+  return scan;
+}
+
+std::string_view name_of(ui::LayoutKind layout) {
+  constexpr std::array<std::string_view, ui::layout_count> names{"volume", "b_scan", "microscope",
+                                                                 "quad"};
+  return names[static_cast<std::size_t>(layout)];
+}
+
+std::string_view name_of(ui::StereoMode mode) {
+  constexpr std::array<std::string_view, ui::stereo_count> names{"off", "side_by_side",
+                                                                 "top_bottom"};
+  return names[static_cast<std::size_t>(mode)];
+}
+
+std::string_view name_of(ui::VesselColouring colouring) {
+  constexpr std::array<std::string_view, ui::vessel_colouring_count> names{"branch", "order",
+                                                                           "diagnostic"};
+  return names[static_cast<std::size_t>(colouring)];
+}
+
+Json view_to_json(const ui::ViewState& view) {
+  return {{"window_offset_db", rounded(view.window_offset_db)},
+          {"window_size_db", rounded(view.window_size_db)},
+          {"yaw_deg", rounded(view.yaw_deg)},
+          {"tilt_deg", rounded(view.tilt_deg)},
+          {"distance", rounded(view.distance)},
+          {"b_scan", view.b_scan},
+          {"parallax_deg", rounded(view.parallax_deg)},
+          {"technique", to_string(view.technique)},
+          {"transfer", view.transfer},
+          {"colours", view.colour_map},
+          {"layout", name_of(view.layout)},
+          {"stereo", name_of(view.stereo)},
+          {"frozen", view.frozen},
+          {"vessels", view.vessels_visible},
+          {"vessel_opacity", rounded(view.vessel_opacity)},
+          {"vessel_colours", name_of(view.vessel_colouring)},
+          {"vessel_shift_mm", view.vessel_nudge.shift_mm},
+          {"vessel_turn_deg", view.vessel_nudge.turn_deg},
+          {"box", view.box_visible},
+          {"legend", view.legend_visible},
+          {"selected", to_string(view.selected)}};
+}
+
+Json actions_to_json(const RunReport& report) {
+  Json actions;
+  for (const ui::Action action : ui::all_actions())
+    actions[std::string{to_string(action)}] = report.actions[ui::index_of(action)];
+  return actions;
+}
+
+} // namespace
+
+std::string to_json(const RunReport& r) {
+  const Json json = {
+      {"version", version()},
+      {"simulated", r.simulated},
+      {"source", r.source},
+      {"duration_s", rounded(r.duration_s)},
+      {"devices",
+       {{"line_camera", r.line_camera},
+        {"galvo_trigger", r.galvo_trigger},
+        {"control_input", r.control_input},
+        {"scope_camera", r.scope_camera},
+        {"display", r.display}}},
+      {"calibration",
+       {{"camera", r.calibration.camera},
+        {"line_camera", r.calibration.line_camera},
+        {"verdict", r.calibration.verdict}}},
+      {"reconstruction", reconstruction_to_json(r)},
+      {"scan", scan_to_json(r)},
+      {"workers", {{"count", r.worker_cores.size()}, {"cores", r.worker_cores}}},
+      {"volumes",
+       {{"planned", r.planned},
+        {"acquired", r.acquired},
+        {"published", r.published},
+        {"displayed", r.displayed},
+        {"skipped", r.skipped},
+        {"lost", r.undisplayed},
+        {"unfinished", r.unfinished}}},
+      {"lost", {{"lines", r.lost_lines}, {"b_scans", r.lost_b_scans}, {"volumes", r.lost_volumes}}},
+      {"saturated_lines", r.saturated_lines},
+      {"rates",
+       {{"lines_per_s", rounded(r.lines_per_s)},
+        {"volumes_per_s", rounded(r.volumes_per_s)},
+        {"frames_per_s", rounded(r.frames_per_s)}}},
+      {"stage_ms",
+       {{"reconstruct", to_json(r.reconstruct)},
+        {"assemble", to_json(r.assemble)},
+        {"publish", to_json(r.publish)},
+        {"upload", to_json(r.upload)},
+        {"draw", to_json(r.draw)}}},
+      {"latency_ms", to_json(r.latency)},
+      {"control_ms", to_json(r.control)},
+      {"rays", rays_to_json(r)},
+      {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},
+      {"frames", {{"drawn", r.frames_drawn}, {"missed", r.frames_missed}}},
+      {"hot_path", {{"allocations", r.hot_path_allocations}}},
+      {"view", view_to_json(r.view)},
+      {"actions", actions_to_json(r)},
+      {"faults", to_json(r.faults, r.started)},
+  };
+  return json.dump(2) + "\n";
+}
+
+std::string to_text(const RunReport& r) {
+  std::string text = fmt::format(
+      "{:.1f} s, {} volumes displayed of {} acquired ({:.2f}/s, {:.0f} lines/s), {} frames "
+      "({:.1f}/s)\n"
+      "lost: {} lines, {} B-scans, {} volumes; latency {:.0f} ms median, {:.0f} ms p95\n",
+      r.duration_s, r.displayed, r.acquired, r.volumes_per_s, r.lines_per_s, r.frames_drawn,
+      r.frames_per_s, r.lost_lines, r.lost_b_scans, r.lost_volumes, r.latency.p50_ms,
+      r.latency.p95_ms);
+  if (r.plan.bidirectional)
+    text += fmt::format("bidirectional: phase offset {:.2f} A-scans, {}\n", r.phase.in_use_a_scans,
+                        !r.phase.automatic ? "as configured"
+                        : r.phase.used > 0 ? "found in the picture"
+                                           : "as configured: the picture shows no better one");
+  return text + to_text(r.faults);
+}
+
+hal::Result<> write_report(const RunReport& report, const std::filesystem::path& file) {
+  return pipeline::write_atomically(file, to_json(report));
+}
+
+} // namespace octascope::firmware_host

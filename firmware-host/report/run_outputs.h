@@ -1,0 +1,20 @@
+// What a run leaves behind beside its report.
+#pragma once
+
+#include <optional>
+
+#include "firmware-host/configuration/run_options.h"
+#include "hal/result.h"
+#include "pipeline/files/png_image.h"
+
+namespace octascope::firmware_host {
+
+// What cannot be written is found out now, not after the run; nothing stays behind.
+hal::Result<> check_outputs(const RunOptions& options);
+
+// Writes the last picture where one was asked for, and prints where it is. `picture` is empty where
+// the display was gone.
+hal::Result<> leave_snapshot(const RunOptions& options,
+                             const std::optional<pipeline::Image>& picture);
+
+} // namespace octascope::firmware_host

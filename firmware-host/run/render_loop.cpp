@@ -1,0 +1,436 @@
+#include "firmware-host/run/render_loop.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "firmware-host/outputs/local_time.h"
+#include "ui/controls/simulated_control.h"
+#include "ui/gl/context_info.h"
+#include "ui/transfer/auto_window.h"
+#include "ui/transfer/histogram.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+constexpr const char* device_name = "display";
+
+// A picture that does not change is shown again so often: that it is still true has to be proved.
+constexpr std::chrono::milliseconds longest_rest{900};
+
+// For so long a display that is there and fails is opened anew before a restart is called for.
+constexpr std::chrono::seconds patience_with_display{30};
+
+bool brings_volumes(ui::Liveness liveness) {
+  return liveness == ui::Liveness::live || liveness == ui::Liveness::replayed;
+}
+
+ui::ChoiceNames choices_of(const ui::TransferSet& transfers) {
+  ui::ChoiceNames names{{}, {}};
+  for (const ui::TransferFunction& function : transfers.functions())
+    names.transfers.push_back(function.name);
+  for (const ui::ColourMap& map : transfers.colour_maps())
+    names.colours.emplace_back(map.name());
+  return names;
+}
+
+} // namespace
+
+RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
+    : parts_(parts), setup_(std::move(setup)), legend_(ui::make_legend(setup_.controls)),
+      key_legend_(ui::make_key_legend()), controller_(setup_.view, setup_.b_scans, setup_.controls),
+      governor_({}) {
+  controller_.actions().set_choices(choices_of(setup_.transfers));
+  if (setup_.restored_view)
+    controller_.actions().replace(controller_.actions().initial(), *setup_.restored_view);
+  setup_.status.legend = &legend_;
+  setup_.status.key_legend = &key_legend_;
+}
+
+RenderLoop::~RenderLoop() {
+  renderer_.reset(); // before its context
+  parts_.display.close();
+}
+
+void RenderLoop::change_controls(ui::ControlProfile profile) {
+  legend_ = ui::make_legend(profile);
+  controller_.change_profile(std::move(profile));
+}
+
+// Every picture that the renderer holds was made with the old ones.
+void RenderLoop::change_transfers(ui::TransferSet transfers) {
+  setup_.transfers = std::move(transfers);
+  controller_.actions().set_choices(choices_of(setup_.transfers));
+  if (!renderer_)
+    return;
+  renderer_.reset();
+  auto renderer = ui::Renderer::create(setup_.transfers, parts_.threads);
+  if (!renderer) {
+    lose_display(renderer.error());
+    return;
+  }
+  renderer_ = std::move(*renderer);
+  levels_of_ = 0;
+  if (const auto shown = show_again(); !shown)
+    lose_display(shown.error());
+}
+
+hal::Result<> RenderLoop::open() {
+  return open_display();
+}
+
+hal::Result<> RenderLoop::open_display() {
+  if (parts_.display.state() != hal::DeviceState::ready) // else it shows the splash
+    HAL_CHECK(parts_.display.open(setup_.display));
+  last_flip_ = 0;
+  presented_.reset();
+  auto renderer = ui::Renderer::create(setup_.transfers, parts_.threads);
+  if (!renderer) {
+    parts_.display.close();
+    return tl::make_unexpected(renderer.error());
+  }
+  renderer_ = std::move(*renderer);
+  software_ = ui::gl::describe_context().software;
+  governor_ = ui::Governor{frame_budget()};
+  return show_again();
+}
+
+// A display that came back shows what the lost one did. Nothing else brings it: of a frozen picture
+// no volume is taken, and a microscope camera that is gone sends no other picture.
+hal::Result<> RenderLoop::show_again() {
+  if (scope_picture_ != nullptr)
+    show_scope_picture();
+  if (parts_.vessels != nullptr)
+    HAL_CHECK(parts_.vessels->show_again(*renderer_));
+  return volume_ != nullptr ? renderer_->show_volume(*volume_) : hal::Result<>{};
+}
+
+bool RenderLoop::turn() {
+  const hal::TimePoint next = parts_.clock.now() + parts_.display.refresh_period();
+  const bool go_on = handle_input();
+  take_volume();
+  take_scope_picture();
+  if (parts_.vessels != nullptr)
+    parts_.vessels->advance(renderer_.get(), controller_.actions(), setup_.status.vessels);
+  update_status();
+  if (display_ready()) {
+    draw_if_changed();
+    choose_ray_backend();
+  }
+  // At once when something came meanwhile; a long press is due when it is.
+  parts_.news.wait_until(std::min(next, controller_.next_deadline().value_or(next)));
+  return go_on;
+}
+
+// With a GPU every refresh of a moving view gets a frame. Where the processor draws, every second
+// one: 30 a second. A volume that comes while the view rests may take longer, as long as it is
+// shown well within the 60 ms that are allowed from its last line.
+ui::FrameBudget RenderLoop::frame_budget() const {
+  using namespace std::chrono_literals;
+  const hal::Duration refresh = parts_.display.refresh_period();
+  if (software_)
+    return {refresh * 18 / 10, std::max<hal::Duration>(refresh * 18 / 10, 45ms)};
+  return {refresh * 8 / 10, refresh * 18 / 10};
+}
+
+// The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
+// it: the badge does not wait for a picture that takes its time.
+ui::DrawQuality RenderLoop::choose_quality() {
+  const ui::ViewState& view = controller_.state();
+  const bool moved = drawn_view_ && !ui::same_sight(*drawn_view_, view);
+  ui::DrawQuality quality =
+      governor_.choose({.now = setup_.status.now,
+                        .technique = view.technique,
+                        .moved = moved,
+                        .live = brings_volumes(setup_.status.freshness.liveness) ||
+                                brings_volumes(drawn_liveness_)});
+  quality.rays = rays_;
+  if (parts_.vessels != nullptr)
+    quality.vessel_detail_px = parts_.vessels->detail_px(setup_.status.now, moved);
+  return quality;
+}
+
+// While the first volume is awaited: later, it would take its time from the picture.
+void RenderLoop::choose_ray_backend() {
+  if (rays_tried_ || !renderer_ || statistics_.frames_drawn == 0 || volume_ != nullptr)
+    return;
+  rays_tried_ = true;
+  if (const auto trial = ui::try_ray_backends(parts_.clock)) {
+    statistics_.rays = *trial;
+    rays_ = trial->faster();
+  }
+}
+
+// How often each level occurs, for the histogram that is shown while the window changes.
+void RenderLoop::show_levels() {
+  const ui::ViewState& view = controller_.state();
+  if (volume_ == nullptr || setup_.status.now >= view.echo.until ||
+      !ui::changes_window(view.echo.action) || levels_of_ == volume_->metadata.index)
+    return;
+  renderer_->show_levels(ui::make_level_histogram(*volume_).shares());
+  levels_of_ = volume_->metadata.index;
+}
+
+bool RenderLoop::handle_input() {
+  ui::ControlRequests requests;
+  const ui::ViewState before = controller_.state();
+  std::optional<hal::TimePoint> oldest;
+  const auto seen = [&](hal::TimePoint time) { oldest = std::min(oldest.value_or(time), time); };
+  std::array<hal::DisplayEvent, 32> events;
+  if (renderer_) {
+    for (const hal::DisplayEvent& event :
+         std::span{events}.first(parts_.display.poll_events(events))) {
+      requests.add(controller_.handle(event));
+      seen(event.time);
+      if (const auto control = ui::simulated_control(event); control && parts_.simulated_control)
+        parts_.simulated_control(*control);
+    }
+  }
+  while (const auto event = parts_.controls.take()) {
+    requests.add(controller_.handle(*event));
+    seen(event->time);
+  }
+  requests.add(controller_.advance(parts_.clock.now()));
+  if (!undisplayed_control_ && oldest && !(before == controller_.state()))
+    undisplayed_control_ = oldest;
+  answer(requests);
+  return !requests.quit;
+}
+
+void RenderLoop::answer(const ui::ControlRequests& requests) {
+  picture_wanted_ = picture_wanted_ || requests.snapshot;
+  if (requests.auto_window)
+    find_window();
+  if (requests.keep_registration && parts_.vessels != nullptr && volume_ != nullptr)
+    parts_.vessels->keep_registration(volume_->geometry, controller_.actions());
+  if (requests.record)
+    controller_.actions().tell(ui::Action::record,
+                               setup_.status.replay ? "not while a recording is replayed"
+                               : parts_.record      ? parts_.record()
+                                                    : "not of this picture",
+                               parts_.clock.now());
+}
+
+void RenderLoop::find_window() {
+  const auto window = volume_ != nullptr ? ui::suggest_window(*volume_) : std::nullopt;
+  if (window)
+    controller_.actions().show_window(window->offset_db, window->size_db, parts_.clock.now());
+  else
+    controller_.actions().tell(ui::Action::auto_window, "no volume yet", parts_.clock.now());
+}
+
+// As the display shows it; that it was kept is said afterwards.
+void RenderLoop::keep_picture() {
+  const bool kept =
+      parts_.keep_picture(renderer_->read_back(parts_.display.width(), parts_.display.height()));
+  controller_.actions().tell(ui::Action::snapshot, kept ? "kept" : "not kept: one is being written",
+                             parts_.clock.now());
+  picture_wanted_ = false;
+}
+
+void RenderLoop::take_volume() {
+  if (controller_.state().frozen || !renderer_)
+    return;
+  const pipeline::Volume* newest = parts_.volumes.take_newest();
+  if (newest == nullptr)
+    return;
+  volume_ = newest;
+  ++statistics_.volumes_taken;
+  volume_undisplayed_ = false; // of the one before: if it was, it is lost
+  const hal::TimePoint begin = parts_.clock.now();
+  if (const auto shown = renderer_->show_volume(*newest); !shown) {
+    parts_.faults.add(device_name, to_string(shown.error().code), shown.error().message, begin);
+    return;
+  }
+  statistics_.upload.add(parts_.clock.now() - begin);
+  if (setup_.window_from_first_volume && !shown_) {
+    if (const auto window = ui::suggest_window(*newest))
+      set_first_window(*window);
+  }
+  volume_undisplayed_ = true;
+  undisplayed_last_line_ = newest->metadata.last_line;
+  shown_ = ui::ShownVolume{newest->metadata.last_line, newest->metadata.published,
+                           newest->metadata.recorded_ns.has_value()};
+  tell_origin(newest->metadata);
+  setup_.status.missing_b_scans = newest->missing_b_scans();
+  setup_.status.saturated_lines = newest->metadata.saturated_lines;
+}
+
+// The volume itself says that it was recorded, and when: nobody can forget to.
+void RenderLoop::tell_origin(const pipeline::VolumeMetadata& metadata) {
+  if (!metadata.recorded_ns)
+    return setup_.status.replay.reset();
+  if (!setup_.status.replay)
+    setup_.status.replay.emplace();
+  setup_.status.replay->recorded = local_date_and_time(*metadata.recorded_ns);
+}
+
+void RenderLoop::set_first_window(const ui::DisplayWindow& window) {
+  ui::ViewActions& actions = controller_.actions();
+  const ui::ViewState state = actions.state();
+  actions.set_window(window.offset_db, window.size_db);
+  if (setup_.window_restored)
+    actions.replace(actions.initial(), state);
+}
+
+void RenderLoop::take_scope_picture() {
+  if (!renderer_ || parts_.scope == nullptr)
+    return;
+  if (const hal::ScopeFrame* picture = parts_.scope->take_newest()) {
+    scope_picture_ = picture;
+    show_scope_picture();
+  }
+}
+
+void RenderLoop::show_scope_picture() {
+  if (const auto shown = renderer_->show_scope_picture(*scope_picture_, setup_.scan_field); !shown)
+    parts_.faults.add("scope_camera", to_string(shown.error().code), shown.error().message,
+                      parts_.clock.now());
+}
+
+void RenderLoop::update_status() {
+  ui::Status& s = setup_.status;
+  s.now = parts_.clock.now();
+  const pipeline::VolumeCounters counters = parts_.volumes.counters();
+  volume_rate_.update(counters.acquired, s.now);
+  if (parts_.acquisition != nullptr)
+    line_rate_.update(parts_.acquisition->counters().frames *
+                          static_cast<std::uint64_t>(setup_.lines_per_frame),
+                      s.now);
+  s.lines_per_s = line_rate_.per_second();
+  frame_rate_.update(statistics_.frames_drawn, s.now);
+  s.volumes_per_s = volume_rate_.per_second();
+  s.frames_per_s = frame_rate_.per_second();
+  s.losses = {counters.lost_lines, counters.lost_b_scans, counters.lost_volumes};
+  if (const auto latency = statistics_.latency.summary(); latency.count > 0) {
+    s.latency_p50_ms = latency.p50_ms;
+    s.latency_p95_ms = latency.p95_ms;
+  }
+  const ui::ViewState& view = controller_.state();
+  s.freshness = ui::judge_freshness(shown_, s.now, setup_.freshness,
+                                    view.frozen ? std::optional{view.frozen_since} : std::nullopt);
+}
+
+void RenderLoop::draw_if_changed() {
+  const ui::ViewState& view = controller_.state();
+  quality_ = choose_quality();
+  setup_.status.reduced_quality = ui::visible_reduction(quality_);
+  show_levels();
+  hal::Display& display = parts_.display;
+  const bool rested = presented_ && setup_.status.now - *presented_ >= longest_rest;
+  if (!picture_wanted_ && !rested &&
+      !renderer_->needs_redraw(view, setup_.status, display.width(), display.height(), quality_))
+    return;
+  const hal::TimePoint begin = parts_.clock.now();
+  if (const auto drawn =
+          renderer_->draw(view, setup_.status, display.width(), display.height(), quality_);
+      !drawn) {
+    lose_display(drawn.error());
+    return;
+  }
+  if (renderer_->wants_volume(view) && volume_ != nullptr)
+    static_cast<void>(renderer_->show_volume(*volume_)); // that it can be shown, it has proved
+  renderer_->finish();
+  const auto vessels = renderer_->vessel_report();
+  governor_.note(parts_.clock.now() - begin - vessels.cost, renderer_->drew_volume());
+  if (parts_.vessels != nullptr)
+    parts_.vessels->note(vessels, frame_budget().moving, setup_.status.vessels);
+  drawn_view_ = view;
+  drawn_liveness_ = setup_.status.freshness.liveness;
+  if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
+    keep_picture();
+  const auto flip = display.present();
+  if (!flip)
+    lose_display(flip.error());
+  else
+    flip_done(*flip, begin);
+}
+
+void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
+  presented_ = flip.completed;
+  if (flip.sequence == last_flip_) // another console is in front: nobody saw it
+    return;
+  last_flip_ = flip.sequence;
+  prove_picture(flip);
+  const hal::Duration took = flip.completed - begin;
+  ++statistics_.frames_drawn;
+  statistics_.draw.add(took);
+  statistics_.frames_missed +=
+      static_cast<std::uint64_t>(std::max<std::int64_t>(took / parts_.display.refresh_period(), 0));
+  if (undisplayed_control_) {
+    statistics_.control.add(flip.completed - *undisplayed_control_);
+    undisplayed_control_.reset();
+  }
+  if (undisplayed_last_line_) {
+    if (!statistics_.first_picture)
+      statistics_.first_picture = flip.completed;
+    statistics_.latency.add(flip.completed - *undisplayed_last_line_);
+    undisplayed_last_line_.reset();
+  }
+  // Also one that a lost display showed only when it was back; that delay is no latency of ours.
+  if (std::exchange(volume_undisplayed_, false))
+    ++statistics_.volumes_displayed;
+}
+
+// What the frame says was judged in this turn, so it is true, unless drawing and showing it took so
+// long that the picture would have had to be covered meanwhile.
+void RenderLoop::prove_picture(const hal::Flip& flip) {
+  if (parts_.proof != nullptr && flip.completed - setup_.status.now <= setup_.freshness.veil_after)
+    parts_.proof->shown(volume_ != nullptr);
+}
+
+// Without a monitor a restart would bring none, and it would cost a frozen picture and the view:
+// the loop waits for as long as that takes. A display that is there and cannot be opened may be a
+// driver's state in this process: after a while that is left to a restart.
+void RenderLoop::look_for_display(const hal::Error& error, hal::TimePoint now) {
+  if (parts_.proof == nullptr)
+    return;
+  if (error.code == hal::ErrorCode::absent ||
+      (display_lost_ && now - *display_lost_ <= patience_with_display))
+    parts_.proof->looked_for_display();
+}
+
+void RenderLoop::lose_display(const hal::Error& error) {
+  display_lost_ = parts_.clock.now();
+  parts_.faults.add(device_name, to_string(error.code), error.message, parts_.clock.now());
+  renderer_.reset();
+  parts_.display.close();
+  undisplayed_last_line_.reset();
+  undisplayed_control_.reset();
+  drawn_view_.reset();
+  levels_of_ = 0;
+  drawn_liveness_ = ui::Liveness::waiting;
+}
+
+bool RenderLoop::display_ready() {
+  if (renderer_)
+    return true;
+  const hal::TimePoint now = parts_.clock.now();
+  if (!retry_.due(now))
+    return false;
+  if (const auto opened = open_display(); !opened) {
+    parts_.faults.add(device_name, to_string(opened.error().code), opened.error().message, now);
+    look_for_display(opened.error(), now);
+    retry_.failure(now);
+    return false;
+  }
+  display_lost_.reset();
+  retry_.success();
+  return true;
+}
+
+std::optional<pipeline::Image> RenderLoop::picture() {
+  if (!renderer_)
+    return std::nullopt;
+  // As it was shown: of a display that draws slowly, a live picture is STALE when we are back here.
+  const int width = parts_.display.width();
+  const int height = parts_.display.height();
+  if (!renderer_->draw(controller_.state(), setup_.status, width, height, quality_))
+    return std::nullopt;
+  return renderer_->read_back(width, height);
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,34 @@
+// One volume, for commands that draw or measure: from a file, from spectra, or of a phantom.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "firmware-host/configuration/run_options.h"
+#include "hal/result.h"
+#include "pipeline/volume/patient_eye.h"
+#include "pipeline/volume/volume.h"
+
+namespace octascope::firmware_host {
+
+// Exactly one of `file`, `recording` and `phantom`.
+struct VolumeRequest {
+  std::optional<std::filesystem::path> file; // NRRD, or a recording: its content says which
+  std::optional<std::size_t> at; // which volume of a recording, from 0; empty: the first
+  std::optional<RecordingOptions> recording;
+  std::optional<std::filesystem::path> calibration; // of the recording
+  std::optional<std::string> phantom;
+};
+
+struct LoadedVolume {
+  pipeline::Volume volume;
+  pipeline::PatientEye whose; // as its recording says; what is no recording says nothing
+};
+
+// As the running appliance would have shown it: the same calibration, reconstruction and averaging
+// of neighbours for spectra and phantoms; a file's levels as they are. ErrorCode::invalid_argument
+// for what a user can put right on the command line.
+hal::Result<LoadedVolume> load_volume(const VolumeRequest& request);
+
+} // namespace octascope::firmware_host

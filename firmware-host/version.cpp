@@ -1,9 +1,0 @@
-#include "firmware-host/version.h"
-
-namespace octascope::firmware_host {
-
-std::string_view version() {
-  return "0.1.0";
-}
-
-} // namespace octascope::firmware_host

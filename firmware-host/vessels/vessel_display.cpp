@@ -1,0 +1,169 @@
+#include "firmware-host/vessels/vessel_display.h"
+
+#include <cstddef>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "firmware-host/configuration/run_options.h"
+#include "firmware-host/vessels/vessel_patient_check.h"
+#include "firmware-host/vessels/vessel_place.h"
+
+namespace octascope::firmware_host {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* device_name = "vessels";
+constexpr hal::Duration notice_duration = 15s;
+constexpr int share_of_frame = 3; // the volume needs the larger part
+
+const std::string nothing_to_say;
+
+} // namespace
+
+hal::Result<std::unique_ptr<VesselDisplay>>
+make_vessel_display(const RunOptions& options, pipeline::PatientEye operated, hal::Clock& clock,
+                    pipeline::FaultLog& faults, pipeline::Wakeup& news) {
+  VesselDisplaySetup setup;
+  if (options.registration) {
+    HAL_TRY(auto loaded, pipeline::Registration::load(*options.registration));
+    HAL_CHECK(check_vessel_patient(*options.registration, loaded.whose, operated));
+    setup.registration = std::move(loaded);
+  }
+  setup.operated = std::move(operated);
+  if (!options.vessels)
+    return std::unique_ptr<VesselDisplay>{};
+  setup.file = *options.vessels;
+  setup.registration_file = options.registration;
+  return std::make_unique<VesselDisplay>(std::move(setup), clock, faults, news);
+}
+
+VesselDisplay::VesselDisplay(VesselDisplaySetup setup, hal::Clock& clock,
+                             pipeline::FaultLog& faults, pipeline::Wakeup& news)
+    : setup_{std::move(setup)}, clock_{clock}, faults_{faults}, loader_{setup_.file, news} {}
+
+ui::PlacedVessels VesselDisplay::placed() const {
+  if (!setup_.registration)
+    return place_vessels(*loaded_, std::nullopt);
+  return place_vessels(*loaded_, setup_.registration->volume_from_tree);
+}
+
+hal::Result<> VesselDisplay::show(ui::Renderer& renderer) const {
+  return renderer.show_vessels(placed(), clock_);
+}
+
+hal::Result<> VesselDisplay::show_again(ui::Renderer& renderer) {
+  return loaded_ ? show(renderer) : hal::Result<>{};
+}
+
+// What is registered to this eye by hand is this eye's.
+pipeline::PatientEye VesselDisplay::whose_vessels() const {
+  const pipeline::PatientEye before =
+      setup_.registration ? setup_.registration->whose : pipeline::PatientEye{};
+  return before.said() ? before : setup_.operated;
+}
+
+void VesselDisplay::say(std::string notice) {
+  notice_ = std::move(notice);
+  notice_until_ = clock_.now() + notice_duration;
+}
+
+const std::string& VesselDisplay::notice(hal::TimePoint now) const {
+  return now < notice_until_ ? notice_ : nothing_to_say;
+}
+
+void VesselDisplay::advance(ui::Renderer* renderer, ui::ViewActions& actions,
+                            ui::VesselStatus& status) {
+  take_loaded(renderer, actions, status);
+  take_written(renderer, actions);
+  if (status.state == ui::VesselStatus::State::loading)
+    status.progress = loader_.progress();
+  status.registered = setup_.registration.has_value();
+}
+
+void VesselDisplay::take_loaded(ui::Renderer* renderer, ui::ViewActions& actions,
+                                ui::VesselStatus& status) {
+  using State = ui::VesselStatus::State;
+  auto result = loader_.take();
+  if (!result) {
+    if (status.state == State::none)
+      status.state = State::loading;
+    return;
+  }
+  hal::Result<> shown;
+  if (*result) {
+    loaded_.emplace(std::move(**result));
+    for (const pipeline::VesselCluster& cluster : loaded_->clusters().clusters)
+      status.branches[static_cast<std::size_t>(cluster.branch)] = true;
+    shown = renderer != nullptr ? show(*renderer) : hal::Result<>{};
+  } else {
+    shown = tl::make_unexpected(result->error());
+  }
+  status.state = shown ? State::shown : State::failed;
+  actions.set_vessels_loaded(shown.has_value());
+  if (shown && setup_.registration && setup_.registration->whose.said() && !setup_.operated.said())
+    say(fmt::format("Vessels of {}", in_words(setup_.registration->whose)));
+  if (!shown) {
+    faults_.add(device_name, "not_shown", shown.error().message, clock_.now());
+    say(fmt::format("No vessels: {}", shown.error().message));
+  }
+}
+
+// What is in the file is where the tree is registered from now on; unless it was moved once more
+// meanwhile, or could not be written: then it stays nudged, and can be kept again.
+void VesselDisplay::take_written(ui::Renderer* renderer, ui::ViewActions& actions) {
+  const auto written = keeper_.take();
+  if (!written)
+    return;
+  if (!*written) {
+    faults_.add(device_name, "registration_not_kept", written->error().message, clock_.now());
+    actions.tell(ui::Action::keep_registration, "not kept", clock_.now());
+    say(fmt::format("Vessels' place not kept: {}", written->error().message));
+    return;
+  }
+  actions.tell(ui::Action::keep_registration, "kept", clock_.now());
+  say(fmt::format("Vessels' place kept in {}", (*written)->filename().string()));
+  if (actions.state().vessel_nudge != kept_nudge_)
+    return;
+  setup_.registration_file = **written;
+  setup_.registration = pipeline::Registration{kept_, whose_vessels(), {}};
+  actions.forget_nudge();
+  if (renderer != nullptr)
+    static_cast<void>(show(*renderer)); // that it can be shown, it has proved
+}
+
+void VesselDisplay::keep_registration(const pipeline::VolumeGeometry& geometry,
+                                      ui::ViewActions& actions) {
+  if (!loaded_)
+    return;
+  const ui::VesselNudge nudge = actions.state().vessel_nudge;
+  const pipeline::RigidTransform place = volume_from_tree(placed(), nudge, geometry);
+  const std::string before =
+      setup_.registration_file ? setup_.registration_file->filename().string() : "not registered";
+  if (!keeper_.keep(place, whose_vessels(),
+                    fmt::format("{}, before: {}", setup_.file.filename().string(), before))) {
+    actions.tell(ui::Action::keep_registration, "one is being written", clock_.now());
+    return;
+  }
+  kept_ = place;
+  kept_nudge_ = nudge;
+}
+
+float VesselDisplay::detail_px(hal::TimePoint now, bool moved) {
+  if (moved)
+    moved_at_ = now;
+  at_rest_ = !moved_at_ || now - *moved_at_ >= ui::Governor::rest_after;
+  return governor_.detail_px(at_rest_);
+}
+
+void VesselDisplay::note(const ui::Renderer::VesselReport& report, hal::Duration budget,
+                         ui::VesselStatus& status) {
+  status.account = report.account;
+  governor_.set_budget(budget / share_of_frame);
+  if (!at_rest_ && report.cost > hal::Duration{})
+    governor_.note(report.cost);
+}
+
+} // namespace octascope::firmware_host

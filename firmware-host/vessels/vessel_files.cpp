@@ -1,0 +1,20 @@
+#include "firmware-host/vessels/vessel_files.h"
+
+#include <utility>
+
+#include "pipeline/vessels/clusters/cluster_builder.h"
+#include "pipeline/vessels/clusters/cluster_file.h"
+#include "pipeline/vessels/files/swc_writer.h"
+
+namespace octascope::firmware_host {
+
+hal::Result<> write_tree(const std::filesystem::path& file, const pipeline::VesselTree& tree,
+                         std::string provenance, const std::function<void(double)>& progress) {
+  if (file.extension() == ".swc")
+    return pipeline::write_swc(file, tree, pipeline::LengthUnit::um, progress);
+  const pipeline::ClusterArrays arrays = pipeline::build_clusters(tree);
+  return pipeline::write_cluster_file(
+      file, arrays.view(), pipeline::facts_of(tree, arrays.error, std::move(provenance)));
+}
+
+} // namespace octascope::firmware_host

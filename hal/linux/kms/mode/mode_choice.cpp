@@ -1,0 +1,158 @@
+#include "hal/linux/kms/mode/mode_choice.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <drm_mode.h>
+#include <fmt/format.h>
+
+namespace octascope::hal::linux_backend::kms {
+
+namespace {
+
+constexpr int smallest = 100;
+constexpr int largest = 16384;
+
+tl::unexpected<Error> not_a_mode(std::string_view text) {
+  return fail(ErrorCode::invalid_argument,
+              fmt::format("kms display: mode is \"{}\", expected \"preferred\", \"1920x1080\", "
+                          "\"1920x1080@60\" or, with computed timings, \"1920x1080M@60\" ({} to {} "
+                          "pixels either way, 1 to 1000 Hz)",
+                          text, smallest, largest));
+}
+
+// The number at the front of `text`, which it shortens.
+template <class Number> std::optional<Number> take_number(std::string_view& text) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{})
+    return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
+  return value;
+}
+
+bool take(std::string_view& text, char expected) {
+  if (text.empty() || text.front() != expected)
+    return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+tl::unexpected<Error> no_such_mode(std::span<const Mode> modes, const ModeWish& wish) {
+  std::string list;
+  for (const Mode& mode : modes)
+    list += (list.empty() ? "" : ", ") + to_text(mode);
+  return fail(ErrorCode::unsupported,
+              fmt::format("kms display: no mode {}x{}{}, expected one of the monitor's: {}; set "
+                          "the mode to one of them, or to \"{}x{}M\" to try computed timings",
+                          wish.width, wish.height,
+                          wish.refresh_hz ? fmt::format("@{}", *wish.refresh_hz) : "",
+                          list.empty() ? "none" : list, wish.width, wish.height));
+}
+
+// Lines of vertical sync, by which monitors tell the aspect ratio (CVT 1.1, table 3-2).
+int sync_lines(int width, int height) {
+  const auto is = [&](int across, int down) { return height * across / down == width; };
+  if (is(4, 3))
+    return 4;
+  if (is(16, 9))
+    return 5;
+  if (is(16, 10))
+    return 6;
+  if (is(5, 4) || is(15, 9))
+    return 7;
+  return 10;
+}
+
+} // namespace
+
+Result<ModeWish> parse_mode_wish(std::string_view text) {
+  ModeWish wish;
+  if (text.empty() || text == "preferred")
+    return wish;
+  std::string_view rest = text;
+  const auto width = take_number<int>(rest);
+  if (!width || !take(rest, 'x'))
+    return not_a_mode(text);
+  const auto height = take_number<int>(rest);
+  if (!height || *width < smallest || *height < smallest || *width > largest || *height > largest)
+    return not_a_mode(text);
+  wish.width = *width;
+  wish.height = *height;
+  wish.computed = take(rest, 'M');
+  if (take(rest, '@')) {
+    wish.refresh_hz = take_number<double>(rest);
+    if (!wish.refresh_hz || !(*wish.refresh_hz >= 1 && *wish.refresh_hz <= 1000))
+      return not_a_mode(text);
+  }
+  if (!rest.empty())
+    return not_a_mode(text);
+  return wish;
+}
+
+Result<Mode> choose_mode(std::span<const Mode> modes, const ModeWish& wish) {
+  if (wish.computed)
+    return computed_mode(wish.width, wish.height, wish.refresh_hz.value_or(60));
+  const Mode* best = nullptr;
+  // The monitor's order decides between equals.
+  const auto better = [&](const Mode& mode) {
+    if (best == nullptr)
+      return true;
+    if (wish.refresh_hz)
+      return std::abs(refresh_hz(mode) - *wish.refresh_hz) <
+             std::abs(refresh_hz(*best) - *wish.refresh_hz);
+    return is_preferred(mode) && !is_preferred(*best);
+  };
+  for (const Mode& mode : modes) {
+    const bool fits = wish.width == 0 || (mode.width == wish.width && mode.height == wish.height);
+    if (fits && !is_interlaced(mode) && refresh_hz(mode) > 0 && better(mode))
+      best = &mode;
+  }
+  // Half a hertz: 60 and 59.94 are one wish to a person, 50 is another.
+  if (best == nullptr || (wish.refresh_hz && std::abs(refresh_hz(*best) - *wish.refresh_hz) > 0.5))
+    return no_such_mode(modes, wish);
+  return *best;
+}
+
+// Numbers as in CVT 1.1, section 5.3; times in µs.
+Mode computed_mode(int asked_width, int height, double rate_hz) {
+  constexpr double min_sync_and_back_porch = 550;
+  constexpr int front_porch_lines = 3;
+  constexpr double clock_step_khz = 250;
+  const int width = asked_width - asked_width % 8;
+
+  const double line_estimate = (1e6 / rate_hz - min_sync_and_back_porch) / (height + 3);
+  const int sync = sync_lines(width, height);
+  const int sync_and_back_porch =
+      std::max(static_cast<int>(min_sync_and_back_porch / line_estimate) + 1, sync + 3);
+  const int vtotal = height + sync_and_back_porch + front_porch_lines;
+
+  const double blank_percent = std::max(30 - 0.3 * line_estimate, 20.0);
+  const double ideal_blank = width * blank_percent / (100 - blank_percent);
+  const int blank = static_cast<int>(ideal_blank) / 16 * 16;
+  const int htotal = width + blank;
+  const int hsync_end = width + blank / 2;
+  const int hsync_earliest = hsync_end - htotal * 8 / 100;
+  const int hsync_start = hsync_earliest + 8 - hsync_earliest % 8;
+
+  const auto lines = [](int value) { return static_cast<std::uint16_t>(value); };
+  Mode mode;
+  mode.name = fmt::format("{}x{}", width, height);
+  mode.clock_khz = static_cast<std::uint32_t>(
+      std::floor(htotal * 1e3 / line_estimate / clock_step_khz) * clock_step_khz);
+  mode.width = lines(width);
+  mode.hsync_start = lines(hsync_start);
+  mode.hsync_end = lines(hsync_end);
+  mode.htotal = lines(htotal);
+  mode.height = lines(height);
+  mode.vsync_start = lines(height + front_porch_lines);
+  mode.vsync_end = lines(height + front_porch_lines + sync);
+  mode.vtotal = lines(vtotal);
+  mode.flags = DRM_MODE_FLAG_NHSYNC | DRM_MODE_FLAG_PVSYNC;
+  mode.type = DRM_MODE_TYPE_USERDEF;
+  return mode;
+}
+
+} // namespace octascope::hal::linux_backend::kms

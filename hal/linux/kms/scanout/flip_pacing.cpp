@@ -1,0 +1,18 @@
+#include "hal/linux/kms/scanout/flip_pacing.h"
+
+#include <algorithm>
+
+namespace octascope::hal::linux_backend::kms {
+
+TimePoint FlipPacer::completed(const FlipTimes& flip) {
+  const bool credible =
+      flip.stamp && *flip.stamp >= flip.submitted && *flip.stamp <= flip.received + period_;
+  completed_ = std::max(completed_, credible ? *flip.stamp : flip.received);
+  // A tenth of a period: a monitor's refresh is steadier than that. Within it the output's own pace
+  // counts, else the clock's nominal one would drift against it until a refresh is missed.
+  const TimePoint next_refresh = std::min(next_allowed_, completed_) + period_;
+  next_allowed_ = next_refresh - completed_ > period_ / 10 ? next_refresh : completed_;
+  return completed_;
+}
+
+} // namespace octascope::hal::linux_backend::kms

@@ -1,0 +1,217 @@
+#include "pipeline/acquisition/acquisition.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "pipeline/threads/heartbeat.h"
+#include "pipeline/threads/hot_path.h"
+
+namespace octascope::pipeline {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* device_name = "line_camera";
+// Also how soon a stop is noticed; a volume that misses frames waits for the end of a look that
+// began after its time was over.
+constexpr hal::Duration frame_timeout = 10ms;
+constexpr hal::Duration retry_step = 50ms; // how soon a stop is noticed while the camera is away
+constexpr hal::Duration first_patience = 3s;
+constexpr hal::Duration most_patience = 24s;
+
+} // namespace
+
+Acquisition::Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& config,
+                         hal::Clock& clock, FaultLog& faults, Wakeup& arrived)
+    : camera_(camera), config_(config), clock_(clock), faults_(faults), arrived_(arrived),
+      frames_(static_cast<std::size_t>(config.buffers)),
+      queue_(static_cast<std::size_t>(config.buffers)), patience_(first_patience) {}
+
+Acquisition::~Acquisition() {
+  stop();
+}
+
+hal::Result<> Acquisition::start(const ThreadSetup& setup) {
+  if (auto opened = camera_.open(config_); !opened) {
+    if (opened.error().code == hal::ErrorCode::invalid_argument)
+      return opened;
+    faults_.add(device_name, to_string(opened.error().code), opened.error().message, clock_.now());
+  }
+  thread_ = std::thread{[this, setup] {
+    if (setup)
+      setup({"camera"});
+    run();
+  }};
+  return {};
+}
+
+void Acquisition::stop() {
+  if (!thread_.joinable())
+    return;
+  stopping_.store(true, std::memory_order_release);
+  thread_.join();
+}
+
+std::optional<hal::LineFrame> Acquisition::take() {
+  const auto buffer = queue_.pop();
+  if (!buffer)
+    return std::nullopt;
+  return frames_[*buffer];
+}
+
+void Acquisition::release(int buffer) {
+  give_back(buffer);
+}
+
+AcquisitionCounters Acquisition::counters() const {
+  return {good_.load(), unusable_.load(), gaps_.load(), overflowed_.load()};
+}
+
+void Acquisition::run() {
+  while (!stopping_.load(std::memory_order_acquire)) {
+    const hal::TimePoint asked = clock_.now();
+    Heartbeat::beat_here(asked);
+    if (camera_.state() != hal::DeviceState::streaming && !open_and_start()) {
+      wait_before_retry();
+      continue;
+    }
+    const HotPath hot;
+    const auto frame = camera_.wait_frame(frame_timeout);
+    if (!frame) {
+      faults_.add(device_name, to_string(frame.error().code), frame.error().message, clock_.now());
+      close_when_returned();
+    } else if (*frame) {
+      receive(**frame);
+      note_look(std::min((*frame)->last_line, clock_.now()));
+    } else {
+      mend_silence();
+      note_look(asked);
+    }
+  }
+  camera_.stop();
+  close_when_returned();
+  Heartbeat::rest_here();
+}
+
+bool Acquisition::open_and_start() {
+  const auto result = camera_.state() == hal::DeviceState::ready
+                          ? camera_.start()
+                          : camera_.open(config_).and_then([&] { return camera_.start(); });
+  if (!result) {
+    faults_.add(device_name, to_string(result.error().code), result.error().message, clock_.now());
+    camera_.close();
+    return false;
+  }
+  last_sequence_.reset();
+  repeated_ = 0;
+  silent_since_.reset();
+  unanswered_.store(false, std::memory_order_relaxed);
+  retry_.success();
+  return true;
+}
+
+// Closing unmaps the frames' memory, and a worker may still be reading one. Queued frames are
+// dropped here; those in work come back within a few milliseconds.
+void Acquisition::close_when_returned() {
+  while (on_loan_.load(std::memory_order_acquire) > 0) {
+    while (const auto buffer = queue_.pop())
+      give_back(static_cast<int>(*buffer));
+    if (on_loan_.load(std::memory_order_acquire) > 0)
+      clock_.sleep_for(1ms);
+  }
+  camera_.close();
+}
+
+void Acquisition::mend_silence() {
+  const hal::TimePoint now = clock_.now();
+  if (unanswered_.exchange(false, std::memory_order_relaxed) && !silent_since_)
+    silent_since_ = now;
+  if (!silent_since_ || now - *silent_since_ < patience_)
+    return;
+  faults_.add(device_name, "silent",
+              "the camera streams and sends nothing although the scanner is pulsed; it is opened "
+              "anew. Is the scanner on, and its trigger wired to the camera?",
+              now);
+  patience_ = std::min(2 * patience_, most_patience);
+  close_when_returned();
+}
+
+void Acquisition::receive(const hal::LineFrame& frame) {
+  silent_since_.reset();
+  patience_ = first_patience;
+  unanswered_.store(false, std::memory_order_relaxed);
+  check_sequence(frame.sequence);
+  const bool sized = frame.bytes.size() == config_.format.frame_bytes();
+  if (frame.integrity != hal::FrameIntegrity::good || !sized) {
+    unusable_.fetch_add(1, std::memory_order_relaxed);
+    const auto complaint = [&] {
+      return sized ? std::string{"the driver flagged a frame as corrupted"}
+                   : fmt::format("a frame has {} bytes, expected {}", frame.bytes.size(),
+                                 config_.format.frame_bytes());
+    };
+    faults_.add(device_name, sized ? "corrupted_frame" : "wrong_size", complaint, clock_.now());
+    camera_.release(frame.buffer);
+    return;
+  }
+  frames_[static_cast<std::size_t>(frame.buffer)] = frame;
+  on_loan_.fetch_add(1, std::memory_order_acq_rel);
+  good_.fetch_add(1, std::memory_order_relaxed);
+  if (const auto dropped = queue_.push_dropping_oldest(static_cast<std::uint32_t>(frame.buffer))) {
+    overflowed_.fetch_add(1, std::memory_order_relaxed);
+    faults_.add(device_name, "overflow",
+                "frames came faster than they were worked off; the oldest was dropped",
+                clock_.now());
+    give_back(static_cast<int>(*dropped));
+  }
+  arrived_.post();
+}
+
+// A counter that hung jumps to where it should be: the frames that came meanwhile fill the gap.
+void Acquisition::check_sequence(std::uint64_t sequence) {
+  if (last_sequence_ && sequence <= *last_sequence_) {
+    const auto complaint = [&] {
+      return fmt::format("frame number {} came after {}", sequence, *last_sequence_);
+    };
+    faults_.add(device_name, "stuck_sequence", complaint, clock_.now());
+    repeated_ = sequence == *last_sequence_ ? repeated_ + 1 : 0; // smaller: it began anew
+    last_sequence_ = sequence;
+    return;
+  }
+  if (const std::uint64_t step = last_sequence_ ? sequence - *last_sequence_ - 1 : 0;
+      step > repeated_) {
+    gaps_.fetch_add(step - repeated_, std::memory_order_relaxed);
+    const auto complaint = [&] {
+      return fmt::format("the driver lost frames: number {} came after {}", sequence,
+                         *last_sequence_);
+    };
+    faults_.add(device_name, "dropped_frames", complaint, clock_.now(), step - repeated_);
+  }
+  last_sequence_ = sequence;
+  repeated_ = 0;
+}
+
+void Acquisition::give_back(int buffer) {
+  camera_.release(buffer);
+  on_loan_.fetch_sub(1, std::memory_order_acq_rel);
+}
+
+void Acquisition::note_look(hal::TimePoint until) {
+  if (until > looked_until_.load(std::memory_order_relaxed))
+    looked_until_.store(until, std::memory_order_release);
+  hal::TimePoint awaited = awaited_look_.load(std::memory_order_relaxed);
+  if (until >= awaited && awaited_look_.compare_exchange_strong(awaited, hal::TimePoint::max(),
+                                                                std::memory_order_relaxed))
+    arrived_.post();
+}
+
+void Acquisition::wait_before_retry() {
+  retry_.failure(clock_.now());
+  while (!retry_.due(clock_.now()) && !stopping_.load(std::memory_order_acquire)) {
+    Heartbeat::beat_here(clock_.now());
+    clock_.sleep_until(std::min(retry_.next(), clock_.now() + retry_step));
+  }
+}
+
+} // namespace octascope::pipeline

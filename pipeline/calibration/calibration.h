@@ -1,0 +1,79 @@
+// What one spectrometer needs to turn its counts into depth: positions uniform in wavenumber,
+// dispersion phase, background, spectral window and the physical spacings.
+//
+// The file format is described in docs (a calibration is TOML; paths in it are relative to it).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/result.h"
+#include "pipeline/calibration/fixed_pattern.h"
+#include "pipeline/calibration/k_linearisation.h"
+#include "pipeline/calibration/spectral_shaping.h"
+#include "pipeline/calibration/spectral_window.h"
+#include "pipeline/volume/volume_geometry.h"
+
+namespace octascope::pipeline {
+
+enum class BackgroundMode : std::uint8_t {
+  mean,    // of the kept lines of each B-scan
+  running, // mean over the last B-scans, in their order (background.h)
+  file,    // a recorded spectrum
+  none,
+};
+
+// The least and the most samples a line may have.
+inline constexpr int fewest_samples = 16;
+inline constexpr int most_samples = 65536;
+
+// A plain value. All curves are resolved to `samples` values in double precision.
+struct Calibration {
+  int samples = 1024;
+  std::string
+      camera; // hal::LineCamera::identity() of the one that it was made with; empty: not said
+  std::vector<double> positions; // r[m], fractional pixels in [0, samples−1], uniform in k
+  Interpolation interpolation = Interpolation::sinc8;
+  std::vector<double> dispersion_rad; // θ[m] with its sign applied; empty: none
+  BackgroundMode background_mode = BackgroundMode::mean;
+  std::vector<float> background; // counts after the right shift; only for BackgroundMode::file
+  FixedPatternRemoval fixed_pattern;
+  // w[m], what counts; and where it comes from, for the file: `shaping` where there is one, else
+  // `window_kind`.
+  std::vector<double> window;
+  SpectralWindow window_kind = SpectralWindow::hann;
+  std::optional<SourceShaping> shaping;
+  int zero_padding = 1;          // 1: none; 2: as many zeros behind each line as it has samples
+  double depth_spacing_um = 3.5; // of one bin without zero-padding, in the medium
+  std::optional<double> refractive_index; // of that medium: 1 is air; empty: nobody said
+  double a_spacing_um = 10;
+  double b_spacing_um = 37.5;
+
+  // The whole file, or an Error that names file, line or index, what was found and what was
+  // expected. `expected_samples` is what the spectra have.
+  static hal::Result<Calibration> load(const std::filesystem::path& file, int expected_samples);
+
+  // For when no calibration is given: no resampling, no dispersion, Hann window, mean background.
+  static Calibration identity(int samples);
+
+  // Levels of an A-scan, and the distance between two of them.
+  int depths() const { return samples * zero_padding / 2; }
+  double bin_spacing_um() const { return depth_spacing_um / zero_padding; }
+
+  // Every curve has `samples` finite values and every position lies on the line.
+  hal::Result<> validate() const;
+};
+
+// The camera that a calibration names; empty: none. Reads nothing else of it and checks nothing.
+hal::Result<std::string> calibration_camera(const std::filesystem::path& file);
+
+class ConfigDocument;
+
+// The file's text, asked for every file that it names and for nothing else: for copies that keep
+// them together (ConfigDocument::text_naming()).
+hal::Result<ConfigDocument> calibration_document(const std::filesystem::path& file);
+
+} // namespace octascope::pipeline

@@ -1,0 +1,113 @@
+#include "pipeline/controls/control_thread.h"
+
+#include <array>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "pipeline/threads/heartbeat.h"
+
+namespace octascope::pipeline {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* device_name = "control_input";
+constexpr hal::Duration read_timeout = 50ms; // also how soon a stop is noticed
+
+} // namespace
+
+ControlThread::ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults,
+                             Wakeup& news)
+    : input_(input), clock_(clock), faults_(faults), news_(news) {}
+
+ControlThread::~ControlThread() {
+  stop();
+}
+
+void ControlThread::start(const ThreadSetup& setup) {
+  thread_ = std::thread{[this, setup] {
+    if (setup)
+      setup({"controls"});
+    run();
+  }};
+}
+
+void ControlThread::stop() {
+  if (!thread_.joinable())
+    return;
+  stopping_.store(true, std::memory_order_release);
+  thread_.join();
+}
+
+void ControlThread::run() {
+  std::array<hal::ControlEvent, 32> events;
+  while (!stopping_.load(std::memory_order_acquire)) {
+    Heartbeat::beat_here(clock_.now());
+    if (input_.state() != hal::DeviceState::ready && !open()) {
+      clock_.sleep_for(read_timeout);
+      continue;
+    }
+    const auto count = input_.read(events, read_timeout);
+    if (!count) {
+      faults_.add(device_name, to_string(count.error().code), count.error().message, clock_.now());
+      input_.close();
+      centre_axes();
+      continue;
+    }
+    for (const hal::ControlEvent& event : std::span{events}.first(*count))
+      receive(event);
+    look_for_bad_contacts();
+    if (*count > 0)
+      news_.post();
+  }
+  input_.close();
+  Heartbeat::rest_here();
+}
+
+void ControlThread::receive(const hal::ControlEvent& event) {
+  held_.note(event);
+  if (event.kind == hal::ControlKind::axis && event.index < pushed_.size())
+    pushed_[event.index] = event.value != 0;
+  if (!queue_.push(event))
+    faults_.add(device_name, "overflow", "more events than the display could take", event.time);
+}
+
+// A puck that is gone pushes no more; nobody else would say so.
+void ControlThread::centre_axes() {
+  for (std::size_t i = 0; i < pushed_.size(); ++i)
+    if (pushed_[i])
+      receive({clock_.now(), hal::ControlKind::axis, static_cast<std::uint8_t>(i), 0});
+  news_.post();
+}
+
+void ControlThread::look_for_bad_contacts() {
+  const hal::TimePoint now = clock_.now();
+  if (const auto index = held_.longest_untold(now))
+    faults_.add(device_name, "stuck_switch",
+                fmt::format("switch {} has been down for {} s: it is stuck, or somebody stands on "
+                            "it",
+                            *index, hal::to_seconds(HeldSwitches::limit)),
+                now);
+  const std::uint64_t bounces = input_.bounces();
+  if (bounces > bounces_)
+    faults_.add(device_name, "bounce",
+                "contacts bounce, which is filtered out; they are worn when it grows", now,
+                bounces - bounces_);
+  bounces_ = bounces;
+}
+
+bool ControlThread::open() {
+  if (!retry_.due(clock_.now()))
+    return false;
+  if (const auto opened = input_.open(); !opened) {
+    faults_.add(device_name, to_string(opened.error().code), opened.error().message, clock_.now());
+    retry_.failure(clock_.now());
+    return false;
+  }
+  retry_.success();
+  return true;
+}
+
+} // namespace octascope::pipeline

@@ -1,0 +1,53 @@
+// The control thread: fetches what pedals and knobs say and queues it for the render thread.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include "hal/clock.h"
+#include "hal/control_input.h"
+#include "pipeline/threads/event_queue.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/controls/held_switches.h"
+#include "pipeline/threads/retry_delay.h"
+#include "pipeline/threads/wakeup.h"
+#include "pipeline/threads/worker_pool.h"
+
+namespace octascope::pipeline {
+
+// The device may vanish and return at any time; it is reopened with a back-off.
+class ControlThread {
+public:
+  // All references outlive this; `news` is posted after each event.
+  ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults, Wakeup& news);
+  ~ControlThread();
+
+  void start(const ThreadSetup& setup);
+  void stop();
+
+  // One consumer thread. Oldest first.
+  std::optional<hal::ControlEvent> take() { return queue_.pop(); }
+
+private:
+  void run();
+  bool open();
+  void receive(const hal::ControlEvent& event);
+  void centre_axes();
+  void look_for_bad_contacts();
+
+  hal::ControlInput& input_;
+  hal::Clock& clock_;
+  FaultLog& faults_;
+  Wakeup& news_;
+  EventQueue<hal::ControlEvent, 256> queue_;
+  RetryDelay retry_;
+  HeldSwitches held_;
+  std::array<bool, 6> pushed_{}; // axes that are not at their middle
+  std::uint64_t bounces_ = 0;    // told so far
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+} // namespace octascope::pipeline

@@ -1,0 +1,61 @@
+// The thread of the scope camera: keeps the newest microscope picture for the renderer.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/scope_camera.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/retry_delay.h"
+#include "pipeline/threads/triple_buffer.h"
+#include "pipeline/threads/wakeup.h"
+#include "pipeline/threads/worker_pool.h"
+
+namespace octascope::pipeline {
+
+// The camera may vanish and return at any time; it is reopened with a back-off.
+class ScopeThread {
+public:
+  // All references outlive this; `news` is posted after each picture.
+  ScopeThread(hal::ScopeCamera& camera, const hal::ScopeCameraConfig& config, hal::Clock& clock,
+              FaultLog& faults, Wakeup& news);
+  ~ScopeThread();
+
+  void start(const ThreadSetup& setup);
+  void stop();
+
+  // The renderer's side (one thread): the newest picture, in the camera's own pixel format, if one
+  // came since the last call; valid until the next call that returns one. It is a copy: the camera
+  // may vanish meanwhile.
+  const hal::ScopeFrame* take_newest();
+
+private:
+  struct Picture {
+    hal::ScopeFrame frame; // its pixels are `bytes`
+    std::vector<std::byte> bytes;
+  };
+
+  void run();
+  bool open_and_start();
+  void fault(const hal::Error& error);
+  void receive(const hal::ScopeFrame& frame);
+
+  hal::ScopeCamera& camera_;
+  hal::ScopeCameraConfig config_;
+  hal::Clock& clock_;
+  FaultLog& faults_;
+  Wakeup& news_;
+  std::array<Picture, 3> pictures_;
+  std::uint32_t back_ = 2;
+  TripleBuffer triple_buffer_{0, 1};
+  RetryDelay retry_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+} // namespace octascope::pipeline

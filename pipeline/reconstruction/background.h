@@ -1,0 +1,85 @@
+// The background of a B-scan: what the spectrum is without interference.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hal/line_camera.h"
+#include "pipeline/calibration/calibration.h"
+#include "pipeline/reconstruction/spectrum_format.h"
+
+namespace octascope::pipeline {
+
+// How many B-scans the running mean looks back: the first ones are averaged evenly, after that
+// each new one counts for a sixteenth.
+inline constexpr int running_mean_b_scans = 16;
+
+// The mean over the lines of a B-scan, in counts after the right shift. For one thread; measure()
+// allocates nothing.
+class LineMean {
+public:
+  explicit LineMean(int samples);
+
+  // Count: std::uint8_t, std::uint16_t or float; counts are [line][sample].
+  template <class Count> void measure(const Count* counts, int lines, int right_shift) noexcept;
+
+  // `samples` values.
+  std::span<const double> values() const { return mean_; }
+
+private:
+  std::vector<std::uint32_t> sums_;
+  std::vector<double> mean_;
+};
+
+// The running mean of BackgroundMode::running.
+//
+// It depends on the order of the B-scans, and workers finish them in any order. So it is not the
+// workers' business: the one thread that hands B-scans out calls add() for each of them, in order,
+// and hands the mean as it is then out with the B-scan. No lock and no waiting is needed, the
+// result is the same for any number of workers, the first B-scan has a background already, and no
+// work is done twice, as the workers need not sum the lines any more. Keeping a mean for each
+// worker (which B-scans it sees is chance), a mean for each B-scan position (it would take still
+// tissue for background) or publishing one a volume (nothing for the first volumes, and volumes
+// overlap) do not have all of that.
+//
+// Not thread-safe; add() allocates nothing.
+class RunningBackground {
+public:
+  RunningBackground(const SpectrumFormat& format, int a_scans);
+
+  // Takes the kept lines of the next B-scan (Reconstructor::reconstruct_b_scan() says what a frame
+  // is) and returns the mean over it and those before, N values, unchanged until the next call.
+  std::span<const float> add(std::span<const std::byte> frame) noexcept;
+
+  // As if no B-scan had been seen.
+  void reset() { b_scans_seen_ = 0; }
+
+private:
+  SpectrumFormat format_;
+  int a_scans_;
+  int b_scans_seen_ = 0;
+  LineMean b_scan_;
+  std::vector<double> mean_; // in double precision, so that a long run does not drift
+  std::vector<float> values_;
+};
+
+// The running background of every frame that is in work, kept by the number of its camera buffer.
+// The thread that hands frames out calls take() for each of them, in order and before it hands the
+// frame out; whoever got the frame calls of() until the frame is given back to the camera. Handing
+// over and giving back order the two; nothing allocates or locks.
+class FrameBackgrounds {
+public:
+  FrameBackgrounds(RunningBackground running, int samples, int camera_buffers);
+
+  void take(const hal::LineFrame& frame) noexcept;
+  std::span<const float> of(const hal::LineFrame& frame) const noexcept;
+
+private:
+  RunningBackground running_;
+  std::size_t samples_;
+  std::vector<float> by_buffer_; // [buffer][sample]
+};
+
+} // namespace octascope::pipeline

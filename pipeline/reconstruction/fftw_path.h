@@ -1,0 +1,63 @@
+// FFTW's path of the reconstruction: whole B-scans, a line at a time, in steps that can be read.
+//
+// It takes any number of samples and every type, and alone does what needs the complex A-scans or
+// a longer transform: removal of the fixed pattern, zero-padding.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hal/result.h"
+#include "pipeline/calibration/calibration.h"
+#include "pipeline/calibration/fixed_pattern.h"
+#include "pipeline/calibration/k_linearisation.h"
+#include "pipeline/reconstruction/fft_plan.h"
+#include "pipeline/reconstruction/line_kernels.h"
+#include "pipeline/reconstruction/spectrum_format.h"
+
+namespace octascope::pipeline {
+
+// Immutable once made; serves any number of threads, each with Buffers of its own.
+class FftwPath {
+public:
+  // What one worker writes to.
+  struct Buffers {
+    FftBuffer line;   // counts without background
+    FftBuffer shaped; // input of the transform; its padding stays 0
+    FftBuffer bins;   // its output, complex
+    std::optional<FixedPatternRemover> fixed_pattern;
+  };
+
+  // `calibration` and `format` are valid and fit together. ErrorCode::system where FFTW has no
+  // plan.
+  static hal::Result<FftwPath> make(const Calibration& calibration, const SpectrumFormat& format,
+                                    int a_scans);
+
+  Buffers make_buffers() const;
+
+  // Lines without gaps → levels, calibration.depths() each. `background` has N values in counts
+  // after the shift. Returns the number of lines with a count at full scale. Count: std::uint8_t,
+  // std::uint16_t or float; Level: std::uint8_t or float (dB).
+  template <class Count, class Level>
+  int reconstruct(const Count* counts, int lines, const float* background, Buffers& buffers,
+                  Level* levels) const noexcept;
+
+private:
+  FftwPath() = default;
+  void transform_line(Buffers& buffers) const noexcept;
+
+  SpectrumFormat format_;
+  int a_scans_ = 0;
+  int depths_ = 0;
+  int length_ = 0; // of the transform
+  FixedPatternRemoval fixed_pattern_;
+  ResamplingTaps taps_;
+  std::vector<float> factors_;
+  bool complex_input_ = false;
+  ShapeLine shape_line_ = nullptr;
+  FftPlan transform_;
+};
+
+} // namespace octascope::pipeline

@@ -1,0 +1,242 @@
+// The passes of the fused reconstruction. For one instruction set; see fused_kernels.h and, for
+// the numbering, fused_tables.h.
+//
+// First pass: counts, factors and radix 8 over the blocks. Middle passes in place. Last pass: the
+// last radix over the blocks, the transform over the lanes, of which only bins below N/2 are made,
+// and their levels, in rows; at the end the rows are put in the order of depth.
+//
+// Real input (no dispersion phase): results 5, 6, 7 of the first radix are the conjugates of 3, 2,
+// 1. They are neither stored nor transformed; instead results 1, 2, 3 are transformed to all their
+// bins, of which the upper half are the missing ones, mirrored.
+#if defined(OCTASCOPE_FUSED_KERNELS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef OCTASCOPE_FUSED_KERNELS_INL
+#undef OCTASCOPE_FUSED_KERNELS_INL
+#else
+#define OCTASCOPE_FUSED_KERNELS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "pipeline/reconstruction/fused/fused_kernels.h"
+
+#if HWY_TARGET == HWY_SCALAR // nothing to permute: FFTW's path serves such processors better
+
+HWY_BEFORE_NAMESPACE();
+namespace octascope::pipeline::HWY_NAMESPACE {
+
+const FusedKernels* kernels() {
+  return nullptr;
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+} // namespace octascope::pipeline::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#else
+
+#include <array>
+#include <type_traits>
+
+#include <hwy/cache_control.h>
+
+#include "pipeline/reconstruction/fused/fused_lanes_inl.h"
+#include "pipeline/reconstruction/fused/fused_levels_inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace octascope::pipeline::HWY_NAMESPACE {
+
+inline constexpr int slot = 2 * lanes; // floats of one complex register
+
+// Of the first radix' results, those that real input needs.
+inline constexpr int real_results = first_radix / 2 + 1;
+
+HWY_INLINE void prefetch(const void* line, std::ptrdiff_t from, std::ptrdiff_t bytes) {
+  constexpr std::ptrdiff_t cache_line = 64;
+  for (std::ptrdiff_t at = from; at < from + bytes; at += cache_line)
+    hwy::Prefetch(static_cast<const char*>(line) + at);
+}
+
+// `highest` so far, and the counts of a step of the first pass.
+template <class Count>
+HWY_INLINE hn::Vec<hn::ScalableTag<Count>> highest_of(const Count* counts, std::ptrdiff_t step,
+                                                      hn::Vec<hn::ScalableTag<Count>> highest) {
+  const hn::ScalableTag<Count> tag;
+  constexpr int share = first_radix * lanes;
+#pragma GCC unroll 4
+  for (int p = 0; p < share; p += static_cast<int>(HWY_LANES(Count)))
+    highest = hn::Max(highest, hn::LoadU(tag, counts + step * share + p));
+  return highest;
+}
+
+template <class Count>
+HWY_INLINE bool reaches(hn::Vec<hn::ScalableTag<Count>> highest, std::uint32_t threshold) {
+  const hn::ScalableTag<Count> tag;
+  const auto limit = hn::Set(tag, static_cast<Count>(threshold));
+  return !hn::AllFalse(tag, hn::Eq(hn::Max(highest, limit), highest));
+}
+
+template <RawKind Kind, int Pairs, bool OneWindow, bool RealInput>
+bool first_pass(const FusedTables& tables, const void* counts, const void* next_line,
+                std::uint32_t threshold, const std::int32_t* background, float* work) {
+  using Count = std::conditional_t<Kind == RawKind::u8, std::uint8_t, std::uint16_t>;
+  constexpr int sample_bytes = sizeof(Count);
+  constexpr int results = RealInput ? real_results : first_radix;
+  const std::ptrdiff_t steps = tables.blocks / first_radix;
+  const std::ptrdiff_t fetched = tables.samples * sample_bytes / steps;
+  const float* twiddle = tables.pass_twiddles[0].data();
+  auto highest = hn::Zero(hn::ScalableTag<Count>{});
+  for (std::ptrdiff_t j = 0; j < steps; ++j, twiddle += 2 * (first_radix - 1)) {
+    prefetch(next_line, j * fetched, fetched);
+    highest = highest_of(static_cast<const Count*>(counts), j, highest);
+    Real count[first_radix];
+#pragma GCC unroll 8
+    for (int a = 0; a < first_radix; ++a)
+      count[a] = resample<Kind, Pairs, OneWindow>(tables, counts, background, j * first_radix + a);
+    Complex x[first_radix];
+    const float* factors = tables.factors.data();
+    if constexpr (RealInput)
+      real_butterfly(count, factors + j * first_radix * lanes, x);
+    else
+      weighted_butterfly(count, factors + j * first_radix * slot, x);
+    float* at = work + j * slot;
+    store(x[0], at);
+#pragma GCC unroll 8
+    for (int q = 1; q < results; ++q)
+      store(x[q] * broadcast(twiddle + 2 * (q - 1)), at + q * steps * slot);
+  }
+  return reaches<Count>(highest, threshold);
+}
+
+// One pass over groups of `size` slots each.
+template <int Radix>
+HWY_INLINE void middle_pass(float* work, std::ptrdiff_t slots, std::ptrdiff_t size,
+                            const float* twiddles) {
+  const std::ptrdiff_t step = size / Radix * slot;
+  for (std::ptrdiff_t group = 0; group < slots; group += size) {
+    const float* twiddle = twiddles;
+    for (std::ptrdiff_t j = 0; j < size / Radix; ++j) {
+      float* at = work + (group + j) * slot;
+      Complex x[std::size_t{Radix}];
+#pragma GCC unroll 8
+      for (int r = 0; r < Radix; ++r)
+        x[r] = load(at + r * step);
+      butterfly(x);
+      store(x[0], at);
+#pragma GCC unroll 8
+      for (int q = 1; q < Radix; ++q, twiddle += 2)
+        store(x[q] * broadcast(twiddle), at + q * step);
+    }
+  }
+}
+
+// One group: the last radix, the lanes, the power of the lower half of the bins. Mirrored: of the
+// upper half as well, backwards: as they are the conjugates of bins of another row, in its order.
+template <int Radix, bool Mirrored>
+HWY_INLINE void last_group(const FusedTables& tables, const float* from, const float* twiddles,
+                           float* row, float* mirrored_row) {
+  Complex x[std::size_t{Radix}];
+#pragma GCC unroll 8
+  for (int r = 0; r < Radix; ++r)
+    x[r] = load(from + r * slot);
+  butterfly(x);
+#pragma GCC unroll 8
+  for (int r = 0; r < Radix; ++r)
+    x[r] = x[r] * load(twiddles + r * slot);
+  transform_lanes(tables, x);
+  Complex lower[std::size_t{Radix / 2}];
+  Complex upper[std::size_t{Radix / 2}];
+#pragma GCC unroll 8
+  for (int r = 0; r < Radix / 2; ++r) {
+    lower[r] = x[r / 2 * 4 + r % 2];
+    upper[r] = x[r / 2 * 4 + r % 2 + 2];
+  }
+  store_power(lower, row);
+  if constexpr (Mirrored) {
+    constexpr int size = Radix / 2 * lanes;
+    alignas(64) float power[std::size_t{size}];
+    store_power(upper, power);
+    for (int r = 0; r < size; r += lanes)
+      hn::Store(hn::Reverse(Floats{}, hn::Load(Floats{}, power + r)), Floats{},
+                mirrored_row + size - lanes - r);
+  }
+}
+
+template <int Radix>
+HWY_INLINE void last_pass(const FusedTables& tables, const float* work, float* rows) {
+  constexpr int row_size = Radix / 2 * lanes;
+  const int groups = tables.blocks / Radix;
+  const int groups_each = groups / first_radix; // of each of the first radix' results
+  const int made = tables.real_input ? real_results * groups_each : groups;
+  const int mirrored_from = tables.real_input ? groups_each : made;
+  const int mirrored_to = tables.real_input ? made - groups_each : made;
+  const float* twiddles = tables.last_twiddles.data();
+  for (int group = 0; group < made; ++group, twiddles += Radix * slot) {
+    const float* from = work + static_cast<std::ptrdiff_t>(group) * Radix * slot;
+    const int row = tables.last_rows[static_cast<std::size_t>(group)];
+    float* to = rows + row * row_size;
+    if (group < mirrored_from || group >= mirrored_to)
+      last_group<Radix, false>(tables, from, twiddles, to, nullptr);
+    else
+      last_group<Radix, true>(tables, from, twiddles, to, rows + (groups - row) * row_size);
+  }
+}
+
+template <class Level> const std::int32_t* row_offsets(const FusedTables& tables) {
+  return std::is_same_v<Level, float> ? tables.offsets_db.data() : tables.offsets_u8.data();
+}
+
+template <class Level> void finish(const FusedTables& tables, float* work, Level* levels) {
+  const std::ptrdiff_t slots =
+      tables.real_input ? tables.blocks / first_radix * real_results : tables.blocks;
+  std::ptrdiff_t size = tables.blocks / first_radix;
+  for (int pass = 1; pass + 1 < tables.passes; ++pass) {
+    const auto at = static_cast<std::size_t>(pass);
+    const float* twiddles = tables.pass_twiddles[at].data();
+    if (tables.radices[at] == 8)
+      middle_pass<8>(work, slots, size, twiddles);
+    else
+      middle_pass<4>(work, slots, size, twiddles);
+    size /= tables.radices[at];
+  }
+  float* power = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
+  if (size == 8)
+    last_pass<8>(tables, work, power);
+  else
+    last_pass<4>(tables, work, power);
+  Level* rows = reinterpret_cast<Level*>(work); // which is no longer needed
+  make_levels(power, tables.samples / 2, rows);
+  const int row_size = static_cast<int>(size) / 2 * lanes;
+  for (int row = 0; row < tables.blocks / static_cast<int>(size); row += 8)
+    unscramble_rows(rows + row * row_size, row_size, row_offsets<Level>(tables), levels + row);
+}
+
+template <RawKind Kind, int Pairs> constexpr FusedKernels::FirstPasses first_passes() {
+  // Permutations by bytes cannot reach beyond their part.
+  constexpr bool one_window = Pairs > 1 && !window_shape.byte_indices;
+  return {
+      {{&first_pass<Kind, Pairs, false, false>, &first_pass<Kind, Pairs, false, true>},
+       {&first_pass<Kind, Pairs, one_window, false>, &first_pass<Kind, Pairs, one_window, true>}}};
+}
+
+template <RawKind Kind> constexpr std::array<FusedKernels::FirstPasses, 3> all_first_passes() {
+  return {first_passes<Kind, 1>(), first_passes<Kind, 2>(), first_passes<Kind, 4>()};
+}
+
+const FusedKernels* kernels() {
+  static const FusedKernels table{hwy::TargetName(HWY_TARGET),
+                                  window_shape,
+                                  {all_first_passes<RawKind::u8>(),
+                                   all_first_passes<RawKind::u16>(),
+                                   all_first_passes<RawKind::u16_shifted>()},
+                                  &finish<std::uint8_t>,
+                                  &finish<float>};
+  return &table;
+}
+
+// NOLINTNEXTLINE(google-readability-namespace-comments)
+} // namespace octascope::pipeline::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif // HWY_SCALAR
+
+#endif

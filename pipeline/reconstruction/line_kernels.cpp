@@ -1,0 +1,210 @@
+#include "pipeline/reconstruction/line_kernels.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "pipeline/threads/cpu_clones.h"
+#include "pipeline/reconstruction/fused/fast_level.h"
+
+#define OCTASCOPE_INLINE inline __attribute__((always_inline))
+
+namespace octascope::pipeline {
+
+namespace {
+
+template <class Count>
+OCTASCOPE_INLINE std::uint32_t load_counts(const Count* counts, const float* background,
+                                           int right_shift, int samples, float* line) {
+  Count highest = 0;
+  for (int p = 0; p < samples; ++p) {
+    const auto count = static_cast<Count>(counts[p] >> right_shift);
+    highest = count > highest ? count : highest;
+    line[p] = static_cast<float>(count) - background[p];
+  }
+  return highest;
+}
+
+// Four lines at a time: the sums are loaded and stored a quarter as often. The counts come from
+// memory, and this is the first to read them: the next four lines are fetched meanwhile, as the
+// processor's own prefetching ends with each page.
+template <class Count, class Sum>
+OCTASCOPE_INLINE void sum_counts(const Count* counts, int lines, int samples, Sum* sum) {
+  const auto stride = static_cast<std::size_t>(samples);
+  constexpr std::size_t block = 64 / sizeof(Count);
+  std::fill_n(sum, stride, Sum{});
+  int line = 0;
+  for (; line + 4 <= lines; line += 4, counts += 4 * stride) {
+    const Count* ahead = counts + (line + 8 <= lines ? 4 * stride : 0);
+    for (std::size_t start = 0; start < stride; start += block) {
+      for (std::size_t i = 0; i < 4; ++i)
+        __builtin_prefetch(ahead + i * stride + start);
+      const std::size_t end = std::min(start + block, stride);
+      for (std::size_t p = start; p < end; ++p)
+        sum[p] +=
+            (static_cast<Sum>(counts[p]) + static_cast<Sum>(counts[stride + p])) +
+            (static_cast<Sum>(counts[2 * stride + p]) + static_cast<Sum>(counts[3 * stride + p]));
+    }
+  }
+  for (; line < lines; ++line, counts += stride)
+    for (std::size_t p = 0; p < stride; ++p)
+      sum[p] += static_cast<Sum>(counts[p]);
+}
+
+template <class Count>
+OCTASCOPE_INLINE void sum_shifted_counts(const Count* counts, int lines, int right_shift,
+                                         int samples, std::uint32_t* sum) {
+  if (right_shift == 0)
+    return sum_counts(counts, lines, samples, sum);
+  const auto stride = static_cast<std::size_t>(samples);
+  std::fill_n(sum, stride, 0U);
+  for (int line = 0; line < lines; ++line, counts += stride)
+    for (std::size_t p = 0; p < stride; ++p)
+      sum[p] += static_cast<std::uint32_t>(counts[p] >> right_shift);
+}
+
+// Four lanes everywhere: a tap window of 8 is two of them, and adding up the lanes of four windows
+// at once takes three shuffled additions, fewer than with wider registers.
+using Lanes = float __attribute__((vector_size(16)));
+
+OCTASCOPE_INLINE void load(Lanes& lanes, const float* from) {
+  std::memcpy(&lanes, from, sizeof lanes);
+}
+
+// result[i] = the sum of the lanes of sums[i].
+OCTASCOPE_INLINE void add_lanes(const Lanes (&sums)[4], Lanes& result) {
+  const Lanes a = __builtin_shufflevector(sums[0], sums[1], 0, 4, 1, 5) +
+                  __builtin_shufflevector(sums[0], sums[1], 2, 6, 3, 7); // s0 s1 s0 s1, half sums
+  const Lanes b = __builtin_shufflevector(sums[2], sums[3], 0, 4, 1, 5) +
+                  __builtin_shufflevector(sums[2], sums[3], 2, 6, 3, 7);
+  result = __builtin_shufflevector(a, b, 0, 1, 4, 5) + __builtin_shufflevector(a, b, 2, 3, 6, 7);
+}
+
+template <int Width>
+OCTASCOPE_INLINE void interpolate(const float* line, const std::int32_t* first,
+                                  const float* weights, Lanes& counts) {
+  if constexpr (Width == 0) {
+    load(counts, line);
+  } else {
+    Lanes sums[4];
+    for (int i = 0; i < 4; ++i) {
+      const float* window = line + first[i];
+      Lanes pixels;
+      Lanes taps;
+      load(pixels, window);
+      load(taps, weights + i * Width);
+      sums[i] = pixels * taps;
+      if constexpr (Width == 8) {
+        load(pixels, window + 4);
+        load(taps, weights + i * Width + 4);
+        sums[i] += pixels * taps;
+      }
+    }
+    add_lanes(sums, counts);
+  }
+}
+
+template <int Width, bool Complex>
+OCTASCOPE_INLINE void shape(const float* line, const std::int32_t* first, const float* weights,
+                            const float* factors, int samples, float* shaped) {
+  for (int m = 0; m < samples; m += 4) {
+    Lanes counts;
+    if constexpr (Width == 0)
+      interpolate<Width>(line + m, nullptr, nullptr, counts);
+    else
+      interpolate<Width>(line, first + m, weights + static_cast<std::ptrdiff_t>(m) * Width, counts);
+    Lanes factor;
+    if constexpr (Complex) {
+      load(factor, factors + 2 * m);
+      const Lanes left = __builtin_shufflevector(counts, counts, 0, 0, 1, 1) * factor;
+      load(factor, factors + 2 * m + 4);
+      const Lanes right = __builtin_shufflevector(counts, counts, 2, 2, 3, 3) * factor;
+      std::memcpy(shaped + 2 * m, &left, sizeof left);
+      std::memcpy(shaped + 2 * m + 4, &right, sizeof right);
+    } else {
+      load(factor, factors + m);
+      const Lanes product = counts * factor;
+      std::memcpy(shaped + m, &product, sizeof product);
+    }
+  }
+}
+
+#define OCTASCOPE_SHAPE_LINE(name, width, complex_factors)                                         \
+  OCTASCOPE_CPU_CLONES void name(const float* line, const std::int32_t* first,                     \
+                                 const float* weights, const float* factors, int samples,          \
+                                 float* shaped) {                                                  \
+    shape<width, complex_factors>(line, first, weights, factors, samples, shaped);                 \
+  }
+
+OCTASCOPE_SHAPE_LINE(shape_0_complex, 0, true)
+OCTASCOPE_SHAPE_LINE(shape_4_complex, 4, true)
+OCTASCOPE_SHAPE_LINE(shape_8_complex, 8, true)
+OCTASCOPE_SHAPE_LINE(shape_0_real, 0, false)
+OCTASCOPE_SHAPE_LINE(shape_4_real, 4, false)
+OCTASCOPE_SHAPE_LINE(shape_8_real, 8, false)
+
+OCTASCOPE_INLINE float bin_level_db(const float* bins, int depth) {
+  const float re = bins[2 * depth];
+  const float im = bins[2 * depth + 1];
+  return fast_power_db(re * re + im * im);
+}
+
+} // namespace
+
+OCTASCOPE_CPU_CLONES
+std::uint32_t load_line(const std::uint8_t* counts, const float* background, int right_shift,
+                        int samples, float* line) {
+  return load_counts(counts, background, right_shift, samples, line);
+}
+
+OCTASCOPE_CPU_CLONES
+std::uint32_t load_line(const std::uint16_t* counts, const float* background, int right_shift,
+                        int samples, float* line) {
+  return load_counts(counts, background, right_shift, samples, line);
+}
+
+OCTASCOPE_CPU_CLONES
+std::uint32_t load_line(const float* counts, const float* background, int, int samples,
+                        float* line) {
+  for (int p = 0; p < samples; ++p)
+    line[p] = counts[p] - background[p];
+  return 0;
+}
+
+OCTASCOPE_CPU_CLONES
+void sum_lines(const std::uint8_t* counts, int lines, int right_shift, int samples,
+               std::uint32_t* sum) {
+  sum_shifted_counts(counts, lines, right_shift, samples, sum);
+}
+
+OCTASCOPE_CPU_CLONES
+void sum_lines(const std::uint16_t* counts, int lines, int right_shift, int samples,
+               std::uint32_t* sum) {
+  sum_shifted_counts(counts, lines, right_shift, samples, sum);
+}
+
+OCTASCOPE_CPU_CLONES
+void sum_lines(const float* counts, int lines, int, int samples, double* sum) {
+  sum_counts(counts, lines, samples, sum);
+}
+
+ShapeLine shape_line_kernel(int taps_width, bool complex_factors) {
+  if (taps_width == 8)
+    return complex_factors ? &shape_8_complex : &shape_8_real;
+  if (taps_width == 4)
+    return complex_factors ? &shape_4_complex : &shape_4_real;
+  return complex_factors ? &shape_0_complex : &shape_0_real;
+}
+
+OCTASCOPE_CPU_CLONES
+void levels_db(const float* bins, int depths, float* levels) {
+  for (int z = 0; z < depths; ++z)
+    levels[z] = bin_level_db(bins, z);
+}
+
+OCTASCOPE_CPU_CLONES
+void levels_u8(const float* bins, int depths, std::uint8_t* levels) {
+  for (int z = 0; z < depths; ++z)
+    levels[z] = fast_quantise_level(bin_level_db(bins, z));
+}
+
+} // namespace octascope::pipeline

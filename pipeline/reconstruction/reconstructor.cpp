@@ -1,0 +1,290 @@
+#include "pipeline/reconstruction/reconstructor.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "pipeline/reconstruction/fftw_path.h"
+#include "pipeline/reconstruction/fused/fused_path.h"
+
+namespace octascope::pipeline {
+
+using hal::ErrorCode;
+
+static_assert(std::endian::native == std::endian::little, "frames are little-endian");
+
+namespace {
+
+hal::Result<> check(const ReconstructionSetup& setup) {
+  const auto refuse = [](std::string_view message) {
+    return hal::fail(ErrorCode::invalid_argument, fmt::format("reconstruction: {}", message));
+  };
+  if (setup.format.samples != setup.calibration.samples)
+    return refuse(fmt::format("lines have {} samples, the calibration is for {}",
+                              setup.format.samples, setup.calibration.samples));
+  if (setup.a_scans < 1 || setup.a_scans > 65536)
+    return refuse(fmt::format("a_scans is {}, expected 1 to 65536", setup.a_scans));
+  if (const auto format = setup.format.validate(); !format)
+    return refuse(format.error().message);
+  return setup.calibration.validate().and_then(
+      [&] { return setup.calibration.fixed_pattern.validate(setup.a_scans); });
+}
+
+// Nothing where the fused path does not apply.
+std::optional<FusedPath> make_fused(const ReconstructionSetup& setup) {
+  const Calibration& calibration = setup.calibration;
+  if (setup.path == ReconstructionPath::fftw || setup.format.type == SpectrumType::f32 ||
+      calibration.zero_padding > 1 || calibration.fixed_pattern.mode != FixedPatternMode::none)
+    return std::nullopt;
+  return FusedPath::make(calibration, static_cast<int>(bytes_per_sample(setup.format.type)),
+                         setup.format.right_shift, setup.fused_isa);
+}
+
+// What the times of both paths depend on.
+std::string line_case(const ReconstructionSetup& setup, const FusedPath& fused) {
+  constexpr std::string_view interpolations[] = {"linear", "cubic", "sinc8"};
+  const Calibration& calibration = setup.calibration;
+  const bool resampled =
+      calibration.positions != Calibration::identity(calibration.samples).positions;
+  const bool summed = calibration.background_mode == BackgroundMode::mean;
+  return fmt::format("{} {}{} {} {} {} {}", setup.format.samples, name_of(setup.format.type),
+                     setup.format.right_shift > 0 ? " shifted" : "",
+                     resampled ? interpolations[static_cast<std::size_t>(calibration.interpolation)]
+                               : "unresampled",
+                     calibration.dispersion_rad.empty() ? "real" : "dispersion",
+                     summed ? "mean" : "given", fused.isa());
+}
+
+} // namespace
+
+// Everything that is the same for all B-scans.
+struct Reconstructor::Plan {
+  SpectrumFormat format;
+  int a_scans;
+  int depths;
+  BackgroundMode background_mode;
+  std::vector<float> recorded_background;
+  FftwPath fftw;
+  std::optional<FusedPath> fused; // used where there is one
+  PathDecision decision;
+
+  std::unique_ptr<Workspace::Buffers> make_buffers() const;
+  void choose_path(const ReconstructionSetup& setup);
+  PathTimes measure_paths() const;
+
+  template <class Count>
+  const float* background_of(Workspace::Buffers& buffers, const Count* counts, int lines,
+                             std::span<const std::byte> frame,
+                             std::span<const float> running) const noexcept;
+  template <class Count, class Level>
+  int run(const std::optional<FusedPath>& path, Workspace::Buffers& buffers, int lines,
+          std::span<const std::byte> frame, Level* levels,
+          std::span<const float> running) const noexcept;
+  template <class Level>
+  int dispatch(const std::optional<FusedPath>& path, Workspace::Buffers& buffers, int lines,
+               std::span<const std::byte> frame, Level* levels,
+               std::span<const float> running) const noexcept;
+  template <class Level>
+  BScanOutcome b_scan(Workspace::Buffers& buffers, std::span<const std::byte> frame,
+                      std::span<Level> levels, std::span<const float> running) const noexcept;
+};
+
+struct Reconstructor::Workspace::Buffers {
+  LineMean mean;
+  std::optional<RunningBackground> running;
+  std::vector<float> background;
+  FftwPath::Buffers fftw;
+  std::optional<FusedPath::Buffers> fused;
+};
+
+std::unique_ptr<Reconstructor::Workspace::Buffers> Reconstructor::Plan::make_buffers() const {
+  std::unique_ptr<Workspace::Buffers> buffers{
+      new Workspace::Buffers{LineMean{format.samples}, std::nullopt,
+                             std::vector<float>(static_cast<std::size_t>(format.samples)),
+                             fftw.make_buffers(), std::nullopt}};
+  if (background_mode == BackgroundMode::running)
+    buffers->running.emplace(format, a_scans);
+  if (background_mode == BackgroundMode::file)
+    buffers->background = recorded_background;
+  if (fused) {
+    buffers->fused = fused->make_buffers();
+    fused->set_background(buffers->background.data(), *buffers->fused);
+  }
+  return buffers;
+}
+
+template <class Count>
+const float* Reconstructor::Plan::background_of(Workspace::Buffers& buffers, const Count* counts,
+                                                int lines, std::span<const std::byte> frame,
+                                                std::span<const float> running) const noexcept {
+  if (background_mode == BackgroundMode::mean) {
+    buffers.mean.measure(counts, lines, format.right_shift);
+    std::ranges::transform(buffers.mean.values(), buffers.background.begin(),
+                           [](double mean) { return static_cast<float>(mean); });
+  }
+  if (background_mode == BackgroundMode::running) {
+    assert(running.empty() || running.size() == buffers.background.size());
+    return running.empty() ? buffers.running->add(frame).data() : running.data();
+  }
+  return buffers.background.data();
+}
+
+template <class Count, class Level>
+int Reconstructor::Plan::run(const std::optional<FusedPath>& path, Workspace::Buffers& buffers,
+                             int lines, std::span<const std::byte> frame, Level* levels,
+                             std::span<const float> running) const noexcept {
+  const auto* counts = reinterpret_cast<const Count*>(frame.data());
+  const float* background = background_of(buffers, counts, lines, frame, running);
+  if constexpr (!std::is_same_v<Count, float>) {
+    if (path) {
+      if (background_mode == BackgroundMode::mean || background_mode == BackgroundMode::running)
+        path->set_background(background, *buffers.fused);
+      return path->reconstruct(frame.data(), lines, format.full_scale(), *buffers.fused, levels);
+    }
+  }
+  return fftw.reconstruct(counts, lines, background, buffers.fftw, levels);
+}
+
+template <class Level>
+int Reconstructor::Plan::dispatch(const std::optional<FusedPath>& path, Workspace::Buffers& buffers,
+                                  int lines, std::span<const std::byte> frame, Level* levels,
+                                  std::span<const float> running) const noexcept {
+  switch (format.type) {
+  case SpectrumType::u8: return run<std::uint8_t>(path, buffers, lines, frame, levels, running);
+  case SpectrumType::u16: return run<std::uint16_t>(path, buffers, lines, frame, levels, running);
+  case SpectrumType::f32: break;
+  }
+  return run<float>(path, buffers, lines, frame, levels, running);
+}
+
+template <class Level>
+BScanOutcome Reconstructor::Plan::b_scan(Workspace::Buffers& buffers,
+                                         std::span<const std::byte> frame, std::span<Level> levels,
+                                         std::span<const float> running) const noexcept {
+  assert(frame.size() >= format.line_bytes() * static_cast<std::size_t>(a_scans));
+  assert(levels.size() >= static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(depths));
+  return {dispatch(fused, buffers, a_scans, frame, levels.data(), running)};
+}
+
+PathTimes Reconstructor::Plan::measure_paths() const {
+  // A short B-scan: large ones take no longer by the line, and only delay the start.
+  const int lines = std::min(a_scans, 64);
+  // A running background is given, as live; the workspace's own one wants whole frames.
+  const std::vector<float> given(static_cast<std::size_t>(format.samples));
+  const auto buffers = make_buffers();
+  std::vector<std::byte> frame(format.line_bytes() * static_cast<std::size_t>(lines));
+  for (std::size_t i = 0; i < frame.size(); ++i)
+    frame[i] = static_cast<std::byte>(i * i >> 8);
+  std::vector<std::uint8_t> levels(static_cast<std::size_t>(lines) *
+                                   static_cast<std::size_t>(depths));
+  const auto run_on = [&](const std::optional<FusedPath>& path) {
+    dispatch(path, *buffers, lines, frame, levels.data(), given);
+  };
+  const std::optional<FusedPath> no_fused;
+  return benchmark_paths([&] { run_on(fused); }, [&] { run_on(no_fused); }, lines);
+}
+
+void Reconstructor::Plan::choose_path(const ReconstructionSetup& setup) {
+  if (setup.path != ReconstructionPath::automatic || !fused) {
+    const bool asked = setup.path == ReconstructionPath::fftw || fused;
+    decision = {asked ? PathReason::asked : PathReason::only, std::nullopt};
+    return;
+  }
+  const std::string what = line_case(setup, *fused);
+  if (setup.memory != nullptr)
+    decision = {PathReason::remembered, setup.memory->recall(what)};
+  if (!decision.times) {
+    decision = {PathReason::measured, measure_paths()};
+    if (setup.memory != nullptr)
+      setup.memory->remember(what, *decision.times);
+  }
+  if (decision.times->fftw_ns < decision.times->fused_ns)
+    fused.reset();
+}
+
+Reconstructor::Workspace::Workspace(std::unique_ptr<Buffers> buffers)
+    : buffers_(std::move(buffers)) {}
+Reconstructor::Workspace::Workspace(Workspace&&) noexcept = default;
+Reconstructor::Workspace& Reconstructor::Workspace::operator=(Workspace&&) noexcept = default;
+Reconstructor::Workspace::~Workspace() = default;
+void Reconstructor::Workspace::reset_background() {
+  if (buffers_->running)
+    buffers_->running->reset();
+}
+
+hal::Result<Reconstructor> Reconstructor::create(const ReconstructionSetup& setup) {
+  HAL_CHECK(check(setup));
+  const Calibration& calibration = setup.calibration;
+  HAL_TRY(auto fftw, FftwPath::make(calibration, setup.format, setup.a_scans));
+  auto plan = std::make_unique<Plan>(Plan{.format = setup.format,
+                                          .a_scans = setup.a_scans,
+                                          .depths = calibration.depths(),
+                                          .background_mode = calibration.background_mode,
+                                          .recorded_background = calibration.background,
+                                          .fftw = std::move(fftw),
+                                          .fused = make_fused(setup),
+                                          .decision = {}});
+  plan->choose_path(setup);
+  return Reconstructor{std::move(plan)};
+}
+
+Reconstructor::Reconstructor(std::unique_ptr<const Plan> plan) : plan_(std::move(plan)) {}
+Reconstructor::Reconstructor(Reconstructor&&) noexcept = default;
+Reconstructor& Reconstructor::operator=(Reconstructor&&) noexcept = default;
+Reconstructor::~Reconstructor() = default;
+
+int Reconstructor::samples() const {
+  return plan_->format.samples;
+}
+int Reconstructor::depths() const {
+  return plan_->depths;
+}
+int Reconstructor::a_scans() const {
+  return plan_->a_scans;
+}
+std::size_t Reconstructor::kept_bytes() const {
+  return plan_->format.line_bytes() * static_cast<std::size_t>(plan_->a_scans);
+}
+std::size_t Reconstructor::levels() const {
+  return static_cast<std::size_t>(depths()) * static_cast<std::size_t>(a_scans());
+}
+
+ReconstructionPath Reconstructor::path() const {
+  return plan_->fused ? ReconstructionPath::fused : ReconstructionPath::fftw;
+}
+const char* Reconstructor::isa() const {
+  return plan_->fused ? plan_->fused->isa() : "native";
+}
+const PathDecision& Reconstructor::path_decision() const {
+  return plan_->decision;
+}
+
+Reconstructor::Workspace Reconstructor::make_workspace() const {
+  return Workspace{plan_->make_buffers()};
+}
+std::optional<RunningBackground> Reconstructor::make_running_background() const {
+  if (plan_->background_mode != BackgroundMode::running)
+    return std::nullopt;
+  return RunningBackground{plan_->format, plan_->a_scans};
+}
+
+BScanOutcome Reconstructor::reconstruct_b_scan(Workspace& workspace,
+                                               std::span<const std::byte> frame,
+                                               std::span<std::uint8_t> levels,
+                                               std::span<const float> running) const noexcept {
+  return plan_->b_scan(*workspace.buffers_, frame, levels, running);
+}
+
+BScanOutcome Reconstructor::reconstruct_b_scan_db(Workspace& workspace,
+                                                  std::span<const std::byte> frame,
+                                                  std::span<float> levels_db,
+                                                  std::span<const float> running) const noexcept {
+  return plan_->b_scan(*workspace.buffers_, frame, levels_db, running);
+}
+
+} // namespace octascope::pipeline

@@ -1,0 +1,109 @@
+// Spectra → depth profiles: one B-scan of raw lines becomes one B-scan of levels.
+//
+// The chain for one line of N samples s[p]:
+//   shift, s − background[p]; x[m] = s(r[m]) (k-linearisation by taps);
+//   y[m] = x[m]·w[m]·exp(iθ[m])/N (one complex factor a sample; real without dispersion);
+//   Y = FFT(y), bins 0 … N/2−1 (with zero-padding: of 2N samples, bins 0 … N−1);
+//   on request, what is fixed in all A-scans is taken off Y (fixed_pattern.h);
+//   level = 10·log10(|Y|²) dB, which is 20·log10(|FFT|/N).
+// Single precision. Two paths with one meaning: FFTW's (fftw_path.h), for everything; and the fused
+// one (fused_path.h), a line in one pass, for integer counts and N = 256, 512 … 8192.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "hal/result.h"
+#include "pipeline/calibration/calibration.h"
+#include "pipeline/reconstruction/background.h"
+#include "pipeline/reconstruction/path_choice.h"
+#include "pipeline/reconstruction/spectrum_format.h"
+
+namespace octascope::pipeline {
+
+struct ReconstructionSetup {
+  Calibration calibration;
+  SpectrumFormat format;
+  int a_scans = 300; // kept lines of a B-scan, the first of each frame
+  ReconstructionPath path = ReconstructionPath::automatic;
+  // Of the fused path, to compare: AVX3, AVX2, SSE4 or NEON; empty: the widest there is.
+  std::string fused_isa = {};
+  // Borrowed while the Reconstructor is made: what `automatic` measures is kept there and not
+  // measured again. nullptr: it is measured each time, for some milliseconds.
+  PathMemory* memory = nullptr;
+};
+
+struct BScanOutcome {
+  int saturated_lines = 0; // with at least one sample at full scale
+};
+
+// Immutable once made: one Reconstructor serves any number of threads, each with a Workspace of its
+// own. It must outlive them.
+class Reconstructor {
+public:
+  // What one worker writes to: line buffers and the background. Use it from one thread at a time.
+  class Workspace {
+  public:
+    Workspace(Workspace&&) noexcept;
+    Workspace& operator=(Workspace&&) noexcept;
+    ~Workspace();
+
+    // Forgets the workspace's own running background, as if no B-scan had been seen.
+    void reset_background();
+
+  private:
+    friend class Reconstructor;
+    struct Buffers;
+    explicit Workspace(std::unique_ptr<Buffers> buffers);
+    std::unique_ptr<Buffers> buffers_;
+  };
+
+  // Plans the transform, which takes some milliseconds. ErrorCode::invalid_argument or bad_data
+  // with found and expected where calibration and format do not fit together.
+  static hal::Result<Reconstructor> create(const ReconstructionSetup& setup);
+
+  Reconstructor(Reconstructor&&) noexcept;
+  Reconstructor& operator=(Reconstructor&&) noexcept;
+  ~Reconstructor();
+
+  int samples() const;
+  int depths() const; // Calibration::depths(): samples / 2, rounded down, without zero-padding
+  int a_scans() const;
+  std::size_t kept_bytes() const; // of the kept lines of a frame: the least that a frame has
+  std::size_t levels() const;     // of a B-scan: a_scans × depths
+
+  ReconstructionPath path() const; // fftw or fused, what was chosen
+  // The instruction set of the fused kernels ("AVX3", "AVX2", …); "native" for FFTW's path, whose
+  // loops choose their own.
+  const char* isa() const;
+  const PathDecision& path_decision() const;
+
+  Workspace make_workspace() const;
+  // With BackgroundMode::running, what hands out the background of each B-scan in order; nothing
+  // else.
+  std::optional<RunningBackground> make_running_background() const;
+
+  // `frame` begins with the kept lines, at least kept_bytes() and aligned for its sample type;
+  // fly-back lines behind them are not read. `levels` has levels() values [a][z], depth fastest.
+  // `running`: with BackgroundMode::running, what RunningBackground::add() gave for this B-scan; of
+  // no meaning otherwise. Without it the workspace averages the B-scans that it sees itself, which
+  // is right where one worker sees all of them in order. Neither allocates, locks nor logs.
+  BScanOutcome reconstruct_b_scan(Workspace& workspace, std::span<const std::byte> frame,
+                                  std::span<std::uint8_t> levels,
+                                  std::span<const float> running = {}) const noexcept;
+  // The same in decibels, not quantised, for exports. Floats in `frame` must be finite.
+  BScanOutcome reconstruct_b_scan_db(Workspace& workspace, std::span<const std::byte> frame,
+                                     std::span<float> levels_db,
+                                     std::span<const float> running = {}) const noexcept;
+
+private:
+  struct Plan;
+  explicit Reconstructor(std::unique_ptr<const Plan> plan);
+  std::unique_ptr<const Plan> plan_;
+};
+
+} // namespace octascope::pipeline

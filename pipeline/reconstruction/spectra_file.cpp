@@ -1,0 +1,181 @@
+#include "pipeline/reconstruction/spectra_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace octascope::pipeline {
+
+namespace fs = std::filesystem;
+using hal::ErrorCode;
+
+namespace {
+
+// With these, no product of counts leaves 64 bits.
+constexpr int most_b_scans = 1 << 20;
+constexpr int most_a_scans = 65536;
+
+hal::Result<> check(const SpectraShape& shape) {
+  const auto refuse = [](std::string_view name, int found, int lowest, int highest) {
+    return hal::fail(ErrorCode::invalid_argument, fmt::format("shape: {} is {}, expected {} to {}",
+                                                              name, found, lowest, highest));
+  };
+  if (shape.b_scans < 1 || shape.b_scans > most_b_scans)
+    return refuse("B (B-scans)", shape.b_scans, 1, most_b_scans);
+  if (shape.a_scans < 1 || shape.a_scans > most_a_scans)
+    return refuse("A (A-scans per B-scan)", shape.a_scans, 1, most_a_scans);
+  if (shape.samples < fewest_samples || shape.samples > most_samples)
+    return refuse("N (samples per line)", shape.samples, fewest_samples, most_samples);
+  return {};
+}
+
+// Owns the descriptor while the mapping is made.
+struct Descriptor {
+  int number;
+  ~Descriptor() {
+    if (number >= 0)
+      ::close(number);
+  }
+};
+
+} // namespace
+
+hal::Result<SpectraShape> SpectraShape::parse(std::string_view text) {
+  const auto refuse = [&] {
+    return hal::fail(ErrorCode::invalid_argument,
+                     fmt::format("shape: found \"{}\", expected B,A,N: three whole numbers that "
+                                 "fit into 31 bits, like 100,100,1024",
+                                 text));
+  };
+  std::array<int, 3> counts{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const std::size_t comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (i + 1 == counts.size()))
+      return refuse();
+    const std::string_view number = rest.substr(0, comma);
+    const char* number_end = number.data() + number.size();
+    const auto [end, error] = std::from_chars(number.data(), number_end, counts[i]);
+    if (error != std::errc{} || end != number_end)
+      return refuse();
+    rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
+  }
+  const SpectraShape shape{counts[0], counts[1], counts[2]};
+  HAL_CHECK(check(shape));
+  return shape;
+}
+
+hal::Result<SpectraFile> SpectraFile::open(const fs::path& file, const SpectraShape& shape,
+                                           SpectrumType type) {
+  HAL_CHECK(check(shape));
+  const std::size_t expected =
+      shape.lines() * static_cast<std::size_t>(shape.samples) * bytes_per_sample(type);
+  const std::string product =
+      fmt::format("{} bytes = {} B-scans × {} A-scans × {} samples × {}", expected, shape.b_scans,
+                  shape.a_scans, shape.samples, bytes_per_sample(type));
+  const auto refuse = [&](ErrorCode fault, std::string_view found) {
+    return hal::fail(fault, fmt::format("{}: {}, expected {}", file.string(), found, product));
+  };
+
+  // Without O_NONBLOCK a pipe would wait here for its writer.
+  const Descriptor descriptor{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+  if (descriptor.number < 0)
+    return refuse(errno == ENOENT   ? ErrorCode::absent
+                  : errno == EACCES ? ErrorCode::denied
+                                    : ErrorCode::system,
+                  fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
+  struct stat status = {};
+  if (::fstat(descriptor.number, &status) != 0)
+    return refuse(ErrorCode::system, std::generic_category().message(errno));
+  if (S_ISDIR(status.st_mode))
+    return refuse(ErrorCode::invalid_argument, "is a directory");
+  if (!S_ISREG(status.st_mode))
+    return refuse(ErrorCode::invalid_argument, "is not a regular file");
+  if (static_cast<std::uint64_t>(status.st_size) != expected)
+    return refuse(ErrorCode::bad_data, fmt::format("found {} bytes", status.st_size));
+
+  void* mapping = ::mmap(nullptr, expected, PROT_READ, MAP_PRIVATE, descriptor.number, 0);
+  if (mapping == MAP_FAILED)
+    return refuse(ErrorCode::system,
+                  fmt::format("cannot be mapped: {}", std::generic_category().message(errno)));
+  return SpectraFile{file, shape, type, {static_cast<const std::byte*>(mapping), expected}};
+}
+
+SpectraFile::SpectraFile(fs::path file, const SpectraShape& shape, SpectrumType type,
+                         std::span<const std::byte> bytes)
+    : file_(std::move(file)), shape_(shape), type_(type), bytes_(bytes) {}
+
+SpectraFile::SpectraFile(SpectraFile&& other) noexcept
+    : file_(std::move(other.file_)), shape_(other.shape_), type_(other.type_),
+      bytes_(std::exchange(other.bytes_, {})) {}
+
+SpectraFile::~SpectraFile() {
+  if (!bytes_.empty())
+    ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+}
+
+std::span<const std::byte> SpectraFile::b_scan(int b) const {
+  const std::size_t size = bytes_.size() / static_cast<std::size_t>(shape_.b_scans);
+  return bytes_.subspan(size * static_cast<std::size_t>(b), size);
+}
+
+std::optional<std::string> SpectraFile::find_non_finite(int b) const {
+  if (type_ != SpectrumType::f32)
+    return std::nullopt;
+  const std::span<const std::byte> bytes = b_scan(b);
+  const std::span floats{reinterpret_cast<const float*>(bytes.data()),
+                         bytes.size() / sizeof(float)};
+  const auto found =
+      std::find_if(floats.begin(), floats.end(), [](float value) { return !std::isfinite(value); });
+  if (found == floats.end())
+    return std::nullopt;
+  return fmt::format("{} is {}, expected a finite number",
+                     place_of(b, static_cast<std::size_t>(found - floats.begin())), *found);
+}
+
+std::string SpectraFile::place_of(int b, std::size_t index) const {
+  const auto samples = static_cast<std::size_t>(shape_.samples);
+  return fmt::format("{}: B-scan {}, A-scan {}, sample {}", file_.string(), b, index / samples,
+                     index % samples);
+}
+
+template <class Count>
+std::optional<std::string> SpectraFile::find_above(int b, const SpectrumFormat& format) const {
+  const std::span<const std::byte> bytes = b_scan(b);
+  const std::span counts{reinterpret_cast<const Count*>(bytes.data()),
+                         bytes.size() / sizeof(Count)};
+  const std::uint32_t full_scale = format.full_scale();
+  const auto found = std::ranges::find_if(counts, [&](Count count) {
+    return static_cast<std::uint32_t>(count >> format.right_shift) > full_scale;
+  });
+  if (found == counts.end())
+    return std::nullopt;
+  return fmt::format("{} is {}, expected at most {}: {} bits{}",
+                     place_of(b, static_cast<std::size_t>(found - counts.begin())), *found,
+                     full_scale << format.right_shift, format.significant_bits,
+                     format.right_shift > 0
+                         ? fmt::format(" behind a shift of {}", format.right_shift)
+                         : std::string{});
+}
+
+std::optional<std::string> SpectraFile::find_above_full_scale(int b,
+                                                              const SpectrumFormat& format) const {
+  switch (type_) {
+  case SpectrumType::u8: return find_above<std::uint8_t>(b, format);
+  case SpectrumType::u16: return find_above<std::uint16_t>(b, format);
+  case SpectrumType::f32: break;
+  }
+  return std::nullopt;
+}
+
+} // namespace octascope::pipeline

@@ -1,0 +1,71 @@
+// Raw spectra in a file: little-endian, C order [B-scan][A-scan][sample], nothing else.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "hal/result.h"
+#include "pipeline/calibration/calibration.h" // how many samples a line may have
+#include "pipeline/reconstruction/spectrum_format.h"
+
+namespace octascope::pipeline {
+
+struct SpectraShape {
+  int b_scans = 0;
+  int a_scans = 0;
+  int samples = 0;
+
+  // "B,A,N" as on the command line.
+  static hal::Result<SpectraShape> parse(std::string_view text);
+
+  std::size_t lines() const {
+    return static_cast<std::size_t>(b_scans) * static_cast<std::size_t>(a_scans);
+  }
+  bool operator==(const SpectraShape&) const = default;
+};
+
+// Read-only and memory-mapped: B-scans are read from the disk when they are touched, so that a file
+// may be larger than the memory. Thread-safe. The file must not be shortened while it is open.
+class SpectraFile {
+public:
+  // The size must be exactly B × A × N × bytes; else the message has found and expected.
+  static hal::Result<SpectraFile> open(const std::filesystem::path& file, const SpectraShape& shape,
+                                       SpectrumType type);
+
+  SpectraFile(SpectraFile&& other) noexcept;
+  SpectraFile& operator=(SpectraFile&&) = delete;
+  ~SpectraFile();
+
+  const SpectraShape& shape() const { return shape_; }
+  SpectrumType type() const { return type_; }
+
+  // All lines of B-scan `b`, valid as long as this lives.
+  std::span<const std::byte> b_scan(int b) const;
+
+  // f32 only: the first sample of B-scan `b` that is NaN or infinite, in words.
+  std::optional<std::string> find_non_finite(int b) const;
+
+  // Integers only: the first sample of B-scan `b` that has, shifted as `format` says, more bits
+  // than are significant there, in words: it is of another type.
+  std::optional<std::string> find_above_full_scale(int b, const SpectrumFormat& format) const;
+
+private:
+  SpectraFile(std::filesystem::path file, const SpectraShape& shape, SpectrumType type,
+              std::span<const std::byte> bytes);
+
+  template <class Count>
+  std::optional<std::string> find_above(int b, const SpectrumFormat& format) const;
+  std::string place_of(int b, std::size_t index) const;
+
+  std::filesystem::path file_;
+  SpectraShape shape_;
+  SpectrumType type_;
+  std::span<const std::byte> bytes_;
+};
+
+} // namespace octascope::pipeline

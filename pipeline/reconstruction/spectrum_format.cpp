@@ -1,0 +1,35 @@
+#include "pipeline/reconstruction/spectrum_format.h"
+
+#include <fmt/format.h>
+
+namespace octascope::pipeline {
+
+std::string_view name_of(SpectrumType type) {
+  switch (type) {
+  case SpectrumType::u8: return "u8";
+  case SpectrumType::u16: return "u16";
+  case SpectrumType::f32: break;
+  }
+  return "f32";
+}
+
+SpectrumFormat::SpectrumFormat(int samples_per_line, SpectrumType sample_type)
+    : samples(samples_per_line), type(sample_type),
+      significant_bits(sample_type == SpectrumType::u8 ? 8 : 16) {}
+
+SpectrumFormat::SpectrumFormat(const hal::LineFormat& line)
+    : samples(line.samples_per_line),
+      type(line.sample_type == hal::SampleType::u8 ? SpectrumType::u8 : SpectrumType::u16),
+      significant_bits(line.significant_bits), right_shift(line.right_shift) {}
+
+hal::Result<> SpectrumFormat::validate() const {
+  const int bits = type == SpectrumType::u8 ? 8 : 16;
+  if (significant_bits >= 1 && right_shift >= 0 && right_shift < bits &&
+      significant_bits + right_shift <= bits)
+    return {};
+  return hal::fail(hal::ErrorCode::invalid_argument,
+                   fmt::format("significant_bits {} and right_shift {} do not fit into {} bits",
+                               significant_bits, right_shift, bits));
+}
+
+} // namespace octascope::pipeline

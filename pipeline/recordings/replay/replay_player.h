@@ -1,0 +1,122 @@
+// Reads the volumes of a recording, one ahead, and publishes each when it is due.
+//
+// The steps of ReplayThread, without the thread, so that a test can own the time.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "hal/clock.h"
+#include "hal/result.h"
+#include "pipeline/acquisition/volume_feed.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/recordings/recording.h"
+#include "pipeline/recordings/recording_reader.h"
+#include "pipeline/recordings/replay/replay_schedule.h"
+#include "pipeline/threads/triple_buffer.h"
+#include "pipeline/threads/wakeup.h"
+
+namespace octascope::pipeline {
+
+// What is replayed.
+struct ReplaySource {
+  RecordingFacts facts;
+  std::vector<RecordedVolume> volumes; // not empty
+  // As RecordingReader::read(); called on one thread only.
+  std::function<hal::Result<>(std::size_t n, Volume& volume)> read;
+};
+
+// ErrorCode::bad_data: it holds no volumes; the message does not name the file.
+hal::Result<ReplaySource> replay_source(RecordingReader reader);
+
+struct ReplaySetup {
+  double rate = 1;                             // as ReplaySchedule takes it
+  bool once = false;                           // ends after the last volume; else begins anew
+  std::optional<std::uint64_t> most_volumes{}; // ends after so many
+};
+
+enum class ReplayEnd : std::uint8_t {
+  none,       // it goes on
+  done,       // everything that was asked for has been published
+  unreadable, // no volume could be read any more: the fault log says why
+};
+
+// A published volume has the times of a live one: its own history, moved by one offset so that it
+// was ready when it was published here; its index stays, and `recorded_ns` says what it is.
+// B-scans that were missing are missing, and blank. Volumes that were lost count as lost, in their
+// place; so does one that cannot be read, which is a fault ("recording", "unreadable_volume"), and
+// the replay goes on with the next. When none of a whole pass could be read it ends.
+//
+// Holds three volumes, however long the recording is, and allocates nothing after it was made but
+// for faults.
+class ReplayPlayer final : public VolumeFeed {
+public:
+  // `faults` and `news`, which is posted after each published volume, outlive it.
+  ReplayPlayer(ReplaySource source, const ReplaySetup& setup, FaultLog& faults, Wakeup& news);
+
+  // One thread: does what is due; returns when it wants to be called again, at the latest.
+  hal::TimePoint step(hal::TimePoint now);
+
+  // Any thread; all take effect at the next step.
+  void seek(std::size_t n); // the next one is this, counted from 0, and then those after it
+  void hold(bool held);     // meanwhile nothing is published, and the replay's time stands still
+
+  // Any thread.
+  ReplayEnd end() const { return end_.load(std::memory_order_acquire); }
+  std::size_t position() const { return position_.load(std::memory_order_relaxed); } // published
+  const ReplaySchedule& schedule() const { return schedule_; }
+  const RecordingFacts& facts() const { return source_.facts; }
+
+private:
+  struct Counts {
+    std::atomic<std::uint64_t> acquired{0}, skipped{0}, lost_lines{0}, lost_b_scans{0},
+        lost_volumes{0}, saturated_lines{0};
+  };
+
+  // The renderer's side of the triple buffer.
+  const Volume* do_take_newest() override;
+  bool do_has_newer() const override { return buffer_.has_newer(); }
+  VolumeCounters do_counters() const override;
+
+  void follow_wishes(hal::TimePoint now);
+  void go_to(std::size_t n, hal::TimePoint now);
+  hal::Result<> read_next();
+  void prepare(hal::TimePoint now);
+  void publish(hal::TimePoint now);
+  void advance();
+  void finish(ReplayEnd end) { end_.store(end, std::memory_order_release); }
+  void count_lost(std::uint64_t volumes);
+  void count_gap(std::uint64_t index);
+  void count(const RecordedVolume& entry);
+
+  ReplaySource source_;
+  const ReplaySetup setup_;
+  const ReplaySchedule schedule_;
+  FaultLog& faults_;
+  Wakeup& news_;
+
+  std::vector<Volume> volumes_; // in the middle, the renderer's, and the one that is read
+  TripleBuffer buffer_{1, 0};
+  std::uint32_t reading_ = 2;
+
+  std::size_t next_ = 0;
+  bool prepared_ = false;               // volumes_[reading_] is the next one
+  std::optional<hal::TimePoint> begun_; // when the recording's first volume was or would be due
+  hal::TimePoint due_;                  // of the next one, once it is prepared
+  std::optional<hal::TimePoint> held_since_;
+  std::optional<std::uint64_t> last_index_; // of the volume before, to see what was lost between
+  std::size_t unreadable_ = 0;              // so many in a row
+
+  static constexpr std::size_t nowhere = ~std::size_t{0};
+  std::atomic<std::size_t> wanted_{nowhere};
+  std::atomic<bool> hold_{false};
+  std::atomic<ReplayEnd> end_{ReplayEnd::none};
+  std::atomic<std::size_t> position_{0};
+  Counts counts_;
+};
+
+} // namespace octascope::pipeline

@@ -1,0 +1,74 @@
+// Follows the phase offset of a bidirectional scan beside the hot path: an ordinary thread that
+// looks at a sketch of a volume now and then, for as long as it takes.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+#include "hal/clock.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/scan/downsampled_sweep.h"
+#include "pipeline/scan/scan_lag_estimator.h"
+#include "pipeline/scan/scan_lag_tracker.h"
+#include "pipeline/threads/wakeup.h"
+#include "pipeline/threads/worker_pool.h"
+
+namespace octascope::pipeline {
+
+// For the report. The last estimate's figures, whether it was used or not.
+struct ScanLagStatus {
+  double in_use_a_scans = 0;
+  bool automatic = false; // else it is the configured one for ever
+  std::uint64_t used = 0;
+  std::uint64_t refused = 0;
+  double correlation = 0;
+  double significance = 0;
+};
+
+// One sketch goes round: the volume thread borrows it for a volume, its workers draw, and it comes
+// back when the volume is finished. While it is away or looked at, volumes are not sketched. At
+// first every volume is, then one in half a second: a mirror's lag changes slowly.
+class ScanLagThread {
+public:
+  // `clock` and `faults` outlive this. If the plan is not to be searched, nothing is allocated or
+  // started, and sketch() is always null.
+  ScanLagThread(const ScanPlan& plan, hal::Clock& clock, FaultLog& faults);
+  ~ScanLagThread();
+
+  void start(const ThreadSetup& setup);
+  void stop();
+
+  // The volume thread. None allocates or waits.
+  DownsampledSweep* borrow(); // cleared; null while there is none to be had
+  void finished();            // the borrowed one is drawn: to be looked at
+  double in_use_a_scans() const { return in_use_a_scans_.load(std::memory_order_acquire); }
+
+  // Any thread.
+  ScanLagStatus status() const;
+
+private:
+  enum class Sketch : std::uint8_t { free, drawn_on, drawn };
+
+  bool searches() const { return plan_.bidirectional && plan_.find_scan_lag; }
+  void run();
+  void look();
+  void complain_about_ends();
+  bool wait(hal::Duration how_long); // false: stopping
+
+  ScanPlan plan_;
+  hal::Clock& clock_;
+  FaultLog& faults_;
+  DownsampledSweep downsampled_;
+  ScanLagEstimator estimator_;
+  ScanLagTracker tracker_;
+  Wakeup wakeup_;
+  std::atomic<Sketch> state_{Sketch::free};
+  std::atomic<double> in_use_a_scans_;
+  std::atomic<double> correlation_{0}, significance_{0};
+  std::atomic<std::uint64_t> used_{0}, refused_{0};
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+} // namespace octascope::pipeline

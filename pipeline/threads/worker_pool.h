@@ -1,0 +1,52 @@
+// Threads that work off numbered jobs, handed to them without locks.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "pipeline/threads/index_ring.h"
+#include "pipeline/threads/wakeup.h"
+
+namespace octascope::pipeline {
+
+struct ThreadRole {
+  std::string_view name;
+  std::size_t number = 0; // of a worker, from 0
+};
+
+// Called first thing on each new thread, with the thread's role: sets name, priority and core. The
+// pipeline knows no operating-system backend, so the composition root brings this.
+using ThreadSetup = std::function<void(ThreadRole role)>;
+
+// One thread submits; the jobs start in order and may finish in any. Destruction waits for the
+// jobs in progress and forgets those not begun.
+class WorkerPool {
+public:
+  using Work = std::function<void(std::size_t worker, std::uint32_t job)>;
+
+  // Threads are started here; `work` runs on them, must not throw, and outlives the pool.
+  WorkerPool(std::size_t workers, std::size_t most_jobs, const ThreadSetup& setup, Work work);
+  ~WorkerPool();
+
+  // False when `most_jobs` wait already.
+  bool submit(std::uint32_t job);
+
+  std::size_t workers() const { return threads_.size(); }
+
+private:
+  void run(std::size_t worker);
+
+  Work work_;
+  IndexRing jobs_;
+  Wakeup wakeup_;
+  std::atomic<bool> stopping_{false};
+  std::vector<std::thread> threads_;
+};
+
+} // namespace octascope::pipeline

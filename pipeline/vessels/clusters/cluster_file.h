@@ -1,0 +1,59 @@
+// A vessel tree in a file that is mapped and drawn from as it is.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "hal/result.h"
+#include "pipeline/vessels/clusters.h"
+#include "pipeline/vessels/clusters/cluster_facts.h"
+
+namespace octascope::pipeline {
+
+// What a file's bytes say; `clusters` borrows from them.
+struct ClusterFileContent {
+  VesselClusters clusters;
+  VesselFacts facts;
+};
+
+// Checks all of it: magic, version, byte order, sizes, checksums, and every index that a reader
+// will follow. What it returns can be drawn and unpacked without a further check, whoever wrote the
+// file. ErrorCode::bad_data, with `name`, the offset, what was found and what was expected.
+// `bytes` must be aligned to 8 bytes.
+hal::Result<ClusterFileContent> read_cluster_bytes(std::span<const std::byte> bytes,
+                                                   std::string_view name);
+
+// An open file. Reading from it is safe from any thread. As for any mapped file, who overwrites it
+// in place while it is open, instead of replacing it (as write_cluster_file() does), changes it
+// under its readers.
+class ClusterFile {
+public:
+  // Faults: absent, denied, invalid_argument for what is no regular file, and those of
+  // read_cluster_bytes().
+  static hal::Result<ClusterFile> open(const std::filesystem::path& file);
+
+  ClusterFile(ClusterFile&& other) noexcept;
+  ClusterFile& operator=(ClusterFile&&) = delete;
+  ~ClusterFile();
+
+  // Valid as long as the object that open() returned, or that it was moved to.
+  const VesselClusters& clusters() const { return content_.clusters; }
+  const VesselFacts& facts() const { return content_.facts; }
+  std::size_t bytes() const { return bytes_.size(); }
+
+private:
+  ClusterFile(std::span<const std::byte> bytes, ClusterFileContent content);
+
+  std::span<const std::byte> bytes_;
+  ClusterFileContent content_;
+};
+
+// The file appears complete or not at all. `facts` are those of the tree that was packed
+// (facts_of()). Faults as AtomicFile's, and ErrorCode::invalid_argument for clusters and facts that
+// do not belong together, and for a provenance of more than longest_provenance bytes.
+hal::Result<> write_cluster_file(const std::filesystem::path& file, const VesselClusters& clusters,
+                                 const VesselFacts& facts);
+
+} // namespace octascope::pipeline

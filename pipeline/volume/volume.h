@@ -1,0 +1,51 @@
+// A volume of levels, its geometry and its history.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pipeline/volume/occupancy.h"
+#include "pipeline/volume/volume_geometry.h"
+#include "pipeline/volume/volume_metadata.h"
+
+namespace octascope::pipeline {
+
+enum class BScanState : std::uint8_t {
+  missing, // never came: its voxels are 0, the display hatches it
+  good,
+  saturated, // came with saturated lines: shown, and marked
+};
+
+// Levels are 8-bit counts (level_scale.h has the decibels), in the order [b][a][z], depth fastest.
+// Volumes come from a pool made at start-up; the vectors never change size afterwards.
+struct Volume {
+  Volume() = default;
+  explicit Volume(const VolumeGeometry& g)
+      : geometry(g), levels(g.voxels()),
+        b_scan_states(static_cast<std::size_t>(g.b_scans), BScanState::missing) {}
+
+  std::span<std::uint8_t> b_scan(int b) {
+    return std::span{levels}.subspan(geometry.b_scan_voxels() * static_cast<std::size_t>(b),
+                                     geometry.b_scan_voxels());
+  }
+  std::span<const std::uint8_t> b_scan(int b) const {
+    return std::span{levels}.subspan(geometry.b_scan_voxels() * static_cast<std::size_t>(b),
+                                     geometry.b_scan_voxels());
+  }
+  int missing_b_scans() const {
+    return static_cast<int>(
+        std::count(b_scan_states.begin(), b_scan_states.end(), BScanState::missing));
+  }
+
+  VolumeGeometry geometry;
+  std::vector<std::uint8_t> levels;
+  std::vector<BScanState> b_scan_states;
+  // Where there is something. Volumes of the pipeline bring it; empty() where nobody has built it.
+  Occupancy occupancy;
+  VolumeMetadata metadata;
+};
+
+} // namespace octascope::pipeline

@@ -1,0 +1,37 @@
+// The history of one volume, from the trigger to the glass, and what was lost on the way.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "hal/clock.h"
+#include "pipeline/volume/upper_border.h"
+
+namespace octascope::pipeline {
+
+struct VolumeMetadata {
+  std::uint64_t index = 0; // counts the volumes that were triggered, from 1; 0: no volume yet
+
+  hal::TimePoint armed;      // rising edge of the trigger pulse
+  hal::TimePoint first_line; // camera timestamps, of what came
+  hal::TimePoint last_line;
+  hal::TimePoint published; // when the renderer could take it
+
+  hal::Duration reconstruct{}; // work of all workers, summed
+  hal::Duration assemble{};    // neighbour averaging and bookkeeping
+
+  // B-scans of which no sweep came in time and whole; kept lines of all sweeps that did not, also
+  // of those whose B-scan has others.
+  std::int32_t lost_b_scans = 0;
+  std::int32_t lost_lines = 0;
+  BorderCount upper_border{};       // A-scans whose tissue reaches it: what is above is folded
+  std::int32_t saturated_lines = 0; // of all converted ones, turn-around included
+
+  double scan_lag_a_scans = 0; // bidirectional: with which all its sweeps were placed
+
+  // Of a volume that is replayed: when it was ready, on the wall clock (since 1970, UTC). It goes
+  // with the volume, so that none can be taken for a live one. Empty: live.
+  std::optional<std::int64_t> recorded_ns{};
+};
+
+} // namespace octascope::pipeline

@@ -1,0 +1,56 @@
+// What the microscope's camera sees of a phantom.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sim/phantoms/phantom.h"
+#include "sim/phantoms/phantom_instrument.h"
+
+namespace octascope::sim {
+
+// A rectangle in parts of the picture's width and height; (0, 0) is its upper left corner.
+struct PictureRectangle {
+  double x = 0;
+  double y = 0;
+  double width = 0;
+  double height = 0;
+};
+
+// The view from above: x to the right, y down, the scan field's centre in the picture's middle.
+// Lit by a ring of lamps at the objective: soft shade from the surface's slope, their mirror image
+// where it is glossy, darker towards the corners.
+class ScopePicture {
+public:
+  // HashRandom what stands still, once: about 0.1 s at 640×480. Borrows the phantom.
+  ScopePicture(const Phantom& phantom, int width, int height);
+
+  std::size_t bytes() const { return still_.size(); }
+
+  // The whole picture at a phase of the loop, rgb8, rows without gaps; `pixels` has bytes() bytes.
+  void draw(double phase, std::span<std::uint8_t> pixels) const;
+
+  // Where a field of this size, centred, lies.
+  PictureRectangle field(double a_mm, double b_mm) const;
+
+private:
+  struct Place {
+    float x_mm;
+    float y_mm;
+  };
+  Place place(int column, int row) const;
+  float vignette(int column, int row) const;
+  void draw_still();
+  void draw_instrument(const Instrument::Pose& pose, std::span<std::uint8_t> pixels) const;
+  void put(std::span<std::uint8_t> pixels, int column, int row, const Rgb& light) const;
+
+  const Phantom& phantom_;
+  int width_;
+  int height_;
+  float mm_per_pixel_;
+  std::vector<std::uint8_t> still_;
+};
+
+} // namespace octascope::sim

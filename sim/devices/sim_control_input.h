@@ -1,0 +1,78 @@
+// The twin of pedal and knob: three switches, a knob and a 6-axis puck, moved by a script and by
+// whoever injects events (the host, for keys).
+//
+// Scripted moves and faults happen at their own times, however late read() is called: what it
+// returns is a function of the script, the schedule and the injected events. Switches pass through
+// a contact that may bounce or stick, and through the debouncer, so a press is told 5 ms after it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "hal/control_input.h"
+#include "sim/devices/bouncing_contact.h"
+#include "sim/devices/control_queue.h"
+#include "sim/devices/control_script.h"
+#include "sim/faults/fault_probe.h"
+
+namespace octascope::sim {
+
+class SimControlInput final : public hal::ControlInput {
+public:
+  // The clock and the schedule outlive the input; `faults` may be null. The script's time zero is
+  // the first open(); it goes on while the device is unplugged, unseen.
+  explicit SimControlInput(hal::Clock& clock, ControlScript script = {},
+                           const FaultSchedule* faults = nullptr);
+
+  // Any thread, any state; lock-free. A switch, knob or axis moves as if by hand, at event.time or
+  // when it is noticed, within 1 ms. False, and nothing happens, when the device has no such
+  // control or value, or when more than ControlQueue::capacity events wait to be read. What is
+  // injected while the device is not open is lost, like a press on an unplugged pedal.
+  bool inject(const hal::ControlEvent& event);
+
+private:
+  std::string_view do_backend() const override { return "sim"; }
+  bool do_simulated() const override { return true; }
+  hal::Result<> do_open() override;
+  hal::Result<std::size_t> do_read(std::span<hal::ControlEvent> events,
+                                   hal::Duration timeout) override;
+  std::uint64_t do_bounces() const override;
+  void do_close() override;
+
+  void play_to(hal::TimePoint now);
+  bool play_timeline(hal::TimePoint now);
+  hal::TimePoint next_moment() const;
+  void play_moment(hal::TimePoint t);
+  void play_script(hal::TimePoint t);
+  void play_injected(hal::TimePoint t);
+  void look_for_injected(hal::TimePoint now);
+  void update_stuck_switches(hal::TimePoint t);
+  void move(hal::TimePoint t, hal::ControlKind kind, std::uint8_t index, std::int32_t value);
+  void pull_out(hal::TimePoint t);
+  void report(const hal::ControlEvent& event);
+  bool has_room() const { return reported_ + most_reports_at_once <= outbox_.size(); }
+  std::size_t fetch(std::span<hal::ControlEvent> events);
+
+  // One moment can report every switch, a scripted and an injected event.
+  static constexpr std::size_t most_reports_at_once = switch_count + 2;
+
+  hal::Clock& clock_;
+  const ControlScript script_;
+  ControlScriptCursor cursor_;
+  FaultProbe probe_;
+  ControlQueue injected_;
+  std::optional<hal::ControlEvent> next_injected_; // already out of the queue
+
+  std::optional<hal::TimePoint> zero_; // of the script
+  hal::TimePoint played_to_;
+  hal::TimePoint last_reported_;
+  std::array<BouncingContact, switch_count> contacts_;
+  bool pulled_out_ = false;
+
+  std::array<hal::ControlEvent, 64> outbox_{}; // reported, not yet read; a ring
+  std::size_t oldest_ = 0;
+  std::size_t reported_ = 0;
+};
+
+} // namespace octascope::sim

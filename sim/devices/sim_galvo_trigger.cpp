@@ -1,0 +1,59 @@
+#include "sim/devices/sim_galvo_trigger.h"
+
+#include <fmt/format.h>
+
+namespace octascope::sim {
+
+using hal::DeviceState;
+using hal::ErrorCode;
+using hal::TimePoint;
+
+SimGalvoTrigger::SimGalvoTrigger(GalvoLink& link, hal::Clock& clock, const FaultSchedule* faults)
+    : link_(link), clock_(clock), probe_(faults, FaultDevice::galvo_trigger) {}
+
+hal::Result<> SimGalvoTrigger::do_open(const hal::GalvoTriggerConfig& config) {
+  if (state() != DeviceState::absent)
+    return hal::fail(ErrorCode::invalid_argument,
+                     fmt::format("simulated galvo trigger: open while {}, expected absent; call "
+                                 "close first",
+                                 to_string(state())));
+  if (config.pulse_width <= hal::Duration{})
+    return hal::fail(ErrorCode::invalid_argument,
+                     fmt::format("simulated galvo trigger: pulse_width is {} ns, expected more "
+                                 "than 0",
+                                 config.pulse_width.count()));
+  const TimePoint now = clock_.now();
+  if (probe_.unplugged(now))
+    return hal::fail(ErrorCode::absent,
+                     "simulated galvo trigger: not found, expected its line; the "
+                     "fault script has unplugged it, try again later");
+  probe_.watch_plug(now);
+  config_ = config;
+  line_is_low_ = now;
+  set_state(DeviceState::ready);
+  return {};
+}
+
+hal::Result<TimePoint> SimGalvoTrigger::do_arm() {
+  if (state() == DeviceState::absent)
+    return hal::fail(ErrorCode::invalid_argument,
+                     "simulated galvo trigger: arm while absent, expected ready; call open first");
+  clock_.sleep_until(line_is_low_); // no edge can rise before the last one fell
+  const TimePoint now = clock_.now();
+  if (state() == DeviceState::failed || probe_.pulled_since_last_look(now)) {
+    set_state(DeviceState::failed);
+    return hal::fail(ErrorCode::disconnected,
+                     "simulated galvo trigger: its line went away while in use; the fault script "
+                     "has unplugged it, close it and open it again");
+  }
+  line_is_low_ = now + config_.pulse_width;
+  if (probe_.strike(FaultKind::missed_pulses, now) == nullptr)
+    link_.pulse(now);
+  return now;
+}
+
+void SimGalvoTrigger::do_close() {
+  set_state(DeviceState::absent);
+}
+
+} // namespace octascope::sim

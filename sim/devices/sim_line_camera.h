@@ -1,0 +1,136 @@
+// The twin of the line camera: B-scans of a SpectraSource, at the true line rate, whenever the twin
+// of the galvo trigger was pulsed.
+//
+// Frame f of a sweep that starts at T is exposed from T + f·L/rate to T + (f+1)·L/rate (L lines a
+// frame) and handed out no earlier than its end. A frame belongs to the stream when its exposure
+// began at or after start(): a camera started in the middle of a sweep begins in its middle.
+//
+// The driver is modelled too: it keeps config.buffers frames, on loan or waiting; what comes when
+// all are taken is dropped and shows as a gap in the sequence. It looks at the buffers when
+// wait_frame() is called, so one given back before the call counts as free.
+//
+// Bytes are not copied, they point into the source, unless a fault alters them.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/line_camera.h"
+#include "sim/faults/fault_probe.h"
+#include "sim/devices/frame_loans.h"
+#include "sim/devices/galvo_link.h"
+#include "sim/spectra/scan_motion.h"
+#include "sim/spectra/spectra_source.h"
+
+namespace octascope::sim {
+
+// What the twin did since it was made, to compare with what the program noticed.
+struct LineCameraTally {
+  std::uint64_t made = 0;      // frames that the hardware made while streaming
+  std::uint64_t delivered = 0; // frames handed out
+  std::uint64_t dropped_by_fault = 0;
+  std::uint64_t dropped_without_buffer = 0;
+  std::uint64_t altered = 0; // handed out corrupted, in the wrong size, or saturated
+};
+
+// identity() of the twin that nothing was said about.
+inline constexpr std::string_view simulated_camera = "simulated spectrometer";
+
+class SimLineCamera final : public hal::LineCamera {
+public:
+  // All that is borrowed outlives the camera; `faults` may be null. `identity`: which camera it is
+  // until the fault script puts another one in its place; empty where nobody knows.
+  SimLineCamera(const SpectraSource& source, GalvoLink& link, hal::Clock& clock,
+                const FaultSchedule* faults = nullptr, ScanMotion motion = {},
+                std::string identity = std::string{simulated_camera});
+
+  // Thread-safe.
+  LineCameraTally tally() const;
+
+private:
+  // A frame that the driver holds until somebody fetches it.
+  struct WaitingFrame {
+    int buffer = -1;
+    std::span<const std::byte> bytes; // of the source
+    std::uint64_t sequence = 0;
+    hal::TimePoint first_line;
+    hal::TimePoint last_line;
+    hal::TimePoint ready; // when the driver hands it out
+    std::uint64_t noise_seed = 0;
+    const ScriptedFault* corrupted = nullptr;
+    const ScriptedFault* wrong_size = nullptr;
+    const ScriptedFault* saturated = nullptr;
+  };
+
+  // The frame that the hardware exposes next.
+  struct Exposure {
+    std::uint64_t sweep = 0;
+    int in_volume = 0; // which of its frames
+    hal::TimePoint begin;
+    hal::TimePoint end;
+  };
+
+  std::string_view do_backend() const override { return "sim"; }
+  bool do_simulated() const override { return true; }
+  hal::Result<> do_open(const hal::LineCameraConfig& config) override;
+  hal::Result<> do_start() override;
+  hal::Result<std::optional<hal::LineFrame>> do_wait_frame(hal::Duration timeout) override;
+  void do_release(int buffer) override { loans_.give_back(buffer); }
+  void do_stop() override;
+  void do_close() override;
+  std::string do_identity() const override;
+
+  hal::Result<> check(const hal::LineCameraConfig& config) const;
+  hal::Result<> wrong_state(std::string_view call, std::string_view expected) const;
+  hal::Error disconnect();
+  void look_what_is_plugged_in(hal::TimePoint now);
+  void allocate_buffers();
+
+  hal::Duration line_offset(std::int64_t line) const;
+  std::optional<Exposure> next_exposure();
+  void step_exposure();
+  void expose_until(hal::TimePoint now);
+  void finish(const Exposure& exposure);
+  void discard_waiting();
+  hal::LineFrame hand_out(const WaitingFrame& frame);
+  std::span<const std::byte> altered_bytes(const WaitingFrame& frame);
+  hal::TimePoint next_look(hal::TimePoint now, hal::TimePoint deadline);
+
+  const SpectraSource& source_;
+  GalvoLink& link_;
+  hal::Clock& clock_;
+  const ScanMotion motion_;
+  FaultProbe probe_;
+
+  hal::LineCameraConfig config_;
+  FrameLoans loans_;
+  std::vector<WaitingFrame> waiting_; // a ring of config_.buffers places
+  std::size_t oldest_waiting_ = 0;
+  std::size_t waiting_count_ = 0;
+  std::size_t scratch_bytes_ = 0; // of one buffer; 0 without faults that alter bytes
+  std::unique_ptr<std::byte[]> scratch_;
+
+  hal::TimePoint started_;
+  std::uint64_t next_sweep_ = 0;
+  int next_in_volume_ = 0;
+  std::uint64_t next_sequence_ = 0;
+  std::uint64_t shown_sequence_ = 0; // of the newest frame, as the driver told it
+
+  std::string plugged_in_;            // which camera
+  mutable std::mutex identity_mutex_; // taken by open() and whoever asks
+  std::string identity_;
+
+  std::atomic<std::uint64_t> made_{0};
+  std::atomic<std::uint64_t> delivered_{0};
+  std::atomic<std::uint64_t> dropped_by_fault_{0};
+  std::atomic<std::uint64_t> dropped_without_buffer_{0};
+  std::atomic<std::uint64_t> altered_{0};
+};
+
+} // namespace octascope::sim

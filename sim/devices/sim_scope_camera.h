@@ -1,0 +1,83 @@
+// Twin of the camera that looks through the microscope: sees the phantom from above.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/scope_camera.h"
+#include "pipeline/volume/volume.h"
+#include "sim/devices/scope_picture.h"
+#include "sim/phantoms/phantom.h"
+
+namespace octascope::sim {
+
+struct SimScopeCameraOptions {
+  std::string phantom = "anterior_eye";
+  std::uint64_t seed = 1;                              // that of the volume loop: the same phantom
+  pipeline::VolumeGeometry field;                      // what the OCT scans, for scan_field()
+  hal::Duration loop = std::chrono::milliseconds{850}; // once round the phantom's motion
+  int width = 640;                                     // of its pictures, whatever open() wishes
+  int height = 480;
+};
+
+// Pictures, 30 for each second of the loop, are drawn when they are first shown, and handed out
+// where they lie: from the second time round streaming costs nothing to speak of. Frame n is
+// exposed n periods after start(). Frames that nobody fetched, or that found all four buffers on
+// loan, are lost, and their sequence numbers with them.
+//
+// Threads as hal::ScopeCamera; unplug(), replug() and scan_field() may come from any.
+class SimScopeCamera final : public hal::ScopeCamera {
+public:
+  // HashRandom what stands still in them: a tenth of a second. Borrows the clock.
+  static hal::Result<std::unique_ptr<SimScopeCamera>> make(const SimScopeCameraOptions& options,
+                                                           hal::Clock& clock);
+
+  // Pulls the cable; a wait that is on returns within a frame's time. The state becomes `failed`
+  // when the camera's thread notices.
+  void unplug() { plugged_.store(false, std::memory_order_release); }
+  void replug() { plugged_.store(true, std::memory_order_release); }
+
+  // Where in the picture the OCT scans.
+  PictureRectangle scan_field() const { return scan_field_; }
+
+private:
+  SimScopeCamera(const SimScopeCameraOptions& options, hal::Clock& clock,
+                 std::unique_ptr<const Phantom> phantom);
+
+  std::string_view do_backend() const override { return "sim"; }
+  bool do_simulated() const override { return true; }
+  hal::Result<> do_open(const hal::ScopeCameraConfig& config) override;
+  hal::Result<> do_start() override;
+  hal::Result<std::optional<hal::ScopeFrame>> do_wait_frame(hal::Duration timeout) override;
+  void do_release(int buffer) override;
+  void do_stop() override;
+  void do_close() override;
+
+  hal::Result<> check_cable();
+  void forget_loans();
+  int borrow_buffer();
+  hal::ScopeFrame frame(std::int64_t number, int buffer);
+  std::span<const std::uint8_t> pixels_at(double phase); // 0 ≤ phase < 1
+
+  hal::Clock& clock_;
+  int width_;
+  int height_;
+  hal::Duration loop_;
+  std::unique_ptr<const Phantom> phantom_;
+  ScopePicture picture_;
+  PictureRectangle scan_field_;
+  std::vector<std::vector<std::uint8_t>> pictures_; // empty: not drawn yet
+
+  std::atomic<bool> plugged_{true};
+  std::array<std::atomic<bool>, 4> on_loan_{};
+  hal::Duration period_{};
+  hal::TimePoint started_;
+  std::int64_t next_ = 0; // the first frame that was not yet handed out
+};
+
+} // namespace octascope::sim

@@ -1,0 +1,24 @@
+#include "sim/phantoms/phantom.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "sim/phantoms/phantom_anterior_eye.h"
+#include "sim/phantoms/phantom_cap.h"
+#include "sim/phantoms/phantom_nail_fold.h"
+
+namespace octascope::sim {
+
+hal::Result<std::unique_ptr<Phantom>> make_phantom(std::string_view name, std::uint64_t seed) {
+  if (name == phantom_names[0])
+    return std::make_unique<AnteriorEye>(seed);
+  if (name == phantom_names[1])
+    return std::make_unique<NailFold>(seed);
+  if (name == phantom_names[2])
+    return std::make_unique<PlasticCap>(seed);
+  return hal::fail(hal::ErrorCode::invalid_argument,
+                   fmt::format("phantom: there is none named \"{}\", expected one of {}", name,
+                               fmt::join(phantom_names, ", ")));
+}
+
+} // namespace octascope::sim

@@ -1,0 +1,63 @@
+// A surgical instrument that moves through a phantom: a metal shaft with two prongs.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "sim/phantoms/phantom_column.h"
+
+namespace octascope::sim {
+
+struct Point3 {
+  float x_mm = 0;
+  float y_mm = 0;
+  float z_mm = 0;
+};
+
+struct InstrumentPath {
+  Point3 hinge; // the shaft turns about this point: the incision, outside the field
+  Point3 tip;   // the tip's mean place
+  Point3 reach; // half axes of the closed path that the tip follows
+  float shaft_radius_mm = 0.2F;
+  float prong_radius_mm = 0.07F;
+  float prong_length_mm = 1.4F;
+  float opening_mm = 0.5F; // between the prongs' ends, at most
+};
+
+// Immutable, thread-safe. The path is a closed curve in the phase, which the prongs open and close
+// along once.
+class Instrument {
+public:
+  explicit Instrument(const InstrumentPath& path) : path_(path) {}
+
+  struct Top {
+    float depth_mm;
+    float facing; // cosine between the metal's normal and the beam: 1 looks straight up
+  };
+  // A moment of the instrument; work one out and ask it for many places.
+  class Pose {
+  public:
+    // Its upper side at (x, y), where it is there at all.
+    std::optional<Top> top_at(float x_mm, float y_mm) const;
+    // Everything of it lies within: lower x, lower y, upper x, upper y.
+    std::array<float, 4> bounds_mm() const;
+
+  private:
+    friend class Instrument;
+    struct Rod {
+      Point3 from;
+      Point3 to;
+      float radius_mm;
+    };
+    std::array<Rod, 3> rods_;
+  };
+  Pose pose(double phase) const;
+
+  // Adds the metal's reflection and its shadow to a column.
+  static void fill(Column& column, const Pose& pose, float x_mm, float y_mm);
+
+private:
+  InstrumentPath path_;
+};
+
+} // namespace octascope::sim

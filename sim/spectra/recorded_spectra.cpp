@@ -1,0 +1,96 @@
+#include "sim/spectra/recorded_spectra.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace octascope::sim {
+
+using hal::ErrorCode;
+
+namespace {
+
+constexpr int most = 65536; // of each count: keeps their product within 64 bits
+
+hal::Result<> check_count(const SpectraRecording& recording, const char* what, int found,
+                          int lowest, int highest) {
+  if (found >= lowest && found <= highest)
+    return {};
+  return hal::fail(
+      ErrorCode::invalid_argument,
+      fmt::format("{}: {} is {}, expected {} to {}", recording.name, what, found, lowest, highest));
+}
+
+hal::Result<> check_size(const SpectraRecording& r) {
+  const std::uint64_t expected = static_cast<std::uint64_t>(r.b_scans) *
+                                 static_cast<std::uint64_t>(r.a_scans) *
+                                 static_cast<std::uint64_t>(r.samples_per_line);
+  if (r.samples.size() == expected)
+    return {};
+  return hal::fail(ErrorCode::invalid_argument,
+                   fmt::format("{}: has {} samples, expected {} for {} B-scans of {} A-scans of {} "
+                               "samples",
+                               r.name, r.samples.size(), expected, r.b_scans, r.a_scans,
+                               r.samples_per_line));
+}
+
+} // namespace
+
+hal::Result<std::unique_ptr<RecordedSpectra>> RecordedSpectra::make(SpectraRecording recording,
+                                                                    int fly_back_lines) {
+  const SpectraRecording& r = recording;
+  const auto checked =
+      check_count(r, "the number of B-scans", r.b_scans, 1, most)
+          .and_then([&] { return check_count(r, "the number of A-scans", r.a_scans, 1, most); })
+          .and_then(
+              [&] { return check_count(r, "the number of samples", r.samples_per_line, 1, most); })
+          .and_then([&] { return check_count(r, "significant_bits", r.significant_bits, 1, 16); })
+          .and_then([&] { return check_count(r, "fly_back_lines", fly_back_lines, 0, most); })
+          .and_then([&] { return check_size(r); });
+  if (!checked)
+    return tl::make_unexpected(checked.error());
+  return std::unique_ptr<RecordedSpectra>{
+      new RecordedSpectra{std::move(recording), fly_back_lines}};
+}
+
+RecordedSpectra::RecordedSpectra(SpectraRecording recording, int fly_back_lines)
+    : recording_(std::move(recording)), format_{.samples_per_line = recording_.samples_per_line,
+                                                .lines_per_frame =
+                                                    recording_.a_scans + fly_back_lines,
+                                                .sample_type = hal::SampleType::u16,
+                                                .significant_bits = recording_.significant_bits,
+                                                .right_shift = 0},
+      frame_samples_(recording_.samples) {
+  if (fly_back_lines > 0)
+    add_fly_back(fly_back_lines);
+}
+
+void RecordedSpectra::add_fly_back(int fly_back_lines) {
+  const auto line = static_cast<std::size_t>(recording_.samples_per_line);
+  const auto a_scans = static_cast<std::size_t>(recording_.a_scans);
+  const auto back = static_cast<std::size_t>(fly_back_lines);
+  with_fly_back_.resize(static_cast<std::size_t>(recording_.b_scans) * (a_scans + back) * line);
+  auto out = with_fly_back_.begin();
+  for (auto rest = recording_.samples; !rest.empty(); rest = rest.subspan(a_scans * line)) {
+    out = std::copy_n(rest.begin(), a_scans * line, out);
+    for (std::size_t i = 0; i < back; ++i) {
+      // Evenly from the last A-scan back to the first.
+      const std::size_t a = (a_scans - 1) * (back - 1 - i) / std::max<std::size_t>(back - 1, 1);
+      out = std::copy_n(rest.begin() + static_cast<std::ptrdiff_t>(a * line), line, out);
+    }
+  }
+  frame_samples_ = with_fly_back_;
+}
+
+std::span<const std::byte> RecordedSpectra::frame(std::uint64_t, int b_scan) const {
+  const std::size_t frame_bytes = format_.frame_bytes();
+  return std::as_bytes(frame_samples_)
+      .subspan(static_cast<std::size_t>(b_scan) * frame_bytes, frame_bytes);
+}
+
+std::string RecordedSpectra::description() const {
+  return fmt::format("recording {}, one volume of {} B-scans, looped", recording_.name,
+                     recording_.b_scans);
+}
+
+} // namespace octascope::sim

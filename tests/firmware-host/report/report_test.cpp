@@ -1,0 +1,168 @@
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "firmware-host/report/report.h"
+#include "tests/support/files/scratch_folder.h"
+
+namespace octascope::firmware_host {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+RunReport example() {
+  RunReport r;
+  r.simulated = true;
+  r.source = "a \"quoted\" scene";
+  r.reconstruction_path = "fused";
+  r.reconstruction_isa = "AVX2";
+  r.reconstruction_reason = "remembered";
+  r.reconstruction_times = {{700.4, 1500.6}};
+  r.line_camera = "sim";
+  r.galvo_trigger = "gpio";
+  r.control_input = "hid";
+  r.scope_camera = "v4l2";
+  r.display = "offscreen";
+  r.plan.bidirectional = true;
+  r.plan.repeats = 2;
+  r.phase = {.in_use_a_scans = 5.43219,
+             .automatic = true,
+             .used = 3,
+             .refused = 1,
+             .correlation = 0.5,
+             .significance = 9};
+  r.worker_cores = {2, -1};
+  r.acquired = 10;
+  r.published = 9;
+  r.displayed = 7;
+  r.skipped = 2;
+  r.undisplayed = 1;
+  r.planned = 14;
+  r.unfinished = 3;
+  r.lost_lines = 600;
+  r.lost_b_scans = 2;
+  r.lost_volumes = 1;
+  r.saturated_lines = 5;
+  r.duration_s = 1.5;
+  r.lines_per_s = 215000.12345;
+  r.volumes_per_s = 7.1;
+  r.frames_per_s = 30;
+  r.latency = {.count = 3, .p50_ms = 12.34567, .p95_ms = 20, .max_ms = 21};
+  r.frames_drawn = 45;
+  r.frames_missed = 3;
+  r.hot_path_allocations = 4;
+  r.view.yaw_deg = -12.5F;
+  r.view.technique = ui::Technique::shaded;
+  r.view.layout = ui::LayoutKind::b_scan;
+  r.view.stereo = ui::StereoMode::top_bottom;
+  r.view.selected = ui::Action::tilt;
+  r.actions[ui::index_of(ui::Action::freeze)] = 3;
+  r.started = hal::TimePoint{100s};
+  r.faults = {
+      {"line_camera", "disconnected", "it went away", 2, r.started + 1s, r.started + 2500ms}};
+  return r;
+}
+
+TEST(Report, says_every_figure_under_its_key) {
+  const json j = json::parse(to_json(example()));
+  EXPECT_EQ(j["simulated"], true);
+  EXPECT_EQ(j["reconstruction"]["path"], "fused");
+  EXPECT_EQ(j["reconstruction"]["isa"], "AVX2");
+  EXPECT_EQ(j["reconstruction"]["reason"], "remembered");
+  EXPECT_EQ(j["reconstruction"]["fused_ns_per_line"], 700);
+  EXPECT_EQ(j["reconstruction"]["fftw_ns_per_line"], 1501);
+  EXPECT_EQ(j["source"], "a \"quoted\" scene");
+  EXPECT_EQ(j["devices"], (json{{"line_camera", "sim"},
+                                {"galvo_trigger", "gpio"},
+                                {"control_input", "hid"},
+                                {"scope_camera", "v4l2"},
+                                {"display", "offscreen"}}));
+  EXPECT_EQ(j["scan"], (json{{"bidirectional", true},
+                             {"repeats", 2},
+                             {"lines_per_sweep", 308},
+                             {"kept_lines_per_sweep", 300},
+                             {"sweeps_per_volume", 160},
+                             {"planned_volumes_per_s", 4.354},
+                             {"phase_offset",
+                              {{"a_scans", 5.432},
+                               {"automatic", true},
+                               {"estimates_used", 3},
+                               {"estimates_refused", 1},
+                               {"correlation", 0.5},
+                               {"significance", 9.0}}}}));
+  EXPECT_EQ(j["workers"], (json{{"count", 2}, {"cores", {2, -1}}}));
+  EXPECT_EQ(j["volumes"], (json{{"planned", 14},
+                                {"acquired", 10},
+                                {"published", 9},
+                                {"displayed", 7},
+                                {"skipped", 2},
+                                {"lost", 1},
+                                {"unfinished", 3}}));
+  EXPECT_EQ(j["lost"], (json{{"lines", 600}, {"b_scans", 2}, {"volumes", 1}}));
+  EXPECT_EQ(j["rates"],
+            (json{{"lines_per_s", 215000.123}, {"volumes_per_s", 7.1}, {"frames_per_s", 30.0}}));
+  EXPECT_EQ(j["latency_ms"], (json{{"p50", 12.346}, {"p95", 20.0}, {"max", 21.0}}));
+  EXPECT_EQ(j["frames"], (json{{"drawn", 45}, {"missed", 3}}));
+  EXPECT_EQ(j["hot_path"], (json{{"allocations", 4}}));
+  EXPECT_EQ(j["view"], (json{{"window_offset_db", 8.0},
+                             {"window_size_db", 36.0},
+                             {"yaw_deg", -12.5},
+                             {"tilt_deg", 35.0},
+                             {"distance", 3.1},
+                             {"b_scan", 40},
+                             {"parallax_deg", 3.0},
+                             {"technique", "shaded"},
+                             {"transfer", 0},
+                             {"colours", 0},
+                             {"layout", "b_scan"},
+                             {"stereo", "top_bottom"},
+                             {"frozen", false},
+                             {"vessels", true},
+                             {"vessel_opacity", 1.0},
+                             {"vessel_colours", "branch"},
+                             {"vessel_shift_mm", {0.0, 0.0, 0.0}},
+                             {"vessel_turn_deg", {0.0, 0.0, 0.0}},
+                             {"box", true},
+                             {"legend", false},
+                             {"selected", "tilt"}}));
+  EXPECT_EQ(j["actions"].size(), ui::action_count);
+  EXPECT_EQ(j["actions"]["freeze"], 3);
+  EXPECT_EQ(j["actions"]["tilt"], 0);
+  for (const char* stage : {"reconstruct", "assemble", "publish", "upload", "draw"})
+    EXPECT_EQ(j["stage_ms"][stage].size(), 3U) << stage;
+}
+
+TEST(Report, tells_a_faults_times_from_the_start) {
+  const json faults = json::parse(to_json(example()))["faults"];
+  EXPECT_EQ(faults, json::array({{{"device", "line_camera"},
+                                  {"kind", "disconnected"},
+                                  {"message", "it went away"},
+                                  {"count", 2},
+                                  {"first_s", 1.0},
+                                  {"last_s", 2.5}}}));
+}
+
+TEST(Report, speaks_to_people_too) {
+  const std::string text = to_text(example());
+  EXPECT_THAT(text, testing::HasSubstr("7 volumes displayed of 10 acquired"));
+  EXPECT_THAT(text, testing::HasSubstr("lost: 600 lines, 2 B-scans, 1 volumes"));
+  EXPECT_THAT(text, testing::HasSubstr("phase offset 5.43 A-scans, found in the picture"));
+  EXPECT_THAT(text, testing::HasSubstr("fault: line_camera disconnected ×2: it went away"));
+}
+
+TEST(Report, is_written_whole_or_not_at_all) {
+  const tests::ScratchFolder folder;
+  ASSERT_TRUE(write_report(example(), folder / "r.json"));
+  std::ifstream in{folder / "r.json"};
+  EXPECT_EQ(json::parse(in), json::parse(to_json(example())));
+  const auto refused = write_report(example(), folder / "nowhere/r.json");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("nowhere/r.json"));
+  EXPECT_EQ(folder.count(), 1);
+}
+
+} // namespace
+} // namespace octascope::firmware_host

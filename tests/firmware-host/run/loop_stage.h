@@ -1,0 +1,168 @@
+// A render loop on fakes: volumes, knobs, microscope pictures and losses come when the test says,
+// on a time axis that only the test and the display's refreshes move.
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "firmware-host/run/render_loop.h"
+#include "hal/linux/monotonic_clock.h"
+#include "pipeline/acquisition/volume_thread.h"
+#include "pipeline/scan/scan_plan.h"
+#include "sim/clock/virtual_clock.h"
+#include "sim/devices/offscreen_display.h"
+#include "tests/support/devices/fake_devices.h"
+#include "tests/ui/support/scene.h"
+#include "ui/layout/layout.h"
+
+namespace octascope::tests {
+
+// Keeps what reached the glass, and lets drawing take time on the virtual axis.
+class GlassDisplay final : public hal::Display {
+public:
+  explicit GlassDisplay(sim::VirtualClock& clock) : clock_(clock), inner_(clock) {}
+
+  sim::OffscreenDisplay& cable() { return inner_; }
+
+  // What drawing costs; called between a frame's beginning and its end.
+  std::function<hal::Duration()> cost;
+
+  // Another console is in front: what is presented is seen by nobody.
+  bool covered = false;
+  // Opening it fails for this reason.
+  std::optional<hal::Error> refusal;
+
+  int frames = 0;
+  pipeline::Image picture; // of the last frame
+  hal::TimePoint completed;
+
+private:
+  std::string_view do_backend() const override { return inner_.backend(); }
+  bool do_simulated() const override { return true; }
+  hal::Result<> do_open(const hal::DisplayConfig& config) override {
+    if (refusal)
+      return tl::make_unexpected(*refusal);
+    return inner_.open(config);
+  }
+  int do_width() const override { return inner_.width(); }
+  int do_height() const override;
+  hal::Duration do_refresh_period() const override { return inner_.refresh_period(); }
+  hal::Result<hal::Flip> do_present() override;
+  std::size_t do_poll_events(std::span<hal::DisplayEvent>) override;
+  void do_close() override { inner_.close(); }
+
+  sim::VirtualClock& clock_;
+  sim::OffscreenDisplay inner_;
+  mutable int sizes_asked_ = 0; // in this turn
+  std::uint64_t last_flip_ = 0;
+};
+
+class FakeControls final : public hal::ControlInput {
+public:
+  void send(const std::vector<hal::ControlEvent>& events);
+
+private:
+  std::string_view do_backend() const override { return "fake"; }
+  bool do_simulated() const override { return true; }
+  hal::Result<> do_open() override;
+  hal::Result<std::size_t> do_read(std::span<hal::ControlEvent> events,
+                                   hal::Duration timeout) override;
+  void do_close() override { set_state(hal::DeviceState::absent); }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<hal::ControlEvent> queue_;
+};
+
+// Sends the one picture that it is given, once.
+class FakeScope final : public hal::ScopeCamera {
+public:
+  void send(const hal::ScopeFrame& frame);
+
+private:
+  std::string_view do_backend() const override { return "fake"; }
+  bool do_simulated() const override { return true; }
+  hal::Result<> do_open(const hal::ScopeCameraConfig&) override;
+  hal::Result<> do_start() override;
+  hal::Result<std::optional<hal::ScopeFrame>> do_wait_frame(hal::Duration timeout) override;
+  void do_release(int) override {}
+  void do_stop() override { set_state(hal::DeviceState::ready); }
+  void do_close() override { set_state(hal::DeviceState::absent); }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<hal::ScopeFrame> next_;
+};
+
+// What volumes hold.
+enum class Tissue : std::uint8_t { usual, reversed };
+
+// Skips where no offscreen context can be made.
+class LoopStage : public testing::Test {
+protected:
+  LoopStage();
+  void SetUp() override;
+  void TearDown() override;
+
+  // Switch 0 freezes; knob 0 moves the window, knob 1 turns the volume.
+  static ui::ControlProfile profile();
+  static pipeline::ScanPlan plan();
+
+  // Makes and opens a loop that begins with `view`.
+  void start(ui::ViewState view);
+
+  // One round of the loop; if it drew nothing, a refresh passes all the same.
+  void turn();
+  void turn_until(hal::TimePoint time);
+  // Until the picture would not get any better.
+  void rest();
+
+  // Turns while the time of a volume passes, and then one comes. It is not in a frame yet.
+  void send_volume(Tissue tissue);
+  // After a pause, or a camera that was unplugged: the next volume can come.
+  void resume_sweeps();
+  void send_controls(const std::vector<hal::ControlEvent>& events);
+  void turn_knob(std::uint8_t knob, int detents);
+  void press_freeze();
+  void send_scope_picture();
+
+  const ui::ViewState& view() const { return loop_->actions().state(); }
+  ui::Layout layout() const;
+
+  sim::VirtualClock clock_; // an hour ahead of the real one: nobody who waits for it wakes unasked
+  hal::linux_backend::MonotonicClock real_clock_; // of the fakes' threads
+  GlassDisplay display_{clock_};
+  FakeCamera camera_;
+  FakeTrigger trigger_{clock_};
+  FakeControls controls_;
+  FakeScope scope_;
+  const ScopePicture scope_picture_{64, 48};
+  const std::array<pipeline::Volume, 2> tissues_;
+  pipeline::FaultLog faults_;
+  firmware_host::PictureProof proof_;
+  pipeline::Wakeup arrived_, news_;
+  std::unique_ptr<pipeline::Acquisition> acquisition_;
+  std::unique_ptr<pipeline::VolumeThread> volumes_;
+  std::unique_ptr<pipeline::ControlThread> control_thread_;
+  std::unique_ptr<pipeline::ScopeThread> scope_thread_;
+  std::unique_ptr<firmware_host::RenderLoop> loop_;
+  hal::Duration longest_turn_ = std::chrono::milliseconds{40};
+
+private:
+  void await(std::string_view what, const std::function<bool()>& came);
+  void await_news();
+
+  std::size_t next_pulse_ = 0;
+  std::uint64_t sequence_ = 0;
+};
+
+} // namespace octascope::tests

@@ -1,0 +1,371 @@
+// What a surgeon relies on, frame by frame on a time axis that stands still between them.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "tests/firmware-host/run/loop_stage.h"
+#include "tests/support/pictures/picture_counts.h"
+#include "ui/hud/palette.h"
+#include "ui/layout/stereo.h"
+#include "ui/transfer/histogram.h"
+
+namespace octascope::tests {
+namespace {
+
+using namespace std::chrono_literals;
+using ui::Liveness;
+using ui::Technique;
+
+// The middle of the volume's picture, which nothing covers (ui/layout/layout.h).
+ui::Rect middle_of(const ui::Rect& view) {
+  return {view.x + view.width / 4, view.y + view.height / 4, view.width / 2, view.height / 2};
+}
+
+// ---- The window's knob while the picture is frozen.
+
+class FrozenWindow : public LoopStage, public testing::WithParamInterface<Technique> {
+protected:
+  // By a renderer that has shown nothing before.
+  pipeline::Image fresh_picture(const pipeline::Volume& volume) const {
+    auto renderer = ui::Renderer::create();
+    EXPECT_TRUE(renderer);
+    EXPECT_TRUE((*renderer)->show_volume(volume));
+    EXPECT_TRUE((*renderer)->show_scope_picture(scope_picture_.frame(clock_.now()), std::nullopt));
+    (*renderer)->show_levels(ui::make_level_histogram(volume).shares());
+    EXPECT_TRUE((*renderer)->draw(view(), loop_->status(), display_.width(), display_.height(),
+                                  loop_->quality()));
+    return (*renderer)->read_back(display_.width(), display_.height());
+  }
+};
+
+TEST_P(FrozenWindow, shows_in_the_very_next_frame) {
+  ui::ViewState initial;
+  initial.technique = GetParam();
+  start(initial);
+  send_scope_picture();
+  send_volume(Tissue::usual);
+  turn();
+  press_freeze();
+  turn();
+  ASSERT_TRUE(view().frozen);
+  send_volume(Tissue::reversed); // which a frozen picture does not take
+  rest();
+  const pipeline::Image before = display_.picture;
+  const auto volumes_shown = loop_->statistics().volumes_displayed;
+  const float window = view().window_offset_db;
+  const ui::Rect middle = middle_of(layout().view);
+
+  for (const int detents : {4, -7}) {
+    const int frames = display_.frames;
+    const pipeline::Image last = display_.picture;
+    turn_knob(0, detents);
+    turn();
+    EXPECT_EQ(display_.frames, frames + 1);
+    EXPECT_GT(count_different(last, display_.picture, middle, 8), 200) << "after " << detents;
+    EXPECT_EQ(count_different(fresh_picture(tissues_[0]), display_.picture, middle, 2), 0);
+  }
+  EXPECT_NE(view().window_offset_db, window);
+  EXPECT_EQ(loop_->statistics().volumes_displayed, volumes_shown);
+  EXPECT_GT(count_different(fresh_picture(tissues_[1]), display_.picture, middle, 8), 200)
+      << "the picture could not tell the volumes apart";
+}
+
+// The surface's mesh is made beside the loop, and comes when it is ready.
+INSTANTIATE_TEST_SUITE_P(Techniques, FrozenWindow,
+                         testing::Values(Technique::slices, Technique::planes, Technique::rays,
+                                         Technique::shaded, Technique::maximum),
+                         [](const auto& test) { return std::string{ui::to_string(test.param)}; });
+
+// ---- STALE.
+
+class Staleness : public LoopStage {
+protected:
+  // What drawing costs: so much for the volume at full quality, and a little for the rest.
+  void draw_slowly(hal::Duration full) {
+    display_.cost = [this, full, drawn = Drawn{}]() mutable {
+      const Drawn now{loop_->quality(), view(), volumes_->counters().published};
+      const bool anew =
+          now.published > 0 && (now.quality != drawn.quality || now.published != drawn.published ||
+                                !ui::same_sight(now.view, drawn.view));
+      drawn = now;
+      constexpr hal::Duration rest = 2ms;
+      return anew ? rest + hal::from_seconds(hal::to_seconds(full) * ui::sample_share(now.quality))
+                  : rest;
+    };
+  }
+
+  int badge_pixels() const {
+    return count_colour(display_.picture, layout().marks, ui::palette::warning);
+  }
+
+  // From the last volume's arrival on no other comes. Returns when the first frame that says so
+  // was on the glass, counted from the arrival; expects that all before it said nothing.
+  hal::Duration first_stale_frame(hal::TimePoint arrived) {
+    const hal::Duration due = plan().tick_period() * 3 / 2;
+    camera_.unplug();
+    while (clock_.now() < arrived + 20 * due) {
+      const int frames = display_.frames;
+      turn();
+      const hal::Duration waited = loop_->status().now - arrived;
+      const bool stale = loop_->status().freshness.liveness == Liveness::stale;
+      EXPECT_EQ(stale, waited > due) << "judged after " << hal::to_ms(waited) << " ms";
+      if (stale) {
+        EXPECT_EQ(display_.frames, frames + 1) << "judged, and not told";
+        EXPECT_GT(badge_pixels(), 10);
+        return display_.completed - arrived;
+      }
+      EXPECT_EQ(badge_pixels(), 0) << "after " << hal::to_ms(waited) << " ms";
+    }
+    ADD_FAILURE() << "never";
+    return {};
+  }
+
+  // Volumes come, each shown at once; returns when the last one did.
+  hal::TimePoint run_live(int volumes, int detents_each) {
+    hal::TimePoint arrived;
+    for (int i = 0; i < volumes; ++i) {
+      send_volume(i % 2 == 0 ? Tissue::usual : Tissue::reversed);
+      if (HasFatalFailure())
+        return {};
+      arrived = clock_.now();
+      if (detents_each != 0)
+        turn_knob(1, detents_each);
+      turn();
+      EXPECT_EQ(loop_->status().freshness.liveness, Liveness::live);
+      EXPECT_EQ(badge_pixels(), 0);
+    }
+    return arrived;
+  }
+
+  hal::Duration due() const { return plan().tick_period() * 3 / 2; }
+
+private:
+  struct Drawn {
+    ui::DrawQuality quality;
+    ui::ViewState view;
+    std::uint64_t published = 0;
+  };
+};
+
+TEST_F(Staleness, is_told_one_and_a_half_periods_after_the_last_volume_and_not_before) {
+  start({});
+  const hal::Duration told = first_stale_frame(run_live(4, 0));
+  EXPECT_GT(told, due());
+  // Judged at the first refresh after it is due, and on the glass at the next.
+  EXPECT_LE(told, due() + 2 * display_.refresh_period());
+}
+
+TEST_F(Staleness, does_not_wait_for_a_finer_picture) {
+  start({});
+  draw_slowly(300ms);
+  longest_turn_ = 130ms;
+  const hal::TimePoint last = run_live(12, 0);
+  const ui::DrawQuality live = loop_->quality();
+  ASSERT_LT(ui::sample_share(live), 0.2) << "the governor had no reason to draw coarsely";
+  const hal::Duration told = first_stale_frame(last);
+  EXPECT_GT(told, due());
+  EXPECT_LE(told, due() + 2 * display_.refresh_period() + 2ms);
+  EXPECT_EQ(loop_->quality(), live);
+  turn();
+  EXPECT_EQ(ui::sample_share(loop_->quality()), 1)
+      << "what stands still is drawn as finely as it can";
+}
+
+TEST_F(Staleness, is_told_while_the_view_moves_and_frames_are_slow) {
+  start({});
+  draw_slowly(300ms);
+  longest_turn_ = 130ms;
+  const hal::TimePoint last = run_live(12, 1);
+  turn_knob(1, 1);
+  const hal::Duration told = first_stale_frame(last);
+  EXPECT_GT(told, due());
+  // The frame before it may have begun just before it was due; each is within its budget.
+  EXPECT_LE(told, due() + 2 * (45ms + display_.refresh_period()));
+}
+
+TEST_F(Staleness, ends_with_the_next_volume) {
+  start({});
+  first_stale_frame(run_live(2, 0));
+  resume_sweeps();
+  EXPECT_GT(badge_pixels(), 10);
+  run_live(2, 0);
+}
+
+TEST_F(Staleness, freezing_is_told_before_the_picture_gets_finer) {
+  start({});
+  draw_slowly(300ms);
+  longest_turn_ = 130ms;
+  run_live(12, 0);
+  press_freeze();
+  const hal::TimePoint pressed = clock_.now();
+  turn();
+  ASSERT_TRUE(view().frozen);
+  EXPECT_GT(count_colour(display_.picture, layout().marks, ui::palette::frozen), 10);
+  EXPECT_LE(display_.completed, pressed + 2 * display_.refresh_period());
+}
+
+// ---- A display that goes and comes back.
+
+struct Loss {
+  Technique technique;
+  ui::StereoMode stereo;
+};
+
+class LostDisplay : public LoopStage, public testing::WithParamInterface<Loss> {
+protected:
+  void SetUp() override {
+    LoopStage::SetUp();
+    if (IsSkipped() || HasFatalFailure())
+      return;
+    ui::ViewState initial;
+    initial.technique = GetParam().technique;
+    initial.stereo = GetParam().stereo;
+    start(initial);
+    send_scope_picture();
+    send_volume(Tissue::usual);
+    turn();
+  }
+
+  // Where nothing is written, for each eye.
+  std::vector<ui::Rect> pictures() const {
+    const ui::Layout places = layout();
+    std::vector<ui::Rect> all;
+    for (const ui::StereoEye eye : ui::eyes_of(view().stereo)) {
+      const ui::EyeFrame frame =
+          ui::eye_frame(view().stereo, eye, display_.width(), display_.height());
+      for (const ui::Rect& rect : {middle_of(places.view), places.b_scan.picture,
+                                   places.en_face.picture, places.scope.picture})
+        all.push_back(frame.place(rect));
+    }
+    return all;
+  }
+
+  bool shows_tissue() const {
+    const pipeline::Image& p = display_.picture;
+    const ui::Rect middle = pictures().at(0);
+    int lit = 0;
+    for (int y = middle.y; y < middle.bottom(); ++y)
+      for (int x = middle.x; x < middle.right(); ++x)
+        lit += p.pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(p.width) +
+                             static_cast<std::size_t>(x))] > 60;
+    return lit > 100;
+  }
+
+  // Surfaces come when they are ready.
+  void rest_with_tissue() {
+    rest();
+    for (int i = 0; i < 4000 && !shows_tissue(); ++i) {
+      real_clock_.sleep_for(1ms);
+      turn();
+    }
+    ASSERT_TRUE(shows_tissue());
+    rest();
+    if (GetParam().technique == Technique::surface)
+      await_the_last_mesh();
+  }
+
+  // The window that is found in the first volume asks for another mesh, which comes in its own
+  // time.
+  void await_the_last_mesh() {
+    constexpr int still = 30; // turns, ten milliseconds and more each
+    pipeline::Image last = display_.picture;
+    for (int turns = 0; turns < still; ++turns) {
+      real_clock_.sleep_for(10ms);
+      turn();
+      if (count_different(last, display_.picture, pictures()[0], 2) > 0)
+        turns = 0;
+      last = display_.picture;
+    }
+  }
+
+  void lose_for(hal::Duration duration) {
+    const int frames = display_.frames;
+    display_.cable().lose();
+    turn_knob(1, 1); // or there would be nothing to draw
+    turn_knob(1, -1);
+    const hal::TimePoint lost = clock_.now();
+    turn_until(lost + duration);
+    EXPECT_EQ(display_.frames, frames);
+    EXPECT_EQ(display_.state(), hal::DeviceState::absent);
+    display_.cable().restore();
+    for (int i = 0; i < 300 && display_.frames == frames; ++i) // until it is tried again
+      turn();
+    EXPECT_EQ(display_.frames, frames + 1);
+  }
+};
+
+TEST_P(LostDisplay, shows_the_same_frozen_picture_when_it_is_back) {
+  press_freeze();
+  turn();
+  ASSERT_TRUE(view().frozen);
+  rest_with_tissue();
+  const pipeline::Image before = display_.picture;
+
+  lose_for(700ms);
+  std::vector<ui::Rect> all = pictures();
+  if (GetParam().technique != Technique::surface) {
+    for (const ui::Rect& rect : all) {
+      EXPECT_EQ(count_different(before, display_.picture, rect, 2), 0) << "in the first frame";
+    }
+  }
+  rest_with_tissue();
+  for (const ui::Rect& rect : all)
+    EXPECT_EQ(count_different(before, display_.picture, rect, 2), 0)
+        << rect.width << "x" << rect.height << " at " << rect.x << ", " << rect.y;
+  EXPECT_EQ(loop_->status().freshness.liveness, Liveness::frozen);
+}
+
+TEST_P(LostDisplay, is_live_again_with_the_next_volume) {
+  rest_with_tissue();
+  const pipeline::Image before = display_.picture;
+  lose_for(20ms);
+  rest_with_tissue();
+  resume_sweeps();
+  send_volume(Tissue::reversed);
+  turn();
+  EXPECT_EQ(loop_->status().freshness.liveness, Liveness::live);
+  const std::vector<ui::Rect> all = pictures(); // of an eye: volume, B-scan, en face, microscope
+  EXPECT_GT(count_different(before, display_.picture, all[2], 8), 50);
+  EXPECT_EQ(count_different(before, display_.picture, all[3], 2), 0);
+  if (GetParam().technique != Technique::surface) {
+    EXPECT_GT(count_different(before, display_.picture, all[0], 8), 100);
+  }
+}
+
+std::vector<Loss> all_losses() {
+  std::vector<Loss> all;
+  for (const Technique technique : ui::all_techniques)
+    for (const ui::StereoMode stereo : {ui::StereoMode::off, ui::StereoMode::side_by_side})
+      all.push_back({technique, stereo});
+  return all;
+}
+
+// ---- What became of a volume.
+
+class VolumeBooks : public LoopStage {};
+
+TEST_F(VolumeBooks, a_volume_counts_as_displayed_when_a_frame_with_it_reached_the_glass) {
+  start({});
+  send_volume(Tissue::usual);
+  const int frames = display_.frames; // without a volume
+  display_.cable().lose();            // the loop takes the volume, draws it, and cannot show it
+  turn();
+  EXPECT_EQ(loop_->statistics().volumes_taken, 1U);
+  EXPECT_EQ(loop_->statistics().volumes_displayed, 0U);
+  EXPECT_EQ(display_.frames, frames);
+  display_.cable().restore();
+  for (int i = 0; i < 300 && display_.frames == frames; ++i)
+    turn();
+  EXPECT_EQ(loop_->statistics().volumes_displayed, 1U);
+  turn();
+  EXPECT_EQ(loop_->statistics().volumes_displayed, 1U) << "once";
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, LostDisplay, testing::ValuesIn(all_losses()),
+                         [](const auto& test) {
+                           return std::string{ui::to_string(test.param.technique)} +
+                                  (test.param.stereo == ui::StereoMode::off ? "" : "_in_stereo");
+                         });
+
+} // namespace
+} // namespace octascope::tests

@@ -1,0 +1,343 @@
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "hal/linux/monotonic_clock.h"
+#include "pipeline/acquisition/volume_thread.h"
+#include "tests/support/devices/fake_devices.h"
+
+namespace octascope::pipeline {
+namespace {
+
+using namespace std::chrono_literals;
+using hal::DeviceState;
+using hal::FrameIntegrity;
+
+// Eight B-scans in 400 ms: long enough that a busy machine delivers in time.
+ScanPlan slow_plan() {
+  ScanPlan plan;
+  plan.samples = 32;
+  plan.a_scans = 4;
+  plan.fly_back_lines = 1;
+  plan.b_scans = 8;
+  plan.line_rate_hz = 100;
+  return plan;
+}
+
+constexpr std::uint8_t saturated_fill = 200;
+
+class VolumeThreadTest : public testing::Test {
+protected:
+  explicit VolumeThreadTest(const ScanPlan& scan_plan = slow_plan()) : plan(scan_plan) {
+    hal::LineCameraConfig config;
+    config.format.samples_per_line = plan.samples;
+    config.format.lines_per_frame = plan.lines_per_frame();
+    config.buffers = 24;
+    acquisition = std::make_unique<Acquisition>(camera, config, clock, faults, arrived);
+    VolumeThreadSetup setup{
+        .plan = plan,
+        .trigger = {},
+        .workers = 2,
+        // A level is the frame's fill, so the test sees which frame went where.
+        .reconstruct =
+            [](std::size_t, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
+              std::ranges::fill(levels, std::to_integer<std::uint8_t>(frame.bytes.front()));
+              return frame.bytes.front() == std::byte{saturated_fill} ? 3 : 0;
+            },
+        .average = *NeighbourAverage::create({0, 1, 0}),
+        .most_volumes = std::nullopt,
+    };
+    volumes = std::make_unique<VolumeThread>(std::move(setup), trigger, *acquisition, camera, clock,
+                                             faults, arrived, news);
+  }
+
+  void start() {
+    ASSERT_TRUE(acquisition->start({}));
+    while (camera.state() != DeviceState::streaming)
+      clock.sleep_for(1ms);
+    volumes->start({});
+  }
+  void stop() {
+    volumes->stop();
+    acquisition->stop();
+    EXPECT_EQ(camera.on_loan(), 0U);
+    const VolumeCounters c = volumes->counters();
+    EXPECT_EQ(c.planned, c.acquired + c.lost_volumes + c.unfinished);
+    EXPECT_EQ(c.acquired, c.published);
+  }
+
+  hal::TimePoint time_of(hal::TimePoint armed, int sweep) const {
+    return armed + sweep * plan.frame_period();
+  }
+
+  // The B-scans from `begin` to before `end`, in order and each in its time.
+  void deliver(hal::TimePoint armed, int begin, int end) {
+    for (int b = begin; b < end; ++b)
+      camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
+  }
+
+  // So many frames came, and then nobody looks at the camera any more.
+  void hold_camera_after(std::uint64_t frames) {
+    while (acquisition->counters().frames < frames)
+      clock.sleep_for(1ms);
+    camera.hold();
+    camera.wait_until_held();
+  }
+
+  // Waits until a volume with this number has been published.
+  const Volume* wait_for_volume(std::uint64_t number) {
+    while (true) {
+      if (const Volume* volume = volumes->take_newest(); volume && volume->metadata.index >= number)
+        return volume;
+      news.wait_until(clock.now() + 20ms);
+    }
+  }
+
+  bool has_fault(std::string_view kind) const {
+    return std::ranges::any_of(faults.records(),
+                               [&](const FaultRecord& f) { return f.kind == kind; });
+  }
+
+  ScanPlan plan;
+  hal::linux_backend::MonotonicClock clock;
+  tests::FakeCamera camera;
+  tests::FakeTrigger trigger{clock};
+  FaultLog faults;
+  Wakeup arrived, news;
+  std::unique_ptr<Acquisition> acquisition;
+  std::unique_ptr<VolumeThread> volumes;
+};
+
+TEST_F(VolumeThreadTest, publishes_a_whole_volume_with_every_b_scan_in_its_place) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  // In any order: the timestamp decides.
+  for (const int b : {3, 1, 0, 2, 7, 6, 5, 4})
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b),
+                   static_cast<std::uint8_t>(10 + b));
+  const Volume* volume = wait_for_volume(1);
+  for (int b = 0; b < plan.b_scans; ++b) {
+    EXPECT_EQ(volume->b_scan_states[static_cast<std::size_t>(b)], BScanState::good);
+    for (const std::uint8_t level : volume->b_scan(b))
+      ASSERT_EQ(level, 10 + b);
+  }
+  EXPECT_EQ(volume->metadata.armed, armed);
+  EXPECT_EQ(volume->metadata.last_line, time_of(armed, 7) + 100us);
+  EXPECT_GE(volume->metadata.published, armed);
+  EXPECT_EQ(volume->metadata.lost_b_scans, 0);
+  stop();
+  EXPECT_EQ(volumes->counters().published, 1U);
+  EXPECT_EQ(volumes->counters().lost_b_scans, 0U);
+}
+
+TEST_F(VolumeThreadTest, publishes_without_the_missing_and_broken_ones_and_counts_them) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  for (const int b : {0, 1, 3, 4, 5, 6}) // 2 and 7 never come, 5 is broken, 6 is saturated
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b),
+                   b == 6 ? saturated_fill : static_cast<std::uint8_t>(10 + b),
+                   b == 5 ? FrameIntegrity::corrupted : FrameIntegrity::good);
+  const Volume* volume = wait_for_volume(1);
+  for (const int b : {2, 5, 7}) {
+    EXPECT_EQ(volume->b_scan_states[static_cast<std::size_t>(b)], BScanState::missing);
+    for (const std::uint8_t level : volume->b_scan(b))
+      ASSERT_EQ(level, 0);
+  }
+  EXPECT_EQ(volume->b_scan_states[6], BScanState::saturated);
+  EXPECT_EQ(volume->metadata.lost_b_scans, 3);
+  EXPECT_EQ(volume->metadata.lost_lines, 12);
+  EXPECT_EQ(volume->metadata.saturated_lines, 3);
+  EXPECT_TRUE(has_fault("corrupted_frame"));
+  stop();
+  const VolumeCounters counters = volumes->counters();
+  EXPECT_EQ(counters.lost_b_scans % 8, 3U); // the next volume may have been lost whole
+  EXPECT_EQ(counters.saturated_lines, 3U);
+  EXPECT_EQ(acquisition->counters().gaps, 1U);
+  EXPECT_EQ(acquisition->counters().unusable, 1U);
+}
+
+TEST_F(VolumeThreadTest, a_late_frame_of_a_published_volume_is_refused) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  camera.deliver(0, time_of(armed, 0), 10);
+  wait_for_volume(1); // published without the rest, while the second sweep runs
+  camera.deliver(1, time_of(armed, 1), 99);
+  while (!has_fault("late_frame"))
+    clock.sleep_for(1ms);
+  stop();
+}
+
+TEST_F(VolumeThreadTest, frames_that_came_in_time_to_a_camera_nobody_looked_at_are_not_late) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  deliver(armed, 0, 5);
+  hold_camera_after(5);
+  deliver(armed, 5, plan.b_scans);
+  // Past the time that a volume waits for frames, before it gives up a camera not looked at.
+  clock.sleep_until(time_of(armed, plan.b_scans) + plan.sweep_duration() / 3);
+  camera.let_go();
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->metadata.index, 1U);
+  EXPECT_EQ(volume->missing_b_scans(), 0);
+  EXPECT_FALSE(has_fault("late_frame"));
+  stop();
+}
+
+TEST_F(VolumeThreadTest, a_volume_does_not_wait_for_ever_for_a_look_at_the_camera) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  deliver(armed, 0, 5);
+  hold_camera_after(5);
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->metadata.index, 1U);
+  EXPECT_EQ(volume->missing_b_scans(), 3);
+  camera.let_go();
+  stop();
+}
+
+TEST_F(VolumeThreadTest, a_stuck_sequence_number_moves_no_b_scan) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  for (int b = 0; b < plan.b_scans; ++b)
+    camera.deliver(5, time_of(armed, b), static_cast<std::uint8_t>(10 + b));
+  const Volume* volume = wait_for_volume(1);
+  for (int b = 0; b < plan.b_scans; ++b)
+    EXPECT_EQ(volume->b_scan(b).front(), 10 + b);
+  stop();
+  EXPECT_TRUE(has_fault("stuck_sequence"));
+}
+
+TEST_F(VolumeThreadTest, triggers_nothing_without_a_camera_and_goes_on_when_it_is_back) {
+  start();
+  trigger.wait_for_pulse(0);
+  camera.unplug();
+  while (camera.state() == DeviceState::streaming)
+    clock.sleep_for(1ms);
+  const std::size_t pulses = trigger.pulses();
+  clock.sleep_for(plan.tick_period() * 2);
+  EXPECT_LE(trigger.pulses(), pulses + 1);
+  camera.replug();
+  while (camera.state() != DeviceState::streaming)
+    clock.sleep_for(5ms);
+  const std::size_t first = trigger.pulses();
+  const hal::TimePoint armed = trigger.wait_for_pulse(first);
+  for (int b = 0; b < plan.b_scans; ++b)
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 77);
+  const Volume* volume = wait_for_volume(first + 1);
+  EXPECT_EQ(volume->missing_b_scans(), 0);
+  stop();
+  EXPECT_EQ(camera.opened(), 2);
+  EXPECT_TRUE(has_fault("disconnected"));
+  EXPECT_GE(volumes->counters().lost_volumes, 2U);
+}
+
+TEST_F(VolumeThreadTest, stops_cleanly_with_frames_on_the_way) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  for (int b = 0; b < 5; ++b)
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 1);
+  stop();
+  EXPECT_GE(volumes->counters().planned, 1U);
+}
+
+ScanPlan three_repeats() {
+  ScanPlan plan = slow_plan();
+  plan.repeats = 3;
+  plan.b_scans = 4;
+  return plan;
+}
+
+class RepeatsTest : public VolumeThreadTest {
+protected:
+  RepeatsTest() : VolumeThreadTest(three_repeats()) {}
+
+  void deliver(hal::TimePoint armed, std::initializer_list<int> sweeps) {
+    for (const int sweep : sweeps)
+      camera.deliver(static_cast<std::uint64_t>(sweep), time_of(armed, sweep),
+                     static_cast<std::uint8_t>(10 * (sweep / 3 + 1) + 3 * (sweep % 3)));
+  }
+};
+
+TEST_F(RepeatsTest, a_b_scan_is_the_average_of_its_sweeps) {
+  start();
+  deliver(trigger.wait_for_pulse(0), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->missing_b_scans(), 0);
+  for (int b = 0; b < 4; ++b) {
+    for (const std::uint8_t level : volume->b_scan(b))
+      ASSERT_EQ(level, 10 * (b + 1) + 3);
+  }
+  EXPECT_EQ(volume->metadata.lost_b_scans, 0);
+  EXPECT_EQ(volume->metadata.lost_lines, 0);
+  stop();
+}
+
+TEST_F(RepeatsTest, what_is_left_of_a_b_scan_is_shown_and_lost_sweeps_are_counted_in_lines) {
+  start();
+  // B-scan 0 lacks its middle, 1 has one only, 2 has none, 3 lacks its last.
+  deliver(trigger.wait_for_pulse(0), {0, 2, 4, 9, 10});
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->b_scan(0).front(), 13);
+  EXPECT_EQ(volume->b_scan(1).front(), 23);
+  EXPECT_EQ(volume->b_scan_states[2], BScanState::missing);
+  EXPECT_EQ(volume->b_scan(2).front(), 0);
+  EXPECT_EQ(volume->b_scan(3).front(), 42);
+  EXPECT_EQ(volume->metadata.lost_b_scans, 1);
+  EXPECT_EQ(volume->metadata.lost_lines, 7 * plan.a_scans);
+  stop();
+}
+
+TEST_F(RepeatsTest, a_sweep_that_comes_when_its_b_scan_was_made_is_refused) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  deliver(armed, {0, 1, 6}); // the sixth begins the B-scan after the next
+  deliver(armed, {2, 1, 3, 4, 5, 7, 8, 9, 10, 11});
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->b_scan(0).front(), 12) << "of 10 and 13";
+  EXPECT_TRUE(has_fault("late_frame"));
+  EXPECT_TRUE(has_fault("doubled_frame"));
+  EXPECT_EQ(volume->metadata.lost_b_scans, 0);
+  EXPECT_EQ(volume->metadata.lost_lines, plan.a_scans);
+  stop();
+}
+
+TEST_F(RepeatsTest, stops_cleanly_with_b_scans_that_wait) {
+  start();
+  deliver(trigger.wait_for_pulse(0), {0, 1, 4, 10});
+  stop();
+}
+
+ScanPlan lagging_plan() {
+  ScanPlan plan = slow_plan();
+  plan.bidirectional = true;
+  plan.turn_around_lines = 2;
+  plan.scan_lag_a_scans = 1.5;
+  return plan;
+}
+
+class BidirectionalTest : public VolumeThreadTest {
+protected:
+  BidirectionalTest() : VolumeThreadTest(lagging_plan()) {}
+};
+
+TEST_F(BidirectionalTest, a_volume_says_with_which_offset_it_was_placed) {
+  start();
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  for (int b = 0; b < plan.b_scans; ++b)
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b),
+                   static_cast<std::uint8_t>(10 + b));
+  const Volume* volume = wait_for_volume(1);
+  for (int b = 0; b < plan.b_scans; ++b)
+    EXPECT_EQ(volume->b_scan(b).front(), 10 + b);
+  EXPECT_EQ(volume->metadata.scan_lag_a_scans, 1.5);
+  stop();
+  EXPECT_EQ(volumes->phase().in_use_a_scans, 1.5) << "nothing to be seen in these";
+  EXPECT_TRUE(volumes->phase().automatic);
+  EXPECT_EQ(volumes->phase().used, 0U);
+}
+
+} // namespace
+} // namespace octascope::pipeline

@@ -1,0 +1,73 @@
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/controls/control_thread.h"
+
+namespace octascope::pipeline {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Time stands still; whoever sleeps does so for a moment.
+class StillClock final : public hal::Clock {
+  hal::TimePoint do_now() const override { return hal::TimePoint{2s}; }
+  void do_sleep_until(hal::TimePoint) override { std::this_thread::sleep_for(1ms); }
+};
+
+// A puck that is pushed along two axes, comes back on one, and is pulled out.
+class LostPuck final : public hal::ControlInput {
+  std::string_view do_backend() const override { return "fake"; }
+  bool do_simulated() const override { return true; }
+  hal::Result<> do_open() override {
+    if (gone_)
+      return hal::fail(hal::ErrorCode::absent, "pulled out");
+    set_state(hal::DeviceState::ready);
+    return {};
+  }
+  hal::Result<std::size_t> do_read(std::span<hal::ControlEvent> events, hal::Duration) override {
+    if (told_) {
+      gone_ = true;
+      set_state(hal::DeviceState::failed);
+      return hal::fail(hal::ErrorCode::disconnected, "pulled out");
+    }
+    told_ = true;
+    const hal::TimePoint time{1s};
+    events[0] = {time, hal::ControlKind::axis, 5, 700};
+    events[1] = {time, hal::ControlKind::axis, 1, -300};
+    events[2] = {time, hal::ControlKind::axis, 1, 0};
+    return 3;
+  }
+  void do_close() override { set_state(hal::DeviceState::absent); }
+
+  bool told_ = false;
+  bool gone_ = false;
+};
+
+TEST(ControlThread, a_puck_that_is_pulled_out_pushes_no_more) {
+  LostPuck puck;
+  StillClock clock;
+  FaultLog faults;
+  Wakeup news;
+  ControlThread thread{puck, clock, faults, news};
+  thread.start({});
+  std::vector<hal::ControlEvent> events;
+  const auto give_up = std::chrono::steady_clock::now() + 30s;
+  while (events.size() < 4 && std::chrono::steady_clock::now() < give_up) {
+    if (const auto event = thread.take())
+      events.push_back(*event);
+    else
+      std::this_thread::sleep_for(1ms);
+  }
+  thread.stop();
+  while (const auto event = thread.take())
+    events.push_back(*event);
+  ASSERT_EQ(events.size(), 4U);
+  EXPECT_EQ(events[3].kind, hal::ControlKind::axis);
+  EXPECT_EQ(events[3].index, 5);
+  EXPECT_EQ(events[3].value, 0);
+}
+
+} // namespace
+} // namespace octascope::pipeline

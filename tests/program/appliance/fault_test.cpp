@@ -1,0 +1,382 @@
+// Every fault of every twin: the program goes on, the display shows it, the report counts it, and
+// what returns is picked up. The scripts are short versions of the examples in sim/faults.
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <ostream>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/faults/fault_script.h"
+#include "tests/program/program_support.h"
+#include "tests/support/program/built_places.h"
+
+namespace octascope::tests {
+namespace {
+
+using nlohmann::json;
+using ui::palette::frozen;
+using ui::palette::warning;
+
+// What the display shows while a fault is on.
+enum class Shown {
+  nothing,
+  badge,  // STALE, or B-scans missing, or lines saturated
+  notice, // the notice line
+  badge_and_notice
+};
+
+struct FaultCase {
+  std::string example; // file in sim/faults
+  std::string device;
+  std::string kind;         // of the report
+  std::string script;       // short: over before 1.2 s
+  std::string lasting = {}; // the same, still on at the end; empty: no look at the display
+  Shown shown = Shown::nothing;
+  int fewest = 1;             // count in the report
+  int lost_b_scans = 0;       // when nothing else happens; −1: see `whole_volumes`
+  bool whole_volumes = false; // loses volumes, at least one
+  std::string controls = {};  // what the pedal does meanwhile
+  bool ends_frozen = false;   // …and so the picture is frozen at the end
+  double duration_s = 2.1;
+  friend void PrintTo(const FaultCase& c, std::ostream* out) { *out << c.example; }
+};
+
+std::string fault(std::string_view device, std::string_view kind, std::string_view more) {
+  return fmt::format("[[fault]]\ndevice = \"{}\"\nkind = \"{}\"\n{}\n", device, kind, more);
+}
+std::string press(double at_s, int index, int value) {
+  return fmt::format("[[event]]\ntime_s = {}\nswitch = {}\nvalue = {}\n", at_s, index, value);
+}
+
+constexpr const char* half_a_second = "at_s = 0.6\nduration_s = 0.5";
+constexpr const char* for_ever = "at_s = 0.6\nduration_s = 100.0";
+
+std::vector<FaultCase> fault_cases() {
+  const std::string camera = "line_camera";
+  return {
+      {.example = "line_camera_unplug",
+       .device = camera,
+       .kind = "disconnected",
+       .script = fault(camera, "unplug", half_a_second),
+       .lasting = fault(camera, "unplug", for_ever),
+       .shown = Shown::badge_and_notice,
+       .lost_b_scans = -1,
+       .whole_volumes = true},
+      {.example = "line_camera_exchanged",
+       .device = camera,
+       .kind = "another_camera",
+       .script = fault(camera, "unplug", "at_s = 0.4\nduration_s = 0.3\ncomes_back_as = \"b\""),
+       .lasting = fault(camera, "unplug", "at_s = 0.0\nduration_s = 0.1\ncomes_back_as = \"b\""),
+       .shown = Shown::badge_and_notice,
+       .lost_b_scans = -1},
+      {.example = "line_camera_dropped_frames",
+       .device = camera,
+       .kind = "dropped_frames",
+       .script = fault(camera, "dropped_frames", "at_s = 0.6\ncount = 10"),
+       .lasting = fault(camera, "dropped_frames", "at_s = 0.0\nduration_s = 100.0\nevery = 4"),
+       .shown = Shown::badge_and_notice,
+       .fewest = 10,
+       .lost_b_scans = 10},
+      {.example = "line_camera_corrupted_frames",
+       .device = camera,
+       .kind = "corrupted_frame",
+       .script = fault(camera, "corrupted_frames", "at_s = 0.6\ncount = 8\nevery = 3"),
+       .lasting = fault(camera, "corrupted_frames", "at_s = 0.0\nduration_s = 100.0\nevery = 4"),
+       .shown = Shown::badge_and_notice,
+       .fewest = 8,
+       .lost_b_scans = 8},
+      {.example = "line_camera_wrong_size",
+       .device = camera,
+       .kind = "wrong_size",
+       .script = fault(camera, "wrong_size", "at_s = 0.5\ncount = 5\nsize_share = 0.5") +
+                 fault(camera, "wrong_size", "at_s = 0.9\ncount = 4\nsize_share = 1.5"),
+       .lasting = fault(camera, "wrong_size", "at_s = 0.0\nduration_s = 100.0\nevery = 4"),
+       .shown = Shown::badge_and_notice,
+       .fewest = 9,
+       .lost_b_scans = 9},
+      {.example = "line_camera_late_frames",
+       .device = camera,
+       .kind = "late_frame",
+       // Through one whole sweep and a part of the next.
+       .script = fault(camera, "late_frames", "at_s = 0.5\ncount = 30\nlate_ms = 150.0"),
+       .lasting = fault(camera, "late_frames", "at_s = 0.0\nduration_s = 100.0\nlate_ms = 150.0"),
+       .shown = Shown::badge_and_notice,
+       .lost_b_scans = -1},
+      {.example = "line_camera_stuck_sequence",
+       .device = camera,
+       .kind = "stuck_sequence",
+       .script = fault(camera, "stuck_sequence", "at_s = 0.6\ncount = 20"),
+       .fewest = 20},
+      {.example = "line_camera_saturation",
+       .device = camera,
+       .kind = "saturation",
+       .script = fault(camera, "saturation", "at_s = 0.5\nduration_s = 0.5\nline_share = 0.33"),
+       .lasting = fault(camera, "saturation", "at_s = 0.0\nduration_s = 100.0\nline_share = 0.33"),
+       .shown = Shown::badge_and_notice},
+      {.example = "galvo_trigger_missed_pulses",
+       .device = "galvo_trigger",
+       .kind = "missed_pulse",
+       .script = fault("galvo_trigger", "missed_pulses", "at_s = 0.5\ncount = 2\nevery = 2"),
+       .lasting = fault("galvo_trigger", "missed_pulses", for_ever),
+       .shown = Shown::badge_and_notice,
+       .fewest = 2,
+       .lost_b_scans = -1,
+       .whole_volumes = true},
+      {.example = "galvo_trigger_unplug",
+       .device = "galvo_trigger",
+       .kind = "disconnected",
+       .script = fault("galvo_trigger", "unplug", half_a_second),
+       .lasting = fault("galvo_trigger", "unplug", for_ever),
+       .shown = Shown::badge_and_notice,
+       .lost_b_scans = -1,
+       .whole_volumes = true},
+      {.example = "control_input_unplug",
+       .device = "control_input",
+       .kind = "disconnected",
+       .script = fault("control_input", "unplug", half_a_second),
+       .lasting = fault("control_input", "unplug", for_ever),
+       .shown = Shown::notice,
+       .controls = press(1.6, 1, 1) + press(1.7, 1, 0),
+       .ends_frozen = true},
+      {.example = "control_input_bounce",
+       .device = "control_input",
+       .kind = "bounce",
+       .script = fault("control_input", "bounce",
+                       "at_s = 0.0\nduration_s = 100.0\nbounces = 6\nbounce_ms = 4.0"),
+       .fewest = 12, // six at the press, six at the release
+       .controls = press(0.8, 1, 1) + press(1.0, 1, 0),
+       .ends_frozen = true}, // by one press, not by seven
+      {.example = "control_input_stuck_switch",
+       .device = "control_input",
+       .kind = "stuck_switch",
+       .script = fault("control_input", "stuck_switch",
+                       "at_s = 0.3\nduration_s = 4.4\nswitch = 0\npressed = true"),
+       .lasting = fault("control_input", "stuck_switch",
+                        "at_s = 0.0\nduration_s = 100.0\nswitch = 0\npressed = true"),
+       .shown = Shown::notice,
+       .controls = press(5.1, 1, 1) + press(5.2, 1, 0),
+       .ends_frozen = true,
+       .duration_s = 5.7},
+      {.example = "scope_camera_unplug",
+       .device = "scope_camera",
+       .kind = "disconnected",
+       .script = fault("scope_camera", "unplug", half_a_second),
+       .lasting = fault("scope_camera", "unplug", for_ever),
+       .shown = Shown::notice},
+      {.example = "display_lost",
+       .device = "display",
+       .kind = "disconnected",
+       // Long enough for a turn of the render loop on a machine that is held up by others.
+       .script = fault("display", "lost", "at_s = 0.6\nduration_s = 1.5"),
+       .duration_s = 5.0},
+  };
+}
+
+class Faults : public testing::TestWithParam<FaultCase> {
+protected:
+  ProgramResult run(const std::string& script, double duration_s) {
+    std::vector<std::string> more{"--faults",   folder_.write("faults.toml", script),
+                                  "--duration", fmt::format("{}", duration_s),
+                                  "--snapshot", snapshot_,
+                                  "--report",   report_};
+    if (!GetParam().controls.empty())
+      more.insert(more.end(), {"--controls", folder_.write("controls.toml", GetParam().controls)});
+    return run_octascope(small_run(folder_, more));
+  }
+
+  ScratchFolder folder_;
+  std::string snapshot_ = folder_ / "picture.png";
+  std::string report_ = folder_ / "report.json";
+};
+
+// Nothing else happened: what was lost is the script's doing, to the B-scan.
+bool is_undisturbed(const json& report, const FaultCase& c) {
+  return std::ranges::all_of(report["faults"],
+                             [&](const json& fault) {
+                               return fault["device"] == "host" || fault["device"] == c.device;
+                             }) &&
+         (c.device != "line_camera" ||
+          std::ranges::all_of(report["faults"], [&](const json& fault) {
+            return fault["device"] == "host" || fault["kind"] == c.kind ||
+                   fault["kind"] == "absent";
+          }));
+}
+
+void expect_losses(const json& report, const FaultCase& c, const json& fault) {
+  const int lines = report["lost"]["lines"];
+  const int b_scans = report["lost"]["b_scans"];
+  const int volumes = report["lost"]["volumes"];
+  const int count = fault["count"];
+  EXPECT_EQ(lines, b_scans * small_a_scans) << "the kept lines of the lost B-scans";
+  EXPECT_GE(b_scans, volumes * small_b_scans) << "those of lost volumes among them";
+  if (c.whole_volumes) {
+    EXPECT_GE(volumes, 1);
+  }
+  if (c.lost_b_scans >= 0) {
+    EXPECT_GE(b_scans, c.lost_b_scans);
+  }
+  if (!is_undisturbed(report, c))
+    return; // a busy machine lost more, and the report says so
+  if (c.lost_b_scans >= 0) {
+    EXPECT_EQ(b_scans, c.lost_b_scans);
+    EXPECT_EQ(volumes, 0);
+  }
+  if (c.kind == "late_frame" || c.kind == "dropped_frames") {
+    EXPECT_EQ(b_scans, count) << "one for one";
+  }
+  if (c.kind == "missed_pulse") {
+    EXPECT_EQ(volumes, count) << "one for one";
+  }
+  if (c.kind == "stuck_sequence" || c.kind == "bounce") {
+    EXPECT_EQ(count, c.fewest);
+  }
+  EXPECT_EQ(report["saturated_lines"], c.kind == "saturation" ? count : 0);
+}
+
+TEST_P(Faults, are_survived_counted_and_over_when_they_are_over) {
+  const FaultCase& c = GetParam();
+  const ProgramResult result = run(c.script, c.duration_s);
+  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  const json report = read_report(report_);
+  const json fault = find_fault(report, c.device, c.kind);
+  ASSERT_FALSE(fault.is_null()) << report["faults"].dump(2);
+  EXPECT_GE(fault["count"], c.fewest);
+  EXPECT_NE(fault["message"], "");
+  EXPECT_GE(fault["first_s"], 0);
+  EXPECT_LE(fault["first_s"], fault["last_s"]);
+  EXPECT_THAT(result.out, testing::HasSubstr("fault: " + c.device + " " + c.kind));
+  expect_losses(report, c, fault);
+
+  // Of the volumes that fit into the run (five a second), more were shown than fit in before the
+  // fault began.
+  EXPECT_GE(report["volumes"]["published"], 4);
+  EXPECT_GE(report["volumes"]["displayed"], c.ends_frozen ? 1 : 4);
+  const pipeline::Image picture = read_snapshot(snapshot_);
+  ASSERT_EQ(picture.width, small_width);
+  EXPECT_EQ(count_colour(picture, badge_row(picture), frozen) > 0, c.ends_frozen);
+}
+
+class ShownFaults : public Faults {};
+
+TEST_P(ShownFaults, are_on_the_display_while_they_are_on) {
+  const FaultCase& c = GetParam();
+  // A switch that is down is told after four seconds, and shown for two.
+  const double until_noticed_s = c.kind == "stuck_switch" ? 5.0 : sanitized ? 2.8 : 1.4;
+  const ProgramResult result = run(c.lasting, until_noticed_s);
+  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  const pipeline::Image picture = read_snapshot(snapshot_);
+  const int badge = count_colour(picture, badge_row(picture), warning);
+  const int notice = count_colour(picture, notice_row(picture), warning);
+  if (c.shown == Shown::badge || c.shown == Shown::badge_and_notice) {
+    EXPECT_GT(badge, 3) << read_report(report_).dump(2);
+  }
+  if (c.shown == Shown::notice || c.shown == Shown::badge_and_notice) {
+    EXPECT_GT(notice, 10) << read_report(report_).dump(2);
+  }
+}
+
+std::vector<FaultCase> shown_fault_cases() {
+  std::vector<FaultCase> cases = fault_cases();
+  std::erase_if(cases, [](const FaultCase& c) { return c.lasting.empty(); });
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scripts, Faults, testing::ValuesIn(fault_cases()),
+                         [](const auto& test) { return test.param.example; });
+INSTANTIATE_TEST_SUITE_P(Scripts, ShownFaults, testing::ValuesIn(shown_fault_cases()),
+                         [](const auto& test) { return test.param.example; });
+
+TEST(NoFault, has_no_marks) {
+  // A machine that is held up by others may earn a mark once, but not every time.
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    const ScratchFolder folder;
+    const std::string snapshot = folder / "picture.png";
+    const ProgramResult result =
+        run_octascope(small_run(folder, {"--duration", "1.2", "--snapshot", snapshot}));
+    ASSERT_EQ(result.exit_status, 0) << result.describe();
+    const pipeline::Image picture = read_snapshot(snapshot);
+    EXPECT_GT(count_colour(picture, badge_row(picture), ui::palette::simulated), 0);
+    if (count_colour(picture, badge_row(picture), warning) == 0 &&
+        count_colour(picture, notice_row(picture), warning) == 0)
+      return;
+  }
+  FAIL() << "five pictures with marks";
+}
+
+TEST(DisplayLost, at_the_end_costs_the_picture_and_not_the_report) {
+  const ScratchFolder folder;
+  const std::string report = folder / "report.json";
+  const ProgramResult result = run_octascope(small_run(
+      folder, {"--faults", folder.write("faults.toml", fault("display", "lost", for_ever)),
+               "--duration", "1.2", "--snapshot", folder / "picture.png", "--report", report}));
+  EXPECT_EQ(result.exit_status, 1) << result.describe();
+  EXPECT_THAT(result.err, testing::HasSubstr("picture.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "picture.png"));
+  EXPECT_FALSE(find_fault(read_report(report), "display", "disconnected").is_null());
+  EXPECT_GE(read_report(report)["volumes"]["published"], 3) << "acquisition goes on";
+}
+
+// A script whose times are a third of the file's.
+std::string three_times_as_fast(const std::filesystem::path& file) {
+  std::ifstream in{file};
+  std::string script;
+  for (std::string line; std::getline(in, line); script += '\n') {
+    const std::size_t value = line.find("_s = ");
+    if (value != std::string::npos && !line.starts_with('#'))
+      line =
+          line.substr(0, value + 5) + fmt::format("{:.3f}", std::stod(line.substr(value + 5)) / 3);
+    script += line;
+  }
+  return script;
+}
+
+// The worst of days, as it is shipped but faster.
+TEST(Everything, at_once_is_survived) {
+  const ScratchFolder folder;
+  const std::string report_file = folder / "report.json";
+  const auto script = folder.write(
+      "faults.toml", three_times_as_fast(source_folder() / "sim/faults/everything.toml"));
+  const ProgramResult result = run_octascope(
+      small_run(folder, {"--faults", script, "--duration", "6", "--report", report_file}));
+  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  const json report = read_report(report_file);
+  for (const auto& [device, kind] : {std::pair{"line_camera", "disconnected"},
+                                     {"line_camera", "dropped_frames"},
+                                     {"line_camera", "corrupted_frame"},
+                                     {"galvo_trigger", "disconnected"},
+                                     {"control_input", "disconnected"},
+                                     {"scope_camera", "disconnected"},
+                                     {"display", "disconnected"}})
+    EXPECT_FALSE(find_fault(report, device, kind).is_null()) << device << " " << kind;
+  EXPECT_GE(report["volumes"]["published"], 8);
+}
+
+// No example, and no kind of fault, is without a test.
+TEST(Everything, shipped_has_a_test) {
+  std::set<std::string> tested{"everything"};
+  std::set<std::pair<sim::FaultDevice, sim::FaultKind>> kinds;
+  for (const FaultCase& c : fault_cases()) {
+    tested.insert(c.example);
+    const auto script = sim::FaultScript::parse(c.script, c.example);
+    ASSERT_TRUE(script) << script.error().message;
+    for (const sim::ScriptedFault& f : script->faults)
+      kinds.emplace(f.device, f.kind);
+  }
+  for (const sim::FaultDevice device : sim::fault_devices) {
+    for (const sim::FaultKind kind : sim::kinds_of(device))
+      EXPECT_TRUE(kinds.contains({device, kind})) << to_string(device) << " " << to_string(kind);
+  }
+  std::set<std::string> shipped;
+  for (const auto& entry : std::filesystem::directory_iterator{source_folder() / "sim/faults"})
+    shipped.insert(entry.path().stem());
+  EXPECT_EQ(shipped, tested);
+}
+
+} // namespace
+} // namespace octascope::tests

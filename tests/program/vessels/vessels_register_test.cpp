@@ -1,0 +1,82 @@
+// octascope vessels register as a user runs it.
+#include <algorithm>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipeline/vessels/registration.h"
+#include "tests/program/program_support.h"
+
+namespace octascope::tests {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+ProgramResult register_points(const ScratchFolder& folder, std::string_view points,
+                              std::vector<std::string> more = {}) {
+  std::vector<std::string> arguments{"vessels",  "register",
+                                     "--points", folder.write("pairs.csv", points),
+                                     "--out",    folder / "out.toml"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_octascope(std::move(arguments));
+}
+
+// A quarter turn about z and a shift by (1, 2, 3).
+constexpr std::string_view good = "# tree x, y, z, volume x, y, z\n"
+                                  "0, 0, 0,  1, 2, 3\n"
+                                  "5; 0; 0;  1; 7; 3  # the first fork\n"
+                                  "0 4 0 -3 2 3\n\n"
+                                  "0\t0\t2\t1\t2\t5\n";
+
+TEST(VesselsRegister, writes_a_registration_that_can_be_read) {
+  const ScratchFolder folder;
+  const ProgramResult result = register_points(
+      folder, good, {"--author", "B. A. \"Z\"", "--subject", "4711", "--eye", "left", "--json"});
+  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  const json found = json::parse(result.out);
+  EXPECT_EQ(found["points"], 4);
+  EXPECT_NEAR(found["residual_mm"].get<double>(), 0, 1e-9);
+  EXPECT_NEAR(found["left_out_mm"].get<double>(), 0, 1e-9);
+  const auto loaded = pipeline::Registration::load(folder / "out.toml");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  const auto at = loaded->volume_from_tree.apply({1, 1, 1});
+  EXPECT_NEAR(at[0], 0, 1e-9);
+  EXPECT_NEAR(at[1], 3, 1e-9);
+  EXPECT_NEAR(at[2], 4, 1e-9);
+  EXPECT_EQ(loaded->provenance.author, "B. A. \"Z\"");
+  EXPECT_EQ(loaded->provenance.points, 4);
+  EXPECT_EQ(loaded->whose, (pipeline::PatientEye{"4711", pipeline::Eye::left}));
+  EXPECT_EQ(loaded->provenance.source, "pairs.csv");
+}
+
+TEST(VesselsRegister, says_which_line_is_off) {
+  const ScratchFolder folder;
+  const ProgramResult result = register_points(folder, std::string{good} + "1 1 1 0 3 4.5\n");
+  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  EXPECT_THAT(result.out, HasSubstr("   7 ")); // its line in the file
+  EXPECT_THAT(result.out, HasSubstr("mm rms over 5 pairs"));
+}
+
+TEST(VesselsRegister, refuses_bad_points_and_writes_nothing) {
+  const auto refuse = [](std::string_view points, std::string_view expected) {
+    const ScratchFolder folder;
+    const ProgramResult result = register_points(folder, points);
+    EXPECT_EQ(result.exit_status, 1) << result.describe();
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(std::string{expected}));
+    EXPECT_THAT(result.err, HasSubstr("pairs.csv"));
+    EXPECT_EQ(folder.count(), 1);
+  };
+  refuse("0 0 0 1 2 3\n1 0 0 2 2\n", "pairs.csv:2: found \"1 0 0 2 2\"");
+  refuse("0 0 0 1 2 3\n1 0 0 nan 2 3\n", "pairs.csv:2");
+  refuse("0 0 0 1 2 3\n1 0 0 2 2 3\n", "found 2 pairs of points, expected at least 3");
+  refuse("0 0 0 1 2 3\n1 0 0 2 2 3\n2 0 0 3 2 3\n", "the tree could turn about the line");
+  refuse("", "is empty");
+  EXPECT_EQ(run_octascope({"vessels", "register"}).exit_status, 2);
+  EXPECT_EQ(run_octascope({"vessels"}).exit_status, 2);
+}
+
+} // namespace
+} // namespace octascope::tests

@@ -1,9 +1,0 @@
-#include "tests/support/built_places.h"
-
-namespace octascope::tests {
-
-std::string built_program() {
-  return OCTASCOPE_PROGRAM;
-}
-
-} // namespace octascope::tests

@@ -1,0 +1,339 @@
+// The heads-up display in every layout: text sizes, room, and what it covers.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+
+#include <imgui.h>
+
+#include "tests/ui/support/gl_test.h"
+#include "tests/ui/support/scene.h"
+#include "tests/ui/support/synthetic_volume.h"
+#include "ui/hud/hud.h"
+#include "ui/renderer.h"
+#include "ui/layout/stereo.h"
+#include "ui/layout/box_edges.h"
+
+namespace octascope::tests {
+namespace {
+
+using namespace ui;
+
+constexpr std::array kinds{LayoutKind::volume, LayoutKind::b_scan, LayoutKind::microscope,
+                           LayoutKind::quad};
+constexpr std::array sizes{std::pair{1920, 1080}, std::pair{1280, 720},  std::pair{3840, 2160},
+                           std::pair{1024, 768},  std::pair{1600, 1200}, std::pair{1280, 1024}};
+constexpr PictureAspects aspects{3.0 / 1.792, 1, 4.0 / 3, true};
+
+// Everything at once, as long as it gets.
+Status worst_status() {
+  Status status = live_status();
+  status.freshness = {Liveness::veiled, std::chrono::seconds{3599}, {}};
+  status.missing_b_scans = 80;
+  status.saturated_lines = 23'456;
+  status.losses = {12'345, 67, 8};
+  status.reduced_quality = 0.67F;
+  status.notice = "Camera lost: looking for it again";
+  status.vessels.state = VesselStatus::State::shown; // and not registered
+  status.recording = {.on = true, .lasted = std::chrono::seconds{5999}};
+  return status;
+}
+
+class HudInAllSizes : public GlTest {};
+
+TEST_F(HudInAllSizes, capital_letters_are_as_high_as_two_metres_need) {
+  for (const auto& [width, height] : sizes) {
+    const auto fonts = Fonts::create(lay_out(width, height, aspects).unit);
+    ASSERT_TRUE(fonts) << fonts.error().message;
+    const double mm_per_pixel = screen_diagonal_mm / std::hypot(width, height);
+    for (int i = 0; i < text_style_count; ++i) {
+      const auto style = static_cast<TextStyle>(i);
+      const ImFontGlyph* glyph = fonts->font(style).FindGlyph('H');
+      const double cap_mm = static_cast<double>(glyph->Y1 - glyph->Y0) * mm_per_pixel;
+      const double arcmin = cap_mm / viewing_distance_mm * 180 * 60 / 3.14159265358979;
+      EXPECT_GE(arcmin, style == TextStyle::badge ? glance_arcmin : lookup_arcmin)
+          << width << "x" << height << ", style " << i;
+    }
+  }
+}
+
+TEST_F(HudInAllSizes, glyphs_fit_into_the_textures_that_gles_3_promises) {
+  for (const auto& [width, height] : sizes) {
+    const auto fonts = Fonts::create(lay_out(width, height, aspects).unit);
+    ASSERT_TRUE(fonts) << fonts.error().message;
+    EXPECT_LE(fonts->atlas().TexWidth, 2048) << width;
+    EXPECT_LE(fonts->atlas().TexHeight, 2048) << width;
+  }
+}
+
+TEST_F(HudInAllSizes, all_badges_find_room) {
+  const HudText text = compose_hud_text({}, worst_status(), {});
+  // All but the configuration's: the notice line says that, too, where one more finds no room; and
+  // a replay's, below.
+  ASSERT_GE(text.badge_count, HudText::most_badges - 3);
+  for (const auto& [width, height] : sizes)
+    for (const LayoutKind kind : kinds) {
+      const Layout layout = lay_out(width, height, aspects, kind);
+      const auto fonts = Fonts::create(layout.unit);
+      ASSERT_TRUE(fonts) << fonts.error().message;
+      Canvas canvas;
+      canvas.begin(*fonts, width, height);
+      const BadgePlaces places = place_badges(canvas, layout, text);
+      for (const Rect& badge : std::span{places}.first(text.badge_count)) {
+        EXPECT_GE(badge.x, layout.marks.x);
+        EXPECT_GE(badge.y, layout.marks.y);
+        EXPECT_LE(badge.right(), layout.marks.right()) << width << "x" << height;
+        EXPECT_LE(badge.bottom(), layout.marks.bottom())
+            << width << "x" << height << ", kind " << static_cast<int>(kind);
+      }
+    }
+}
+
+// Where everything is said at once, no lower than what is said of a replay.
+TEST_F(HudInAllSizes, that_the_calibration_is_another_cameras_finds_room_beside_all_others) {
+  Status status = worst_status();
+  status.another_camera = true;
+  const HudText text = compose_hud_text({}, status, {});
+  for (const auto& [width, height] : sizes)
+    for (const LayoutKind kind : kinds) {
+      const Layout layout = lay_out(width, height, aspects, kind);
+      const auto fonts = Fonts::create(layout.unit);
+      ASSERT_TRUE(fonts) << fonts.error().message;
+      Canvas canvas;
+      canvas.begin(*fonts, width, height);
+      const BadgePlaces places = place_badges(canvas, layout, text);
+      for (std::size_t i = 0; i < text.badge_count; ++i)
+        if (text.badges[i].kind == BadgeKind::calibration) {
+          EXPECT_LE(places[i].right(), layout.marks.right()) << width << "x" << height;
+          EXPECT_LE(places[i].bottom(), layout.large.y + layout.large.height * 2 / 5)
+              << width << "x" << height << ", kind " << static_cast<int>(kind);
+        }
+    }
+}
+
+// A subject of any length is cut to what is the longest here.
+Status worst_replay() {
+  Status status = worst_status();
+  status.freshness = {Liveness::frozen, std::chrono::seconds{3599}, std::chrono::seconds{3599}};
+  status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03",
+                               .whose = "eye not said, subject Wwwwwwwwwwwwwwww…"};
+  return status;
+}
+
+// What must be seen at once within the marks; the rest, where everything is said at once, no lower
+// than two fifths of the large picture, so that its middle stays free.
+TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
+  const HudText text = compose_hud_text({}, worst_replay(), {});
+  ASSERT_EQ(text.badge_count, HudText::most_badges - 1);
+  for (const auto& [width, height] : sizes)
+    for (const LayoutKind kind : kinds) {
+      const Layout layout = lay_out(width, height, aspects, kind);
+      const auto fonts = Fonts::create(layout.unit);
+      ASSERT_TRUE(fonts) << fonts.error().message;
+      Canvas canvas;
+      canvas.begin(*fonts, width, height);
+      const BadgePlaces places = place_badges(canvas, layout, text);
+      for (std::size_t i = 0; i < text.badge_count; ++i) {
+        const BadgeKind badge = text.badges[i].kind;
+        const bool small = badge == BadgeKind::whose || badge == BadgeKind::incomplete;
+        const int lowest =
+            small ? layout.large.y + layout.large.height * 2 / 5 : layout.marks.bottom();
+        EXPECT_LE(places[i].right(), layout.marks.right())
+            << width << "x" << height << ", " << text.badges[i].text.view();
+        EXPECT_LE(places[i].bottom(), lowest)
+            << width << "x" << height << ", kind " << static_cast<int>(kind) << ", "
+            << text.badges[i].text.view();
+      }
+    }
+}
+
+class HudInAllLayouts : public GlTest {
+protected:
+  static constexpr int width = 1280;
+  static constexpr int height = 720;
+
+  void SetUp() override {
+    open(width, height);
+    if (IsSkipped())
+      return;
+    auto made = Renderer::create();
+    ASSERT_TRUE(made) << made.error().message;
+    renderer_ = std::move(*made);
+    const auto volume = tissue_volume(small_geometry);
+    ASSERT_TRUE(renderer_->show_volume(volume));
+    renderer_->show_levels(level_shares(volume));
+    const ScopePicture scope{320, 240};
+    ASSERT_TRUE(renderer_->show_scope_picture(scope.frame(live_status().now), scope.field()));
+  }
+  void TearDown() override { renderer_.reset(); }
+
+  pipeline::Image draw(const ViewState& view, const Status& status) {
+    const auto drawn = renderer_->draw(view, status, width, height);
+    EXPECT_TRUE(drawn) << drawn.error().message;
+    return renderer_->read_back(width, height);
+  }
+  static int changed(const pipeline::Image& a, const pipeline::Image& b, const Rect& rect) {
+    int count = 0;
+    for (int y = rect.y; y < rect.bottom(); ++y)
+      for (int x = rect.x; x < rect.right(); ++x)
+        count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
+    return count;
+  }
+
+  std::unique_ptr<Renderer> renderer_;
+};
+
+TEST_F(HudInAllLayouts, nothing_hides_the_middle_of_the_large_picture) {
+  Status clean = live_status();
+  clean.simulated = false;
+  for (const LayoutKind kind : kinds) {
+    ViewState view;
+    view.layout = kind;
+    view.b_scan = 20;
+    const Layout layout = lay_out(width, height, aspects, kind);
+    const Rect& large = layout.large;
+    const Rect middle{large.x + (large.width + 3) / 4, large.y + (large.height + 3) / 4,
+                      large.width / 2 - 1, large.height / 2 - 1};
+    const pipeline::Image plain = draw(view, clean);
+    Status worst = worst_status();
+    view.echo.action = Action::window_size;
+    view.echo.until = worst.now + std::chrono::seconds{1};
+    for (const Liveness liveness : {Liveness::stale, Liveness::frozen}) {
+      worst.freshness = {liveness, std::chrono::seconds{3000}, std::chrono::seconds{3000}};
+      EXPECT_EQ(changed(plain, draw(view, worst), middle), 0) << static_cast<int>(kind);
+    }
+  }
+}
+
+TEST_F(HudInAllLayouts, nothing_old_looks_live_in_any_layout_nor_to_any_eye) {
+  for (const LayoutKind kind : kinds)
+    for (const StereoMode stereo :
+         {StereoMode::off, StereoMode::side_by_side, StereoMode::top_bottom}) {
+      ViewState view;
+      view.layout = kind;
+      view.stereo = stereo;
+      const Layout layout = lay_out(width, height, aspects, kind);
+      Status status = live_status();
+      const pipeline::Image live = draw(view, status);
+      for (const Liveness liveness :
+           {Liveness::stale, Liveness::frozen, Liveness::veiled, Liveness::replayed}) {
+        status.freshness = {liveness, std::chrono::seconds{7}, std::chrono::seconds{7}};
+        if (liveness == Liveness::replayed)
+          status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03", .whose = "left eye"};
+        const pipeline::Image old = draw(view, status);
+        for (const StereoEye eye : eyes_of(stereo)) {
+          const EyeFrame frame = eye_frame(stereo, eye, width, height);
+          EXPECT_GT(changed(live, old, frame.place(layout.marks)), 1000)
+              << "no badge, layout " << static_cast<int>(kind);
+          for (const Rect* picture :
+               {&layout.view, &layout.b_scan.picture, &layout.en_face.picture}) {
+            if (picture->empty())
+              continue;
+            const Rect seen = frame.place(*picture);
+            EXPECT_GT(changed(live, old, seen), seen.width + seen.height)
+                << "no frame, layout " << static_cast<int>(kind);
+          }
+        }
+      }
+    }
+}
+
+TEST_F(HudInAllLayouts, an_old_microscope_picture_is_framed_and_dark_in_every_layout) {
+  for (const LayoutKind kind : kinds) {
+    ViewState view;
+    view.layout = kind;
+    const Rect rect = lay_out(width, height, aspects, kind).scope.picture;
+    const pipeline::Image live = draw(view, live_status());
+    Status later = live_status();
+    later.now += std::chrono::seconds{3};
+    EXPECT_GT(changed(live, draw(view, later), rect), rect.width * rect.height * 9 / 10);
+  }
+}
+
+TEST_F(HudInAllLayouts, missing_b_scans_show_in_the_volume_itself) {
+  auto volume = tissue_volume(small_geometry);
+  ViewState view;
+  view.b_scan = 30;
+  const Rect rect = lay_out(width, height, aspects).view;
+  const auto warnings = [&] {
+    const pipeline::Image image = draw(view, live_status());
+    int count = 0;
+    for (int y = rect.height / 8; y < rect.height; ++y)
+      for (int x = 0; x < rect.width; ++x) {
+        const auto p = image.pixel(x, y);
+        count += p[0] > 240 && p[1] > 170 && p[1] < 200 && p[2] < 100 ? 1 : 0;
+      }
+    return count;
+  };
+  EXPECT_EQ(warnings(), 0);
+  volume.b_scan_states[12] = pipeline::BScanState::missing;
+  ASSERT_TRUE(renderer_->show_volume(volume));
+  const int one = warnings();
+  EXPECT_GT(one, 30);
+  for (const std::size_t b : {13U, 14U, 15U})
+    volume.b_scan_states[b] = pipeline::BScanState::missing;
+  ASSERT_TRUE(renderer_->show_volume(volume));
+  EXPECT_GT(warnings(), 2 * one);
+}
+
+TEST_F(HudInAllLayouts, the_histogram_shows_while_the_window_is_turned_and_only_then) {
+  const Rect rect = lay_out(width, height, aspects).histogram;
+  const Status status = live_status();
+  ViewState view;
+  const pipeline::Image plain = draw(view, status);
+  view.echo.until = status.now + std::chrono::seconds{1};
+  view.echo.action = Action::tilt;
+  EXPECT_EQ(changed(plain, draw(view, status), rect), 0);
+  view.echo.action = Action::window_offset;
+  const pipeline::Image shown = draw(view, status);
+  EXPECT_GT(changed(plain, shown, rect), rect.width * rect.height / 2);
+  view.window_offset_db += 10;
+  EXPECT_GT(changed(shown, draw(view, status), rect), 100) << "the ramp moves";
+}
+
+TEST(HudText, reduced_quality_is_said_quietly) {
+  Status status = live_status();
+  EXPECT_TRUE(compose_hud_text({}, status, {}).reduced.empty());
+  status.reduced_quality = 0.678F;
+  const HudText text = compose_hud_text({}, status, {});
+  EXPECT_EQ(text.reduced.view(), "quality reduced to 67 %") << "rounded down";
+  EXPECT_EQ(text.volume.note.view(), "quality reduced to 67 %");
+  EXPECT_EQ(text.volume.note_tone, Tone::quiet);
+}
+
+// Corners of the slice against the matrices, and the box's own edges for what is in front.
+TEST(BoxMarks, a_slice_lies_between_the_boxs_edges) {
+  constexpr glm::vec3 extents{3, 1.8F, 2.4F};
+  ViewState view;
+  view.yaw_deg = 30;
+  view.tilt_deg = 25;
+  const Camera camera = make_camera(view, extents, 1);
+  const Rect rect{0, 0, 400, 400};
+  const auto at = [&](float x, float y, float z) {
+    const glm::vec2 p = camera.project({x, y, z}) * 400.0F;
+    return glm::vec2{200 + p.x, 200 + p.y};
+  };
+  const auto slice = project_slice(camera, extents, 0.75F, rect);
+  int in_front = 0;
+  for (const BoxEdge& edge : slice) {
+    in_front += edge.in_front ? 1 : 0;
+    for (const glm::vec2 end : {edge.from, edge.to}) {
+      float nearest = 1e9F;
+      for (const float x : {-1.5F, 1.5F})
+        for (const float y : {-0.9F, 0.9F})
+          nearest = std::min(nearest, glm::length(end - at(x, y, 0.6F)));
+      EXPECT_LT(nearest, 0.01F);
+    }
+  }
+  EXPECT_EQ(in_front, 2) << "on the upper face and on the one towards the eye";
+  const auto edges = project_slow_edges(camera, extents, 0, 1, rect);
+  for (const BoxEdge& edge : edges)
+    EXPECT_TRUE(std::ranges::any_of(project_box(camera, extents, rect), [&](const BoxEdge& other) {
+      return glm::length(edge.from - other.from) + glm::length(edge.to - other.to) < 0.01F &&
+             edge.in_front == other.in_front;
+    }));
+}
+
+} // namespace
+} // namespace octascope::tests

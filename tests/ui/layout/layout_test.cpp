@@ -1,0 +1,200 @@
+// Layouts of all kinds at the sizes of displays and at random ones.
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/files/fresh_seed.h"
+#include "ui/layout/layout.h"
+
+namespace octascope::ui {
+namespace {
+
+constexpr std::array kinds{LayoutKind::volume, LayoutKind::b_scan, LayoutKind::microscope,
+                           LayoutKind::quad};
+
+struct Case {
+  int width;
+  int height;
+  PictureAspects aspects;
+  LayoutKind kind;
+
+  Layout layout() const { return lay_out(width, height, aspects, kind); }
+  std::string words() const {
+    return fmt::format("{}x{}, kind {}, aspects {} {} {}{}", width, height, static_cast<int>(kind),
+                       aspects.b_scan, aspects.en_face, aspects.scope,
+                       aspects.has_scope ? "" : ", no scope");
+  }
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const auto& [w, h] : {std::pair{1920, 1080},
+                             {1280, 720},
+                             {3840, 2160},
+                             {1024, 768},
+                             {1600, 1200},
+                             {1280, 1024},
+                             {640, 360},
+                             {720, 1280},
+                             {1080, 1920}})
+    for (const LayoutKind kind : kinds)
+      for (const bool has_scope : {true, false})
+        for (const double scope : {4.0 / 3, 16.0 / 9})
+          all.push_back({w, h, {1.67, 1, scope, has_scope}, kind});
+  std::mt19937 random{tests::fresh_seed()};
+  std::uniform_int_distribution<int> length{320, 4096};
+  std::uniform_real_distribution<double> aspect{-1, 1};
+  const auto any = [&] { return std::exp2(1.5 * aspect(random)); };
+  for (int i = 0; i < 4000; ++i) {
+    const int width = length(random);
+    const int height = std::clamp(length(random), width / 3, width * 3);
+    all.push_back({width,
+                   height,
+                   {any(), any(), any(), i % 3 != 0},
+                   kinds[static_cast<std::size_t>(i) % kinds.size()]});
+  }
+  return all;
+}
+
+bool within(const Rect& inner, const Rect& outer) {
+  return inner.x >= outer.x && inner.y >= outer.y && inner.right() <= outer.right() &&
+         inner.bottom() <= outer.bottom();
+}
+
+bool overlap(const Rect& a, const Rect& b) {
+  return !a.empty() && !b.empty() && a.x < b.right() && b.x < a.right() && a.y < b.bottom() &&
+         b.y < a.bottom();
+}
+
+Rect middle_of(const Rect& rect) {
+  // Rounded inwards: a quarter of an odd length ends within a pixel.
+  return {rect.x + (rect.width + 3) / 4, rect.y + (rect.height + 3) / 4, rect.width / 2 - 1,
+          rect.height / 2 - 1};
+}
+
+TEST(Layout, nothing_overlaps_but_the_inset_and_everything_is_inside) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.words());
+    const Layout l = c.layout();
+    const Rect screen{0, 0, c.width, c.height};
+    std::vector<Rect> plates{l.status_bar, l.view_frame.empty() ? l.view : l.view_frame};
+    for (const Panel* panel : {&l.b_scan, &l.en_face, &l.scope})
+      if (panel->shown()) {
+        ASSERT_TRUE(within(panel->picture, panel->frame));
+        ASSERT_TRUE(within(panel->title, panel->frame));
+        ASSERT_FALSE(overlap(panel->picture, panel->title));
+        plates.push_back(panel->frame);
+      }
+    if (!l.view_frame.empty()) {
+      ASSERT_TRUE(within(l.view, l.view_frame));
+      ASSERT_FALSE(overlap(l.view, l.view_title));
+    }
+    ASSERT_FALSE(l.view.empty());
+    for (std::size_t i = 0; i < plates.size(); ++i) {
+      ASSERT_TRUE(within(plates[i], screen)) << i;
+      for (std::size_t k = i + 1; k < plates.size(); ++k) {
+        const bool declared = l.inset && i == 1 && plates[k] == l.scope.frame;
+        ASSERT_TRUE(declared || !overlap(plates[i], plates[k])) << i << " and " << k;
+      }
+    }
+    for (const Rect& plate : plates)
+      ASSERT_TRUE(l.kind == LayoutKind::volume || !overlap(l.marks, plate));
+  }
+}
+
+TEST(Layout, pictures_have_their_physical_aspect) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.words());
+    const Layout l = c.layout();
+    const auto expect_aspect = [](const Panel& panel, double aspect) {
+      if (!panel.shown())
+        return;
+      // Each side is rounded to a pixel.
+      const Rect& p = panel.picture;
+      ASSERT_NEAR(p.width, p.height * aspect, 1 + 0.5 * aspect);
+    };
+    expect_aspect(l.b_scan, c.aspects.b_scan);
+    expect_aspect(l.en_face, c.aspects.en_face);
+    expect_aspect(l.scope, c.aspects.scope);
+  }
+}
+
+TEST(Layout, what_lies_over_the_large_picture_leaves_its_middle_free) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.words());
+    const Layout l = c.layout();
+    const Rect middle = middle_of(l.large);
+    const Rect screen{0, 0, c.width, c.height};
+    ASSERT_TRUE(within(l.large, l.stage));
+    for (const Rect* over : {&l.marks, &l.notice, &l.echo, &l.legend, &l.histogram}) {
+      ASSERT_TRUE(over->empty() || within(*over, screen));
+      ASSERT_FALSE(overlap(*over, middle))
+          << over->x << " " << over->y << " " << over->width << " " << over->height;
+    }
+    ASSERT_FALSE(l.inset && overlap(l.view_frame, middle));
+    for (const Rect* over : {&l.echo, &l.histogram, &l.notice})
+      ASSERT_FALSE(overlap(*over, l.status_bar));
+    ASSERT_FALSE(overlap(l.echo, l.histogram));
+    for (const Rect* beside : {&l.histogram, &l.echo, &l.status_bar, &l.marks})
+      ASSERT_FALSE(overlap(l.legend, *beside));
+    ASSERT_FALSE(overlap(l.echo, l.notice));
+    ASSERT_TRUE(l.cube.empty() || within(l.cube, l.view));
+    ASSERT_FALSE(overlap(l.cube, l.marks));
+  }
+}
+
+TEST(Layout, the_large_picture_is_the_largest) {
+  const auto area = [](const Rect& rect) { return static_cast<double>(rect.width) * rect.height; };
+  for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}, {3840, 2160}, {1024, 768}})
+    for (const LayoutKind kind : {LayoutKind::volume, LayoutKind::b_scan, LayoutKind::microscope}) {
+      const Layout l = lay_out(w, h, {1.67, 1, 4.0 / 3}, kind);
+      EXPECT_EQ(l.kind, kind);
+      EXPECT_EQ(l.large, kind == LayoutKind::volume   ? l.view
+                         : kind == LayoutKind::b_scan ? l.b_scan.picture
+                                                      : l.scope.picture);
+      EXPECT_GT(area(l.large), 0.35 * w * h);
+    }
+}
+
+TEST(Layout, four_alike_are_alike) {
+  const Layout l = lay_out(1920, 1080, {1.67, 1, 4.0 / 3}, LayoutKind::quad);
+  for (const Panel* panel : {&l.b_scan, &l.en_face, &l.scope}) {
+    EXPECT_NEAR(panel->frame.width, l.view_frame.width, 1);
+    EXPECT_NEAR(panel->frame.height, l.view_frame.height, 1);
+  }
+}
+
+TEST(Layout, without_a_microscope_its_room_is_shared) {
+  const PictureAspects with{1.67, 1, 4.0 / 3, true};
+  PictureAspects without = with;
+  without.has_scope = false;
+  for (const LayoutKind kind : kinds) {
+    const Layout l = lay_out(1280, 720, without, kind);
+    EXPECT_FALSE(l.scope.shown());
+    EXPECT_TRUE(l.en_face.shown());
+    EXPECT_TRUE(l.b_scan.shown());
+    EXPECT_NE(l.kind, LayoutKind::microscope);
+    const auto height = [&](const PictureAspects& aspects) {
+      return lay_out(1280, 720, aspects, kind).en_face.frame.height;
+    };
+    EXPECT_TRUE(kind == LayoutKind::microscope || kind == LayoutKind::quad ||
+                height(without) > 1.3 * height(with));
+  }
+}
+
+TEST(Layout, a_microscope_picture_that_fills_the_screen_carries_the_volume_as_an_inset) {
+  const Layout wide = lay_out(1920, 1080, {1.67, 1, 2.1}, LayoutKind::microscope);
+  EXPECT_TRUE(wide.inset);
+  EXPECT_TRUE(within(wide.view_frame, wide.scope.picture));
+  EXPECT_EQ(wide.view_frame.right(), wide.scope.picture.right());
+  EXPECT_EQ(wide.view_frame.bottom(), wide.scope.picture.bottom());
+  EXPECT_FALSE(lay_out(1920, 1080, {1.67, 1, 4.0 / 3}, LayoutKind::microscope).inset);
+}
+
+} // namespace
+} // namespace octascope::ui

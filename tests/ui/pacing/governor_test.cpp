@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/files/fresh_seed.h"
+#include "ui/pacing/governor.h"
+
+namespace octascope::tests {
+namespace {
+
+using namespace std::chrono_literals;
+using ui::Governor;
+using ui::Technique;
+
+constexpr ui::FrameBudget budget{30ms, 45ms};
+
+// What drawing costs on a made-up machine: not the governor's own model.
+struct Machine {
+  double fixed_ms = 4;
+  double volume_ms = 0; // for a picture of the volume, of any quality
+  double full_ms = 60;
+  double exponent = 1; // of the share of samples: 1 is the governor's model
+  double noise = 0;    // standard deviation of the logarithm
+  double spikes = 0;   // share of frames that are interrupted, for ten times as long
+
+  double true_ms(const ui::DrawQuality& quality) const {
+    return fixed_ms + volume_ms + full_ms * std::pow(ui::sample_share(quality), exponent);
+  }
+  template <class Generator>
+  double frame_ms(const ui::DrawQuality& quality, Generator& generator) const {
+    double ms = true_ms(quality);
+    if (noise > 0)
+      ms *= std::lognormal_distribution{0.0, noise}(generator);
+    if (std::uniform_real_distribution{}(generator) < spikes)
+      ms *= 10;
+    return ms;
+  }
+};
+
+class GovernorTest : public testing::Test {
+protected:
+  // HashRandom for `seconds`; returns the quality of every frame.
+  std::vector<ui::DrawQuality> draw(const Machine& machine, double seconds, bool moving,
+                                    bool live = true) {
+    std::vector<ui::DrawQuality> drawn;
+    const hal::TimePoint end = now_ + hal::from_seconds(seconds);
+    while (now_ < end) {
+      const auto quality = governor_.choose({now_, Technique::rays, moving, live});
+      const hal::Duration cost = hal::from_seconds(machine.frame_ms(quality, generator_) * 1e-3);
+      governor_.note(cost, true);
+      governor_.note(hal::from_seconds(machine.fixed_ms * 1e-3), false);
+      now_ += std::max<hal::Duration>(cost, moving ? 16ms : 141ms);
+      drawn.push_back(quality);
+    }
+    return drawn;
+  }
+
+  Governor governor_{budget};
+  std::mt19937_64 generator_{fresh_seed()};
+  hal::TimePoint now_{1h};
+};
+
+int changes(const std::vector<ui::DrawQuality>& drawn) {
+  int count = 0;
+  for (std::size_t i = 1; i < drawn.size(); ++i)
+    count += drawn[i] == drawn[i - 1] ? 0 : 1;
+  return count;
+}
+
+TEST(QualityLadder, goes_down_in_steps_that_are_neither_steep_nor_useless) {
+  const auto ladder = ui::quality_ladder();
+  EXPECT_EQ(ladder.front(), ui::full_quality);
+  EXPECT_DOUBLE_EQ(ui::sample_share(ui::full_quality), 1);
+  for (std::size_t i = 1; i < ladder.size(); ++i) {
+    const double step = ui::sample_share(ladder[i]) / ui::sample_share(ladder[i - 1]);
+    EXPECT_LT(step, 0.9) << i;
+    EXPECT_GT(step, 0.6) << i;
+  }
+}
+
+TEST_F(GovernorTest, a_machine_that_can_draws_everything_in_full) {
+  const Machine gpu{.fixed_ms = 0.5, .full_ms = 4};
+  draw(gpu, 1, true);
+  EXPECT_EQ(draw(gpu, 1, true).back(), ui::full_quality);
+  EXPECT_EQ(changes(draw(gpu, 10, true)), 0);
+}
+
+TEST_F(GovernorTest, holds_the_budget_on_machines_of_any_speed_and_wastes_little) {
+  std::uniform_real_distribution<double> full{20, 300};
+  std::uniform_real_distribution<double> exponent{0.75, 1.25};
+  for (int machine_index = 0; machine_index < 200; ++machine_index) {
+    governor_ = Governor{budget};
+    const Machine machine{.fixed_ms = 4,
+                          .full_ms = full(generator_),
+                          .exponent = exponent(generator_),
+                          .noise = 0.08};
+    SCOPED_TRACE(testing::Message() << machine.full_ms << " ms, exponent " << machine.exponent);
+    draw(machine, 5, true);
+    const auto drawn = draw(machine, 20, true);
+    const double ms = machine.true_ms(drawn.back());
+    EXPECT_LT(ms, 30 * 1.12);
+    if (drawn.back() != ui::full_quality) {
+      EXPECT_GT(ms, 30 * 0.45);
+    }
+    EXPECT_LE(changes(drawn), 4) << "it swings";
+  }
+}
+
+// What does not grow with the samples makes coarse qualities look dear: from there the governor
+// must not believe that finer ones are dearer by as much.
+TEST_F(GovernorTest, comes_back_from_the_coarsest_quality) {
+  Machine machine{.volume_ms = 6, .full_ms = 400, .noise = 0.05};
+  draw(machine, 4, true);
+  machine.full_ms = 40;
+  draw(machine, 4, true);
+  EXPECT_GT(machine.true_ms(draw(machine, 0.5, true).back()), 15);
+  EXPECT_LE(changes(draw(machine, 10, true)), 3);
+}
+
+TEST_F(GovernorTest, interrupted_frames_change_nothing) {
+  const Machine machine{.full_ms = 70, .noise = 0.05, .spikes = 0.02};
+  draw(machine, 5, true);
+  EXPECT_LE(changes(draw(machine, 60, true)), 4);
+}
+
+TEST_F(GovernorTest, follows_a_scene_that_becomes_more_costly_within_half_a_second) {
+  Machine machine{.full_ms = 30};
+  draw(machine, 3, true);
+  machine.full_ms = 120;
+  draw(machine, 0.5, true);
+  EXPECT_LT(machine.true_ms(draw(machine, 0.1, true).back()), 33);
+  machine.full_ms = 30;
+  draw(machine, 0.5, true);
+  EXPECT_GT(machine.true_ms(draw(machine, 0.1, true).back()), 15) << "and back";
+}
+
+TEST_F(GovernorTest, a_picture_that_stands_still_is_drawn_in_full_whatever_it_costs) {
+  const Machine slow{.full_ms = 400};
+  draw(slow, 3, true);
+  EXPECT_LT(governor_.choose({now_, Technique::rays, true, false}).resolution, 1);
+  now_ += Governor::rest_after;
+  EXPECT_EQ(governor_.choose({now_, Technique::rays, false, false}), ui::full_quality);
+  governor_.note(400ms, true);
+  now_ += 400ms;
+  EXPECT_LT(governor_.choose({now_, Technique::rays, true, false}).resolution, 1)
+      << "and at once coarse again when the view moves";
+}
+
+TEST_F(GovernorTest, live_volumes_of_a_still_view_get_the_larger_budget) {
+  const Machine machine{.full_ms = 60};
+  draw(machine, 3, true);
+  const auto moving = draw(machine, 0.2, true).back();
+  draw(machine, 3, false);
+  const auto resting = draw(machine, 1, false).back();
+  EXPECT_GT(ui::sample_share(resting), ui::sample_share(moving));
+  EXPECT_LT(machine.true_ms(resting), 45);
+  EXPECT_EQ(draw(machine, 0.1, true).front(), moving) << "remembered";
+}
+
+TEST_F(GovernorTest, predicts_what_it_has_learnt) {
+  const Machine machine{.full_ms = 80, .exponent = 0.9};
+  EXPECT_EQ(governor_.predict(Technique::rays, ui::full_quality), hal::Duration{});
+  const auto quality = draw(machine, 5, true).back();
+  EXPECT_NEAR(hal::to_ms(governor_.predict(Technique::rays, quality)), machine.true_ms(quality),
+              0.05 * machine.true_ms(quality));
+  EXPECT_EQ(governor_.predict(Technique::planes, quality), hal::Duration{})
+      << "each technique is known by itself";
+}
+
+} // namespace
+} // namespace octascope::tests

@@ -1,0 +1,205 @@
+// The volume on the display: whoever draws it, it is the same picture, kept while it holds.
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "pipeline/files/png_image.h"
+#include "pipeline/volume/volume_geometry.h"
+#include "tests/ui/support/gl_test.h"
+#include "tests/ui/support/picture_file.h"
+#include "tests/ui/support/scene.h"
+#include "tests/ui/support/synthetic_volume.h"
+#include "ui/scene/volume_painter.h"
+
+namespace octascope::tests {
+namespace {
+
+constexpr int width = 320;
+constexpr int height = 200;
+constexpr ui::Rect rect{0, 0, width, height};
+constexpr ui::DrawQuality by_processor{1, 512, ui::RayBackend::processor};
+constexpr ui::DrawQuality by_shader{1, 512, ui::RayBackend::shader};
+
+ui::ViewState view_from(float yaw_deg, float tilt_deg, float distance, float opacity = 0.5F) {
+  ui::ViewState view;
+  view.yaw_deg = yaw_deg;
+  view.tilt_deg = tilt_deg;
+  view.distance = distance;
+  view.opacity = opacity;
+  return view;
+}
+
+class VolumePainterTest : public GlTest {
+protected:
+  void SetUp() override {
+    open(width, height);
+    if (IsSkipped())
+      return;
+    auto made = ui::VolumePainter::create();
+    ASSERT_TRUE(made) << made.error().message;
+    painter_.emplace(std::move(*made));
+  }
+  void TearDown() override { painter_.reset(); }
+
+  ui::Camera camera(const ui::ViewState& view) const {
+    return ui::make_camera(view, ui::box_extents_mm(painter_->texture().geometry()),
+                           static_cast<float>(width) / height);
+  }
+
+  hal::Result<> show(const pipeline::Volume& volume) {
+    shown_ = volume;
+    return painter_->show(volume);
+  }
+
+  pipeline::Image draw(const ui::ViewState& view, const ui::DrawQuality& quality, float ground = 0,
+                       ui::StereoEye eye = ui::StereoEye::left) {
+    const auto ready = painter_->finish(shown_, view);
+    EXPECT_TRUE(ready) << ready.error().message;
+    const auto updated = painter_->update(eye, view, camera(view), quality, rect);
+    EXPECT_TRUE(updated) << updated.error().message;
+    return composite(ground, eye);
+  }
+
+  pipeline::Image composite(float ground, ui::StereoEye eye) const {
+    glViewport(0, 0, width, height);
+    glClearColor(ground, ground, ground, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    painter_->composite(eye, rect, height);
+    pipeline::Image image{width, height, 3};
+    std::vector<std::uint8_t> rgba(4 * width * height);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+    for (std::size_t i = 0; i < rgba.size() / 4; ++i)
+      for (std::size_t c = 0; c < 3; ++c)
+        image.pixels[3 * i + c] = rgba[4 * i + c];
+    return image;
+  }
+
+  static int brightest(const pipeline::Image& image) {
+    return *std::max_element(image.pixels.begin(), image.pixels.end());
+  }
+
+  std::optional<ui::VolumePainter> painter_;
+  pipeline::Volume shown_;
+};
+
+TEST_F(VolumePainterTest, processor_shader_and_planes_make_the_same_picture) {
+  pipeline::Volume volume = tissue_volume(small_geometry);
+  for (const bool incomplete : {false, true}) {
+    if (incomplete)
+      mark_incomplete(volume);
+    ASSERT_TRUE(show(volume));
+    for (ui::ViewState view : {view_from(35, 35, 2.4F, 0.5F), view_from(80, 10, 0.7F, 0.03F)})
+      for (const float ground : {0.0F, 1.0F}) { // colour, and colour and opacity together
+        const std::string what = std::string{incomplete ? "incomplete" : "whole"} + ", yaw " +
+                                 std::to_string(view.yaw_deg) + " on " + std::to_string(ground);
+        view.technique = ui::Technique::rays;
+        const pipeline::Image processor = draw(view, by_processor, ground);
+        const pipeline::Image shader = draw(view, by_shader, ground);
+        view.technique = ui::Technique::planes;
+        const pipeline::Image planes = draw(view, {1, 1024}, ground);
+        EXPECT_LE(compare(processor, shader).mean, 1) << what;
+        EXPECT_LE(compare(processor, planes).mean, 2) << what;
+        EXPECT_LE(compare(shader, planes).mean, 2) << what;
+      }
+  }
+}
+
+// The volume is shown anew behind the painter's back: only what is drawn again can tell.
+TEST_F(VolumePainterTest, draws_again_only_when_something_changed) {
+  for (const ui::Technique technique : ui::all_techniques)
+    for (const ui::DrawQuality& quality : {by_shader, by_processor}) {
+      ASSERT_TRUE(show(tissue_volume(small_geometry)));
+      ui::ViewState view = view_from(35, 35, 2.4F);
+      view.technique = technique;
+      const pipeline::Image first = draw(view, quality);
+      EXPECT_GT(brightest(first), 50) << ui::to_string(technique);
+      view.b_scan += 1; // shows elsewhere only
+      view.legend_visible = !view.legend_visible;
+      EXPECT_EQ(draw(view, quality).pixels, first.pixels);
+      const auto changed = [&](auto&& change) {
+        ui::ViewState other = view;
+        change(other);
+        EXPECT_NE(draw(other, quality).pixels, first.pixels) << ui::to_string(technique);
+        EXPECT_EQ(draw(view, quality).pixels, first.pixels) << ui::to_string(technique);
+      };
+      changed([](ui::ViewState& v) { v.yaw_deg += 5; });
+      changed([](ui::ViewState& v) { v.tilt_deg += 5; });
+      changed([](ui::ViewState& v) { v.distance += 0.2F; });
+      changed([](ui::ViewState& v) { v.window_offset_db += 3; });
+      changed([](ui::ViewState& v) { v.window_size_db += 5; });
+      ASSERT_TRUE(show(uniform_volume(small_geometry, 0)));
+      EXPECT_EQ(brightest(draw(view, quality)), 0) << "the volume is empty now";
+    }
+}
+
+TEST_F(VolumePainterTest, eyes_have_their_own_pictures) {
+  ASSERT_TRUE(show(tissue_volume(small_geometry)));
+  const ui::ViewState left = view_from(33, 35, 2.4F);
+  const ui::ViewState right = view_from(37, 35, 2.4F);
+  for (const ui::DrawQuality& quality : {by_shader, by_processor}) {
+    const pipeline::Image from_left = draw(left, quality, 0, ui::StereoEye::left);
+    const pipeline::Image from_right = draw(right, quality, 0, ui::StereoEye::right);
+    EXPECT_NE(from_left.pixels, from_right.pixels);
+    EXPECT_EQ(composite(0, ui::StereoEye::left).pixels, from_left.pixels);
+    EXPECT_EQ(draw(right, quality, 0, ui::StereoEye::left).pixels, from_right.pixels);
+  }
+}
+
+TEST_F(VolumePainterTest, takes_an_occupancy_that_is_ready) {
+  const pipeline::Volume volume = tissue_volume(small_geometry);
+  ASSERT_TRUE(show(volume));
+  const ui::ViewState view = view_from(35, 35, 2.4F);
+  const pipeline::Image own = draw(view, by_shader);
+  pipeline::Occupancy occupancy{small_geometry, pipeline::blank_depth_bins};
+  occupancy.update(volume);
+  ASSERT_TRUE(painter_->show(volume, occupancy));
+  EXPECT_EQ(draw(view, by_shader).pixels, own.pixels);
+  // Nothing in it: all is leapt over, so it is this one that is used.
+  occupancy.update(uniform_volume(small_geometry, 0));
+  ASSERT_TRUE(painter_->show(volume, occupancy));
+  EXPECT_EQ(brightest(draw(view, by_shader)), 0);
+  EXPECT_EQ(brightest(draw(view, by_processor)), 0);
+
+  const auto other = painter_->show(volume, pipeline::Occupancy{full_geometry, 2});
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().code, hal::ErrorCode::invalid_argument);
+}
+
+TEST_F(VolumePainterTest, says_who_casts_the_rays) {
+  EXPECT_EQ(painter_->backend(by_processor), ui::RayBackend::shader) << "nothing to draw yet";
+  ASSERT_TRUE(show(tissue_volume(small_geometry)));
+  EXPECT_EQ(painter_->backend(by_shader), ui::RayBackend::shader);
+  draw(view_from(0, 0, 3), by_processor); // asks for it
+  ASSERT_TRUE(show(tissue_volume(small_geometry)));
+  EXPECT_EQ(painter_->backend(by_processor), ui::RayBackend::processor);
+}
+
+TEST_F(VolumePainterTest, sets_up_every_thread_that_it_starts) {
+  std::mutex mutex;
+  std::multiset<std::string> roles;
+  const auto note = [&](pipeline::ThreadRole role) {
+    const std::lock_guard lock{mutex};
+    roles.emplace(role.name);
+  };
+  auto made = ui::VolumePainter::create({}, note);
+  ASSERT_TRUE(made) << made.error().message;
+  painter_.emplace(std::move(*made));
+  const auto volume = tissue_volume(small_geometry);
+  ASSERT_TRUE(painter_->show(volume));
+  draw({}, by_processor); // the helpers are wanted
+  ui::ViewState view;
+  view.technique = ui::Technique::surface;
+  ASSERT_TRUE(painter_->finish(volume, view));
+  painter_.reset(); // its threads have ended
+  const std::size_t helpers = std::min(std::max(std::thread::hardware_concurrency(), 1U) - 1, 15U);
+  EXPECT_EQ(roles.count("rays"), helpers);
+  EXPECT_EQ(roles.count("surface"), 1U);
+  EXPECT_EQ(roles.size(), helpers + 1);
+}
+
+} // namespace
+} // namespace octascope::tests

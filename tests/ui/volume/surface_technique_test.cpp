@@ -1,0 +1,216 @@
+// Pictures of iso-surfaces against closed forms.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "pipeline/volume/level_scale.h"
+#include "tests/ui/support/gl_test.h"
+#include "ui/gl/picture_texture.h"
+#include "ui/ray_caster/ray_frame.h"
+#include "ui/volume/surface_technique.h"
+
+namespace octascope::tests {
+namespace {
+
+constexpr int size = 240;
+constexpr pipeline::VolumeGeometry cube{64, 64, 64, 50, 50, 50};
+constexpr float radius_mm = 1.1F;
+
+// Levels fall by 20 dB a millimetre from a ball's surface, where they are 20 dB.
+pipeline::Volume ball() {
+  pipeline::Volume volume{cube};
+  std::ranges::fill(volume.b_scan_states, pipeline::BScanState::good);
+  std::size_t i = 0;
+  for (int b = 0; b < 64; ++b)
+    for (int a = 0; a < 64; ++a)
+      for (int z = 0; z < 64; ++z) {
+        const glm::vec3 place = glm::vec3{glm::ivec3{a, z, b}} - 31.5F;
+        const float outside_mm = glm::length(place) * 0.05F - radius_mm;
+        volume.levels[i++] = pipeline::quantise_level(20 - 20 * outside_mm);
+      }
+  return volume;
+}
+
+class SurfaceTechniqueTest : public GlTest {
+protected:
+  void SetUp() override {
+    open(size, size);
+    if (IsSkipped())
+      return;
+    auto made = ui::SurfaceTechnique::create();
+    ASSERT_TRUE(made) << made.error().message;
+    technique_ = std::move(*made);
+    transfer_.emplace();
+    colour_ = ui::gl::make_picture_texture(GL_RGBA8, size, size);
+    depth_ = ui::gl::make_picture_texture(GL_DEPTH_COMPONENT16, size, size);
+    framebuffer_ = ui::gl::Framebuffer::make();
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.name(), 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.name(), 0);
+    ASSERT_EQ(glCheckFramebufferStatus(GL_FRAMEBUFFER), GLenum{GL_FRAMEBUFFER_COMPLETE});
+    view_.yaw_deg = 0;
+    view_.tilt_deg = 0;
+    view_.distance = 4;
+    view_.window_offset_db = 0;
+    view_.window_size_db = 40; // the surface at 20 dB
+  }
+  void TearDown() override {
+    technique_.reset();
+    transfer_.reset();
+    colour_ = {};
+    depth_ = {};
+    framebuffer_ = {};
+  }
+
+  ui::Camera camera() const { return make_camera(view_, ui::box_extents_mm(cube), 1); }
+
+  void draw() {
+    glViewport(0, 0, size, size);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT);
+    const ui::Camera eye = camera();
+    technique_->draw({texture_, *transfer_, eye, view_, 0.05F});
+    pixels_.resize(std::size_t{size} * size);
+    glReadPixels(0, 0, size, size, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
+    EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
+  }
+  void draw_finished() {
+    technique_->finish(view_);
+    draw();
+  }
+
+  using Pixel = std::array<std::uint8_t, 4>;
+  // x to the right and y down, from the picture's middle.
+  Pixel pixel(int x, int y) const {
+    return pixels_[static_cast<std::size_t>((size / 2 - 1 - y) * size + size / 2 + x)];
+  }
+  std::ptrdiff_t opaque_pixels() const {
+    return std::ranges::count_if(pixels_, [](const Pixel& p) { return p[3] == 255; });
+  }
+  // Pixels from the middle to where a ball seen from the eye ends: at the tangent.
+  float silhouette(float radius) const {
+    const ui::Camera eye = camera();
+    const float distance = glm::length(eye.eye);
+    const float tangent = radius / std::sqrt(distance * distance - radius * radius);
+    return tangent / eye.tan_half_height * size / 2;
+  }
+
+  std::unique_ptr<ui::SurfaceTechnique> technique_;
+  ui::gl::Texture colour_, depth_;
+  ui::gl::Framebuffer framebuffer_;
+  ui::VolumeTexture texture_;
+  std::optional<ui::TransferTexture> transfer_; // wants a context, as all of GL
+  ui::ViewState view_;
+  std::vector<Pixel> pixels_;
+};
+
+TEST_F(SurfaceTechniqueTest, a_ball_has_its_silhouette_from_everywhere) {
+  technique_->show(ball());
+  for (const auto& [yaw, tilt] : {std::pair{0.0F, 0.0F}, {40.0F, 35.0F}, {180.0F, -60.0F}}) {
+    view_.yaw_deg = yaw;
+    view_.tilt_deg = tilt;
+    draw_finished();
+    const double expected = std::acos(-1) * std::pow(static_cast<double>(silhouette(radius_mm)), 2);
+    EXPECT_NEAR(static_cast<double>(opaque_pixels()), expected, 0.02 * expected);
+  }
+  EXPECT_GT(technique_->triangles(), 1000U);
+}
+
+// On the line through the ball's middle the surface faces the eye; at the silhouette it is edge-on.
+TEST_F(SurfaceTechniqueTest, is_lit_by_a_lamp_at_the_eye_with_depth_cue) {
+  technique_->show(ball());
+  draw_finished();
+  const ui::Camera eye = camera();
+  const float half = 1.6F; // of the cube
+  const float cue = 1 - ui::depth_cue * (half - radius_mm) / (2 * half);
+  EXPECT_NEAR(pixel(0, 0)[0], 255 * 0.8F * cue, 2);
+  EXPECT_EQ(pixel(0, 0)[3], 255);
+  // Where the ray from the eye meets the ball, and how steeply.
+  const int x = static_cast<int>(silhouette(radius_mm) * 0.85F);
+  const float slope = (static_cast<float>(x) + 0.5F) / (size / 2) * eye.tan_half_height;
+  const glm::vec3 ray = glm::normalize(glm::vec3{slope, 0, -1});
+  const float along = glm::dot(-eye.eye, ray);
+  const float closest = std::sqrt(glm::dot(eye.eye, eye.eye) - along * along);
+  const float facing = std::sqrt(1 - closest * closest / (radius_mm * radius_mm));
+  const float depth = (along - radius_mm * facing) * -ray.z;
+  const float light = (ui::ambient_light + (1 - ui::ambient_light) * facing) *
+                      (1 - ui::depth_cue * (depth - (glm::length(eye.eye) - half)) / (2 * half));
+  EXPECT_NEAR(pixel(x, 0)[0], 255 * 0.8F * light, 5);
+}
+
+TEST_F(SurfaceTechniqueTest, near_parts_hide_far_ones) {
+  // Two plates across the view, the near one smaller; drawn from both sides.
+  pipeline::Volume plates{cube};
+  std::ranges::fill(plates.b_scan_states, pipeline::BScanState::good);
+  for (int a = 16; a < 48; ++a)
+    for (int z = 16; z < 48; ++z)
+      for (const int b : {8, 9, 10, 53, 54, 55})
+        plates.b_scan(b)[static_cast<std::size_t>(a * 64 + z)] = 200;
+  technique_->show(plates);
+  std::array<int, 2> brightness{};
+  for (const int side : {0, 1}) {
+    view_.yaw_deg = side == 0 ? 0.0F : 180.0F;
+    draw_finished();
+    brightness[static_cast<std::size_t>(side)] = pixel(0, 0)[0];
+  }
+  EXPECT_NEAR(brightness[0], brightness[1], 3) << "the depth cue tells near from far";
+  EXPECT_GT(brightness[0], 0.9 * 0.8 * 255 * (1 - 0.4 * 0.25));
+}
+
+TEST_F(SurfaceTechniqueTest, follows_the_window_and_has_the_colours_of_its_map) {
+  technique_->show(ball());
+  draw_finished();
+  const auto at_first = static_cast<double>(opaque_pixels());
+  view_.window_offset_db = 6; // 6 dB more: 0.3 mm further in
+  draw_finished();
+  const double smaller =
+      std::pow(static_cast<double>(silhouette(radius_mm - 0.3F) / silhouette(radius_mm)), 2);
+  EXPECT_NEAR(static_cast<double>(opaque_pixels()) / at_first, smaller, 0.03);
+  const ui::TransferSet set;
+  view_.colour_map = *set.colour_map_named("amber");
+  draw_finished();
+  const auto amber = set.colours(view_).at(0.8F);
+  const Pixel middle = pixel(0, 0);
+  EXPECT_NEAR(static_cast<float>(middle[1]) / static_cast<float>(middle[0]),
+              amber.green / amber.red, 0.02);
+  EXPECT_NEAR(static_cast<float>(middle[2]) / static_cast<float>(middle[0]), amber.blue / amber.red,
+              0.02);
+}
+
+TEST_F(SurfaceTechniqueTest, draws_the_last_mesh_until_there_is_a_newer_one) {
+  draw();
+  EXPECT_EQ(opaque_pixels(), 0) << "no volume, no surface";
+  technique_->show(ball());
+  draw_finished();
+  const std::ptrdiff_t whole = opaque_pixels();
+  EXPECT_GT(whole, 1000);
+  EXPECT_FALSE(technique_->has_newer());
+  const std::uint64_t mesh = technique_->prepare(view_);
+  draw();
+  EXPECT_EQ(opaque_pixels(), whole);
+  EXPECT_EQ(technique_->prepare(view_), mesh) << "the same view needs no new one";
+  view_.window_offset_db = 80; // nothing is so bright
+  draw_finished();
+  EXPECT_EQ(opaque_pixels(), 0);
+  EXPECT_EQ(technique_->triangles(), 0U);
+  EXPECT_EQ(technique_->prepare(view_), mesh + 1);
+}
+
+// The first depth bins hold what the background left behind: never a lid over the picture.
+TEST_F(SurfaceTechniqueTest, has_no_lid_at_zero_delay) {
+  pipeline::Volume lid{cube};
+  std::ranges::fill(lid.b_scan_states, pipeline::BScanState::good);
+  for (std::size_t i = 0; i < lid.levels.size(); ++i)
+    lid.levels[i] = i % 64 < 2 ? 255 : 0;
+  technique_->show(lid);
+  draw_finished();
+  EXPECT_EQ(technique_->triangles(), 0U);
+}
+
+} // namespace
+} // namespace octascope::tests

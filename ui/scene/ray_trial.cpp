@@ -1,0 +1,71 @@
+#include "ui/scene/ray_trial.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "pipeline/volume/level_scale.h"
+#include "ui/gl/framebuffer.h"
+#include "ui/scene/volume_painter.h"
+#include "ui/view/camera.h"
+
+namespace octascope::ui {
+
+namespace {
+
+constexpr Rect rect{0, 0, 320, 180};
+constexpr int steps = 128;
+constexpr std::size_t repeats = 3;
+
+// Speckle from the middle of the depth on, darker with depth, as tissue is.
+pipeline::Volume made_up_tissue() {
+  pipeline::Volume volume{{128, 96, 48, 14, 30, 60}};
+  std::size_t i = 0;
+  std::uint32_t noise = 1;
+  for (std::uint8_t& level : volume.levels) {
+    const std::size_t z = i++ % 128;
+    noise = noise * 1664525U + 1013904223U; // the constants of Numerical Recipes
+    const std::uint32_t speckle = noise >> 27U;
+    level = static_cast<std::uint8_t>(z < 50 ? 70 + speckle : 150 - z / 2 + speckle);
+  }
+  std::ranges::fill(volume.b_scan_states, pipeline::BScanState::good);
+  return volume;
+}
+
+hal::Result<hal::Duration> time_rays(VolumePainter& painter, RayBackend backend,
+                                     const hal::Clock& clock) {
+  ViewState view;
+  view.window_offset_db = pipeline::level_db(105);
+  view.window_size_db = 30;
+  DrawQuality quality{1, steps};
+  quality.rays = backend;
+  std::array<hal::Duration, repeats + 1> times{};
+  for (hal::Duration& time : times) {
+    view.yaw_deg += 10;
+    const hal::TimePoint begin = clock.now();
+    const float aspect = static_cast<float>(rect.width) / static_cast<float>(rect.height);
+    const Camera camera = make_camera(view, box_extents_mm(painter.texture().geometry()), aspect);
+    HAL_CHECK(painter.update(StereoEye::centre, view, camera, quality, rect));
+    gl::finish();
+    time = clock.now() - begin;
+  }
+  // The first one compiles.
+  std::nth_element(times.begin() + 1, times.begin() + 1 + repeats / 2, times.end());
+  return times[1 + repeats / 2];
+}
+
+} // namespace
+
+hal::Result<RayTrial> try_ray_backends(const hal::Clock& clock) {
+  HAL_TRY(auto painter, VolumePainter::create());
+  painter.want_processor();
+  HAL_CHECK(painter.show(made_up_tissue()));
+  if (painter.backend({1, steps, RayBackend::processor}) != RayBackend::processor)
+    return hal::fail(hal::ErrorCode::unsupported,
+                     "no ray caster for this processor: GL casts rays");
+  HAL_TRY(const auto processor, time_rays(painter, RayBackend::processor, clock));
+  HAL_TRY(const auto shader, time_rays(painter, RayBackend::shader, clock));
+  return RayTrial{shader, processor};
+}
+
+} // namespace octascope::ui

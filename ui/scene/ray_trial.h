@@ -1,0 +1,24 @@
+// Who casts rays faster on this machine: measured, not guessed.
+#pragma once
+
+#include "hal/clock.h"
+#include "hal/result.h"
+#include "ui/view/draw_quality.h"
+
+namespace octascope::ui {
+
+struct RayTrial {
+  hal::Duration shader{}; // medians of a few small pictures
+  hal::Duration processor{};
+
+  RayBackend faster() const {
+    return processor < shader ? RayBackend::processor : RayBackend::shader;
+  }
+};
+
+// HashRandom a made-up volume with both, into textures of its own: about a tenth of a second where
+// GL is software. Bound to the thread and context that are current. ErrorCode::unsupported: one of
+// the two cannot draw here, so there is nothing to choose.
+hal::Result<RayTrial> try_ray_backends(const hal::Clock& clock);
+
+} // namespace octascope::ui

@@ -1,0 +1,234 @@
+#include "ui/scene/volume_painter.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "pipeline/volume/volume_geometry.h"
+#include "ui/gl/context_info.h"
+
+namespace octascope::ui {
+
+namespace {
+
+// How the ray casters draw a technique; nothing for those that only GL knows.
+std::optional<RayMode> ray_mode(Technique technique) {
+  switch (technique) {
+  case Technique::rays: return RayMode::composite;
+  case Technique::shaded: return RayMode::shaded;
+  case Technique::maximum: return RayMode::maximum;
+  case Technique::slices:
+  case Technique::planes:
+  case Technique::surface: break;
+  }
+  return std::nullopt;
+}
+
+std::size_t index_of(StereoEye eye) {
+  return eye == StereoEye::right ? 1 : 0;
+}
+
+} // namespace
+
+hal::Result<VolumePainter> VolumePainter::create(const TransferSet& transfers,
+                                                 const pipeline::ThreadSetup& threads) {
+  VolumePainter painter{gl::describe_context().software, transfers, threads};
+  // What every view needs is made here, so that a GL that cannot do it is known at once.
+  HAL_CHECK(painter.pictures_of(StereoEye::left));
+  HAL_CHECK(painter.techniques_.get(ViewState{}.technique));
+  if (painter.software_)
+    painter.make_caster();
+  return painter;
+}
+
+VolumePainter::VolumePainter(bool software, const TransferSet& transfers,
+                             const pipeline::ThreadSetup& threads)
+    : software_{software}, transfers_{transfers}, threads_{threads},
+      transfer_{std::make_unique<TransferTable>()}, techniques_{transfers, threads} {}
+
+// Leaves nothing where the ray caster knows no instruction set of this processor.
+void VolumePainter::make_caster() {
+  constexpr unsigned most_helpers = 15;
+  caster_wanted_ = true;
+  const unsigned helpers =
+      std::clamp(std::thread::hardware_concurrency(), 1U, most_helpers + 1) - 1;
+  if (auto made = RayCaster::create(helpers, threads_))
+    caster_.emplace(std::move(*made));
+}
+
+void VolumePainter::want_processor() {
+  if (!caster_wanted_)
+    make_caster();
+}
+
+hal::Result<VolumePainter::EyePictures*> VolumePainter::pictures_of(StereoEye eye) {
+  auto& kept = pictures_[index_of(eye)];
+  if (!kept) {
+    HAL_TRY(auto made, VolumePicture::create());
+    kept = EyePictures{std::move(made), std::nullopt, std::nullopt};
+  }
+  return &*kept;
+}
+
+hal::Result<> VolumePainter::show(const pipeline::Volume& volume) {
+  if (!volume.occupancy.empty())
+    return show(volume, volume.occupancy);
+  if (own_occupancy_.geometry() != volume.geometry)
+    own_occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
+  if (volume.levels.size() == volume.geometry.voxels()) // else refused below
+    own_occupancy_.update(volume);
+  return show(volume, own_occupancy_);
+}
+
+hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
+                                  const pipeline::Occupancy& occupancy) {
+  if (occupancy.geometry() != volume.geometry)
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "volume display: found the occupancy of a volume of another shape, expected "
+                     "that of the one to be shown");
+  HAL_CHECK(texture_.upload(volume));
+  occupancy_ = occupancy;
+  ++uploads_;
+  caster_shows_ = caster_ && caster_->show(volume, occupancy_);
+  surface_shows_ = techniques_.surface() != nullptr;
+  if (surface_shows_)
+    techniques_.surface()->show(volume);
+  return {};
+}
+
+void VolumePainter::update_transfer(const ViewState& view) {
+  const TransferSource source{view.window_offset_db, view.window_size_db, view.opacity,
+                              view.transfer, view.colour_map};
+  if (transfer_source_ != source) {
+    make_transfer_table(view, transfers_, *transfer_);
+    transfer_texture_.update(*transfer_);
+    transfer_source_ = source;
+  }
+  if (caster_)
+    caster_->set_transfer(*transfer_);
+}
+
+RayBackend VolumePainter::backend(const DrawQuality& quality) const {
+  const RayBackend wanted =
+      quality.rays.value_or(software_ ? RayBackend::processor : RayBackend::shader);
+  return caster_shows_ ? wanted : RayBackend::shader;
+}
+
+hal::Result<> VolumePainter::cast_rays(EyePictures& pictures, const VolumeScene& scene,
+                                       const DrawQuality& quality, const Rect& rect) {
+  if (!pictures.by_processor) {
+    HAL_TRY(auto made, RayCastPicture::create());
+    pictures.by_processor.emplace(std::move(made));
+  }
+  return pictures.by_processor->update(*caster_, scene, *ray_mode(scene.view.technique), quality,
+                                       rect);
+}
+
+hal::Result<> VolumePainter::show_vessels(const PlacedVessels& vessels, const hal::Clock& clock) {
+  if (!vessels_) {
+    HAL_TRY(auto made, VesselOverlay::create(threads_, clock));
+    vessels_.emplace(std::move(made));
+  }
+  vessels_->show(vessels);
+  return {};
+}
+
+hal::Result<std::optional<DepthMask>>
+VolumePainter::update_vessels(StereoEye eye, const VolumeScene& scene, const DrawQuality& quality,
+                              const Rect& rect, MaskReader target) {
+  if (!vessels_)
+    return std::nullopt;
+  return vessels_->update({.eye = eye,
+                           .view = scene.view,
+                           .camera = scene.camera,
+                           .geometry = texture_.geometry(),
+                           .width = picture_pixels(quality, rect.width),
+                           .height = picture_pixels(quality, rect.height),
+                           .detail_px = quality.vessel_detail_px,
+                           .target = target});
+}
+
+hal::Result<> VolumePainter::draw_by_gl(EyePictures& pictures, const VolumeScene& scene,
+                                        const DrawQuality& quality, const Rect& rect) {
+  if (scene.vessels == nullptr || scene.vessels->opacity >= 1)
+    return pictures.by_gl.update(techniques_, scene, quality, rect);
+  if (!pictures.alone_by_gl) {
+    HAL_TRY(auto made, VolumePicture::create());
+    pictures.alone_by_gl.emplace(std::move(made));
+  }
+  VolumeScene alone = scene;
+  alone.vessels = nullptr;
+  HAL_CHECK(pictures.alone_by_gl->update(techniques_, alone, quality, rect));
+  return pictures.by_gl.update(techniques_, scene, quality, rect, &*pictures.alone_by_gl);
+}
+
+hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const Camera& camera,
+                                    const DrawQuality& quality, const Rect& rect) {
+  const auto pictures = pictures_of(eye);
+  if (!pictures)
+    return tl::make_unexpected(pictures.error());
+  if (quality.rays == RayBackend::processor)
+    want_processor();
+  update_transfer(view);
+  VolumeScene scene{
+      texture_,    transfer_texture_, camera, view, step_mm(quality, texture_.geometry()),
+      &occupancy_, uploads_};
+  if (view.technique == Technique::surface) {
+    HAL_CHECK(techniques_.get(view.technique));
+    scene.mesh = techniques_.surface()->prepare(view);
+  }
+  const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
+  (*pictures)->processor_drew = processor;
+  const auto vessels =
+      update_vessels(eye, scene, quality, rect, processor ? MaskReader::processor : MaskReader::gl);
+  if (!vessels)
+    return tl::make_unexpected(vessels.error());
+  scene.vessels = *vessels ? &**vessels : nullptr;
+  return processor ? cast_rays(**pictures, scene, quality, rect)
+                   : draw_by_gl(**pictures, scene, quality, rect);
+}
+
+bool VolumePainter::wants_volume(const ViewState& view) const {
+  return !empty() && view.technique == Technique::surface && !surface_shows_;
+}
+
+bool VolumePainter::has_newer(const ViewState& view) const {
+  return view.technique == Technique::surface && techniques_.surface() != nullptr &&
+         techniques_.surface()->has_newer();
+}
+
+hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewState& view,
+                                    const DrawQuality& quality) {
+  if (quality.rays == RayBackend::processor && !caster_wanted_) {
+    make_caster();
+    HAL_CHECK(show(volume));
+  }
+  if (view.technique != Technique::surface)
+    return {};
+  HAL_CHECK(techniques_.get(view.technique));
+  if (!surface_shows_)
+    HAL_CHECK(show(volume));
+  techniques_.surface()->finish(view);
+  return {};
+}
+
+std::uint64_t VolumePainter::drawings() const {
+  std::uint64_t count = 0;
+  for (const auto& pictures : pictures_)
+    if (pictures)
+      count += pictures->by_gl.drawings() +
+               (pictures->by_processor ? pictures->by_processor->drawings() : 0);
+  return count;
+}
+
+void VolumePainter::composite(StereoEye eye, const Rect& rect, int target_height) const {
+  const auto& pictures = pictures_[index_of(eye)];
+  if (!pictures)
+    return;
+  if (pictures->processor_drew)
+    pictures->by_processor->composite(rect, target_height);
+  else
+    pictures->by_gl.composite(rect, target_height);
+}
+
+} // namespace octascope::ui

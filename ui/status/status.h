@@ -1,0 +1,112 @@
+// What the heads-up display tells about the machine. Plain data, gathered by the host.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "hal/clock.h"
+#include "hal/device.h"
+#include "pipeline/vessels/tree.h"
+#include "pipeline/volume/eye.h"
+#include "ui/controls/legend_lines.h"
+#include "ui/status/freshness.h"
+#include "ui/view/segment_counts.h"
+
+namespace octascope::ui {
+
+// Name and backend are literals or outlive the draw() that reads them.
+struct DeviceStatus {
+  std::string_view name;    // short, for people: "camera", "trigger", "pedal", "scope", "display"
+  std::string_view backend; // "v4l2", "sim", …
+  hal::DeviceState state = hal::DeviceState::absent;
+  bool operator==(const DeviceStatus&) const = default;
+};
+
+struct Losses {
+  std::uint64_t lines = 0;
+  std::uint64_t b_scans = 0;
+  std::uint64_t volumes = 0;
+  bool any() const { return lines != 0 || b_scans != 0 || volumes != 0; }
+  bool operator==(const Losses&) const = default;
+};
+
+// The vessel tree that is shown in the volume.
+struct VesselStatus {
+  enum class State : std::uint8_t { none, loading, shown, failed };
+  State state = State::none;
+  float progress = 0;      // 0…1, while it is loaded
+  bool registered = false; // to the volume; else its place in the picture means nothing
+  std::array<bool, pipeline::vessel_branch_count> branches{}; // which ones it has
+  SegmentCounts account;                                      // of the newest frame that drew it
+  bool operator==(const VesselStatus&) const = default;
+};
+
+// Of a recording that is shown in place of what is under the microscope.
+struct ReplayStatus {
+  std::string recorded; // local date and time of the shown volume; empty: none is shown yet
+  std::string whose;    // eye and subject, as the recording says or does not say
+  bool operator==(const ReplayStatus&) const = default;
+};
+
+// Whether the configuration is the one that was asked for.
+enum class ConfigurationState : std::uint8_t {
+  own,
+  last_good, // an older one, because that one cannot be used
+  built_in,  // the program's own: scale and calibration may be another device's
+};
+
+// Volumes are being kept.
+struct RecordingStatus {
+  bool on = false;
+  hal::Duration lasted{};
+  std::uint64_t not_kept = 0; // volumes for which the disk was too slow
+  pipeline::Eye eye = pipeline::Eye::not_said;
+  bool operator==(const RecordingStatus&) const = default;
+};
+
+struct Status {
+  static constexpr std::size_t most_devices = 8;
+
+  hal::TimePoint now; // of this frame; ages and echoes are judged against it
+
+  double volumes_per_s = 0;
+  double lines_per_s = 0;
+  double frames_per_s = 0;
+  // Camera timestamp of a volume's last line → first frame that shows it. Empty: none measured.
+  std::optional<double> latency_p50_ms;
+  std::optional<double> latency_p95_ms;
+  Losses losses;
+
+  std::array<DeviceStatus, most_devices> devices;
+  std::size_t device_count = 0; // how many of `devices` are used
+
+  std::optional<ReplayStatus> replay; // empty: the volumes are live
+  bool simulated = false;             // any part of the picture is not the patient's
+  std::string source_description;     // "phantom eye, loop of 2.3 s"; short
+
+  ConfigurationState configuration = ConfigurationState::own;
+  bool another_camera = false; // than the calibration's
+
+  Freshness freshness;
+  int missing_b_scans = 0; // of the shown volume
+  int saturated_lines = 0;
+
+  // Set while the volume is drawn more coarsely than it could be: the share of its full fineness.
+  std::optional<float> reduced_quality;
+
+  VesselStatus vessels;
+
+  RecordingStatus recording;
+
+  // What pedal and knob do, and what keys do; null: nothing to show. They outlive every draw().
+  const Legend* legend = nullptr;
+  const Legend* key_legend = nullptr;
+
+  std::string notice; // one line that the surgeon should read; empty: none
+};
+
+} // namespace octascope::ui

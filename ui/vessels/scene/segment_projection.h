@@ -1,0 +1,110 @@
+// A segment's outline on the screen, computed by the processor.
+//
+// Step by step what shaders/vessel_nodes.glsl and vessel_segment.glsl do, in single precision and
+// without fused multiplications, so that a GL that rounds each step (IEEE 754), as Mesa's software
+// renderer does, comes to the very same numbers. Where products and sums are fused, as on most
+// GPUs, they differ in the last bits. Files that use it are compiled with -ffp-contract=off.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "ui/vessels/scene/vessel_frame.h"
+
+namespace octascope::ui {
+
+// Pixels times distance, distance, pixels of radius times distance: place_of of the shader.
+struct PlacedNode {
+  float across, up, along, radius;
+};
+
+// In the order in which vertex buffers have it; v_axis and v_shape of shaders/vessel_quad.glsl.
+struct SegmentOutline {
+  float start_x, start_y; // pixels, rows from the bottom
+  float ahead_x, ahead_y; // from there to the end
+  float radius, radius_change;
+  float inverse_distance, inverse_distance_change; // of the axis, 1 / mm
+
+  bool operator==(const SegmentOutline&) const = default;
+};
+
+inline float power_of_two(float x) {
+  const float whole = std::floor(x + 0.5F);
+  const float f = x - whole;
+  float p = 0.0013333558F;
+  p = p * f + 0.0096181291F;
+  p = p * f + 0.0555041087F;
+  p = p * f + 0.2402265070F;
+  p = p * f + 0.6931471806F;
+  p = p * f + 1.0F;
+  return p * std::bit_cast<float>((static_cast<std::int32_t>(whole) + 127) << 23);
+}
+
+inline PlacedNode place_node(const PlacedCluster& c, pipeline::PackedNode node) {
+  const auto x = static_cast<float>(node.x());
+  const auto y = static_cast<float>(node.y());
+  const auto z = static_cast<float>(node.z());
+  const auto row = [&](const std::array<float, 4>& r) {
+    return r[0] + r[1] * x + r[2] * y + r[3] * z;
+  };
+  return {row(c.across), row(c.up), row(c.along),
+          c.smallest_radius * power_of_two(c.log2_radius_step * static_cast<float>(node.radius()))};
+}
+
+// From `hidden`, which is nearer than the near plane, to the plane.
+inline PlacedNode cut_near(const PlacedNode& hidden, const PlacedNode& seen, float near_mm) {
+  const float share = (near_mm - hidden.along) * (1.0F / (seen.along - hidden.along));
+  return {hidden.across + (seen.across - hidden.across) * share,
+          hidden.up + (seen.up - hidden.up) * share,
+          hidden.along + (seen.along - hidden.along) * share,
+          hidden.radius + (seen.radius - hidden.radius) * share};
+}
+
+// Gives the parent's place the radius with which the segment starts, and cuts off what is nearer
+// than the near plane. False where nothing is left.
+inline bool make_segment(PlacedNode& a, PlacedNode& b, float near_mm) {
+  a.radius = pipeline::segment_start_radius(a.radius, b.radius);
+  if (a.along < near_mm && b.along < near_mm)
+    return false;
+  if (a.along < near_mm)
+    a = cut_near(a, b, near_mm);
+  else if (b.along < near_mm)
+    b = cut_near(b, a, near_mm);
+  return true;
+}
+
+// No narrower on the screen than so many pixels of radius. In front of the near plane only.
+inline void thicken(PlacedNode& node, float least_px) {
+  node.radius = std::max(node.radius, least_px * node.along);
+}
+
+// From the parent's and the node's place, for which least_radius_px() is `least_px`; false where
+// nothing is before the near plane.
+inline bool project_segment(PlacedNode a, PlacedNode b, float near_mm, float least_px,
+                            SegmentOutline& outline) {
+  if (!make_segment(a, b, near_mm))
+    return false;
+  const float inverse_a = 1.0F / a.along;
+  const float inverse_b = 1.0F / b.along;
+  const float start_x = a.across * inverse_a;
+  const float start_y = a.up * inverse_a;
+  const float ahead_x = b.across * inverse_b - start_x;
+  const float ahead_y = b.up * inverse_b - start_y;
+  const float radius_a = std::max(a.radius * inverse_a, least_px);
+  const float radius_b = std::max(b.radius * inverse_b, least_px);
+  outline = {start_x,   start_y,
+             ahead_x,   ahead_y,
+             radius_a,  radius_b - radius_a,
+             inverse_a, inverse_b - inverse_a};
+  if (ahead_x * ahead_x + ahead_y * ahead_y < 1e-8F) { // seen from its end
+    outline.ahead_x = 0;
+    outline.ahead_y = 0;
+    outline.radius = std::max(radius_a, radius_b);
+    outline.radius_change = 0;
+  }
+  return true;
+}
+
+} // namespace octascope::ui

@@ -1,0 +1,116 @@
+#include "ui/volume/ray_cast_picture.h"
+
+#include "embedded_shaders.h"
+
+#include "ui/gl/picture_texture.h"
+#include "ui/ray_caster/mask_merge.h"
+
+namespace octascope::ui {
+
+hal::Result<RayCastPicture> RayCastPicture::create() {
+  HAL_TRY(auto pass, gl::PicturePass::create("ray_image", shaders::ray_image_frag));
+  return RayCastPicture{std::move(pass)};
+}
+
+// With room for full quality at once: a finer picture later asks for no memory.
+void RayCastPicture::resize(int width, int height, const Rect& rect) {
+  image_.make_room(rect.width, rect.height);
+  image_.resize(width, height);
+  texture_ = gl::make_picture_texture(GL_RGBA8, width, height);
+}
+
+// Straight from memory: where the processor casts rays it is GL, too, and a pixel buffer would be
+// one copy more.
+void RayCastPicture::upload_image() {
+  const Rect& drawn = image_.drawn;
+  if (drawn.empty())
+    return;
+  glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
+  glBindTexture(GL_TEXTURE_2D, texture_.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, image_.width);
+  glPixelStorei(GL_UNPACK_SKIP_PIXELS, drawn.x);
+  glPixelStorei(GL_UNPACK_SKIP_ROWS, drawn.y);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, drawn.x, drawn.y, drawn.width, drawn.height, GL_RGBA,
+                  GL_UNSIGNED_BYTE, image_.rgba.data());
+  glPixelStorei(GL_UNPACK_SKIP_ROWS, 0);
+  glPixelStorei(GL_UNPACK_SKIP_PIXELS, 0);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+}
+
+hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
+                                   const VolumePictureKey& key) {
+  RaySettings settings;
+  settings.mode = mode;
+  settings.step_mm = scene.step_mm;
+  const DepthMask* vessels = scene.vessels;
+  if (vessels == nullptr)
+    return caster.draw(scene.camera, settings, image_);
+  const bool veiled = vessels->opacity < 1;
+  VolumePictureKey alone_key = key;
+  alone_key.vessels = 0;
+  alone_key.vessel_opacity = 1;
+  if (veiled && (alone_drawn_ != alone_key || alone_mode_ != mode)) {
+    alone_drawn_.reset();
+    if (key.width != alone_.width || key.height != alone_.height)
+      alone_.resize(key.width, key.height);
+    HAL_CHECK(caster.draw(scene.camera, settings, alone_));
+    alone_drawn_ = alone_key;
+    alone_mode_ = mode;
+  }
+  settings.stops = vessels->image;
+  HAL_CHECK(caster.draw(scene.camera, settings, image_));
+  merge_mask(image_, *vessels->image, vessels->opacity, veiled ? &alone_ : nullptr);
+  return {};
+}
+
+hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene, RayMode mode,
+                                     const DrawQuality& quality, const Rect& rect) {
+  const VolumePictureKey key = volume_picture_key(scene, quality, rect);
+  if (drawn_ == key && drawn_mode_ == mode)
+    return {};
+  drawn_.reset();
+  if (key.width != image_.width || key.height != image_.height)
+    resize(key.width, key.height, rect);
+  HAL_CHECK(cast(caster, scene, mode, key));
+  upload_image();
+  drawn_ = key;
+  ++drawings_;
+  drawn_mode_ = mode;
+  return {};
+}
+
+// What lies outside of `drawn` in the texture is old; a border of it that is transparent stays out
+// of the interpolation with it.
+Rect RayCastPicture::visible_in(const Rect& rect) const {
+  const Rect& drawn = image_.drawn;
+  const auto scaled = [](int texel, int texels, int pixels) {
+    return static_cast<int>(std::int64_t{texel} * pixels / texels);
+  };
+  const auto from = [](int edge) { return edge > 0 ? edge + 1 : 0; };
+  const auto to = [](int edge, int most) { return edge < most ? edge - 1 : most; };
+  const int left = scaled(from(drawn.x), image_.width, rect.width);
+  const int top = scaled(from(drawn.y), image_.height, rect.height);
+  return {rect.x + left, rect.y + top,
+          scaled(to(drawn.right(), image_.width), image_.width, rect.width) - left,
+          scaled(to(drawn.bottom(), image_.height), image_.height, rect.height) - top};
+}
+
+void RayCastPicture::composite(const Rect& rect, int target_height) const {
+  const Rect visible = visible_in(rect);
+  if (image_.drawn.empty() || visible.empty())
+    return;
+  // Pixel by pixel there is nothing to interpolate, which costs a software rasteriser a
+  // millisecond.
+  const bool as_it_is = image_.width == rect.width && image_.height == rect.height;
+  glBindTexture(GL_TEXTURE_2D, texture_.name());
+  const GLint filter = as_it_is ? GL_NEAREST : GL_LINEAR;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(visible.x, target_height - visible.bottom(), visible.width, visible.height);
+  pass_.blend(texture_, rect, target_height);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+} // namespace octascope::ui
