@@ -1,4 +1,5 @@
-# Every library that is not ours. The Debian packages that bring them are in deploy/packages.txt.
+# Every library that is not ours. The Debian packages that bring them are in deploy/packages.txt and
+# packages-test.txt.
 
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -6,7 +7,7 @@ find_package(tl-expected REQUIRED)
 find_package(fmt REQUIRED)
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(GTest REQUIRED)
+find_package(GTest) # of the tests alone, which are left out without it
 pkg_check_modules(fftw3f REQUIRED IMPORTED_TARGET fftw3f)
 pkg_check_modules(fftw3 REQUIRED IMPORTED_TARGET fftw3)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
