@@ -1,0 +1,99 @@
+# What each test is to CTest, by its name: the one place that says so, and which sanitizer runs what.
+# Read by CTest for each program of tests (tests/CMakeLists.txt), with `program`, the program's name,
+# test_${program}_TESTS, the names of its tests (none where it is not built), `random`, what draws
+# random input, and `all_compiled`, which is false where files are left out (ONE_THREAD).
+#
+#   unit     of one module and quick: all of them take less than two minutes
+#   slow     of one module; takes seconds, or draws many pictures
+#   program  the built program, as a user runs it, and what is installed with it
+#   device   of a backend or of a twin, beside what else it is
+#   clock    keeps to a real clock: runs alone, and alone may be tried a second time
+#   random   draws random input, from a seed of its own unless OCTASCOPE_TEST_SEED says otherwise
+#   asan     runs under the address and undefined-behaviour sanitizers
+#   tsan     runs under the thread sanitizer
+#
+# Expressions fit the beginning of a name, which is module.suite.test, with what GoogleTest adds to
+# suites and tests that have parameters.
+
+cmake_minimum_required(VERSION 3.25)
+
+# Real sweeps of hundreds of milliseconds, frames that must be taken in time, and pictures that must not be
+# marked as late. What only waits for something to come is no clock's.
+set(clock
+  "pipeline_threads\\."
+  "twins\\.sim/.*Contract\\..*/real_time"
+  "v4l2_camera\\..*/real_time"
+  "program\\.(NoFault|Window)\\.")
+
+set(slow
+  "bidirectional\\."
+  "coronary_tree\\."
+  "firmware_host\\.(BenchReconstruct|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."
+  "firmware_host\\.(Scenes|Techniques)/"
+  "pipeline\\.(all/InputTypes|ScanLagEstimator|ReconstructorRealData)\\."
+  "ui\\.(Allocation|GoldenLayout|GoldenPicture|HudInAllLayouts|HudInAllSizes|HudPicture)\\."
+  "ui\\.(Isas/RayCasterIsa|LegendPicture|StereoPicture|Techniques/|VolumePainterTest)"
+  "ui\\.(VolumeTechniquesTest|Vessel(Agreement|FlightTest|Merging|Methods|OverlayTest|Splatter))\\.")
+
+set(device "hal(_[a-z]+)?\\." "sim\\." "twins\\." "v4l2(_camera)?\\." "window_display\\.")
+
+# Sanitizers run what is quick; of what is slow, threads that nothing quick has; and of the built program
+# every fault at once, ends by a signal, a replay, and what is refused.
+set(sanitized
+  "coronary_tree\\."
+  "firmware_host\\.(ReplayLoop|Staleness|VesselLoaderTest)\\."
+  "firmware_host\\.Techniques/LostDisplay\\..*/surface"
+  "program\\.(All/RefusedReplay|Everything|LedgerAfterASignal|ReplayProgram|Run|Signals/RunEnds)\\."
+  "ui\\.Vessel(Methods|OverlayTest|Splatter)\\."
+  "ui\\.VolumePainterTest\\.")
+# Minutes, for threads of which others have the same.
+set(not_tsan "ui\\.VolumePainterTest\\.draws_again")
+
+# Does one of the expressions fit the name?
+function(octascope_fits variable name)
+  set(${variable} FALSE PARENT_SCOPE)
+  foreach(expression IN LISTS ARGN)
+    if(name MATCHES "^(${expression})")
+      set(${variable} TRUE PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
+endfunction()
+
+foreach(test IN LISTS test_${program}_TESTS)
+  octascope_fits(is_slow "${test}" ${slow})
+  octascope_fits(is_sanitized "${test}" ${sanitized})
+  if(program STREQUAL "program")
+    set(labels program)
+  elseif(is_slow)
+    set(labels slow)
+  else()
+    set(labels unit)
+    set(is_sanitized TRUE)
+  endif()
+  foreach(sanitizer asan tsan)
+    octascope_fits(is_left_out "${test}" ${not_${sanitizer}})
+    if(is_sanitized AND NOT is_left_out)
+      list(APPEND labels ${sanitizer})
+    endif()
+  endforeach()
+  foreach(label clock device random)
+    octascope_fits(is_${label} "${test}" ${${label}})
+    if(is_${label})
+      list(APPEND labels ${label})
+    endif()
+  endforeach()
+  set_tests_properties("${test}" PROPERTIES LABELS "${labels}" RUN_SERIAL ${is_clock})
+endforeach()
+
+# An expression that fits nothing has been left behind by a test that has another name now.
+if(test_${program}_TESTS AND all_compiled)
+  foreach(expression IN LISTS clock slow sanitized not_tsan)
+    string(REGEX MATCH "^[a-z0-9_]+" module "${expression}")
+    set(fitting ${test_${program}_TESTS})
+    list(FILTER fitting INCLUDE REGEX "^(${expression})")
+    if(module STREQUAL program AND NOT fitting)
+      message(FATAL_ERROR "no test of test_${program} fits \"${expression}\"")
+    endif()
+  endforeach()
+endif()
