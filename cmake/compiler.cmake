@@ -25,16 +25,14 @@ endif()
 
 # Debug information for useful crash reports, optimised fully.
 set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O3 -g1 -DNDEBUG")
-# -O1: the chain runs at a bearable speed, and stacks stay readable. Sanitizers report functions and
-# lines, no variables; -g would take a quarter of the compile time.
-if(OCTASCOPE_SANITIZE)
-  set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")
-endif()
+# The preset dev and the sanitizers'. -O1: the chain runs at a bearable speed, and stacks stay readable.
+# -g1: functions and lines; variables (-g) would take a quarter of the compile time.
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g1")
 
-# Ten files compiled as one, but in the debug build: half of the time, most of which went into the
-# same headers. The debug build compiles each alone, so that its own includes are known to suffice
-# and warnings of shadowed names are given where they belong. So does the fuzzers', which leaves files
-# out that others call.
+# Ten files compiled as one, but in the preset dev: half of the time, most of which went into the same
+# headers. There each is compiled alone, so that one edited file is all there is to compile, its own
+# includes are known to suffice, and warnings of shadowed names are given where they belong. So it is for
+# the fuzzers, which leave files out that others call.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND
    (OCTASCOPE_SANITIZE OR NOT CMAKE_BUILD_TYPE STREQUAL "Debug"))
   set(CMAKE_UNITY_BUILD ON)
