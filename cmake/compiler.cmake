@@ -21,6 +21,9 @@ if(OCTASCOPE_SANITIZE)
     -Wno-null-dereference -Wno-maybe-uninitialized)
   target_link_options(octascope_compiler INTERFACE -fsanitize=${OCTASCOPE_SANITIZE})
   target_compile_definitions(octascope_compiler INTERFACE OCTASCOPE_SANITIZED=1)
+elseif(CMAKE_BUILD_TYPE STREQUAL "Debug")
+  # So do they with little optimisation; the release build looks for both.
+  target_compile_options(octascope_compiler INTERFACE -Wno-null-dereference -Wno-maybe-uninitialized)
 endif()
 
 # Debug information for useful crash reports, optimised fully.
