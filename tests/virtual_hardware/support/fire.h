@@ -92,6 +92,9 @@ FireReport under_fire(unsigned kinds, std::span<const int> errors,
                       const std::function<std::optional<std::string>()>& scenario,
                       bool check_recovery = true);
 
+// Of so many shots one is fired: 1, unless OCTASCOPE_FIRE_EVERY says more.
+unsigned fire_every();
+
 // EINTR, EAGAIN, EBUSY, EIO, ENODEV, ENOMEM, and half reads and writes.
 std::span<const int> usual_errors();
 

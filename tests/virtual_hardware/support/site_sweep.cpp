@@ -297,9 +297,11 @@ SweepReport sweep_sites(const SweepPlan& plan) {
     plan.end();
   report.sites = static_cast<unsigned>(sites.size());
   std::vector<Target> targets;
+  unsigned shots = 0;
   for (const SeenSite& seen : sites)
     for (const int error : possible_errors(seen.site.kind))
-      targets.push_back({seen, error});
+      if (shots++ % fire_every() == 0)
+        targets.push_back({seen, error});
   Shooting{plan, std::move(targets), report}.run();
   if (const auto wrong = plan.afterwards ? plan.afterwards() : plan.scenario())
     report.complaints.push_back("unharmed, after all shots: " + *wrong);
