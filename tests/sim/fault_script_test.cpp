@@ -79,7 +79,7 @@ TEST(FaultScript, the_samples_load_and_cover_every_kind_of_every_device) {
   std::set<std::pair<FaultDevice, FaultKind>> covered;
   int files = 0;
   for (const auto& entry :
-       std::filesystem::directory_iterator{tests::source_folder() / "sim/faults"}) {
+       std::filesystem::directory_iterator{tests::source_folder() / "sim/faults/examples"}) {
     const auto script = FaultScript::load(entry.path());
     ASSERT_TRUE(script) << script.error().message;
     EXPECT_FALSE(script->faults.empty()) << entry.path();

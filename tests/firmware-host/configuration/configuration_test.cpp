@@ -42,8 +42,8 @@ a_spacing_um = 20
 b_spacing_um = 30.5
 bidirectional = true
 turn_around_lines = 12
-scan_lag_a_scans = 4.25
-find_scan_lag = false
+phase_offset_a_scans = 4.25
+find_phase_offset = false
 repeats = 2
 [calibration]
 file = "cal/c.toml"

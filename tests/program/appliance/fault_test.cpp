@@ -1,5 +1,5 @@
 // Every fault of every twin: the program goes on, the display shows it, the report counts it, and
-// what returns is picked up. The scripts are short versions of the examples in sim/faults.
+// what returns is picked up. The scripts are short versions of the examples in sim/faults/examples.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -341,7 +341,7 @@ TEST(Everything, at_once_is_survived) {
   const ScratchFolder folder;
   const std::string report_file = folder / "report.json";
   const auto script = folder.write(
-      "faults.toml", three_times_as_fast(source_folder() / "sim/faults/everything.toml"));
+      "faults.toml", three_times_as_fast(source_folder() / "sim/faults/examples/everything.toml"));
   const ProgramResult result = run_octascope(
       small_run(folder, {"--faults", script, "--duration", "6", "--report", report_file}));
   ASSERT_EQ(result.exit_status, 0) << result.describe();
@@ -373,7 +373,8 @@ TEST(Everything, shipped_has_a_test) {
       EXPECT_TRUE(kinds.contains({device, kind})) << to_string(device) << " " << to_string(kind);
   }
   std::set<std::string> shipped;
-  for (const auto& entry : std::filesystem::directory_iterator{source_folder() / "sim/faults"})
+  for (const auto& entry :
+       std::filesystem::directory_iterator{source_folder() / "sim/faults/examples"})
     shipped.insert(entry.path().stem());
   EXPECT_EQ(shipped, tested);
 }
