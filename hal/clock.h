@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cstdint>
 
+#include "hal/semaphore.h"
+
 namespace octascope::hal {
 
 struct MonotonicAxis {
@@ -41,9 +43,17 @@ public:
   void sleep_until(TimePoint deadline) { do_sleep_until(deadline); }
   void sleep_for(Duration duration) { do_sleep_until(do_now() + duration); }
 
+  // Returns at a post of `semaphore`, or at or after `deadline`; true for a post. Takes all posts
+  // made so far: whoever waits looks at everything that may have happened. One thread waits at a
+  // semaphore; neither locks nor allocates on a real clock.
+  bool wait_until(Semaphore& semaphore, TimePoint deadline) {
+    return do_wait_until(semaphore, deadline);
+  }
+
 private:
   virtual TimePoint do_now() const = 0;
   virtual void do_sleep_until(TimePoint deadline) = 0;
+  virtual bool do_wait_until(Semaphore& semaphore, TimePoint deadline) = 0;
 };
 
 } // namespace octascope::hal

@@ -121,7 +121,7 @@ bool RenderLoop::turn() {
     choose_ray_backend();
   }
   // At once when something came meanwhile; a long press is due when it is.
-  parts_.news.wait_until(std::min(next, controller_.next_deadline().value_or(next)));
+  parts_.news.wait_until(parts_.clock, std::min(next, controller_.next_deadline().value_or(next)));
   return go_on;
 }
 

@@ -127,7 +127,7 @@ void Supervision::tell(PictureStatus status) {
 void Supervision::run() {
   while (!stopping_.load()) {
     step(clock_.now());
-    wakeup_.wait_until(clock_.now() + (ready_ ? step_period : first_step_period));
+    wakeup_.wait_until(clock_, clock_.now() + (ready_ ? step_period : first_step_period));
   }
   journal_.update(faults_.records(), clock_.now()); // what struck on the way to the end
 }

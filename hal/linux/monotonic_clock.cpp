@@ -1,5 +1,6 @@
 #include "hal/linux/monotonic_clock.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <ctime>
 
@@ -7,7 +8,12 @@ namespace octascope::hal::linux_backend {
 
 namespace {
 constexpr std::int64_t ns_per_s = 1'000'000'000;
+
+timespec to_timespec(TimePoint time) {
+  const std::int64_t ns = time.time_since_epoch().count();
+  return {.tv_sec = ns / ns_per_s, .tv_nsec = ns % ns_per_s};
 }
+} // namespace
 
 TimePoint MonotonicClock::do_now() const {
   timespec t{};
@@ -16,12 +22,23 @@ TimePoint MonotonicClock::do_now() const {
 }
 
 void MonotonicClock::do_sleep_until(TimePoint deadline) {
-  const std::int64_t ns = deadline.time_since_epoch().count();
-  if (ns <= 0)
+  if (deadline <= TimePoint{})
     return;
-  const timespec t{.tv_sec = ns / ns_per_s, .tv_nsec = ns % ns_per_s};
+  const timespec t = to_timespec(deadline);
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &t, nullptr) == EINTR) {
   }
+}
+
+bool MonotonicClock::do_wait_until(Semaphore& semaphore, TimePoint deadline) {
+  const timespec t = to_timespec(std::max(deadline, TimePoint{}));
+  int result = 0;
+  do
+    result = sem_clockwait(&semaphore.native(), CLOCK_MONOTONIC, &t);
+  while (result != 0 && errno == EINTR);
+  if (result != 0)
+    return false;
+  semaphore.take_all();
+  return true;
 }
 
 } // namespace octascope::hal::linux_backend

@@ -1,4 +1,4 @@
-// CLOCK_MONOTONIC, with absolute sleeps.
+// CLOCK_MONOTONIC, with absolute sleeps and waits.
 #pragma once
 
 #include "hal/clock.h"
@@ -9,6 +9,7 @@ class MonotonicClock final : public Clock {
 private:
   TimePoint do_now() const override;
   void do_sleep_until(TimePoint deadline) override;
+  bool do_wait_until(Semaphore& semaphore, TimePoint deadline) override;
 };
 
 } // namespace octascope::hal::linux_backend

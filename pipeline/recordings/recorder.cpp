@@ -128,7 +128,7 @@ void Recorder::run() {
     if (stopping || state_.load(std::memory_order_acquire) == State::ending)
       continue;
     Heartbeat::rest_here();
-    wakeup_.wait_until(clock_.now() + between_syncs);
+    wakeup_.wait_until(clock_, clock_.now() + between_syncs);
   }
 }
 

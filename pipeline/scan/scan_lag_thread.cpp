@@ -78,7 +78,7 @@ ScanLagStatus ScanLagThread::status() const {
 void ScanLagThread::run() {
   while (!stopping_.load(std::memory_order_acquire)) {
     Heartbeat::beat_here(clock_.now());
-    wakeup_.wait_until(clock_.now() + longest_wait);
+    wakeup_.wait_until(clock_, clock_.now() + longest_wait);
     if (state_.load(std::memory_order_acquire) != Sketch::drawn)
       continue;
     look();
@@ -120,7 +120,7 @@ void ScanLagThread::complain_about_ends() {
 bool ScanLagThread::wait(hal::Duration how_long) {
   const hal::TimePoint until = clock_.now() + how_long;
   while (clock_.now() < until && !stopping_.load(std::memory_order_acquire))
-    wakeup_.wait_until(std::min(until, clock_.now() + longest_wait));
+    wakeup_.wait_until(clock_, std::min(until, clock_.now() + longest_wait));
   return !stopping_.load(std::memory_order_acquire);
 }
 

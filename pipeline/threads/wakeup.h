@@ -1,32 +1,27 @@
 // Wakes one waiting thread; a wake-up that comes before the wait is not lost.
 #pragma once
 
-#include <semaphore.h>
-
 #include "hal/clock.h"
+#include "hal/semaphore.h"
 
 namespace octascope::pipeline {
 
-// A POSIX semaphore: posting is one atomic instruction while nobody waits, and a futex call
-// otherwise; it neither locks nor allocates. Waiting is against CLOCK_MONOTONIC, the axis of
-// hal::TimePoint.
+// Posting neither locks nor allocates (hal/semaphore.h).
 class Wakeup {
 public:
-  Wakeup() { sem_init(&semaphore_, 0, 0); }
-  ~Wakeup() { sem_destroy(&semaphore_); }
-  Wakeup(const Wakeup&) = delete;
-  Wakeup& operator=(const Wakeup&) = delete;
-
   // Any thread.
-  void post() { sem_post(&semaphore_); }
+  void post() { semaphore_.post(); }
 
-  // Returns at a post, or at the deadline; true for a post. Takes all posts made so far.
-  bool wait_until(hal::TimePoint deadline);
+  // Returns at a post, or when it is `deadline` by `clock`; true for a post. Takes all posts made
+  // so far.
+  bool wait_until(hal::Clock& clock, hal::TimePoint deadline) {
+    return clock.wait_until(semaphore_, deadline);
+  }
   // Returns at a post, and takes this one only.
-  void wait();
+  void wait() { semaphore_.wait(); }
 
 private:
-  sem_t semaphore_{};
+  hal::Semaphore semaphore_;
 };
 
 } // namespace octascope::pipeline

@@ -81,4 +81,38 @@ TEST_P(ClockContract, any_thread_may_ask_and_sleep) {
   EXPECT_EQ(early, std::vector<int>(4, 0));
 }
 
+TEST_P(ClockContract, a_post_before_the_wait_is_not_lost_and_all_are_taken) {
+  hal::Semaphore semaphore;
+  const hal::TimePoint passed = clock_->now();
+  EXPECT_FALSE(clock_->wait_until(semaphore, passed));
+  semaphore.post();
+  semaphore.post();
+  EXPECT_TRUE(clock_->wait_until(semaphore, clock_->now() + std::chrono::hours{1}));
+  EXPECT_FALSE(clock_->wait_until(semaphore, passed));
+  EXPECT_FALSE(clock_->wait_until(semaphore, hal::TimePoint::min()));
+  semaphore.post();
+  EXPECT_TRUE(clock_->wait_until(semaphore, passed)) << "a post counts, late as it is";
+}
+
+TEST_P(ClockContract, a_wait_ends_at_a_post_of_another_thread) {
+  hal::Semaphore semaphore;
+  for (int i = 0; i < 100; ++i) {
+    std::thread poster{[&] { semaphore.post(); }};
+    EXPECT_TRUE(clock_->wait_until(semaphore, clock_->now() + std::chrono::hours{1}));
+    poster.join();
+  }
+}
+
+// Should the other thread sleep first, a clock that sleeping moves is there already.
+TEST_P(ClockContract, a_wait_ends_at_or_after_its_deadline) {
+  hal::Semaphore semaphore;
+  for (int i = 0; i < 20; ++i) {
+    const hal::TimePoint deadline = clock_->now() + std::chrono::milliseconds{1};
+    std::thread sleeper{[&] { clock_->sleep_until(deadline); }};
+    EXPECT_FALSE(clock_->wait_until(semaphore, deadline));
+    EXPECT_GE(clock_->now(), deadline);
+    sleeper.join();
+  }
+}
+
 } // namespace octascope::tests

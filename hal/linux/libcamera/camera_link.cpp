@@ -58,21 +58,21 @@ std::string names_of(const std::vector<OfferedFormat>& offers) {
 
 } // namespace
 
-void CameraEar::listen_to(const std::shared_ptr<libcamera::Camera>& camera) {
-  mailbox_->listen_to(camera.get());
-  std::erase_if(heard_, [](const auto& known) { return known.expired(); });
-  const bool known = std::any_of(heard_.begin(), heard_.end(),
+void SignalListener::listen_to(const std::shared_ptr<libcamera::Camera>& camera) {
+  queue_->listen_to(camera.get());
+  std::erase_if(connected_, [](const auto& known) { return known.expired(); });
+  const bool known = std::any_of(connected_.begin(), connected_.end(),
                                  [&](const auto& other) { return other.lock() == camera; });
   if (known)
     return;
-  // The lambdas own a share of the mailbox and name the camera by its address alone: it owns them.
+  // The lambdas own a share of the queue and name the camera by its address alone: it owns them.
   const void* const whose = camera.get();
-  camera->requestCompleted.connect(mailbox_.get(),
-                                   [box = mailbox_, whose](libcamera::Request* request) {
-                                     box->post(whose, request->cookie());
+  camera->requestCompleted.connect(queue_.get(),
+                                   [queue = queue_, whose](libcamera::Request* request) {
+                                     queue->add(whose, request->cookie());
                                    });
-  camera->disconnected.connect(mailbox_.get(), [box = mailbox_, whose] { box->leave(whose); });
-  heard_.push_back(camera);
+  camera->disconnected.connect(queue_.get(), [queue = queue_, whose] { queue->close(whose); });
+  connected_.push_back(camera);
 }
 
 // Destroyed from the bottom: pictures before the buffers whose descriptors they borrow, requests

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "hal/linux/libcamera/camera_nodes.h"
+#include "hal/linux/libcamera/completion_queue.h"
 #include "hal/linux/libcamera/format_choice.h"
 #include "hal/linux/libcamera/frame_order.h"
 #include "hal/linux/libcamera/libcamera_session.h"
-#include "hal/linux/libcamera/mailbox.h"
 #include "hal/linux/libcamera/plane_plan.h"
 #include "hal/result.h"
 #include "hal/scope_camera.h"
@@ -28,24 +28,24 @@ struct LibcameraSession::Chosen {
   CameraNodes nodes;
 };
 
-// Hears what cameras tell, and hands it to the mailbox. A signal of libcamera's must not be
-// disconnected while its thread may be giving it, so each camera is listened to once, for as long
-// as it lives; after that the mailbox takes news of the current camera alone.
-class CameraEar {
+// Puts the signals of cameras into the queue. A signal of libcamera's must not be disconnected
+// while its thread may be emitting it, so each camera is connected once, for as long as it lives;
+// after that the queue takes signals of the current camera alone.
+class SignalListener {
 public:
   void listen_to(const std::shared_ptr<libcamera::Camera>& camera);
-  void listen_to_none() { mailbox_->listen_to(nullptr); }
-  Mailbox& mailbox() { return *mailbox_; }
+  void listen_to_none() { queue_->listen_to(nullptr); }
+  CompletionQueue& queue() { return *queue_; }
 
 private:
-  std::shared_ptr<Mailbox> mailbox_ = std::make_shared<Mailbox>();
-  std::vector<std::weak_ptr<libcamera::Camera>> heard_;
+  std::shared_ptr<CompletionQueue> queue_ = std::make_shared<CompletionQueue>();
+  std::vector<std::weak_ptr<libcamera::Camera>> connected_;
 };
 
 // Threads: one at a time. Its destructor stops the camera and gives it back.
 //
 // But libcamera 0.0.3 can neither stop nor drop a streaming camera that is gone, unless it noticed
-// itself (it does for USB cameras, and tells the mailbox), nor one that gave up a request: it ends
+// itself (it does for USB cameras, and tells the queue), nor one that gave up a request: it ends
 // the program. Such a camera is abandoned, and the session is to be restarted: its objects, some
 // descriptors (those of its nodes lead nowhere then) and a sleeping thread stay until the program
 // ends.
@@ -65,7 +65,7 @@ public:
   std::size_t buffers() const;
 
   Result<> start(Duration period);
-  // Returns when no request is under way any more; all that were have been posted. Call it with as
+  // Returns when no request is under way any more; all that were are in the queue. Call it with as
   // few under way as can be waited for: should the camera vanish in this very moment, libcamera
   // 0.0.3 ends the program if there is one.
   void stop();
@@ -83,7 +83,7 @@ public:
   // its thread.
   Result<> queue(std::size_t buffer);
 
-  // Of each request that the mailbox brings while it streams: whether the camera gave it up. From
+  // Of each request that the queue brings while it streams: whether the camera gave it up. From
   // the first such on it cannot be stopped any more.
   bool given_up(std::size_t buffer);
 

@@ -65,7 +65,7 @@ struct LibcameraScopeCamera::Parts {
   LibcameraSession& session;
   LibcameraScopeOptions options;
   Clock& clock;
-  CameraEar ear;
+  SignalListener listener;
   std::unique_ptr<CameraLink> link;
   std::optional<MotionJpegDecoder> decoder;
   std::vector<std::vector<std::byte>> decoded; // one a buffer, for motion JPEG
@@ -88,7 +88,7 @@ Error LibcameraScopeCamera::Parts::lost() const {
 Result<> LibcameraScopeCamera::Parts::queue(std::size_t buffer) {
   if (auto queued = link->queue(buffer); !queued) {
     places[buffer].store(Place::idle, std::memory_order_relaxed);
-    return ear.mailbox().gone() ? tl::make_unexpected(lost()) : queued;
+    return listener.queue().gone() ? tl::make_unexpected(lost()) : queued;
   }
   if (in_camera++ == 0)
     last_sign = clock.now();
@@ -137,7 +137,7 @@ std::optional<ScopeFrame> LibcameraScopeCamera::Parts::accept(std::size_t buffer
 Result<std::optional<ScopeFrame>> LibcameraScopeCamera::Parts::take_newest() {
   std::optional<std::size_t> newest;
   bool broken_off = false;
-  while (const auto done = ear.mailbox().next()) {
+  while (const auto done = listener.queue().next()) {
     --in_camera;
     broken_off = link->given_up(*done) || broken_off;
     if (newest)
@@ -172,14 +172,15 @@ std::optional<Error> LibcameraScopeCamera::Parts::silence(TimePoint now) {
 
 void LibcameraScopeCamera::Parts::drain() {
   const TimePoint limit = clock.now() + longest_drain;
-  while (in_camera > 0 && clock.now() < limit && link->can_be_stopped() && !ear.mailbox().gone()) {
-    ear.mailbox().doorbell().silence();
-    while (const auto done = ear.mailbox().next()) {
+  while (in_camera > 0 && clock.now() < limit && link->can_be_stopped() &&
+         !listener.queue().gone()) {
+    listener.queue().semaphore().take_all();
+    while (const auto done = listener.queue().next()) {
       --in_camera;
       static_cast<void>(link->given_up(*done));
     }
     if (in_camera > 0)
-      ear.mailbox().doorbell().wait_until(std::min(limit, clock.now() + 50ms));
+      clock.wait_until(listener.queue().semaphore(), std::min(limit, clock.now() + 50ms));
   }
 }
 
@@ -188,14 +189,14 @@ bool LibcameraScopeCamera::Parts::gone_unnoticed() {
   if (link->can_be_stopped())
     return false;
   const TimePoint limit = clock.now() + longest_farewell;
-  while (!link->present() && link->watched() && !ear.mailbox().gone() && clock.now() < limit) {
-    ear.mailbox().doorbell().silence();
-    if (!ear.mailbox().gone())
-      ear.mailbox().doorbell().wait_until(limit);
+  while (!link->present() && link->watched() && !listener.queue().gone() && clock.now() < limit) {
+    listener.queue().semaphore().take_all();
+    if (!listener.queue().gone())
+      clock.wait_until(listener.queue().semaphore(), limit);
   }
-  if (ear.mailbox().gone())
+  if (listener.queue().gone())
     link->stopped_by_itself();
-  return !ear.mailbox().gone();
+  return !listener.queue().gone();
 }
 
 void LibcameraScopeCamera::Parts::restart_session() {
@@ -243,7 +244,7 @@ Result<> LibcameraScopeCamera::do_open(const ScopeCameraConfig& config) {
                                                   static_cast<std::size_t>(size.height)));
   }
   parts_->link = std::move(*link);
-  parts_->ear.listen_to(chosen.camera);
+  parts_->listener.listen_to(chosen.camera);
   parts_->period = from_seconds(1 / config.frames_per_s);
   parts_->broken = 0;
   parts_->undecodable = 0;
@@ -279,7 +280,7 @@ Result<std::optional<ScopeFrame>> LibcameraScopeCamera::do_wait_frame(Duration t
   if (state() != DeviceState::streaming)
     return wrong_state("wait_frame", state(), "streaming; start it first");
   Parts& parts = *parts_;
-  Mailbox& mailbox = parts.ear.mailbox();
+  CompletionQueue& queue = parts.listener.queue();
   const auto failed = [this](Error error) {
     set_state(DeviceState::failed);
     // At once, before it can come back; loans stay readable all the same.
@@ -289,8 +290,8 @@ Result<std::optional<ScopeFrame>> LibcameraScopeCamera::do_wait_frame(Duration t
   };
   const TimePoint deadline = parts.clock.now() + timeout;
   for (;;) {
-    mailbox.doorbell().silence();
-    if (mailbox.gone())
+    queue.semaphore().take_all();
+    if (queue.gone())
       return failed(parts.lost());
     if (auto queued = parts.queue_those_back(); !queued)
       return failed(queued.error());
@@ -304,8 +305,9 @@ Result<std::optional<ScopeFrame>> LibcameraScopeCamera::do_wait_frame(Duration t
       return failed(std::move(*silent));
     if (now >= deadline)
       return std::nullopt;
-    mailbox.doorbell().wait_until(parts.in_camera > 0 ? std::min(deadline, now + suspicious_silence)
-                                                      : deadline);
+    parts.clock.wait_until(queue.semaphore(), parts.in_camera > 0
+                                                  ? std::min(deadline, now + suspicious_silence)
+                                                  : deadline);
   }
 }
 
@@ -315,7 +317,7 @@ void LibcameraScopeCamera::do_release(int buffer) {
   Place expected = Place::on_loan;
   if (parts_->places[static_cast<std::size_t>(buffer)].compare_exchange_strong(
           expected, Place::returned, std::memory_order_release))
-    parts_->ear.mailbox().doorbell().ring();
+    parts_->listener.queue().semaphore().post();
 }
 
 void LibcameraScopeCamera::do_stop() {
@@ -324,7 +326,7 @@ void LibcameraScopeCamera::do_stop() {
   Parts& parts = *parts_;
   parts.drain();
   parts.link->stop();
-  while (parts.ear.mailbox().next())
+  while (parts.listener.queue().next())
     ;
   for (std::atomic<Place>& place : parts.places) {
     Place expected = Place::in_camera;
@@ -349,7 +351,7 @@ void LibcameraScopeCamera::do_close() {
     if (restart && !abandoned)
       parts.session.restart();
   }
-  parts.ear.listen_to_none();
+  parts.listener.listen_to_none();
   parts.decoder.reset();
   parts.decoded.clear();
   for (std::atomic<Place>& place : parts.places)

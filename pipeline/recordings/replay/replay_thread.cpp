@@ -44,7 +44,7 @@ void ReplayThread::run() {
   while (!stopping_.load(std::memory_order_acquire)) {
     const hal::TimePoint now = clock_.now();
     Heartbeat::beat_here(now);
-    wakeup_.wait_until(player_.step(now));
+    wakeup_.wait_until(clock_, player_.step(now));
   }
   Heartbeat::rest_here();
 }

@@ -122,8 +122,10 @@ ui::ControlProfile LoopStage::profile() {
   return profile;
 }
 
+// Later than what the fakes' threads say of themselves.
 LoopStage::LoopStage() : tissues_(make_tissues()) {
-  clock_.advance(real_clock_.now() + 1h - clock_.now());
+  clock_.sleep_until(real_clock_.now() + 1h);
+  sweep_clock_.sleep_until(clock_.now());
 }
 
 void LoopStage::SetUp() {
@@ -151,8 +153,8 @@ void LoopStage::SetUp() {
       .average = *pipeline::NeighbourAverage::create({0, 1, 0}),
       .most_volumes = std::nullopt,
   };
-  volumes_ = std::make_unique<pipeline::VolumeThread>(std::move(setup), trigger_, *acquisition_,
-                                                      camera_, clock_, faults_, arrived_, news_);
+  volumes_ = std::make_unique<pipeline::VolumeThread>(
+      std::move(setup), trigger_, *acquisition_, camera_, sweep_clock_, faults_, arrived_, news_);
   control_thread_ =
       std::make_unique<pipeline::ControlThread>(controls_, real_clock_, faults_, news_);
   scope_thread_ = std::make_unique<pipeline::ScopeThread>(scope_, hal::ScopeCameraConfig{},
@@ -222,13 +224,14 @@ void LoopStage::rest() {
 }
 
 void LoopStage::send_volume(Tissue tissue) {
-  arrived_.post(); // the tick is due; nobody else tells the thread what time it is
+  sweep_clock_.sleep_until(clock_.now()); // the tick is due
   const hal::TimePoint armed = trigger_.wait_for_pulse(next_pulse_++);
   const hal::TimePoint end = armed + plan().tick_period();
   while (clock_.now() + longest_turn_ < end)
     turn();
   ASSERT_LE(clock_.now(), end) << "the last frame took longer than a volume";
   clock_.advance(end - clock_.now());
+  sweep_clock_.sleep_until(end);
   const std::uint64_t published = volumes_->counters().published;
   for (int b = 0; b < small_geometry.b_scans; ++b)
     camera_.deliver(sequence_++, armed + b * plan().frame_period(),
@@ -252,11 +255,12 @@ void LoopStage::await(std::string_view what, const std::function<bool()>& came) 
 }
 
 void LoopStage::await_news() {
-  ASSERT_TRUE(news_.wait_until(real_clock_.now() + 60s)) << "a fake's thread stands still";
+  ASSERT_TRUE(news_.wait_until(real_clock_, real_clock_.now() + 60s))
+      << "a fake's thread stands still";
 }
 
 void LoopStage::send_controls(const std::vector<hal::ControlEvent>& events) {
-  news_.wait_until({}); // forgets what is old
+  news_.wait_until(real_clock_, {}); // forgets what is old
   for (const hal::ControlEvent& event : events) {
     controls_.send({event});
     await_news();
@@ -273,7 +277,7 @@ void LoopStage::press_freeze() {
 }
 
 void LoopStage::send_scope_picture() {
-  news_.wait_until({});
+  news_.wait_until(real_clock_, {});
   scope_.send(scope_picture_.frame(clock_.now()));
   await_news();
 }

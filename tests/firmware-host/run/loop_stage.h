@@ -138,11 +138,13 @@ protected:
   const ui::ViewState& view() const { return loop_->actions().state(); }
   ui::Layout layout() const;
 
-  sim::VirtualClock clock_; // an hour ahead of the real one: nobody who waits for it wakes unasked
+  sim::VirtualClock clock_;
+  sim::VirtualClock
+      sweep_clock_; // of trigger and volumes; moved to the other's time by send_volume()
   hal::linux_backend::MonotonicClock real_clock_; // of the fakes' threads
   GlassDisplay display_{clock_};
   FakeCamera camera_;
-  FakeTrigger trigger_{clock_};
+  FakeTrigger trigger_{sweep_clock_};
   FakeControls controls_;
   FakeScope scope_;
   const ScopePicture scope_picture_{64, 48};

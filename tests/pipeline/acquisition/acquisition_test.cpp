@@ -36,7 +36,7 @@ protected:
           acquisition_->release(frame->buffer);
           break;
         }
-        arrived_.wait_until(clock_.now() + 1ms);
+        arrived_.wait_until(clock_, clock_.now() + 1ms);
       }
     }
   }
@@ -106,22 +106,22 @@ TEST_F(AcquisitionTest, what_the_camera_gave_is_queued_before_it_counts_as_looke
 TEST_F(AcquisitionTest, a_look_that_was_asked_for_is_told_once) {
   const hal::TimePoint later = clock_.now() + 30ms;
   acquisition_->ask_for_look(later);
-  ASSERT_TRUE(arrived_.wait_until(clock_.now() + 10s));
+  ASSERT_TRUE(arrived_.wait_until(clock_, clock_.now() + 10s));
   EXPECT_GE(acquisition_->looked_until(), later);
-  EXPECT_FALSE(arrived_.wait_until(clock_.now() + 100ms)) << "nobody asked for more";
+  EXPECT_FALSE(arrived_.wait_until(clock_, clock_.now() + 100ms)) << "nobody asked for more";
 }
 
 TEST_F(AcquisitionTest, a_camera_that_has_nothing_is_looked_at_and_one_that_hangs_is_not) {
   acquisition_->ask_for_look(clock_.now());
-  ASSERT_TRUE(arrived_.wait_until(clock_.now() + 10s));
+  ASSERT_TRUE(arrived_.wait_until(clock_, clock_.now() + 10s));
   camera_.hold();
   camera_.wait_until_held();
   const hal::TimePoint held = acquisition_->looked_until();
   acquisition_->ask_for_look(clock_.now());
-  EXPECT_FALSE(arrived_.wait_until(clock_.now() + 50ms));
+  EXPECT_FALSE(arrived_.wait_until(clock_, clock_.now() + 50ms));
   EXPECT_EQ(acquisition_->looked_until(), held);
   camera_.let_go();
-  EXPECT_TRUE(arrived_.wait_until(clock_.now() + 10s));
+  EXPECT_TRUE(arrived_.wait_until(clock_, clock_.now() + 10s));
   EXPECT_GT(acquisition_->looked_until(), held);
 }
 

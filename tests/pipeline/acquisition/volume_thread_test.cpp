@@ -1,12 +1,14 @@
+// The fixed-rate thread with its devices' threads: that it does what the scheduler decides
+// (volume_scheduler_test.cpp), in the time of its clock.
 #include <algorithm>
-#include <array>
+#include <functional>
 #include <memory>
-#include <set>
+#include <thread>
 
 #include <gtest/gtest.h>
 
-#include "hal/linux/monotonic_clock.h"
 #include "pipeline/acquisition/volume_thread.h"
+#include "sim/clock/virtual_clock.h"
 #include "tests/support/devices/fake_devices.h"
 
 namespace octascope::pipeline {
@@ -16,7 +18,7 @@ using namespace std::chrono_literals;
 using hal::DeviceState;
 using hal::FrameIntegrity;
 
-// Eight B-scans in 400 ms: long enough that a busy machine delivers in time.
+// Eight B-scans in 400 ms, which pass when the test says so.
 ScanPlan slow_plan() {
   ScanPlan plan;
   plan.samples = 32;
@@ -56,8 +58,7 @@ protected:
 
   void start() {
     ASSERT_TRUE(acquisition->start({}));
-    while (camera.state() != DeviceState::streaming)
-      clock.sleep_for(1ms);
+    await([&] { return camera.state() == DeviceState::streaming; });
     volumes->start({});
   }
   void stop() {
@@ -69,9 +70,23 @@ protected:
     EXPECT_EQ(c.acquired, c.published);
   }
 
+  // The other threads come to it in their time, which is no time of the test's clock.
+  static void await(const std::function<bool()>& so) {
+    while (!so())
+      std::this_thread::sleep_for(100us);
+  }
+  void await_frames(std::uint64_t frames) {
+    await([&] { return acquisition->counters().frames >= frames; });
+  }
+
   hal::TimePoint time_of(hal::TimePoint armed, int sweep) const {
     return armed + sweep * plan.frame_period();
   }
+  // Until when a volume takes frames; how long after that it waits for a camera not looked at.
+  hal::TimePoint accepts_until(hal::TimePoint armed) const {
+    return armed + plan.sweep_duration() + plan.sweep_duration() / 6;
+  }
+  hal::Duration patience() const { return plan.sweep_duration() / 2; }
 
   // The B-scans from `begin` to before `end`, in order and each in its time.
   void deliver(hal::TimePoint armed, int begin, int end) {
@@ -81,8 +96,7 @@ protected:
 
   // So many frames came, and then nobody looks at the camera any more.
   void hold_camera_after(std::uint64_t frames) {
-    while (acquisition->counters().frames < frames)
-      clock.sleep_for(1ms);
+    await_frames(frames);
     camera.hold();
     camera.wait_until_held();
   }
@@ -92,7 +106,7 @@ protected:
     while (true) {
       if (const Volume* volume = volumes->take_newest(); volume && volume->metadata.index >= number)
         return volume;
-      news.wait_until(clock.now() + 20ms);
+      news.wait();
     }
   }
 
@@ -102,7 +116,7 @@ protected:
   }
 
   ScanPlan plan;
-  hal::linux_backend::MonotonicClock clock;
+  sim::VirtualClock clock;
   tests::FakeCamera camera;
   tests::FakeTrigger trigger{clock};
   FaultLog faults;
@@ -126,7 +140,7 @@ TEST_F(VolumeThreadTest, publishes_a_whole_volume_with_every_b_scan_in_its_place
   }
   EXPECT_EQ(volume->metadata.armed, armed);
   EXPECT_EQ(volume->metadata.last_line, time_of(armed, 7) + 100us);
-  EXPECT_GE(volume->metadata.published, armed);
+  EXPECT_EQ(volume->metadata.published, armed) << "no time has passed";
   EXPECT_EQ(volume->metadata.lost_b_scans, 0);
   stop();
   EXPECT_EQ(volumes->counters().published, 1U);
@@ -140,6 +154,8 @@ TEST_F(VolumeThreadTest, publishes_without_the_missing_and_broken_ones_and_count
     camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b),
                    b == 6 ? saturated_fill : static_cast<std::uint8_t>(10 + b),
                    b == 5 ? FrameIntegrity::corrupted : FrameIntegrity::good);
+  await_frames(5);
+  clock.sleep_until(accepts_until(armed));
   const Volume* volume = wait_for_volume(1);
   for (const int b : {2, 5, 7}) {
     EXPECT_EQ(volume->b_scan_states[static_cast<std::size_t>(b)], BScanState::missing);
@@ -153,7 +169,10 @@ TEST_F(VolumeThreadTest, publishes_without_the_missing_and_broken_ones_and_count
   EXPECT_TRUE(has_fault("corrupted_frame"));
   stop();
   const VolumeCounters counters = volumes->counters();
-  EXPECT_EQ(counters.lost_b_scans % 8, 3U); // the next volume may have been lost whole
+  EXPECT_EQ(counters.planned, 2U);
+  EXPECT_EQ(counters.unfinished, 1U) << "the next one had begun";
+  EXPECT_EQ(counters.lost_b_scans, 3U);
+  EXPECT_EQ(counters.lost_lines, 12U);
   EXPECT_EQ(counters.saturated_lines, 3U);
   EXPECT_EQ(acquisition->counters().gaps, 1U);
   EXPECT_EQ(acquisition->counters().unusable, 1U);
@@ -162,11 +181,12 @@ TEST_F(VolumeThreadTest, publishes_without_the_missing_and_broken_ones_and_count
 TEST_F(VolumeThreadTest, a_late_frame_of_a_published_volume_is_refused) {
   start();
   const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  camera.deliver(0, time_of(armed, 0), 10);
-  wait_for_volume(1); // published without the rest, while the second sweep runs
+  deliver(armed, 0, 1);
+  await_frames(1);
+  clock.sleep_until(accepts_until(armed));
+  wait_for_volume(1);
   camera.deliver(1, time_of(armed, 1), 99);
-  while (!has_fault("late_frame"))
-    clock.sleep_for(1ms);
+  await([&] { return has_fault("late_frame"); });
   stop();
 }
 
@@ -176,8 +196,9 @@ TEST_F(VolumeThreadTest, frames_that_came_in_time_to_a_camera_nobody_looked_at_a
   deliver(armed, 0, 5);
   hold_camera_after(5);
   deliver(armed, 5, plan.b_scans);
-  // Past the time that a volume waits for frames, before it gives up a camera not looked at.
-  clock.sleep_until(time_of(armed, plan.b_scans) + plan.sweep_duration() / 3);
+  clock.sleep_until(accepts_until(armed));
+  EXPECT_EQ(clock.await_waiter(), accepts_until(armed) + patience());
+  EXPECT_FALSE(volumes->has_newer());
   camera.let_go();
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->metadata.index, 1U);
@@ -191,11 +212,30 @@ TEST_F(VolumeThreadTest, a_volume_does_not_wait_for_ever_for_a_look_at_the_camer
   const hal::TimePoint armed = trigger.wait_for_pulse(0);
   deliver(armed, 0, 5);
   hold_camera_after(5);
+  clock.sleep_until(accepts_until(armed));
+  EXPECT_EQ(clock.await_waiter(), accepts_until(armed) + patience());
+  EXPECT_FALSE(volumes->has_newer());
+  clock.sleep_until(accepts_until(armed) + patience());
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->metadata.index, 1U);
   EXPECT_EQ(volume->missing_b_scans(), 3);
   camera.let_go();
   stop();
+}
+
+// Two seconds of ticks, made in a moment.
+TEST_F(VolumeThreadTest, pulses_at_the_ticks_of_its_clock_and_waits_in_its_time) {
+  const hal::TimePoint begin = clock.now();
+  start();
+  while (trigger.pulses() < 6)
+    clock.sleep_until(clock.await_waiter());
+  for (int n = 0; n < 6; ++n)
+    ASSERT_EQ(trigger.wait_for_pulse(static_cast<std::size_t>(n)), begin + n * plan.tick_period());
+  EXPECT_FALSE(has_fault("late_tick"));
+  stop();
+  EXPECT_EQ(volumes->counters().planned, trigger.pulses());
+  EXPECT_EQ(volumes->counters().acquired, 0U);
+  EXPECT_TRUE(has_fault("missed_pulse"));
 }
 
 TEST_F(VolumeThreadTest, a_stuck_sequence_number_moves_no_b_scan) {
@@ -214,33 +254,32 @@ TEST_F(VolumeThreadTest, triggers_nothing_without_a_camera_and_goes_on_when_it_i
   start();
   trigger.wait_for_pulse(0);
   camera.unplug();
-  while (camera.state() == DeviceState::streaming)
-    clock.sleep_for(1ms);
+  await([&] { return camera.state() != DeviceState::streaming; });
   const std::size_t pulses = trigger.pulses();
-  clock.sleep_for(plan.tick_period() * 2);
-  EXPECT_LE(trigger.pulses(), pulses + 1);
+  // Whoever tries to open it sleeps between, and so time goes on.
+  await([&] { return volumes->counters().lost_volumes >= 3; });
+  EXPECT_EQ(trigger.pulses(), pulses);
   camera.replug();
-  while (camera.state() != DeviceState::streaming)
-    clock.sleep_for(5ms);
-  const std::size_t first = trigger.pulses();
-  const hal::TimePoint armed = trigger.wait_for_pulse(first);
-  for (int b = 0; b < plan.b_scans; ++b)
-    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 77);
-  const Volume* volume = wait_for_volume(first + 1);
+  await([&] { return camera.state() == DeviceState::streaming; });
+  while (trigger.pulses() == pulses)
+    clock.sleep_until(clock.await_waiter());
+  const hal::TimePoint armed = trigger.wait_for_pulse(pulses);
+  deliver(armed, 0, plan.b_scans);
+  const Volume* volume = wait_for_volume(pulses + 1);
   EXPECT_EQ(volume->missing_b_scans(), 0);
   stop();
   EXPECT_EQ(camera.opened(), 2);
   EXPECT_TRUE(has_fault("disconnected"));
-  EXPECT_GE(volumes->counters().lost_volumes, 2U);
 }
 
 TEST_F(VolumeThreadTest, stops_cleanly_with_frames_on_the_way) {
   start();
   const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  for (int b = 0; b < 5; ++b)
-    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 1);
+  deliver(armed, 0, 5);
+  await_frames(5);
   stop();
-  EXPECT_GE(volumes->counters().planned, 1U);
+  EXPECT_EQ(volumes->counters().planned, 1U);
+  EXPECT_EQ(volumes->counters().unfinished, 1U);
 }
 
 ScanPlan three_repeats() {
@@ -278,7 +317,10 @@ TEST_F(RepeatsTest, a_b_scan_is_the_average_of_its_sweeps) {
 TEST_F(RepeatsTest, what_is_left_of_a_b_scan_is_shown_and_lost_sweeps_are_counted_in_lines) {
   start();
   // B-scan 0 lacks its middle, 1 has one only, 2 has none, 3 lacks its last.
-  deliver(trigger.wait_for_pulse(0), {0, 2, 4, 9, 10});
+  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  deliver(armed, {0, 2, 4, 9, 10});
+  await_frames(5);
+  clock.sleep_until(accepts_until(armed));
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->b_scan(0).front(), 13);
   EXPECT_EQ(volume->b_scan(1).front(), 23);
@@ -295,6 +337,8 @@ TEST_F(RepeatsTest, a_sweep_that_comes_when_its_b_scan_was_made_is_refused) {
   const hal::TimePoint armed = trigger.wait_for_pulse(0);
   deliver(armed, {0, 1, 6}); // the sixth begins the B-scan after the next
   deliver(armed, {2, 1, 3, 4, 5, 7, 8, 9, 10, 11});
+  await_frames(13);
+  clock.sleep_until(accepts_until(armed));
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->b_scan(0).front(), 12) << "of 10 and 13";
   EXPECT_TRUE(has_fault("late_frame"));
@@ -307,6 +351,7 @@ TEST_F(RepeatsTest, a_sweep_that_comes_when_its_b_scan_was_made_is_refused) {
 TEST_F(RepeatsTest, stops_cleanly_with_b_scans_that_wait) {
   start();
   deliver(trigger.wait_for_pulse(0), {0, 1, 4, 10});
+  await_frames(4);
   stop();
 }
 

@@ -14,6 +14,9 @@ using namespace std::chrono_literals;
 class StillClock final : public hal::Clock {
   hal::TimePoint do_now() const override { return hal::TimePoint{2s}; }
   void do_sleep_until(hal::TimePoint) override { std::this_thread::sleep_for(1ms); }
+  bool do_wait_until(hal::Semaphore& semaphore, hal::TimePoint) override {
+    return semaphore.take_all() > 0;
+  }
 };
 
 // A puck that is pushed along two axes, comes back on one, and is pulled out.

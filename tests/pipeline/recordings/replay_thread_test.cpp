@@ -27,7 +27,7 @@ protected:
     const hal::TimePoint end = clock.now() + 30s;
     const Volume* volume = thread.take_newest();
     while (volume == nullptr && clock.now() < end) {
-      news.wait_until(clock.now() + 20ms);
+      news.wait_until(clock, clock.now() + 20ms);
       volume = thread.take_newest();
     }
     return volume;
@@ -61,7 +61,7 @@ TEST_F(ReplayThreadTest, ends_by_itself_with_all_volumes) {
   thread->start({});
   const hal::TimePoint end = clock.now() + 30s;
   while (thread->end() == ReplayEnd::none && clock.now() < end)
-    news.wait_until(clock.now() + 20ms);
+    news.wait_until(clock, clock.now() + 20ms);
   EXPECT_EQ(thread->end(), ReplayEnd::done);
   EXPECT_EQ(thread->counters().published, 6U);
   EXPECT_EQ(wait_for_volume(*thread)->metadata.index, 7U);

@@ -38,6 +38,9 @@ private:
     clock_.sleep_until(deadline);
     look();
   }
+  bool do_wait_until(hal::Semaphore& semaphore, hal::TimePoint deadline) override {
+    return clock_.wait_until(semaphore, deadline);
+  }
   void look() const {
     const bool high = chip_.level(trigger_line);
     if (high && !was_high_.exchange(high))

@@ -4,53 +4,19 @@
 
 #include <array>
 #include <atomic>
-#include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <ctime>
 #include <optional>
 
-#include <semaphore.h>
-
-#include "hal/clock.h"
+#include "hal/semaphore.h"
 
 namespace octascope::hal::linux_backend {
-
-// Wakes one waiting thread. ring() comes from any thread; neither side allocates or locks.
-class Doorbell {
-public:
-  Doorbell() { ::sem_init(&semaphore_, 0, 0); }
-  Doorbell(const Doorbell&) = delete;
-  Doorbell& operator=(const Doorbell&) = delete;
-  ~Doorbell() { ::sem_destroy(&semaphore_); }
-
-  void ring() { ::sem_post(&semaphore_); }
-  // Forgets what rang before: call it, then look for news, then wait.
-  void silence() {
-    while (::sem_trywait(&semaphore_) == 0) {
-    }
-  }
-  // False: nobody rang until then.
-  bool wait_until(TimePoint deadline) {
-    const auto ns = deadline.time_since_epoch().count();
-    constexpr std::int64_t second = 1'000'000'000;
-    const timespec until{ns / second, ns % second};
-    int result = -1;
-    do {
-      result = ::sem_clockwait(&semaphore_, CLOCK_MONOTONIC, &until);
-    } while (result == -1 && errno == EINTR);
-    return result == 0;
-  }
-
-private:
-  sem_t semaphore_{};
-};
 
 constexpr std::size_t most_buffers = 32;
 
 // Bounded: a request is in it at most once, so `most_buffers` places are enough.
-// Threads: post() and leave() belong to the camera's, the rest to the waiting one.
-class Mailbox {
+// Threads: add() and close() belong to the camera's, the rest to the waiting one.
+class CompletionQueue {
 public:
   // From then on news of this camera count, and of no other. Nothing else happens meanwhile: the
   // camera before has been stopped.
@@ -61,7 +27,7 @@ public:
     camera_.store(camera, std::memory_order_release);
   }
 
-  void post(const void* camera, std::uint64_t request) {
+  void add(const void* camera, std::uint64_t request) {
     if (camera_.load(std::memory_order_acquire) != camera || request >= most_buffers)
       return;
     const std::uint32_t end = end_.load(std::memory_order_relaxed);
@@ -69,13 +35,13 @@ public:
       return;
     places_[end % most_buffers] = static_cast<std::uint8_t>(request);
     end_.store(end + 1, std::memory_order_release);
-    doorbell_.ring();
+    semaphore_.post();
   }
-  void leave(const void* camera) {
+  void close(const void* camera) {
     if (camera_.load(std::memory_order_acquire) != camera)
       return;
     gone_.store(true, std::memory_order_release);
-    doorbell_.ring();
+    semaphore_.post();
   }
 
   // The oldest request that is done.
@@ -88,7 +54,8 @@ public:
     return request;
   }
   bool gone() const { return gone_.load(std::memory_order_acquire); }
-  Doorbell& doorbell() { return doorbell_; }
+  // Posted with all that is new.
+  Semaphore& semaphore() { return semaphore_; }
 
 private:
   std::array<std::uint8_t, most_buffers> places_{};
@@ -96,7 +63,7 @@ private:
   std::atomic<std::uint32_t> end_{0};
   std::atomic<const void*> camera_{nullptr};
   std::atomic<bool> gone_{false};
-  Doorbell doorbell_;
+  Semaphore semaphore_;
 };
 
 } // namespace octascope::hal::linux_backend

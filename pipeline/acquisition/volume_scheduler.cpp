@@ -1,0 +1,236 @@
+#include "pipeline/acquisition/volume_scheduler.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace octascope::pipeline {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+using Action = VolumeDecision::Action;
+
+// How long after its sweep's end a volume waits for late B-scans, as a divisor of the sweep.
+constexpr int grace_divisor = 6;
+
+// How much longer at most until the camera's thread has looked at the camera that long, as another.
+constexpr int look_divisor = 2;
+
+// However slow a scan is: a thread that shows no life for longer is taken for stuck.
+constexpr hal::Duration longest_pause = 500ms;
+
+constexpr hal::Duration shortest_pause = 100us;
+
+} // namespace
+
+VolumeScheduler::VolumeScheduler(const ScanPlan& plan, std::optional<std::uint64_t> most_volumes)
+    : plan_(plan), most_volumes_(most_volumes), sweeps_(plan) {
+  const auto b_scans = static_cast<std::size_t>(plan_.b_scans);
+  for (PendingVolume& volume : pending_)
+    volume.slots.resize(b_scans);
+  to_submit_.reserve(b_scans);
+  free_.reserve(pool_size);
+  for (std::uint32_t buffer = 0; buffer < pool_size; ++buffer) {
+    if (buffer != first_middle && buffer != first_front)
+      free_.push_back(buffer);
+  }
+}
+
+TickDecision VolumeScheduler::tick(hal::TimePoint now) {
+  TickDecision decision;
+  next_tick_ += plan_.tick_period();
+  for (; next_tick_ <= now; next_tick_ += plan_.tick_period()) {
+    ++decision.slept_through;
+    count(counts_.planned);
+    count_lost_volume();
+  }
+  decision.pulse = !most_volumes_ ||
+                   counts_.published.load(std::memory_order_relaxed) + under_way() < *most_volumes_;
+  return decision;
+}
+
+std::optional<std::uint32_t> VolumeScheduler::pulsed(hal::TimePoint armed) {
+  count(counts_.planned);
+  const hal::TimePoint end = sweeps_.armed(++last_number_, armed);
+  count(counts_.triggered);
+  if (free_.empty()) {
+    count_lost_volume();
+    return std::nullopt;
+  }
+  const std::uint32_t buffer = free_.back();
+  free_.pop_back();
+  PendingVolume& volume = pending_[buffer];
+  volume.open = true;
+  volume.facts = {.number = last_number_};
+  volume.accept_until = end + plan_.sweep_duration() / grace_divisor;
+  volume.give_up_at.reset();
+  std::ranges::fill(volume.slots, BScanSlot{});
+  volume.sweeps_came = 0;
+  volume.submitted = 0;
+  volume.flushed = 0;
+  volume.made.store(0, std::memory_order_relaxed);
+  return buffer;
+}
+
+void VolumeScheduler::pulse_failed() {
+  count(counts_.planned);
+  count_lost_volume();
+}
+
+void VolumeScheduler::not_ready() {
+  if (last_number_ > 0)
+    pulse_failed();
+}
+
+void VolumeScheduler::count_lost_volume() {
+  count(counts_.lost_volumes);
+  count(counts_.lost_b_scans, plan_.b_scans);
+  count(counts_.lost_lines, std::int64_t{plan_.sweeps()} * plan_.a_scans);
+}
+
+std::uint64_t VolumeScheduler::under_way() const {
+  return static_cast<std::uint64_t>(std::ranges::count_if(pending_, &PendingVolume::open));
+}
+
+std::optional<std::uint32_t> VolumeScheduler::find(std::uint64_t number) const {
+  for (std::uint32_t i = 0; i < pool_size; ++i) {
+    if (pending_[i].open && pending_[i].facts.number == number)
+      return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> VolumeScheduler::oldest() const {
+  std::optional<std::uint32_t> oldest;
+  for (std::uint32_t i = 0; i < pool_size; ++i) {
+    if (pending_[i].open && (!oldest || pending_[i].facts.number < pending_[*oldest].facts.number))
+      oldest = i;
+  }
+  return oldest;
+}
+
+FrameDecision VolumeScheduler::place(hal::TimePoint first_line, hal::TimePoint last_line) {
+  to_submit_.clear();
+  const auto sweep = sweeps_.place(first_line);
+  if (!sweep)
+    return {.verdict = FrameVerdict::outside};
+  const auto buffer = find(sweep->volume);
+  if (!buffer)
+    return {.verdict = FrameVerdict::late};
+  PendingVolume& volume = pending_[*buffer];
+  const int b_scan = plan_.b_scan_of(sweep->sweep);
+  const int repeat = sweep->sweep % plan_.repeats;
+  BScanSlot& slot = volume.slots[static_cast<std::size_t>(b_scan)];
+  if ((slot.came >> repeat & 1U) != 0)
+    return {.verdict = FrameVerdict::doubled};
+  if (slot.submitted)
+    return {.verdict = FrameVerdict::late};
+  if (volume.sweeps_came == 0)
+    volume.facts.first_line = first_line;
+  volume.facts.last_line = std::max(volume.facts.last_line, last_line);
+  slot.came |= 1U << repeat;
+  ++volume.sweeps_came;
+  // One that nothing had come of when it was passed over waits no longer either.
+  if (std::popcount(slot.came) == plan_.repeats || b_scan < volume.flushed)
+    submit(*buffer, b_scan);
+  flush(*buffer, b_scan - 1);
+  return {.verdict = FrameVerdict::placed,
+          .buffer = *buffer,
+          .b_scan = b_scan,
+          .repeat = repeat,
+          .submit = to_submit_};
+}
+
+void VolumeScheduler::submit(std::uint32_t buffer, int b_scan) {
+  PendingVolume& volume = pending_[buffer];
+  volume.slots[static_cast<std::size_t>(b_scan)].submitted = true;
+  ++volume.submitted;
+  to_submit_.push_back({buffer, b_scan}); // each B-scan of a volume at most once
+}
+
+// B-scans before `end` wait no longer for the sweeps that they miss.
+void VolumeScheduler::flush(std::uint32_t buffer, int end) {
+  PendingVolume& volume = pending_[buffer];
+  for (; volume.flushed < end; ++volume.flushed) {
+    const BScanSlot& slot = volume.slots[static_cast<std::size_t>(volume.flushed)];
+    if (slot.came != 0 && !slot.submitted)
+      submit(buffer, volume.flushed);
+  }
+}
+
+VolumeDecision VolumeScheduler::next(hal::TimePoint now, hal::TimePoint looked_until,
+                                     bool streaming) {
+  to_submit_.clear();
+  const auto buffer = oldest();
+  if (!buffer)
+    return {};
+  PendingVolume& volume = pending_[*buffer];
+  if (volume.sweeps_came < plan_.sweeps()) {
+    if (now < volume.accept_until)
+      return {};
+    // Where others had the processor, the camera's frames came in time, and its thread wakes no
+    // sooner than ours: until it has looked, they are late only here.
+    if (looked_until < volume.accept_until && streaming) {
+      if (!volume.give_up_at) {
+        volume.give_up_at = now + plan_.sweep_duration() / look_divisor;
+        return {.action = Action::look, .buffer = *buffer, .look_until = volume.accept_until};
+      }
+      if (now < *volume.give_up_at)
+        return {};
+    }
+  }
+  flush(*buffer, plan_.b_scans);
+  if (!to_submit_.empty())
+    return {.action = Action::submit, .buffer = *buffer, .submit = to_submit_};
+  if (volume.made.load(std::memory_order_acquire) < volume.submitted)
+    return {};
+  return finish(*buffer);
+}
+
+VolumeDecision VolumeScheduler::finish(std::uint32_t buffer) {
+  PendingVolume& volume = pending_[buffer];
+  volume.open = false;
+  volume.facts.lost_b_scans = plan_.b_scans - volume.submitted;
+  volume.facts.lost_lines = (plan_.sweeps() - volume.sweeps_came) * plan_.a_scans;
+  if (volume.sweeps_came == 0) {
+    count_lost_volume();
+    free_.push_back(buffer);
+    return {.action = Action::lose, .buffer = buffer, .volume = volume.facts};
+  }
+  count(counts_.lost_b_scans, volume.facts.lost_b_scans);
+  count(counts_.lost_lines, volume.facts.lost_lines);
+  return {.action = Action::publish, .buffer = buffer, .volume = volume.facts};
+}
+
+void VolumeScheduler::published(std::uint32_t recycled, bool skipped) {
+  free_.push_back(recycled);
+  count(counts_.acquired);
+  count(counts_.published);
+  if (skipped)
+    count(counts_.skipped);
+}
+
+hal::TimePoint VolumeScheduler::next_wake(hal::TimePoint now) const {
+  hal::TimePoint wake = std::min(next_tick_, now + longest_pause);
+  if (const auto buffer = oldest()) {
+    const PendingVolume& volume = pending_[*buffer];
+    wake = std::min(wake, volume.give_up_at.value_or(volume.accept_until));
+  }
+  return std::max(wake, now + shortest_pause);
+}
+
+VolumeCounters VolumeScheduler::counters() const {
+  return {.planned = counts_.planned,
+          .triggered = counts_.triggered,
+          .acquired = counts_.acquired,
+          .published = counts_.published,
+          .skipped = counts_.skipped,
+          .lost_lines = counts_.lost_lines,
+          .lost_b_scans = counts_.lost_b_scans,
+          .lost_volumes = counts_.lost_volumes,
+          .unfinished = counts_.unfinished,
+          .saturated_lines = counts_.saturated_lines};
+}
+
+} // namespace octascope::pipeline
