@@ -39,7 +39,7 @@ void CalibratedCamera::look(const hal::LineCamera& camera, hal::TimePoint now) {
   verdict_ = compare_cameras(calibrated_, open_);
   if (verdict_ == CameraVerdict::another)
     faults_.add(
-        "line_camera", "another_camera",
+        pipeline::Fault::another_camera,
         fmt::format("the calibration is of the camera \"{}\", and \"{}\" is open: depths may "
                     "be wrong. Plug in the former, or name the calibration of the latter "
                     "in the configuration",

@@ -193,18 +193,18 @@ std::optional<double> medium_of(const pipeline::ScanPlan& plan,
 
 bool Twins::concern_display() const {
   return std::ranges::any_of(faults->faults(), [](const sim::ScriptedFault& fault) {
-    return fault.device == sim::FaultDevice::display;
+    return fault.kind == sim::gone(pipeline::Device::display);
   });
 }
 
 void Twins::apply_faults(hal::TimePoint now, sim::OffscreenDisplay* display) {
-  if (scope_camera && faults->active(sim::FaultDevice::scope_camera, sim::FaultKind::unplug, now))
+  if (scope_camera && faults->active(sim::gone(pipeline::Device::scope_camera), now))
     scope_camera->unplug();
   else if (scope_camera)
     scope_camera->replug();
   if (display == nullptr)
     return;
-  if (faults->active(sim::FaultDevice::display, sim::FaultKind::lost, now))
+  if (faults->active(sim::gone(pipeline::Device::display), now))
     display->lose();
   else
     display->restore();

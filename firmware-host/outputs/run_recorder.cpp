@@ -61,7 +61,7 @@ hal::Result<> RunRecorder::start(const pipeline::ThreadSetup& setup) {
   const hal::TimePoint deadline = clock_.now() + patience_with_disk;
   while (!recorder_.status().on) {
     for (const pipeline::FaultRecord& fault : faults_.records())
-      if (fault.device == "recording")
+      if (facts_of(fault.kind).device == pipeline::Device::recording)
         return hal::fail(hal::ErrorCode::system, fault.message);
     if (clock_.now() > deadline)
       return hal::fail(hal::ErrorCode::timed_out,

@@ -30,8 +30,8 @@ inline ReportJson to_json(const std::vector<pipeline::FaultRecord>& faults,
                           hal::TimePoint started) {
   ReportJson json = ReportJson::array();
   for (const pipeline::FaultRecord& f : faults)
-    json.push_back({{"device", f.device},
-                    {"kind", f.kind},
+    json.push_back({{"device", facts_of(f.kind).device_key()},
+                    {"kind", facts_of(f.kind).key},
                     {"message", f.message},
                     {"count", f.count},
                     {"first_s", rounded(hal::to_seconds(f.first - started))},
@@ -43,7 +43,8 @@ inline ReportJson to_json(const std::vector<pipeline::FaultRecord>& faults,
 inline std::string to_text(const std::vector<pipeline::FaultRecord>& faults) {
   std::string text;
   for (const pipeline::FaultRecord& f : faults)
-    text += fmt::format("fault: {} {} ×{}: {}\n", f.device, f.kind, f.count, f.message);
+    text += fmt::format("fault: {} {} ×{}: {}\n", facts_of(f.kind).device_key(),
+                        facts_of(f.kind).key, f.count, f.message);
   return text;
 }
 

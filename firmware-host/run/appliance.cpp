@@ -139,7 +139,7 @@ public:
     supervision_.starting("drawing the first picture");
     HAL_CHECK(loop_->open());
     if (const auto locked = hal::linux_backend::lock_memory(); !locked)
-      faults_.add("host", "memory_not_locked", locked.error().message, clock_.now());
+      faults_.add(pipeline::Fault::memory_not_locked, locked.error().message, clock_.now());
     started_ = clock_.now();
     supervision_.start(process_start(clock_));
     HAL_CHECK(start_threads());
@@ -226,7 +226,7 @@ void AssembledAppliance::heed_camera_hotplug() {
   if (!camera_hotplug_ || !camera_hotplug_->came())
     return;
   camera_hotplug_.reset();
-  faults_.add("line_camera", "came_late",
+  faults_.add(pipeline::Fault::came_late,
               "a line camera is there now; octascope takes it when it is started again, which the "
               "service does by itself",
               clock_.now());
@@ -369,12 +369,12 @@ void AssembledAppliance::follow_controls() {
   if (auto profile = devices_->new_control_profile())
     live_configuration_.lead_with(std::move(*profile), *loop_);
   if (const auto complaint = devices_->new_keyboard_complaint())
-    faults_.add("keyboard", "not_opened", *complaint, clock_.now());
+    faults_.add(pipeline::Fault::keyboard_not_opened, *complaint, clock_.now());
 }
 
 void AssembledAppliance::listen_to_scanner() {
   if (devices_->new_missed_answers() > 0)
-    faults_.add("galvo_trigger", "unanswered_pulse",
+    faults_.add(pipeline::Fault::unanswered_pulse,
                 "the scanner did not answer a pulse on its sync line: is it on, and is the line "
                 "connected?",
                 clock_.now());
@@ -390,15 +390,19 @@ bool AssembledAppliance::done() const {
 }
 
 void AssembledAppliance::update_status() {
+  using pipeline::Device;
   ui::Status& status = loop_->editable_status();
   status.devices = {
-      {{"camera", devices_->line_camera().backend(), devices_->line_camera().state()},
-       {"trigger", devices_->galvo_trigger().backend(), devices_->galvo_trigger().state()},
-       {"pedal", devices_->control_input().backend(), devices_->control_input().state()},
-       {"display", devices_->display().backend(), devices_->display().state()}}};
+      {{Device::line_camera, devices_->line_camera().backend(), devices_->line_camera().state()},
+       {Device::galvo_trigger, devices_->galvo_trigger().backend(),
+        devices_->galvo_trigger().state()},
+       {Device::control_input, devices_->control_input().backend(),
+        devices_->control_input().state()},
+       {Device::display, devices_->display().backend(), devices_->display().state()}}};
   status.device_count = 4;
   if (const hal::ScopeCamera* const camera = devices_->scope_camera())
-    status.devices[status.device_count++] = {"scope", camera->backend(), camera->state()};
+    status.devices[status.device_count++] = {Device::scope_camera, camera->backend(),
+                                             camera->state()};
   const hal::TimePoint now = clock_.now();
   calibrated_camera_->look(devices_->line_camera(), now);
   status.another_camera = calibrated_camera_->verdict() == CameraVerdict::another;

@@ -30,7 +30,7 @@ LiveConfiguration::LiveConfiguration(const ChosenConfiguration& chosen, const Ru
     : chosen_{chosen}, started_{chosen.configuration}, used_{chosen.configuration},
       options_{options}, clock_{clock}, faults_{faults}, standing_{configuration_notice(chosen)} {
   if (chosen_.state != ConfigurationState::own)
-    faults_.add("host", "configuration_refused", chosen_.refusal, clock_.now());
+    faults_.add(pipeline::Fault::configuration_refused, chosen_.refusal, clock_.now());
   if (started_.calibration)
     if (auto read = ConfigurationBundle::gather_calibration(*started_.calibration))
       started_calibration_ = std::move(*read);
@@ -112,7 +112,7 @@ void LiveConfiguration::finish(RenderLoop& loop) {
 }
 
 void LiveConfiguration::refuse(const std::string& reason) {
-  faults_.add("host", "configuration_refused", reason, clock_.now());
+  faults_.add(pipeline::Fault::configuration_refused, reason, clock_.now());
   said_.reset();
   if (chosen_.state != ConfigurationState::own) {
     chosen_.refusal = reason;

@@ -16,8 +16,6 @@ namespace octascope::firmware_host {
 
 namespace {
 
-constexpr const char* device_name = "display";
-
 // A picture that does not change is shown again so often: that it is still true has to be proved.
 constexpr std::chrono::milliseconds longest_rest{900};
 
@@ -242,7 +240,7 @@ void RenderLoop::take_volume() {
   volume_undisplayed_ = false; // of the one before: if it was, it is lost
   const hal::TimePoint begin = parts_.clock.now();
   if (const auto shown = renderer_->show_volume(*newest); !shown) {
-    parts_.faults.add(device_name, to_string(shown.error().code), shown.error().message, begin);
+    parts_.faults.add(pipeline::Device::display, shown.error(), begin);
     return;
   }
   statistics_.upload.add(parts_.clock.now() - begin);
@@ -287,8 +285,7 @@ void RenderLoop::take_scope_picture() {
 
 void RenderLoop::show_scope_picture() {
   if (const auto shown = renderer_->show_scope_picture(*scope_picture_, setup_.scan_field); !shown)
-    parts_.faults.add("scope_camera", to_string(shown.error().code), shown.error().message,
-                      parts_.clock.now());
+    parts_.faults.add(pipeline::Device::scope_camera, shown.error(), parts_.clock.now());
 }
 
 void RenderLoop::update_status() {
@@ -395,7 +392,7 @@ void RenderLoop::look_for_display(const hal::Error& error, hal::TimePoint now) {
 
 void RenderLoop::lose_display(const hal::Error& error) {
   display_lost_ = parts_.clock.now();
-  parts_.faults.add(device_name, to_string(error.code), error.message, parts_.clock.now());
+  parts_.faults.add(pipeline::Device::display, error, parts_.clock.now());
   renderer_.reset();
   parts_.display.close();
   undisplayed_last_line_.reset();
@@ -412,7 +409,7 @@ bool RenderLoop::display_ready() {
   if (!retry_.due(now))
     return false;
   if (const auto opened = open_display(); !opened) {
-    parts_.faults.add(device_name, to_string(opened.error().code), opened.error().message, now);
+    parts_.faults.add(pipeline::Device::display, opened.error(), now);
     look_for_display(opened.error(), now);
     retry_.failure(now);
     return false;

@@ -199,7 +199,7 @@ void AssembledReplay::follow_hands() {
   if (auto profile = devices_->new_control_profile())
     live_configuration_.lead_with(std::move(*profile), *loop_);
   if (const auto complaint = devices_->new_keyboard_complaint())
-    faults_.add("keyboard", "not_opened", *complaint, clock_.now());
+    faults_.add(pipeline::Fault::keyboard_not_opened, *complaint, clock_.now());
   if (const bool frozen = loop_->actions().state().frozen; frozen != held_) {
     held_ = frozen;
     volumes_->hold(frozen);
@@ -207,10 +207,12 @@ void AssembledReplay::follow_hands() {
 }
 
 void AssembledReplay::update_status() {
+  using pipeline::Device;
   ui::Status& status = loop_->editable_status();
   status.devices = {
-      {{"pedal", devices_->control_input().backend(), devices_->control_input().state()},
-       {"display", devices_->display().backend(), devices_->display().state()}}};
+      {{Device::control_input, devices_->control_input().backend(),
+        devices_->control_input().state()},
+       {Device::display, devices_->display().backend(), devices_->display().state()}}};
   status.device_count = 2;
   const hal::TimePoint now = clock_.now();
   tell_position(now);

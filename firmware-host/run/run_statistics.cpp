@@ -106,7 +106,8 @@ PictureStatus picture_status(const RunStatistics& run, hal::TimePoint now) {
                        .notice = shown.notice,
                        .calibration = calibration_account(run.calibrated_camera)};
   for (const ui::DeviceStatus& device : std::span{shown.devices}.first(shown.device_count))
-    status.devices.push_back({std::string{device.name}, std::string{device.backend}, device.state});
+    status.devices.push_back(
+        {std::string{facts_of(device.device).name}, std::string{device.backend}, device.state});
   return status;
 }
 

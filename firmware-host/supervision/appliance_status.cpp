@@ -26,8 +26,8 @@ template <class Value> Json or_null(const std::optional<Value>& value) {
 Json faults_to_json(const ApplianceStatus& s) {
   Json faults = Json::array();
   for (const pipeline::FaultRecord& f : s.faults)
-    faults.push_back({{"device", f.device},
-                      {"kind", f.kind},
+    faults.push_back({{"device", facts_of(f.kind).device_key()},
+                      {"kind", facts_of(f.kind).key},
                       {"message", f.message},
                       {"count", f.count},
                       {"first_s_ago", rounded(hal::to_seconds(s.now - f.first))},
@@ -190,7 +190,8 @@ std::string to_metrics(const ApplianceStatus& s) {
     m.value(thread.stuck ? 1 : 0, fmt::format("thread=\"{}\"", escaped(thread.name)));
   m.name("faults_total", "counter", "Faults, by device and kind.");
   for (const pipeline::FaultRecord& f : s.faults)
-    m.value(f.count, fmt::format("device=\"{}\",kind=\"{}\"", escaped(f.device), escaped(f.kind)));
+    m.value(f.count, fmt::format("device=\"{}\",kind=\"{}\"", facts_of(f.kind).device_key(),
+                                 facts_of(f.kind).key));
   if (s.resident_bytes)
     m.name("resident_bytes", "gauge", "Memory of the program.").value(*s.resident_bytes);
   if (s.temperature_c)

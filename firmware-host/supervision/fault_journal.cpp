@@ -10,9 +10,10 @@ namespace octascope::firmware_host {
 std::vector<std::string> to_fields(const JournalEntry& entry) {
   std::vector<std::string> fields{fmt::format("PRIORITY={}", entry.priority),
                                   "MESSAGE=" + entry.message};
-  if (!entry.device.empty()) {
-    fields.push_back("OCTASCOPE_DEVICE=" + entry.device);
-    fields.push_back("OCTASCOPE_FAULT=" + entry.fault);
+  if (entry.fault) {
+    const pipeline::FaultFacts facts = facts_of(*entry.fault);
+    fields.push_back(fmt::format("OCTASCOPE_DEVICE={}", facts.device_key()));
+    fields.push_back(fmt::format("OCTASCOPE_FAULT={}", facts.key));
     fields.push_back(fmt::format("OCTASCOPE_COUNT={}", entry.count));
   }
   return fields;
@@ -28,17 +29,17 @@ void send_to_journal(const JournalEntry& entry) {
 
 void FaultJournal::update(std::span<const pipeline::FaultRecord> faults, hal::TimePoint now) {
   for (const pipeline::FaultRecord& fault : faults) {
-    const auto [place, first] = told_.try_emplace({fault.device, fault.kind});
-    Told& told = place->second;
-    if (fault.count == told.count || (!first && now - told.at < least_pause))
+    Told& told = told_[index_of(fault.kind)];
+    if (fault.count == told.count || (told.count > 0 && now - told.at < least_pause))
       continue;
     const std::uint64_t count = fault.count - told.count;
     told = {fault.count, now};
     // More than one: how often it struck since it was told last.
+    const pipeline::FaultFacts facts = facts_of(fault.kind);
     sink_({LOG_WARNING,
-           fmt::format("{} {}{}: {}", fault.device, fault.kind,
+           fmt::format("{} {}{}: {}", facts.device_key(), facts.key,
                        count > 1 ? fmt::format(" ×{}", count) : "", fault.message),
-           fault.device, fault.kind, count});
+           fault.kind, count});
   }
 }
 

@@ -1,9 +1,10 @@
 // Faults into the system's journal, without flooding it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,8 +19,7 @@ namespace octascope::firmware_host {
 struct JournalEntry {
   int priority = 6; // as syslog(3) counts
   std::string message;
-  std::string device;      // OCTASCOPE_DEVICE; empty: none
-  std::string fault;       // OCTASCOPE_FAULT
+  std::optional<pipeline::Fault> fault{}; // OCTASCOPE_DEVICE, OCTASCOPE_FAULT
   std::uint64_t count = 0; // OCTASCOPE_COUNT: so many faults of the kind since the last message
 };
 
@@ -40,12 +40,12 @@ public:
 
 private:
   struct Told {
-    std::uint64_t count = 0;
+    std::uint64_t count = 0; // 0: never
     hal::TimePoint at;
   };
 
   Sink sink_;
-  std::map<std::pair<std::string, std::string>, Told> told_;
+  std::array<Told, pipeline::fault_count> told_{};
 };
 
 } // namespace octascope::firmware_host

@@ -16,8 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* device_name = "host";
-
 std::optional<std::string> first_line(const fs::path& file) {
   std::ifstream in{file};
   std::string line;
@@ -142,7 +140,7 @@ void HostWatch::look_at_disks(pipeline::FaultLog& faults, hal::TimePoint now) co
   for (const fs::path& folder : setup_.written) {
     const auto space = setup_.disk_space(folder);
     if (space && space->free_bytes < least_disk_bytes)
-      faults.add(device_name, "disk_full",
+      faults.add(pipeline::Fault::disk_full,
                  fmt::format("{}: {:.0f} MiB are free, expected at least {:.0f}: pictures and "
                              "reports may be lost; delete or move away what is not needed",
                              folder.string(), mebibytes(space->free_bytes),
@@ -160,7 +158,7 @@ void HostWatch::look_at_clock(pipeline::FaultLog& faults, hal::TimePoint now) {
     return;
   const std::chrono::nanoseconds jump = apart - *before;
   if (std::chrono::abs(jump) > largest_jump)
-    faults.add(device_name, "clock_jump",
+    faults.add(pipeline::Fault::clock_jump,
                fmt::format("the wall clock was set by {:+.1f} s: names of files and times of logs "
                            "before and after do not fit together",
                            hal::to_seconds(jump)),
@@ -171,7 +169,7 @@ void HostWatch::look_at_memory(pipeline::FaultLog& faults, hal::TimePoint now) c
   const auto& available = findings_.available_bytes;
   const auto& stall = findings_.memory_stall_percent;
   if ((available && *available < least_memory_bytes) || (stall && *stall > most_stall_percent))
-    faults.add(device_name, "low_memory",
+    faults.add(pipeline::Fault::low_memory,
                fmt::format("{:.0f} MiB of memory are available, {:.0f} % of the time waits for "
                            "memory, expected at least {:.0f} MiB and at most {:.0f} %: end other "
                            "programs",
@@ -185,7 +183,7 @@ void HostWatch::look_at_heat(pipeline::FaultLog& faults, hal::TimePoint now,
   const bool throttled =
       throttlings_before && findings_.throttlings && *findings_.throttlings > *throttlings_before;
   if (throttled || findings_.beyond_trip)
-    faults.add(device_name, "throttled",
+    faults.add(pipeline::Fault::throttled,
                fmt::format("the machine is too hot ({:.0f} °C) and slows itself down: look after "
                            "its fans and its air",
                            findings_.temperature_c.value_or(0)),

@@ -32,7 +32,7 @@ struct DiskSpace {
   std::uint64_t free_bytes = 0; // for this user
 };
 
-// Each condition is one kind of fault of the device "host", counted once a look for as long as it
+// Each condition is one kind of fault of the host, counted once a look for as long as it
 // lasts; nothing is done about it but to tell, and to go on. One thread.
 class HostWatch {
 public:

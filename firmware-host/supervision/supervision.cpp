@@ -38,7 +38,7 @@ FaultJournal::Sink sink_of(const SupervisionSetup& setup) {
 
 void say(const SupervisionSetup& setup, int priority, const std::string& message) {
   if (setup.journal)
-    send_to_journal({priority, message, {}, {}, 0});
+    send_to_journal({priority, message});
   else
     fmt::print(stderr, "octascope run: {}\n", message);
 }
@@ -81,7 +81,7 @@ void Supervision::check_last_run() {
       reports.empty() ? std::string{"restarted after a crash that left no report: it was killed"}
                       : fmt::format("restarted after a crash; the newest report is {}",
                                     reports.back().string());
-  faults_.add("host", "restarted_after_crash", message, clock_.now());
+  faults_.add(pipeline::Fault::restarted_after_crash, message, clock_.now());
   if (!setup_.journal) // there, it is told with the other faults
     say(setup_, LOG_WARNING, message);
 }
@@ -98,7 +98,7 @@ void Supervision::start(hal::TimePoint process_start) {
     if (server)
       server_ = std::move(*server);
     else
-      faults_.add("host", "no_status_socket", server.error().message, clock_.now());
+      faults_.add(pipeline::Fault::no_status_socket, server.error().message, clock_.now());
   }
   thread_ = std::thread{[this] {
     hal::linux_backend::name_this_thread("octa-supervise");
@@ -181,7 +181,7 @@ void Supervision::write_metrics(hal::TimePoint now) {
   if (!file)
     return;
   if (const auto written = write_whole(*file, to_metrics(status())); !written)
-    faults_.add("host", "metrics_not_written", written.error().message, now);
+    faults_.add(pipeline::Fault::metrics_not_written, written.error().message, now);
 }
 
 ApplianceStatus Supervision::status() const {

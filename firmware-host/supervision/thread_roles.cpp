@@ -68,7 +68,7 @@ pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& f
       if (const auto pinned = hal::linux_backend::pin_this_thread(*core); pinned)
         cores.set_pinned(role.number, *core);
       else
-        faults.add("host", "not_pinned", pinned.error().message, clock.now());
+        faults.add(pipeline::Fault::not_pinned, pinned.error().message, clock.now());
     }
     const Role known = role_of(role.name);
     if (known.background)
@@ -76,7 +76,7 @@ pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& f
     if (known.priority == 0)
       return;
     if (const auto made = hal::linux_backend::make_this_thread_realtime(known.priority); !made)
-      faults.add("host", "no_realtime", made.error().message, clock.now());
+      faults.add(pipeline::Fault::no_realtime, made.error().message, clock.now());
   };
 }
 

@@ -10,19 +10,23 @@ namespace octascope::firmware_host {
 namespace {
 
 using namespace std::chrono_literals;
+using pipeline::Fault;
 
 struct WatchedRole {
   std::string_view name;
-  std::string_view part; // as in the fault log
+  Fault when_stuck;
   // Far more than a step ever takes: 50 ms of waiting for most, one B-scan for a worker. Opening a
   // device is a step, too, and some drivers and libcamera take seconds for it.
   hal::Duration limit;
 };
 
 constexpr std::array watched_roles{
-    WatchedRole{"camera", "line_camera", 5s},  WatchedRole{"volumes", "pipeline", 3s},
-    WatchedRole{"worker", "pipeline", 3s},     WatchedRole{"controls", "control_input", 5s},
-    WatchedRole{"scope", "scope_camera", 10s}, WatchedRole{"phase", "pipeline", 10s},
+    WatchedRole{"camera", Fault::line_camera_stuck_thread, 5s},
+    WatchedRole{"volumes", Fault::pipeline_stuck_thread, 3s},
+    WatchedRole{"worker", Fault::pipeline_stuck_thread, 3s},
+    WatchedRole{"controls", Fault::control_input_stuck_thread, 5s},
+    WatchedRole{"scope", Fault::scope_camera_stuck_thread, 10s},
+    WatchedRole{"phase", Fault::pipeline_stuck_thread, 10s},
 };
 
 } // namespace
@@ -35,7 +39,7 @@ void ThreadWatch::enlist(const pipeline::ThreadRole& role, hal::TimePoint now) {
   Watched& watched = threads_.emplace_back();
   watched.name =
       role.name == "worker" ? fmt::format("{} {}", role.name, role.number) : std::string{role.name};
-  watched.part = known->part;
+  watched.when_stuck = known->when_stuck;
   watched.limit = known->limit;
   watched.heartbeat.beat(now);
   pipeline::Heartbeat::give_this_thread(&watched.heartbeat);
@@ -57,7 +61,7 @@ void ThreadWatch::complain(pipeline::FaultLog& faults, hal::TimePoint now) const
   for (const Watched& watched : threads_) {
     const auto last = watched.heartbeat.last();
     if (last && now - *last > watched.limit)
-      faults.add(watched.part, "stuck_thread",
+      faults.add(watched.when_stuck,
                  fmt::format("the thread \"{}\" has made no step for {:.0f} s, expected one within "
                              "{:.0f} s: its driver or device hangs; unplug and replug the device, "
                              "or restart the program",

@@ -5,7 +5,6 @@
 #include <list>
 #include <mutex>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "hal/clock.h"
@@ -35,13 +34,13 @@ public:
 
   std::vector<ThreadState> states(hal::TimePoint now) const;
 
-  // One fault for each thread that is stuck just now, under the device or part that it serves.
+  // One fault for each thread that is stuck just now, of the device or part that it serves.
   void complain(pipeline::FaultLog& faults, hal::TimePoint now) const;
 
 private:
   struct Watched {
     std::string name;
-    std::string_view part; // as in the fault log
+    pipeline::Fault when_stuck{};
     hal::Duration limit;
     pipeline::Heartbeat heartbeat;
   };

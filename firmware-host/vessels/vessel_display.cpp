@@ -15,7 +15,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr const char* device_name = "vessels";
 constexpr hal::Duration notice_duration = 15s;
 constexpr int share_of_frame = 3; // the volume needs the larger part
 
@@ -106,7 +105,7 @@ void VesselDisplay::take_loaded(ui::Renderer* renderer, ui::ViewActions& actions
   if (shown && setup_.registration && setup_.registration->whose.said() && !setup_.operated.said())
     say(fmt::format("Vessels of {}", in_words(setup_.registration->whose)));
   if (!shown) {
-    faults_.add(device_name, "not_shown", shown.error().message, clock_.now());
+    faults_.add(pipeline::Fault::vessels_not_shown, shown.error().message, clock_.now());
     say(fmt::format("No vessels: {}", shown.error().message));
   }
 }
@@ -118,7 +117,7 @@ void VesselDisplay::take_written(ui::Renderer* renderer, ui::ViewActions& action
   if (!written)
     return;
   if (!*written) {
-    faults_.add(device_name, "registration_not_kept", written->error().message, clock_.now());
+    faults_.add(pipeline::Fault::registration_not_kept, written->error().message, clock_.now());
     actions.tell(ui::Action::keep_registration, "not kept", clock_.now());
     say(fmt::format("Vessels' place not kept: {}", written->error().message));
     return;

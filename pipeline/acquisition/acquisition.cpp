@@ -13,7 +13,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr const char* device_name = "line_camera";
 // Also how soon a stop is noticed; a volume that misses frames waits for the end of a look that
 // began after its time was over.
 constexpr hal::Duration frame_timeout = 10ms;
@@ -37,7 +36,7 @@ hal::Result<> Acquisition::start(const ThreadSetup& setup) {
   if (auto opened = camera_.open(config_); !opened) {
     if (opened.error().code == hal::ErrorCode::invalid_argument)
       return opened;
-    faults_.add(device_name, to_string(opened.error().code), opened.error().message, clock_.now());
+    faults_.add(Device::line_camera, opened.error(), clock_.now());
   }
   thread_ = std::thread{[this, setup] {
     if (setup)
@@ -80,7 +79,7 @@ void Acquisition::run() {
     const HotPath hot;
     const auto frame = camera_.wait_frame(frame_timeout);
     if (!frame) {
-      faults_.add(device_name, to_string(frame.error().code), frame.error().message, clock_.now());
+      faults_.add(Device::line_camera, frame.error(), clock_.now());
       close_when_returned();
     } else if (*frame) {
       receive(**frame);
@@ -100,7 +99,7 @@ bool Acquisition::open_and_start() {
                           ? camera_.start()
                           : camera_.open(config_).and_then([&] { return camera_.start(); });
   if (!result) {
-    faults_.add(device_name, to_string(result.error().code), result.error().message, clock_.now());
+    faults_.add(Device::line_camera, result.error(), clock_.now());
     camera_.close();
     return false;
   }
@@ -130,7 +129,7 @@ void Acquisition::mend_silence() {
     silent_since_ = now;
   if (!silent_since_ || now - *silent_since_ < patience_)
     return;
-  faults_.add(device_name, "silent",
+  faults_.add(Fault::silent,
               "the camera streams and sends nothing although the scanner is pulsed; it is opened "
               "anew. Is the scanner on, and its trigger wired to the camera?",
               now);
@@ -151,7 +150,7 @@ void Acquisition::receive(const hal::LineFrame& frame) {
                    : fmt::format("a frame has {} bytes, expected {}", frame.bytes.size(),
                                  config_.format.frame_bytes());
     };
-    faults_.add(device_name, sized ? "corrupted_frame" : "wrong_size", complaint, clock_.now());
+    faults_.add(sized ? Fault::corrupted_frame : Fault::wrong_size, complaint, clock_.now());
     camera_.release(frame.buffer);
     return;
   }
@@ -160,7 +159,7 @@ void Acquisition::receive(const hal::LineFrame& frame) {
   good_.fetch_add(1, std::memory_order_relaxed);
   if (const auto dropped = queue_.push_dropping_oldest(static_cast<std::uint32_t>(frame.buffer))) {
     overflowed_.fetch_add(1, std::memory_order_relaxed);
-    faults_.add(device_name, "overflow",
+    faults_.add(Fault::frame_overflow,
                 "frames came faster than they were worked off; the oldest was dropped",
                 clock_.now());
     give_back(static_cast<int>(*dropped));
@@ -174,7 +173,7 @@ void Acquisition::check_sequence(std::uint64_t sequence) {
     const auto complaint = [&] {
       return fmt::format("frame number {} came after {}", sequence, *last_sequence_);
     };
-    faults_.add(device_name, "stuck_sequence", complaint, clock_.now());
+    faults_.add(Fault::stuck_sequence, complaint, clock_.now());
     repeated_ = sequence == *last_sequence_ ? repeated_ + 1 : 0; // smaller: it began anew
     last_sequence_ = sequence;
     return;
@@ -186,7 +185,7 @@ void Acquisition::check_sequence(std::uint64_t sequence) {
       return fmt::format("the driver lost frames: number {} came after {}", sequence,
                          *last_sequence_);
     };
-    faults_.add(device_name, "dropped_frames", complaint, clock_.now(), step - repeated_);
+    faults_.add(Fault::dropped_frames, complaint, clock_.now(), step - repeated_);
   }
   last_sequence_ = sequence;
   repeated_ = 0;

@@ -12,17 +12,14 @@ namespace octascope::pipeline {
 
 namespace {
 
-constexpr const char* camera_name = "line_camera";
-constexpr const char* trigger_name = "galvo_trigger";
-
-const char* fault_kind(FrameVerdict verdict) {
+Fault fault_of(FrameVerdict verdict) {
   switch (verdict) {
-  case FrameVerdict::doubled: return "doubled_frame";
-  case FrameVerdict::late: return "late_frame";
+  case FrameVerdict::doubled: return Fault::doubled_frame;
+  case FrameVerdict::late: return Fault::late_frame;
   case FrameVerdict::outside:
   case FrameVerdict::placed: break;
   }
-  return "unplaced_frame";
+  return Fault::unplaced_frame;
 }
 
 std::string complaint_about(FrameVerdict verdict, std::uint64_t sequence) {
@@ -119,7 +116,7 @@ void VolumeThread::tick() {
   const hal::TimePoint now = clock_.now();
   const TickDecision decision = scheduler_.tick(now);
   if (decision.slept_through > 0)
-    faults_.add("pipeline", "late_tick",
+    faults_.add(Fault::late_tick,
                 "the fixed-rate thread was held up for a whole volume: is something else running, "
                 "without real-time priority for us?",
                 now, decision.slept_through);
@@ -135,14 +132,14 @@ void VolumeThread::tick() {
 void VolumeThread::pulse(hal::TimePoint now) {
   const auto armed = trigger_.arm();
   if (!armed) {
-    faults_.add(trigger_name, to_string(armed.error().code), armed.error().message, now);
+    faults_.add(Device::galvo_trigger, armed.error(), now);
     if (trigger_.state() == hal::DeviceState::failed)
       trigger_.close();
     scheduler_.pulse_failed();
   } else if (const auto buffer = scheduler_.pulsed(*armed)) {
     begin_volume(*buffer, *armed);
   } else {
-    faults_.add("pipeline", "overrun",
+    faults_.add(Fault::overrun,
                 "reconstruction is slower than the camera: fewer lines or B-scans, or linear "
                 "interpolation, would help",
                 *armed);
@@ -157,7 +154,7 @@ bool VolumeThread::trigger_ready() {
     return false;
   const HotPath::Pause opening;
   if (const auto opened = trigger_.open(setup_.trigger); !opened) {
-    faults_.add(trigger_name, to_string(opened.error().code), opened.error().message, now);
+    faults_.add(Device::galvo_trigger, opened.error(), now);
     trigger_retry_.failure(now);
     return false;
   }
@@ -196,7 +193,7 @@ void VolumeThread::place(const hal::LineFrame& frame) {
 // The sweep that it should have been counts as lost when its volume is finished.
 void VolumeThread::refuse(const hal::LineFrame& frame, FrameVerdict verdict) {
   const auto complaint = [&] { return complaint_about(verdict, frame.sequence); };
-  faults_.add(camera_name, fault_kind(verdict), complaint, clock_.now());
+  faults_.add(fault_of(verdict), complaint, clock_.now());
   acquisition_.release(frame.buffer);
 }
 
@@ -255,7 +252,7 @@ void VolumeThread::lose(std::uint32_t buffer) {
     phase_.finished();
   if (camera_.state() != hal::DeviceState::streaming)
     return;
-  faults_.add(trigger_name, "missed_pulse",
+  faults_.add(Fault::missed_pulse,
               "a pulse brought no usable sweep: the scanner missed it, or the camera lost all "
               "of its frames",
               clock_.now());
@@ -295,12 +292,12 @@ void VolumeThread::fill_ledger(VolumeMetadata& metadata, const Workplace& workpl
   metadata.saturated_lines = workplace.saturated_lines.load(std::memory_order_relaxed);
   scheduler_.count_saturated_lines(metadata.saturated_lines);
   if (metadata.saturated_lines > 0)
-    faults_.add(camera_name, "saturation",
+    faults_.add(Fault::saturation,
                 "lines reach the camera's full scale: less light, or a shorter exposure",
                 clock_.now(), static_cast<std::uint64_t>(metadata.saturated_lines));
   if (is_at_upper_border(metadata.upper_border))
     faults_.add(
-        "picture", "upper_border",
+        Fault::upper_border,
         fmt::format("tissue reaches the upper border in {} of {} A-scans that were looked at: "
                     "what is above it is shown upside down; move the tissue or the reference "
                     "arm until there is a gap above the tissue",

@@ -13,7 +13,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr const char* device_name = "control_input";
 constexpr hal::Duration read_timeout = 50ms; // also how soon a stop is noticed
 
 } // namespace
@@ -51,7 +50,7 @@ void ControlThread::run() {
     }
     const auto count = input_.read(events, read_timeout);
     if (!count) {
-      faults_.add(device_name, to_string(count.error().code), count.error().message, clock_.now());
+      faults_.add(Device::control_input, count.error(), clock_.now());
       input_.close();
       centre_axes();
       continue;
@@ -71,7 +70,7 @@ void ControlThread::receive(const hal::ControlEvent& event) {
   if (event.kind == hal::ControlKind::axis && event.index < pushed_.size())
     pushed_[event.index] = event.value != 0;
   if (!queue_.push(event))
-    faults_.add(device_name, "overflow", "more events than the display could take", event.time);
+    faults_.add(Fault::control_overflow, "more events than the display could take", event.time);
 }
 
 // A puck that is gone pushes no more; nobody else would say so.
@@ -85,14 +84,14 @@ void ControlThread::centre_axes() {
 void ControlThread::look_for_bad_contacts() {
   const hal::TimePoint now = clock_.now();
   if (const auto index = held_.longest_untold(now))
-    faults_.add(device_name, "stuck_switch",
+    faults_.add(Fault::stuck_switch,
                 fmt::format("switch {} has been down for {} s: it is stuck, or somebody stands on "
                             "it",
                             *index, hal::to_seconds(HeldSwitches::limit)),
                 now);
   const std::uint64_t bounces = input_.bounces();
   if (bounces > bounces_)
-    faults_.add(device_name, "bounce",
+    faults_.add(Fault::bounce,
                 "contacts bounce, which is filtered out; they are worn when it grows", now,
                 bounces - bounces_);
   bounces_ = bounces;
@@ -102,7 +101,7 @@ bool ControlThread::open() {
   if (!retry_.due(clock_.now()))
     return false;
   if (const auto opened = input_.open(); !opened) {
-    faults_.add(device_name, to_string(opened.error().code), opened.error().message, clock_.now());
+    faults_.add(Device::control_input, opened.error(), clock_.now());
     retry_.failure(clock_.now());
     return false;
   }

@@ -76,7 +76,7 @@ bool ScopeThread::open_and_start() {
 }
 
 void ScopeThread::fault(const hal::Error& error) {
-  faults_.add("scope_camera", to_string(error.code), error.message, clock_.now());
+  faults_.add(Device::scope_camera, error, clock_.now());
 }
 
 void ScopeThread::receive(const hal::ScopeFrame& frame) {

@@ -1,46 +1,38 @@
 #include "pipeline/faults/fault_log.h"
 
-#include <algorithm>
+#include <span>
 
 namespace octascope::pipeline {
 
-namespace {
-
-void count_in(FaultRecord& record, hal::TimePoint when, std::uint64_t count) {
+void FaultLog::add(Fault fault, std::string_view message, hal::TimePoint when,
+                   std::uint64_t count) {
+  const std::lock_guard lock{mutex_};
+  FaultRecord& record = records_[index_of(fault)];
+  if (record.count == 0) {
+    record = {fault, std::string{message}, 0, when, when};
+    struck_[kinds_++] = fault;
+  }
   record.count += count;
   record.last = when;
 }
 
-} // namespace
-
-void FaultLog::add(std::string_view device, std::string_view kind, std::string_view message,
-                   hal::TimePoint when, std::uint64_t count) {
+bool FaultLog::add_to_known(Fault fault, hal::TimePoint when, std::uint64_t count) {
   const std::lock_guard lock{mutex_};
-  if (FaultRecord* const known = find(device, kind))
-    count_in(*known, when, count);
-  else
-    records_.push_back(
-        {std::string{device}, std::string{kind}, std::string{message}, count, when, when});
-}
-
-bool FaultLog::add_to_known(std::string_view device, std::string_view kind, hal::TimePoint when,
-                            std::uint64_t count) {
-  const std::lock_guard lock{mutex_};
-  FaultRecord* const known = find(device, kind);
-  if (known != nullptr)
-    count_in(*known, when, count);
-  return known != nullptr;
-}
-
-FaultRecord* FaultLog::find(std::string_view device, std::string_view kind) {
-  const auto same = std::ranges::find_if(
-      records_, [&](const FaultRecord& r) { return r.device == device && r.kind == kind; });
-  return same == records_.end() ? nullptr : &*same;
+  FaultRecord& record = records_[index_of(fault)];
+  if (record.count == 0)
+    return false;
+  record.count += count;
+  record.last = when;
+  return true;
 }
 
 std::vector<FaultRecord> FaultLog::records() const {
   const std::lock_guard lock{mutex_};
-  return records_;
+  std::vector<FaultRecord> records;
+  records.reserve(kinds_);
+  for (const Fault fault : std::span{struck_}.first(kinds_))
+    records.push_back(records_[index_of(fault)]);
+  return records;
 }
 
 } // namespace octascope::pipeline

@@ -1,6 +1,7 @@
 // What went wrong, for the report and for the notice line of the display.
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <functional>
@@ -10,45 +11,49 @@
 #include <vector>
 
 #include "hal/clock.h"
+#include "hal/result.h"
+#include "pipeline/faults/fault.h"
 
 namespace octascope::pipeline {
 
 struct FaultRecord {
-  std::string device;  // "line_camera", "galvo_trigger" …
-  std::string kind;    // "disconnected", "corrupted_frame" …
+  Fault kind{};
   std::string message; // of the first one
   std::uint64_t count = 0;
   hal::TimePoint first;
   hal::TimePoint last;
 };
 
-// Faults of the same device and kind are one record with a count, so a stream of them can neither
-// fill the memory nor flood a log. Thread-safe. It locks, and it allocates at the first fault of a
-// kind: it is called where something has gone wrong, never on the way of good data. A stream of
-// faults allocates nothing where the words are made by a function, which the first alone calls.
+// Each kind of fault is one record with a count, so a stream of them can neither fill the memory
+// nor flood a log. Thread-safe. It locks, and it allocates the message of the first of a kind: it
+// is called where something has gone wrong, never on the way of good data. A stream of faults
+// allocates nothing where the message is made by a function, which the first alone calls.
 class FaultLog {
 public:
-  // `count` faults of the kind at once.
-  void add(std::string_view device, std::string_view kind, std::string_view message,
-           hal::TimePoint when, std::uint64_t count = 1);
+  // `count` faults of the kind at once, at least one.
+  void add(Fault fault, std::string_view message, hal::TimePoint when, std::uint64_t count = 1);
   template <std::invocable MakeMessage>
-  void add(std::string_view device, std::string_view kind, MakeMessage&& message,
-           hal::TimePoint when, std::uint64_t count = 1) {
-    if (add_to_known(device, kind, when, count))
+  void add(Fault fault, MakeMessage&& message, hal::TimePoint when, std::uint64_t count = 1) {
+    if (add_to_known(fault, when, count))
       return;
     const std::string words = std::invoke(message);
-    add(device, kind, std::string_view{words}, when, count);
+    add(fault, std::string_view{words}, when, count);
   }
+  // What a device answered.
+  void add(Device device, const hal::Error& error, hal::TimePoint when) {
+    add(fault_of(device, error.code), error.message, when);
+  }
+  // In the order in which each first struck.
   std::vector<FaultRecord> records() const;
 
 private:
   // False, and nothing done, at the first fault of a kind.
-  bool add_to_known(std::string_view device, std::string_view kind, hal::TimePoint when,
-                    std::uint64_t count);
-  FaultRecord* find(std::string_view device, std::string_view kind); // with the mutex held
+  bool add_to_known(Fault fault, hal::TimePoint when, std::uint64_t count);
 
   mutable std::mutex mutex_;
-  std::vector<FaultRecord> records_;
+  std::array<FaultRecord, fault_count> records_{}; // count 0: it never struck
+  std::array<Fault, fault_count> struck_{};        // the first `kinds_` of them
+  std::size_t kinds_ = 0;
 };
 
 } // namespace octascope::pipeline

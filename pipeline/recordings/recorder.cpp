@@ -14,8 +14,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr const char* device_name = "recording";
-
 // A power cut costs no more than this, and the disk gets larger pieces than a volume.
 constexpr hal::Duration between_syncs = 2s;
 
@@ -169,7 +167,7 @@ bool Recorder::open() {
   }
   auto made = RecordingWriter::create(open_file_, facts);
   if (!made) {
-    faults_.add(device_name, "not_begun", made.error().message, clock_.now());
+    faults_.add(Fault::recording_not_begun, made.error().message, clock_.now());
     return false;
   }
   writer_.emplace(std::move(*made));
@@ -189,7 +187,7 @@ void Recorder::write_waiting() {
   if (!writer_ || clock_.now() - synced_ < between_syncs)
     return;
   if (const auto synced = writer_->sync(); !synced)
-    give_up("not_kept", synced.error().message);
+    give_up(Fault::recording_not_kept, synced.error().message);
   synced_ = clock_.now();
 }
 
@@ -197,14 +195,14 @@ void Recorder::write(const Place& place) {
   std::error_code error;
   const auto room = std::filesystem::space(open_file_.parent_path(), error);
   if (!error && room.available < room_left_alone + place.volume.levels.size()) {
-    give_up("disk_full",
+    give_up(Fault::recording_disk_full,
             fmt::format("{}: the recording ended: only {} MB are left on its disk, and "
                         "{} stay free for the machine; free some room",
                         open_file_.string(), room.available >> 20, room_left_alone >> 20));
     return;
   }
   if (const auto appended = writer_->append(place.volume, place.entry); !appended) {
-    give_up("not_kept", appended.error().message);
+    give_up(Fault::recording_not_kept, appended.error().message);
     return;
   }
   kept_.fetch_add(1, std::memory_order_relaxed);
@@ -216,13 +214,13 @@ void Recorder::finish() {
   const auto finished = writer_->finish({.not_kept = not_kept_.load(std::memory_order_relaxed)});
   writer_.reset();
   if (!finished)
-    faults_.add(device_name, "not_finished", finished.error().message, clock_.now());
+    faults_.add(Fault::recording_not_finished, finished.error().message, clock_.now());
 }
 
 // What is in the file stays there, marked as well as it can still be.
-void Recorder::give_up(const char* kind, const std::string& message) {
+void Recorder::give_up(Fault fault, const std::string& message) {
   taking_.store(0, std::memory_order_relaxed);
-  faults_.add(device_name, kind, message, clock_.now());
+  faults_.add(fault, message, clock_.now());
   static_cast<void>(writer_->finish({.not_kept = not_kept_.load(std::memory_order_relaxed)}));
   writer_.reset();
 }

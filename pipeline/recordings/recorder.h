@@ -74,7 +74,7 @@ private:
   void write_waiting();
   void write(const Place& place);
   void finish();
-  void give_up(const char* kind, const std::string& message);
+  void give_up(Fault fault, const std::string& message);
 
   const VolumeGeometry geometry_;
   hal::Clock& clock_;

@@ -108,7 +108,7 @@ void ScanLagThread::complain_about_ends() {
   if (repeated <= 1)
     return;
   faults_.add(
-      "galvo_trigger", "phase_beyond_turn_around",
+      Fault::phase_beyond_turn_around,
       fmt::format("the mirror lags by {:.1f} A-scans, the {} turn-around lines do not reach "
                   "so far: the outermost {} A-scans repeat their neighbour; set "
                   "turn_around_lines to {}",

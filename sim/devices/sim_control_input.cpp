@@ -13,12 +13,13 @@ using hal::ControlKind;
 using hal::DeviceState;
 using hal::ErrorCode;
 using hal::TimePoint;
+using pipeline::Fault;
 using namespace std::chrono_literals;
 
 SimControlInput::SimControlInput(hal::Clock& clock, ControlScript script,
                                  const FaultSchedule* faults)
     : clock_(clock), script_(std::move(script)), cursor_(script_),
-      probe_(faults, FaultDevice::control_input) {}
+      probe_(faults, pipeline::Device::control_input) {}
 
 bool SimControlInput::inject(const ControlEvent& event) {
   return is_plausible(event) && injected_.push(event);
@@ -126,8 +127,8 @@ TimePoint SimControlInput::next_moment() const {
     consider(contact.next_time());
   if (next_injected_)
     consider(next_injected_->time);
-  consider(probe_.next_edge(FaultKind::unplug, played_to_));
-  consider(probe_.next_edge(FaultKind::stuck_switch, played_to_));
+  consider(probe_.next_edge(gone(pipeline::Device::control_input), played_to_));
+  consider(probe_.next_edge(Fault::stuck_switch, played_to_));
   return next;
 }
 
@@ -172,14 +173,14 @@ void SimControlInput::play_injected(TimePoint t) {
 
 void SimControlInput::update_stuck_switches(TimePoint t) {
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const ScriptedFault* stuck = probe_.active(FaultKind::stuck_switch, t, static_cast<int>(i));
+    const ScriptedFault* stuck = probe_.active(Fault::stuck_switch, t, static_cast<int>(i));
     contacts_[i].stick(t, stuck == nullptr ? std::nullopt : std::optional{stuck->stuck_pressed});
   }
 }
 
 void SimControlInput::move(TimePoint t, ControlKind kind, std::uint8_t index, std::int32_t value) {
   if (kind == ControlKind::pedal_switch) {
-    contacts_[index].foot(t, value != 0, probe_.active(FaultKind::bounce, t, index));
+    contacts_[index].foot(t, value != 0, probe_.active(Fault::bounce, t, index));
     return;
   }
   report({t, kind, index, value});

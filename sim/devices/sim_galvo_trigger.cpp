@@ -9,7 +9,7 @@ using hal::ErrorCode;
 using hal::TimePoint;
 
 SimGalvoTrigger::SimGalvoTrigger(GalvoLink& link, hal::Clock& clock, const FaultSchedule* faults)
-    : link_(link), clock_(clock), probe_(faults, FaultDevice::galvo_trigger) {}
+    : link_(link), clock_(clock), probe_(faults, pipeline::Device::galvo_trigger) {}
 
 hal::Result<> SimGalvoTrigger::do_open(const hal::GalvoTriggerConfig& config) {
   if (state() != DeviceState::absent)
@@ -47,7 +47,7 @@ hal::Result<TimePoint> SimGalvoTrigger::do_arm() {
                      "has unplugged it, close it and open it again");
   }
   line_is_low_ = now + config_.pulse_width;
-  if (probe_.strike(FaultKind::missed_pulses, now) == nullptr)
+  if (probe_.strike(pipeline::Fault::missed_pulse, now) == nullptr)
     link_.pulse(now);
   return now;
 }

@@ -16,6 +16,7 @@ using hal::DeviceState;
 using hal::Duration;
 using hal::ErrorCode;
 using hal::TimePoint;
+using pipeline::Fault;
 using namespace std::chrono_literals;
 
 namespace {
@@ -35,7 +36,7 @@ std::string words(const hal::LineFormat& f) {
 SimLineCamera::SimLineCamera(const SpectraSource& source, GalvoLink& link, hal::Clock& clock,
                              const FaultSchedule* faults, ScanMotion motion, std::string identity)
     : source_(source), link_(link), clock_(clock), motion_(motion),
-      probe_(faults, FaultDevice::line_camera), plugged_in_(std::move(identity)) {}
+      probe_(faults, pipeline::Device::line_camera), plugged_in_(std::move(identity)) {}
 
 std::string SimLineCamera::do_identity() const {
   const std::lock_guard lock{identity_mutex_};
@@ -43,7 +44,7 @@ std::string SimLineCamera::do_identity() const {
 }
 
 void SimLineCamera::look_what_is_plugged_in(TimePoint now) {
-  const ScriptedFault* const pulled = probe_.active(FaultKind::unplug, now);
+  const ScriptedFault* const pulled = probe_.active(gone(pipeline::Device::line_camera), now);
   if (pulled != nullptr && !pulled->comes_back_as.empty())
     plugged_in_ = pulled->comes_back_as;
 }
@@ -111,9 +112,8 @@ void SimLineCamera::allocate_buffers() {
   waiting_.assign(buffers, WaitingFrame{});
   oldest_waiting_ = 0;
   waiting_count_ = 0;
-  const bool altering = probe_.expects(FaultKind::corrupted_frames) ||
-                        probe_.expects(FaultKind::wrong_size) ||
-                        probe_.expects(FaultKind::saturation);
+  const bool altering = probe_.expects(Fault::corrupted_frame) ||
+                        probe_.expects(Fault::wrong_size) || probe_.expects(Fault::saturation);
   // Twice a frame: wrong sizes go up to that. All of it is touched here, as a driver's buffers are:
   // pages that came one by one, as faults strike, would look like a leak in the program.
   scratch_bytes_ = altering ? 2 * config_.format.frame_bytes() : 0;
@@ -222,7 +222,7 @@ void SimLineCamera::finish(const Exposure& exposure) {
   count(made_);
   const std::uint64_t sequence = next_sequence_++;
   const TimePoint t = exposure.end;
-  if (probe_.strike(FaultKind::dropped_frames, t) != nullptr) {
+  if (probe_.strike(Fault::dropped_frames, t) != nullptr) {
     count(dropped_by_fault_);
     return;
   }
@@ -231,9 +231,9 @@ void SimLineCamera::finish(const Exposure& exposure) {
     count(dropped_without_buffer_);
     return;
   }
-  const bool stuck = probe_.strike(FaultKind::stuck_sequence, t) != nullptr;
+  const bool stuck = probe_.strike(Fault::stuck_sequence, t) != nullptr;
   shown_sequence_ = stuck ? shown_sequence_ : sequence;
-  const ScriptedFault* late = probe_.strike(FaultKind::late_frames, t);
+  const ScriptedFault* late = probe_.strike(Fault::late_frame, t);
 
   // The patient's time is the scanner's: it stands still between the sweeps, so that what a frame
   // shows does not depend on how busy the machine was.
@@ -251,9 +251,9 @@ void SimLineCamera::finish(const Exposure& exposure) {
                      .last_line = exposure.end - line_offset(1),
                      .ready = late == nullptr ? t : t + late->late_by,
                      .noise_seed = mixed(sequence),
-                     .corrupted = probe_.strike(FaultKind::corrupted_frames, t),
-                     .wrong_size = probe_.strike(FaultKind::wrong_size, t),
-                     .saturated = probe_.strike(FaultKind::saturation, t)};
+                     .corrupted = probe_.strike(Fault::corrupted_frame, t),
+                     .wrong_size = probe_.strike(Fault::wrong_size, t),
+                     .saturated = probe_.strike(Fault::saturation, t)};
   ++waiting_count_;
 }
 

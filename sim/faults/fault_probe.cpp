@@ -6,24 +6,23 @@
 
 namespace octascope::sim {
 
-FaultProbe::FaultProbe(const FaultSchedule* schedule, FaultDevice device)
-    : schedule_(schedule), device_(device),
+FaultProbe::FaultProbe(const FaultSchedule* schedule, pipeline::Device device)
+    : schedule_(schedule), gone_(gone(device)),
       tallies_(schedule == nullptr ? 0 : schedule->faults().size()) {}
 
 bool FaultProbe::pulled_since_last_look(hal::TimePoint now) {
   if (schedule_ == nullptr)
     return false;
-  const bool pulled =
-      unplugged(now) || schedule_->began_within(device_, FaultKind::unplug, looked_, now);
+  const bool pulled = unplugged(now) || schedule_->began_within(gone_, looked_, now);
   looked_ = now;
   return pulled;
 }
 
-const ScriptedFault* FaultProbe::strike(FaultKind kind, hal::TimePoint t) {
+const ScriptedFault* FaultProbe::strike(pipeline::Fault kind, hal::TimePoint t) {
   const ScriptedFault* striking = nullptr;
   for (std::size_t i = 0; i < tallies_.size(); ++i) {
     const ScriptedFault& fault = schedule_->faults()[i];
-    if (fault.device != device_ || fault.kind != kind)
+    if (fault.kind != kind)
       continue;
     const auto occurrence = schedule_->occurrence(fault, t);
     if (!occurrence)
@@ -48,10 +47,10 @@ bool FaultProbe::chooses(const ScriptedFault& fault, const Tally& tally) {
   return even_number(number) < fault.probability;
 }
 
-bool FaultProbe::expects(FaultKind kind) const {
+bool FaultProbe::expects(pipeline::Fault kind) const {
   return schedule_ != nullptr &&
          std::any_of(schedule_->faults().begin(), schedule_->faults().end(),
-                     [&](const ScriptedFault& f) { return f.device == device_ && f.kind == kind; });
+                     [&](const ScriptedFault& f) { return f.kind == kind; });
 }
 
 } // namespace octascope::sim

@@ -14,31 +14,31 @@ namespace octascope::sim {
 class FaultProbe {
 public:
   // `schedule` may be null: nothing ever breaks. Else it outlives the probe.
-  FaultProbe(const FaultSchedule* schedule, FaultDevice device);
+  FaultProbe(const FaultSchedule* schedule, pipeline::Device device);
 
   // Is the device out of its socket at `now`?
-  bool unplugged(hal::TimePoint now) const { return active(FaultKind::unplug, now) != nullptr; }
+  bool unplugged(hal::TimePoint now) const { return active(gone_, now) != nullptr; }
 
   // Was it pulled since the last call of watch_plug() or of this, even if it is back already?
   bool pulled_since_last_look(hal::TimePoint now);
   void watch_plug(hal::TimePoint now) { looked_ = now; }
 
   // Null when no such fault runs. switch_index as in FaultSchedule::find_active.
-  const ScriptedFault* active(FaultKind kind, hal::TimePoint t, int switch_index = -1) const {
-    return schedule_ == nullptr ? nullptr : schedule_->find_active(device_, kind, t, switch_index);
+  const ScriptedFault* active(pipeline::Fault kind, hal::TimePoint t, int switch_index = -1) const {
+    return schedule_ == nullptr ? nullptr : schedule_->find_active(kind, t, switch_index);
   }
 
   // The next beginning or end of such a fault.
-  std::optional<hal::TimePoint> next_edge(FaultKind kind, hal::TimePoint after) const {
-    return schedule_ == nullptr ? std::nullopt : schedule_->next_edge(device_, kind, after);
+  std::optional<hal::TimePoint> next_edge(pipeline::Fault kind, hal::TimePoint after) const {
+    return schedule_ == nullptr ? std::nullopt : schedule_->next_edge(kind, after);
   }
 
   // Call it once for each frame or pulse, with its time: the fault of this kind that hits it, or
   // null. Applies `every`, `probability` and `count`. Times should not decrease.
-  const ScriptedFault* strike(FaultKind kind, hal::TimePoint t);
+  const ScriptedFault* strike(pipeline::Fault kind, hal::TimePoint t);
 
-  // Whether the script has any fault of this kind for the device.
-  bool expects(FaultKind kind) const;
+  // Whether the script has any fault of this kind.
+  bool expects(pipeline::Fault kind) const;
 
 private:
   // How far one fault has come in its present occurrence.
@@ -51,7 +51,7 @@ private:
   static bool chooses(const ScriptedFault& fault, const Tally& tally);
 
   const FaultSchedule* schedule_;
-  FaultDevice device_;
+  pipeline::Fault gone_;       // out of its socket
   std::vector<Tally> tallies_; // one for each fault of the script
   hal::TimePoint looked_{};
 };

@@ -6,6 +6,7 @@ namespace octascope::sim {
 
 using hal::Duration;
 using hal::TimePoint;
+using pipeline::Fault;
 
 std::optional<FaultOccurrence> FaultSchedule::occurrence(const ScriptedFault& fault,
                                                          TimePoint t) const {
@@ -22,11 +23,10 @@ std::optional<FaultOccurrence> FaultSchedule::occurrence(const ScriptedFault& fa
   return FaultOccurrence{static_cast<std::uint64_t>(index), began};
 }
 
-const ScriptedFault* FaultSchedule::find_active(FaultDevice device, FaultKind kind, TimePoint t,
-                                                int switch_index) const {
+const ScriptedFault* FaultSchedule::find_active(Fault kind, TimePoint t, int switch_index) const {
   const auto found = std::find_if(faults().begin(), faults().end(), [&](const ScriptedFault& f) {
     const bool concerned = switch_index < 0 || f.switch_index < 0 || f.switch_index == switch_index;
-    return f.device == device && f.kind == kind && concerned && occurrence(f, t).has_value();
+    return f.kind == kind && concerned && occurrence(f, t).has_value();
   });
   return found == faults().end() ? nullptr : &*found;
 }
@@ -48,11 +48,10 @@ std::optional<FaultEdge> FaultSchedule::next_edge_of(const ScriptedFault& fault,
   return std::nullopt;
 }
 
-std::optional<TimePoint> FaultSchedule::next_edge(FaultDevice device, FaultKind kind,
-                                                  TimePoint after) const {
+std::optional<TimePoint> FaultSchedule::next_edge(Fault kind, TimePoint after) const {
   std::optional<TimePoint> next;
   for (const ScriptedFault& fault : faults()) {
-    if (fault.device != device || fault.kind != kind)
+    if (fault.kind != kind)
       continue;
     if (const auto edge = next_edge_of(fault, after))
       next = next ? std::min(*next, edge->time) : edge->time;
@@ -60,10 +59,9 @@ std::optional<TimePoint> FaultSchedule::next_edge(FaultDevice device, FaultKind 
   return next;
 }
 
-bool FaultSchedule::began_within(FaultDevice device, FaultKind kind, TimePoint after,
-                                 TimePoint until) const {
+bool FaultSchedule::began_within(Fault kind, TimePoint after, TimePoint until) const {
   return std::any_of(faults().begin(), faults().end(), [&](const ScriptedFault& fault) {
-    if (fault.device != device || fault.kind != kind)
+    if (fault.kind != kind)
       return false;
     auto edge = next_edge_of(fault, after);
     if (edge && !edge->begins)

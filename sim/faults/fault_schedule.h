@@ -45,22 +45,20 @@ public:
   std::optional<FaultOccurrence> occurrence(const ScriptedFault& fault, hal::TimePoint t) const;
 
   // Is a fault of this kind running at time `t`?
-  bool active(FaultDevice device, FaultKind kind, hal::TimePoint t) const {
-    return find_active(device, kind, t) != nullptr;
+  bool active(pipeline::Fault kind, hal::TimePoint t) const {
+    return find_active(kind, t) != nullptr;
   }
   // The first in the script that is, or null. With a switch_index from 0: only faults of that
   // switch and of all switches.
-  const ScriptedFault* find_active(FaultDevice device, FaultKind kind, hal::TimePoint t,
+  const ScriptedFault* find_active(pipeline::Fault kind, hal::TimePoint t,
                                    int switch_index = -1) const;
 
   // The first beginning or end of such a fault later than `after`.
-  std::optional<hal::TimePoint> next_edge(FaultDevice device, FaultKind kind,
-                                          hal::TimePoint after) const;
+  std::optional<hal::TimePoint> next_edge(pipeline::Fault kind, hal::TimePoint after) const;
 
   // Has a fault of this kind begun later than `after` and not later than `until`? For the twin that
   // was not looking while a short one came and went.
-  bool began_within(FaultDevice device, FaultKind kind, hal::TimePoint after,
-                    hal::TimePoint until) const;
+  bool began_within(pipeline::Fault kind, hal::TimePoint after, hal::TimePoint until) const;
 
   // Every beginning and end, of all devices, later than `after` and not later than `until`, oldest
   // first; returns the number written. When `edges` is full, ask again from the last one's time.

@@ -1,6 +1,7 @@
 #include "sim/faults/fault_script.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,25 +12,47 @@ namespace octascope::sim {
 
 using pipeline::ConfigDocument;
 using pipeline::ConfigTable;
+using pipeline::Device;
+using pipeline::Fault;
 
 namespace {
 
 constexpr double longest_s = 1e6;
 constexpr double shortest_s = 1e-4;
 
-constexpr std::array line_camera_kinds{FaultKind::unplug,           FaultKind::dropped_frames,
-                                       FaultKind::corrupted_frames, FaultKind::wrong_size,
-                                       FaultKind::late_frames,      FaultKind::stuck_sequence,
-                                       FaultKind::saturation};
-constexpr std::array galvo_trigger_kinds{FaultKind::unplug, FaultKind::missed_pulses};
-constexpr std::array control_input_kinds{FaultKind::unplug, FaultKind::bounce,
-                                         FaultKind::stuck_switch};
-constexpr std::array scope_camera_kinds{FaultKind::unplug};
-constexpr std::array display_kinds{FaultKind::lost};
+constexpr std::array scriptable{
+    // The line camera may come back as another one of its kind: comes_back_as.
+    ScriptableFault{gone(Device::line_camera), "unplug", false},
+    // Made by the hardware, never delivered: a gap in the sequence.
+    ScriptableFault{Fault::dropped_frames, "dropped_frames", true},
+    // Flagged by the driver, its bytes scrambled.
+    ScriptableFault{Fault::corrupted_frame, "corrupted_frames", true},
+    // size_share of the bytes are delivered.
+    ScriptableFault{Fault::wrong_size, "wrong_size", true},
+    // Handed out late_ms late; its times stay true.
+    ScriptableFault{Fault::late_frame, "late_frames", true},
+    // Carries the sequence number of the frame before.
+    ScriptableFault{Fault::stuck_sequence, "stuck_sequence", true},
+    // line_share of the lines at full scale.
+    ScriptableFault{Fault::saturation, "saturation", true},
 
-constexpr bool can_be_counted(FaultKind kind) {
-  return kind != FaultKind::unplug && kind != FaultKind::bounce &&
-         kind != FaultKind::stuck_switch && kind != FaultKind::lost;
+    ScriptableFault{gone(Device::galvo_trigger), "unplug", false},
+    // Made by the driver, never seen by the scanner.
+    ScriptableFault{Fault::missed_pulse, "missed_pulses", true},
+
+    ScriptableFault{gone(Device::control_input), "unplug", false},
+    // Each change of a contact bounces `bounces` times within bounce_ms.
+    ScriptableFault{Fault::bounce, "bounce", false},
+    // The contact of `switch` stays closed (or open, with pressed = false).
+    ScriptableFault{Fault::stuck_switch, "stuck_switch", false},
+
+    ScriptableFault{gone(Device::scope_camera), "unplug", false},
+
+    ScriptableFault{gone(Device::display), "lost", false},
+};
+
+const ScriptableFault& row_of(Fault fault) {
+  return *std::ranges::find(scriptable, fault, &ScriptableFault::fault);
 }
 
 hal::Duration duration_of(ConfigTable& table, std::string_view key) {
@@ -51,28 +74,31 @@ void read_device_and_kind(ConfigTable& table, ScriptedFault& fault) {
   require(table, "device");
   require(table, "kind");
   require(table, "at_s");
-  fault.device = static_cast<FaultDevice>(table.choice(
-      "device", 0, {"line_camera", "galvo_trigger", "control_input", "scope_camera", "display"}));
-  fault.kind = static_cast<FaultKind>(table.choice(
-      "kind", 0,
-      {"unplug", "dropped_frames", "corrupted_frames", "wrong_size", "late_frames",
-       "stuck_sequence", "saturation", "missed_pulses", "bounce", "stuck_switch", "lost"}));
-  const auto kinds = kinds_of(fault.device);
-  if (std::find(kinds.begin(), kinds.end(), fault.kind) == kinds.end()) {
-    std::vector<std::string_view> names;
-    for (const FaultKind kind : kinds)
-      names.push_back(to_string(kind));
-    table.complain(fmt::format("kind is '{}', expected for the {} one of \"{}\"",
-                               to_string(fault.kind), to_string(fault.device),
-                               fmt::join(names, "\", \"")));
+  const auto device = static_cast<Device>(
+      table.choice("device", 0,
+                   {facts_of(Device::line_camera).key, facts_of(Device::galvo_trigger).key,
+                    facts_of(Device::control_input).key, facts_of(Device::scope_camera).key,
+                    facts_of(Device::display).key}));
+  const std::string kind = table.text("kind", "");
+  std::vector<std::string_view> kinds;
+  for (const ScriptableFault& known : scriptable) {
+    if (facts_of(known.fault).device != device)
+      continue;
+    if (known.kind == kind) {
+      fault.kind = known.fault;
+      return;
+    }
+    kinds.push_back(known.kind);
   }
+  table.complain(fmt::format("kind is '{}', expected for the {} one of \"{}\"", kind,
+                             facts_of(device).key, fmt::join(kinds, "\", \"")));
 }
 
 void read_times(ConfigTable& table, ScriptedFault& fault) {
   fault.at = hal::from_seconds(table.number("at_s", 0, {0, longest_s}));
   fault.duration = duration_of(table, "duration_s");
   fault.repeat = duration_of(table, "repeat_s");
-  if (can_be_counted(fault.kind)) {
+  if (row_of(fault.kind).counted) {
     fault.count =
         static_cast<std::uint64_t>(table.has("count") ? table.integer("count", 1, {1, 1e9}) : 0);
     if (!table.has("duration_s") && !table.has("count"))
@@ -89,24 +115,22 @@ void read_times(ConfigTable& table, ScriptedFault& fault) {
 }
 
 void read_parameters(ConfigTable& table, ScriptedFault& fault) {
+  if (fault.kind == gone(Device::line_camera))
+    fault.comes_back_as = table.text("comes_back_as", "");
   switch (fault.kind) {
-  case FaultKind::unplug:
-    if (fault.device == FaultDevice::line_camera)
-      fault.comes_back_as = table.text("comes_back_as", "");
-    break;
-  case FaultKind::late_frames: fault.late_by = milliseconds_of(table, "late_ms", 20, 60e3); break;
-  case FaultKind::wrong_size:
+  case Fault::late_frame: fault.late_by = milliseconds_of(table, "late_ms", 20, 60e3); break;
+  case Fault::wrong_size:
     fault.size_share = table.number("size_share", 0.5, {0, 2});
     if (fault.size_share == 1)
       table.complain("size_share is 1, which is the right size; expected less or more");
     break;
-  case FaultKind::saturation: fault.line_share = table.number("line_share", 0.25, {0, 1}); break;
-  case FaultKind::bounce:
+  case Fault::saturation: fault.line_share = table.number("line_share", 0.25, {0, 1}); break;
+  case Fault::bounce:
     fault.switch_index = table.has("switch") ? table.integer("switch", 0, {0, 2}) : -1;
     fault.bounces = table.integer("bounces", 6, {1, 100});
     fault.bounce_spread = milliseconds_of(table, "bounce_ms", 4, 100);
     break;
-  case FaultKind::stuck_switch:
+  case Fault::stuck_switch:
     fault.switch_index = table.integer("switch", 0, {0, 2});
     fault.stuck_pressed = table.boolean("pressed", true);
     break;
@@ -130,48 +154,13 @@ hal::Result<FaultScript> read_script(const ConfigDocument& document) {
 
 } // namespace
 
-std::string_view to_string(FaultDevice device) {
-  switch (device) {
-  case FaultDevice::line_camera: return "line_camera";
-  case FaultDevice::galvo_trigger: return "galvo_trigger";
-  case FaultDevice::control_input: return "control_input";
-  case FaultDevice::scope_camera: return "scope_camera";
-  case FaultDevice::display: return "display";
-  }
-  return "unknown device";
-}
-
-std::string_view to_string(FaultKind kind) {
-  switch (kind) {
-  case FaultKind::unplug: return "unplug";
-  case FaultKind::dropped_frames: return "dropped_frames";
-  case FaultKind::corrupted_frames: return "corrupted_frames";
-  case FaultKind::wrong_size: return "wrong_size";
-  case FaultKind::late_frames: return "late_frames";
-  case FaultKind::stuck_sequence: return "stuck_sequence";
-  case FaultKind::saturation: return "saturation";
-  case FaultKind::missed_pulses: return "missed_pulses";
-  case FaultKind::bounce: return "bounce";
-  case FaultKind::stuck_switch: return "stuck_switch";
-  case FaultKind::lost: return "lost";
-  }
-  return "unknown fault";
-}
-
-std::span<const FaultKind> kinds_of(FaultDevice device) {
-  switch (device) {
-  case FaultDevice::line_camera: return line_camera_kinds;
-  case FaultDevice::galvo_trigger: return galvo_trigger_kinds;
-  case FaultDevice::control_input: return control_input_kinds;
-  case FaultDevice::scope_camera: return scope_camera_kinds;
-  case FaultDevice::display: return display_kinds;
-  }
-  return {};
+std::span<const ScriptableFault> scriptable_faults() {
+  return scriptable;
 }
 
 std::string describe(const ScriptedFault& fault) {
-  std::string words = fmt::format("{} {} at {} s", to_string(fault.device), to_string(fault.kind),
-                                  hal::to_seconds(fault.at));
+  std::string words = fmt::format("{} {} at {} s", facts_of(fault.kind).device_key(),
+                                  row_of(fault.kind).kind, hal::to_seconds(fault.at));
   if (fault.duration > hal::Duration{})
     words += fmt::format(" for {} s", hal::to_seconds(fault.duration));
   if (fault.count > 0)

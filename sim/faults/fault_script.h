@@ -1,16 +1,16 @@
 // Faults to come, read from a TOML file: what breaks, when, for how long, and how badly.
 //
 //   [[fault]]
-//   device = "line_camera"     # line_camera | galvo_trigger | control_input | scope_camera |
-//   display kind = "dropped_frames"    # see FaultKind for the kinds and their parameters at_s
-//   = 2.0                 # since the schedule's start duration_s = 1.0           # how long it
-//   lasts, or for frames and pulses count = 10                 # how many it hits; with both,
-//   whichever ends first repeat_s = 20.0            # optional: again after so long, for ever
+//   device = "line_camera"
+//   kind = "dropped_frames"  # one of scriptable_faults(), with its parameters
+//   at_s = 2.0               # since the schedule's start
+//   duration_s = 1.0         # how long it lasts; or, for frames and pulses:
+//   count = 10               # how many it hits; with both, whichever ends first
+//   repeat_s = 20.0          # optional: again after so long, for ever
 //
 // The reader is strict: a parameter that means nothing to a fault's kind is refused.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -20,53 +20,27 @@
 
 #include "hal/clock.h"
 #include "hal/result.h"
+#include "pipeline/faults/fault.h"
 
 namespace octascope::sim {
 
-enum class FaultDevice : std::uint8_t {
-  line_camera,
-  galvo_trigger,
-  control_input,
-  scope_camera,
-  display,
+// A fault is scripted as what the program reports when it notices it.
+struct ScriptableFault {
+  pipeline::Fault fault;
+  std::string_view kind; // in scripts: it stays
+  bool counted;          // frame by frame or pulse by pulse: `every`, `probability`, `seed` choose
 };
 
-enum class FaultKind : std::uint8_t {
-  unplug, // every device but the display: gone for duration_s, then back. The line camera may come
-          // back as another one of its kind: comes_back_as
+// All of them, device by device. What each does stands beside its row in fault_script.cpp.
+std::span<const ScriptableFault> scriptable_faults();
 
-  // Line camera, frame by frame; `every`, `probability` and `seed` choose among the frames:
-  dropped_frames,   // made by the hardware, never delivered: a gap in the sequence
-  corrupted_frames, // flagged by the driver, its bytes scrambled
-  wrong_size,       // size_share of the bytes are delivered
-  late_frames,      // handed out late_ms late; its times stay true
-  stuck_sequence,   // carries the sequence number of the frame before
-  saturation,       // line_share of the lines at full scale
-
-  // Galvo trigger, pulse by pulse, chosen as frames are:
-  missed_pulses, // made by the driver, never seen by the scanner
-
-  // Control input:
-  bounce,       // each change of a contact bounces `bounces` times within bounce_ms
-  stuck_switch, // the contact of `switch` stays closed (or open, with pressed = false)
-
-  // Display:
-  lost, // gone for duration_s, then back
-};
-
-inline constexpr std::array fault_devices{FaultDevice::line_camera, FaultDevice::galvo_trigger,
-                                          FaultDevice::control_input, FaultDevice::scope_camera,
-                                          FaultDevice::display};
-
-std::string_view to_string(FaultDevice device);
-std::string_view to_string(FaultKind kind);
-
-// The kinds that a device can suffer.
-std::span<const FaultKind> kinds_of(FaultDevice device);
+// A device that is out of its socket, or a display that is lost.
+constexpr pipeline::Fault gone(pipeline::Device device) {
+  return fault_of(device, hal::ErrorCode::disconnected);
+}
 
 struct ScriptedFault {
-  FaultDevice device = FaultDevice::line_camera;
-  FaultKind kind = FaultKind::unplug;
+  pipeline::Fault kind = gone(pipeline::Device::line_camera);
   hal::Duration at{};       // since the schedule's start
   hal::Duration duration{}; // 0: only `count` ends it
   std::uint64_t count = 0;  // 0: only `duration` ends it
@@ -77,8 +51,8 @@ struct ScriptedFault {
   double probability = 1;
   std::uint64_t seed = 1;
 
-  std::string comes_back_as;     // unplug of the line camera: its identity then; empty: as it was
-  hal::Duration late_by{};       // late_frames
+  std::string comes_back_as;     // gone line camera: its identity then; empty: as it was
+  hal::Duration late_by{};       // late_frame
   double size_share = 0.5;       // wrong_size: 0 … 2 of a frame's bytes, but not 1
   double line_share = 0.25;      // saturation
   int switch_index = -1;         // bounce: −1 is all; stuck_switch

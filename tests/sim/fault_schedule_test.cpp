@@ -11,10 +11,11 @@ namespace octascope::sim {
 namespace {
 
 using hal::TimePoint;
+using pipeline::Fault;
 using namespace std::chrono_literals;
 
-constexpr auto display = FaultDevice::display;
-constexpr auto camera = FaultDevice::line_camera;
+constexpr auto camera = pipeline::Device::line_camera;
+constexpr auto lost = gone(pipeline::Device::display);
 constexpr TimePoint zero{100s};
 
 constexpr std::string_view lost_twice = "[[fault]]\ndevice = \"display\"\nkind = \"lost\"\n"
@@ -22,16 +23,14 @@ constexpr std::string_view lost_twice = "[[fault]]\ndevice = \"display\"\nkind =
 
 TEST(FaultSchedule, nothing_is_active_before_the_start) {
   const FaultSchedule schedule{script_of(lost_twice)};
-  EXPECT_FALSE(schedule.active(display, FaultKind::lost, zero + 2s));
-  EXPECT_FALSE(schedule.next_edge(display, FaultKind::lost, zero));
+  EXPECT_FALSE(schedule.active(lost, zero + 2s));
+  EXPECT_FALSE(schedule.next_edge(lost, zero));
 }
 
 TEST(FaultSchedule, windows_are_half_open_and_repeat) {
   FaultSchedule schedule{script_of(lost_twice)};
   schedule.start(zero);
-  const auto active = [&](hal::Duration t) {
-    return schedule.active(display, FaultKind::lost, zero + t);
-  };
+  const auto active = [&](hal::Duration t) { return schedule.active(lost, zero + t); };
   EXPECT_FALSE(active(-5s));
   EXPECT_FALSE(active(1s - 1ns));
   for (const auto round : {0s, 10s, 1'000'000s}) {
@@ -40,7 +39,7 @@ TEST(FaultSchedule, windows_are_half_open_and_repeat) {
     EXPECT_FALSE(active(round + 3s));
     EXPECT_FALSE(active(round + 11s - 1ns));
   }
-  EXPECT_FALSE(schedule.active(camera, FaultKind::unplug, zero + 2s)) << "another device";
+  EXPECT_FALSE(schedule.active(gone(camera), zero + 2s)) << "another device";
 }
 
 TEST(FaultSchedule, edges_are_found_in_order_across_faults) {
@@ -56,22 +55,22 @@ TEST(FaultSchedule, edges_are_found_in_order_across_faults) {
     EXPECT_EQ(edges[i].time, zero + expected[i].first) << i;
     EXPECT_EQ(edges[i].begins, expected[i].second) << i;
   }
-  EXPECT_EQ(edges[1].fault->device, camera);
+  EXPECT_EQ(edges[1].fault->kind, gone(camera));
 
   std::array<FaultEdge, 2> few;
   ASSERT_EQ(schedule.edges_within(zero + 1s, zero + 13s, few), 2U);
   EXPECT_EQ(few[0].time, zero + 2s);
   EXPECT_EQ(few[1].time, zero + 3s);
   EXPECT_EQ(schedule.edges_within(zero + 1s, zero + 13s, {}), 0U);
-  EXPECT_EQ(schedule.next_edge(display, FaultKind::lost, zero + 3s), zero + 11s);
+  EXPECT_EQ(schedule.next_edge(lost, zero + 3s), zero + 11s);
 }
 
 TEST(FaultSchedule, a_fault_that_came_and_went_is_noticed) {
   FaultSchedule schedule{script_of(lost_twice)};
   schedule.start(zero);
-  EXPECT_TRUE(schedule.began_within(display, FaultKind::lost, zero, zero + 5s));
-  EXPECT_FALSE(schedule.began_within(display, FaultKind::lost, zero + 2s, zero + 5s));
-  EXPECT_TRUE(schedule.began_within(display, FaultKind::lost, zero + 2s, zero + 15s));
+  EXPECT_TRUE(schedule.began_within(lost, zero, zero + 5s));
+  EXPECT_FALSE(schedule.began_within(lost, zero + 2s, zero + 5s));
+  EXPECT_TRUE(schedule.began_within(lost, zero + 2s, zero + 15s));
 }
 
 // How many of `frames` frames, one a millisecond, a probe strikes, and the first that it strikes.
@@ -87,8 +86,8 @@ Strikes strikes_of(const std::string& parameters, int frames) {
   FaultProbe probe{&schedule, camera};
   Strikes strikes;
   for (int f = 0; f < frames; ++f) {
-    EXPECT_EQ(probe.strike(FaultKind::late_frames, zero), nullptr) << "another kind";
-    if (probe.strike(FaultKind::dropped_frames, zero + f * 1ms) == nullptr)
+    EXPECT_EQ(probe.strike(Fault::late_frame, zero), nullptr) << "another kind";
+    if (probe.strike(Fault::dropped_frames, zero + f * 1ms) == nullptr)
       continue;
     strikes.first = strikes.first < 0 ? f : strikes.first;
     ++strikes.count;
@@ -122,9 +121,9 @@ TEST(FaultProbe, without_a_schedule_nothing_breaks) {
   FaultProbe probe{nullptr, camera};
   EXPECT_FALSE(probe.unplugged(zero));
   EXPECT_FALSE(probe.pulled_since_last_look(zero));
-  EXPECT_EQ(probe.strike(FaultKind::dropped_frames, zero), nullptr);
-  EXPECT_FALSE(probe.next_edge(FaultKind::unplug, zero));
-  EXPECT_FALSE(probe.expects(FaultKind::dropped_frames));
+  EXPECT_EQ(probe.strike(Fault::dropped_frames, zero), nullptr);
+  EXPECT_FALSE(probe.next_edge(gone(camera), zero));
+  EXPECT_FALSE(probe.expects(Fault::dropped_frames));
 }
 
 } // namespace

@@ -30,8 +30,7 @@ TEST(FaultScript, reads_every_parameter) {
   ASSERT_TRUE(script) << script.error().message;
   ASSERT_EQ(script->faults.size(), 2U);
   const ScriptedFault& late = script->faults[0];
-  EXPECT_EQ(late.device, FaultDevice::line_camera);
-  EXPECT_EQ(late.kind, FaultKind::late_frames);
+  EXPECT_EQ(late.kind, pipeline::Fault::late_frame);
   EXPECT_EQ(late.at, 1500ms);
   EXPECT_EQ(late.duration, 2s);
   EXPECT_EQ(late.count, 3U);
@@ -76,7 +75,7 @@ TEST(FaultScript, refuses_what_makes_no_sense) {
 }
 
 TEST(FaultScript, the_samples_load_and_cover_every_kind_of_every_device) {
-  std::set<std::pair<FaultDevice, FaultKind>> covered;
+  std::set<pipeline::Fault> covered;
   int files = 0;
   for (const auto& entry :
        std::filesystem::directory_iterator{tests::source_folder() / "sim/faults/examples"}) {
@@ -84,14 +83,13 @@ TEST(FaultScript, the_samples_load_and_cover_every_kind_of_every_device) {
     ASSERT_TRUE(script) << script.error().message;
     EXPECT_FALSE(script->faults.empty()) << entry.path();
     for (const ScriptedFault& fault : script->faults)
-      covered.emplace(fault.device, fault.kind);
+      covered.insert(fault.kind);
     ++files;
   }
   EXPECT_GT(files, 0);
-  for (const FaultDevice device : fault_devices) {
-    for (const FaultKind kind : kinds_of(device))
-      EXPECT_TRUE(covered.contains({device, kind})) << to_string(device) << " " << to_string(kind);
-  }
+  for (const ScriptableFault& scriptable : scriptable_faults())
+    EXPECT_TRUE(covered.contains(scriptable.fault))
+        << facts_of(scriptable.fault).device_key() << " " << scriptable.kind;
 }
 
 } // namespace

@@ -52,7 +52,8 @@ struct DeviceColumns {
 DeviceColumns device_columns(const Canvas& canvas, const Layout& layout, const HudText& text) {
   float width = 0;
   for (std::size_t i = 0; i < text.device_count; ++i)
-    width = std::max(width, canvas.text_width(TextStyle::label, text.devices[i].name));
+    width =
+        std::max(width, canvas.text_width(TextStyle::label, facts_of(text.devices[i].device).name));
   width += (sign_width + 16) * layout.unit;
   const auto columns = static_cast<float>((text.device_count + 1) / 2);
   return {static_cast<float>(layout.status_bar.right()) - columns * width - 4 * layout.unit, width};
@@ -69,7 +70,7 @@ void draw_devices(Canvas& canvas, const Layout& layout, const HudText& text,
     const float middle = top + (static_cast<float>(i % 2) + 0.5F) * row_height;
     draw_device_sign(canvas, device.state, {x + 6 * u, middle}, 6 * u);
     canvas.text({x + sign_width * u, middle - canvas.text_height(TextStyle::label) / 2},
-                TextStyle::label, device_colour(device.state), device.name);
+                TextStyle::label, device_colour(device.state), facts_of(device.device).name);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "hal/clock.h"
 #include "hal/device.h"
+#include "pipeline/faults/fault.h"
 #include "pipeline/vessels/tree.h"
 #include "pipeline/volume/eye.h"
 #include "ui/controls/legend_lines.h"
@@ -18,10 +19,9 @@
 
 namespace octascope::ui {
 
-// Name and backend are literals or outlive the draw() that reads them.
 struct DeviceStatus {
-  std::string_view name;    // short, for people: "camera", "trigger", "pedal", "scope", "display"
-  std::string_view backend; // "v4l2", "sim", …
+  pipeline::Device device{};
+  std::string_view backend; // "v4l2", "sim" …: a literal
   hal::DeviceState state = hal::DeviceState::absent;
   bool operator==(const DeviceStatus&) const = default;
 };

@@ -22,7 +22,7 @@ void LastGoodStore::begin(const std::filesystem::path& configuration) {
 
 void LastGoodStore::advance(bool picture_shown) {
   const auto complain = [&](const hal::Error& error) {
-    faults_.add("host", "configuration_not_kept", error.message, clock_.now());
+    faults_.add(pipeline::Fault::configuration_not_kept, error.message, clock_.now());
   };
   if (is_ready(written_))
     if (const auto written = written_.get(); !written)

@@ -26,7 +26,7 @@ public:
   void begin(const std::filesystem::path& configuration);
 
   // Every turn. With the first picture of a volume since begin(), or after a while, what was read
-  // is written. A failure is a fault ("host", "configuration_not_kept").
+  // is written. A failure is a fault (configuration_not_kept).
   void advance(bool picture_shown);
 
   // At the end of a run, which may be shorter than reading the file takes: waits for it.

@@ -32,7 +32,7 @@ std::optional<RestoredView> SettingsStore::restore(const ConfiguredView& configu
   std::filesystem::path aside = file_;
   aside += ".broken";
   std::filesystem::rename(file_, aside, error);
-  faults_.add("host", "settings_broken",
+  faults_.add(pipeline::Fault::settings_broken,
               fmt::format("{}; set aside as {}", read.error().message, aside.filename().string()),
               clock_.now());
   return std::nullopt;
@@ -44,7 +44,7 @@ void SettingsStore::take_written() {
     kept_ = std::move(writing_text_);
     return;
   }
-  faults_.add("host", "settings_not_kept", written.error().message, clock_.now());
+  faults_.add(pipeline::Fault::settings_not_kept, written.error().message, clock_.now());
   next_ = clock_.now() + tried_again_after;
 }
 

@@ -20,7 +20,7 @@ public:
       : file_{std::move(file)}, clock_{clock}, faults_{faults} {}
 
   // Of an earlier run; nothing where there is no file. One that cannot be read is set aside under
-  // another name, recorded as a fault ("host", "settings_broken"), and never stops a start.
+  // another name, recorded as a fault (settings_broken), and never stops a start.
   std::optional<RestoredView> restore(const ConfiguredView& configured);
 
   // restore() has just set one aside.

@@ -132,7 +132,7 @@ hal::Result<> ReplayPlayer::read_next() {
 
 void ReplayPlayer::prepare(hal::TimePoint now) {
   if (const auto read = read_next(); !read) {
-    faults_.add("recording", "unreadable_volume", read.error().message, now);
+    faults_.add(Fault::unreadable_volume, read.error().message, now);
     count_gap(source_.volumes[next_].index);
     count_lost(1);
     advance();

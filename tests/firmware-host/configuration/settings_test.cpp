@@ -174,7 +174,7 @@ TEST_F(SettingsFile, that_is_broken_is_set_aside) {
   EXPECT_FALSE(fs::exists(file()));
   EXPECT_TRUE(fs::exists(folder_ / "settings.toml.broken"));
   ASSERT_EQ(faults_.records().size(), 1U);
-  EXPECT_EQ(faults_.records()[0].kind, "settings_broken");
+  EXPECT_EQ(faults_.records()[0].kind, pipeline::Fault::settings_broken);
 }
 
 TEST_F(SettingsFile, that_cannot_be_written_is_a_fault_and_no_more) {
@@ -184,7 +184,7 @@ TEST_F(SettingsFile, that_cannot_be_written_is_a_fault_and_no_more) {
   state.layout = ui::LayoutKind::quad;
   keeper.finish(configured_, state);
   ASSERT_EQ(faults_.records().size(), 1U);
-  EXPECT_EQ(faults_.records()[0].kind, "settings_not_kept");
+  EXPECT_EQ(faults_.records()[0].kind, pipeline::Fault::settings_not_kept);
 }
 
 } // namespace

@@ -59,7 +59,7 @@ TEST_F(CalibratedCameraTest, another_one_is_told_for_as_long_as_it_is_there) {
   for (int turn = 0; turn < 100; ++turn)
     EXPECT_EQ(look("Octoplus, serial 2"), CameraVerdict::another);
   ASSERT_EQ(faults.records().size(), 1U);
-  EXPECT_EQ(faults.records()[0].kind, "another_camera");
+  EXPECT_EQ(faults.records()[0].kind, pipeline::Fault::another_camera);
   EXPECT_EQ(faults.records()[0].count, 1U) << "once";
   EXPECT_THAT(faults.records()[0].message, HasSubstr("\"Octoplus, serial 1\""));
   EXPECT_THAT(faults.records()[0].message, HasSubstr("\"Octoplus, serial 2\""));

@@ -74,7 +74,7 @@ TEST_F(KeptPictures, that_find_no_room_are_told_and_leave_nothing) {
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(folder_.count(), 0);
   ASSERT_EQ(faults_.records().size(), 1U);
-  EXPECT_EQ(faults_.records()[0].kind, "picture_not_kept");
+  EXPECT_EQ(faults_.records()[0].kind, pipeline::Fault::picture_not_kept);
 }
 
 } // namespace

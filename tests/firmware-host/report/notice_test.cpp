@@ -1,6 +1,8 @@
 #include <array>
+#include <stdexcept>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "firmware-host/report/notice.h"
@@ -13,8 +15,14 @@ using hal::DeviceState;
 
 constexpr hal::TimePoint now{100s};
 
-pipeline::FaultRecord fault(std::string device, std::string kind, hal::Duration ago) {
-  return {std::move(device), std::move(kind), "", 1, now - ago, now - ago};
+// By its keys in reports.
+pipeline::FaultRecord fault(std::string_view device, std::string_view kind, hal::Duration ago) {
+  for (std::size_t i = 0; i < pipeline::fault_count; ++i) {
+    const auto facts = facts_of(static_cast<pipeline::Fault>(i));
+    if (facts.device_key() == device && facts.key == kind)
+      return {facts.fault, "", 1, now - ago, now - ago};
+  }
+  throw std::logic_error{fmt::format("there is no fault {} {}", device, kind)};
 }
 
 class Notice : public testing::Test {
@@ -23,10 +31,11 @@ protected:
     return compose_notice(faults, devices, now);
   }
 
-  std::array<ui::DeviceStatus, 4> devices{{{"camera", "sim", DeviceState::streaming},
-                                           {"trigger", "sim", DeviceState::ready},
-                                           {"pedal", "sim", DeviceState::ready},
-                                           {"scope", "sim", DeviceState::streaming}}};
+  std::array<ui::DeviceStatus, 4> devices{
+      {{pipeline::Device::line_camera, "sim", DeviceState::streaming},
+       {pipeline::Device::galvo_trigger, "sim", DeviceState::ready},
+       {pipeline::Device::control_input, "sim", DeviceState::ready},
+       {pipeline::Device::scope_camera, "sim", DeviceState::streaming}}};
 };
 
 TEST_F(Notice, is_empty_when_nothing_is_wrong) {

@@ -61,8 +61,8 @@ RunReport example() {
   r.view.selected = ui::Action::tilt;
   r.actions[ui::index_of(ui::Action::freeze)] = 3;
   r.started = hal::TimePoint{100s};
-  r.faults = {
-      {"line_camera", "disconnected", "it went away", 2, r.started + 1s, r.started + 2500ms}};
+  r.faults = {{fault_of(pipeline::Device::line_camera, hal::ErrorCode::disconnected),
+               "it went away", 2, r.started + 1s, r.started + 2500ms}};
   return r;
 }
 

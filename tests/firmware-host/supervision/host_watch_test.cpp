@@ -9,6 +9,7 @@ namespace octascope::firmware_host {
 namespace {
 
 using namespace std::chrono_literals;
+using pipeline::Fault;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -34,16 +35,14 @@ protected:
   }
 
   // The kinds of faults that the next look, a second later, brings.
-  std::vector<std::string> look() {
+  std::vector<Fault> look() {
     pipeline::FaultLog faults;
     now_ += 1s;
     wall_ += 1s;
     watch_.look(faults, now_);
-    std::vector<std::string> kinds;
-    for (const auto& fault : faults.records()) {
-      EXPECT_EQ(fault.device, "host");
+    std::vector<Fault> kinds;
+    for (const auto& fault : faults.records())
       kinds.push_back(fault.kind);
-    }
     return kinds;
   }
 
@@ -67,8 +66,8 @@ TEST_F(HostTrouble, is_none_on_a_sound_machine) {
 
 TEST_F(HostTrouble, a_full_disk) {
   free_bytes_ = HostWatch::least_disk_bytes - 1;
-  EXPECT_THAT(look(), ElementsAre("disk_full"));
-  EXPECT_THAT(look(), ElementsAre("disk_full")) << "for as long as it lasts";
+  EXPECT_THAT(look(), ElementsAre(Fault::disk_full));
+  EXPECT_THAT(look(), ElementsAre(Fault::disk_full)) << "for as long as it lasts";
   free_bytes_ = HostWatch::least_disk_bytes;
   EXPECT_THAT(look(), IsEmpty());
 }
@@ -77,7 +76,7 @@ TEST_F(HostTrouble, a_clock_that_jumps_either_way) {
   look();
   for (const auto jump : {3600s, -3600s, 2s, -2s}) {
     wall_ += jump;
-    EXPECT_THAT(look(), ElementsAre("clock_jump")) << jump.count();
+    EXPECT_THAT(look(), ElementsAre(Fault::clock_jump)) << jump.count();
     EXPECT_THAT(look(), IsEmpty()) << "once";
   }
   for (int i = 0; i < 100; ++i) { // a clock that is slewed, not set
@@ -88,20 +87,20 @@ TEST_F(HostTrouble, a_clock_that_jumps_either_way) {
 
 TEST_F(HostTrouble, too_little_memory) {
   add("proc/meminfo", "MemAvailable:    50000 kB\n");
-  EXPECT_THAT(look(), ElementsAre("low_memory"));
+  EXPECT_THAT(look(), ElementsAre(Fault::low_memory));
   add("proc/meminfo", "MemAvailable:    4000000 kB\n");
   EXPECT_THAT(look(), IsEmpty());
   add("proc/pressure/memory", "some avg10=60.00 avg60=0.00\nfull avg10=30.00 avg60=0.00\n");
-  EXPECT_THAT(look(), ElementsAre("low_memory"));
+  EXPECT_THAT(look(), ElementsAre(Fault::low_memory));
 }
 
 TEST_F(HostTrouble, heat) {
   look();
   add("sys/devices/system/cpu/cpu1/thermal_throttle/core_throttle_count", "5\n");
-  EXPECT_THAT(look(), ElementsAre("throttled"));
+  EXPECT_THAT(look(), ElementsAre(Fault::throttled));
   EXPECT_THAT(look(), IsEmpty());
   add("sys/class/thermal/thermal_zone1/temp", "85000\n");
-  EXPECT_THAT(look(), ElementsAre("throttled"));
+  EXPECT_THAT(look(), ElementsAre(Fault::throttled));
 }
 
 TEST_F(HostTrouble, is_not_made_up_where_a_machine_says_nothing) {

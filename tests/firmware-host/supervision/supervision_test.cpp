@@ -127,8 +127,7 @@ TEST_F(Threads, are_told_apart_and_complained_about_under_what_they_serve) {
   watch_.complain(faults_, t0 + 5s);
   const auto records = faults_.records();
   ASSERT_EQ(records.size(), 1U);
-  EXPECT_EQ(records[0].device, "pipeline");
-  EXPECT_EQ(records[0].kind, "stuck_thread");
+  EXPECT_EQ(records[0].kind, pipeline::Fault::pipeline_stuck_thread);
   EXPECT_EQ(records[0].count, 2U) << "for as long as it hangs";
   EXPECT_THAT(records[0].message, HasSubstr("worker 1"));
   watch_.complain(faults_, t0 + 11s);
@@ -152,7 +151,7 @@ protected:
 
 TEST_F(Journal, is_not_flooded) {
   for (int i = 0; i < 600; ++i) { // a minute of a fault that strikes ten times a second
-    faults_.add("line_camera", "dropped_frames", "lost", t0 + i * 100ms, 3);
+    faults_.add(pipeline::Fault::dropped_frames, "lost", t0 + i * 100ms, 3);
     journal_.update(faults_.records(), t0 + i * 100ms);
   }
   ASSERT_EQ(told_.size(), 6U);
@@ -163,8 +162,8 @@ TEST_F(Journal, is_not_flooded) {
 }
 
 TEST_F(Journal, tells_each_kind_for_itself_and_none_twice) {
-  faults_.add("line_camera", "disconnected", "gone", t0);
-  faults_.add("host", "disk_full", "full", t0);
+  faults_.add(pipeline::Fault::silent, "gone", t0);
+  faults_.add(pipeline::Fault::disk_full, "full", t0);
   journal_.update(faults_.records(), t0);
   journal_.update(faults_.records(), t0 + 1h);
   ASSERT_EQ(told_.size(), 2U);
@@ -228,7 +227,7 @@ ApplianceStatus a_status() {
   s.picture->displayed = 700;
   s.picture->notice = "Pedal disconnected: reconnecting";
   s.threads = {{"camera", false, 10ms}, {"worker 0", true, 4s}};
-  s.faults = {{"line_camera", "dropped_frames", "back\\slash \"and\"\nline", 7, t0, t0 + 40s}};
+  s.faults = {{pipeline::Fault::dropped_frames, "back\\slash \"and\"\nline", 7, t0, t0 + 40s}};
   s.resident_bytes = 256ULL << 20U;
   return s;
 }

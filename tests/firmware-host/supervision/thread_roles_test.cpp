@@ -96,10 +96,10 @@ TEST(ThreadSetup, a_core_that_is_not_there_is_a_fault_and_no_more) {
   WorkerCores cores{1, std::vector{1023}, allowed_cores()};
   EXPECT_EQ(cores_after(make_thread_setup(clock, faults, cores), {"worker", 0}), allowed_cores());
   EXPECT_EQ(cores.pinned(), std::vector{-1});
-  std::vector<std::string> kinds;
+  std::vector<pipeline::Fault> kinds;
   for (const auto& record : faults.records())
     kinds.push_back(record.kind);
-  EXPECT_THAT(kinds, testing::Contains("not_pinned"));
+  EXPECT_THAT(kinds, testing::Contains(pipeline::Fault::not_pinned));
 }
 
 } // namespace

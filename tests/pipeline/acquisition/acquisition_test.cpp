@@ -41,7 +41,7 @@ protected:
     }
   }
 
-  std::uint64_t count_of(std::string_view kind) const {
+  std::uint64_t count_of(Fault kind) const {
     const auto records = faults_.records();
     const auto found = std::ranges::find(records, kind, &FaultRecord::kind);
     return found == records.end() ? 0 : found->count;
@@ -68,27 +68,27 @@ TEST_F(AcquisitionTest, a_stream_may_begin_with_any_number) {
 TEST_F(AcquisitionTest, every_frame_of_a_gap_is_counted) {
   deliver({0, 1, 12, 13, 15});
   EXPECT_EQ(acquisition_->counters().gaps, 11U);
-  EXPECT_EQ(count_of("dropped_frames"), 11U);
-  EXPECT_EQ(count_of("stuck_sequence"), 0U);
+  EXPECT_EQ(count_of(Fault::dropped_frames), 11U);
+  EXPECT_EQ(count_of(Fault::stuck_sequence), 0U);
 }
 
 TEST_F(AcquisitionTest, a_counter_that_hung_leaves_no_gap) {
   deliver({0, 1, 1, 1, 1, 5, 6});
-  EXPECT_EQ(count_of("stuck_sequence"), 3U);
-  EXPECT_EQ(count_of("dropped_frames"), 0U);
+  EXPECT_EQ(count_of(Fault::stuck_sequence), 3U);
+  EXPECT_EQ(count_of(Fault::dropped_frames), 0U);
   EXPECT_EQ(acquisition_->counters().gaps, 0U);
 }
 
 TEST_F(AcquisitionTest, what_was_lost_while_it_hung_is_a_gap) {
   deliver({0, 1, 1, 5});
-  EXPECT_EQ(count_of("stuck_sequence"), 1U);
-  EXPECT_EQ(count_of("dropped_frames"), 2U);
+  EXPECT_EQ(count_of(Fault::stuck_sequence), 1U);
+  EXPECT_EQ(count_of(Fault::dropped_frames), 2U);
 }
 
 TEST_F(AcquisitionTest, a_counter_that_begins_anew_is_told_once) {
   deliver({7, 8, 0, 1, 2});
-  EXPECT_EQ(count_of("stuck_sequence"), 1U);
-  EXPECT_EQ(count_of("dropped_frames"), 0U);
+  EXPECT_EQ(count_of(Fault::stuck_sequence), 1U);
+  EXPECT_EQ(count_of(Fault::dropped_frames), 0U);
 }
 
 TEST_F(AcquisitionTest, what_the_camera_gave_is_queued_before_it_counts_as_looked_at) {
@@ -134,11 +134,11 @@ TEST_F(AcquisitionTest, a_silent_stream_is_opened_anew_while_the_scanner_is_puls
   }
   EXPECT_EQ(camera_.opened(), 2);
   EXPECT_GE(clock_.now() - begin, 3s);
-  EXPECT_EQ(count_of("silent"), 1U);
+  EXPECT_EQ(count_of(Fault::silent), 1U);
   while (camera_.state() != hal::DeviceState::streaming)
     clock_.sleep_for(1ms);
   deliver({0, 1}); // and it serves again, with numbers of its own
-  EXPECT_EQ(count_of("stuck_sequence"), 0U);
+  EXPECT_EQ(count_of(Fault::stuck_sequence), 0U);
 }
 
 TEST_F(AcquisitionTest, a_camera_that_nobody_triggers_may_be_silent) {

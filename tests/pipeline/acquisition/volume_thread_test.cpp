@@ -110,7 +110,7 @@ protected:
     }
   }
 
-  bool has_fault(std::string_view kind) const {
+  bool has_fault(Fault kind) const {
     return std::ranges::any_of(faults.records(),
                                [&](const FaultRecord& f) { return f.kind == kind; });
   }
@@ -166,7 +166,7 @@ TEST_F(VolumeThreadTest, publishes_without_the_missing_and_broken_ones_and_count
   EXPECT_EQ(volume->metadata.lost_b_scans, 3);
   EXPECT_EQ(volume->metadata.lost_lines, 12);
   EXPECT_EQ(volume->metadata.saturated_lines, 3);
-  EXPECT_TRUE(has_fault("corrupted_frame"));
+  EXPECT_TRUE(has_fault(Fault::corrupted_frame));
   stop();
   const VolumeCounters counters = volumes->counters();
   EXPECT_EQ(counters.planned, 2U);
@@ -186,7 +186,7 @@ TEST_F(VolumeThreadTest, a_late_frame_of_a_published_volume_is_refused) {
   clock.sleep_until(accepts_until(armed));
   wait_for_volume(1);
   camera.deliver(1, time_of(armed, 1), 99);
-  await([&] { return has_fault("late_frame"); });
+  await([&] { return has_fault(Fault::late_frame); });
   stop();
 }
 
@@ -203,7 +203,7 @@ TEST_F(VolumeThreadTest, frames_that_came_in_time_to_a_camera_nobody_looked_at_a
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->metadata.index, 1U);
   EXPECT_EQ(volume->missing_b_scans(), 0);
-  EXPECT_FALSE(has_fault("late_frame"));
+  EXPECT_FALSE(has_fault(Fault::late_frame));
   stop();
 }
 
@@ -231,11 +231,11 @@ TEST_F(VolumeThreadTest, pulses_at_the_ticks_of_its_clock_and_waits_in_its_time)
     clock.sleep_until(clock.await_waiter());
   for (int n = 0; n < 6; ++n)
     ASSERT_EQ(trigger.wait_for_pulse(static_cast<std::size_t>(n)), begin + n * plan.tick_period());
-  EXPECT_FALSE(has_fault("late_tick"));
+  EXPECT_FALSE(has_fault(Fault::late_tick));
   stop();
   EXPECT_EQ(volumes->counters().planned, trigger.pulses());
   EXPECT_EQ(volumes->counters().acquired, 0U);
-  EXPECT_TRUE(has_fault("missed_pulse"));
+  EXPECT_TRUE(has_fault(Fault::missed_pulse));
 }
 
 TEST_F(VolumeThreadTest, a_stuck_sequence_number_moves_no_b_scan) {
@@ -247,7 +247,7 @@ TEST_F(VolumeThreadTest, a_stuck_sequence_number_moves_no_b_scan) {
   for (int b = 0; b < plan.b_scans; ++b)
     EXPECT_EQ(volume->b_scan(b).front(), 10 + b);
   stop();
-  EXPECT_TRUE(has_fault("stuck_sequence"));
+  EXPECT_TRUE(has_fault(Fault::stuck_sequence));
 }
 
 TEST_F(VolumeThreadTest, triggers_nothing_without_a_camera_and_goes_on_when_it_is_back) {
@@ -269,7 +269,7 @@ TEST_F(VolumeThreadTest, triggers_nothing_without_a_camera_and_goes_on_when_it_i
   EXPECT_EQ(volume->missing_b_scans(), 0);
   stop();
   EXPECT_EQ(camera.opened(), 2);
-  EXPECT_TRUE(has_fault("disconnected"));
+  EXPECT_TRUE(has_fault(fault_of(Device::line_camera, hal::ErrorCode::disconnected)));
 }
 
 TEST_F(VolumeThreadTest, stops_cleanly_with_frames_on_the_way) {
@@ -341,8 +341,8 @@ TEST_F(RepeatsTest, a_sweep_that_comes_when_its_b_scan_was_made_is_refused) {
   clock.sleep_until(accepts_until(armed));
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->b_scan(0).front(), 12) << "of 10 and 13";
-  EXPECT_TRUE(has_fault("late_frame"));
-  EXPECT_TRUE(has_fault("doubled_frame"));
+  EXPECT_TRUE(has_fault(Fault::late_frame));
+  EXPECT_TRUE(has_fault(Fault::doubled_frame));
   EXPECT_EQ(volume->metadata.lost_b_scans, 0);
   EXPECT_EQ(volume->metadata.lost_lines, plan.a_scans);
   stop();

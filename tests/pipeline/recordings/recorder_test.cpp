@@ -142,8 +142,7 @@ TEST_F(RecorderTest, tells_what_cannot_be_begun_and_tries_again) {
   recorder.start({});
   begin(folder / "none/a.h5");
   ASSERT_EQ(faults.records().size(), 1U);
-  EXPECT_EQ(faults.records()[0].device, "recording");
-  EXPECT_EQ(faults.records()[0].kind, "not_begun");
+  EXPECT_EQ(faults.records()[0].kind, Fault::recording_not_begun);
   EXPECT_THAT(faults.records()[0].message, HasSubstr("none/a.h5"));
   EXPECT_FALSE(recorder.status().on);
   wait_until([&] { return recorder.begin(folder / "b.h5", small_recording_facts()); });

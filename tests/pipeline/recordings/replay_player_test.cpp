@@ -183,7 +183,7 @@ TEST_F(ReplayPlayerTest, goes_on_after_a_volume_that_cannot_be_read_and_tells) {
   EXPECT_EQ(taken[1].after, 2 * 141ms) << "its time passes";
   EXPECT_EQ(player->end(), ReplayEnd::done);
   ASSERT_EQ(faults.records().size(), 1U);
-  EXPECT_EQ(faults.records()[0].kind, "unreadable_volume");
+  EXPECT_EQ(faults.records()[0].kind, Fault::unreadable_volume);
   EXPECT_THAT(faults.records()[0].message, HasSubstr("volume 1 is broken"));
   EXPECT_EQ(player->counters().lost_volumes, 2U) << "it and the one that was lost";
   expect_balance();
@@ -323,7 +323,7 @@ TEST(ReplayedFile, that_is_cut_off_meanwhile_is_told) {
     now = std::max(player.step(now), now);
   EXPECT_NE(player.end(), ReplayEnd::none);
   ASSERT_FALSE(faults.records().empty());
-  EXPECT_EQ(faults.records()[0].kind, "unreadable_volume");
+  EXPECT_EQ(faults.records()[0].kind, Fault::unreadable_volume);
 }
 
 } // namespace

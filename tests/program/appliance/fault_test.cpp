@@ -360,18 +360,17 @@ TEST(Everything, at_once_is_survived) {
 // No example, and no kind of fault, is without a test.
 TEST(Everything, shipped_has_a_test) {
   std::set<std::string> tested{"everything"};
-  std::set<std::pair<sim::FaultDevice, sim::FaultKind>> kinds;
+  std::set<pipeline::Fault> kinds;
   for (const FaultCase& c : fault_cases()) {
     tested.insert(c.example);
     const auto script = sim::FaultScript::parse(c.script, c.example);
     ASSERT_TRUE(script) << script.error().message;
     for (const sim::ScriptedFault& f : script->faults)
-      kinds.emplace(f.device, f.kind);
+      kinds.insert(f.kind);
   }
-  for (const sim::FaultDevice device : sim::fault_devices) {
-    for (const sim::FaultKind kind : sim::kinds_of(device))
-      EXPECT_TRUE(kinds.contains({device, kind})) << to_string(device) << " " << to_string(kind);
-  }
+  for (const sim::ScriptableFault& scriptable : sim::scriptable_faults())
+    EXPECT_TRUE(kinds.contains(scriptable.fault))
+        << facts_of(scriptable.fault).device_key() << " " << scriptable.kind;
   std::set<std::string> shipped;
   for (const auto& entry :
        std::filesystem::directory_iterator{source_folder() / "sim/faults/examples"})

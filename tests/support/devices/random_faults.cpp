@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <random>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,7 +9,8 @@ namespace octascope::tests {
 
 namespace {
 
-using sim::FaultKind;
+using pipeline::Device;
+using pipeline::Fault;
 
 class FaultDice {
 public:
@@ -22,35 +21,28 @@ public:
   }
   int any(int low, int high) { return std::uniform_int_distribution<int>{low, high}(random_); }
 
-  std::pair<sim::FaultDevice, FaultKind> any_kind() {
-    std::vector<std::pair<sim::FaultDevice, FaultKind>> all;
-    for (const sim::FaultDevice device : sim::fault_devices)
-      for (const FaultKind kind : sim::kinds_of(device))
-        all.emplace_back(device, kind);
+  const sim::ScriptableFault& any_kind() {
+    const auto all = sim::scriptable_faults();
     return all[static_cast<std::size_t>(any(0, static_cast<int>(all.size()) - 1))];
   }
 
   // What belongs to the kind and to no other.
-  std::string parameters(FaultKind kind) {
+  std::string parameters(Fault kind) {
     switch (kind) {
-    case FaultKind::late_frames:
-      return chosen() + fmt::format("late_ms = {:.1f}\n", between(1, 300));
-    case FaultKind::wrong_size:
+    case Fault::late_frame: return chosen() + fmt::format("late_ms = {:.1f}\n", between(1, 300));
+    case Fault::wrong_size:
       return chosen() + fmt::format("size_share = {:.3f}\n", between(0, 0.99) + any(0, 1));
-    case FaultKind::saturation:
-      return chosen() + fmt::format("line_share = {:.3f}\n", between(0, 1));
-    case FaultKind::dropped_frames:
-    case FaultKind::corrupted_frames:
-    case FaultKind::stuck_sequence:
-    case FaultKind::missed_pulses: return chosen();
-    case FaultKind::bounce:
+    case Fault::saturation: return chosen() + fmt::format("line_share = {:.3f}\n", between(0, 1));
+    case Fault::dropped_frames:
+    case Fault::corrupted_frame:
+    case Fault::stuck_sequence:
+    case Fault::missed_pulse: return chosen();
+    case Fault::bounce:
       return fmt::format("bounces = {}\nbounce_ms = {:.1f}\n", any(1, 20), between(0.5, 4));
-    case FaultKind::stuck_switch:
+    case Fault::stuck_switch:
       return fmt::format("switch = {}\npressed = {}\n", any(0, 2), any(0, 1) == 1);
-    case FaultKind::unplug:
-    case FaultKind::lost: return {};
+    default: return {};
     }
-    return {};
   }
 
 private:
@@ -63,11 +55,12 @@ private:
   std::mt19937 random_;
 };
 
-std::string one_fault(FaultDice& dice, sim::FaultDevice device, FaultKind kind, double at_s,
+std::string one_fault(FaultDice& dice, const sim::ScriptableFault& fault, double at_s,
                       double duration_s) {
   return fmt::format(
       "[[fault]]\ndevice = \"{}\"\nkind = \"{}\"\nat_s = {:.3f}\nduration_s = {:.3f}\n{}\n",
-      to_string(device), to_string(kind), at_s, duration_s, dice.parameters(kind));
+      facts_of(fault.fault).device_key(), fault.kind, at_s, duration_s,
+      dice.parameters(fault.fault));
 }
 
 } // namespace
@@ -77,11 +70,11 @@ std::string random_faults(unsigned seed, double from_s, double until_s, double m
   std::string script;
   double at_s = from_s;
   while (true) {
-    const auto [device, kind] = dice.any_kind();
+    const sim::ScriptableFault& fault = dice.any_kind();
     const double duration_s = dice.between(0.05, 2);
     if (at_s + duration_s > until_s)
       return script;
-    script += one_fault(dice, device, kind, at_s, duration_s);
+    script += one_fault(dice, fault, at_s, duration_s);
     at_s += dice.between(0.1, 1.9) * mean_gap_s;
   }
 }
@@ -91,13 +84,11 @@ Rehearsal every_fault_once(unsigned seed, double from_s) {
   constexpr double apart_s = 1.2;
   FaultDice dice{seed};
   Rehearsal rehearsal{{}, from_s};
-  for (const sim::FaultDevice device : sim::fault_devices) {
-    for (const FaultKind kind : sim::kinds_of(device)) {
-      const bool again = device == sim::FaultDevice::display;
-      for (int i = 0; i < (again ? rehearsed_display_losses : 1); ++i) {
-        rehearsal.script += one_fault(dice, device, kind, rehearsal.until_s, lasts_s);
-        rehearsal.until_s += apart_s;
-      }
+  for (const sim::ScriptableFault& fault : sim::scriptable_faults()) {
+    const bool again = fault.fault == sim::gone(Device::display);
+    for (int i = 0; i < (again ? rehearsed_display_losses : 1); ++i) {
+      rehearsal.script += one_fault(dice, fault, rehearsal.until_s, lasts_s);
+      rehearsal.until_s += apart_s;
     }
   }
   return rehearsal;
@@ -107,15 +98,12 @@ double most_volumes_lost(const sim::FaultScript& script, hal::Duration tick_peri
   constexpr double latest_retry_s = 2.5; // and the opening itself
   double volumes = 0;
   for (const sim::ScriptedFault& fault : script.faults) {
-    const bool of_the_scan = fault.device == sim::FaultDevice::line_camera ||
-                             fault.device == sim::FaultDevice::galvo_trigger;
-    const bool whole = fault.kind == FaultKind::unplug || fault.kind == FaultKind::missed_pulses ||
-                       fault.kind == FaultKind::late_frames;
-    if (!of_the_scan || !whole)
+    const bool unplugged = fault.kind == sim::gone(Device::line_camera) ||
+                           fault.kind == sim::gone(Device::galvo_trigger);
+    if (!unplugged && fault.kind != Fault::missed_pulse && fault.kind != Fault::late_frame)
       continue;
-    const double after_s = fault.kind == FaultKind::unplug        ? latest_retry_s
-                           : fault.kind == FaultKind::late_frames ? hal::to_seconds(fault.late_by)
-                                                                  : 0;
+    // Nothing is late but late frames.
+    const double after_s = unplugged ? latest_retry_s : hal::to_seconds(fault.late_by);
     // The volumes at its beginning and at its end are cut.
     volumes += (hal::to_seconds(fault.duration) + after_s) / hal::to_seconds(tick_period) + 2;
   }

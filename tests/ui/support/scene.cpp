@@ -14,11 +14,12 @@ ui::Status live_status() {
   status.frames_per_s = 59.8;
   status.latency_p50_ms = 31.6;
   status.latency_p95_ms = 44.2;
-  status.devices = {{{"camera", "sim", hal::DeviceState::streaming},
-                     {"trigger", "sim", hal::DeviceState::ready},
-                     {"pedal", "sim", hal::DeviceState::ready},
-                     {"scope", "sim", hal::DeviceState::streaming},
-                     {"display", "offscreen", hal::DeviceState::ready}}};
+  using pipeline::Device;
+  status.devices = {{{Device::line_camera, "sim", hal::DeviceState::streaming},
+                     {Device::galvo_trigger, "sim", hal::DeviceState::ready},
+                     {Device::control_input, "sim", hal::DeviceState::ready},
+                     {Device::scope_camera, "sim", hal::DeviceState::streaming},
+                     {Device::display, "offscreen", hal::DeviceState::ready}}};
   status.device_count = 5;
   status.simulated = true;
   status.source_description = "Phantom tissue, loop of 2.3 s";

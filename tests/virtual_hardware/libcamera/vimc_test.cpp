@@ -278,13 +278,11 @@ TEST_F(Vimc, the_scope_thread_survives_unplug_and_replug) {
   EXPECT_EQ(pictures(5), 5) << "by itself";
   thread.stop();
   const auto records = faults.records();
-  const auto has = [&](std::string_view kind) {
-    return std::any_of(records.begin(), records.end(),
-                       [&](const auto& record) { return record.kind == kind; });
-  };
-  EXPECT_TRUE(has("disconnected"));
+  EXPECT_TRUE(std::any_of(records.begin(), records.end(), [](const auto& record) {
+    return record.kind == fault_of(pipeline::Device::scope_camera, hal::ErrorCode::disconnected);
+  }));
   for (const auto& record : records)
-    std::printf("  %s, %d times: %s\n", std::string{record.kind}.c_str(),
+    std::printf("  %s, %d times: %s\n", std::string{facts_of(record.kind).key}.c_str(),
                 static_cast<int>(record.count), record.message.c_str());
 }
 

@@ -1,0 +1,125 @@
+// Everything that can go wrong: with what, how grave it is, and in which words it is told.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "hal/clock.h"
+#include "hal/result.h"
+
+namespace octascope::pipeline {
+
+// What a fault befalls. First the devices, in the order in which a picture needs them; then what is
+// told in the same way.
+enum class Device : std::uint8_t {
+  line_camera,
+  galvo_trigger,
+  control_input,
+  scope_camera,
+  display,
+  pipeline, // from frames to volumes
+  picture,  // what the volume shows
+  recording,
+  vessels,
+  keyboard,
+  host, // the computer, and the program's files on it
+};
+
+inline constexpr std::size_t device_count = static_cast<std::size_t>(Device::host) + 1;
+
+struct DeviceFacts {
+  Device device;
+  std::string_view key;        // in reports, journal, metrics and fault scripts: it stays
+  std::string_view name = key; // on the status bar and in `octascope status`: it stays
+  std::string_view away = {};  // the notice while it is away; empty: none
+};
+
+// Gravest first: of several, the display tells the one that is named first here.
+enum class Fault : std::uint8_t {
+  line_camera_stuck_thread,
+  pipeline_stuck_thread,
+  control_input_stuck_thread,
+  scope_camera_stuck_thread,
+  overrun,
+  late_tick,
+  silent,
+  missed_pulse,
+  unanswered_pulse,
+  frame_overflow,
+  dropped_frames,
+  corrupted_frame,
+  wrong_size,
+  late_frame,
+  unplaced_frame,
+  doubled_frame,
+  saturation,
+  upper_border,
+  unreadable_volume,
+  another_camera,
+  throttled,
+  low_memory,
+  disk_full,
+  recording_disk_full,
+  recording_not_kept,
+  recording_not_finished,
+  recording_not_begun,
+  came_late,
+  picture_not_kept,
+  stuck_switch,
+  restarted_after_crash,
+
+  // Left to the report: they concern neither pictures nor hands.
+  stuck_sequence,
+  control_overflow,
+  bounce,
+  phase_beyond_turn_around,
+  vessels_not_shown,
+  registration_not_kept,
+  keyboard_not_opened,
+  clock_jump,
+  memory_not_locked,
+  no_realtime,
+  not_pinned,
+  no_status_socket,
+  metrics_not_written,
+  configuration_refused,
+  configuration_not_kept,
+  settings_broken,
+  settings_not_kept,
+
+  device_errors, // the first of the errors of devices, which have no names of their own
+};
+
+inline constexpr std::size_t named_fault_count = static_cast<std::size_t>(Fault::device_errors);
+inline constexpr std::size_t error_code_count =
+    static_cast<std::size_t>(hal::ErrorCode::system) + 1;
+inline constexpr std::size_t fault_count = named_fault_count + device_count * error_code_count;
+
+constexpr std::size_t index_of(Fault fault) {
+  return static_cast<std::size_t>(fault);
+}
+
+// What a device answered: each of hal's codes is a fault of each device.
+constexpr Fault fault_of(Device device, hal::ErrorCode code) {
+  return static_cast<Fault>(named_fault_count +
+                            static_cast<std::size_t>(device) * error_code_count +
+                            static_cast<std::size_t>(code));
+}
+
+struct FaultFacts {
+  Fault fault;
+  Device device;
+  std::string_view key;         // "kind" in reports and metrics: it stays
+  std::string_view notice = {}; // what the display says; empty: left to the report
+  hal::Duration shown_for = std::chrono::seconds{2}; // after it last struck
+
+  std::string_view device_key() const; // "device" in reports and metrics
+};
+
+// From the tables of all devices and all faults. Every string is a literal.
+const DeviceFacts& facts_of(Device device);
+FaultFacts facts_of(Fault fault);
+
+} // namespace octascope::pipeline
