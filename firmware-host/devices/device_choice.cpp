@@ -4,6 +4,8 @@
 
 namespace octascope::firmware_host {
 
+using pipeline::Device;
+
 namespace {
 
 constexpr std::string_view twin_asked_for = "the simulated twin was asked for";
@@ -15,7 +17,7 @@ std::string asked_for(std::string_view wish) {
 
 DeviceChoice line_camera(const DeviceFinding& found, const RunOptions& options,
                          std::string_view wish) {
-  constexpr std::string_view device = "line_camera";
+  constexpr Device device = Device::line_camera;
   if (options.replay)
     return {device, "none", std::string{volumes_from_a_file}};
   if (options.recording)
@@ -29,7 +31,7 @@ DeviceChoice line_camera(const DeviceFinding& found, const RunOptions& options,
 
 DeviceChoice galvo_trigger(const DeviceFinding& found, bool real_camera, const RunOptions& options,
                            std::string_view wish) {
-  constexpr std::string_view device = "galvo_trigger";
+  constexpr Device device = Device::galvo_trigger;
   if (options.replay)
     return {device, "none", std::string{volumes_from_a_file}};
   if (!real_camera)
@@ -41,7 +43,7 @@ DeviceChoice galvo_trigger(const DeviceFinding& found, bool real_camera, const R
 
 DeviceChoice control_input(const DeviceFinding& found, bool real_camera, const RunOptions& options,
                            std::string_view wish) {
-  constexpr std::string_view device = "control_input";
+  constexpr Device device = Device::control_input;
   if (options.simulate || options.controls || wish == DeviceConfig::twin)
     return {device, "sim", std::string{twin_asked_for}};
   if (wish != DeviceConfig::automatic)
@@ -51,7 +53,7 @@ DeviceChoice control_input(const DeviceFinding& found, bool real_camera, const R
 
 DeviceChoice scope_camera(const DeviceFinding& found, bool real_camera, const RunOptions& options,
                           std::string_view wish) {
-  constexpr std::string_view device = "scope_camera";
+  constexpr Device device = Device::scope_camera;
   if (wish == DeviceConfig::nothing)
     return {device, "none", asked_for(wish)};
   if (options.replay)
@@ -71,7 +73,7 @@ DeviceChoice scope_camera(const DeviceFinding& found, bool real_camera, const Ru
 }
 
 DeviceChoice display(const DetectedDevices& detected, DisplayChoice wish) {
-  constexpr std::string_view device = "display";
+  constexpr Device device = Device::display;
   switch (wish) {
   case DisplayChoice::window: return {device, "window", "a window was asked for"};
   case DisplayChoice::offscreen: return {device, "offscreen", "offscreen was asked for"};

@@ -9,17 +9,22 @@
 #include "firmware-host/configuration/device_config.h"
 #include "firmware-host/configuration/run_options.h"
 #include "firmware-host/devices/detected_devices.h"
+#include "pipeline/faults/fault.h"
 
 namespace octascope::firmware_host {
 
 struct DeviceChoice {
-  std::string_view device;  // "line_camera" …
-  std::string_view backend; // "v4l2", "sim", "window" …; "none"
-  std::string reason;       // for people
+  pipeline::Device device{};
+  std::string_view backend{}; // "v4l2", "sim", "window" …; "none"
+  std::string reason{};       // for people
 };
 
 struct DeviceChoices {
-  DeviceChoice line_camera, galvo_trigger, control_input, scope_camera, display;
+  DeviceChoice line_camera{pipeline::Device::line_camera};
+  DeviceChoice galvo_trigger{pipeline::Device::galvo_trigger};
+  DeviceChoice control_input{pipeline::Device::control_input};
+  DeviceChoice scope_camera{pipeline::Device::scope_camera};
+  DeviceChoice display{pipeline::Device::display};
 
   std::vector<DeviceChoice> all() const {
     return {line_camera, galvo_trigger, control_input, scope_camera, display};

@@ -70,7 +70,8 @@ std::string devices_text(const HardwareSurvey& survey, const DeviceChoices& choi
     fmt::format_to(out, "  {}: plugged in, but no driver holds it: see octascope doctor\n", idle);
   text += "\nWould be used\n";
   for (const DeviceChoice& choice : choices.all())
-    fmt::format_to(out, "  {:<14} {:<10} {}\n", choice.device, choice.backend, choice.reason);
+    fmt::format_to(out, "  {:<14} {:<10} {}\n", facts_of(choice.device).key, choice.backend,
+                   choice.reason);
   return text;
 }
 
@@ -85,8 +86,8 @@ std::string devices_json(const HardwareSurvey& survey, const DeviceChoices& choi
                      {"udev_rules_installed", survey.machine.rules_installed},
                      {"without_driver", survey.machine.without_driver}};
   for (const DeviceChoice& choice : choices.all())
-    json["used"][std::string{choice.device}] = {{"backend", choice.backend},
-                                                {"reason", choice.reason}};
+    json["used"][std::string{facts_of(choice.device).key}] = {{"backend", choice.backend},
+                                                              {"reason", choice.reason}};
   return json.dump(2) + "\n";
 }
 

@@ -191,7 +191,7 @@ HealthCheck check_devices(hal::Clock& clock) {
   std::string twins;
   for (const DeviceChoice& choice : choices->all()) {
     if (choice.backend == "sim")
-      twins += (twins.empty() ? "" : ", ") + std::string{choice.device};
+      twins += (twins.empty() ? "" : ", ") + std::string{facts_of(choice.device).key};
   }
   if (twins.empty())
     return good("devices", "all real");

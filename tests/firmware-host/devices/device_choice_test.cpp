@@ -26,7 +26,7 @@ TEST(DeviceChoice, without_devices_the_twins_serve) {
   nothing.control_input.what = "no pedal";
   const DeviceChoices choices = choose_devices(nothing, {});
   for (const DeviceChoice& choice : choices.all())
-    EXPECT_FALSE(choice.reason.empty()) << choice.device;
+    EXPECT_FALSE(choice.reason.empty()) << facts_of(choice.device).key;
   EXPECT_EQ(choices.line_camera.backend, "sim");
   EXPECT_EQ(choices.galvo_trigger.backend, "sim");
   EXPECT_EQ(choices.control_input.backend, "sim");
@@ -61,7 +61,7 @@ TEST(DeviceChoice, a_replay_has_display_and_pedal_and_nothing_that_scans) {
   const DeviceChoices choices = choose_devices(everything(), options);
   for (const DeviceChoice& choice :
        {choices.line_camera, choices.galvo_trigger, choices.scope_camera})
-    EXPECT_EQ(choice.backend, "none") << choice.device;
+    EXPECT_EQ(choice.backend, "none") << facts_of(choice.device).key;
   EXPECT_EQ(choices.control_input.backend, "hid");
   EXPECT_EQ(choices.display.backend, "kms");
 }

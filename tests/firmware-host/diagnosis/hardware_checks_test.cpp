@@ -106,7 +106,7 @@ protected:
     machine_.add_pedal("hidraw0", "Pedal", true, 0600);
     machine_.add("proc/99/comm", "cheese\n");
     machine_.link("proc/99/fd/3", "/dev/video0");
-    choices_.line_camera = {"line_camera", "v4l2", "/dev/video0 suits"};
+    choices_.line_camera = {pipeline::Device::line_camera, "v4l2", "/dev/video0 suits"};
   }
   FakeMachine machine_;
   DeviceChoices choices_;
