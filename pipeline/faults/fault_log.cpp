@@ -10,27 +10,22 @@ void FaultLog::add(Fault fault, std::string_view message, hal::TimePoint when,
   FaultRecord& record = records_[index_of(fault)];
   if (record.count == 0) {
     record = {fault, std::string{message}, 0, when, when};
-    struck_[kinds_++] = fault;
+    order_[kinds_++] = fault;
   }
   record.count += count;
   record.last = when;
 }
 
-bool FaultLog::add_to_known(Fault fault, hal::TimePoint when, std::uint64_t count) {
+bool FaultLog::struck(Fault fault) const {
   const std::lock_guard lock{mutex_};
-  FaultRecord& record = records_[index_of(fault)];
-  if (record.count == 0)
-    return false;
-  record.count += count;
-  record.last = when;
-  return true;
+  return records_[index_of(fault)].count > 0;
 }
 
 std::vector<FaultRecord> FaultLog::records() const {
   const std::lock_guard lock{mutex_};
   std::vector<FaultRecord> records;
   records.reserve(kinds_);
-  for (const Fault fault : std::span{struck_}.first(kinds_))
+  for (const Fault fault : std::span{order_}.first(kinds_))
     records.push_back(records_[index_of(fault)]);
   return records;
 }

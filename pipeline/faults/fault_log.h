@@ -34,9 +34,7 @@ public:
   void add(Fault fault, std::string_view message, hal::TimePoint when, std::uint64_t count = 1);
   template <std::invocable MakeMessage>
   void add(Fault fault, MakeMessage&& message, hal::TimePoint when, std::uint64_t count = 1) {
-    if (add_to_known(fault, when, count))
-      return;
-    const std::string words = std::invoke(message);
+    const std::string words = struck(fault) ? std::string{} : std::invoke(message);
     add(fault, std::string_view{words}, when, count);
   }
   // What a device answered.
@@ -47,12 +45,11 @@ public:
   std::vector<FaultRecord> records() const;
 
 private:
-  // False, and nothing done, at the first fault of a kind.
-  bool add_to_known(Fault fault, hal::TimePoint when, std::uint64_t count);
+  bool struck(Fault fault) const;
 
   mutable std::mutex mutex_;
   std::array<FaultRecord, fault_count> records_{}; // count 0: it never struck
-  std::array<Fault, fault_count> struck_{};        // the first `kinds_` of them
+  std::array<Fault, fault_count> order_{};         // in which they struck first; `kinds_` of them
   std::size_t kinds_ = 0;
 };
 
