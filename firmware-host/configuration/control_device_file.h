@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/linux/hid/control_model.h"
+#include "hal/linux/hid/models/control_model.h"
 #include "hal/result.h"
 
 namespace octascope::firmware_host {

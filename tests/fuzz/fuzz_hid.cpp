@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <span>
 
-#include "hal/linux/hid/control_model.h"
-#include "hal/linux/hid/hid_decoder.h"
+#include "hal/linux/hid/decoders/hid_decoder.h"
+#include "hal/linux/hid/models/control_model.h"
 #include "tests/fuzz/expect.h"
 
 // The first byte chooses the control; then reports, each with its length in front.

@@ -11,7 +11,7 @@
 #include "firmware-host/commands/command.h"
 #include "firmware-host/configuration/control_device_file.h"
 #include "firmware-host/run/stop_signal.h"
-#include "hal/linux/hid/learning_session.h"
+#include "hal/linux/hid/learning/learning_session.h"
 #include "hal/linux/monotonic_clock.h"
 
 namespace octascope::firmware_host {

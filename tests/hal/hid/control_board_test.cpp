@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/linux/hid/control_board.h"
+#include "hal/linux/hid/controls/control_board.h"
 #include "tests/support/files/fresh_seed.h"
 
 namespace octascope::hal::linux_backend {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
 
-#include "hal/linux/hid/hid_decoder.h"
-#include "hal/linux/hid/key_decoder.h"
+#include "hal/linux/hid/decoders/hid_decoder.h"
+#include "hal/linux/hid/decoders/key_decoder.h"
 #include "tests/support/files/fresh_seed.h"
 
 namespace octascope::hal::linux_backend {

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "hal/linux/hid/hid_survey.h"
-#include "hal/linux/hid/udev_rules.h"
-#include "tests/support/program/built_places.h"
+#include "hal/linux/hid/models/udev_rules.h"
+#include "hal/linux/hid/survey/hid_survey.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::hal::linux_backend {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <linux/input-event-codes.h>
 
-#include "hal/linux/hid/keyboard_decoder.h"
+#include "hal/linux/hid/keyboards/keyboard_decoder.h"
 
 namespace octascope::hal::linux_backend {
 namespace {

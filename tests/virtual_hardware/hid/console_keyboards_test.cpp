@@ -9,7 +9,7 @@
 #include <linux/input.h>
 #include <poll.h>
 
-#include "hal/linux/hid/console_keyboards.h"
+#include "hal/linux/hid/keyboards/console_keyboards.h"
 #include "hal/linux/system/system_error.h"
 #include "tests/virtual_hardware/hid/hid_bench.h"
 #include "tests/virtual_hardware/support/fire.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/linux/hid/hid_controls.h"
+#include "hal/linux/hid/controls/hid_controls.h"
 #include "hal/linux/monotonic_clock.h"
 #include "tests/virtual_hardware/support/virtual_knob.h"
 #include "tests/virtual_hardware/support/virtual_pedal.h"

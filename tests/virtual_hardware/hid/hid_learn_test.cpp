@@ -1,5 +1,5 @@
 // A control that nobody knows is learned, and serves.
-#include "hal/linux/hid/learning_session.h"
+#include "hal/linux/hid/learning/learning_session.h"
 #include "tests/virtual_hardware/hid/hid_bench.h"
 
 namespace octascope::tests {

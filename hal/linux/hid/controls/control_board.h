@@ -1,0 +1,80 @@
+// Puts the readings of all plugged controls on one board: whose switches are which numbers, bounce
+// removed, as events in the order of their times.
+//
+// The leading device has the first numbers, so that its profile fits; the next one's switches and
+// knobs follow: a pedal without a knob is completed by a knob beside it. Axes keep their numbers.
+// Pure logic over explicit times, one thread; no allocation.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "hal/control_input.h"
+#include "hal/linux/hid/decoders/hid_decoder.h"
+#include "hal/linux/hid/models/control_model.h"
+#include "hal/switch_debouncer.h"
+
+namespace octascope::hal::linux_backend {
+
+class ControlBoard {
+public:
+  static constexpr std::size_t most_devices = 8, most_ports = 16, most_knobs = 8;
+
+  // Where a device is on the board.
+  struct Place {
+    int first_switch = 0, switches = 0;
+    int first_knob = 0, knobs = 0;
+  };
+
+  // Nobody is on it; what waits to be taken still does.
+  void vacate();
+  // Nor does anything wait. Times still never decrease.
+  void clear();
+
+  // The device's number; none when the board is full. What does not fit of it stays out.
+  std::optional<std::size_t> add_device(int switches, int knobs);
+  // A device may speak through several files: a switch is down when any of them says so.
+  std::optional<std::size_t> add_port(std::size_t device);
+  Place place(std::size_t device) const { return devices_[device]; }
+
+  // Call settle(now) first, with times that do not decrease; and only while has_room().
+  void note(std::size_t port, const HidReading& reading, TimePoint now);
+  void settle(TimePoint now);
+  // Every switch that was told as pressed is let go, every axis is in its middle.
+  void release_all(TimePoint now);
+
+  bool has_room() const { return waiting_ + most_at_once <= events_.size(); }
+  // When settle() will have something to say if nothing else happens.
+  std::optional<TimePoint> due() const;
+  // The oldest events; how many.
+  std::size_t take(std::span<ControlEvent> events);
+  std::uint64_t bounces() const;
+
+private:
+  // One reading and a settling, or a release of everything.
+  static constexpr std::size_t most_at_once = most_switches + control_axes + 1;
+
+  void report(TimePoint t, ControlKind kind, std::size_t index, std::int32_t value);
+
+  struct Port {
+    std::size_t device = 0;
+    std::uint32_t down = 0;
+  };
+
+  std::array<Place, most_devices> devices_{};
+  std::size_t device_count_ = 0;
+  std::array<Port, most_ports> ports_{};
+  std::size_t port_count_ = 0;
+  int switches_ = 0, knobs_ = 0;
+
+  std::array<SwitchDebouncer, most_switches> contacts_;
+  std::array<std::int16_t, control_axes> axes_{};
+  std::array<ControlEvent, 256> events_{}; // a ring
+  std::size_t oldest_ = 0, waiting_ = 0;
+  TimePoint last_{};
+};
+
+} // namespace octascope::hal::linux_backend

@@ -1,0 +1,244 @@
+#include "hal/linux/hid/controls/hid_controls.h"
+
+#include <algorithm>
+#include <cerrno>
+
+#include <fmt/format.h>
+#include <poll.h>
+
+#include "hal/linux/system/system_error.h"
+
+namespace octascope::hal::linux_backend {
+
+namespace {
+
+constexpr std::size_t most_files = ControlBoard::most_ports + 2; // and the two watches
+
+std::string found_instead(const std::vector<HidNode>& nodes) {
+  std::string list;
+  for (const HidNode& node : nodes)
+    if (!node.evdev) // most devices have a node of each kind: one is enough to name them
+      list += fmt::format("{}{} {}", list.empty() ? "" : ", ", usb_id(node.vendor, node.product),
+                          node.name);
+  return list.empty() ? "no HID device" : list;
+}
+
+} // namespace
+
+HidControls::HidControls(Clock& clock, std::vector<ControlModel> models)
+    : clock_(clock), models_(std::move(models)) {
+  ports_.reserve(ControlBoard::most_ports);
+}
+
+HidControls::~HidControls() {
+  do_close();
+}
+
+std::vector<ServingControl> HidControls::serving() const {
+  const std::lock_guard lock{serving_guard_};
+  return serving_;
+}
+
+std::vector<std::string> HidControls::complaints() const {
+  const std::lock_guard lock{serving_guard_};
+  return complaints_;
+}
+
+Result<> HidControls::do_open() {
+  if (state() != DeviceState::absent)
+    return fail(ErrorCode::invalid_argument,
+                fmt::format("HID controls: open while {}, expected absent; call close first",
+                            to_string(state())));
+  // Watched before they are looked for: what is plugged in between is not missed.
+  const Result<> opened = watch().and_then([this] { return open_all(); });
+  if (!opened) {
+    do_close();
+    return opened;
+  }
+  set_state(DeviceState::ready);
+  return {};
+}
+
+Result<> HidControls::watch() {
+  auto hidraw = DeviceWatch::on("hidraw");
+  auto input = DeviceWatch::on("input");
+  if (!hidraw || !input)
+    return tl::make_unexpected(hidraw ? input.error() : hidraw.error());
+  hidraw_watch_ = std::move(*hidraw);
+  input_watch_ = std::move(*input);
+  return {};
+}
+
+Result<> HidControls::open_all() {
+  board_.vacate();
+  const std::vector<HidNode> nodes = survey_hid();
+  std::vector<ServingControl> serving;
+  std::vector<Error> refused;
+  for (const PluggedControl& control : known_controls(nodes, models_))
+    open_one(control, serving, refused);
+  publish(std::move(serving), refused);
+  if (!ports_.empty())
+    return {};
+  if (!refused.empty())
+    return tl::make_unexpected(refused.front());
+  return fail(
+      ErrorCode::absent,
+      fmt::format("HID controls: found {}, expected a pedal or knob that is listed in "
+                  "docs/DEVICES.md; plug one in, or teach a new one with `octascope devices "
+                  "--learn`",
+                  found_instead(nodes)));
+}
+
+void HidControls::open_one(const PluggedControl& control, std::vector<ServingControl>& serving,
+                           std::vector<Error>& refused) {
+  std::vector<Port> opened;
+  for (const HidNode& node : control.nodes) {
+    if (auto file = ControlPort::open(node, control.model))
+      opened.push_back({std::move(*file), node.node});
+    else if (file.error().code != ErrorCode::absent) // it may go while we look
+      refused.push_back(file.error());
+  }
+  if (opened.empty())
+    return;
+  const auto device = board_.add_device(control.model.switches, control.model.knobs);
+  if (!device)
+    return;
+  for (Port& port : opened) {
+    const auto on_board = board_.add_port(*device);
+    if (!on_board)
+      break;
+    port.on_board = *on_board;
+    port.file->light(true);
+    ports_.push_back(std::move(port));
+  }
+  serving.push_back({control, board_.place(*device)});
+}
+
+void HidControls::publish(std::vector<ServingControl> serving, const std::vector<Error>& refused) {
+  const std::lock_guard lock{serving_guard_};
+  serving_ = std::move(serving);
+  complaints_.clear();
+  for (const Error& error : refused)
+    complaints_.push_back(error.message);
+  changes_.fetch_add(1, std::memory_order_acq_rel);
+}
+
+Result<std::size_t> HidControls::do_read(std::span<ControlEvent> events, Duration timeout) {
+  if (state() == DeviceState::absent)
+    return fail(ErrorCode::invalid_argument,
+                "HID controls: read while absent, expected ready; call open first");
+  TimePoint now = clock_.now();
+  const TimePoint deadline = now + std::max(timeout, Duration{});
+  while (true) {
+    if (!lost_)
+      receive();
+    if (lost_ && !released_ && board_.has_room()) {
+      board_.release_all(clock_.now());
+      released_ = true;
+    }
+    if (const std::size_t count = board_.take(events); count > 0)
+      return count;
+    if (lost_ && !events.empty()) {
+      set_state(DeviceState::failed);
+      return tl::make_unexpected(*lost_);
+    }
+    if (now >= deadline)
+      return std::size_t{0};
+    wait(std::min(deadline, board_.due().value_or(deadline)));
+    now = clock_.now();
+  }
+}
+
+// Until something can be read, or `until`.
+void HidControls::wait(TimePoint until) {
+  std::array<pollfd, most_files> files{};
+  std::size_t count = 0;
+  if (!lost_) {
+    for (const Port& port : ports_)
+      files[count++] = {port.file->descriptor(), POLLIN, 0};
+    files[count++] = {hidraw_watch_->descriptor(), POLLIN, 0};
+    files[count++] = {input_watch_->descriptor(), POLLIN, 0};
+  }
+  const Duration left = std::max(until - clock_.now(), Duration{});
+  constexpr std::int64_t ns_per_s = 1'000'000'000;
+  const timespec timeout{left.count() / ns_per_s, left.count() % ns_per_s};
+  if (::ppoll(files.data(), count, &timeout, nullptr) < 0 && errno != EINTR)
+    clock_.sleep_for(std::chrono::milliseconds{1}); // no memory, for a moment
+}
+
+// All that can be read now, and what is due.
+void HidControls::receive() {
+  for (Port& port : ports_)
+    read_port(port);
+  if (board_.has_room())
+    board_.settle(clock_.now());
+  if (!lost_)
+    look_for_changes();
+}
+
+void HidControls::look_for_changes() {
+  bool came = false;
+  for (DeviceWatch* const watch : {&*hidraw_watch_, &*input_watch_})
+    while (const auto change = watch->next({}))
+      came |= change->kind != DeviceChange::Kind::removed && !change->node.empty() &&
+              !is_open(change->node);
+  if (came)
+    look_for_new_ones();
+}
+
+void HidControls::read_port(Port& port) {
+  std::optional<HidReading> reading;
+  while (!lost_ && board_.has_room()) {
+    const auto more = port.file->read(reading);
+    if (!more) {
+      lost_ = Error{ErrorCode::disconnected, "HID controls: " + more.error().message};
+      return;
+    }
+    if (!*more)
+      return;
+    const TimePoint now = clock_.now();
+    board_.settle(now);
+    if (reading)
+      board_.note(port.on_board, *reading, now);
+  }
+}
+
+bool HidControls::is_open(const std::string& node) const {
+  return std::ranges::find(ports_, node, &Port::node) != ports_.end();
+}
+
+bool HidControls::can_be_opened_now(const PluggedControl& control) const {
+  return std::ranges::any_of(control.nodes, [&](const HidNode& node) {
+    return !is_open(node.node) && ControlPort::open(node, control.model).has_value();
+  });
+}
+
+void HidControls::look_for_new_ones() {
+  const auto known = known_controls(survey_hid(), models_);
+  if (!std::ranges::any_of(known, [&](const auto& c) { return can_be_opened_now(c); }) ||
+      !board_.has_room())
+    return;
+  board_.release_all(clock_.now());
+  close_ports();
+  if (const auto opened = open_all(); !opened)
+    lost_ = Error{ErrorCode::disconnected, opened.error().message};
+}
+
+void HidControls::close_ports() {
+  for (const Port& port : ports_)
+    port.file->light(false);
+  ports_.clear();
+}
+
+void HidControls::do_close() {
+  close_ports();
+  board_.clear();
+  lost_.reset();
+  released_ = false;
+  hidraw_watch_.reset();
+  input_watch_.reset();
+  publish({}, {});
+  set_state(DeviceState::absent);
+}
+
+} // namespace octascope::hal::linux_backend

@@ -1,0 +1,44 @@
+// From the bytes of a control's report to what they say. Pure: no device, no clock, no allocation
+// after construction, so that every decoder can be fuzzed and tested with the real bytes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "hal/linux/hid/models/control_model.h"
+
+namespace octascope::hal::linux_backend {
+
+inline constexpr std::size_t control_axes = 6;
+
+// What one report says; what it does not speak of is left out.
+struct HidReading {
+  std::optional<std::uint32_t> switches = {}; // bit n: switch n is down
+  std::int32_t knob = 0;                      // detents since the last reading, right is positive
+  std::uint8_t axes_told = 0;                 // bit n: axes[n] is told
+  std::array<std::int16_t, control_axes> axes{}; // −1000…1000; x y z, rotations about them
+  bool operator==(const HidReading&) const = default;
+};
+
+// Threads: one at a time; some remember the report before.
+class HidDecoder {
+public:
+  virtual ~HidDecoder() = default;
+  // One report as hidraw gives it, with its ID in front where the device numbers its reports.
+  // Nothing: that is no report of this device.
+  std::optional<HidReading> decode(std::span<const std::uint8_t> report) {
+    return do_decode(report);
+  }
+
+private:
+  virtual std::optional<HidReading> do_decode(std::span<const std::uint8_t> report) = 0;
+};
+
+// Null for a model whose events come as keys (key_decoder.h).
+std::unique_ptr<HidDecoder> make_hid_decoder(const ControlModel& model);
+
+} // namespace octascope::hal::linux_backend

@@ -1,0 +1,44 @@
+// An open input device, by libevdev, which nobody else hears.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "hal/linux/hid/decoders/key_decoder.h"
+#include "hal/linux/system/file_descriptor.h"
+#include "hal/result.h"
+
+struct libevdev;
+
+namespace octascope::hal::linux_backend {
+
+// Threads: one at a time.
+class EvdevFile {
+public:
+  // Grabbed: what is typed goes to us alone until it is closed. ErrorCode::busy: somebody else has
+  // grabbed it.
+  static Result<EvdevFile> open(const std::string& node);
+
+  int descriptor() const { return file_.get(); }
+  const std::string& node() const { return node_; }
+  bool has_key(std::uint16_t code) const;
+
+  // The next event; empty: there is none now. Does not wait, and allocates nothing unless the
+  // device is gone. After an overflow of the kernel's buffer come the changes that were missed.
+  Result<std::optional<KeyEvent>> next();
+
+private:
+  struct Freer {
+    void operator()(libevdev* device) const;
+  };
+
+  EvdevFile(FileDescriptor file, std::unique_ptr<libevdev, Freer> device, std::string node);
+
+  FileDescriptor file_; // outlives the device
+  std::unique_ptr<libevdev, Freer> device_;
+  std::string node_;
+  bool catching_up_ = false;
+};
+
+} // namespace octascope::hal::linux_backend

@@ -1,0 +1,12 @@
+// An input device, by libevdev: a pedal that types, or a PowerMate.
+#pragma once
+
+#include "hal/linux/hid/ports/control_port.h"
+
+namespace octascope::hal::linux_backend {
+
+// ErrorCode::busy: somebody else has grabbed it.
+Result<std::unique_ptr<ControlPort>> open_evdev_port(const HidNode& node,
+                                                     const ControlModel& model);
+
+} // namespace octascope::hal::linux_backend
