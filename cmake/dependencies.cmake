@@ -25,6 +25,7 @@ if(OCTASCOPE_DISPLAY)
   pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
   pkg_check_modules(glesv2 REQUIRED IMPORTED_TARGET glesv2)
   pkg_check_modules(gpiod REQUIRED IMPORTED_TARGET libgpiod)
+  pkg_check_modules(hidapi REQUIRED IMPORTED_TARGET hidapi-hidraw)
   pkg_check_modules(sdl2 REQUIRED IMPORTED_TARGET sdl2) # linked by tests; loaded by the program
   add_library(octascope_sdl2_headers INTERFACE)
   target_include_directories(octascope_sdl2_headers SYSTEM INTERFACE ${sdl2_INCLUDE_DIRS})

@@ -7,6 +7,7 @@
 
 #include "hal/linux/hid/models/udev_rules.h"
 #include "hal/linux/hid/survey/hid_survey.h"
+#include "tests/hal/hid/fake_hidapi.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/program/built_places.h"
@@ -16,17 +17,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder like /sys.
+// A folder like /sys, and what hidapi lists.
 class HidSurveyTest : public testing::Test {
 protected:
   void write(const std::string& file, std::string_view text) const {
     fs::create_directories((root_ / file).parent_path());
     std::ofstream{root_ / file} << text;
   }
-  void hidraw(int n, std::string_view id, std::string_view name, std::string_view phys) const {
+  void hidraw(int n, std::uint16_t vendor, std::uint16_t product, std::string_view name,
+              std::string_view phys) {
+    hidapi_.plug(fmt::format("/dev/hidraw{}", n), vendor, product);
     write(fmt::format("sys/class/hidraw/hidraw{}/device/uevent", n),
-          fmt::format("DRIVER=hid-generic\nHID_ID={}\nHID_NAME={}\nHID_PHYS={}\n\nno key\n", id,
-                      name, phys));
+          fmt::format("DRIVER=hid-generic\nHID_NAME={}\nHID_PHYS={}\n\nno key\n", name, phys));
   }
   void event(int n, std::string_view vendor, std::string_view product, std::string_view name,
              std::string_view phys) const {
@@ -41,11 +43,12 @@ protected:
   }
 
   tests::ScratchFolder root_;
+  tests::FakeHidapi hidapi_;
 };
 
 TEST_F(HidSurveyTest, reads_what_the_kernel_lists) {
-  hidraw(10, "0003:000005F3:000000FF", "VEC  VEC USB Footpedal", "usb-1/input0");
-  hidraw(2, "0005:0000045E:0000091B", "Surface Dial", "");
+  hidraw(10, 0x05f3, 0x00ff, "VEC  VEC USB Footpedal", "usb-1/input0");
+  hidraw(2, 0x045e, 0x091b, "Surface Dial", "");
   event(3, "077d", "0410", "Griffin PowerMate", "usb-2/input0");
   write("sys/class/input/mouse0/name", "not an event node");
   EXPECT_EQ(survey_hid(root_.path()),
@@ -56,19 +59,20 @@ TEST_F(HidSurveyTest, reads_what_the_kernel_lists) {
 }
 
 TEST_F(HidSurveyTest, files_that_say_nothing_are_devices_that_nobody_knows) {
-  write("sys/class/hidraw/hidraw0/device/uevent", "HID_ID=nonsense\nHID_ID=1:2\n=\n");
-  write("sys/class/hidraw/hidraw1/nothing", "");
+  hidapi_.plug("/dev/hidraw0", 0, 0);
+  hidapi_.plug("/dev/hidraw1", 0, 0);
+  write("sys/class/hidraw/hidraw0/device/uevent", "HID_NAME\n=\n");
   write("sys/class/input/event0/nothing", "");
   EXPECT_EQ(survey_hid(root_.path()).size(), 3U);
   EXPECT_TRUE(known().empty());
-  EXPECT_TRUE(survey_hid(root_.path() / "nowhere").empty());
+  EXPECT_EQ(survey_hid(root_.path() / "nowhere").size(), 2U) << "no input devices";
 }
 
 TEST_F(HidSurveyTest, pedals_lead_whatever_the_order_of_plugging) {
-  hidraw(0, "0003:0000046D:0000C626", "SpaceNavigator", "usb-1/input0");
+  hidraw(0, 0x046d, 0xc626, "SpaceNavigator", "usb-1/input0");
   event(0, "077d", "0410", "Griffin PowerMate", "usb-2/input0");
-  hidraw(1, "0003:000005F3:000000FF", "VEC", "usb-3/input0");
-  hidraw(2, "0003:00001234:00005678", "Somebody's keyboard", "usb-4/input0");
+  hidraw(1, 0x05f3, 0x00ff, "VEC", "usb-3/input0");
+  hidraw(2, 0x1234, 0x5678, "Somebody's keyboard", "usb-4/input0");
   const auto plugged = known();
   ASSERT_EQ(plugged.size(), 3U);
   EXPECT_EQ(plugged[0].model.model, "vec_infinity");
@@ -80,7 +84,7 @@ TEST_F(HidSurveyTest, nodes_of_one_device_are_one_control) {
   event(0, "1a86", "e026", "FootSwitch", "usb-1/input0");
   event(1, "1a86", "e026", "FootSwitch Mouse", "usb-1/input1");
   event(2, "1a86", "e026", "FootSwitch", "usb-2/input0");
-  hidraw(0, "0003:00001A86:0000E026", "FootSwitch", "usb-1/input0"); // not the way it is read
+  hidraw(0, 0x1a86, 0xe026, "FootSwitch", "usb-1/input0"); // not the way it is read
   const auto plugged = known();
   ASSERT_EQ(plugged.size(), 2U);
   EXPECT_EQ(plugged[0].nodes.size(), 2U);

@@ -2,6 +2,10 @@
 #include <array>
 #include <cstdio>
 
+#include <hidapi.h>
+#include <linux/hidraw.h>
+#include <sys/ioctl.h>
+
 #include "tests/virtual_hardware/hid/hid_bench.h"
 #include "tests/virtual_hardware/support/fire.h"
 
@@ -12,6 +16,11 @@ using hal::linux_backend::HidControls;
 using namespace std::chrono_literals;
 
 constexpr std::uint8_t key_b = 5; // as HID numbers keys
+
+// hidapi 0.13 uses its device after it was freed where the first ioctl() of an opening fails
+// (libusb/hidapi issue 542).
+constexpr unsigned long spared =
+    HID_API_VERSION < HID_API_MAKE_VERSION(0, 14, 0) ? HIDIOCGRDESCSIZE : 0;
 
 class HidUnderFire : public HidTest {
 protected:
@@ -40,12 +49,12 @@ protected:
   }
 };
 
-TEST_F(HidUnderFire, hidraw_and_evdev_end_well) {
+TEST_F(HidUnderFire, hidapi_and_evdev_end_well) {
   const auto pedal = plug_in(vec_pedal());
   const auto typing = plug_in(pcsensor_pedal());
   ASSERT_TRUE(pedal && typing);
   const FireReport report = under_fire(
-      every_kind, usual_errors(), [&] { return use(*pedal, *typing); }, false);
+      every_kind, usual_errors(), [&] { return use(*pedal, *typing); }, false, spared);
   std::printf("  %u calls, %u runs\n", report.calls, report.runs);
   EXPECT_GT(report.calls, 40U);
   for (const std::string& complaint : report.complaints)

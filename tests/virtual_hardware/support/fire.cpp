@@ -32,6 +32,7 @@ std::atomic<unsigned> counted{0};
 std::atomic<unsigned> counted_at_site{0};
 std::atomic<bool> hit{false};
 std::atomic<bool> notes_sites{false};
+std::atomic<unsigned long> spared_request{0};
 std::optional<Shot> shot_now; // changes only while nothing is armed
 
 std::mutex noted_guard;
@@ -96,6 +97,8 @@ bool is_at_site(const Call& call) {
 // True when this very call is the one; `error` is then what it is to fail with.
 bool is_hit(const Call& call, int& error) {
   if ((armed_kinds.load(std::memory_order_acquire) & static_cast<unsigned>(call.kind)) == 0)
+    return false;
+  if (call.kind == CallKind::control && call.request == spared_request.load())
     return false;
   unsigned number = counted.fetch_add(1, std::memory_order_relaxed);
   const bool by_site = shot_now && shot_now->site;
@@ -188,8 +191,9 @@ Holdings Holdings::now() {
 
 FireReport under_fire(unsigned kinds, std::span<const int> errors,
                       const std::function<std::optional<std::string>()>& scenario,
-                      bool check_recovery) {
+                      bool check_recovery, unsigned long spared) {
   FireReport report;
+  spared_request = spared;
   const auto run = [&](std::optional<Shot> shot) {
     const Holdings before = Holdings::now();
     std::optional<std::string> wrong;
@@ -222,6 +226,7 @@ FireReport under_fire(unsigned kinds, std::span<const int> errors,
       if (check_recovery)
         run({});
     }
+  spared_request = 0;
   return report;
 }
 

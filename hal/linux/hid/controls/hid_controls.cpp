@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -93,10 +94,12 @@ void HidControls::open_one(const PluggedControl& control, std::vector<ServingCon
                            std::vector<Error>& refused) {
   std::vector<Port> opened;
   for (const HidNode& node : control.nodes) {
-    if (auto file = ControlPort::open(node, control.model))
+    auto file = ControlPort::open(node, control.model);
+    const Result<> started = file ? (*file)->start() : tl::make_unexpected(file.error());
+    if (started)
       opened.push_back({std::move(*file), node.node});
-    else if (file.error().code != ErrorCode::absent) // it may go while we look
-      refused.push_back(file.error());
+    else if (started.error().code != ErrorCode::absent) // it may go while we look
+      refused.push_back(started.error());
   }
   if (opened.empty())
     return;
@@ -108,7 +111,6 @@ void HidControls::open_one(const PluggedControl& control, std::vector<ServingCon
     if (!on_board)
       break;
     port.on_board = *on_board;
-    port.file->light(true);
     ports_.push_back(std::move(port));
   }
   serving.push_back({control, board_.place(*device)});
@@ -127,11 +129,8 @@ Result<std::size_t> HidControls::do_read(std::span<ControlEvent> events, Duratio
   if (state() == DeviceState::absent)
     return fail(ErrorCode::invalid_argument,
                 "HID controls: read while absent, expected ready; call open first");
-  TimePoint now = clock_.now();
-  const TimePoint deadline = now + std::max(timeout, Duration{});
-  while (true) {
-    if (!lost_)
-      receive();
+  const TimePoint deadline = clock_.now() + std::max(timeout, Duration{});
+  for (bool looked = false;; looked = true) {
     if (lost_ && !released_ && board_.has_room()) {
       board_.release_all(clock_.now());
       released_ = true;
@@ -142,15 +141,14 @@ Result<std::size_t> HidControls::do_read(std::span<ControlEvent> events, Duratio
       set_state(DeviceState::failed);
       return tl::make_unexpected(*lost_);
     }
-    if (now >= deadline)
+    if (looked && clock_.now() >= deadline)
       return std::size_t{0};
-    wait(std::min(deadline, board_.due().value_or(deadline)));
-    now = clock_.now();
+    receive(std::min(deadline, board_.due().value_or(deadline)));
   }
 }
 
-// Until something can be read, or `until`.
-void HidControls::wait(TimePoint until) {
+// All that can be read, waiting until `until` for the first, and what is due.
+void HidControls::receive(TimePoint until) {
   std::array<pollfd, most_files> files{};
   std::size_t count = 0;
   if (!lost_) {
@@ -159,20 +157,28 @@ void HidControls::wait(TimePoint until) {
     files[count++] = {hidraw_watch_->descriptor(), POLLIN, 0};
     files[count++] = {input_watch_->descriptor(), POLLIN, 0};
   }
-  const Duration left = std::max(until - clock_.now(), Duration{});
+  const Duration left = held_back_ ? Duration{} : std::max(until - clock_.now(), Duration{});
   constexpr std::int64_t ns_per_s = 1'000'000'000;
   const timespec timeout{left.count() / ns_per_s, left.count() % ns_per_s};
-  if (::ppoll(files.data(), count, &timeout, nullptr) < 0 && errno != EINTR)
+  const int ready = ::ppoll(files.data(), count, &timeout, nullptr);
+  if (ready < 0 && errno != EINTR)
     clock_.sleep_for(std::chrono::milliseconds{1}); // no memory, for a moment
-}
-
-// All that can be read now, and what is due.
-void HidControls::receive() {
-  for (Port& port : ports_)
-    read_port(port);
+  if (lost_)
+    return;
+  // What is not ready costs no call. Where none is, all are looked at.
+  const bool all = std::exchange(held_back_, false) || ready <= 0;
+  bool changes = all;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!all && files[i].revents == 0)
+      continue;
+    if (i < ports_.size())
+      read_port(ports_[i]);
+    else
+      changes = true;
+  }
   if (board_.has_room())
     board_.settle(clock_.now());
-  if (!lost_)
+  if (changes && !lost_)
     look_for_changes();
 }
 
@@ -188,7 +194,11 @@ void HidControls::look_for_changes() {
 
 void HidControls::read_port(Port& port) {
   std::optional<HidReading> reading;
-  while (!lost_ && board_.has_room()) {
+  while (!lost_) {
+    if (!board_.has_room()) {
+      held_back_ = true; // some of it may lie in a library, where no file tells of it
+      return;
+    }
     const auto more = port.file->read(reading);
     if (!more) {
       lost_ = Error{ErrorCode::disconnected, "HID controls: " + more.error().message};
@@ -226,7 +236,7 @@ void HidControls::look_for_new_ones() {
 
 void HidControls::close_ports() {
   for (const Port& port : ports_)
-    port.file->light(false);
+    port.file->finish();
   ports_.clear();
 }
 
@@ -235,6 +245,7 @@ void HidControls::do_close() {
   board_.clear();
   lost_.reset();
   released_ = false;
+  held_back_ = false;
   hidraw_watch_.reset();
   input_watch_.reset();
   publish({}, {});

@@ -65,8 +65,7 @@ private:
   void close_ports();
   void publish(std::vector<ServingControl> serving, const std::vector<Error>& refused);
 
-  void wait(TimePoint until);
-  void receive();
+  void receive(TimePoint until);
   void look_for_changes();
   void read_port(Port& port);
   void look_for_new_ones();
@@ -78,6 +77,7 @@ private:
   std::optional<DeviceWatch> hidraw_watch_, input_watch_;
   std::vector<Port> ports_;
   ControlBoard board_;
+  bool held_back_ = false;    // there was no room for all that could be read
   std::optional<Error> lost_; // told when all that came before it has been taken
   bool released_ = false;     // after it was lost, everything that was pressed
 

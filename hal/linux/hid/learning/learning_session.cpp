@@ -1,12 +1,10 @@
 #include "hal/linux/hid/learning/learning_session.h"
 
-#include <array>
 #include <cerrno>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <linux/hidraw.h>
 #include <linux/input.h>
 #include <poll.h>
 #include <unistd.h>
@@ -15,20 +13,6 @@
 #include "hal/linux/system/system_error.h"
 
 namespace octascope::hal::linux_backend {
-
-namespace {
-
-bool numbers_its_reports(const FileDescriptor& hidraw) {
-  int size = 0;
-  hidraw_report_descriptor descriptor{};
-  if (control(hidraw, HIDIOCGRDESCSIZE, &size) != 0)
-    return false;
-  descriptor.size = static_cast<std::uint32_t>(size);
-  return control(hidraw, HIDIOCGRDESC, &descriptor) == 0 &&
-         has_report_ids(std::span{descriptor.value}.first(descriptor.size));
-}
-
-} // namespace
 
 Result<LearningSession> LearningSession::listen_to(std::vector<HidNode> nodes) {
   LearningSession session;
@@ -49,44 +33,60 @@ Result<LearningSession> LearningSession::listen_to(std::vector<HidNode> nodes) {
 }
 
 Result<LearningSession::File> LearningSession::open(const HidNode& node) {
-  HAL_TRY(auto file, open_device(node.node, O_RDONLY | O_NONBLOCK));
-  if (node.evdev && ::ioctl(file.get(), EVIOCGRAB, 1) != 0)
+  if (node.evdev)
+    return open_input(node);
+  auto device = RawDevice::open(node.node);
+  if (!device)
+    return tl::make_unexpected(device.error());
+  const bool numbered = has_report_ids((*device)->report_descriptor());
+  HAL_TRY(auto reader, ReportReader::start(**device));
+  return File{.node = node,
+              .learner = ControlLearner{numbered},
+              .device = std::move(*device),
+              .reader = std::move(reader)};
+}
+
+Result<LearningSession::File> LearningSession::open_input(const HidNode& node) {
+  HAL_TRY(auto input, open_device(node.node, O_RDONLY | O_NONBLOCK));
+  if (::ioctl(input.get(), EVIOCGRAB, 1) != 0)
     return system_failure(node.node, "taking it for octascope alone", errno);
-  const bool numbered = !node.evdev && numbers_its_reports(file);
-  return File{std::move(file), node, ControlLearner{numbered}};
+  return File{.node = node, .learner = ControlLearner{false}, .input = std::move(input)};
 }
 
 Result<std::vector<std::string>> LearningSession::listen(Duration timeout) {
   std::vector<pollfd> waiting;
   for (const File& file : files_)
-    waiting.push_back({file.descriptor.get(), POLLIN, 0});
+    waiting.push_back({file.reader ? file.reader->descriptor() : file.input.get(), POLLIN, 0});
   const auto ms = std::chrono::ceil<std::chrono::milliseconds>(timeout).count();
   ::poll(waiting.data(), waiting.size(), static_cast<int>(ms));
   std::vector<std::string> lines;
   for (File& file : files_)
-    HAL_CHECK(read(file, lines));
+    HAL_CHECK(file.reader ? read_reports(file, lines) : read_input(file, lines));
   return lines;
 }
 
-Result<> LearningSession::read(File& file, std::vector<std::string>& lines) {
-  std::array<std::uint8_t, 256> bytes{};
+Result<> LearningSession::read_input(File& file, std::vector<std::string>& lines) {
   while (true) {
     input_event event{};
-    const ssize_t size = file.node.evdev
-                             ? ::read(file.descriptor.get(), &event, sizeof event)
-                             : ::read(file.descriptor.get(), bytes.data(), bytes.size());
+    const ssize_t size = ::read(file.input.get(), &event, sizeof event);
     if (size < 0 && (errno == EAGAIN || errno == EINTR))
       return {};
     if (size <= 0)
       return system_failure(file.node.node, "reading", size == 0 ? ENODEV : errno);
-    const auto report = std::span{bytes}.first(static_cast<std::size_t>(size));
-    const std::string change =
-        file.node.evdev ? file.learner.note(KeyEvent{event.type, event.code, event.value})
-                        : file.learner.note(report);
-    if (change.empty())
-      continue;
-    lines.push_back(file.node.evdev ? change
-                                    : fmt::format("{:02x}   {}", fmt::join(report, " "), change));
+    const std::string change = file.learner.note(KeyEvent{event.type, event.code, event.value});
+    if (!change.empty())
+      lines.push_back(change);
+  }
+}
+
+Result<> LearningSession::read_reports(File& file, std::vector<std::string>& lines) {
+  while (true) {
+    HAL_TRY(const auto report, file.reader->take());
+    if (report.empty())
+      return {};
+    const std::string change = file.learner.note(report);
+    if (!change.empty())
+      lines.push_back(fmt::format("{:02x}   {}", fmt::join(report, " "), change));
   }
 }
 

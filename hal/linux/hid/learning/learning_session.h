@@ -1,12 +1,15 @@
 // Listens to one device with all its files, whatever it is, and learns (control_learner.h).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hal/clock.h"
 #include "hal/linux/hid/learning/control_learner.h"
+#include "hal/linux/hid/raw/raw_device.h"
+#include "hal/linux/hid/raw/report_reader.h"
 #include "hal/linux/hid/survey/hid_survey.h"
 #include "hal/linux/system/file_descriptor.h"
 #include "hal/result.h"
@@ -27,12 +30,16 @@ public:
 
 private:
   struct File {
-    FileDescriptor descriptor;
     HidNode node;
     ControlLearner learner;
+    FileDescriptor input = {}; // of an input device; else it is a raw one, with its reader
+    std::unique_ptr<RawDevice> device = {};
+    std::unique_ptr<ReportReader> reader = {};
   };
   static Result<File> open(const HidNode& node);
-  static Result<> read(File& file, std::vector<std::string>& lines);
+  static Result<File> open_input(const HidNode& node);
+  static Result<> read_input(File& file, std::vector<std::string>& lines);
+  static Result<> read_reports(File& file, std::vector<std::string>& lines);
 
   std::vector<File> files_;
 };

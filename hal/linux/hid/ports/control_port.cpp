@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "hal/linux/hid/ports/evdev_port.h"
-#include "hal/linux/hid/ports/hidraw_port.h"
+#include "hal/linux/hid/ports/raw_port.h"
 
 namespace octascope::hal::linux_backend {
 
 Result<std::unique_ptr<ControlPort>> ControlPort::open(const HidNode& node,
                                                        const ControlModel& model) {
-  auto port = model.by_evdev() ? open_evdev_port(node, model) : HidrawPort::open(node, model);
+  auto port = model.by_evdev() ? open_evdev_port(node, model) : open_raw_port(node, model);
   if (!port)
     return fail(port.error().code,
                 fmt::format("{} ({}): {}{}", model.name, usb_id(model.vendor, model.product),

@@ -1,4 +1,4 @@
-// One open file of a control: a hidraw node or an input device.
+// One open file of a control: a device with raw reports or an input device.
 #pragma once
 
 #include <memory>
@@ -19,20 +19,26 @@ public:
   // ErrorCode::denied, busy, absent …; a keyboard is grabbed, so that it types nowhere else.
   static Result<std::unique_ptr<ControlPort>> open(const HidNode& node, const ControlModel& model);
 
-  // Readable when read() has something to tell.
+  // From now on it is listened to, once, and its lamp is lit, where it has one, until this is
+  // destroyed. What a lamp does not do is nobody's fault.
+  Result<> start() { return do_start(); }
+
+  // Once started: readable when read() has something to tell.
   int descriptor() const { return do_descriptor(); }
 
-  // Whether there was an event or a report; what it says is in `reading`, which stays empty for one
-  // that says nothing. Does not wait; no allocation unless the device is gone.
+  // Once started: whether there was an event or a report; what it says is in `reading`, which stays
+  // empty for one that says nothing. Does not wait; no allocation unless the device is gone.
   Result<bool> read(std::optional<HidReading>& reading) { return do_read(reading); }
 
-  // The control's lamp, where it has one. What a lamp does not do is nobody's fault.
-  void light(bool on) { do_light(on); }
+  // Once started: nothing more is read. Does not wait, where destroying may: with all that are to
+  // go at once, it waits but once.
+  void finish() { do_finish(); }
 
 private:
+  virtual Result<> do_start() = 0;
   virtual int do_descriptor() const = 0;
   virtual Result<bool> do_read(std::optional<HidReading>& reading) = 0;
-  virtual void do_light(bool) {}
+  virtual void do_finish() {}
 };
 
 // What to do about a control that may not be opened or is held by somebody.

@@ -15,9 +15,18 @@ namespace {
 class EvdevPort final : public ControlPort {
 public:
   EvdevPort(EvdevFile file, const ControlModel& model)
-      : file_{std::move(file)}, family_{model.family}, decoder_{model} {}
+      : file_{std::move(file)}, has_lamp_{model.family == HidFamily::powermate}, decoder_{model} {}
+  ~EvdevPort() override {
+    if (started_)
+      light(false);
+  }
 
 private:
+  Result<> do_start() override {
+    started_ = true;
+    light(true);
+    return {};
+  }
   int do_descriptor() const override { return file_.descriptor(); }
 
   Result<bool> do_read(std::optional<HidReading>& reading) override {
@@ -31,8 +40,8 @@ private:
     return true;
   }
 
-  void do_light(bool on) override {
-    if (family_ != HidFamily::powermate)
+  void light(bool on) {
+    if (!has_lamp_)
       return;
     input_event lamp{};
     lamp.type = EV_MSC;
@@ -42,8 +51,9 @@ private:
   }
 
   EvdevFile file_;
-  HidFamily family_;
+  const bool has_lamp_;
   KeyDecoder decoder_;
+  bool started_ = false;
 };
 
 } // namespace

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "hal/linux/hid/raw/raw_device.h"
+
 namespace octascope::hal::linux_backend {
 
 namespace fs = std::filesystem;
@@ -50,32 +52,18 @@ std::string device_of(const std::string& phys, const std::string& node) {
   return phys.empty() ? node : phys.substr(0, phys.rfind('/'));
 }
 
-// "0003:000005F3:000000FF", as HID_ID in a uevent file.
-void read_hid_id(std::string_view id, HidNode& node) {
-  const std::size_t first = id.find(':');
-  const std::size_t second = id.rfind(':');
-  if (first == std::string_view::npos || first == second)
-    return;
-  const auto vendor = number<std::uint32_t>(id.substr(first + 1, second - first - 1), 16);
-  const auto product = number<std::uint32_t>(id.substr(second + 1), 16);
-  node.vendor = static_cast<std::uint16_t>(vendor.value_or(0));
-  node.product = static_cast<std::uint16_t>(product.value_or(0));
-}
-
-HidNode hidraw_node(const fs::path& entry) {
-  HidNode node{.node = "/dev/" + entry.filename().string(), .name = {}, .device = {}};
-  std::ifstream uevent{entry / "device/uevent"};
+// hidapi knows nothing of the plug, and leaves the maker or what is not ASCII out of names.
+HidNode raw_node(const RawNode& raw, const fs::path& root) {
+  HidNode node{
+      .node = raw.node, .vendor = raw.vendor, .product = raw.product, .name = {}, .device = {}};
+  std::ifstream uevent{root / "sys/class/hidraw" / fs::path{raw.node}.filename() / "device/uevent"};
+  constexpr std::string_view name_key = "HID_NAME=", phys_key = "HID_PHYS=";
   std::string phys;
   for (std::string line; std::getline(uevent, line);) {
-    const std::size_t equals = std::min(line.find('='), line.size() - 1);
-    const std::string_view key = std::string_view{line}.substr(0, equals);
-    const std::string value = line.empty() ? "" : line.substr(equals + 1);
-    if (key == "HID_ID")
-      read_hid_id(value, node);
-    else if (key == "HID_NAME")
-      node.name = value;
-    else if (key == "HID_PHYS")
-      phys = value;
+    if (line.starts_with(name_key))
+      node.name = line.substr(name_key.size());
+    else if (line.starts_with(phys_key))
+      phys = line.substr(phys_key.size());
   }
   node.device = device_of(phys, node.node);
   return node;
@@ -103,8 +91,8 @@ bool fits(const HidNode& node, const ControlModel& model) {
 
 std::vector<HidNode> survey_hid(const fs::path& root) {
   std::vector<HidNode> nodes;
-  for (const fs::path& entry : numbered(root / "sys/class/hidraw", "hidraw"))
-    nodes.push_back(hidraw_node(entry));
+  for (const RawNode& raw : list_raw_nodes())
+    nodes.push_back(raw_node(raw, root));
   for (const fs::path& entry : numbered(root / "sys/class/input", "event"))
     nodes.push_back(event_node(entry));
   return nodes;

@@ -1,5 +1,5 @@
-// Which HID devices are plugged in, by what the kernel lists in /sys; nothing is opened. And which
-// of them octascope knows.
+// Which HID devices are plugged in: those with raw reports as hidapi lists them, input devices by
+// what the kernel lists in /sys; nothing is opened. And which of them octascope knows.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ struct HidNode {
   bool operator==(const HidNode&) const = default;
 };
 
-// hidraw nodes, then event nodes, each in the order of their numbers. `root` is "/" but for tests,
+// Raw nodes, then event nodes, each in the order of their numbers. `root` is "/" but for tests,
 // which lay out a folder like /sys.
 std::vector<HidNode> survey_hid(const std::filesystem::path& root = "/");
 
