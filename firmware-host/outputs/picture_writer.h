@@ -2,11 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <future>
 
 #include "hal/clock.h"
+#include "hal/result.h"
 #include "pipeline/faults/fault_log.h"
 #include "pipeline/files/png_image.h"
+#include "pipeline/threads/background_task.h"
 
 namespace octascope::firmware_host {
 
@@ -26,7 +27,7 @@ private:
   std::filesystem::path folder_;
   hal::Clock& clock_;
   pipeline::FaultLog& faults_;
-  std::future<void> writing_; // its destructor waits
+  pipeline::BackgroundTask<hal::Result<>> writing_;
 };
 
 } // namespace octascope::firmware_host

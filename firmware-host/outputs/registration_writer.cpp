@@ -1,6 +1,5 @@
 #include "firmware-host/outputs/registration_writer.h"
 
-#include <chrono>
 #include <ctime>
 #include <utility>
 
@@ -14,8 +13,6 @@ namespace octascope::firmware_host {
 
 bool RegistrationWriter::keep(const pipeline::RigidTransform& volume_from_tree,
                               pipeline::PatientEye whose, std::string source) {
-  if (writing_.valid())
-    return false;
   pipeline::Registration registration;
   registration.volume_from_tree = volume_from_tree;
   registration.whose = std::move(whose);
@@ -27,21 +24,12 @@ bool RegistrationWriter::keep(const pipeline::RigidTransform& volume_from_tree,
       .source = std::move(source),
       .points = 0,
       .residual_mm = std::nullopt};
-  writing_ = std::async(std::launch::async,
-                        [registration = std::move(registration),
+  return writing_.start([registration = std::move(registration),
                          file = free_dated_name(folder_, "registration",
                                                 ".toml")]() -> hal::Result<std::filesystem::path> {
-                          HAL_CHECK(write_registration(registration, file));
-                          return file;
-                        });
-  return true;
-}
-
-std::optional<hal::Result<std::filesystem::path>> RegistrationWriter::take() {
-  using namespace std::chrono_literals;
-  if (!writing_.valid() || writing_.wait_for(0s) != std::future_status::ready)
-    return std::nullopt;
-  return writing_.get();
+    HAL_CHECK(write_registration(registration, file));
+    return file;
+  });
 }
 
 } // namespace octascope::firmware_host

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <future>
 #include <optional>
 
 #include "hal/result.h"
+#include "pipeline/threads/background_task.h"
 #include "pipeline/vessels/registration.h"
 
 namespace octascope::firmware_host {
@@ -22,11 +22,11 @@ public:
             std::string source);
 
   // The file, or why there is none; once for each keep().
-  std::optional<hal::Result<std::filesystem::path>> take();
+  std::optional<hal::Result<std::filesystem::path>> take() { return writing_.take(); }
 
 private:
   std::filesystem::path folder_;
-  std::future<hal::Result<std::filesystem::path>> writing_; // its destructor waits
+  pipeline::BackgroundTask<hal::Result<std::filesystem::path>> writing_;
 };
 
 } // namespace octascope::firmware_host

@@ -1,6 +1,5 @@
 #include "firmware-host/configuration/kept/configuration_reload.h"
 
-#include <chrono>
 #include <utility>
 
 #include "firmware-host/configuration/configuration_check.h"
@@ -21,17 +20,11 @@ hal::Result<ReadConfiguration> read_whole(const std::filesystem::path& file,
 }
 
 std::optional<hal::Result<ReadConfiguration>> ConfigurationReload::take(hal::TimePoint now) {
-  using namespace std::chrono_literals;
-  if (reading_.valid()) {
-    if (reading_.wait_for(0s) != std::future_status::ready)
-      return std::nullopt;
-    return reading_.get();
-  }
-  if (asked_ && now - *asked_ >= settled_after) {
+  if (auto read = reading_.take())
+    return read;
+  if (asked_ && now - *asked_ >= settled_after &&
+      reading_.start([file = file_, options = options_] { return read_whole(file, options); }))
     asked_.reset();
-    reading_ = std::async(std::launch::async,
-                          [file = file_, options = options_] { return read_whole(file, options); });
-  }
   return std::nullopt;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <future>
 #include <optional>
 
 #include "firmware-host/configuration/configuration.h"
@@ -10,6 +9,7 @@
 #include "firmware-host/configuration/run_options.h"
 #include "hal/clock.h"
 #include "hal/result.h"
+#include "pipeline/threads/background_task.h"
 #include "ui/controls/control_profile.h"
 
 namespace octascope::firmware_host {
@@ -44,7 +44,7 @@ private:
   std::filesystem::path file_;
   RunOptions options_;
   std::optional<hal::TimePoint> asked_;
-  std::future<hal::Result<ReadConfiguration>> reading_; // its destructor waits
+  pipeline::BackgroundTask<hal::Result<ReadConfiguration>> reading_;
 };
 
 } // namespace octascope::firmware_host

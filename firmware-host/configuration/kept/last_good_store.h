@@ -2,12 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <future>
 #include <optional>
 
 #include "firmware-host/configuration/kept/last_good.h"
 #include "hal/clock.h"
 #include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/background_task.h"
 
 namespace octascope::firmware_host {
 
@@ -33,12 +33,16 @@ public:
   void finish(bool picture_shown);
 
 private:
+  void read_wanted();
+  bool is_proved(bool picture_shown) const;
+
   LastGood folder_;
   hal::Clock& clock_;
   pipeline::FaultLog& faults_;
   hal::TimePoint began_{};
-  std::future<hal::Result<ConfigurationBundle>> read_;
-  std::future<hal::Result<>> written_; // their destructors wait
+  std::optional<std::filesystem::path> wanted_; // to be read, once what is read now has been
+  pipeline::BackgroundTask<hal::Result<ConfigurationBundle>> reading_;
+  pipeline::BackgroundTask<hal::Result<>> writing_;
 };
 
 } // namespace octascope::firmware_host

@@ -39,18 +39,20 @@ std::optional<RestoredView> SettingsStore::restore(const ConfiguredView& configu
 }
 
 void SettingsStore::take_written() {
-  const auto written = writing_.get();
-  if (written) {
+  const auto written = writing_.take();
+  if (!written)
+    return;
+  if (*written) {
     kept_ = std::move(writing_text_);
     return;
   }
-  faults_.add(pipeline::Fault::settings_not_kept, written.error().message, clock_.now());
+  faults_.add(pipeline::Fault::settings_not_kept, written->error().message, clock_.now());
   next_ = clock_.now() + tried_again_after;
 }
 
 void SettingsStore::write(std::string text) {
   writing_text_ = text;
-  writing_ = std::async(std::launch::async, [file = file_, written = std::move(text)] {
+  writing_.start([file = file_, written = std::move(text)] {
     return pipeline::write_atomically(file, written);
   });
 }
@@ -60,23 +62,21 @@ void SettingsStore::note(const ConfiguredView& configured, const ui::ViewState& 
   if (now < next_)
     return;
   next_ = now + looked_every;
-  if (writing_.valid()) {
-    if (writing_.wait_for(0s) == std::future_status::ready)
-      take_written();
-    return;
-  }
+  if (writing_.busy())
+    return take_written();
   std::string text = settings_text(configured, state);
   if (!kept_ || text != *kept_)
     write(std::move(text));
 }
 
 void SettingsStore::finish(const ConfiguredView& configured, const ui::ViewState& state) {
-  if (writing_.valid())
-    take_written();
+  writing_.wait();
+  take_written();
   std::string text = settings_text(configured, state);
   if (kept_ && text == *kept_)
     return;
   write(std::move(text));
+  writing_.wait();
   take_written();
 }
 

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <future>
 #include <optional>
 #include <string>
 
 #include "firmware-host/configuration/kept/settings.h"
 #include "hal/clock.h"
 #include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/background_task.h"
 
 namespace octascope::firmware_host {
 
@@ -42,9 +42,9 @@ private:
   pipeline::FaultLog& faults_;
   bool was_broken_ = false;
   hal::TimePoint next_{};
-  std::optional<std::string> kept_;    // what the file holds; empty: not known
-  std::string writing_text_;           // what it will hold
-  std::future<hal::Result<>> writing_; // its destructor waits
+  std::optional<std::string> kept_; // what the file holds; empty: not known
+  std::string writing_text_;        // what it will hold
+  pipeline::BackgroundTask<hal::Result<>> writing_;
 };
 
 } // namespace octascope::firmware_host
