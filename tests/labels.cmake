@@ -1,7 +1,7 @@
 # What each test is to CTest, by its name: the one place that says so, and which sanitizer runs what.
 # Read by CTest for each program of tests (tests/CMakeLists.txt), with `program`, the program's name,
 # test_${program}_TESTS, the names of its tests (none where it is not built), `random`, what draws
-# random input, and `all_compiled`, which is false where files are left out (ONE_THREAD).
+# random input, and `sanitized_by`: what sanitizers need not is not compiled for them.
 #
 #   unit     of one module and quick: all of them take less than two minutes
 #   slow     of one module; takes seconds, or draws many pictures
@@ -87,7 +87,7 @@ foreach(test IN LISTS test_${program}_TESTS)
 endforeach()
 
 # An expression that fits nothing has been left behind by a test that has another name now.
-if(test_${program}_TESTS AND all_compiled)
+if(test_${program}_TESTS AND NOT sanitized_by)
   foreach(expression IN LISTS clock slow sanitized not_tsan)
     string(REGEX MATCH "^[a-z0-9_]+" module "${expression}")
     set(fitting ${test_${program}_TESTS})
