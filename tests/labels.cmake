@@ -17,13 +17,13 @@
 
 cmake_minimum_required(VERSION 3.25)
 
-# Real sweeps of hundreds of milliseconds, frames that must be taken in time, and pictures that must not be
-# marked as late. What only waits for something to come is no clock's.
+# Real sweeps of hundreds of milliseconds, frames that must be taken in time, pictures that must not be
+# marked as late, and those of a moment after the start. What only waits for something to come is no clock's.
 set(clock
   "pipeline_threads\\."
   "twins\\.sim/.*Contract\\..*/real_time"
   "v4l2_camera\\..*/real_time"
-  "program\\.(NoFault|Window)\\.")
+  "program\\.(NoFault|Scripts/ShownFaults|Window)\\.")
 
 set(slow
   "bidirectional\\."
