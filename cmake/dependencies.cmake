@@ -37,16 +37,17 @@ if(OCTASCOPE_DISPLAY)
   pkg_check_modules(libcamera REQUIRED IMPORTED_TARGET libcamera)
   pkg_check_modules(turbojpeg REQUIRED IMPORTED_TARGET libturbojpeg)
   # Its shared library has a driver for files on the network, and brings curl, TLS, LDAP and Kerberos
-  # along, which the program that a surgeon looks at shall not have in its memory. Of the archive
-  # only what is used is linked.
+  # along, which the program that a surgeon looks at shall not have in its memory. Of the archive only
+  # what is used is linked. HDF5 1.14 refers to that driver by one function: ours takes its place, and
+  # is looked for first.
   pkg_check_modules(hdf5 REQUIRED hdf5)
   find_library(OCTASCOPE_HDF5_ARCHIVE NAMES libhdf5_serial.a libhdf5.a HINTS ${hdf5_LIBRARY_DIRS} REQUIRED)
   find_library(OCTASCOPE_SZ sz REQUIRED)
-  add_library(octascope_hdf5 STATIC IMPORTED)
-  set_target_properties(octascope_hdf5 PROPERTIES
-    IMPORTED_LOCATION "${OCTASCOPE_HDF5_ARCHIVE}"
-    INTERFACE_INCLUDE_DIRECTORIES "${hdf5_INCLUDE_DIRS}"
-    INTERFACE_LINK_LIBRARIES "${OCTASCOPE_SZ};ZLIB::ZLIB;${CMAKE_DL_LIBS};m")
+  add_library(octascope_hdf5 STATIC ${CMAKE_SOURCE_DIR}/cmake/hdf5_without_network.cpp)
+  target_include_directories(octascope_hdf5 SYSTEM PUBLIC ${hdf5_INCLUDE_DIRS})
+  target_link_options(octascope_hdf5 INTERFACE LINKER:--undefined=H5FD_ros3_init)
+  target_link_libraries(octascope_hdf5 PUBLIC
+    ${OCTASCOPE_HDF5_ARCHIVE} ${OCTASCOPE_SZ} ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
   # DCMTK's own lists of its libraries bring networks, sound and XML along; a file needs three.
   add_library(octascope_dcmtk INTERFACE)
   foreach(library dcmdata oflog ofstd)
