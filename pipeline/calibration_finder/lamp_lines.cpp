@@ -22,9 +22,10 @@ struct Peak {
 };
 
 double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  const std::size_t middle = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(middle),
+                   values.end());
+  return values[middle];
 }
 
 hal::Result<> check_lines(std::span<const double> lines_nm) {
@@ -134,6 +135,8 @@ hal::Result<LampCalibration> find_lamp_lines(std::span<const double> spectrum,
   const auto refuse = [&](std::string_view words) {
     return hal::fail(ErrorCode::bad_data, fmt::format("{}: {}", name, words));
   };
+  if (spectrum.empty())
+    return refuse("it has no samples, expected a spectrum of the lamp");
   for (std::size_t p = 0; p < spectrum.size(); ++p) {
     if (!std::isfinite(spectrum[p]))
       return refuse(fmt::format("sample {} is {}, expected a finite number", p, spectrum[p]));

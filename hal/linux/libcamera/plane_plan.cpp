@@ -73,17 +73,18 @@ Result<PlanePlan> plan_planes(const std::vector<BufferPlane>& planes, const Pict
     plan.pieces.push_back({file_of(plan.files, first), first.offset, layout.bytes(), 0});
     return plan;
   }
-  const std::size_t luma_bytes = layout.stride * static_cast<std::size_t>(layout.size.height);
-  for (std::size_t i = 0; i < lengths.size(); ++i) {
+  for (std::size_t i = 0; i < lengths.size(); ++i)
     if (planes[i].length < lengths[i])
       return too_short(layout, planes[i].length, lengths[i]);
-    plan.pieces.push_back(
-        {file_of(plan.files, planes[i]), planes[i].offset, lengths[i], i == 0 ? 0 : luma_bytes});
-  }
-  const bool adjoining = plan.pieces[0].file == plan.pieces[1].file &&
-                         plan.pieces[1].offset == plan.pieces[0].offset + luma_bytes;
+  const std::size_t luma_bytes = layout.stride * static_cast<std::size_t>(layout.size.height);
+  const PlanePlan::Piece luma{file_of(plan.files, first), first.offset, lengths[0], 0};
+  const PlanePlan::Piece chroma{file_of(plan.files, planes[1]), planes[1].offset, lengths[1],
+                                luma_bytes};
+  const bool adjoining = luma.file == chroma.file && chroma.offset == luma.offset + luma_bytes;
   if (adjoining)
-    plan.pieces = {{plan.pieces[0].file, plan.pieces[0].offset, layout.bytes(), 0}};
+    plan.pieces = {{luma.file, luma.offset, layout.bytes(), 0}};
+  else
+    plan.pieces = {luma, chroma};
   return plan;
 }
 

@@ -93,6 +93,7 @@ TEST(LampLines, refuses_what_cannot_be_matched) {
   bad[17] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(message(bad, argon_nm), HasSubstr("sample 17 is nan"));
   EXPECT_THAT(message(std::vector<double>(1024, 5.0), argon_nm), HasSubstr("0 peaks"));
+  EXPECT_THAT(message({}, argon_nm), HasSubstr("no samples"));
 }
 
 } // namespace
