@@ -1,8 +1,9 @@
 #include "ui/vessels/splatter/splat_kernels.h"
 
-// Scalable vectors have no lane count to compile for, and SSSE3 adds nothing between the others.
+// Scalable vectors have no lane count to compile for, SSSE3 adds nothing between the others, nor do
+// the extensions of AVX3, of which newer versions of Highway know more.
 #define HWY_DISABLED_TARGETS                                                                       \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+  (HWY_SSSE3 | (HWY_AVX3 - 1) | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #define HWY_TARGET_INCLUDE "ui/vessels/splatter/splat_kernels_inl.h"
 #include <hwy/foreach_target.h> // includes the file above once for each instruction set but one
 
