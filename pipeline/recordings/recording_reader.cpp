@@ -32,12 +32,13 @@ namespace {
 // many attempts take milliseconds. HDF5's own hundred would take for ever where a file is damaged.
 constexpr unsigned read_attempts = 22;
 
-// One that was never finished counts as being written.
+// One that was never finished counts as being written; one that was finished and then cut off does
+// not, though HDF5 1.14 would read it so and take zeros for what is missing.
 hal::Result<Hdf5Handle> open_file(const std::filesystem::path& path) {
   const Hdf5Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   H5Pset_metadata_read_attempts(access, read_attempts);
   Hdf5Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose};
-  if (!file.valid())
+  if (!file.valid() && hdf5_reason().find("truncated") == std::string::npos)
     file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose};
   if (!file.valid()) // asked now: HDF5 forgets it with the next call
     return hal::fail(hal::ErrorCode::bad_data,

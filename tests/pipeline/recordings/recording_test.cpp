@@ -210,6 +210,12 @@ TEST_F(Recording, refuses_what_is_none) {
   EXPECT_THAT(refusal(other), HasSubstr("is no recording of octascope"));
 }
 
+TEST_F(Recording, refuses_what_was_cut_off) {
+  write_small_recording(file, 3);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) * 2 / 3);
+  EXPECT_THAT(refusal(file), HasSubstr("truncated"));
+}
+
 // Changed by another program, so that all of HDF5's own checks pass.
 TEST_F(Recording, refuses_facts_that_cannot_be) {
   const auto with = [&](const char* attribute, std::int64_t value) {
