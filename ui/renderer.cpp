@@ -77,6 +77,7 @@ struct Renderer::Parts {
   EnFacePanel en_face_panel;
   ScopePanel scope_panel;
   CanvasRenderer canvas_renderer;
+  Typeface typeface;
   Canvas ground{};       // under all pictures
   Canvas under_volume{}; // which may be an inset
   Canvas overlay{};
@@ -159,7 +160,7 @@ Layout Renderer::Parts::layout(int width, int height, LayoutKind kind) const {
 hal::Result<> Renderer::Parts::prepare_fonts(float unit) {
   if (fonts && fonts_unit == unit)
     return {};
-  HAL_TRY(auto made, Fonts::create(unit));
+  HAL_TRY(auto made, Fonts::create(unit, typeface));
   fonts = std::move(made);
   fonts_unit = unit;
   return {};
@@ -242,14 +243,15 @@ hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
 }
 
 hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& transfers,
-                                                        const pipeline::ThreadSetup& threads) {
+                                                        const pipeline::ThreadSetup& threads,
+                                                        const Typeface& typeface) {
   HAL_TRY(auto volume, VolumePainter::create(transfers, threads));
   HAL_TRY(auto b_scan, BScanPanel::create());
   HAL_TRY(auto en_face, EnFacePanel::create());
   HAL_TRY(auto scope, ScopePanel::create());
   HAL_TRY(auto canvas, CanvasRenderer::create());
   std::unique_ptr<Parts> parts{new Parts{std::move(volume), std::move(b_scan), std::move(en_face),
-                                         std::move(scope), std::move(canvas)}};
+                                         std::move(scope), std::move(canvas), typeface}};
   return std::unique_ptr<Renderer>{new Renderer{std::move(parts)}};
 }
 

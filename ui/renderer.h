@@ -11,6 +11,7 @@
 #include "pipeline/files/png_image.h"
 #include "pipeline/threads/worker_pool.h"
 #include "pipeline/volume/volume.h"
+#include "ui/hud/fonts.h"
 #include "ui/hud/window_histogram.h"
 #include "ui/layout/scan_field.h"
 #include "ui/status/status.h"
@@ -32,9 +33,10 @@ namespace octascope::ui {
 class Renderer {
 public:
   // `threads` sets up the threads that help drawing: VolumePainter::create() names them.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // The typeface stays borrowed. ErrorCode::unsupported: this GL cannot compile our shaders.
   static hal::Result<std::unique_ptr<Renderer>> create(const TransferSet& transfers = {},
-                                                       const pipeline::ThreadSetup& threads = {});
+                                                       const pipeline::ThreadSetup& threads = {},
+                                                       const Typeface& typeface = inter());
   ~Renderer();
 
   // Copies the volume before it returns and shows it from the next draw() on. On an error the last

@@ -15,24 +15,29 @@ namespace octascope::ui {
 namespace {
 
 struct StyleFace {
-  const unsigned char* bytes;
-  std::size_t size;
+  std::span<const unsigned char> file;
   float pixels; // on a picture 720 high
 };
 
-std::array<StyleFace, text_style_count> faces() {
-  constexpr std::size_t regular = sizeof(fonts::inter_medium_otf_bytes) - 1;
-  constexpr std::size_t semi_bold = sizeof(fonts::inter_semibold_otf_bytes) - 1;
-  return {{{fonts::inter_medium_otf_bytes, regular, 22},
-           {fonts::inter_medium_otf_bytes, regular, 24},
-           {fonts::inter_semibold_otf_bytes, semi_bold, 28},
-           {fonts::inter_semibold_otf_bytes, semi_bold, 34}}};
+std::array<StyleFace, text_style_count> faces(const Typeface& typeface) {
+  return {{{typeface.medium, 22},
+           {typeface.medium, 24},
+           {typeface.semi_bold, 28},
+           {typeface.semi_bold, 34}}};
 }
 
 // Latin-1, dashes, ellipsis, minus.
 constexpr std::array<ImWchar, 7> glyph_ranges{0x20, 0xFF, 0x2010, 0x2026, 0x2212, 0x2212, 0};
 
 } // namespace
+
+Typeface inter() {
+  // Each array has a zero behind its file.
+  return {
+      std::span{fonts::inter_medium_otf_bytes}.first<sizeof fonts::inter_medium_otf_bytes - 1>(),
+      std::span{fonts::inter_semibold_otf_bytes}
+          .first<sizeof fonts::inter_semibold_otf_bytes - 1>()};
+}
 
 Fonts::Fonts() : atlas_{IM_NEW(ImFontAtlas)()} {}
 
@@ -53,7 +58,7 @@ Fonts::~Fonts() {
     IM_DELETE(atlas_);
 }
 
-hal::Result<Fonts> Fonts::create(float unit) {
+hal::Result<Fonts> Fonts::create(float unit, const Typeface& typeface) {
   Fonts result;
   ImFontAtlas& atlas = *result.atlas_;
   atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
@@ -61,15 +66,16 @@ hal::Result<Fonts> Fonts::create(float unit) {
   // GLES 3 promises textures of 2048 × 2048, which a display 2160 pixels high needs.
   atlas.TexDesiredWidth = unit > 1.2F ? 2048 : 1024;
   int next = 0;
-  for (const StyleFace& face : faces()) {
+  for (const StyleFace& face : faces(typeface)) {
     ImFontConfig config;
     config.FontDataOwnedByAtlas = false;
     config.GlyphRanges = glyph_ranges.data();
     // Below ten pixels no hinting saves a letter.
     const float pixels = std::max(10.0F, std::ceil(face.pixels * unit));
     // ImGui takes a mutable pointer and does not write to data that it does not own.
-    result.fonts_[next++] = atlas.AddFontFromMemoryTTF(
-        const_cast<unsigned char*>(face.bytes), static_cast<int>(face.size), pixels, &config);
+    result.fonts_[next++] =
+        atlas.AddFontFromMemoryTTF(const_cast<unsigned char*>(face.file.data()),
+                                   static_cast<int>(face.file.size()), pixels, &config);
   }
   unsigned char* coverage = nullptr;
   int width = 0;

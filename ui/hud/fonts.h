@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "hal/result.h"
 #include "ui/gl/objects.h"
@@ -23,11 +24,21 @@ inline constexpr double lookup_arcmin = 10;
 enum class TextStyle : std::uint8_t { label, body, value, badge };
 inline constexpr int text_style_count = 4;
 
+// Two weights of one typeface, each a file as FreeType reads it; borrowed while fonts are made of
+// them.
+struct Typeface {
+  std::span<const unsigned char> medium;
+  std::span<const unsigned char> semi_bold;
+};
+
+// The display's, embedded in the program.
+Typeface inter();
+
 // Threads: as gl/objects.h.
 class Fonts {
 public:
   // `unit` as in Layout. ErrorCode::unsupported: this GL takes no texture of that size.
-  static hal::Result<Fonts> create(float unit);
+  static hal::Result<Fonts> create(float unit, const Typeface& typeface = inter());
   Fonts(Fonts&& other) noexcept;
   Fonts& operator=(Fonts&& other) noexcept;
   ~Fonts();

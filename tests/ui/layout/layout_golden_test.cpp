@@ -1,4 +1,5 @@
 // Golden pictures of every layout, in and out of order, and of stereo.
+#include "tests/ui/support/block_typeface.h"
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/golden.h"
 #include "tests/ui/support/scene.h"
@@ -35,7 +36,7 @@ protected:
   pipeline::Image draw(const ViewState& view, const Status& status, int width, int height,
                        bool incomplete = false, bool has_scope = true, int scope_width = 320) {
     open(width, height);
-    auto renderer = Renderer::create();
+    auto renderer = Renderer::create({}, {}, block_typeface());
     EXPECT_TRUE(renderer) << renderer.error().message;
     auto volume = tissue_volume(small_geometry);
     if (incomplete)

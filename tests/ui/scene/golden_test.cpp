@@ -1,4 +1,6 @@
-// Golden pictures: the whole display against pictures kept in tests/golden.
+// Golden pictures: the whole display against pictures kept in tests/golden, in a typeface of blocks
+// (tests/ui/support/block_typeface.h).
+#include "tests/ui/support/block_typeface.h"
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/golden.h"
 #include "tests/ui/support/scene.h"
@@ -13,7 +15,7 @@ protected:
   pipeline::Image draw(const pipeline::Volume* volume, const ui::ViewState& view,
                        const ui::Status& status, int width, int height) {
     open(width, height);
-    auto renderer = ui::Renderer::create();
+    auto renderer = ui::Renderer::create({}, {}, block_typeface());
     EXPECT_TRUE(renderer) << renderer.error().message;
     if (volume != nullptr) {
       EXPECT_TRUE((*renderer)->show_volume(*volume));
