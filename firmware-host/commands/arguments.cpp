@@ -99,15 +99,15 @@ hal::Result<std::array<int, 2>> parse_size(std::string_view text) {
                                text));
 }
 
-bool read_number(std::string_view text, float& value, const ui::ParameterRange& range) {
+bool read_number(std::string_view text, float& value, const ui::NumberRange& range) {
   const char* const end = text.data() + text.size();
   const auto [at, error] = std::from_chars(text.data(), end, value);
   return error == std::errc{} && at == end && value >= range.lowest && value <= range.highest;
 }
 
 hal::Result<ui::DisplayWindow> parse_window(std::string_view text) {
-  const ui::ParameterRange offset = parameter_range(ui::Parameter::window_offset, 1);
-  const ui::ParameterRange size = parameter_range(ui::Parameter::window_size, 1);
+  const ui::NumberRange offset = range_of(ui::Action::window_offset);
+  const ui::NumberRange size = range_of(ui::Action::window_size);
   ui::DisplayWindow window;
   const std::size_t comma = text.find(',');
   if (comma != std::string_view::npos &&

@@ -14,7 +14,7 @@
 #include "firmware-host/configuration/run_options.h"
 #include "hal/result.h"
 #include "ui/transfer/auto_window.h"
-#include "ui/view/view_state.h"
+#include "ui/view/action_table.h"
 
 namespace octascope::firmware_host {
 
@@ -38,7 +38,7 @@ int complain(std::string_view command, const hal::Error& error);
 hal::Result<std::array<int, 2>> parse_size(std::string_view text);
 
 // The whole text as a number of the range; "nan" is in none.
-bool read_number(std::string_view text, float& value, const ui::ParameterRange& range);
+bool read_number(std::string_view text, float& value, const ui::NumberRange& range);
 
 // "8,36": the level in dB where the display window begins, and its size in dB.
 hal::Result<ui::DisplayWindow> parse_window(std::string_view text);

@@ -1,6 +1,5 @@
 #include "firmware-host/report/report.h"
 
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include "firmware-host/report/report_parts.h"
 #include "firmware-host/version/version.h"
 #include "pipeline/files/atomic_file.h"
+#include "ui/view/action_table.h"
 
 namespace octascope::firmware_host {
 
@@ -58,52 +58,37 @@ Json scan_to_json(const RunReport& report) {
   return scan;
 }
 
-std::string_view name_of(ui::LayoutKind layout) {
-  constexpr std::array<std::string_view, ui::layout_count> names{"volume", "b_scan", "microscope",
-                                                                 "quad"};
-  return names[static_cast<std::size_t>(layout)];
-}
-
-std::string_view name_of(ui::StereoMode mode) {
-  constexpr std::array<std::string_view, ui::stereo_count> names{"off", "side_by_side",
-                                                                 "top_bottom"};
-  return names[static_cast<std::size_t>(mode)];
-}
-
-std::string_view name_of(ui::VesselColouring colouring) {
-  constexpr std::array<std::string_view, ui::vessel_colouring_count> names{"branch", "order",
-                                                                           "diagnostic"};
-  return names[static_cast<std::size_t>(colouring)];
-}
-
+// The shifts and turns of the vessels are one key of three numbers each.
 Json view_to_json(const ui::ViewState& view) {
-  return {{"window_offset_db", rounded(view.window_offset_db)},
-          {"window_size_db", rounded(view.window_size_db)},
-          {"yaw_deg", rounded(view.yaw_deg)},
-          {"tilt_deg", rounded(view.tilt_deg)},
-          {"distance", rounded(view.distance)},
-          {"b_scan", view.b_scan},
-          {"parallax_deg", rounded(view.parallax_deg)},
-          {"technique", to_string(view.technique)},
-          {"transfer", view.transfer},
-          {"colours", view.colour_map},
-          {"layout", name_of(view.layout)},
-          {"stereo", name_of(view.stereo)},
-          {"frozen", view.frozen},
-          {"vessels", view.vessels_visible},
-          {"vessel_opacity", rounded(view.vessel_opacity)},
-          {"vessel_colours", name_of(view.vessel_colouring)},
-          {"vessel_shift_mm", view.vessel_nudge.shift_mm},
-          {"vessel_turn_deg", view.vessel_nudge.turn_deg},
-          {"box", view.box_visible},
-          {"legend", view.legend_visible},
-          {"selected", to_string(view.selected)}};
+  Json json;
+  for (const ui::ActionRow& row : ui::action_table()) {
+    if (row.key.empty())
+      continue;
+    Json& place = json[std::string{row.key}];
+    std::visit(ui::Overloaded{
+                   [](const ui::NoValue&) {},
+                   [&](const ui::Number& v) {
+                     if (v.nudge != nullptr)
+                       place.push_back(v.of(view));
+                     else if (v.index != nullptr)
+                       place = view.*v.index;
+                     else
+                       place = rounded(v.of(view));
+                   },
+                   [&](const ui::Flag& v) { place = view.*v.flag; },
+                   [&](const ui::Choice& v) { place = v.values[v.of(view)].name; },
+                   [&](const ui::NamedChoice& v) { place = view.*v.index; },
+               },
+               row.value);
+  }
+  json["selected"] = to_string(view.selected);
+  return json;
 }
 
 Json actions_to_json(const RunReport& report) {
   Json actions;
-  for (const ui::Action action : ui::all_actions())
-    actions[std::string{to_string(action)}] = report.actions[ui::index_of(action)];
+  for (const ui::ActionRow& row : ui::action_table())
+    actions[std::string{row.name}] = report.actions[ui::index_of(row.action)];
   return actions;
 }
 

@@ -26,22 +26,13 @@ bool brings_volumes(ui::Liveness liveness) {
   return liveness == ui::Liveness::live || liveness == ui::Liveness::replayed;
 }
 
-ui::ChoiceNames choices_of(const ui::TransferSet& transfers) {
-  ui::ChoiceNames names{{}, {}};
-  for (const ui::TransferFunction& function : transfers.functions())
-    names.transfers.push_back(function.name);
-  for (const ui::ColourMap& map : transfers.colour_maps())
-    names.colours.emplace_back(map.name());
-  return names;
-}
-
 } // namespace
 
 RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
     : parts_(parts), setup_(std::move(setup)), legend_(ui::make_legend(setup_.controls)),
       key_legend_(ui::make_key_legend()), controller_(setup_.view, setup_.b_scans, setup_.controls),
       governor_({}) {
-  controller_.actions().set_choices(choices_of(setup_.transfers));
+  controller_.actions().set_choices(setup_.transfers.names());
   if (setup_.restored_view)
     controller_.actions().replace(controller_.actions().initial(), *setup_.restored_view);
   setup_.status.legend = &legend_;
@@ -61,7 +52,7 @@ void RenderLoop::change_controls(ui::ControlProfile profile) {
 // Every picture that the renderer holds was made with the old ones.
 void RenderLoop::change_transfers(ui::TransferSet transfers) {
   setup_.transfers = std::move(transfers);
-  controller_.actions().set_choices(choices_of(setup_.transfers));
+  controller_.actions().set_choices(setup_.transfers.names());
   if (!renderer_)
     return;
   renderer_.reset();

@@ -1,7 +1,9 @@
 #include "ui/controls/key_bindings.h"
 
 #include <algorithm>
-#include <array>
+#include <vector>
+
+#include "ui/view/action_table.h"
 
 namespace octascope::ui {
 
@@ -13,57 +15,35 @@ constexpr std::uint16_t code(Key key) {
   return static_cast<std::uint16_t>(key);
 }
 
-// Of those for the same action, neighbours.
-constexpr std::array bindings{
-    KeyBinding{'o', Action::window_offset, -1, 1, true},
-    KeyBinding{'s', Action::window_size, -1, 1, true},
-    KeyBinding{'w', Action::auto_window},
-    KeyBinding{code(Key::left), Action::rotate, -1, -1, true},
-    KeyBinding{code(Key::right), Action::rotate, 1, 1, true},
-    KeyBinding{code(Key::up), Action::tilt, 1, 1, true},
-    KeyBinding{code(Key::down), Action::tilt, -1, -1, true},
-    KeyBinding{code(Key::page_up), Action::distance, -1, -1, true},
-    KeyBinding{code(Key::page_down), Action::distance, 1, 1, true},
-    KeyBinding{'+', Action::distance, -1, -1, true},
-    KeyBinding{'=', Action::distance, -1, -1, true},
-    KeyBinding{'-', Action::distance, 1, 1, true},
-    KeyBinding{code(Key::home), Action::reset_view},
-    KeyBinding{'[', Action::b_scan, -1, -1, true},
-    KeyBinding{']', Action::b_scan, 1, 1, true},
-    KeyBinding{code(Key::tab), Action::next_parameter, 1, -1},
-    KeyBinding{code(Key::space), Action::freeze},
-    KeyBinding{'t', Action::technique, 1, -1},
-    KeyBinding{'f', Action::transfer, 1, -1},
-    KeyBinding{'c', Action::colours, 1, -1},
-    KeyBinding{'l', Action::layout, 1, -1},
-    KeyBinding{'d', Action::stereo, 1, -1},
-    KeyBinding{'x', Action::parallax, -1, 1, true},
-    KeyBinding{'v', Action::vessels},
-    KeyBinding{'a', Action::vessel_opacity, -1, 1, true},
-    KeyBinding{'e', Action::vessel_colours, 1, -1},
-    KeyBinding{'i', Action::vessel_shift_x, -1, 1, true},
-    KeyBinding{'j', Action::vessel_shift_y, -1, 1, true},
-    KeyBinding{'k', Action::vessel_shift_z, -1, 1, true},
-    KeyBinding{'u', Action::vessel_turn_x, -1, 1, true},
-    KeyBinding{'y', Action::vessel_turn_y, -1, 1, true},
-    KeyBinding{'z', Action::vessel_turn_z, -1, 1, true},
-    KeyBinding{'n', Action::vessel_account},
-    KeyBinding{'m', Action::keep_registration},
-    KeyBinding{'g', Action::reset_registration},
-    KeyBinding{'b', Action::box},
-    KeyBinding{'p', Action::snapshot},
-    KeyBinding{'r', Action::record},
-    KeyBinding{'h', Action::legend},
-    KeyBinding{code(Key::f1), Action::legend},
-};
+// A key for one way repeats while it is held down. One for both goes down, and up with shift; one
+// of a choice goes on, and with shift back.
+KeyBinding binding(const ActionRow& row, const ActionKey& key) {
+  const bool continuous = row.kind == ActionKind::continuous;
+  if (key.step != 0)
+    return {key.key, row.action, key.step, key.step, continuous};
+  if (continuous)
+    return {key.key, row.action, -1, 1, true};
+  return {key.key, row.action, 1, row.kind == ActionKind::choice ? -1 : 1, false};
+}
+
+std::vector<KeyBinding> bindings_of_the_table() {
+  std::vector<KeyBinding> bindings;
+  for (const ActionRow& row : action_table())
+    for (const ActionKey& key : row.keys)
+      if (key.key != 0)
+        bindings.push_back(binding(row, key));
+  return bindings;
+}
 
 } // namespace
 
 std::span<const KeyBinding> key_bindings() {
+  static const std::vector<KeyBinding> bindings = bindings_of_the_table();
   return bindings;
 }
 
 std::optional<KeyBinding> binding_of(std::uint16_t key) {
+  const auto bindings = key_bindings();
   const auto found = std::ranges::find(bindings, key, &KeyBinding::key);
   return found == bindings.end() ? std::nullopt : std::optional{*found};
 }

@@ -19,10 +19,7 @@ struct KeyBinding {
   bool repeats = false; // while the key is held down
 };
 
-// Arrows turn and tilt · page up, + closer · page down, − farther · o, O window offset down, up ·
-// s, S window size · x, X parallax · [ ] B-scan · w automatic window · home first view ·
-// tab next function · space freezes · t technique · f transfer · c colours · l layout · d stereo
-// (with shift: the one before) · v vessels · b box · p snapshot · r recording · h, F1 legend.
+// Of the action table, in its order; those of the same action are neighbours.
 std::span<const KeyBinding> key_bindings();
 
 // Empty: the key does nothing.

@@ -87,7 +87,7 @@ Legend make_key_legend() {
     else
       legend.lines.push_back({name, bound.action, false});
     if (bound.shifted != bound.step)
-      legend.lines.back().control += ", shift: back";
+      legend.lines.back().control += bound.shifted > bound.step ? ", shift: up" : ", shift: back";
   }
   for (LegendLine& line : legend.lines)
     line.control = capitalised(line.control);

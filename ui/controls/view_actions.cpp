@@ -15,10 +15,6 @@ int wrapped(int value, int count) {
   return ((value % count) + count) % count;
 }
 
-template <class Enum> Enum stepped(Enum value, int step, int count) {
-  return static_cast<Enum>(wrapped(static_cast<int>(value) + step, count));
-}
-
 } // namespace
 
 ViewActions::ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu)
@@ -55,10 +51,11 @@ void ViewActions::set_window(float offset_db, float size_db) {
 
 void ViewActions::set_choices(ChoiceNames names) {
   names_ = std::move(names);
-  for (ViewState* view : {&initial_, &state_}) {
-    view->transfer = std::clamp(view->transfer, 0, static_cast<int>(names_.transfers.size()) - 1);
-    view->colour_map = std::clamp(view->colour_map, 0, static_cast<int>(names_.colours.size()) - 1);
-  }
+  for (const ActionRow& row : action_table())
+    if (const auto* choice = std::get_if<NamedChoice>(&row.value))
+      for (ViewState* view : {&initial_, &state_})
+        view->*choice->index = std::clamp(view->*choice->index, 0,
+                                          static_cast<int>((names_.*choice->names).size()) - 1);
 }
 
 void ViewActions::tell(Action action, std::string_view words, hal::TimePoint time) {
@@ -75,16 +72,14 @@ void ViewActions::show_window(float offset_db, float size_db, hal::TimePoint tim
                            state_.window_offset_db + state_.window_size_db);
 }
 
-void ViewActions::turn(Parameter parameter, double detents) {
-  if (parameter == Parameter::b_scan) {
+void ViewActions::turn(Action action, double detents) {
+  if (action == Action::b_scan) {
     b_scan_rest_ += detents;
     detents = std::trunc(b_scan_rest_);
     b_scan_rest_ -= detents;
   }
-  const ParameterRange range = parameter_range(parameter, b_scans_);
-  set_parameter(state_, parameter,
-                parameter_value(state_, parameter) + static_cast<float>(detents) * range.detent);
-  state_ = state_.clamped();
+  const Number& number = *number_of(action);
+  number.set(state_, number.of(state_) + static_cast<float>(detents) * number.range.detent);
   state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
 }
 
@@ -97,19 +92,19 @@ void ViewActions::begin_driving(Action action, hal::TimePoint time) {
 
 void ViewActions::drive(Action action, double amount, hal::TimePoint time) {
   const Action driven = action == Action::adjust ? state_.selected : action;
-  const auto parameter = parameter_of(driven);
-  if (!parameter)
+  if (number_of(driven) == nullptr)
     return;
-  turn(*parameter, amount);
+  turn(driven, amount);
   tell(driven, "", time);
 }
 
 // The parallax of a picture that is not in stereo cannot be seen, nor what becomes of vessels that
 // are not shown.
 bool ViewActions::can_be_selected(Action action) const {
-  if (action > Action::vessels && action <= Action::reset_registration)
-    return vessels_loaded_ && state_.vessels_visible;
-  return action != Action::parallax || state_.stereo != StereoMode::off;
+  const ActionRow& row = row_of(action);
+  if (row.has(trait::needs_vessels) && !(vessels_loaded_ && state_.vessels_visible))
+    return false;
+  return !row.has(trait::needs_stereo) || state_.stereo != StereoMode::off;
 }
 
 void ViewActions::select_next(int step, hal::TimePoint time) {
@@ -127,45 +122,27 @@ void ViewActions::select_next(int step, hal::TimePoint time) {
   state_.echo.chosen = true;
 }
 
-void ViewActions::toggle(Action action, double amount, Done done, hal::TimePoint time) {
-  const auto change = [&](bool& flag) { flag = done == Done::turned ? amount > 0 : !flag; };
-  switch (action) {
-  case Action::freeze: {
-    const bool before = state_.frozen;
-    change(state_.frozen);
-    if (state_.frozen != before)
-      state_.frozen_since = state_.frozen ? time : hal::TimePoint{};
-    break;
-  }
-  case Action::vessels: change(state_.vessels_visible); break;
-  case Action::vessel_account: change(state_.vessel_account); break;
-  case Action::box: change(state_.box_visible); break;
-  case Action::legend: change(state_.legend_visible); break;
-  default: break;
-  }
+void ViewActions::toggle(Action action, const Flag& value, double amount, Done done,
+                         hal::TimePoint time) {
+  bool& flag = state_.*value.flag;
+  const bool before = flag;
+  flag = done == Done::turned ? amount > 0 : !flag;
+  if (action == Action::freeze && flag != before)
+    state_.frozen_since = flag ? time : hal::TimePoint{};
   if (action == Action::vessels && !vessels_loaded_)
     tell(action, "none loaded", time);
   else
     tell(action, words_of(state_, names_, action), time);
 }
 
-void ViewActions::choose(Action action, int step, hal::TimePoint time) {
-  switch (action) {
-  case Action::technique:
-    state_.technique = stepped(state_.technique, step, static_cast<int>(all_techniques.size()));
-    break;
-  case Action::transfer:
-    state_.transfer = wrapped(state_.transfer + step, static_cast<int>(names_.transfers.size()));
-    break;
-  case Action::colours:
-    state_.colour_map = wrapped(state_.colour_map + step, static_cast<int>(names_.colours.size()));
-    break;
-  case Action::layout: state_.layout = stepped(state_.layout, step, layout_count); break;
-  case Action::vessel_colours:
-    state_.vessel_colouring = stepped(state_.vessel_colouring, step, vessel_colouring_count);
-    break;
-  case Action::stereo: state_.stereo = stepped(state_.stereo, step, stereo_count); break;
-  default: break;
+void ViewActions::choose(Action action, const ActionValue& value, int step, hal::TimePoint time) {
+  if (const auto* choice = std::get_if<Choice>(&value)) {
+    const int count = static_cast<int>(choice->values.size());
+    choice->set(state_, static_cast<std::size_t>(
+                            wrapped(static_cast<int>(choice->of(state_)) + step, count)));
+  } else if (const auto* named = std::get_if<NamedChoice>(&value)) {
+    int& index = state_.*named->index;
+    index = wrapped(index + step, static_cast<int>((names_.*named->names).size()));
   }
   tell(action, words_of(state_, names_, action), time);
 }
@@ -173,19 +150,9 @@ void ViewActions::choose(Action action, int step, hal::TimePoint time) {
 // A frozen picture stays frozen: looking at it afresh must not let it run away. How the glasses
 // take their pictures is not a matter of the view, nor where the vessels lie in the volume.
 void ViewActions::reset_view() {
-  const ViewState old = state_;
-  state_ = initial_;
-  state_.frozen = old.frozen;
-  state_.frozen_since = old.frozen_since;
-  state_.stereo = old.stereo;
-  state_.parallax_deg = old.parallax_deg;
-  state_.vessel_opacity = old.vessel_opacity;
-  state_.vessel_colouring = old.vessel_colouring;
-  state_.vessel_nudge = old.vessel_nudge;
-  state_.vessel_account = old.vessel_account;
-  state_.legend_visible = old.legend_visible;
-  state_.legend_of_keys = old.legend_of_keys;
-  state_.selected = old.selected;
+  for (const ActionRow& row : action_table())
+    if (row.has(trait::home))
+      std::visit([&](const auto& value) { value.copy(initial_, state_); }, row.value);
   state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
 }
 
@@ -221,8 +188,8 @@ ControlRequests ViewActions::adjust(double amount, Done done, hal::TimePoint tim
 
 ControlRequests ViewActions::perform(Action action, double amount, Done done, hal::TimePoint time) {
   ++counts_[index_of(action)];
-  if (const auto parameter = parameter_of(action)) {
-    turn(*parameter, amount);
+  if (number_of(action) != nullptr) {
+    turn(action, amount);
     tell(action, "", time);
     return {};
   }
@@ -242,10 +209,11 @@ ControlRequests ViewActions::perform(Action action, double amount, Done done, ha
     return {};
   default: break;
   }
-  if (kind_of(action) == ActionKind::toggle)
-    toggle(action, amount, done, time);
+  const ActionValue& value = row_of(action).value;
+  if (const auto* flag = std::get_if<Flag>(&value))
+    toggle(action, *flag, amount, done, time);
   else
-    choose(action, step, time);
+    choose(action, value, step, time);
   return {};
 }
 

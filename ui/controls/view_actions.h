@@ -3,12 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "hal/clock.h"
-#include "ui/view/action.h"
+#include "ui/view/action_table.h"
 #include "ui/view/view_state.h"
 
 namespace octascope::ui {
@@ -29,12 +28,6 @@ struct ControlRequests {
     record = record || more.record;
     keep_registration = keep_registration || more.keep_registration;
   }
-};
-
-// Names of what can be chosen, as the display says them; never empty.
-struct ChoiceNames {
-  std::vector<std::string> transfers{"window"};
-  std::vector<std::string> colours{"grey"};
 };
 
 enum class Done : std::uint8_t { pressed, turned };
@@ -85,10 +78,10 @@ public:
   void show_window(float offset_db, float size_db, hal::TimePoint time);
 
 private:
-  void turn(Parameter parameter, double detents);
+  void turn(Action action, double detents);
   void select_next(int step, hal::TimePoint time);
-  void toggle(Action action, double amount, Done done, hal::TimePoint time);
-  void choose(Action action, int step, hal::TimePoint time);
+  void toggle(Action action, const Flag& value, double amount, Done done, hal::TimePoint time);
+  void choose(Action action, const ActionValue& value, int step, hal::TimePoint time);
   void reset_view();
   bool can_be_selected(Action action) const;
   ControlRequests move_vessels_for_good(Action action, double amount, Done done,

@@ -18,8 +18,8 @@ namespace octascope::ui {
 
 // Keys: ui/controls/key_bindings.h, and escape, q quit. Pedals, knobs and sticks: the profile.
 //
-// Threads: one at a time. The host hands state() on as an immutable snapshot. Call advance() every
-// frame: long presses, repetitions and sticks live by it.
+// Threads: one at a time, the render thread. Call advance() every frame: long presses, repetitions
+// and sticks depend on it.
 class ViewController {
 public:
   // `initial` is what reset_view goes back to; `b_scans` bounds the B-scan's position.

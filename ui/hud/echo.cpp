@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ui/view/action_table.h"
+
 namespace octascope::ui {
 
 namespace {
@@ -9,32 +11,6 @@ namespace {
 constexpr std::string_view chosen_words = "The knob turns";
 
 } // namespace
-
-FixedText<48> format_value(const ViewState& view, Action action) {
-  FixedText<48> value;
-  switch (action) {
-  case Action::window_offset: value.format("{:.0f} dB", view.window_offset_db); break;
-  case Action::window_size: value.format("{:.0f} dB", view.window_size_db); break;
-  case Action::rotate: value.format("{:.0f}°", view.yaw_deg); break;
-  case Action::tilt: value.format("{:.0f}°", view.tilt_deg); break;
-  case Action::distance: value.format("{:.2f}", view.distance); break;
-  case Action::b_scan: value.format("{}", view.b_scan + 1); break;
-  case Action::parallax: value.format("{:.2f}°", view.parallax_deg); break;
-  case Action::vessel_opacity: value.format("{:.0f} %", view.vessel_opacity * 100); break;
-  case Action::vessel_shift_x:
-  case Action::vessel_shift_y:
-  case Action::vessel_shift_z:
-    value.format("{:+.2f} mm", parameter_value(view, *parameter_of(action)));
-    break;
-  case Action::vessel_turn_x:
-  case Action::vessel_turn_y:
-  case Action::vessel_turn_z:
-    value.format("{:+.1f}°", parameter_value(view, *parameter_of(action)));
-    break;
-  default: break;
-  }
-  return value;
-}
 
 ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scans) {
   ParameterEcho echo;
@@ -44,10 +20,12 @@ ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scan
   const Action action = view.echo.action;
   echo.chosen = view.echo.chosen;
   echo.name = label_of(action);
-  echo.value = view.echo.words.empty() ? format_value(view, action) : view.echo.words;
-  if (const auto parameter = parameter_of(action)) {
-    const ParameterRange range = parameter_range(*parameter, b_scans);
-    const float value = parameter_value(view, *parameter);
+  echo.value = view.echo.words;
+  if (const Number* number = number_of(action)) {
+    const NumberRange range = range_of(action, b_scans);
+    const float value = number->of(view);
+    if (echo.value.empty())
+      echo.value = number->words(value);
     echo.ranged = true;
     echo.share = std::clamp((value - range.lowest) / (range.highest - range.lowest), 0.0F, 1.0F);
   }

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "ui/hud/canvas.h"
-#include "ui/view/fixed_text.h"
 #include "ui/layout/layout.h"
+#include "ui/view/fixed_text.h"
 #include "ui/view/view_state.h"
 
 namespace octascope::ui {
@@ -25,8 +25,5 @@ ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scan
 
 // At the foot of its place in the layout, as wide as its words need.
 void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);
-
-// The value of what a knob turns, with its unit: "36 dB". Empty for what has none.
-FixedText<48> format_value(const ViewState& view, Action action);
 
 } // namespace octascope::ui

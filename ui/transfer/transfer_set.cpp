@@ -60,6 +60,15 @@ hal::Result<TransferSet> TransferSet::with(std::vector<TransferFunction> functio
   return grown;
 }
 
+ChoiceNames TransferSet::names() const {
+  ChoiceNames names{{}, {}};
+  for (const TransferFunction& function : functions())
+    names.transfers.push_back(function.name);
+  for (const ColourMap& map : colour_maps())
+    names.colours.emplace_back(map.name());
+  return names;
+}
+
 std::optional<int> TransferSet::function_named(std::string_view name) const {
   return find_index(functions(), [&](const TransferFunction& f) { return f.name == name; });
 }

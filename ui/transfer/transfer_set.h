@@ -12,6 +12,7 @@
 #include "ui/transfer/colour_map.h"
 #include "ui/transfer/transfer_curve.h"
 #include "ui/transfer/transfer_table.h"
+#include "ui/view/choice_value.h"
 #include "ui/view/view_state.h"
 
 namespace octascope::ui {
@@ -38,6 +39,7 @@ public:
   // In the order of ViewState::transfer and ViewState::colour_map.
   std::span<const TransferFunction> functions() const { return contents_->functions; }
   std::span<const ColourMap> colour_maps() const { return contents_->colour_maps; }
+  ChoiceNames names() const;
   std::optional<int> function_named(std::string_view name) const;
   std::optional<int> colour_map_named(std::string_view name) const;
 

@@ -1,4 +1,4 @@
-// Everything that hands and feet can ask for, by the names that profiles use.
+// Everything that hands and feet can ask for. What each is called and does: action_table.h.
 #pragma once
 
 #include <array>
@@ -45,11 +45,12 @@ enum class Action : std::uint8_t {
   record,
   legend,
 };
-inline constexpr std::size_t action_count = 34;
 
 constexpr std::size_t index_of(Action action) {
   return static_cast<std::size_t>(action);
 }
+
+inline constexpr std::size_t action_count = index_of(Action::legend) + 1; // legend is the last
 
 // Every action, in the order of the enumeration.
 constexpr std::array<Action, action_count> all_actions() {

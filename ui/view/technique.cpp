@@ -1,17 +1,13 @@
 #include "ui/view/technique.h"
 
+#include "ui/view/choice_value.h"
+
 namespace octascope::ui {
 
+static_assert(technique_values.size() == all_techniques.size());
+
 std::string_view to_string(Technique technique) {
-  switch (technique) {
-  case Technique::slices: return "slices";
-  case Technique::planes: return "planes";
-  case Technique::rays: return "rays";
-  case Technique::shaded: return "shaded";
-  case Technique::maximum: return "maximum";
-  case Technique::surface: return "surface";
-  }
-  return "rays";
+  return technique_values[static_cast<std::size_t>(technique)].name;
 }
 
 std::optional<Technique> technique_named(std::string_view name) {

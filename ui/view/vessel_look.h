@@ -14,7 +14,6 @@ enum class VesselColouring : std::uint8_t {
   order,      // from capillaries to the main arteries
   diagnostic, // red what GL drew, white what the processor did
 };
-inline constexpr int vessel_colouring_count = 3;
 
 using VesselColour = std::array<float, 3>; // 0…1, as it is displayed
 

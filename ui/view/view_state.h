@@ -1,38 +1,19 @@
 // What the surgeon has chosen: where to look from, what window, what to show.
 //
-// Immutable once shared: every change makes a new one, so the renderer always sees a whole state.
+// A plain value with one writer, the render thread: ViewActions changes it at the head of a frame,
+// and the frame is drawn from it.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "hal/clock.h"
 #include "ui/view/action.h"
 #include "ui/view/fixed_text.h"
 #include "ui/view/technique.h"
-#include "ui/view/vessel_placement.h"
 #include "ui/view/vessel_look.h"
+#include "ui/view/vessel_placement.h"
 
 namespace octascope::ui {
-
-// What a knob can turn.
-enum class Parameter : std::uint8_t {
-  window_offset,
-  window_size,
-  yaw,
-  tilt,
-  distance,
-  b_scan,
-  parallax,
-  vessel_opacity,
-  vessel_shift_x,
-  vessel_shift_y,
-  vessel_shift_z,
-  vessel_turn_x,
-  vessel_turn_y,
-  vessel_turn_z,
-};
-inline constexpr int parameter_count = 14;
 
 // How the display is divided.
 enum class LayoutKind : std::uint8_t {
@@ -41,11 +22,9 @@ enum class LayoutKind : std::uint8_t {
   microscope, // large microscope picture with the volume inset
   quad,       // all four alike
 };
-inline constexpr int layout_count = 4;
 
 // For displays that show one picture to each eye.
 enum class StereoMode : std::uint8_t { off, side_by_side, top_bottom };
-inline constexpr int stereo_count = 3;
 
 // What a control just did, for the display to say.
 struct Echo {
@@ -91,27 +70,13 @@ struct ViewState {
   Action selected = Action::window_offset; // what the knob turns
   Echo echo;
 
-  ViewState clamped() const; // every value brought into its range
+  ViewState clamped() const; // every value brought into its range (action_table.h)
 
   bool operator==(const ViewState&) const = default;
 };
 
-// Whether both show the volume from the same place in the same way: what a knob's turn changes of
-// its picture.
+// Whether the volume's picture is the same in both: same place of the eye, same window, technique,
+// layout, vessels and so on (trait::drawn in action_table.h).
 bool same_sight(const ViewState& a, const ViewState& b);
-
-struct ParameterRange {
-  float lowest;
-  float highest;
-  float detent; // what one click of the knob changes
-};
-
-// The ranges of clamped(); the last B-scan is b_scans − 1.
-ParameterRange parameter_range(Parameter parameter, int b_scans);
-float parameter_value(const ViewState& view, Parameter parameter);
-void set_parameter(ViewState& view, Parameter parameter, float value);
-
-// The parameter that an action turns; empty for all others.
-std::optional<Parameter> parameter_of(Action action);
 
 } // namespace octascope::ui

@@ -15,6 +15,7 @@
 #include "firmware-host/supervision/crash_report.h"
 #include "firmware-host/supervision/service_manager.h"
 #include "pipeline/scan/scan_plan.h"
+#include "ui/controls/legend_lines.h"
 
 namespace octascope::firmware_host {
 
@@ -28,6 +29,21 @@ struct RunArguments {
   int repeats = 0;
   ShowArguments show;
 };
+
+// A line a key, or a few for the same action.
+std::string key_help() {
+  std::string lines;
+  const auto add = [&](std::string_view keys, std::string_view meaning) {
+    lines += fmt::format("  {:<36}{}\n", keys, meaning);
+  };
+  for (const ui::LegendLine& line : ui::make_key_legend().lines)
+    add(line.control, label_of(line.action));
+  add("1  2  3", "Switches of the simulated pedal");
+  add(",  .", "Simulated knob, left and right");
+  add("Q  escape", "End the program");
+  lines.pop_back();
+  return lines;
+}
 
 hal::Result<RecordingOptions> recording_of(const RunArguments& a) {
   if (a.shape.empty())
@@ -105,19 +121,12 @@ void add_run_command(CLI::App& program, int& exit_status) {
   auto arguments = std::make_shared<RunArguments>();
   CLI::App* command =
       program.add_subcommand("run", "Run the appliance: acquire, reconstruct, show");
-  command->footer(
-      "Examples:\n"
-      "  octascope run --sim --duration 20\n"
-      "  octascope run --spectra s.raw --shape 100,100,1024 --calibration c.toml "
-      "--display offscreen --volumes 5 --snapshot t.png --report t.json\n"
-      "Keys in a window: arrows turn and tilt; page up, page down closer and farther; o O "
-      "window offset; s S window size; w automatic window; [ ] B-scan; space freezes; t "
-      "technique; f transfer; c colours; l layout; d stereo (shift: back); x X parallax; v "
-      "vessels; a A their opacity; e their colours; i I j J k K shift and u U y Y z Z turn them; m "
-      "keeps their place; g undoes it; n their account; b box; p keeps the picture; r records; "
-      "home first "
-      "view; tab next function; h, F1 what each "
-      "control does; 1 2 3 , . the simulated pedal and knob; q ends.");
+  command->footer("Examples:\n"
+                  "  octascope run --sim --duration 20\n"
+                  "  octascope run --spectra s.raw --shape 100,100,1024 --calibration c.toml "
+                  "--display offscreen --volumes 5 --snapshot t.png --report t.json\n"
+                  "Keys in a window:\n" +
+                  key_help());
   add_options(*command, *arguments);
   command->callback([arguments, &exit_status] { exit_status = run("run", *arguments); });
 }

@@ -67,7 +67,7 @@ const std::map<std::string, ui::VesselColouring>& vessel_colourings() {
   return all;
 }
 
-CLI::Validator within(const ui::ParameterRange& range) {
+CLI::Validator within(const ui::NumberRange& range) {
   return CLI::Validator{[range](std::string& text) {
                           float value = 0;
                           return read_number(text, value, range)
@@ -78,8 +78,8 @@ CLI::Validator within(const ui::ParameterRange& range) {
                         fmt::format("{} to {}", range.lowest, range.highest)};
 }
 
-CLI::Validator within(ui::Parameter parameter) {
-  return within(parameter_range(parameter, 1));
+CLI::Validator within(ui::Action action) {
+  return within(range_of(action));
 }
 
 hal::Result<VolumeRequest> request_of(const RenderArguments& a) {
@@ -250,13 +250,13 @@ void add_look_options(CLI::App& command, RenderArguments& a) {
   command.add_option("--technique", a.technique, "How the volume is drawn (rays if not given)")
       ->check(CLI::IsMember(techniques));
   command.add_option("--yaw", a.view.yaw_deg, "Degrees about the depth axis")
-      ->check(within(ui::Parameter::yaw))
+      ->check(within(ui::Action::rotate))
       ->capture_default_str();
   command.add_option("--tilt", a.view.tilt_deg, "Degrees above the surface's plane")
-      ->check(within(ui::Parameter::tilt))
+      ->check(within(ui::Action::tilt))
       ->capture_default_str();
   command.add_option("--distance", a.view.distance, "In half-diagonals of the volume")
-      ->check(within(ui::Parameter::distance))
+      ->check(within(ui::Action::distance))
       ->capture_default_str();
   command
       .add_option("--window", a.window,
@@ -289,7 +289,7 @@ void add_vessel_options(CLI::App& command, RenderArguments& a) {
       ->needs(vessels);
   command
       .add_option("--vessel-opacity", a.view.vessel_opacity, "0 shows none, 1 hides what is behind")
-      ->check(within(ui::Parameter::vessel_opacity))
+      ->check(within(ui::Action::vessel_opacity))
       ->needs(vessels)
       ->capture_default_str();
   std::vector<std::string> colourings;
@@ -315,7 +315,7 @@ void add_picture_options(CLI::App& command, RenderArguments& a) {
                             ->check(CLI::IsMember(words(stereo_modes())))
                             ->capture_default_str();
   command.add_option("--parallax", a.view.parallax_deg, "Degrees between the eyes")
-      ->check(within(ui::Parameter::parallax))
+      ->check(within(ui::Action::parallax))
       ->needs(stereo);
   command.add_option("--steps", a.steps, "Samples along the longest edge of the volume")
       ->check(CLI::Range(1, 4096))

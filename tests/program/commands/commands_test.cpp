@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/program/program_support.h"
+#include "ui/view/action_table.h"
 
 namespace octascope::tests {
 namespace {
@@ -79,6 +80,14 @@ TEST_P(Help, has_an_example) {
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, HasSubstr("Example"));
   EXPECT_THAT(result.out, HasSubstr("octascope " + GetParam()));
+}
+
+TEST(RunHelp, says_what_each_key_does) {
+  const ProgramResult result = run_octascope({"run", "--help"});
+  for (const ui::ActionRow& row : ui::action_table())
+    if (row.keys[0].key != 0) {
+      EXPECT_THAT(result.out, HasSubstr(" " + std::string{row.label} + "\n"));
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,

@@ -8,6 +8,7 @@
 #include "ui/hud/echo.h"
 #include "ui/hud/legend.h"
 #include "ui/renderer.h"
+#include "ui/view/action_table.h"
 
 namespace octascope::tests {
 namespace {
@@ -36,7 +37,7 @@ TEST(Echo, says_what_a_control_did) {
   EXPECT_FALSE(echo.ranged);
   EXPECT_FALSE(compose_echo(echoing(Action::technique, "rays", later), later, 80).visible);
   for (const Action action : all_actions())
-    if (const auto parameter = parameter_of(action)) {
+    if (number_of(action) != nullptr) {
       EXPECT_FALSE(compose_echo(echoing(action, "", later), status.now, 80).value.empty());
     }
 }

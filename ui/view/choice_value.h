@@ -1,0 +1,38 @@
+// What there is to choose from, in the order of each enumeration.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace octascope::ui {
+
+struct ChoiceValue {
+  std::string_view name;  // on the command line, in settings and reports
+  std::string_view words; // on the display
+};
+
+inline constexpr std::array technique_values{ChoiceValue{"slices", "slices"},
+                                             ChoiceValue{"planes", "planes"},
+                                             ChoiceValue{"rays", "rays"},
+                                             ChoiceValue{"shaded", "shaded rays"},
+                                             ChoiceValue{"maximum", "maximum intensity"},
+                                             ChoiceValue{"surface", "surface"}};
+inline constexpr std::array layout_values{
+    ChoiceValue{"volume", "volume"}, ChoiceValue{"b_scan", "B-scan"},
+    ChoiceValue{"microscope", "microscope"}, ChoiceValue{"quad", "quad"}};
+inline constexpr std::array stereo_values{ChoiceValue{"off", "off"},
+                                          ChoiceValue{"side_by_side", "side by side"},
+                                          ChoiceValue{"top_bottom", "top and bottom"}};
+inline constexpr std::array vessel_colouring_values{ChoiceValue{"branch", "main branches"},
+                                                    ChoiceValue{"order", "orders"},
+                                                    ChoiceValue{"diagnostic", "who drew them"}};
+
+// Names of what the configuration adds to; never empty.
+struct ChoiceNames {
+  std::vector<std::string> transfers{"window"};
+  std::vector<std::string> colours{"grey"};
+};
+
+} // namespace octascope::ui
