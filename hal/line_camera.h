@@ -14,21 +14,19 @@
 #include "hal/clock.h"
 #include "hal/device.h"
 #include "hal/result.h"
+#include "hal/sample_type.h"
 
 namespace octascope::hal {
-
-enum class SampleType : std::uint8_t { u8, u16 };
 
 struct LineFormat {
   int samples_per_line = 1024;
   int lines_per_frame = 379;                // kept A-scans and fly-back lines together
-  SampleType sample_type = SampleType::u16; // little-endian; 10- and 12-bit samples come as u16
+  SampleType sample_type = SampleType::u16; // u8 or u16
   int significant_bits = 12; // full scale is 2^significant_bits − 1 after the shift
   int right_shift = 0;       // for left-justified grabbers
 
-  std::size_t bytes_per_sample() const { return sample_type == SampleType::u8 ? 1 : 2; }
   std::size_t line_bytes() const {
-    return static_cast<std::size_t>(samples_per_line) * bytes_per_sample();
+    return static_cast<std::size_t>(samples_per_line) * bytes_per_sample(sample_type);
   }
   std::size_t frame_bytes() const {
     return static_cast<std::size_t>(lines_per_frame) * line_bytes();

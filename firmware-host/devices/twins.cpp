@@ -61,8 +61,7 @@ hal::Result<pipeline::ScanPlan> recorded_plan(const pipeline::SpectraShape& shap
 hal::Result<> play_recording(const RunOptions& options, const Configuration& configuration,
                              Twins& twins) {
   const RecordingOptions& recording = *options.recording;
-  auto file =
-      pipeline::SpectraFile::open(recording.file, recording.shape, pipeline::SpectrumType::u16);
+  auto file = pipeline::SpectraFile::open(recording.file, recording.shape, hal::SampleType::u16);
   if (!file)
     return pass_on(file.error());
   const auto shared = std::make_shared<pipeline::SpectraFile>(std::move(*file));

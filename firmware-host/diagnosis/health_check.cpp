@@ -150,7 +150,7 @@ hal::Result<pipeline::Reconstructor> make_default_reconstructor(ReconstructionCa
   HAL_TRY(const auto spectrometer, sim::Spectrometer::make({}));
   const pipeline::ScanPlan plan;
   pipeline::ReconstructionSetup setup{.calibration = pipeline::Calibration::identity(plan.samples),
-                                      .format = {plan.samples, pipeline::SpectrumType::u16},
+                                      .format = {plan.samples, hal::SampleType::u16},
                                       .a_scans = plan.a_scans,
                                       .memory = &cache};
   setup.calibration.positions = spectrometer.true_k_positions();

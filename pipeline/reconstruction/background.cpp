@@ -41,9 +41,9 @@ std::span<const float> RunningBackground::add(std::span<const std::byte> frame) 
     b_scan_.measure(counts, a_scans_, format_.right_shift);
   };
   switch (format_.type) {
-  case SpectrumType::u8: measure(reinterpret_cast<const std::uint8_t*>(frame.data())); break;
-  case SpectrumType::u16: measure(reinterpret_cast<const std::uint16_t*>(frame.data())); break;
-  case SpectrumType::f32: measure(reinterpret_cast<const float*>(frame.data())); break;
+  case hal::SampleType::u8: measure(reinterpret_cast<const std::uint8_t*>(frame.data())); break;
+  case hal::SampleType::u16: measure(reinterpret_cast<const std::uint16_t*>(frame.data())); break;
+  case hal::SampleType::f32: measure(reinterpret_cast<const float*>(frame.data())); break;
   }
   b_scans_seen_ = std::min(b_scans_seen_ + 1, running_mean_b_scans);
   const double share = 1.0 / b_scans_seen_;

@@ -38,7 +38,7 @@ hal::Result<> check(const ReconstructionSetup& setup) {
 // Nothing where the fused path does not apply.
 std::optional<FusedPath> make_fused(const ReconstructionSetup& setup) {
   const Calibration& calibration = setup.calibration;
-  if (setup.path == ReconstructionPath::fftw || setup.format.type == SpectrumType::f32 ||
+  if (setup.path == ReconstructionPath::fftw || setup.format.type == hal::SampleType::f32 ||
       calibration.zero_padding > 1 || calibration.fixed_pattern.mode != FixedPatternMode::none)
     return std::nullopt;
   return FusedPath::make(calibration, static_cast<int>(bytes_per_sample(setup.format.type)),
@@ -52,7 +52,7 @@ std::string line_case(const ReconstructionSetup& setup, const FusedPath& fused) 
   const bool resampled =
       calibration.positions != Calibration::identity(calibration.samples).positions;
   const bool summed = calibration.background_mode == BackgroundMode::mean;
-  return fmt::format("{} {}{} {} {} {} {}", setup.format.samples, name_of(setup.format.type),
+  return fmt::format("{} {}{} {} {} {} {}", setup.format.samples, to_string(setup.format.type),
                      setup.format.right_shift > 0 ? " shifted" : "",
                      resampled ? interpolations[static_cast<std::size_t>(calibration.interpolation)]
                                : "unresampled",
@@ -155,9 +155,10 @@ int Reconstructor::Plan::dispatch(const std::optional<FusedPath>& path, Workspac
                                   int lines, std::span<const std::byte> frame, Level* levels,
                                   std::span<const float> running) const noexcept {
   switch (format.type) {
-  case SpectrumType::u8: return run<std::uint8_t>(path, buffers, lines, frame, levels, running);
-  case SpectrumType::u16: return run<std::uint16_t>(path, buffers, lines, frame, levels, running);
-  case SpectrumType::f32: break;
+  case hal::SampleType::u8: return run<std::uint8_t>(path, buffers, lines, frame, levels, running);
+  case hal::SampleType::u16:
+    return run<std::uint16_t>(path, buffers, lines, frame, levels, running);
+  case hal::SampleType::f32: break;
   }
   return run<float>(path, buffers, lines, frame, levels, running);
 }

@@ -76,7 +76,7 @@ hal::Result<SpectraShape> SpectraShape::parse(std::string_view text) {
 }
 
 hal::Result<SpectraFile> SpectraFile::open(const fs::path& file, const SpectraShape& shape,
-                                           SpectrumType type) {
+                                           hal::SampleType type) {
   HAL_CHECK(check(shape));
   const std::size_t expected =
       shape.lines() * static_cast<std::size_t>(shape.samples) * bytes_per_sample(type);
@@ -111,7 +111,7 @@ hal::Result<SpectraFile> SpectraFile::open(const fs::path& file, const SpectraSh
   return SpectraFile{file, shape, type, {static_cast<const std::byte*>(mapping), expected}};
 }
 
-SpectraFile::SpectraFile(fs::path file, const SpectraShape& shape, SpectrumType type,
+SpectraFile::SpectraFile(fs::path file, const SpectraShape& shape, hal::SampleType type,
                          std::span<const std::byte> bytes)
     : file_(std::move(file)), shape_(shape), type_(type), bytes_(bytes) {}
 
@@ -130,7 +130,7 @@ std::span<const std::byte> SpectraFile::b_scan(int b) const {
 }
 
 std::optional<std::string> SpectraFile::find_non_finite(int b) const {
-  if (type_ != SpectrumType::f32)
+  if (type_ != hal::SampleType::f32)
     return std::nullopt;
   const std::span<const std::byte> bytes = b_scan(b);
   const std::span floats{reinterpret_cast<const float*>(bytes.data()),
@@ -171,9 +171,9 @@ std::optional<std::string> SpectraFile::find_above(int b, const SpectrumFormat& 
 std::optional<std::string> SpectraFile::find_above_full_scale(int b,
                                                               const SpectrumFormat& format) const {
   switch (type_) {
-  case SpectrumType::u8: return find_above<std::uint8_t>(b, format);
-  case SpectrumType::u16: return find_above<std::uint16_t>(b, format);
-  case SpectrumType::f32: break;
+  case hal::SampleType::u8: return find_above<std::uint8_t>(b, format);
+  case hal::SampleType::u16: return find_above<std::uint16_t>(b, format);
+  case hal::SampleType::f32: break;
   }
   return std::nullopt;
 }

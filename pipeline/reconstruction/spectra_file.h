@@ -35,14 +35,14 @@ class SpectraFile {
 public:
   // The size must be exactly B × A × N × bytes; else the message has found and expected.
   static hal::Result<SpectraFile> open(const std::filesystem::path& file, const SpectraShape& shape,
-                                       SpectrumType type);
+                                       hal::SampleType type);
 
   SpectraFile(SpectraFile&& other) noexcept;
   SpectraFile& operator=(SpectraFile&&) = delete;
   ~SpectraFile();
 
   const SpectraShape& shape() const { return shape_; }
-  SpectrumType type() const { return type_; }
+  hal::SampleType type() const { return type_; }
 
   // All lines of B-scan `b`, valid as long as this lives.
   std::span<const std::byte> b_scan(int b) const;
@@ -55,7 +55,7 @@ public:
   std::optional<std::string> find_above_full_scale(int b, const SpectrumFormat& format) const;
 
 private:
-  SpectraFile(std::filesystem::path file, const SpectraShape& shape, SpectrumType type,
+  SpectraFile(std::filesystem::path file, const SpectraShape& shape, hal::SampleType type,
               std::span<const std::byte> bytes);
 
   template <class Count>
@@ -64,7 +64,7 @@ private:
 
   std::filesystem::path file_;
   SpectraShape shape_;
-  SpectrumType type_;
+  hal::SampleType type_;
   std::span<const std::byte> bytes_;
 };
 

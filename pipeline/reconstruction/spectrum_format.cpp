@@ -4,26 +4,16 @@
 
 namespace octascope::pipeline {
 
-std::string_view name_of(SpectrumType type) {
-  switch (type) {
-  case SpectrumType::u8: return "u8";
-  case SpectrumType::u16: return "u16";
-  case SpectrumType::f32: break;
-  }
-  return "f32";
-}
-
-SpectrumFormat::SpectrumFormat(int samples_per_line, SpectrumType sample_type)
+SpectrumFormat::SpectrumFormat(int samples_per_line, hal::SampleType sample_type)
     : samples(samples_per_line), type(sample_type),
-      significant_bits(sample_type == SpectrumType::u8 ? 8 : 16) {}
+      significant_bits(sample_type == hal::SampleType::u8 ? 8 : 16) {}
 
 SpectrumFormat::SpectrumFormat(const hal::LineFormat& line)
-    : samples(line.samples_per_line),
-      type(line.sample_type == hal::SampleType::u8 ? SpectrumType::u8 : SpectrumType::u16),
+    : samples(line.samples_per_line), type(line.sample_type),
       significant_bits(line.significant_bits), right_shift(line.right_shift) {}
 
 hal::Result<> SpectrumFormat::validate() const {
-  const int bits = type == SpectrumType::u8 ? 8 : 16;
+  const int bits = type == hal::SampleType::u8 ? 8 : 16;
   if (significant_bits >= 1 && right_shift >= 0 && right_shift < bits &&
       significant_bits + right_shift <= bits)
     return {};

@@ -3,31 +3,23 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 
 #include "hal/line_camera.h"
 #include "hal/result.h"
+#include "hal/sample_type.h"
 
 namespace octascope::pipeline {
-
-enum class SpectrumType : std::uint8_t { u8, u16, f32 };
-
-constexpr std::size_t bytes_per_sample(SpectrumType type) {
-  return type == SpectrumType::u8 ? 1 : type == SpectrumType::u16 ? 2 : 4;
-}
-
-std::string_view name_of(SpectrumType type);
 
 // Little-endian samples, lines without gaps. Shift and full scale mean nothing to f32. Cameras of
 // 10, 12 or 14 bits are u16 with so many significant bits, shifted where they are left-justified.
 struct SpectrumFormat {
   int samples = 1024;
-  SpectrumType type = SpectrumType::u16;
+  hal::SampleType type = hal::SampleType::u16;
   int significant_bits = 16; // full scale is 2^significant_bits − 1 after the shift
   int right_shift = 0;
 
   SpectrumFormat() = default;
-  SpectrumFormat(int samples_per_line, SpectrumType sample_type);
+  SpectrumFormat(int samples_per_line, hal::SampleType sample_type);
   explicit SpectrumFormat(const hal::LineFormat& line);
 
   // Bits and shift fit into the type; ErrorCode::invalid_argument with found and expected.

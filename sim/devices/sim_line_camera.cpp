@@ -27,8 +27,8 @@ void count(std::atomic<std::uint64_t>& counter) {
 
 std::string words(const hal::LineFormat& f) {
   return fmt::format("{} lines of {} samples, {}-bit in {}, shift {}", f.lines_per_frame,
-                     f.samples_per_line, f.significant_bits,
-                     f.sample_type == hal::SampleType::u8 ? "u8" : "u16", f.right_shift);
+                     f.samples_per_line, f.significant_bits, to_string(f.sample_type),
+                     f.right_shift);
 }
 
 } // namespace

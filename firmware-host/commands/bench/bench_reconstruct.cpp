@@ -252,7 +252,7 @@ private:
 hal::Result<pipeline::Reconstructor> make_reconstructor(const BenchCase& what) {
   return pipeline::Reconstructor::create(
       {.calibration = make_calibration(what),
-       .format = pipeline::SpectrumFormat{samples, pipeline::SpectrumType::u16},
+       .format = pipeline::SpectrumFormat{samples, hal::SampleType::u16},
        .a_scans = a_scans,
        .path = what.path,
        .fused_isa = what.isa});

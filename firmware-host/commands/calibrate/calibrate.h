@@ -37,9 +37,9 @@ struct CalibrateOptions {
   pipeline::SpectraShape tissue_shape;
   std::optional<std::filesystem::path> base;  // calibration whose k curve is used for the tissue
   std::optional<int> samples;                 // not given: each file is one line
-  std::optional<pipeline::SpectrumType> type; // not given: as the file's name says, else u16
-  std::optional<pipeline::SpectrumType> tissue_type; // likewise
-  std::optional<int> significant_bits;               // full scale of counts
+  std::optional<hal::SampleType> type;        // not given: as the file's name says, else u16
+  std::optional<hal::SampleType> tissue_type; // likewise
+  std::optional<int> significant_bits;        // full scale of counts
   std::optional<double> mirror_distance_um;
   std::optional<double> spacing_um;
   std::optional<double> refractive_index; // in which depths are to be told

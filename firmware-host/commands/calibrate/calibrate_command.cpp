@@ -135,9 +135,8 @@ void add_other_options(CLI::App& command, CalibrateCommandLine& line) {
                   "Samples of a line, when a file has several (they are averaged)")
       ->check(CLI::Range(pipeline::fewest_samples, pipeline::most_samples))
       ->type_name("N");
-  const std::map<std::string, pipeline::SpectrumType> types{{"u8", pipeline::SpectrumType::u8},
-                                                            {"u16", pipeline::SpectrumType::u16},
-                                                            {"f32", pipeline::SpectrumType::f32}};
+  const std::map<std::string, hal::SampleType> types{
+      {"u8", hal::SampleType::u8}, {"u16", hal::SampleType::u16}, {"f32", hal::SampleType::f32}};
   command
       .add_option("--dtype", options.type,
                   "Type of a sample (as the file's name says, like x_f32.raw, else u16)")

@@ -16,7 +16,7 @@ namespace octascope::firmware_host {
 namespace {
 
 using hal::ErrorCode;
-using pipeline::SpectrumType;
+using hal::SampleType;
 
 template <class Sample> std::vector<double> numbers_of(std::span<const std::byte> bytes) {
   std::vector<double> values(bytes.size() / sizeof(Sample));
@@ -29,11 +29,11 @@ template <class Sample> std::vector<double> numbers_of(std::span<const std::byte
 }
 
 hal::Result<pipeline::SpectraShape> shape_of(const std::filesystem::path& file,
-                                             const SpectrumInput& input, SpectrumType type) {
+                                             const SpectrumInput& input, SampleType type) {
   std::error_code error;
   const std::uintmax_t bytes =
       std::filesystem::is_regular_file(file, error) ? std::filesystem::file_size(file, error) : 0;
-  const std::uintmax_t values = bytes / pipeline::bytes_per_sample(type);
+  const std::uintmax_t values = bytes / bytes_per_sample(type);
   const auto most = static_cast<std::uintmax_t>(pipeline::most_samples);
   if (!input.samples && values > most)
     return hal::fail(ErrorCode::invalid_argument,
@@ -110,7 +110,7 @@ struct Recording {
 };
 
 hal::Result<Recording> read_raw(const std::filesystem::path& file, const SpectrumInput& input,
-                                SpectrumType type) {
+                                SampleType type) {
   HAL_TRY(const auto shape, shape_of(file, input, type));
   HAL_TRY(const auto spectra, pipeline::SpectraFile::open(file, shape, type));
   if (const auto fault = spectra.find_non_finite(0))
@@ -119,7 +119,7 @@ hal::Result<Recording> read_raw(const std::filesystem::path& file, const Spectru
 }
 
 hal::Result<Recording> read_recording(const std::filesystem::path& file, const SpectrumInput& input,
-                                      SpectrumType type) {
+                                      SampleType type) {
   if (!is_text(file))
     return read_raw(file, input, type);
   HAL_TRY(auto values, read_text(file, input.samples));
@@ -134,36 +134,36 @@ bool is_text(const std::filesystem::path& file) {
   return file.extension() == ".txt" || file.extension() == ".csv";
 }
 
-SpectrumType spectrum_type(const std::filesystem::path& file, std::optional<SpectrumType> given) {
+SampleType spectrum_type(const std::filesystem::path& file, std::optional<SampleType> given) {
   if (given)
     return *given;
   const std::string name = file.filename().string();
   if (name.find("f32") != std::string::npos)
-    return SpectrumType::f32;
+    return SampleType::f32;
   if (name.find("u8") != std::string::npos && name.find("u16") == std::string::npos)
-    return SpectrumType::u8;
-  return SpectrumType::u16;
+    return SampleType::u8;
+  return SampleType::u16;
 }
 
-std::vector<double> to_numbers(std::span<const std::byte> bytes, SpectrumType type) {
+std::vector<double> to_numbers(std::span<const std::byte> bytes, SampleType type) {
   switch (type) {
-  case SpectrumType::u8: return numbers_of<std::uint8_t>(bytes);
-  case SpectrumType::u16: return numbers_of<std::uint16_t>(bytes);
-  case SpectrumType::f32: break;
+  case SampleType::u8: return numbers_of<std::uint8_t>(bytes);
+  case SampleType::u16: return numbers_of<std::uint16_t>(bytes);
+  case SampleType::f32: break;
   }
   return numbers_of<float>(bytes);
 }
 
 hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file,
                                                const SpectrumInput& input, bool refuse_saturated) {
-  const SpectrumType type = spectrum_type(file, input.type);
+  const SampleType type = spectrum_type(file, input.type);
   HAL_TRY(const auto recording, read_recording(file, input, type));
   const std::size_t n = recording.samples;
   const std::size_t lines = recording.values.size() / n;
   std::optional<double> full_scale;
-  if (type != SpectrumType::f32 && (!is_text(file) || input.significant_bits))
+  if (type != SampleType::f32 && (!is_text(file) || input.significant_bits))
     full_scale =
-        std::ldexp(1.0, input.significant_bits.value_or(type == SpectrumType::u8 ? 8 : 16)) - 1;
+        std::ldexp(1.0, input.significant_bits.value_or(type == SampleType::u8 ? 8 : 16)) - 1;
 
   std::vector<double> mean(n);
   for (std::size_t a = 0; a < lines; ++a) {

@@ -14,13 +14,13 @@ namespace octascope::firmware_host {
 
 struct SpectrumInput {
   std::optional<int> samples; // not given: the file is one line
-  std::optional<pipeline::SpectrumType> type;
+  std::optional<hal::SampleType> type;
   std::optional<int> significant_bits; // of integer counts; all of the type's when not given
 };
 
 // What `given` says, else what the file's name says (…f32…, …u16…, …u8…), else u16.
-pipeline::SpectrumType spectrum_type(const std::filesystem::path& file,
-                                     std::optional<pipeline::SpectrumType> given);
+hal::SampleType spectrum_type(const std::filesystem::path& file,
+                              std::optional<hal::SampleType> given);
 
 // A file that is read as numbers, one a line of text (text_curve.h), whatever its type: .txt, .csv.
 bool is_text(const std::filesystem::path& file);
@@ -31,6 +31,6 @@ hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file
                                                const SpectrumInput& input, bool refuse_saturated);
 
 // Raw little-endian samples as numbers.
-std::vector<double> to_numbers(std::span<const std::byte> bytes, pipeline::SpectrumType type);
+std::vector<double> to_numbers(std::span<const std::byte> bytes, hal::SampleType type);
 
 } // namespace octascope::firmware_host

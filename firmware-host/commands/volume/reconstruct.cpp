@@ -164,7 +164,7 @@ unsigned worker_count(const ReconstructOptions& options) {
 
 hal::Result<pipeline::SpectrumFormat> format_of(const ReconstructOptions& options) {
   pipeline::SpectrumFormat format{options.shape.samples, options.type};
-  if (options.type == pipeline::SpectrumType::f32 && options.right_shift != 0)
+  if (options.type == hal::SampleType::f32 && options.right_shift != 0)
     return hal::fail(
         ErrorCode::invalid_argument,
         fmt::format("--shift is {}, but f32 cannot be shifted, expected 0", options.right_shift));

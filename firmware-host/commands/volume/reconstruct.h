@@ -15,7 +15,7 @@ namespace octascope::firmware_host {
 struct ReconstructOptions {
   std::filesystem::path spectra;
   pipeline::SpectraShape shape;
-  pipeline::SpectrumType type = pipeline::SpectrumType::u16;
+  hal::SampleType type = hal::SampleType::u16;
   std::optional<int> significant_bits;              // none: as many as the type has
   int right_shift = 0;                              // of left-justified counts
   std::optional<std::filesystem::path> calibration; // none: no resampling, no dispersion

@@ -32,13 +32,13 @@ struct ReconstructCommandLine {
 
 // What --dtype says: cameras of 10, 12 and 14 bits are u16 with fewer significant ones. u16 and u8
 // leave open how many there are: what the shift leaves.
-using TypeAndBits = std::pair<pipeline::SpectrumType, std::optional<int>>;
+using TypeAndBits = std::pair<hal::SampleType, std::optional<int>>;
 const std::map<std::string, TypeAndBits>& types() {
-  using pipeline::SpectrumType;
+  using hal::SampleType;
   static const std::map<std::string, TypeAndBits> all{
-      {"u8", {SpectrumType::u8, {}}},   {"u10", {SpectrumType::u16, 10}},
-      {"u12", {SpectrumType::u16, 12}}, {"u14", {SpectrumType::u16, 14}},
-      {"u16", {SpectrumType::u16, {}}}, {"f32", {SpectrumType::f32, {}}}};
+      {"u8", {SampleType::u8, {}}},   {"u10", {SampleType::u16, 10}},
+      {"u12", {SampleType::u16, 12}}, {"u14", {SampleType::u16, 14}},
+      {"u16", {SampleType::u16, {}}}, {"f32", {SampleType::f32, {}}}};
   return all;
 }
 

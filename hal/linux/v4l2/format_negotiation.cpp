@@ -99,7 +99,7 @@ std::string words(std::span<const OfferedFormat> offered) {
 std::string words(const LineFormat& wanted) {
   return fmt::format("{} lines of {} samples, {} bits in {}, shift {}", wanted.lines_per_frame,
                      wanted.samples_per_line, wanted.significant_bits,
-                     wanted.sample_type == SampleType::u8 ? "u8" : "u16", wanted.right_shift);
+                     to_string(wanted.sample_type), wanted.right_shift);
 }
 
 Result<> check_wish(const LineFormat& wanted) {
@@ -109,6 +109,8 @@ Result<> check_wish(const LineFormat& wanted) {
   };
   if (wanted.samples_per_line < 1 || wanted.lines_per_frame < 1)
     return refuse("at least one line of one sample");
+  if (wanted.sample_type == SampleType::f32)
+    return refuse("samples that a camera has, u8 or u16");
   if (wanted.frame_bytes() > std::numeric_limits<std::int32_t>::max())
     return refuse("B-scans of less than 2 GB");
   const int most_bits = wanted.sample_type == SampleType::u8 ? 8 : 16;

@@ -19,10 +19,10 @@
 #include "pipeline/files/nrrd.h"
 #include "pipeline/files/png_image.h"
 #include "sim/spectrometer/spectrometer.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
 #include "tests/support/pictures/tissue_surface.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -257,7 +257,7 @@ TEST_F(CalibrateCommand, wrong_use_is_2) {
 double tissue_sharpness(const pipeline::Calibration& calibration) {
   const auto spectra = pipeline::SpectraFile::open(tests::test_data_folder() /
                                                        "sd-oct-tissue/spectra_u16_100x100x1024.raw",
-                                                   {100, 100, 1024}, pipeline::SpectrumType::u16);
+                                                   {100, 100, 1024}, hal::SampleType::u16);
   pipeline::TissueSharpness sharpness{calibration};
   for (int b = 5; b < 100; b += 10) {
     const auto bytes = spectra->b_scan(b);

@@ -13,10 +13,10 @@
 #include "firmware-host/commands/volume/reconstruct.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/files/png_image.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
 #include "tests/support/pictures/tissue_surface.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -191,7 +191,7 @@ TEST_F(ReconstructCommand, floats_must_be_finite) {
   ReconstructOptions options;
   options.spectra = folder.write_values<float>("f.raw", values);
   options.shape = {5, 4, 32};
-  options.type = pipeline::SpectrumType::f32;
+  options.type = hal::SampleType::f32;
   options.volume = out;
   const auto done = reconstruct_volume(options);
   ASSERT_FALSE(done);

@@ -84,7 +84,7 @@ TEST_F(RealTissue, is_told_where_it_is_moved_across_zero_delay) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
   const auto loaded = pipeline::Calibration::load(calibration, shape.samples);
   ASSERT_TRUE(loaded);
-  const auto file = pipeline::SpectraFile::open(spectra, shape, pipeline::SpectrumType::u16);
+  const auto file = pipeline::SpectraFile::open(spectra, shape, hal::SampleType::u16);
   ASSERT_TRUE(file);
   constexpr double moved_bins = 60;
   const auto samples = static_cast<std::size_t>(shape.samples);

@@ -131,6 +131,7 @@ TEST(FormatNegotiation, impossible_wishes_are_the_callers_fault) {
     EXPECT_EQ(checked.error().code, ErrorCode::invalid_argument);
     EXPECT_THAT(checked.error().message, HasSubstr("expected"));
   };
+  refused([](LineFormat& f) { f.sample_type = SampleType::f32; });
   refused([](LineFormat& f) { f.samples_per_line = 0; });
   refused([](LineFormat& f) { f.samples_per_line = -1024; });
   refused([](LineFormat& f) { f.lines_per_frame = 0; });

@@ -10,8 +10,8 @@
 #include "pipeline/calibration_finder/tissue_sharpness.h"
 #include "pipeline/reconstruction/spectra_file.h"
 #include "sim/spectrometer/spectrometer.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -69,7 +69,7 @@ TEST(TissueSharpness, real_tissue_is_as_sharp_as_with_the_supplied_curves) {
       Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024);
   const auto spectra =
       SpectraFile::open(tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw",
-                        {100, 100, 1024}, SpectrumType::u16);
+                        {100, 100, 1024}, hal::SampleType::u16);
   ASSERT_TRUE(supplied && spectra);
   TissueSharpness sharpness{*supplied};
   for (const int b : {25, 50, 75}) {

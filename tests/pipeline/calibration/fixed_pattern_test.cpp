@@ -59,7 +59,7 @@ std::vector<float> reconstruct(BackgroundMode mode, FixedPatternMode removal) {
       calibration.background.push_back(
           static_cast<float>(19000 * std::sin(std::numbers::pi * p / samples))); // not quite
   const auto made =
-      Reconstructor::create({calibration, SpectrumFormat{samples, SpectrumType::f32}, a_scans});
+      Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::f32}, a_scans});
   EXPECT_TRUE(made) << made.error().message;
   auto workspace = made->make_workspace();
   std::vector<float> db(made->levels());
@@ -161,7 +161,7 @@ TEST(FixedPattern, allocates_nothing) {
   Calibration calibration = Calibration::identity(samples);
   calibration.fixed_pattern.mode = FixedPatternMode::minimum_variance;
   const auto made =
-      Reconstructor::create({calibration, SpectrumFormat{samples, SpectrumType::f32}, a_scans});
+      Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::f32}, a_scans});
   ASSERT_TRUE(made);
   EXPECT_EQ(made->path(), ReconstructionPath::fftw);
   auto workspace = made->make_workspace();
@@ -178,7 +178,7 @@ TEST(FixedPattern, refuses_too_few_a_scans) {
   calibration.fixed_pattern.mode = FixedPatternMode::minimum_variance;
   const auto message = [&](int lines) {
     const auto made =
-        Reconstructor::create({calibration, SpectrumFormat{64, SpectrumType::u16}, lines});
+        Reconstructor::create({calibration, SpectrumFormat{64, hal::SampleType::u16}, lines});
     return made ? std::string{} : made.error().message;
   };
   EXPECT_EQ(message(32), "");

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/reconstruction/reconstructor.h"
 #include "pipeline/calibration/spectral_shaping.h"
+#include "pipeline/reconstruction/reconstructor.h"
 #include "tests/support/files/calibrations.h"
 #include "tests/support/files/test_data.h"
 
@@ -51,7 +51,7 @@ std::vector<float> mirror_db(const Calibration& calibration, double chirp) {
         std::cos(2 * std::numbers::pi * depth * u * (samples - 1) / samples + 0.3)));
   }
   const auto made =
-      Reconstructor::create({calibration, SpectrumFormat{samples, SpectrumType::f32}, 1});
+      Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::f32}, 1});
   EXPECT_TRUE(made) << made.error().message;
   auto workspace = made->make_workspace();
   std::vector<float> db(made->levels());

@@ -27,7 +27,7 @@ std::vector<std::uint16_t> draw_counts(int samples) {
 std::vector<float> reconstruct(const Calibration& calibration,
                                const std::vector<std::uint16_t>& counts) {
   const auto made = Reconstructor::create(
-      {calibration, SpectrumFormat{calibration.samples, SpectrumType::u16}, lines});
+      {calibration, SpectrumFormat{calibration.samples, hal::SampleType::u16}, lines});
   EXPECT_TRUE(made) << made.error().message;
   EXPECT_EQ(made->depths(), calibration.depths());
   auto workspace = made->make_workspace();
@@ -99,13 +99,13 @@ TEST(ZeroPadding, is_the_fftw_paths_business) {
   Calibration calibration = Calibration::identity(256);
   calibration.zero_padding = 2;
   const auto made = Reconstructor::create(
-      {calibration, SpectrumFormat{256, SpectrumType::u16}, 3, ReconstructionPath::fused});
+      {calibration, SpectrumFormat{256, hal::SampleType::u16}, 3, ReconstructionPath::fused});
   ASSERT_TRUE(made);
   EXPECT_EQ(made->path(), ReconstructionPath::fftw);
   EXPECT_EQ(made->path_decision().reason, PathReason::only);
   calibration.zero_padding = 3;
   const auto refused =
-      Reconstructor::create({calibration, SpectrumFormat{256, SpectrumType::u16}, 3});
+      Reconstructor::create({calibration, SpectrumFormat{256, hal::SampleType::u16}, 3});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message, "calibration: zero_padding is 3, expected 1 (none) or 2");
 }

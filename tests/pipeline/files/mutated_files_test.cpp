@@ -14,8 +14,8 @@
 #include "pipeline/files/config_document.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/files/png_image.h"
-#include "pipeline/reconstruction/spectra_file.h"
 #include "pipeline/files/text_curve.h"
+#include "pipeline/reconstruction/spectra_file.h"
 #include "pipeline/vessels/point_registration.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
@@ -166,7 +166,7 @@ TEST_F(MutatedFiles, pictures) {
 TEST_F(MutatedFiles, spectra) {
   const std::string good(2 * 3 * 16 * 4, '\x3f'); // finite floats
   try_all(good, "spectra.raw", [](const fs::path& file) -> std::string {
-    const auto spectra = SpectraFile::open(file, {2, 3, 16}, SpectrumType::f32);
+    const auto spectra = SpectraFile::open(file, {2, 3, 16}, hal::SampleType::f32);
     if (!spectra)
       return spectra.error().message;
     for (const int b : {0, 1}) {

@@ -37,7 +37,7 @@ std::span<const std::byte> bytes(const BScan& b_scan) {
 
 TEST(RunningBackground, follows_its_recurrence) {
   const auto all = draw_b_scans();
-  RunningBackground running{SpectrumFormat{samples, SpectrumType::u16}, a_scans};
+  RunningBackground running{SpectrumFormat{samples, hal::SampleType::u16}, a_scans};
   std::vector<double> expected(samples);
   for (int b = 0; b < b_scans; ++b) {
     const BScan& b_scan = all[static_cast<std::size_t>(b)];
@@ -52,7 +52,7 @@ TEST(RunningBackground, follows_its_recurrence) {
   }
   running.reset();
   const auto afresh = running.add(bytes(all.front()));
-  RunningBackground other{SpectrumFormat{samples, SpectrumType::u16}, a_scans};
+  RunningBackground other{SpectrumFormat{samples, hal::SampleType::u16}, a_scans};
   EXPECT_TRUE(std::ranges::equal(afresh, other.add(bytes(all.front()))));
 }
 
@@ -62,7 +62,7 @@ std::vector<std::uint8_t> work_off(const std::vector<BScan>& all, Reconstruction
   Calibration calibration = tests::chirped_calibration(samples, 15);
   calibration.background_mode = BackgroundMode::running;
   const auto made = Reconstructor::create(
-      {calibration, SpectrumFormat{samples, SpectrumType::u16}, a_scans, path});
+      {calibration, SpectrumFormat{samples, hal::SampleType::u16}, a_scans, path});
   EXPECT_TRUE(made);
   FrameBackgrounds backgrounds{*made->make_running_background(), samples, b_scans};
   std::vector<hal::LineFrame> frames(b_scans);
@@ -103,8 +103,9 @@ TEST(RunningBackground, one_workspace_that_sees_all_in_order_gives_the_same) {
   const auto all = draw_b_scans();
   Calibration calibration = tests::chirped_calibration(samples, 15);
   calibration.background_mode = BackgroundMode::running;
-  const auto made = Reconstructor::create(
-      {calibration, SpectrumFormat{samples, SpectrumType::u16}, a_scans, ReconstructionPath::fftw});
+  const auto made =
+      Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::u16}, a_scans,
+                             ReconstructionPath::fftw});
   ASSERT_TRUE(made);
   auto own = made->make_workspace();
   auto given = made->make_workspace();
@@ -120,7 +121,7 @@ TEST(RunningBackground, one_workspace_that_sees_all_in_order_gives_the_same) {
 }
 
 TEST(RunningBackground, is_there_for_its_mode_alone) {
-  const SpectrumFormat format{samples, SpectrumType::u16};
+  const SpectrumFormat format{samples, hal::SampleType::u16};
   for (const auto mode : {BackgroundMode::mean, BackgroundMode::none}) {
     Calibration calibration = Calibration::identity(samples);
     calibration.background_mode = mode;
@@ -133,7 +134,7 @@ TEST(RunningBackground, is_there_for_its_mode_alone) {
 TEST(RunningBackground, allocates_nothing) {
   const auto all = draw_b_scans();
   FrameBackgrounds backgrounds{
-      RunningBackground{SpectrumFormat{samples, SpectrumType::u16}, a_scans}, samples, 2};
+      RunningBackground{SpectrumFormat{samples, hal::SampleType::u16}, a_scans}, samples, 2};
   hal::LineFrame frame;
   frame.buffer = 1;
   frame.bytes = bytes(all.front());

@@ -27,20 +27,20 @@ constexpr int lines = 12;
 
 struct Input {
   const char* name;
-  SpectrumType type;
+  hal::SampleType type;
   int significant_bits;
   int right_shift;
 };
 
 constexpr Input inputs[] = {
-    {"u8", SpectrumType::u8, 8, 0},
-    {"u8, 6 bits left-justified", SpectrumType::u8, 6, 2},
-    {"u10 in 16", SpectrumType::u16, 10, 0},
-    {"u12 in 16", SpectrumType::u16, 12, 0},
-    {"u10 left-justified", SpectrumType::u16, 10, 6},
-    {"u12 left-justified", SpectrumType::u16, 12, 4},
-    {"u16", SpectrumType::u16, 16, 0},
-    {"f32", SpectrumType::f32, 16, 0},
+    {"u8", hal::SampleType::u8, 8, 0},
+    {"u8, 6 bits left-justified", hal::SampleType::u8, 6, 2},
+    {"u10 in 16", hal::SampleType::u16, 10, 0},
+    {"u12 in 16", hal::SampleType::u16, 12, 0},
+    {"u10 left-justified", hal::SampleType::u16, 10, 6},
+    {"u12 left-justified", hal::SampleType::u16, 12, 4},
+    {"u16", hal::SampleType::u16, 16, 0},
+    {"f32", hal::SampleType::f32, 16, 0},
 };
 
 // The bytes of a B-scan, and what they mean.
@@ -69,13 +69,13 @@ Spectra draw(const Input& input, int samples, std::mt19937& generator) {
       const double count = std::floor(std::clamp(light, 0.0, 1.0) * full_scale);
       const auto below = static_cast<unsigned>(share(generator) * (1 << input.right_shift));
       const unsigned raw = (static_cast<unsigned>(count) << input.right_shift) | below;
-      if (input.type == SpectrumType::u8)
+      if (input.type == hal::SampleType::u8)
         append(spectra.bytes, static_cast<std::uint8_t>(raw));
-      else if (input.type == SpectrumType::u16)
+      else if (input.type == hal::SampleType::u16)
         append(spectra.bytes, static_cast<std::uint16_t>(raw));
       else
         append(spectra.bytes, static_cast<float>(light * 4000 - 500));
-      spectra.counts.push_back(input.type == SpectrumType::f32
+      spectra.counts.push_back(input.type == hal::SampleType::f32
                                    ? static_cast<double>(static_cast<float>(light * 4000 - 500))
                                    : count);
     }
@@ -180,8 +180,8 @@ TEST_P(InputTypes, agree_with_the_reference_for_powers_of_two_on_both_paths) {
   }
   tell("fftw", fftw_);
   tell("fused", fused_);
-  const bool covered = GetParam().type == SpectrumType::u16 ||
-                       (GetParam().type == SpectrumType::u8 && GetParam().right_shift == 0);
+  const bool covered = GetParam().type == hal::SampleType::u16 ||
+                       (GetParam().type == hal::SampleType::u8 && GetParam().right_shift == 0);
   EXPECT_EQ(fused_.counts > 0, covered);
 }
 

@@ -35,7 +35,7 @@ Reconstructor make(const ReconstructionSetup& setup) {
 ReconstructionSetup setup_of(Notebook& notebook) {
   ReconstructionSetup setup;
   setup.calibration = tests::chirped_calibration(256, 15);
-  setup.format = SpectrumFormat{256, SpectrumType::u16};
+  setup.format = SpectrumFormat{256, hal::SampleType::u16};
   setup.a_scans = 40;
   setup.memory = &notebook;
   return setup;
@@ -81,9 +81,9 @@ TEST(PathChoice, knows_one_case_of_lines_from_another) {
   make(setup);
   setup.calibration.dispersion_rad = tests::dispersion(256, 10, 10);
   make(setup);
-  setup.format = SpectrumFormat{256, SpectrumType::u8};
+  setup.format = SpectrumFormat{256, hal::SampleType::u8};
   make(setup);
-  setup.format = SpectrumFormat{256, SpectrumType::u16};
+  setup.format = SpectrumFormat{256, hal::SampleType::u16};
   setup.format.significant_bits = 12;
   setup.format.right_shift = 4;
   make(setup);
@@ -96,9 +96,9 @@ TEST(PathChoice, asks_nobody_where_there_is_no_choice) {
   setup.path = ReconstructionPath::fftw;
   EXPECT_EQ(make(setup).path_decision().reason, PathReason::asked);
   setup.path = ReconstructionPath::automatic;
-  setup.format = SpectrumFormat{256, SpectrumType::f32};
+  setup.format = SpectrumFormat{256, hal::SampleType::f32};
   EXPECT_EQ(make(setup).path_decision().reason, PathReason::only);
-  setup.format = SpectrumFormat{256, SpectrumType::u16};
+  setup.format = SpectrumFormat{256, hal::SampleType::u16};
   setup.calibration.zero_padding = 2;
   EXPECT_EQ(make(setup).path_decision().reason, PathReason::only);
   EXPECT_EQ(notebook.asked, 0);

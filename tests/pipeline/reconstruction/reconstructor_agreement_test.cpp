@@ -13,10 +13,10 @@
 #include <hwy/highway.h>
 
 #include "pipeline/reconstruction/reconstructor.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/calibrations.h"
-#include "tests/support/spectra/reference_chain.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/program/built_places.h"
+#include "tests/support/spectra/reference_chain.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -61,7 +61,7 @@ void expect_agreement(const Reconstructor& reconstructor, const std::vector<Coun
 
 // Both paths, the fused one with every instruction set of this processor.
 template <class Count>
-void expect_agreement(const Calibration& calibration, SpectrumType type,
+void expect_agreement(const Calibration& calibration, hal::SampleType type,
                       const std::vector<Count>& raw, int lines, int right_shift = 0) {
   SpectrumFormat format{calibration.samples, type};
   format.right_shift = right_shift;
@@ -148,18 +148,19 @@ protected:
 };
 
 TEST_P(Agreement, u8) {
-  expect_agreement(calibration(), SpectrumType::u8, random_counts<std::uint8_t>(size(), 1), lines);
+  expect_agreement(calibration(), hal::SampleType::u8, random_counts<std::uint8_t>(size(), 1),
+                   lines);
 }
 TEST_P(Agreement, u16) {
-  expect_agreement(calibration(), SpectrumType::u16, random_counts<std::uint16_t>(size(), 2),
+  expect_agreement(calibration(), hal::SampleType::u16, random_counts<std::uint16_t>(size(), 2),
                    lines);
 }
 TEST_P(Agreement, u16_left_justified) {
-  expect_agreement(calibration(), SpectrumType::u16, random_counts<std::uint16_t>(size(), 3), lines,
-                   4);
+  expect_agreement(calibration(), hal::SampleType::u16, random_counts<std::uint16_t>(size(), 3),
+                   lines, 4);
 }
 TEST_P(Agreement, f32) {
-  expect_agreement(calibration(), SpectrumType::f32, random_counts<float>(size(), 4), lines);
+  expect_agreement(calibration(), hal::SampleType::f32, random_counts<float>(size(), 4), lines);
 }
 
 constexpr auto sinc8 = Interpolation::sinc8;
@@ -215,7 +216,7 @@ TEST(ReconstructorRealData, agrees_with_the_reference) {
          {Interpolation::linear, Interpolation::cubic, Interpolation::sinc8}) {
       Calibration variant = *calibration;
       variant.interpolation = interpolation;
-      expect_agreement(variant, SpectrumType::u16, raw, 100);
+      expect_agreement(variant, hal::SampleType::u16, raw, 100);
     }
   }
 }

@@ -11,7 +11,7 @@ namespace {
 
 Reconstructor fused(const std::string& isa) {
   return *Reconstructor::create({tests::chirped_calibration(1024, 70),
-                                 SpectrumFormat{1024, SpectrumType::u16}, 4,
+                                 SpectrumFormat{1024, hal::SampleType::u16}, 4,
                                  ReconstructionPath::fused, isa});
 }
 

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/volume/level_scale.h"
 #include "pipeline/reconstruction/reconstructor.h"
+#include "pipeline/volume/level_scale.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/files/calibrations.h"
 
@@ -25,7 +25,7 @@ constexpr double two_pi = 2 * std::numbers::pi;
 std::vector<float> reconstruct_db(const Calibration& calibration, const std::vector<float>& lines) {
   const auto a_scans = static_cast<int>(lines.size()) / calibration.samples;
   const auto reconstructor = Reconstructor::create(
-      {calibration, SpectrumFormat{calibration.samples, SpectrumType::f32}, a_scans});
+      {calibration, SpectrumFormat{calibration.samples, hal::SampleType::f32}, a_scans});
   EXPECT_TRUE(reconstructor) << reconstructor.error().message;
   auto workspace = reconstructor->make_workspace();
   std::vector<float> db(reconstructor->levels());
@@ -219,7 +219,7 @@ TEST(Reconstructor, reads_only_the_kept_lines) {
 
 TEST(Reconstructor, counts_saturated_lines) {
   constexpr int samples = 50;
-  SpectrumFormat format{samples, SpectrumType::u16};
+  SpectrumFormat format{samples, hal::SampleType::u16};
   format.significant_bits = 12;
   format.right_shift = 4;
   const auto reconstructor = Reconstructor::create({Calibration::identity(samples), format, 4});
@@ -236,8 +236,8 @@ TEST(Reconstructor, counts_saturated_lines) {
 }
 
 TEST(Reconstructor, a_dark_line_is_dark) {
-  const auto reconstructor =
-      Reconstructor::create({Calibration::identity(64), SpectrumFormat{64, SpectrumType::u8}, 2});
+  const auto reconstructor = Reconstructor::create(
+      {Calibration::identity(64), SpectrumFormat{64, hal::SampleType::u8}, 2});
   ASSERT_TRUE(reconstructor);
   auto workspace = reconstructor->make_workspace();
   const std::vector<std::byte> frame(128);
@@ -254,7 +254,7 @@ TEST(Reconstructor, a_running_background_remembers) {
   calibration.background_mode = BackgroundMode::running;
   calibration.window = make_spectral_window(SpectralWindow::flat, samples);
   const auto reconstructor =
-      Reconstructor::create({calibration, SpectrumFormat{samples, SpectrumType::u8}, 2});
+      Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::u8}, 2});
   ASSERT_TRUE(reconstructor);
   auto workspace = reconstructor->make_workspace();
   std::vector<float> db(reconstructor->levels());
@@ -275,7 +275,7 @@ TEST(Reconstructor, serves_many_threads) {
   const auto lines = noise(256 * 20, 6);
   const auto expected = reconstruct_db(calibration, lines);
   const auto reconstructor =
-      Reconstructor::create({calibration, SpectrumFormat{256, SpectrumType::f32}, 20});
+      Reconstructor::create({calibration, SpectrumFormat{256, hal::SampleType::f32}, 20});
   ASSERT_TRUE(reconstructor);
   std::vector<std::vector<float>> results(4, std::vector<float>(reconstructor->levels()));
   {
@@ -287,7 +287,7 @@ TEST(Reconstructor, serves_many_threads) {
           reconstructor->reconstruct_b_scan_db(workspace, std::as_bytes(std::span{lines}), result);
         // Making another one meanwhile disturbs nobody.
         EXPECT_TRUE(Reconstructor::create(
-            {Calibration::identity(100), SpectrumFormat{100, SpectrumType::u16}, 1}));
+            {Calibration::identity(100), SpectrumFormat{100, hal::SampleType::u16}, 1}));
       });
   }
   for (const auto& result : results) {
@@ -304,7 +304,7 @@ TEST(Reconstructor, allocates_nothing) {
       if (dispersed)
         calibration.dispersion_rad = tests::dispersion(1024, 40, 10);
       const auto reconstructor =
-          Reconstructor::create({calibration, SpectrumFormat{1024, SpectrumType::u16}, 20});
+          Reconstructor::create({calibration, SpectrumFormat{1024, hal::SampleType::u16}, 20});
       ASSERT_TRUE(reconstructor);
       auto workspace = reconstructor->make_workspace();
       const std::vector<std::uint16_t> frame(20 * 1024, 777);
@@ -326,8 +326,8 @@ TEST(Reconstructor, refuses_what_does_not_fit_together) {
     return reconstructor ? std::string{} : reconstructor.error().message;
   };
   const Calibration good = Calibration::identity(64);
-  const SpectrumFormat u16{64, SpectrumType::u16};
-  EXPECT_EQ(message({good, SpectrumFormat{65, SpectrumType::u16}, 1}),
+  const SpectrumFormat u16{64, hal::SampleType::u16};
+  EXPECT_EQ(message({good, SpectrumFormat{65, hal::SampleType::u16}, 1}),
             "reconstruction: lines have 65 samples, the calibration is for 64");
   EXPECT_EQ(message({good, u16, 0}), "reconstruction: a_scans is 0, expected 1 to 65536");
   SpectrumFormat shifted = u16;
@@ -343,7 +343,7 @@ TEST(Reconstructor, refuses_what_does_not_fit_together) {
   bad = good;
   bad.window.pop_back();
   EXPECT_EQ(message({bad, u16, 1}), "calibration: window has 63 values, expected 64");
-  EXPECT_NE(message({Calibration::identity(15), SpectrumFormat{15, SpectrumType::u16}, 1}), "");
+  EXPECT_NE(message({Calibration::identity(15), SpectrumFormat{15, hal::SampleType::u16}, 1}), "");
 }
 
 } // namespace

@@ -35,7 +35,7 @@ TEST(SpectraShape, counts_are_within_reason) {
 class SpectraFiles : public testing::Test {
 protected:
   std::string refusal(const std::filesystem::path& file, const SpectraShape& shape) {
-    const auto spectra = SpectraFile::open(file, shape, SpectrumType::u16);
+    const auto spectra = SpectraFile::open(file, shape, hal::SampleType::u16);
     EXPECT_FALSE(spectra);
     return spectra ? "" : spectra.error().message;
   }
@@ -46,7 +46,7 @@ TEST_F(SpectraFiles, hands_out_b_scans) {
   std::vector<std::uint16_t> counts(3 * 2 * 16);
   std::iota(counts.begin(), counts.end(), std::uint16_t{0});
   const auto file = folder.write_values<std::uint16_t>("s.raw", counts);
-  const auto spectra = SpectraFile::open(file, {3, 2, 16}, SpectrumType::u16);
+  const auto spectra = SpectraFile::open(file, {3, 2, 16}, hal::SampleType::u16);
   ASSERT_TRUE(spectra) << spectra.error().message;
   const auto b_scan = spectra->b_scan(2);
   ASSERT_EQ(b_scan.size(), 64U);
@@ -66,7 +66,7 @@ TEST_F(SpectraFiles, refuses_sizes_that_do_not_fit) {
 
 TEST_F(SpectraFiles, refuses_what_is_no_file) {
   EXPECT_THAT(refusal(folder / "missing", {3, 2, 16}), HasSubstr("missing: cannot be opened"));
-  EXPECT_EQ(SpectraFile::open(folder / "missing", {3, 2, 16}, SpectrumType::u16).error().code,
+  EXPECT_EQ(SpectraFile::open(folder / "missing", {3, 2, 16}, hal::SampleType::u16).error().code,
             hal::ErrorCode::absent);
   EXPECT_THAT(refusal(folder.path(), {3, 2, 16}), HasSubstr("is a directory"));
   EXPECT_THAT(refusal("/dev/zero", {3, 2, 16}), HasSubstr("is not a regular file"));
@@ -83,7 +83,7 @@ TEST_F(SpectraFiles, finds_floats_that_are_none) {
   std::vector<float> values(2 * 2 * 16, 1.0F);
   values[2 * 16 + 16 + 5] = std::nanf("");
   const auto file = folder.write_values<float>("f.raw", values);
-  const auto spectra = SpectraFile::open(file, {2, 2, 16}, SpectrumType::f32);
+  const auto spectra = SpectraFile::open(file, {2, 2, 16}, hal::SampleType::f32);
   ASSERT_TRUE(spectra);
   EXPECT_FALSE(spectra->find_non_finite(0));
   EXPECT_EQ(spectra->find_non_finite(1),

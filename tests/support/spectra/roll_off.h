@@ -38,12 +38,11 @@ measure_roll_off(const pipeline::Calibration& calibration, const std::vector<dou
   pipeline::Calibration known = calibration;
   known.background_mode = pipeline::BackgroundMode::file;
   known.background.assign(static_cast<std::size_t>(known.samples), static_cast<float>(offset));
-  auto reconstructor =
-      pipeline::Reconstructor::create({known,
-                                       {known.samples, pipeline::SpectrumType::u16},
-                                       static_cast<int>(depths_bin.size()),
-                                       path,
-                                       isa});
+  auto reconstructor = pipeline::Reconstructor::create({known,
+                                                        {known.samples, hal::SampleType::u16},
+                                                        static_cast<int>(depths_bin.size()),
+                                                        path,
+                                                        isa});
   if (!reconstructor)
     return tl::make_unexpected(reconstructor.error());
   auto workspace = reconstructor->make_workspace();

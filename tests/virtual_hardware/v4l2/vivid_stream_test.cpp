@@ -44,7 +44,8 @@ TEST_F(VividStream, every_grey_format_streams_at_the_size_of_a_b_scan) {
     // Low-justified: no sample above full scale, and some light.
     const unsigned full_scale = (1U << bits) - 1;
     unsigned most = 0;
-    for (std::size_t i = 0; i < frame.bytes.size(); i += config.format.bytes_per_sample()) {
+    for (std::size_t i = 0; i < frame.bytes.size();
+         i += hal::bytes_per_sample(config.format.sample_type)) {
       auto sample = std::to_integer<unsigned>(frame.bytes[i]);
       if (type == SampleType::u16)
         sample |= std::to_integer<unsigned>(frame.bytes[i + 1]) << 8;
