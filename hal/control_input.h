@@ -1,6 +1,6 @@
-// What the surgeon's hands and feet say: pedals, knobs, 6-axis pucks.
+// Input devices of the surgeon: pedals, knobs, 6-axis pucks.
 //
-// The events are what the device did, free of meaning; ui/controls binds them to actions.
+// An event says what the device did, not what it means; ui/controls binds events to actions.
 #pragma once
 
 #include <cstddef>
@@ -35,15 +35,15 @@ public:
 
   // Waits at most `timeout` for events and writes up to events.size() of them, oldest first, with
   // times that never decrease; returns their number, 0 when nothing happened. Contact bounce under
-  // 5 ms is already removed. A device that goes away in the middle of a press first reports the
-  // release of every pressed switch, then ErrorCode::disconnected, and is `failed`; close() and
-  // open().
+  // 5 ms is already removed. A device that goes away in the middle of a press or a push first
+  // reports every pressed switch as released and every axis as centred (nobody else will), then
+  // ErrorCode::disconnected, and is `failed`; close() and open().
   Result<std::size_t> read(std::span<ControlEvent> events, Duration timeout) {
     return do_read(events, timeout);
   }
 
-  // How many bounces were removed since the device was made: many tell of worn contacts. 0 where
-  // the device removes them itself and does not say.
+  // How many bounces were removed since construction; many mean worn contacts. 0 if the device
+  // removes them itself.
   std::uint64_t bounces() const { return do_bounces(); }
 
   // Any state → absent.

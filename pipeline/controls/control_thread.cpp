@@ -52,7 +52,6 @@ void ControlThread::run() {
     if (!count) {
       faults_.add(Device::control_input, count.error(), clock_.now());
       input_.close();
-      centre_axes();
       continue;
     }
     for (const hal::ControlEvent& event : std::span{events}.first(*count))
@@ -66,19 +65,10 @@ void ControlThread::run() {
 }
 
 void ControlThread::receive(const hal::ControlEvent& event) {
-  held_.note(event);
-  if (event.kind == hal::ControlKind::axis && event.index < pushed_.size())
-    pushed_[event.index] = event.value != 0;
+  if (event.kind == hal::ControlKind::pedal_switch)
+    held_.note(event.index, event.value != 0, event.time);
   if (!queue_.push(event))
     faults_.add(Fault::control_overflow, "more events than the display could take", event.time);
-}
-
-// A puck that is gone pushes no more; nobody else would say so.
-void ControlThread::centre_axes() {
-  for (std::size_t i = 0; i < pushed_.size(); ++i)
-    if (pushed_[i])
-      receive({clock_.now(), hal::ControlKind::axis, static_cast<std::uint8_t>(i), 0});
-  news_.post();
 }
 
 void ControlThread::look_for_bad_contacts() {

@@ -1,16 +1,15 @@
 // The control thread: fetches what pedals and knobs say and queues it for the render thread.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <optional>
 #include <thread>
 
 #include "hal/clock.h"
 #include "hal/control_input.h"
-#include "pipeline/threads/event_queue.h"
-#include "pipeline/faults/fault_log.h"
 #include "pipeline/controls/held_switches.h"
+#include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/event_queue.h"
 #include "pipeline/threads/retry_delay.h"
 #include "pipeline/threads/wakeup.h"
 #include "pipeline/threads/worker_pool.h"
@@ -34,7 +33,6 @@ private:
   void run();
   bool open();
   void receive(const hal::ControlEvent& event);
-  void centre_axes();
   void look_for_bad_contacts();
 
   hal::ControlInput& input_;
@@ -44,8 +42,7 @@ private:
   EventQueue<hal::ControlEvent, 256> queue_;
   RetryDelay retry_;
   HeldSwitches held_;
-  std::array<bool, 6> pushed_{}; // axes that are not at their middle
-  std::uint64_t bounces_ = 0;    // told so far
+  std::uint64_t bounces_ = 0; // told so far
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

@@ -1,8 +1,11 @@
-// Which pedal switches are down for longer than a foot would hold them.
+// Which switches of a device are down, since when, and which of them for longer than a foot would
+// hold them.
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "hal/clock.h"
@@ -10,32 +13,51 @@
 
 namespace octascope::pipeline {
 
-// Pure logic, one thread. Knows the first eight switches of a device.
+// Bit i is switch i.
+using SwitchSet = std::uint32_t;
+inline constexpr int most_switches = 32;
+
+// Pure logic, one thread: the control thread and the gesture recogniser have one each.
 class HeldSwitches {
 public:
   static constexpr hal::Duration limit = std::chrono::seconds{4};
 
-  void note(const hal::ControlEvent& event) {
-    if (event.kind != hal::ControlKind::pedal_switch || event.index >= since_.size())
-      return;
-    since_[event.index] = event.value != 0 ? std::optional{event.time} : std::nullopt;
+  // A switch goes down or up at `time`. False where it was so already, or there is none of that
+  // index.
+  bool note(std::size_t index, bool down, hal::TimePoint time) {
+    if (index >= since_.size() || is_down(index) == down)
+      return false;
+    const SwitchSet one = SwitchSet{1} << index;
+    down_ ^= one;
+    untold_ = down ? untold_ | one : untold_ & ~one;
+    if (down)
+      since_[index] = time;
+    return true;
   }
+
+  SwitchSet down() const { return down_; }
+  bool is_down(std::size_t index) const { return (down_ >> index & 1U) != 0; }
+  // When it went down last.
+  hal::TimePoint since(std::size_t index) const { return since_[index]; }
 
   // The switch that went down first of those that are down for `limit` and were not told yet; each
   // is told once a press.
   std::optional<std::size_t> longest_untold(hal::TimePoint now) {
     std::optional<std::size_t> longest;
-    for (std::size_t i = 0; i < since_.size(); ++i) {
-      if (since_[i] && now - *since_[i] >= limit && (!longest || *since_[i] < *since_[*longest]))
+    for (SwitchSet left = untold_; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      if (now - since_[i] >= limit && (!longest || since_[i] < since_[*longest]))
         longest = i;
     }
     if (longest)
-      since_[*longest].reset();
+      untold_ &= ~(SwitchSet{1} << *longest);
     return longest;
   }
 
 private:
-  std::array<std::optional<hal::TimePoint>, 8> since_; // down, and not told yet
+  SwitchSet down_ = 0;
+  SwitchSet untold_ = 0; // down, and not told yet
+  std::array<hal::TimePoint, most_switches> since_{};
 };
 
 } // namespace octascope::pipeline

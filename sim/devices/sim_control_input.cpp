@@ -47,6 +47,7 @@ hal::Result<> SimControlInput::do_open() {
     cursor_.take();
   for (BouncingContact& contact : contacts_)
     contact.reset();
+  axes_ = {};
   oldest_ = reported_ = 0;
   pulled_out_ = false;
   played_to_ = now;
@@ -183,6 +184,8 @@ void SimControlInput::move(TimePoint t, ControlKind kind, std::uint8_t index, st
     contacts_[index].foot(t, value != 0, probe_.active(Fault::bounce, t, index));
     return;
   }
+  if (kind == ControlKind::axis)
+    axes_[index] = value;
   report({t, kind, index, value});
 }
 
@@ -191,6 +194,9 @@ void SimControlInput::pull_out(TimePoint t) {
     if (contacts_[i].reported())
       report({t, ControlKind::pedal_switch, static_cast<std::uint8_t>(i), 0});
   }
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    if (axes_[i] != 0)
+      report({t, ControlKind::axis, static_cast<std::uint8_t>(i), 0});
   pulled_out_ = true;
 }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "hal/control_input.h"
@@ -54,8 +55,9 @@ private:
   bool has_room() const { return reported_ + most_reports_at_once <= outbox_.size(); }
   std::size_t fetch(std::span<hal::ControlEvent> events);
 
-  // One moment can report every switch, a scripted and an injected event.
-  static constexpr std::size_t most_reports_at_once = switch_count + 2;
+  // One moment can report every switch, a scripted and an injected event; a pull after it, every
+  // switch and axis once more.
+  static constexpr std::size_t most_reports_at_once = switch_count + 2 + switch_count + axis_count;
 
   hal::Clock& clock_;
   const ControlScript script_;
@@ -68,6 +70,7 @@ private:
   hal::TimePoint played_to_;
   hal::TimePoint last_reported_;
   std::array<BouncingContact, switch_count> contacts_;
+  std::array<std::int32_t, axis_count> axes_{}; // as reported
   bool pulled_out_ = false;
 
   std::array<hal::ControlEvent, 64> outbox_{}; // reported, not yet read; a ring

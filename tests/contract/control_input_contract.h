@@ -33,6 +33,9 @@ public:
   virtual void make_bouncing() {}
   virtual void turn_knob(int detents) = 0;
 
+  virtual bool has_axes() const { return false; }
+  virtual void push_axis(int, int) {} // its index, and how far: −1000…1000
+
   virtual bool can_unplug() const { return false; }
   virtual void unplug() {}
   virtual void replug() {}
@@ -209,6 +212,27 @@ TEST_P(ControlInputContract, an_unplugged_press_is_released_first_and_then_told)
   EXPECT_EQ(read_all(), std::vector<Move>{});
   bench_->set_switch(0, true);
   EXPECT_EQ(read_all(), (std::vector<Move>{{pedal, 0, 1}}));
+}
+
+TEST_P(ControlInputContract, an_unplugged_puck_is_centred_first_and_then_told) {
+  if (!bench_->can_unplug() || !bench_->has_axes())
+    GTEST_SKIP() << "this bench has no puck to unplug";
+  ASSERT_TRUE(input_.open());
+  bench_->push_axis(5, 700);
+  bench_->push_axis(1, -300);
+  bench_->push_axis(1, 0);
+  bench_->push_axis(0, 20);
+  EXPECT_EQ(read_all().size(), 4U);
+  bench_->unplug();
+  const auto n = input_.read(buffer_, std::chrono::seconds{5});
+  ASSERT_TRUE(n) << n.error().message;
+  ASSERT_EQ(*n, 2U);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(buffer_[static_cast<std::size_t>(i)].kind, hal::ControlKind::axis);
+    EXPECT_EQ(buffer_[static_cast<std::size_t>(i)].index, i * 5);
+    EXPECT_EQ(buffer_[static_cast<std::size_t>(i)].value, 0);
+  }
+  expect_fault(input_.read(buffer_, std::chrono::seconds{5}), hal::ErrorCode::disconnected);
 }
 
 TEST_P(ControlInputContract, what_happens_while_closed_is_not_told) {

@@ -68,6 +68,8 @@ public:
   bool can_bounce() const override { return true; }
   void make_bouncing() override { faults_.begin_later_fault(clock_.now()); }
   void turn_knob(int detents) override { inject(hal::ControlKind::knob, 0, detents); }
+  bool has_axes() const override { return true; }
+  void push_axis(int index, int value) override { inject(hal::ControlKind::axis, index, value); }
   bool can_unplug() const override { return true; }
   void unplug() override { faults_.unplug(clock_.now()); }
   void replug() override { faults_.replug(clock_.now()); }

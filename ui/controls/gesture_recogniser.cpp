@@ -62,18 +62,13 @@ void GestureRecogniser::tell(Stroke& stroke, GestureKind kind, hal::TimePoint ti
 void GestureRecogniser::handle(std::uint8_t switch_index, bool down, hal::TimePoint time,
                                std::vector<Gesture>& told) {
   advance(time, told);
-  if (switch_index >= most_switches)
+  if (!held_.note(switch_index, down, last_))
     return;
   const SwitchSet one = SwitchSet{1} << switch_index;
-  const bool is_down = (held_ & one) != 0;
-  if (down && !is_down) {
-    down_since_[switch_index] = last_;
-    held_ |= one;
+  if (down)
     go_down(one, told);
-  } else if (!down && is_down) {
-    held_ &= ~one;
+  else
     go_up(one, told);
-  }
 }
 
 void GestureRecogniser::go_down(SwitchSet one, std::vector<Gesture>& told) {
@@ -126,14 +121,13 @@ void GestureRecogniser::split(Stroke& stroke, std::vector<Gesture>& told) {
   SwitchSet rest = stroke.switches;
   stroke = {};
   while (rest != 0) {
-    int first = std::countr_zero(rest);
-    for (int i = first; i < most_switches; ++i)
-      if ((rest >> i & 1U) != 0 &&
-          down_since_[static_cast<std::size_t>(i)] < down_since_[static_cast<std::size_t>(first)])
+    auto first = static_cast<std::size_t>(std::countr_zero(rest));
+    for (std::size_t i = first; i < most_switches; ++i)
+      if ((rest >> i & 1U) != 0 && held_.since(i) < held_.since(first))
         first = i;
     const SwitchSet one = SwitchSet{1} << first;
     rest &= ~one;
-    settle(new_stroke(one, down_since_[static_cast<std::size_t>(first)]), told);
+    settle(new_stroke(one, held_.since(first)), told);
   }
 }
 
@@ -226,7 +220,7 @@ SwitchSet GestureRecogniser::modify(hal::TimePoint time, std::vector<Gesture>& t
   advance(time, told);
   SwitchSet used = 0;
   for (const SwitchBinding& b : bindings_)
-    if (b.modifies && contains(held_, b.switches) &&
+    if (b.modifies && contains(held_.down(), b.switches) &&
         std::popcount(b.switches) > std::popcount(used))
       used = b.switches;
   for (Stroke& stroke : strokes_)
@@ -236,7 +230,7 @@ SwitchSet GestureRecogniser::modify(hal::TimePoint time, std::vector<Gesture>& t
 }
 
 bool GestureRecogniser::idle() const {
-  return held_ == 0 && std::ranges::all_of(strokes_, [](const Stroke& stroke) {
+  return held_.down() == 0 && std::ranges::all_of(strokes_, [](const Stroke& stroke) {
            return stroke.phase == Phase::free;
          });
 }

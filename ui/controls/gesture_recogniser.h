@@ -1,16 +1,16 @@
-// Tells what a foot means from when switches go down and up: press, long press, double press, held,
-// several at once, and a switch held while a knob turns.
+// Recognises gestures from the times at which switches go down and up: press, long press, double
+// press, hold (which repeats), chord, and a switch held while a knob turns.
 //
-// A gesture is told at the earliest moment at which it cannot become another one that is bound:
+// A gesture is reported at the earliest moment at which it cannot become another one that is bound.
+// If these are bound to the switch:
 //
-//   only a press is bound          when the switch goes down
-//   part of a chord that is bound  when the chord is complete, or after 80 ms
-//   also long, or holds a knob     when it is let go (a long press: after 600 ms; where the switch
-//                                  also holds a knob, when it is let go after them)
-//   also double                    300 ms after it is let go; a double when it goes down again
-//   held                           its first at once where nothing else is bound, else after 400
-//   ms;
-//                                  then every 100 ms, faster by and by
+//   only a press                   when the switch goes down
+//   a chord that it is part of     when the chord is complete, or after 80 ms
+//   a long press too               press: on release; long press: after 600 ms
+//   a knob while it is held, too   press and long press: on release
+//   a double press too             press: 300 ms after release; double: when it goes down again
+//   hold                           first at once if nothing else is bound, else after 400 ms;
+//                                  then every 100 ms, gradually faster
 //
 // Pure: no clock. All times are the caller's.
 #pragma once
@@ -22,12 +22,12 @@
 #include <vector>
 
 #include "hal/clock.h"
+#include "pipeline/controls/held_switches.h"
 
 namespace octascope::ui {
 
-// Bit i is switch i.
-using SwitchSet = std::uint32_t;
-inline constexpr int most_switches = 32;
+using pipeline::most_switches;
+using pipeline::SwitchSet;
 
 enum class GestureKind : std::uint8_t { press, long_press, double_press, hold };
 
@@ -39,7 +39,8 @@ struct GestureTimes {
   hal::Duration hold_every = std::chrono::milliseconds{100};
 };
 
-// What is bound to one set of switches: to several only press and modifies.
+// What is bound to one set of switches. To several switches only `press` and `modifies` can be
+// bound.
 struct SwitchBinding {
   SwitchSet switches = 0;
   bool press = false;
@@ -50,57 +51,56 @@ struct SwitchBinding {
 };
 
 struct Gesture {
-  hal::TimePoint time; // when it was clear, not when it was noticed
+  hal::TimePoint time; // at which it was certain, not at which advance() found it
   GestureKind kind = GestureKind::press;
   SwitchSet switches = 0;
   bool operator==(const Gesture&) const = default;
 };
 
-// The n-th repetition (from 0) follows the one before after so long: `every`, and by and by down to
-// 40 % of it. Pure.
+// The time from one repetition to the next, the n-th (from 0): `every` at first, shortening to 40 %
+// of it. Pure.
 hal::Duration hold_interval(hal::Duration every, int n);
 
-// Threads: one at a time. Gestures are appended to `told`, oldest first. A time before the last one
-// counts as the last one. What is not bound is never told.
+// Threads: one at a time. Gestures are appended to `told`, oldest first. A time earlier than the
+// last one is taken as the last one. A gesture that is not bound is never reported.
 class GestureRecogniser {
 public:
   // At most one entry per set.
   GestureRecogniser(std::vector<SwitchBinding> bindings, GestureTimes times);
 
-  // A switch went down or up; telling the same twice changes nothing.
+  // A switch went down or up. Repeating its state changes nothing.
   void handle(std::uint8_t switch_index, bool down, hal::TimePoint time,
               std::vector<Gesture>& told);
 
-  // Tells what time alone decides, up to `now`.
+  // Reports the gestures that time alone decides, up to `now`.
   void advance(hal::TimePoint now, std::vector<Gesture>& told);
 
-  // When advance() will tell something, if nothing happens before.
+  // When advance() will report something if no switch moves before.
   std::optional<hal::TimePoint> next_deadline() const;
 
-  // A knob turns: the set of held switches that it is bound with, 0 for none. The switches so used
-  // mean nothing else until they are let go.
+  // A knob turns. Returns the held switches that modify it, 0 for none. These switches report no
+  // gesture of their own until they are released.
   SwitchSet modify(hal::TimePoint time, std::vector<Gesture>& told);
 
-  // All switches that are down.
-  SwitchSet held() const { return held_; }
+  // No switch is down, and no gesture under way.
   bool idle() const;
 
 private:
   enum class Phase : std::uint8_t {
     free,      // no stroke
-    gathering, // more switches may join
-    down,      // clear which switches, not yet what they mean
-    between,   // let go once, perhaps to go down again
+    gathering, // more switches may join it
+    down,      // its switches are known, its gesture is not
+    between,   // released once: it may become a double press
     holding,   // repeats
-    spent,     // its meaning was told
+    spent,     // its gesture was reported
   };
-  // One set of switches that went down together. Those that came up again are no longer of it, once
-  // its meaning was told.
+  // One set of switches that went down together. Once its gesture was reported, switches that come
+  // up leave the set.
   struct Stroke {
     Phase phase = Phase::free;
     SwitchSet switches = 0;
     hal::TimePoint began;
-    SwitchBinding binding;                  // once it is clear which switches they are
+    SwitchBinding binding;                  // from Phase::down on
     std::optional<hal::TimePoint> deadline; // when its phase ends by itself
     int repetitions = 0;
   };
@@ -124,9 +124,8 @@ private:
   std::vector<SwitchBinding> bindings_;
   GestureTimes times_;
   std::array<Stroke, most_switches> strokes_{}; // each has a switch of its own, so these suffice
-  std::array<hal::TimePoint, most_switches> down_since_{};
-  SwitchSet held_ = 0;
-  hal::TimePoint last_; // the latest time that was told to us
+  pipeline::HeldSwitches held_;
+  hal::TimePoint last_; // the latest time given
 };
 
 } // namespace octascope::ui

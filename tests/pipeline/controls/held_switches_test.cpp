@@ -9,14 +9,10 @@ using namespace std::chrono_literals;
 
 constexpr hal::TimePoint t0{100s};
 
-hal::ControlEvent pedal(hal::TimePoint time, int index, int value) {
-  return {time, hal::ControlKind::pedal_switch, static_cast<std::uint8_t>(index), value};
-}
-
 TEST(HeldSwitches, a_press_is_told_once_when_it_lasts) {
   HeldSwitches held;
   EXPECT_FALSE(held.longest_untold(t0 + 1h));
-  held.note(pedal(t0, 1, 1));
+  held.note(1, true, t0);
   EXPECT_FALSE(held.longest_untold(t0 + HeldSwitches::limit - 1ns));
   EXPECT_EQ(held.longest_untold(t0 + HeldSwitches::limit), 1U);
   EXPECT_FALSE(held.longest_untold(t0 + 1h));
@@ -24,28 +20,34 @@ TEST(HeldSwitches, a_press_is_told_once_when_it_lasts) {
 
 TEST(HeldSwitches, a_short_press_is_not) {
   HeldSwitches held;
-  held.note(pedal(t0, 0, 1));
-  held.note(pedal(t0 + 3s, 0, 0));
+  held.note(0, true, t0);
+  held.note(0, false, t0 + 3s);
   EXPECT_FALSE(held.longest_untold(t0 + 1h));
-  held.note(pedal(t0 + 2h, 0, 1));
+  held.note(0, true, t0 + 2h);
   EXPECT_TRUE(held.longest_untold(t0 + 2h + HeldSwitches::limit)) << "the next one is its own";
 }
 
 TEST(HeldSwitches, of_several_the_first_comes_first) {
   HeldSwitches held;
-  held.note(pedal(t0 + 1s, 0, 1));
-  held.note(pedal(t0, 2, 1));
+  held.note(0, true, t0 + 1s);
+  held.note(2, true, t0);
   EXPECT_EQ(held.longest_untold(t0 + 1h), 2U);
   EXPECT_EQ(held.longest_untold(t0 + 1h), 0U);
   EXPECT_FALSE(held.longest_untold(t0 + 1h));
 }
 
-TEST(HeldSwitches, knobs_axes_and_switches_beyond_the_eighth_are_ignored) {
+TEST(HeldSwitches, says_what_is_down_and_what_changes_nothing) {
   HeldSwitches held;
-  held.note({t0, hal::ControlKind::knob, 0, 1});
-  held.note({t0, hal::ControlKind::axis, 0, 1});
-  held.note(pedal(t0, 8, 1));
-  EXPECT_FALSE(held.longest_untold(t0 + 1h));
+  EXPECT_TRUE(held.note(3, true, t0));
+  EXPECT_FALSE(held.note(3, true, t0 + 1s));
+  EXPECT_EQ(held.since(3), t0);
+  EXPECT_TRUE(held.note(31, true, t0));
+  EXPECT_EQ(held.down(), 1U << 3 | 1U << 31);
+  EXPECT_TRUE(held.note(3, false, t0 + 2s));
+  EXPECT_FALSE(held.note(3, false, t0 + 2s));
+  EXPECT_FALSE(held.is_down(3));
+  EXPECT_TRUE(held.is_down(31));
+  EXPECT_FALSE(held.note(32, true, t0)) << "there is none of that index";
 }
 
 } // namespace
