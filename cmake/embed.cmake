@@ -2,7 +2,7 @@
 #
 # Puts files into the program, so that it needs nothing beside it. Those that link TARGET may include
 # HEADER (as written), which declares one std::string_view per file, named after it
-# (plane_stack.frag → plane_stack_frag).
+# (stack.frag → stack_frag).
 function(octascope_embed target namespace header)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/embedded/${header})
   add_custom_command(OUTPUT ${output}

@@ -1,4 +1,5 @@
-// What every device has in common: a name, an origin, and a state that anybody may read.
+// What every device has in common: backend, whether it is simulated, and a state for any thread to
+// read.
 #pragma once
 
 #include <atomic>

@@ -30,8 +30,8 @@ struct Flip {
 
 enum class DisplayEventKind : std::uint8_t { close_requested, resized, key_pressed, key_released };
 
-// Keys that mean something to us; the rest is not reported. Letters and digits are their ASCII
-// codes (lower case), so that a key binding reads as it is typed.
+// Keys that have no ASCII code. Letters and digits are reported by their ASCII codes (lower case);
+// other keys are not reported.
 enum class Key : std::uint16_t {
   escape = 27,
   space = 32,

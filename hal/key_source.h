@@ -1,4 +1,4 @@
-// Keys for a display that has none of its own: the console's, where no window system brings them.
+// Keys for a display on the console, where no window system delivers them.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,8 @@ class KeySource {
 public:
   virtual ~KeySource() = default;
 
-  // Whether what is typed is meant for us: not before the display is open, and not while another
-  // console is in front. From false on, keys that were held are told as released, and what is typed
-  // is left to others.
+  // Whether keys belong to this display: true while it is open and its console is in front. On
+  // false, held keys are reported as released, and keys go to other programs from then on.
   void attend(bool ours) { do_attend(ours); }
 
   // As Display::poll_events(): never waits.

@@ -1,4 +1,4 @@
-// HashRandom the whole display: volume, panels and heads-up display, into the framebuffer that is
+// Draws the whole display: volume, panels and heads-up display, into the framebuffer that is
 // bound.
 #pragma once
 
@@ -63,18 +63,18 @@ public:
   // Shown while the window is being changed: how often each level occurs in the volume.
   void show_levels(const LevelShares& shares);
 
-  // HashRandom everything into the bound framebuffer of width × height pixels.
+  // Draws everything into the bound framebuffer of width × height pixels.
   hal::Result<> draw(const ViewState& view, const Status& status, int width, int height,
                      const DrawQuality& quality = {});
 
-  // HashRandom the volume alone over the whole of the bound framebuffer: with a scale bar, and with
+  // Draws the volume alone over the whole of the bound framebuffer: with a scale bar, and with
   // the wire-frame box where the view has it. ErrorCode::invalid_argument: no volume was shown, or
   // the size is nothing.
   hal::Result<> draw_volume_alone(const ViewState& view, int width, int height,
                                   const DrawQuality& quality = full_quality);
 
-  // Waits until a picture of that view and quality has all that it needs, such as a mesh, which
-  // the running display draws when it comes. `volume` is the one that was shown last.
+  // Waits until everything that a picture of that view and quality needs is ready, such as a mesh.
+  // (The running display does not wait.) `volume` is the one that was shown last.
   hal::Result<> prepare(const pipeline::Volume& volume, const ViewState& view,
                         const DrawQuality& quality = full_quality);
 
@@ -92,11 +92,11 @@ public:
   bool needs_redraw(const ViewState& view, const Status& status, int width, int height,
                     const DrawQuality& quality = {}) const;
 
-  // The view asks for something that was not made of the shown volume: call show_volume() with it
-  // once more.
+  // The view needs data that was not computed for the shown volume: call show_volume() with it
+  // again.
   bool wants_volume(const ViewState& view) const;
 
-  // What stands in the bound framebuffer; waits for the drawing. Allocates: for snapshots.
+  // The content of the bound framebuffer; waits for the drawing. Allocates: for snapshots.
   pipeline::Image read_back(int width, int height) const;
 
 private:

@@ -7,7 +7,7 @@
 
 namespace octascope::ui {
 
-// HashRandom the program's name and what it is doing over the whole of the bound framebuffer of
+// Draws the program's name and what it is doing over the whole of the bound framebuffer of
 // width × height pixels. Needs no more than a GLES 3 context, and keeps nothing.
 // ErrorCode::unsupported: this GL cannot compile our shaders.
 hal::Result<> draw_splash(int width, int height, std::string_view version, std::string_view doing);

@@ -104,7 +104,7 @@ public:
     return volume_ != nullptr && !undisplayed_last_line_ && !parts_.volumes.has_newer();
   }
 
-  // HashRandom the newest state and returns the picture. Empty when the display is gone.
+  // Draws the newest state and returns the picture. Empty when the display is gone.
   std::optional<pipeline::Image> picture();
 
   const ui::ViewActions& actions() const { return controller_.actions(); }

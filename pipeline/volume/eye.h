@@ -1,4 +1,4 @@
-// Which eye is operated, as far as somebody said.
+// Which eye is operated, as given by the user; may be unknown.
 #pragma once
 
 #include <cstdint>

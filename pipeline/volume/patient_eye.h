@@ -1,4 +1,4 @@
-// Whose eye it is, as far as somebody said.
+// The patient and the eye, as given by the user; either may be unknown.
 #pragma once
 
 #include <string>

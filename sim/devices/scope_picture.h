@@ -24,7 +24,7 @@ struct PictureRectangle {
 // where it is glossy, darker towards the corners.
 class ScopePicture {
 public:
-  // HashRandom what stands still, once: about 0.1 s at 640×480. Borrows the phantom.
+  // Draws what stands still, once: about 0.1 s at 640×480. Borrows the phantom.
   ScopePicture(const Phantom& phantom, int width, int height);
 
   std::size_t bytes() const { return still_.size(); }

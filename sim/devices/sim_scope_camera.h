@@ -33,7 +33,7 @@ struct SimScopeCameraOptions {
 // Threads as hal::ScopeCamera; unplug(), replug() and scan_field() may come from any.
 class SimScopeCamera final : public hal::ScopeCamera {
 public:
-  // HashRandom what stands still in them: a tenth of a second. Borrows the clock.
+  // Draws what stands still in them: a tenth of a second. Borrows the clock.
   static hal::Result<std::unique_ptr<SimScopeCamera>> make(const SimScopeCameraOptions& options,
                                                            hal::Clock& clock);
 

@@ -1,4 +1,4 @@
-// HashRandom docs/roll-off.png: what each interpolation loses and adds over depth, measured on the
+// Draws docs/roll-off.png: what each interpolation loses and adds over depth, measured on the
 // reconstruction of reflectors through a chirp of 70 pixels in 1024 and dispersion.
 //
 //   build/release/tests/roll_off_figure docs/roll-off.png

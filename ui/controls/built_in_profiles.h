@@ -22,8 +22,8 @@ std::span<const BuiltInProfile> built_in_profiles();
 // ErrorCode::invalid_argument: there is none of that name; the message lists those that there are.
 hal::Result<ControlProfile> built_in_profile(std::string_view name);
 
-// The one made for the device "05f3:00ff"; of several, one with so many switches, as models with
-// one pedal and with three share an id. Nothing where there is none.
+// The profile made for the device "05f3:00ff". Models with one pedal and with three share an id: of
+// several profiles, the one with that number of switches. Empty if there is none.
 std::optional<ControlProfile> built_in_profile_for(std::string_view usb_id, int switches);
 
 } // namespace octascope::ui

@@ -20,7 +20,7 @@
 //   [[bind]]                                   # exactly one of switch, with, knob, axis
 //   switch = "left"                            # a name or an index
 //   gesture = "long"                           # press, long, double or hold (repeats while held)
-//   action = "technique"                       # ui/view/action.h
+//   action = "technique"                       # ui/view/action_table.cpp
 //   step = -1                                  # so many detents, or back; else 1
 //   [[bind]]
 //   with = ["left", "right"]                   # down together
@@ -33,11 +33,10 @@
 //   [[bind]]
 //   axis = "rz"                                # x y z rx ry rz
 //   action = "rotate"
-//   per_second = 30                            # detents at full deflection; negative turns it
-//   about
+//   per_second = 30                            # detents at full deflection; negative: the other way
 //
-// Strict: unknown keys, switches and actions are refused, and so is what contradicts itself or
-// could never be reached.
+// Strict: unknown keys, switches and actions are refused, and so are bindings that contradict each
+// other or could never act.
 #pragma once
 
 #include <cstdint>
@@ -47,8 +46,8 @@
 #include <vector>
 
 #include "hal/result.h"
-#include "ui/view/action.h"
 #include "ui/controls/gesture_recogniser.h"
+#include "ui/view/action.h"
 
 namespace octascope::ui {
 
@@ -93,14 +92,15 @@ struct ControlProfile {
   static hal::Result<ControlProfile> parse(std::string_view text,
                                            const std::filesystem::path& name);
 
-  // Can it be done with this device alone: bound to a control, or in the menu and done from there?
+  // Whether this device alone can do the action: it is bound to a control, or can be chosen from
+  // the menu and then done.
   bool reaches(Action action) const;
 
   // What the recogniser must tell apart.
   std::vector<SwitchBinding> switch_bindings() const;
 };
 
-// What a menu may hold: all but going through it.
+// Whether a menu may hold the action: all but those that go through the menu.
 bool fits_menu(Action action);
 
 // "x" … "rz".

@@ -1,4 +1,4 @@
-// How far a knob turns what it turns: slowly one unit a detent, fast up to eight.
+// Knob acceleration: a slow detent is one unit, a fast one up to eight.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What each control does, in words for people: the lines of the legend.
+// The lines of the legend: what each control does.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace octascope::ui {
 struct LegendLine {
   std::string control; // "Left pedal, long press"
   Action action = Action::freeze;
-  bool back = false; // the other way round: a negative step
+  bool back = false; // its step is negative
 };
 
 struct Legend {

@@ -1,4 +1,4 @@
-// What may stand beside what in a profile of controls.
+// Which bindings of a control profile contradict each other.
 #pragma once
 
 #include "pipeline/files/config_document.h"
@@ -6,12 +6,12 @@
 
 namespace octascope::ui {
 
-// Complains about `table`, a [[bind]], where it does not go with what was read before it.
+// Complains about `table`, a [[bind]], if it contradicts a binding read before it.
 void check(pipeline::ConfigTable& table, const ControlProfile& before, const SwitchAction& bound);
 void check(pipeline::ConfigTable& table, const ControlProfile& before, const KnobAction& bound);
 void check(pipeline::ConfigTable& table, const ControlProfile& before, const AxisAction& bound);
 
-// Complains about `root` where the profile as a whole holds what could never be reached.
+// Complains about `root` if the profile as a whole has actions that could never be reached.
 void check_whole(pipeline::ConfigTable& root, const ControlProfile& profile);
 
 } // namespace octascope::ui

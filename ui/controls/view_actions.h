@@ -12,13 +12,13 @@
 
 namespace octascope::ui {
 
-// What an event asks of the host, beside the new view.
+// What an event asks of the host, besides the new view.
 struct ControlRequests {
   bool quit = false;
   bool snapshot = false;
   bool auto_window = false; // what suits the shown volume
   bool record = false;
-  bool keep_registration = false; // as the view's nudge has it
+  bool keep_registration = false; // with the view's nudge
   bool operator==(const ControlRequests&) const = default;
 
   void add(const ControlRequests& more) {
@@ -39,7 +39,7 @@ public:
   // what next_parameter goes through, never empty.
   ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu);
 
-  // What is selected stays so if the new menu has it, else its first becomes it.
+  // The selected action stays selected if the new menu has it, else the menu's first is selected.
   void change_menu(std::vector<Action> menu);
 
   const ViewState& state() const { return state_; }
@@ -49,7 +49,8 @@ public:
 
   // What reset_view goes back to.
   const ViewState& initial() const { return initial_; }
-  // Both at once, brought into their ranges: what was kept of an earlier run, or configured anew.
+  // Replaces both views, with every value brought into its range: after restoring settings or
+  // reloading the configuration.
   void replace(const ViewState& initial, const ViewState& state);
 
   void set_b_scans(int b_scans);
@@ -57,24 +58,24 @@ public:
   void set_choices(ChoiceNames names);
   void set_vessels_loaded(bool loaded) { vessels_loaded_ = loaded; }
 
-  // The vessels' place as it is now was kept: from here on they are nudged.
+  // The vessels' present place was kept as their registration: the nudge starts again from zero.
   void forget_nudge();
 
-  // Does it once. `amount`: detents for what is continuous, else steps, of which the whole ones
-  // count; a toggle that is turned goes on to the right and off to the left.
+  // Does the action once. `amount`: detents of a continuous action, else steps, rounded towards 0.
+  // A toggle that is turned goes on to the right and off to the left.
   ControlRequests perform(Action action, double amount, Done done, hal::TimePoint time);
 
-  // A stick is pushed: counted once, and then a little more of something continuous, again and
-  // again.
+  // A stick is pushed: begin_driving() counts the action once, drive() then changes its value a
+  // little every frame.
   void begin_driving(Action action, hal::TimePoint time);
   void drive(Action action, double amount, hal::TimePoint time);
 
-  // Which page the next legend shows.
+  // Whether the legend shows the keys or the pedal.
   void show_keys_in_legend(bool keys) { state_.legend_of_keys = keys; }
 
-  // Puts up what became of an action that the host did.
+  // Shows on the display what became of an action that the host did.
   void tell(Action action, std::string_view words, hal::TimePoint time);
-  // The host found this window.
+  // Sets the window that the host has found, and shows it.
   void show_window(float offset_db, float size_db, hal::TimePoint time);
 
 private:
@@ -91,7 +92,7 @@ private:
   ViewState initial_;
   ViewState state_;
   int b_scans_;
-  double b_scan_rest_ = 0; // what was turned beyond the whole ones
+  double b_scan_rest_ = 0; // of a B-scan, turned so far
   std::vector<Action> menu_;
   ChoiceNames names_;
   bool vessels_loaded_ = false;

@@ -25,13 +25,13 @@ public:
   // `initial` is what reset_view goes back to; `b_scans` bounds the B-scan's position.
   ViewController(const ViewState& initial, int b_scans, ControlProfile profile);
 
-  // Another device leads: what it does from now on. The view stays as it is, nothing counts as
+  // The profile of another device, which leads from now on. The view stays; no switch counts as
   // held.
   void change_profile(ControlProfile profile);
 
   const ViewState& state() const { return actions_.state(); }
 
-  // What the host knows and does: choices, window, echoes of what became of a request.
+  // For the host: the names of choices, the window it found, the echo of a request.
   ViewActions& actions() { return actions_; }
   const ViewActions& actions() const { return actions_; }
 
@@ -39,8 +39,8 @@ public:
   ControlRequests handle(const hal::ControlEvent& event);
   ControlRequests advance(hal::TimePoint now);
 
-  // When advance() will do something, if nothing happens before; a stick that is pushed does
-  // something always.
+  // When advance() will do something if no event comes before. (While a stick is pushed, advance()
+  // changes the view every frame.)
   std::optional<hal::TimePoint> next_deadline() const { return recogniser_.next_deadline(); }
 
 private:

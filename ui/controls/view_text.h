@@ -1,4 +1,4 @@
-// What of the view is chosen, in words for people.
+// Values of the view in words, as the display says them.
 #pragma once
 
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace octascope::ui {
 
-// What stands for an action's state: "shaded rays", "frozen". Empty for a number, whose digits say
-// it, and for what has no state. Lives as long as `names`.
+// The state of an action's value: "shaded rays", "frozen". Empty for a number (Number::words
+// formats it) and for actions without a state. Valid as long as `names`.
 std::string_view words_of(const ViewState& view, const ChoiceNames& names, Action action);
 
 } // namespace octascope::ui

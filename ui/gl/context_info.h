@@ -1,4 +1,4 @@
-// Who draws: for doctor and reports.
+// Which GL implementation draws: for doctor and reports.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@ void clear_to_black(int width, int height);
 // Waits until everything is drawn.
 void finish();
 
-// What stands in it, rows from the top; waits for the drawing. Allocates.
+// Its content, rows from the top; waits for the drawing. Allocates.
 pipeline::Image read_framebuffer(int width, int height);
 
 } // namespace octascope::ui::gl

@@ -1,4 +1,4 @@
-// HashRandom a Canvas with GLES 3.
+// Draws a Canvas with GLES 3.
 #pragma once
 
 #include "hal/result.h"

@@ -7,12 +7,12 @@
 
 #include <glm/vec3.hpp>
 
-#include "ui/view/camera.h"
 #include "ui/hud/canvas.h"
 #include "ui/hud/hud_text.h"
 #include "ui/hud/window_histogram.h"
 #include "ui/layout/layout.h"
 #include "ui/layout/scan_field.h"
+#include "ui/view/camera.h"
 
 namespace octascope::ui {
 
@@ -68,12 +68,13 @@ void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene
 void draw_orientation_cube(Canvas& canvas, const Rect& rect, const Camera& camera, float unit);
 
 // A bar of a round length (1, 2 or 5 times a power of ten of a millimetre), at most `most_pixels`
-// long, with its length; its left lower end is given. `medium`, where lengths along depth are told,
-// is what medium_words() says; empty for others.
+// long, with its length; its left lower end is given. `medium`: medium_words() for lengths along
+// depth, else empty.
 void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, float most_pixels,
                     float unit, std::string_view medium = {});
 
-// In what lengths along depth hold: "in air", "n 1.38", or "n ?" where nobody said. Pure.
+// The medium for which lengths along depth hold: "in air", "n 1.38", or "n ?" if the index is
+// unknown. Pure.
 FixedText<8> medium_words(const std::optional<double>& refractive_index);
 
 // That length in mm. Pure.

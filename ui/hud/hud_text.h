@@ -1,5 +1,5 @@
-// What the heads-up display says, in words. Pure: two equal texts look the same, which is how the
-// renderer knows that nothing needs to be drawn.
+// The texts of the heads-up display. Pure: equal texts look the same, so the renderer compares them
+// to know whether anything must be drawn.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 #include "pipeline/volume/volume.h"
 #include "ui/hud/echo.h"
-#include "ui/view/fixed_text.h"
 #include "ui/status/status.h"
+#include "ui/view/fixed_text.h"
 #include "ui/view/segment_counts.h"
 #include "ui/view/view_state.h"
 

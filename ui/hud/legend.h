@@ -7,9 +7,9 @@
 
 namespace octascope::ui {
 
-// A panel at the right border of the picture, over the small pictures there, so that the volume's
-// centre stays in sight: controls left, what they do right, `selected` named where the knob turns
-// it. What would make it higher than the picture is left out, and it says how much.
+// A panel at the right border of the picture, over the small pictures, so that the volume's centre
+// stays in sight. Controls left, actions right; `selected` is named where the knob turns it. Lines
+// for which there is no room are left out, and their number is shown.
 void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Action selected);
 
 } // namespace octascope::ui

@@ -1,4 +1,4 @@
-// The few colours of the display, and the rule that makes them legible.
+// The colours of the display, and the contrast rule that keeps text legible.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ inline constexpr Colour box_behind{58, 69, 79};
 inline constexpr Colour cube_surface{150, 166, 180}; // the side of the orientation cube
 inline constexpr Colour histogram{120, 134, 148};
 inline constexpr Colour accent{102, 200, 255}; // positions and the knob's parameter
-// States. Colour-blind people tell them apart, too, and they never differ by colour alone.
+// States. Colour-blind people can tell them apart, and no state is shown by colour alone.
 inline constexpr Colour good{90, 190, 160};
 inline constexpr Colour warning{255, 186, 74}; // STALE, missing, saturated, lost
 inline constexpr Colour alarm{255, 140, 106};  // no live picture, failed
@@ -39,7 +39,7 @@ inline constexpr Colour replay = text;  // as a plate: no other is white
 inline constexpr Colour ink{8, 11, 14}; // text on a filled badge, shadow of text on a picture
 inline constexpr Colour plate = panel.faded(242); // under text that lies over a picture
 
-// Every text of the display and what it stands on.
+// Every text colour of the display with its background.
 struct TextOnGround {
   Colour text;
   Colour ground;

@@ -1,4 +1,4 @@
-// Chooses how finely the volume is drawn, so that frames keep coming. Pure: times are given to it.
+// Chooses how finely the volume is drawn so that the frame rate holds. Pure: times are arguments.
 //
 // A frame's cost is a fixed part (panels, text, compositing) and a part that grows with the samples
 // taken. Both are learnt from the frames that are drawn anyway, for each technique and for each

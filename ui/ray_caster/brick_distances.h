@@ -32,8 +32,8 @@ private:
 
 // For rays that go up or down each axis, an octant of directions: the edge of the largest cube of
 // empty bricks that begins with this one and lies ahead, in bricks, at most `most`; outside the
-// volume all is empty. A ray that leaves a surface behind looks far; one distance for all
-// directions would have it creep away from it.
+// volume all is empty. A ray that leaves a surface gets a long distance at once; with one distance
+// for all directions it would take many short leaps.
 //
 // Octant o holds the rays that go up depth (bit 0), the fast axis (bit 1), the slow one (bit 2).
 class DistancesAhead {
@@ -47,7 +47,7 @@ public:
   // Of the octants with a bit in `wanted`, those that are not known.
   void measure(const BrickGrid& grid, unsigned wanted);
 
-  // In the order [octant][b][a][depth]; octants that nobody wanted hold anything.
+  // In the order [octant][b][a][depth]; octants that were not wanted are undefined.
   const std::uint16_t* data() const { return numbers_.data(); }
 
 private:

@@ -1,4 +1,4 @@
-// Memory for what rays read all over the place.
+// Memory on large pages, for data that rays read in scattered order.
 #pragma once
 
 #include <cstddef>

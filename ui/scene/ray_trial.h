@@ -1,4 +1,4 @@
-// Who casts rays faster on this machine: measured, not guessed.
+// Measures whether processor or shader casts rays faster on this machine.
 #pragma once
 
 #include "hal/clock.h"
@@ -16,7 +16,7 @@ struct RayTrial {
   }
 };
 
-// HashRandom a made-up volume with both, into textures of its own: about a tenth of a second where
+// Draws a made-up volume with both, into textures of its own: about a tenth of a second where
 // GL is software. Bound to the thread and context that are current. ErrorCode::unsupported: one of
 // the two cannot draw here, so there is nothing to choose.
 hal::Result<RayTrial> try_ray_backends(const hal::Clock& clock);

@@ -53,7 +53,7 @@ public:
   // Blends it over the bound framebuffer.
   void composite(StereoEye eye, const Rect& rect, int target_height) const;
 
-  // The view asks for something that was not made of the shown volume: show() it once more.
+  // The view needs data that was not computed for the shown volume: show() it again.
   bool wants_volume(const ViewState& view) const;
   // update() would make another picture of the same volume and view: a mesh has been finished.
   bool has_newer(const ViewState& view) const;

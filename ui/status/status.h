@@ -1,4 +1,4 @@
-// What the heads-up display tells about the machine. Plain data, gathered by the host.
+// What the heads-up display shows about the machine. Plain data, filled in by the host.
 #pragma once
 
 #include <array>
@@ -39,16 +39,16 @@ struct VesselStatus {
   enum class State : std::uint8_t { none, loading, shown, failed };
   State state = State::none;
   float progress = 0;      // 0…1, while it is loaded
-  bool registered = false; // to the volume; else its place in the picture means nothing
+  bool registered = false; // to the volume; else its place in the picture has no meaning
   std::array<bool, pipeline::vessel_branch_count> branches{}; // which ones it has
   SegmentCounts account;                                      // of the newest frame that drew it
   bool operator==(const VesselStatus&) const = default;
 };
 
-// Of a recording that is shown in place of what is under the microscope.
+// Of a recording that is shown instead of the live volume.
 struct ReplayStatus {
   std::string recorded; // local date and time of the shown volume; empty: none is shown yet
-  std::string whose;    // eye and subject, as the recording says or does not say
+  std::string whose;    // eye and subject of the recording, or that they are unknown
   bool operator==(const ReplayStatus&) const = default;
 };
 
@@ -89,7 +89,7 @@ struct Status {
   std::string source_description;     // "phantom eye, loop of 2.3 s"; short
 
   ConfigurationState configuration = ConfigurationState::own;
-  bool another_camera = false; // than the calibration's
+  bool another_camera = false; // the camera is not the one of the calibration
 
   Freshness freshness;
   int missing_b_scans = 0; // of the shown volume

@@ -1,4 +1,4 @@
-// Everything that hands and feet can ask for. What each is called and does: action_table.h.
+// The actions of keys, pedals, knobs and pucks. Their names, keys and values: action_table.h.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ enum class Action : std::uint8_t {
   reset_view,
   next_parameter,
   previous_parameter,
-  adjust, // turns or does whatever was chosen with next_parameter
+  adjust, // turns or does the action that was chosen with next_parameter
   freeze,
   technique,
   transfer,
@@ -38,8 +38,8 @@ enum class Action : std::uint8_t {
   vessel_turn_y,
   vessel_turn_z,
   vessel_account,
-  keep_registration,  // what the shifts and turns have made of it, in a file
-  reset_registration, // undoes them
+  keep_registration,  // writes the shifted and turned registration to a file
+  reset_registration, // undoes shifts and turns
   box,
   snapshot,
   record,
@@ -61,20 +61,20 @@ constexpr std::array<Action, action_count> all_actions() {
 }
 
 enum class ActionKind : std::uint8_t {
-  continuous, // takes detents, the more the farther
-  choice,     // one of several: a step goes to the next, a negative one back
-  toggle,     // a press changes it over; turned, right is on and left is off
+  continuous, // moves a value by so many detents
+  choice,     // one of several: a step chooses the next, a negative step the one before
+  toggle,     // a press switches over; a knob turned right switches on, left off
   momentary,  // happens once; cannot be turned
   deliberate, // happens once; turned, right does it
 };
 
 ActionKind kind_of(Action action);
 
-// May a knob do it?
+// Whether a knob can do it.
 constexpr bool takes_detents(ActionKind kind) {
   return kind != ActionKind::momentary;
 }
-// Does a negative step differ from a positive one when a switch does it?
+// Whether a negative step of a switch differs from a positive one.
 constexpr bool has_direction(ActionKind kind) {
   return kind == ActionKind::continuous || kind == ActionKind::choice;
 }

@@ -19,7 +19,7 @@ namespace octascope::ui {
 
 inline constexpr float field_of_view_deg = 36; // along the shorter side of the picture
 
-// Whose picture: of a display without stereo, the one between the two.
+// Which eye a picture is for; `centre` on a display without stereo.
 enum class StereoEye : std::uint8_t { centre, left, right };
 
 // The two eyes of a stereo picture look in the same direction, side by side, and their pictures are

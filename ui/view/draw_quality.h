@@ -1,4 +1,4 @@
-// How finely the volume is drawn: what the governor turns.
+// How finely the volume is drawn. The governor (ui/pacing) sets it.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,7 @@ struct StackSpacing {
 
 StackSpacing space_planes(const Camera& camera, const glm::vec3& half, int planes);
 
-// How many planes come no farther apart than step_mm: 2 to `most`.
+// How many planes keep the spacing at or below step_mm: 2 to `most`.
 int count_planes(const Camera& camera, const glm::vec3& half, float step_mm, int most);
 
 // The length over which ViewState::opacity holds: a fixed share of the box's diagonal, so that the

@@ -1,4 +1,4 @@
-// Where a vessel tree stands in the volume. Pure.
+// Where a vessel tree lies in the volume. Pure.
 #pragma once
 
 #include <array>
@@ -22,11 +22,11 @@ struct VesselNudge {
   bool operator==(const VesselNudge&) const = default;
 };
 
-// A tree and what is known of its place. The tree is borrowed.
+// A tree and its registration. The tree is borrowed.
 struct PlacedVessels {
   pipeline::VesselClusters tree;
   pipeline::Point centre_mm{};                              // of its bounds, in its own frame
-  std::optional<pipeline::RigidTransform> volume_from_tree; // empty: nobody has registered it
+  std::optional<pipeline::RigidTransform> volume_from_tree; // empty: not registered
 };
 
 // The tree's place in the volume's frame. What is not registered lies with its centre in the

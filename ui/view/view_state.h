@@ -1,4 +1,4 @@
-// What the surgeon has chosen: where to look from, what window, what to show.
+// What the surgeon has chosen: the direction of view, the display window, what is shown.
 //
 // A plain value with one writer, the render thread: ViewActions changes it at the head of a frame,
 // and the frame is drawn from it.
@@ -30,7 +30,7 @@ enum class StereoMode : std::uint8_t { off, side_by_side, top_bottom };
 struct Echo {
   Action action = Action::window_offset;
   bool chosen = false;    // the knob turns it from now on
-  FixedText<48> words;    // what became of it; empty for a parameter, whose value says it
+  FixedText<48> words;    // the result; empty for a number, which the display formats itself
   hal::TimePoint until{}; // shown until then
 
   bool operator==(const Echo&) const = default;

@@ -1,4 +1,4 @@
-// HashRandom parallel polygons through the volume, front to back: what plane stack and slice stack
+// Draws parallel polygons through the volume, front to back: what plane stack and slice stack
 // share.
 #pragma once
 

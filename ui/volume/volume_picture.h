@@ -20,7 +20,7 @@ class VolumePicture {
 public:
   static hal::Result<VolumePicture> create();
 
-  // HashRandom into the texture if the key has changed; the bound framebuffer stays bound.
+  // Draws into the texture if the key has changed; the bound framebuffer stays bound.
   // `techniques` may be shared with other pictures. `alone` is the same picture without vessels,
   // and may be null where they are opaque. ErrorCode::system: this GL cannot render to a texture of
   // that size.

@@ -31,7 +31,7 @@ class VolumeTechnique {
 public:
   virtual ~VolumeTechnique() = default;
 
-  // HashRandom into the bound framebuffer and viewport, which have alpha and are cleared to zero:
+  // Draws into the bound framebuffer and viewport, which have alpha and are cleared to zero:
   // premultiplied colour and opacity come out. Lengths are physical, opacity is corrected for the
   // step, samples are trilinear, and the transfer function is the scene's. Nothing is drawn behind
   // the nearest vessel of a pixel; for these, the viewport begins in the framebuffer's corner.

@@ -31,8 +31,8 @@ struct GpioLineAddress {
 // invalid_argument: more than one line has the name. Pure.
 Result<GpioLineAddress> find_gpio_line(const GpioSurvey& survey, std::string_view wanted);
 
-// What a person can do who wants `wanted` and has what the survey says: one line for `doctor`;
-// empty when the line is there and free. Pure.
+// What to do to get `wanted`, given what the survey found: one line for `doctor`; empty if the line
+// is there and free. Pure.
 std::string gpio_complaint(const GpioSurvey& survey, std::string_view wanted);
 
 } // namespace octascope::hal::linux_backend

@@ -23,7 +23,7 @@ public:
   // Of the context that is current now. Without one that tells, none is ever known.
   static GraphicsReset of_current_context();
 
-  // Whose work caused it, once it has happened; the context is of no use from then on.
+  // After a reset: what caused it, in words. The context cannot be used any more.
   std::optional<std::string_view> cause() const;
 
 private:

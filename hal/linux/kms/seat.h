@@ -1,6 +1,6 @@
 // The right to use a display and keyboards: granted by the seat's manager (seatd, logind) through
-// libseat, which takes it back while another console is in front; or plainly taken, where nobody
-// manages seats and we may (root, a test bench).
+// libseat, which takes it back while another console is in front; or taken directly where no
+// manager runs and the user may (root, a test bench).
 #pragma once
 
 #include <memory>
@@ -31,9 +31,9 @@ public:
   // Makes an open card ours to set modes on. ErrorCode::busy: another program has it.
   virtual Result<> take_card(const SeatDevice& card) = 0;
 
-  // Hears what the manager says, without waiting; false while another console is in front: devices
-  // must be left alone then. False once, too, where one was in front since the last call: what the
-  // devices were set to may be lost.
+  // Handles the manager's messages, without waiting. False while another console is in front:
+  // devices must not be used then. Also false once if one was in front since the last call, because
+  // the devices' settings may be lost.
   virtual bool active() = 0;
 
   // Sleeps until the manager says something, at most `timeout`.

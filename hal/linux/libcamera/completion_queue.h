@@ -18,8 +18,7 @@ constexpr std::size_t most_buffers = 32;
 // Threads: add() and close() belong to the camera's, the rest to the waiting one.
 class CompletionQueue {
 public:
-  // From then on news of this camera count, and of no other. Nothing else happens meanwhile: the
-  // camera before has been stopped.
+  // From now on only messages of this camera count. The previous camera must have been stopped.
   void listen_to(const void* camera) {
     while (next())
       ;

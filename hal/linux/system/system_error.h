@@ -14,8 +14,8 @@ namespace octascope::hal::linux_backend {
 // has it. EACCES, EPERM: not allowed. ETIMEDOUT: no answer. EINVAL, ENOTTY …: cannot do it.
 ErrorCode error_code_of(int error_number);
 
-// "/dev/video0: opening failed: Permission denied; <remedy>". `remedy` may be empty: then what
-// usually fixes such a fault is said (which group, who holds it).
+// "/dev/video0: opening failed: Permission denied; <remedy>". If `remedy` is empty, the usual one
+// for such a fault is given (which group, who holds it).
 tl::unexpected<Error> system_failure(std::string_view device, std::string_view action,
                                      int error_number, std::string_view remedy = {});
 

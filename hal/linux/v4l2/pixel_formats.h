@@ -20,8 +20,8 @@ constexpr std::uint32_t fourcc(char a, char b, char c, char d) {
 
 constexpr std::uint32_t big_endian_mark = 1U << 31;
 
-// Samples of `bits` bits, low-justified in a `type`. Where `bits` is all of the type, what fills it
-// is the camera's affair: fewer bits, left-justified ones.
+// Samples of `bits` bits, low-justified in a `type`. If `bits` is the whole type, the camera may
+// use fewer, also left-justified.
 struct LinePixelFormat {
   std::uint32_t code;
   SampleType type;
@@ -36,7 +36,7 @@ const LinePixelFormat* line_pixel_format(std::uint32_t code);
 // "Y12", "Y16 (big-endian)"; bytes that are no letters as \x00.
 std::string fourcc_text(std::uint32_t code);
 
-// Why a format that is none of ours does not serve.
+// Why a format that is not in the list cannot be used.
 std::string_view why_unreadable(std::uint32_t code);
 
 } // namespace octascope::hal::linux_backend

@@ -6,8 +6,8 @@
 
 namespace octascope::hal::linux_backend {
 
-// Pure, one thread. A number that stands still or goes back stands still or goes back here too, not
-// below 0: whoever reads it sees that the driver's counter hung or began anew.
+// Pure, one thread. If the driver's number stands still or goes back, so does this one, though not
+// below 0: the reader sees that the driver's counter hung or was reset.
 class SequenceCounter {
 public:
   std::uint64_t extend(std::uint32_t raw) {

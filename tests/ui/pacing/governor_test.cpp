@@ -43,7 +43,7 @@ struct Machine {
 
 class GovernorTest : public testing::Test {
 protected:
-  // HashRandom for `seconds`; returns the quality of every frame.
+  // Draws for `seconds`; returns the quality of every frame.
   std::vector<ui::DrawQuality> draw(const Machine& machine, double seconds, bool moving,
                                     bool live = true) {
     std::vector<ui::DrawQuality> drawn;

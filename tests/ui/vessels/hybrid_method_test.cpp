@@ -105,7 +105,7 @@ void main() { o_colour = vec4(0.0, 0.0, 1.0, 1.0); gl_FragDepth = u_depth; }
   EXPECT_GT(behind, 200U);
 }
 
-// HashRandom nothing and counts what it was given.
+// Draws nothing and counts what it was given.
 class CountingShare final : public ui::GlShare {
   hal::Result<ui::SegmentCounts> do_draw(const ui::VesselScene& scene,
                                          const ui::VesselSplit& split) override {

@@ -26,7 +26,7 @@ ui::ViewState plain_view() {
   return view;
 }
 
-// HashRandom volumes alone onto white, so that a pixel is grey·α + 255·(1 − α).
+// Draws volumes alone onto white, so that a pixel is grey·α + 255·(1 − α).
 class VolumePictureTest : public GlTest, public testing::WithParamInterface<ui::Technique> {
 protected:
   void SetUp() override {

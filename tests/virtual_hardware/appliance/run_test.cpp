@@ -1,5 +1,5 @@
-// The whole program in a virtual_rig without hardware: started without a flag, as the service
-// starts it.
+// The whole program in an operating theatre without hardware: started without a flag, as the
+// service starts it.
 #include <algorithm>
 #include <chrono>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// An operating virtual_rig without hardware: everything that the appliance is connected to, through
+// An operating theatre without hardware: everything that the appliance is connected to, through
 // the kernel's own drivers. A line camera (v4l2loopback) that a feeder fills with a phantom's
 // spectra whenever the scanner's trigger line (gpio-sim) is pulsed, which the scanner answers on
 // its sync line, a foot pedal (uhid), a microscope camera (vimc) and a monitor (vkms); and the

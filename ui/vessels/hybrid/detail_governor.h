@@ -1,4 +1,4 @@
-// Chooses how many vessels are merged, so that frames keep coming. Pure: costs are given to it.
+// Chooses how many vessels are merged so that the frame rate holds. Pure: costs are arguments.
 //
 // The radius in pixels below which segments are merged (merged_order.h) is a number without steps,
 // so nothing pops. The number of segments drawn, and so the cost, falls at most as that radius

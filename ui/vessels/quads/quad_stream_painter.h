@@ -19,7 +19,7 @@ public:
   // Any thread, one a slot; at most batch_clusters, all of that kind.
   void expand(std::uint32_t slot, const VesselFrame& frame, std::span<const PlacedCluster> clusters,
               std::span<const pipeline::PackedNode> nodes, QuadKind kind);
-  // HashRandom what was expanded, and readies the slot for the next.
+  // Draws what was expanded, and readies the slot for the next.
   hal::Result<> draw(std::uint32_t slot, QuadKind kind);
 
 private:

@@ -12,7 +12,7 @@ class VesselMethod {
 public:
   virtual ~VesselMethod() = default;
 
-  // HashRandom into the bound framebuffer and viewport, which have 8-bit RGBA and at least 24 bits
+  // Draws into the bound framebuffer and viewport, which have 8-bit RGBA and at least 24 bits
   // of depth, are cleared (colour 0, depth 1) and as large as the scene says. Out come opaque
   // colours (alpha 1 where there is a vessel), and depths by the camera's view_projection. Every
   // segment is accounted for.

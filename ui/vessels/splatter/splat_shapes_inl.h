@@ -69,7 +69,7 @@ public:
   // add() may be called so many times more before there must be a draw_full().
   HWY_INLINE std::size_t space() const { return room - count_; }
 
-  // HashRandom what fills whole registers and keeps the rest.
+  // Draws what fills whole registers and keeps the rest.
   void draw_full() {
     std::size_t i = 0;
     for (; i + lanes <= count_; i += lanes)
@@ -81,7 +81,7 @@ public:
     count_ = rest;
   }
 
-  // HashRandom all, into the picture.
+  // Draws all, into the picture.
   void finish() {
     draw_full();
     if (count_ > 0) {

@@ -36,7 +36,7 @@ public:
   static hal::Result<Splatter> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
                                       std::string_view isa = {});
 
-  // HashRandom into `image`, which becomes as large as the scene says. The account is of the
+  // Draws into `image`, which becomes as large as the scene says. The account is of the
   // segments that are not taken. ErrorCode::invalid_argument: the scene has no pixels, or `taken`
   // is not as long as there are clusters.
   hal::Result<SegmentCounts> draw(const VesselScene& scene, DepthImage& image,

@@ -23,7 +23,7 @@ public:
   void expand(std::uint32_t slot, const VesselFrame& frame, std::span<const PlacedCluster> clusters,
               std::span<const pipeline::PackedNode> nodes, std::span<const std::uint32_t> passed,
               bool caps);
-  // HashRandom what was expanded, and readies the slot for the next.
+  // Draws what was expanded, and readies the slot for the next.
   hal::Result<> draw(std::uint32_t slot);
 
 private:

@@ -1,5 +1,5 @@
-// Puts the readings of all plugged controls on one board: whose switches are which numbers, bounce
-// removed, as events in the order of their times.
+// Combines the readings of all plugged controls: numbers their switches and knobs, removes bounce,
+// and returns events in the order of their times.
 //
 // The leading device has the first numbers, so that its profile fits; the next one's switches and
 // knobs follow: a pedal without a knob is completed by a knob beside it. Axes keep their numbers.
@@ -29,12 +29,13 @@ public:
     int first_knob = 0, knobs = 0;
   };
 
-  // Nobody is on it; what waits to be taken still does.
+  // Removes all devices. Events that wait to be taken stay.
   void vacate();
-  // Nor does anything wait. Times still never decrease.
+  // Removes the waiting events, too. Times still never decrease.
   void clear();
 
-  // The device's number; none when the board is full. What does not fit of it stays out.
+  // The device's number; empty if the board is full. Switches and knobs beyond the limits are
+  // ignored.
   std::optional<std::size_t> add_device(int switches, int knobs);
   // A device may speak through several files: a switch is down when any of them says so.
   std::optional<std::size_t> add_port(std::size_t device);
@@ -43,13 +44,13 @@ public:
   // Call settle(now) first, with times that do not decrease; and only while has_room().
   void note(std::size_t port, const HidReading& reading, TimePoint now);
   void settle(TimePoint now);
-  // Every switch that was told as pressed is let go, every axis is in its middle.
+  // Reports every pressed switch as released and every axis as centred.
   void release_all(TimePoint now);
 
   bool has_room() const { return waiting_ + most_at_once <= events_.size(); }
-  // When settle() will have something to say if nothing else happens.
+  // When settle() will report something if nothing else happens.
   std::optional<TimePoint> due() const;
-  // The oldest events; how many.
+  // Takes the oldest events; returns how many.
   std::size_t take(std::span<ControlEvent> events);
   std::uint64_t bounces() const;
 

@@ -1,5 +1,5 @@
-// From the bytes of a control's report to what they say. Pure: no device, no clock, no allocation
-// after construction, so that every decoder can be fuzzed and tested with the real bytes.
+// Decodes the reports of controls. Pure: no device, no clock, no allocation after construction, so
+// that every decoder can be fuzzed and tested with recorded bytes.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace octascope::hal::linux_backend {
 
 inline constexpr std::size_t control_axes = 6;
 
-// What one report says; what it does not speak of is left out.
+// What one report says. Values that it does not contain are empty or 0.
 struct HidReading {
   std::optional<std::uint32_t> switches = {}; // bit n: switch n is down
   std::int32_t knob = 0;                      // detents since the last reading, right is positive
@@ -29,7 +29,7 @@ class HidDecoder {
 public:
   virtual ~HidDecoder() = default;
   // One report as hidraw gives it, with its ID in front where the device numbers its reports.
-  // Nothing: that is no report of this device.
+  // Empty: not a report of this device.
   std::optional<HidReading> decode(std::span<const std::uint8_t> report) {
     return do_decode(report);
   }

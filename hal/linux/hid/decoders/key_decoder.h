@@ -17,7 +17,7 @@ class KeyDecoder {
 public:
   explicit KeyDecoder(const ControlModel& model);
 
-  // Nothing: it says nothing that matters here.
+  // Empty: the event concerns neither switches nor the knob.
   std::optional<HidReading> decode(const KeyEvent& event);
 
 private:

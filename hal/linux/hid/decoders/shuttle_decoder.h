@@ -5,7 +5,7 @@
 
 namespace octascope::hal::linux_backend {
 
-// The jog's position is known with the first report only: a turn that is that report is not told.
+// The jog's position is unknown before the first report, so a turn in that report is not reported.
 // The device itself swallows the first tick when the jog turns about.
 class ShuttleDecoder final : public HidDecoder {
 public:

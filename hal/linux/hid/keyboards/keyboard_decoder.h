@@ -11,22 +11,21 @@
 
 namespace octascope::hal::linux_backend {
 
-// What a key of a keyboard (linux/input-event-codes.h) is to us: a hal::Key or an ASCII code, by
-// its place on a US keyboard; 0: nothing. No layout is asked for, as the console's may not be the
-// keyboard's.
+// The hal::Key or ASCII code of a key (linux/input-event-codes.h), by its place on a US keyboard;
+// 0: not reported. The console's layout is not used, because it may not be the keyboard's.
 std::uint16_t key_of_keyboard(std::uint16_t code);
 
 // Threads: one at a time. No allocation.
 class KeyboardDecoder {
 public:
-  // Nothing: it means nothing to us, or it was pressed before we listened.
+  // Empty: a key that is not reported, or one that was pressed before we listened.
   std::optional<DisplayEvent> decode(const KeyEvent& event, TimePoint time);
 
   // One of the keys that are down, as if it were let go; nothing: none is.
   std::optional<DisplayEvent> release_one(TimePoint time);
 
 private:
-  static constexpr std::size_t most_codes = 128; // beyond them nothing means anything to us
+  static constexpr std::size_t most_codes = 128; // higher codes are not reported
 
   std::bitset<most_codes> down_;
 };

@@ -1,4 +1,4 @@
-// An open input device, by libevdev, which nobody else hears.
+// An open input device (libevdev), grabbed: no other program gets its events.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,7 @@ namespace octascope::hal::linux_backend {
 // Threads: one at a time.
 class EvdevFile {
 public:
-  // Grabbed: what is typed goes to us alone until it is closed. ErrorCode::busy: somebody else has
-  // grabbed it.
+  // Grabs the device until it is closed. ErrorCode::busy: another program has grabbed it.
   static Result<EvdevFile> open(const std::string& node);
 
   int descriptor() const { return file_.get(); }

@@ -5,7 +5,7 @@
 
 namespace octascope::hal::linux_backend {
 
-// ErrorCode::busy: somebody else has grabbed it.
+// ErrorCode::busy: another program has grabbed it.
 Result<std::unique_ptr<ControlPort>> open_evdev_port(const HidNode& node,
                                                      const ControlModel& model);
 
