@@ -2,8 +2,8 @@
 #pragma once
 
 #include "pipeline/files/config_document.h"
-#include "ui/view/technique.h"
 #include "ui/transfer/transfer_set.h"
+#include "ui/view/technique.h"
 #include "ui/view/view_state.h"
 
 namespace octascope::firmware_host {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "pipeline/volume/eye.h"
 #include "pipeline/reconstruction/spectra_file.h"
+#include "pipeline/volume/eye.h"
 
 namespace octascope::firmware_host {
 

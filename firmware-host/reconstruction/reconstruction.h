@@ -11,10 +11,10 @@
 #include "firmware-host/reconstruction/reconstruction_cache.h"
 #include "firmware-host/supervision/thread_roles.h"
 #include "hal/result.h"
-#include "pipeline/reconstruction/background.h"
 #include "pipeline/acquisition/neighbour_average.h"
-#include "pipeline/reconstruction/reconstructor.h"
 #include "pipeline/acquisition/volume_thread.h"
+#include "pipeline/reconstruction/background.h"
+#include "pipeline/reconstruction/reconstructor.h"
 
 namespace octascope::firmware_host {
 

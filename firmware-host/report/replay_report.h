@@ -8,10 +8,10 @@
 
 #include "hal/clock.h"
 #include "hal/result.h"
-#include "pipeline/threads/duration_statistics.h"
+#include "pipeline/acquisition/volume_feed.h"
 #include "pipeline/faults/fault_log.h"
 #include "pipeline/recordings/recording.h"
-#include "pipeline/acquisition/volume_feed.h"
+#include "pipeline/threads/duration_statistics.h"
 
 namespace octascope::firmware_host {
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/clock.h"
-#include "pipeline/threads/duration_statistics.h"
 #include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/duration_statistics.h"
 
 namespace octascope::firmware_host {
 

@@ -10,8 +10,8 @@
 #include "firmware-host/supervision/thread_watch.h"
 #include "hal/clock.h"
 #include "hal/device.h"
-#include "pipeline/threads/duration_statistics.h"
 #include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/duration_statistics.h"
 #include "ui/status/freshness.h"
 #include "ui/status/status.h"
 

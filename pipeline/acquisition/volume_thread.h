@@ -21,6 +21,7 @@
 #include "pipeline/acquisition/neighbour_average.h"
 #include "pipeline/acquisition/volume_assembler.h"
 #include "pipeline/acquisition/volume_feed.h"
+#include "pipeline/acquisition/volume_scheduler.h"
 #include "pipeline/faults/fault_log.h"
 #include "pipeline/scan/scan_lag_thread.h"
 #include "pipeline/scan/scan_plan.h"
@@ -31,7 +32,6 @@
 #include "pipeline/threads/wakeup.h"
 #include "pipeline/threads/worker_pool.h"
 #include "pipeline/volume/volume.h"
-#include "pipeline/acquisition/volume_scheduler.h"
 
 namespace octascope::pipeline {
 

@@ -6,10 +6,10 @@
 #include <functional>
 #include <utility>
 
+#include "pipeline/calibration/k_linearisation.h"
 #include "pipeline/calibration_finder/axial_psf.h"
 #include "pipeline/calibration_finder/fringe.h"
 #include "pipeline/calibration_finder/line_transform.h"
-#include "pipeline/calibration/k_linearisation.h"
 
 namespace octascope::pipeline {
 

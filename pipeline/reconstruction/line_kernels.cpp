@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "pipeline/threads/cpu_clones.h"
 #include "pipeline/reconstruction/fused/fast_level.h"
+#include "pipeline/threads/cpu_clones.h"
 
 #define OCTASCOPE_INLINE inline __attribute__((always_inline))
 

@@ -12,8 +12,8 @@
 
 #include "hal/clock.h"
 #include "pipeline/faults/fault_log.h"
-#include "pipeline/threads/index_ring.h"
 #include "pipeline/recordings/recording_writer.h"
+#include "pipeline/threads/index_ring.h"
 #include "pipeline/threads/wakeup.h"
 #include "pipeline/threads/worker_pool.h"
 

@@ -9,9 +9,9 @@
 #include "pipeline/surface/iso_grid.h"
 #include "pipeline/surface/iso_surface.h"
 #include "pipeline/threads/triple_buffer.h"
-#include "pipeline/volume/volume.h"
 #include "pipeline/threads/wakeup.h"
 #include "pipeline/threads/worker_pool.h"
+#include "pipeline/volume/volume.h"
 
 namespace octascope::pipeline {
 

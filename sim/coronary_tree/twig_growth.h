@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "pipeline/vessels/tree.h"
-#include "sim/coronary_tree/low_orders.h"
 #include "sim/coronary_tree/heart/region.h"
+#include "sim/coronary_tree/low_orders.h"
 
 namespace octascope::sim {
 

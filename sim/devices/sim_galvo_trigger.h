@@ -2,8 +2,8 @@
 #pragma once
 
 #include "hal/galvo_trigger.h"
-#include "sim/faults/fault_probe.h"
 #include "sim/devices/galvo_link.h"
+#include "sim/faults/fault_probe.h"
 
 namespace octascope::sim {
 

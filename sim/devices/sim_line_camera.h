@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "hal/line_camera.h"
-#include "sim/faults/fault_probe.h"
 #include "sim/devices/frame_loans.h"
 #include "sim/devices/galvo_link.h"
+#include "sim/faults/fault_probe.h"
 #include "sim/spectra/scan_motion.h"
 #include "sim/spectra/spectra_source.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "pipeline/volume/volume.h"
-#include "sim/spectrometer/noise.h"
 #include "sim/phantoms/phantom_column.h"
+#include "sim/spectrometer/noise.h"
 #include "sim/spectrometer/spectrometer.h"
 
 namespace octascope::sim {

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "pipeline/files/png_image.h"
+#include "tests/support/files/scratch_folder.h"
 #include "tests/support/pictures/picture_counts.h"
 #include "tests/support/program/program_run.h"
-#include "tests/support/files/scratch_folder.h"
 #include "ui/hud/palette.h"
 #include "ui/layout/layout.h"
 

@@ -7,9 +7,9 @@
 
 #include "sim/devices/control_script.h"
 #include "sim/faults/fault_script.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::sim {
 namespace {

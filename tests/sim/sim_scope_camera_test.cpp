@@ -2,8 +2,8 @@
 #include <thread>
 
 #include "hal/linux/monotonic_clock.h"
-#include "sim/devices/sim_scope_camera.h"
 #include "sim/clock/virtual_clock.h"
+#include "sim/devices/sim_scope_camera.h"
 #include "tests/contract/scope_camera_contract.h"
 
 namespace octascope::tests {

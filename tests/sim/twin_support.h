@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/monotonic_clock.h"
+#include "sim/clock/virtual_clock.h"
 #include "sim/faults/fault_schedule.h"
 #include "sim/spectra/recorded_spectra.h"
-#include "sim/clock/virtual_clock.h"
 
 namespace octascope::sim {
 

@@ -5,8 +5,8 @@
 
 #include <glm/vec2.hpp>
 
-#include "ui/view/camera.h"
 #include "ui/layout/layout.h"
+#include "ui/view/camera.h"
 
 namespace octascope::ui {
 

@@ -8,8 +8,8 @@
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
 #include "ui/layout/layout.h"
-#include "ui/panels/scope_texture.h"
 #include "ui/layout/scan_field.h"
+#include "ui/panels/scope_texture.h"
 
 namespace octascope::ui {
 

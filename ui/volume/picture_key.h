@@ -5,8 +5,8 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "ui/view/draw_quality.h"
 #include "ui/layout/layout.h"
+#include "ui/view/draw_quality.h"
 #include "ui/volume/volume_technique.h"
 
 namespace octascope::ui {

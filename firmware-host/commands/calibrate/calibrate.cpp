@@ -324,11 +324,11 @@ hal::Result<CalibrationVerdict> CalibrationRun::run() {
   samples_ = options_.samples.value_or(0);
   const bool tissue_gives_dispersion = options_.tissue && options_.mirrors.empty();
   HAL_CHECK(check(options_)
-              .and_then(step(options_.tissue.has_value(), &CalibrationRun::read_tissue))
-              .and_then(step(options_.base.has_value(), &CalibrationRun::use_base))
-              .and_then(step(options_.lamp.has_value(), &CalibrationRun::use_lamp))
-              .and_then(step(!options_.mirrors.empty(), &CalibrationRun::use_mirrors))
-              .and_then(step(tissue_gives_dispersion, &CalibrationRun::use_tissue)));
+                .and_then(step(options_.tissue.has_value(), &CalibrationRun::read_tissue))
+                .and_then(step(options_.base.has_value(), &CalibrationRun::use_base))
+                .and_then(step(options_.lamp.has_value(), &CalibrationRun::use_lamp))
+                .and_then(step(!options_.mirrors.empty(), &CalibrationRun::use_mirrors))
+                .and_then(step(tissue_gives_dispersion, &CalibrationRun::use_tissue)));
   judge_curves();
   HAL_CHECK(write());
   return verdict_;

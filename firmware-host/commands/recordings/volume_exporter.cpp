@@ -34,9 +34,8 @@ public:
                                                       Readers::owner));
     for (int b = 0; b < facts_.geometry.b_scans; ++b) {
       const auto counts = from.volume.b_scan(b);
-      HAL_CHECK(type_ == pipeline::NrrdType::uint8
-                                ? writer.write_b_scan(b, counts)
-                                : writer.write_b_scan(b, decibels(counts)));
+      HAL_CHECK(type_ == pipeline::NrrdType::uint8 ? writer.write_b_scan(b, counts)
+                                                   : writer.write_b_scan(b, decibels(counts)));
     }
     return writer.commit();
   }

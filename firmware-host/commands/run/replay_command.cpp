@@ -7,8 +7,8 @@
 
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
-#include "firmware-host/run/replay.h"
 #include "firmware-host/configuration/run_options.h"
+#include "firmware-host/run/replay.h"
 #include "firmware-host/run/stop_signal.h"
 #include "pipeline/recordings/replay/replay_schedule.h"
 

@@ -12,8 +12,8 @@
 #include "firmware-host/commands/vessels/vessels_flight_bench.h"
 #include "hal/result.h"
 #include "pipeline/vessels/clusters.h"
-#include "ui/vessels/quads/streamed_quads_method.h"
 #include "ui/vessels/pictures/vessel_methods.h"
+#include "ui/vessels/quads/streamed_quads_method.h"
 #include "ui/vessels/view/vessel_view.h"
 #include "ui/view/segment_counts.h"
 

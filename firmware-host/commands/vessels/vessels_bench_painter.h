@@ -6,8 +6,8 @@
 #include "hal/result.h"
 #include "pipeline/files/png_image.h"
 #include "pipeline/vessels/clusters.h"
-#include "ui/vessels/scene/vessel_method.h"
 #include "ui/vessels/pictures/vessel_picture.h"
+#include "ui/vessels/scene/vessel_method.h"
 #include "ui/vessels/view/vessel_view.h"
 #include "ui/view/segment_counts.h"
 

@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "hal/result.h"
-#include "pipeline/vessels/clusters/cluster_file_format.h"
 #include "pipeline/vessels/clusters.h"
+#include "pipeline/vessels/clusters/cluster_file_format.h"
 
 namespace octascope::pipeline {
 

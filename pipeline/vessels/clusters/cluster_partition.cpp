@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "pipeline/vessels/stoppable.h"
 #include "pipeline/vessels/clusters/tree_cutter.h"
+#include "pipeline/vessels/stoppable.h"
 
 namespace octascope::pipeline {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "firmware-host/commands/volume/render.h"
 #include "firmware-host/run/volume_source.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/program/built_places.h"
 #include "tests/ui/support/golden.h"
 #include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/structural_similarity.h"

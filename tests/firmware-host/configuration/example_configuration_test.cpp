@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "firmware-host/configuration/configuration_check.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::firmware_host {
 namespace {

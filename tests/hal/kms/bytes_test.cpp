@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/kms/drm/edid.h"
-#include "hal/linux/kms/scanout/flip_events.h"
 #include "hal/linux/kms/drm/format_blob.h"
+#include "hal/linux/kms/scanout/flip_events.h"
 #include "tests/support/files/mutation.h"
 
 namespace octascope::tests {

@@ -12,8 +12,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pipeline/threads/triple_buffer.h"
 #include "pipeline/acquisition/volume_scheduler.h"
+#include "pipeline/threads/triple_buffer.h"
 
 namespace octascope::pipeline {
 namespace {

@@ -10,11 +10,11 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/calibration/calibration.h"
-#include "pipeline/reconstruction/reconstructor.h"
 #include "pipeline/files/text_curve.h"
+#include "pipeline/reconstruction/reconstructor.h"
+#include "tests/support/files/test_data.h"
 #include "tests/support/program/built_places.h"
 #include "tests/support/spectra/reference_chain.h"
-#include "tests/support/files/test_data.h"
 
 namespace octascope::pipeline {
 namespace {

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/calibration/calibration.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::pipeline {
 namespace {

@@ -14,11 +14,11 @@
 #include "pipeline/vessels/clusters/cluster_unpacker.h"
 #include "pipeline/vessels/files/swc_reader.h"
 #include "pipeline/vessels/files/vtp_reader.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
-#include "tests/support/vessels/random_tree.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/program/built_places.h"
+#include "tests/support/vessels/random_tree.h"
 
 namespace octascope::pipeline {
 namespace {

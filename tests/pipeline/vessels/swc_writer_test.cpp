@@ -8,8 +8,8 @@
 #include "pipeline/vessels/vessel_orders.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
-#include "tests/support/vessels/random_tree.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/vessels/random_tree.h"
 
 namespace octascope::pipeline {
 namespace {

@@ -13,8 +13,8 @@
 
 #include "pipeline/volume/volume_geometry.h"
 #include "tests/program/program_support.h"
-#include "ui/view/camera.h"
 #include "ui/hud/hud.h"
+#include "ui/view/camera.h"
 
 namespace octascope::tests {
 namespace {

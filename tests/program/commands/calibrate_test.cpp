@@ -13,8 +13,8 @@
 #include "pipeline/calibration/calibration.h"
 #include "pipeline/files/text_curve.h"
 #include "tests/program/program_support.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::tests {
 namespace {

@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/volume/level_scale.h"
 #include "pipeline/files/nrrd.h"
+#include "pipeline/volume/level_scale.h"
 #include "tests/program/program_support.h"
 #include "tests/support/files/small_recording.h"
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "tests/program/program_support.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/program/built_places.h"
 
 namespace octascope::tests {
 namespace {

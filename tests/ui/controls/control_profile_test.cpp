@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/program/built_places.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
+#include "tests/support/program/built_places.h"
 #include "ui/controls/built_in_profiles.h"
 #include "ui/controls/key_bindings.h"
 #include "ui/controls/legend_lines.h"

@@ -11,9 +11,9 @@
 #include "tests/ui/support/scene.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "ui/hud/hud.h"
-#include "ui/renderer.h"
-#include "ui/layout/stereo.h"
 #include "ui/layout/box_edges.h"
+#include "ui/layout/stereo.h"
+#include "ui/renderer.h"
 
 namespace octascope::tests {
 namespace {

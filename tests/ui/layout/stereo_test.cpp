@@ -11,8 +11,8 @@
 #include "tests/ui/support/reference_rays.h"
 #include "tests/ui/support/scene.h"
 #include "tests/ui/support/synthetic_volume.h"
-#include "ui/renderer.h"
 #include "ui/layout/stereo.h"
+#include "ui/renderer.h"
 
 namespace octascope::tests {
 namespace {
@@ -28,8 +28,8 @@ struct EyePair {
 
   EyePair(const ViewState& view, float aspect)
       : left{make_camera(view, extents, aspect, StereoEye::left)},
-        right{make_camera(view, extents, aspect, StereoEye::right)}, centre{make_camera(view, extents,
-                                                                                  aspect)} {}
+        right{make_camera(view, extents, aspect, StereoEye::right)}, centre{make_camera(
+                                                                         view, extents, aspect)} {}
 };
 
 ViewState any_view(std::mt19937& random) {

@@ -9,13 +9,13 @@
 
 #include <gtest/gtest.h>
 
+#include "pipeline/threads/work_team.h"
 #include "tests/ui/support/synthetic_volume.h"
-#include "ui/view/camera.h"
 #include "ui/ray_caster/brick_distances.h"
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/ray_geometry.h"
 #include "ui/ray_caster/step_table.h"
-#include "pipeline/threads/work_team.h"
+#include "ui/view/camera.h"
 
 namespace octascope::tests {
 namespace {

@@ -4,8 +4,8 @@
 #include <GLES3/gl3.h>
 #include <gtest/gtest.h>
 
-#include "sim/devices/offscreen_display.h"
 #include "sim/clock/virtual_clock.h"
+#include "sim/devices/offscreen_display.h"
 
 namespace octascope::tests {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "pipeline/volume/volume.h"
-#include "ui/view/camera.h"
 #include "ui/ray_caster/ray_caster.h"
+#include "ui/view/camera.h"
 #include "ui/view/view_state.h"
 
 namespace octascope::tests {

@@ -4,8 +4,8 @@
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/golden.h"
 #include "ui/gl/framebuffer.h"
-#include "ui/vessels/pictures/vessel_methods.h"
 #include "ui/scene/vessel_still.h"
+#include "ui/vessels/pictures/vessel_methods.h"
 #include "ui/vessels/view/vessel_view.h"
 
 namespace octascope::tests {

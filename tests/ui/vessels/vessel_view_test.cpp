@@ -7,8 +7,8 @@
 
 #include "pipeline/vessels/clusters/cluster_builder.h"
 #include "tests/support/vessels/random_tree.h"
-#include "ui/vessels/view/dense_place.h"
 #include "ui/vessels/scene/segment_projection.h"
+#include "ui/vessels/view/dense_place.h"
 #include "ui/vessels/view/vessel_view.h"
 
 namespace octascope::tests {

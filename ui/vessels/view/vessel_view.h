@@ -7,9 +7,9 @@
 
 #include <glm/vec3.hpp>
 
+#include "ui/vessels/scene/vessel_scene.h"
 #include "ui/view/camera.h"
 #include "ui/view/vessel_look.h"
-#include "ui/vessels/scene/vessel_scene.h"
 
 namespace octascope::ui {
 

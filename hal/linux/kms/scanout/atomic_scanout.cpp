@@ -1,8 +1,8 @@
 #include <cerrno>
 
-#include "hal/linux/kms/scanout/atomic_request.h"
 #include "hal/linux/kms/drm/drm_resource.h"
 #include "hal/linux/kms/drm/object_properties.h"
+#include "hal/linux/kms/scanout/atomic_request.h"
 #include "hal/linux/kms/scanout/scanout.h"
 
 namespace octascope::hal::linux_backend::kms {
