@@ -25,6 +25,7 @@ ReportJson recording_to_json(const ReplayReport& r) {
 } // namespace
 
 std::string to_json(const ReplayReport& r) {
+  const pipeline::VolumeCounters& volumes = r.counters.volumes;
   const ReportJson json = {
       {"version", version()},
       {"replayed", recording_to_json(r)},
@@ -32,31 +33,29 @@ std::string to_json(const ReplayReport& r) {
       {"duration_s", rounded(r.duration_s)},
       {"devices", {{"control_input", r.control_input}, {"display", r.display}}},
       {"volumes",
-       {{"planned", r.volumes.planned},
-        {"acquired", r.volumes.acquired},
-        {"published", r.volumes.published},
-        {"displayed", r.displayed},
-        {"skipped", r.volumes.skipped}}},
-      {"lost",
-       {{"lines", r.volumes.lost_lines},
-        {"b_scans", r.volumes.lost_b_scans},
-        {"volumes", r.volumes.lost_volumes}}},
-      {"saturated_lines", r.volumes.saturated_lines},
-      {"latency_ms", to_json(r.latency)},
-      {"frames", {{"drawn", r.frames_drawn}}},
-      {"hot_path", {{"allocations", r.hot_path_allocations}}},
+       {{"planned", volumes.planned},
+        {"acquired", volumes.acquired},
+        {"published", volumes.published},
+        {"displayed", r.counters.displayed},
+        {"skipped", volumes.skipped}}},
+      {"lost", lost_to_json(r.counters)},
+      {"saturated_lines", volumes.saturated_lines},
+      {"latency_ms", to_json(r.counters.latency)},
+      {"frames", {{"drawn", r.counters.frames_drawn}}},
+      {"hot_path", {{"allocations", r.counters.hot_path_allocations}}},
       {"faults", to_json(r.faults, r.started)}};
   // What a file says of itself may be in anything.
   return json.dump(2, ' ', false, ReportJson::error_handler_t::replace) + "\n";
 }
 
 std::string to_text(const ReplayReport& r) {
+  const RunCounters& c = r.counters;
   std::string text = fmt::format(
       "replayed {} of {} volumes, begun {}: {:.1f} s, {} volumes displayed of {} published, {} "
       "frames\n"
       "lost: {} lines, {} B-scans, {} volumes\n",
-      r.file.string(), r.recorded, r.facts.begun, r.duration_s, r.displayed, r.volumes.published,
-      r.frames_drawn, r.volumes.lost_lines, r.volumes.lost_b_scans, r.volumes.lost_volumes);
+      r.file.string(), r.recorded, r.facts.begun, r.duration_s, c.displayed, c.volumes.published,
+      c.frames_drawn, c.volumes.lost_lines, c.volumes.lost_b_scans, c.volumes.lost_volumes);
   if (!r.end.finished)
     text += "the recording was never finished: what is in it is whole\n";
   return text + to_text(r.faults);

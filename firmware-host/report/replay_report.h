@@ -1,17 +1,15 @@
 // The report of a replay: its keys stay, tools read them.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "firmware-host/supervision/run_counters.h"
 #include "hal/clock.h"
 #include "hal/result.h"
-#include "pipeline/acquisition/volume_feed.h"
 #include "pipeline/faults/fault_log.h"
 #include "pipeline/recordings/recording.h"
-#include "pipeline/threads/duration_statistics.h"
 
 namespace octascope::firmware_host {
 
@@ -21,12 +19,8 @@ struct ReplayReport {
   pipeline::RecordingEnd end;
   std::size_t recorded = 0;           // volumes in the file
   std::string control_input, display; // backends
-  pipeline::VolumeCounters volumes;
-  std::uint64_t displayed = 0;
+  RunCounters counters;
   double duration_s = 0;
-  pipeline::DurationSummary latency;
-  std::uint64_t frames_drawn = 0;
-  std::uint64_t hot_path_allocations = 0;
   std::vector<pipeline::FaultRecord> faults;
   hal::TimePoint started; // fault times are relative to it
 };

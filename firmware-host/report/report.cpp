@@ -95,6 +95,7 @@ Json actions_to_json(const RunReport& report) {
 } // namespace
 
 std::string to_json(const RunReport& r) {
+  const pipeline::VolumeCounters& volumes = r.counters.volumes;
   const Json json = {
       {"version", version()},
       {"simulated", r.simulated},
@@ -114,31 +115,28 @@ std::string to_json(const RunReport& r) {
       {"scan", scan_to_json(r)},
       {"workers", {{"count", r.worker_cores.size()}, {"cores", r.worker_cores}}},
       {"volumes",
-       {{"planned", r.planned},
-        {"acquired", r.acquired},
-        {"published", r.published},
-        {"displayed", r.displayed},
-        {"skipped", r.skipped},
-        {"lost", r.undisplayed},
-        {"unfinished", r.unfinished}}},
-      {"lost", {{"lines", r.lost_lines}, {"b_scans", r.lost_b_scans}, {"volumes", r.lost_volumes}}},
-      {"saturated_lines", r.saturated_lines},
-      {"rates",
-       {{"lines_per_s", rounded(r.lines_per_s)},
-        {"volumes_per_s", rounded(r.volumes_per_s)},
-        {"frames_per_s", rounded(r.frames_per_s)}}},
+       {{"planned", volumes.planned},
+        {"acquired", volumes.acquired},
+        {"published", volumes.published},
+        {"displayed", r.counters.displayed},
+        {"skipped", volumes.skipped},
+        {"lost", r.counters.undisplayed},
+        {"unfinished", volumes.unfinished}}},
+      {"lost", lost_to_json(r.counters)},
+      {"saturated_lines", volumes.saturated_lines},
+      {"rates", to_json(r.counters.rates)},
       {"stage_ms",
        {{"reconstruct", to_json(r.reconstruct)},
         {"assemble", to_json(r.assemble)},
         {"publish", to_json(r.publish)},
         {"upload", to_json(r.upload)},
         {"draw", to_json(r.draw)}}},
-      {"latency_ms", to_json(r.latency)},
+      {"latency_ms", to_json(r.counters.latency)},
       {"control_ms", to_json(r.control)},
       {"rays", rays_to_json(r)},
       {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},
-      {"frames", {{"drawn", r.frames_drawn}, {"missed", r.frames_missed}}},
-      {"hot_path", {{"allocations", r.hot_path_allocations}}},
+      {"frames", {{"drawn", r.counters.frames_drawn}, {"missed", r.counters.frames_missed}}},
+      {"hot_path", {{"allocations", r.counters.hot_path_allocations}}},
       {"view", view_to_json(r.view)},
       {"actions", actions_to_json(r)},
       {"faults", to_json(r.faults, r.started)},
@@ -147,13 +145,14 @@ std::string to_json(const RunReport& r) {
 }
 
 std::string to_text(const RunReport& r) {
+  const RunCounters& c = r.counters;
   std::string text = fmt::format(
       "{:.1f} s, {} volumes displayed of {} acquired ({:.2f}/s, {:.0f} lines/s), {} frames "
       "({:.1f}/s)\n"
       "lost: {} lines, {} B-scans, {} volumes; latency {:.0f} ms median, {:.0f} ms p95\n",
-      r.duration_s, r.displayed, r.acquired, r.volumes_per_s, r.lines_per_s, r.frames_drawn,
-      r.frames_per_s, r.lost_lines, r.lost_b_scans, r.lost_volumes, r.latency.p50_ms,
-      r.latency.p95_ms);
+      r.duration_s, c.displayed, c.volumes.acquired, c.rates.volumes_per_s, c.rates.lines_per_s,
+      c.frames_drawn, c.rates.frames_per_s, c.volumes.lost_lines, c.volumes.lost_b_scans,
+      c.volumes.lost_volumes, c.latency.p50_ms, c.latency.p95_ms);
   if (r.plan.bidirectional)
     text += fmt::format("bidirectional: phase offset {:.2f} A-scans, {}\n", r.phase.in_use_a_scans,
                         !r.phase.automatic ? "as configured"

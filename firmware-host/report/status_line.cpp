@@ -10,17 +10,15 @@ namespace octascope::firmware_host {
 StatusLine::StatusLine(hal::TimePoint started)
     : started_(started), next_(started), terminal_(isatty(STDERR_FILENO) == 1) {}
 
-void StatusLine::update(const ui::Status& s) {
-  if (!terminal_ || s.now < next_)
-    return;
-  next_ = s.now + std::chrono::seconds{1};
+void StatusLine::print(const ui::Status& shown, const RunCounters& c) {
+  next_ = shown.now + std::chrono::seconds{1};
   // \r and "erase to the end of the line": each second overwrites the one before.
   fmt::print(stderr,
              "\r{:6.0f} s  {:.1f} volumes/s  {:.0f} frames/s  latency {:.0f} ms  lost {} lines, {} "
              "B-scans, {} volumes{}{}\x1b[K",
-             hal::to_seconds(s.now - started_), s.volumes_per_s, s.frames_per_s,
-             s.latency_p50_ms.value_or(0), s.losses.lines, s.losses.b_scans, s.losses.volumes,
-             s.replay ? "  REPLAY" : "", s.simulated ? "  SIMULATED" : "");
+             hal::to_seconds(shown.now - started_), c.rates.volumes_per_s, c.rates.frames_per_s,
+             c.latency.p50_ms, c.volumes.lost_lines, c.volumes.lost_b_scans, c.volumes.lost_volumes,
+             shown.replay ? "  REPLAY" : "", shown.simulated ? "  SIMULATED" : "");
   std::fflush(stderr);
   printed_ = true;
 }

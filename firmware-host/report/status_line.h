@@ -1,6 +1,7 @@
 // One calm line a second on a terminal while the appliance runs.
 #pragma once
 
+#include "firmware-host/supervision/run_counters.h"
 #include "hal/clock.h"
 #include "ui/status/status.h"
 
@@ -11,8 +12,9 @@ class StatusLine {
 public:
   explicit StatusLine(hal::TimePoint started);
 
-  // Prints when a second has passed since the last line.
-  void update(const ui::Status& status);
+  // A second has passed since the last line.
+  bool due(hal::TimePoint now) const { return terminal_ && now >= next_; }
+  void print(const ui::Status& shown, const RunCounters& counters);
 
   // Leaves the line, so that what follows starts on a fresh one.
   void finish();

@@ -197,6 +197,7 @@ private:
   std::unique_ptr<RenderLoop> loop_;
   std::unique_ptr<CameraHotplug> camera_hotplug_; // while a twin serves in its place
   bool ends_for_camera_ = false;
+  HostStatus host_;
   hal::TimePoint started_;
   hal::TimePoint ended_;
 };
@@ -294,12 +295,14 @@ void AssembledAppliance::make_render_loop() {
   setup.b_scans = devices_->plan().b_scans;
   setup.lines_per_frame = devices_->plan().lines_per_frame();
   setup.scan_field = devices_->scan_field();
-  setup.status.simulated = devices_->simulated();
-  setup.status.source_description = devices_->source();
+  host_.simulated = devices_->simulated();
+  host_.source = devices_->source();
   if (configuration_.objective)
-    setup.status.source_description += ", objective " + configuration_.objective->name;
+    host_.source += ", objective " + configuration_.objective->name;
   if (!options_.subject.empty())
-    setup.status.source_description += ", subject " + options_.subject;
+    host_.source += ", subject " + options_.subject;
+  host_.configuration = live_configuration_.state();
+  setup.host = host_;
   live_configuration_.configure(setup);
   sim::SimControlInput* const controls = devices_->simulated_controls();
   loop_ = std::make_unique<RenderLoop>(
@@ -359,7 +362,8 @@ void AssembledAppliance::show_until_done(StopSignal& stop_signal) {
     live_configuration_.advance(*loop_);
     update_status();
     tell_supervision();
-    line.update(loop_->status());
+    if (line.due(loop_->status().now))
+      line.print(loop_->status(), loop_->counters());
   } while (loop_->turn() && !done() && !stop_signal.requested());
   line.finish();
 }
@@ -391,27 +395,27 @@ bool AssembledAppliance::done() const {
 
 void AssembledAppliance::update_status() {
   using pipeline::Device;
-  ui::Status& status = loop_->editable_status();
-  status.devices = {
+  host_.devices = {
       {{Device::line_camera, devices_->line_camera().backend(), devices_->line_camera().state()},
        {Device::galvo_trigger, devices_->galvo_trigger().backend(),
         devices_->galvo_trigger().state()},
        {Device::control_input, devices_->control_input().backend(),
         devices_->control_input().state()},
        {Device::display, devices_->display().backend(), devices_->display().state()}}};
-  status.device_count = 4;
+  host_.device_count = 4;
   if (const hal::ScopeCamera* const camera = devices_->scope_camera())
-    status.devices[status.device_count++] = {Device::scope_camera, camera->backend(),
-                                             camera->state()};
+    host_.devices[host_.device_count++] = {Device::scope_camera, camera->backend(),
+                                           camera->state()};
   const hal::TimePoint now = clock_.now();
   calibrated_camera_->look(devices_->line_camera(), now);
-  status.another_camera = calibrated_camera_->verdict() == CameraVerdict::another;
-  status.recording = recordings_->status(now);
-  const auto devices = std::span<const ui::DeviceStatus>{status.devices}.first(status.device_count);
+  host_.another_camera = calibrated_camera_->verdict() == CameraVerdict::another;
+  host_.recording = recordings_->status(now);
+  const auto devices = std::span<const ui::DeviceStatus>{host_.devices}.first(host_.device_count);
   std::string_view notice = compose_notice(faults_.records(), devices, now);
   if (notice.empty())
     notice = live_configuration_.notice();
-  loop_->set_notice(notice.empty() && vessels_ ? vessels_->notice(now) : notice);
+  host_.notice = notice.empty() && vessels_ ? vessels_->notice(now) : notice;
+  loop_->tell(host_);
 }
 
 void AssembledAppliance::tell_supervision() {
@@ -424,7 +428,6 @@ RunStatistics AssembledAppliance::account() const {
   return {.devices = *devices_,
           .reconstructor = reconstruction_->reconstructor(),
           .worker_cores = reconstruction_->worker_cores(),
-          .acquisition = *acquisition_,
           .volumes = *volumes_,
           .loop = *loop_,
           .calibrated_camera = *calibrated_camera_};

@@ -54,7 +54,6 @@ void LiveConfiguration::configure(RenderLoopSetup& setup) {
   view.colour_map = used_.look.colour_map;
   view.technique = used_.look.technique;
   view.opacity = used_.look.opacity;
-  setup.status.configuration = chosen_.state;
   if (!settings_)
     return;
   const auto restored = settings_->restore({view, !used_.window, setup.transfers});

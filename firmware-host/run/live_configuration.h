@@ -45,6 +45,8 @@ public:
   // At the end: what was set is kept.
   void finish(RenderLoop& loop);
 
+  ui::ConfigurationState state() const { return chosen_.state; }
+
   // One line for the surgeon while there is something to say; empty: nothing.
   std::string_view notice() const { return said_ ? *said_ : standing_; }
 

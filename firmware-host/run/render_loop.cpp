@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "firmware-host/outputs/local_time.h"
+#include "pipeline/threads/hot_path.h"
 #include "ui/controls/simulated_control.h"
 #include "ui/gl/context_info.h"
 #include "ui/transfer/auto_window.h"
@@ -35,8 +35,7 @@ RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
   controller_.actions().set_choices(setup_.transfers.names());
   if (setup_.restored_view)
     controller_.actions().replace(controller_.actions().initial(), *setup_.restored_view);
-  setup_.status.legend = &legend_;
-  setup_.status.key_legend = &key_legend_;
+  status_writer_.tell(setup_.host);
 }
 
 RenderLoop::~RenderLoop() {
@@ -103,7 +102,7 @@ bool RenderLoop::turn() {
   take_volume();
   take_scope_picture();
   if (parts_.vessels != nullptr)
-    parts_.vessels->advance(renderer_.get(), controller_.actions(), setup_.status.vessels);
+    parts_.vessels->advance(renderer_.get(), controller_.actions());
   update_status();
   if (display_ready()) {
     draw_if_changed();
@@ -130,15 +129,14 @@ ui::FrameBudget RenderLoop::frame_budget() const {
 ui::DrawQuality RenderLoop::choose_quality() {
   const ui::ViewState& view = controller_.state();
   const bool moved = drawn_view_ && !ui::same_sight(*drawn_view_, view);
-  ui::DrawQuality quality =
-      governor_.choose({.now = setup_.status.now,
-                        .technique = view.technique,
-                        .moved = moved,
-                        .live = brings_volumes(setup_.status.freshness.liveness) ||
-                                brings_volumes(drawn_liveness_)});
+  ui::DrawQuality quality = governor_.choose(
+      {.now = status().now,
+       .technique = view.technique,
+       .moved = moved,
+       .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_)});
   quality.rays = rays_;
   if (parts_.vessels != nullptr)
-    quality.vessel_detail_px = parts_.vessels->detail_px(setup_.status.now, moved);
+    quality.vessel_detail_px = parts_.vessels->detail_px(status().now, moved);
   return quality;
 }
 
@@ -156,7 +154,7 @@ void RenderLoop::choose_ray_backend() {
 // How often each level occurs, for the histogram that is shown while the window changes.
 void RenderLoop::show_levels() {
   const ui::ViewState& view = controller_.state();
-  if (volume_ == nullptr || setup_.status.now >= view.echo.until ||
+  if (volume_ == nullptr || status().now >= view.echo.until ||
       !ui::changes_window(view.echo.action) || levels_of_ == volume_->metadata.index)
     return;
   renderer_->show_levels(ui::make_level_histogram(*volume_).shares());
@@ -197,9 +195,9 @@ void RenderLoop::answer(const ui::ControlRequests& requests) {
     parts_.vessels->keep_registration(volume_->geometry, controller_.actions());
   if (requests.record)
     controller_.actions().tell(ui::Action::record,
-                               setup_.status.replay ? "not while a recording is replayed"
-                               : parts_.record      ? parts_.record()
-                                                    : "not of this picture",
+                               status().replay ? "not while a recording is replayed"
+                               : parts_.record ? parts_.record()
+                                               : "not of this picture",
                                parts_.clock.now());
 }
 
@@ -235,26 +233,13 @@ void RenderLoop::take_volume() {
     return;
   }
   statistics_.upload.add(parts_.clock.now() - begin);
-  if (setup_.window_from_first_volume && !shown_) {
+  if (setup_.window_from_first_volume && !status_writer_.has_volume()) {
     if (const auto window = ui::suggest_window(*newest))
       set_first_window(*window);
   }
   volume_undisplayed_ = true;
   undisplayed_last_line_ = newest->metadata.last_line;
-  shown_ = ui::ShownVolume{newest->metadata.last_line, newest->metadata.published,
-                           newest->metadata.recorded_ns.has_value()};
-  tell_origin(newest->metadata);
-  setup_.status.missing_b_scans = newest->missing_b_scans();
-  setup_.status.saturated_lines = newest->metadata.saturated_lines;
-}
-
-// The volume itself says that it was recorded, and when: nobody can forget to.
-void RenderLoop::tell_origin(const pipeline::VolumeMetadata& metadata) {
-  if (!metadata.recorded_ns)
-    return setup_.status.replay.reset();
-  if (!setup_.status.replay)
-    setup_.status.replay.emplace();
-  setup_.status.replay->recorded = local_date_and_time(*metadata.recorded_ns);
+  status_writer_.show(*newest);
 }
 
 void RenderLoop::set_first_window(const ui::DisplayWindow& window) {
@@ -279,42 +264,53 @@ void RenderLoop::show_scope_picture() {
     parts_.faults.add(pipeline::Device::scope_camera, shown.error(), parts_.clock.now());
 }
 
-void RenderLoop::update_status() {
-  ui::Status& s = setup_.status;
-  s.now = parts_.clock.now();
-  const pipeline::VolumeCounters counters = parts_.volumes.counters();
-  volume_rate_.update(counters.acquired, s.now);
+RunCounters RenderLoop::counters() const {
+  RunCounters counters{.volumes = parts_.volumes.counters(),
+                       .displayed = statistics_.volumes_displayed,
+                       .undisplayed = statistics_.volumes_taken - statistics_.volumes_displayed,
+                       .frames_drawn = statistics_.frames_drawn,
+                       .frames_missed = statistics_.frames_missed,
+                       .hot_path_allocations = pipeline::HotPath::allocations(),
+                       .rates = status_writer_.rates(),
+                       .latency = statistics_.latency.summary()};
   if (parts_.acquisition != nullptr)
-    line_rate_.update(parts_.acquisition->counters().frames *
-                          static_cast<std::uint64_t>(setup_.lines_per_frame),
-                      s.now);
-  s.lines_per_s = line_rate_.per_second();
-  frame_rate_.update(statistics_.frames_drawn, s.now);
-  s.volumes_per_s = volume_rate_.per_second();
-  s.frames_per_s = frame_rate_.per_second();
-  s.losses = {counters.lost_lines, counters.lost_b_scans, counters.lost_volumes};
-  if (const auto latency = statistics_.latency.summary(); latency.count > 0) {
-    s.latency_p50_ms = latency.p50_ms;
-    s.latency_p95_ms = latency.p95_ms;
-  }
+    counters.lines =
+        parts_.acquisition->counters().frames * static_cast<std::uint64_t>(setup_.lines_per_frame);
+  return counters;
+}
+
+RunCounters RenderLoop::final_counters(hal::Duration lasted) const {
+  RunCounters all = counters();
+  all.volumes.skipped += parts_.volumes.has_newer() ? 1U : 0U;
+  const auto per_s = [lasted](std::uint64_t count) {
+    return static_cast<double>(count) / hal::to_seconds(lasted);
+  };
+  all.rates = {per_s(all.lines), per_s(all.volumes.published), per_s(all.frames_drawn)};
+  return all;
+}
+
+void RenderLoop::update_status() {
+  status_writer_.count(counters(), parts_.clock.now());
   const ui::ViewState& view = controller_.state();
-  s.freshness = ui::judge_freshness(shown_, s.now, setup_.freshness,
-                                    view.frozen ? std::optional{view.frozen_since} : std::nullopt);
+  status_writer_.judge(setup_.freshness,
+                       view.frozen ? std::optional{view.frozen_since} : std::nullopt);
+  if (parts_.vessels != nullptr)
+    status_writer_.show_vessels(parts_.vessels->status());
 }
 
 void RenderLoop::draw_if_changed() {
   const ui::ViewState& view = controller_.state();
   quality_ = choose_quality();
-  setup_.status.reduced_quality = ui::visible_reduction(quality_);
+  status_writer_.reduce_quality(ui::visible_reduction(quality_));
   show_levels();
   hal::Display& display = parts_.display;
-  const bool rested = presented_ && setup_.status.now - *presented_ >= longest_rest;
+  const bool rested = presented_ && status().now - *presented_ >= longest_rest;
   if (!picture_wanted_ && !rested &&
-      !renderer_->needs_redraw(view, setup_.status, display.width(), display.height(), quality_))
+      !renderer_->needs_redraw(view, status(), display.width(), display.height(), quality_))
     return;
   const hal::TimePoint begin = parts_.clock.now();
   if (const auto drawn =
-          renderer_->draw(view, setup_.status, display.width(), display.height(), quality_);
+          renderer_->draw(view, status(), display.width(), display.height(), quality_);
       !drawn) {
     lose_display(drawn.error());
     return;
@@ -325,9 +321,9 @@ void RenderLoop::draw_if_changed() {
   const auto vessels = renderer_->vessel_report();
   governor_.note(parts_.clock.now() - begin - vessels.cost, renderer_->drew_volume());
   if (parts_.vessels != nullptr)
-    parts_.vessels->note(vessels, frame_budget().moving, setup_.status.vessels);
+    parts_.vessels->note(vessels, frame_budget().moving);
   drawn_view_ = view;
-  drawn_liveness_ = setup_.status.freshness.liveness;
+  drawn_liveness_ = status().freshness.liveness;
   if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
     keep_picture();
   const auto flip = display.present();
@@ -366,7 +362,7 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
 // What the frame says was judged in this turn, so it is true, unless drawing and showing it took so
 // long that the picture would have had to be covered meanwhile.
 void RenderLoop::prove_picture(const hal::Flip& flip) {
-  if (parts_.proof != nullptr && flip.completed - setup_.status.now <= setup_.freshness.veil_after)
+  if (parts_.proof != nullptr && flip.completed - status().now <= setup_.freshness.veil_after)
     parts_.proof->shown(volume_ != nullptr);
 }
 
@@ -416,7 +412,7 @@ std::optional<pipeline::Image> RenderLoop::picture() {
   // As it was shown: of a display that draws slowly, a live picture is STALE when we are back here.
   const int width = parts_.display.width();
   const int height = parts_.display.height();
-  if (!renderer_->draw(controller_.state(), setup_.status, width, height, quality_))
+  if (!renderer_->draw(controller_.state(), status(), width, height, quality_))
     return std::nullopt;
   return renderer_->read_back(width, height);
 }

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "firmware-host/report/rate_meter.h"
+#include "firmware-host/run/status_writer.h"
 #include "firmware-host/supervision/picture_proof.h"
 #include "firmware-host/vessels/vessel_display.h"
 #include "hal/clock.h"
@@ -69,7 +69,7 @@ struct RenderLoopSetup {
   int b_scans = 80;
   int lines_per_frame = 379;
   std::optional<ui::ScanField> scan_field;
-  ui::Status status; // devices, source: what does not change; the loop fills in the rest
+  HostStatus host; // to begin with
 };
 
 struct FrameStatistics {
@@ -109,10 +109,13 @@ public:
 
   const ui::ViewActions& actions() const { return controller_.actions(); }
   const FrameStatistics& statistics() const { return statistics_; }
-  const ui::Status& status() const { return setup_.status; }
+  const ui::Status& status() const { return status_writer_.status(); }
+  RunCounters counters() const; // up to now
+  // Once all threads have ended: with what is never taken any more, and rates over all of the run.
+  RunCounters final_counters(hal::Duration lasted) const;
 
-  // Set by the host from time to time: what the display shows as devices' states.
-  ui::Status& editable_status() { return setup_.status; }
+  // What the display says of it from the next frame on.
+  void tell(const HostStatus& host) { status_writer_.tell(host); }
 
   ui::ViewActions& editable_actions() { return controller_.actions(); }
 
@@ -123,9 +126,6 @@ public:
 
   // Another pedal or knob leads.
   void change_controls(ui::ControlProfile profile);
-
-  // A notice for the surgeon; empty for none.
-  void set_notice(std::string_view notice) { setup_.status.notice = notice; }
 
   // Of the newest frame's volume.
   const ui::DrawQuality& quality() const { return quality_; }
@@ -140,7 +140,6 @@ private:
   void find_window();
   void keep_picture();
   void take_volume();
-  void tell_origin(const pipeline::VolumeMetadata& metadata);
   void take_scope_picture();
   void update_status();
   void draw_if_changed();
@@ -158,6 +157,7 @@ private:
   RenderLoopSetup setup_;
   ui::Legend legend_; // of the profile
   const ui::Legend key_legend_;
+  StatusWriter status_writer_{legend_, key_legend_};
   ui::ViewController controller_;
   std::unique_ptr<ui::Renderer> renderer_; // null while the display is gone
   bool software_ = false;                  // the processor draws
@@ -172,14 +172,12 @@ private:
   const hal::ScopeFrame* scope_picture_ = nullptr;    // likewise
   std::optional<hal::TimePoint> undisplayed_control_; // of the oldest event not shown yet
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
-  bool volume_undisplayed_ = false; // no frame has shown volume_ yet, however long it takes
-  std::optional<ui::ShownVolume> shown_;
-  std::uint64_t last_flip_ = 0;                // its number, of this opening of the display
-  std::optional<hal::TimePoint> presented_;    // last time, whether it was seen or not
+  bool volume_undisplayed_ = false;         // no frame has shown volume_ yet, however long it takes
+  std::uint64_t last_flip_ = 0;             // its number, of this opening of the display
+  std::optional<hal::TimePoint> presented_; // last time, whether it was seen or not
   std::optional<hal::TimePoint> display_lost_; // empty while it is there
   bool picture_wanted_ = false;                // by a key or a pedal: the next frame is kept
   pipeline::RetryDelay retry_;
-  RateMeter volume_rate_, line_rate_, frame_rate_;
   FrameStatistics statistics_;
 };
 

@@ -25,7 +25,6 @@
 #include "hal/linux/monotonic_clock.h"
 #include "pipeline/recordings/recording_reader.h"
 #include "pipeline/recordings/replay/replay_thread.h"
-#include "pipeline/threads/hot_path.h"
 
 namespace octascope::firmware_host {
 
@@ -105,6 +104,7 @@ private:
   std::optional<std::size_t> told_position_;
   std::string pause_; // what was left out, while it is said
   hal::TimePoint pause_until_{};
+  HostStatus host_;
   hal::TimePoint started_;
   hal::TimePoint ended_;
 };
@@ -144,9 +144,10 @@ void AssembledReplay::make_render_loop(ui::ControlProfile controls) {
   setup.b_scans = facts.geometry.b_scans;
   setup.view.b_scan = setup.b_scans / 2;
   setup.controls = std::move(controls);
-  setup.status.simulated = facts.simulated;
-  // Before the first volume has come, too.
-  setup.status.replay = ui::ReplayStatus{.recorded = {}, .whose = whose_recording(facts)};
+  host_.simulated = facts.simulated;
+  host_.whose_recording = whose_recording(facts); // before the first volume has come, too
+  host_.configuration = live_configuration_.state();
+  setup.host = host_;
   live_configuration_.configure(setup);
   sim::SimControlInput* const simulated = devices_->simulated_controls();
   loop_ = std::make_unique<RenderLoop>(
@@ -178,7 +179,8 @@ void AssembledReplay::show_until_done(StopSignal& stop_signal) {
     follow_hands();
     live_configuration_.advance(*loop_);
     update_status();
-    line.update(loop_->status());
+    if (line.due(loop_->status().now))
+      line.print(loop_->status(), loop_->counters());
   } while (loop_->turn() && !done() && !stop_signal.requested());
   line.finish();
 }
@@ -208,15 +210,14 @@ void AssembledReplay::follow_hands() {
 
 void AssembledReplay::update_status() {
   using pipeline::Device;
-  ui::Status& status = loop_->editable_status();
-  status.devices = {
-      {{Device::control_input, devices_->control_input().backend(),
-        devices_->control_input().state()},
-       {Device::display, devices_->display().backend(), devices_->display().state()}}};
-  status.device_count = 2;
+  host_.devices = {{{Device::control_input, devices_->control_input().backend(),
+                     devices_->control_input().state()},
+                    {Device::display, devices_->display().backend(), devices_->display().state()}}};
+  host_.device_count = 2;
   const hal::TimePoint now = clock_.now();
   tell_position(now);
-  loop_->set_notice(notice(now));
+  host_.notice = notice(now);
+  loop_->tell(host_);
 }
 
 void AssembledReplay::tell_position(hal::TimePoint now) {
@@ -225,8 +226,8 @@ void AssembledReplay::tell_position(hal::TimePoint now) {
     return;
   told_position_ = position;
   const pipeline::ReplaySchedule& schedule = volumes_->schedule();
-  loop_->editable_status().source_description = recording_source(
-      options_.replay->file, volumes_->facts(), position, schedule.size(), options_.replay->rate);
+  host_.source = recording_source(options_.replay->file, volumes_->facts(), position,
+                                  schedule.size(), options_.replay->rate);
   if (const hal::Duration left_out = schedule.left_out_before(position); left_out.count() > 0) {
     pause_ = pause_words(left_out);
     pause_until_ = now + pause_said_for;
@@ -234,8 +235,7 @@ void AssembledReplay::tell_position(hal::TimePoint now) {
 }
 
 std::string_view AssembledReplay::notice(hal::TimePoint now) {
-  const ui::Status& status = loop_->status();
-  const auto devices = std::span<const ui::DeviceStatus>{status.devices}.first(status.device_count);
+  const auto devices = std::span<const ui::DeviceStatus>{host_.devices}.first(host_.device_count);
   if (const auto fault = compose_notice(faults_.records(), devices, now); !fault.empty())
     return fault;
   if (now < pause_until_)
@@ -246,24 +246,16 @@ std::string_view AssembledReplay::notice(hal::TimePoint now) {
 }
 
 ReplayReport AssembledReplay::report() const {
-  const FrameStatistics& frames = loop_->statistics();
-  ReplayReport report{.file = options_.replay->file,
-                      .facts = volumes_->facts(),
-                      .end = recording_end_,
-                      .recorded = volumes_->schedule().size(),
-                      .control_input = std::string{devices_->control_input().backend()},
-                      .display = std::string{devices_->display().backend()},
-                      .volumes = volumes_->counters(),
-                      .displayed = frames.volumes_displayed,
-                      .duration_s = hal::to_seconds(ended_ - started_),
-                      .latency = frames.latency.summary(),
-                      .frames_drawn = frames.frames_drawn,
-                      .hot_path_allocations = pipeline::HotPath::allocations(),
-                      .faults = faults_.records(),
-                      .started = started_};
-  // What waits for the renderer at the end is never taken either.
-  report.volumes.skipped += volumes_->has_newer() ? 1U : 0U;
-  return report;
+  return {.file = options_.replay->file,
+          .facts = volumes_->facts(),
+          .end = recording_end_,
+          .recorded = volumes_->schedule().size(),
+          .control_input = std::string{devices_->control_input().backend()},
+          .display = std::string{devices_->display().backend()},
+          .counters = loop_->final_counters(ended_ - started_),
+          .duration_s = hal::to_seconds(ended_ - started_),
+          .faults = faults_.records(),
+          .started = started_};
 }
 
 hal::Result<> AssembledReplay::leave_behind(const std::optional<pipeline::Image>& picture) const {

@@ -8,7 +8,6 @@
 #include "hal/clock.h"
 
 namespace octascope::pipeline {
-class Acquisition;
 class Reconstructor;
 class VolumeThread;
 } // namespace octascope::pipeline
@@ -25,7 +24,6 @@ struct RunStatistics {
   const Devices& devices;
   const pipeline::Reconstructor& reconstructor;
   const WorkerCores& worker_cores;
-  const pipeline::Acquisition& acquisition;
   const pipeline::VolumeThread& volumes;
   const RenderLoop& loop;
   const CalibratedCamera& calibrated_camera;

@@ -1,23 +1,19 @@
 #include "firmware-host/supervision/appliance_status.h"
 
-#include <cmath>
 #include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "firmware-host/supervision/counters_json.h"
 #include "firmware-host/version/version.h"
 
 namespace octascope::firmware_host {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-double rounded(double value) {
-  return std::round(value * 1000.0) / 1000.0;
-}
+using Json = ReportJson;
 
 template <class Value> Json or_null(const std::optional<Value>& value) {
   return value ? Json(*value) : Json();
@@ -62,20 +58,16 @@ void add_picture(Json& json, const PictureStatus& p, hal::TimePoint now) {
   json["picture"] = {{"liveness", to_string(p.freshness.liveness)},
                      {"age_ms", rounded(hal::to_ms(p.freshness.age))},
                      {"notice", p.notice}};
-  json["rates"] = {{"lines_per_s", rounded(p.lines_per_s)},
-                   {"volumes_per_s", rounded(p.volumes_per_s)},
-                   {"frames_per_s", rounded(p.frames_per_s)}};
-  json["volumes"] = {{"acquired", p.acquired},
-                     {"published", p.published},
-                     {"displayed", p.displayed},
-                     {"skipped", p.skipped}};
-  json["lost"] = {
-      {"lines", p.lost_lines}, {"b_scans", p.lost_b_scans}, {"volumes", p.lost_volumes}};
-  json["saturated_lines"] = p.saturated_lines;
-  json["frames"] = {{"drawn", p.frames_drawn}, {"missed", p.frames_missed}};
-  json["latency_ms"] = {{"p50", rounded(p.latency.p50_ms)},
-                        {"p95", rounded(p.latency.p95_ms)},
-                        {"max", rounded(p.latency.max_ms)}};
+  const RunCounters& c = p.counters;
+  json["rates"] = to_json(c.rates);
+  json["volumes"] = {{"acquired", c.volumes.acquired},
+                     {"published", c.volumes.published},
+                     {"displayed", c.displayed},
+                     {"skipped", c.volumes.skipped}};
+  json["lost"] = lost_to_json(c);
+  json["saturated_lines"] = c.volumes.saturated_lines;
+  json["frames"] = {{"drawn", c.frames_drawn}, {"missed", c.frames_missed}};
+  json["latency_ms"] = to_json(c.latency);
 }
 
 // Of the characters that the format keeps for itself.
@@ -114,25 +106,27 @@ private:
 };
 
 void add_picture(Metrics& m, const PictureStatus& p) {
+  const RunCounters& c = p.counters;
   m.name("picture_live", "gauge", "1 while the picture shows what is now.")
       .value(p.freshness.liveness == ui::Liveness::live ? 1 : 0);
   m.name("simulated", "gauge", "1 while any part of the picture is simulated.")
       .value(p.simulated ? 1 : 0);
   m.name("volumes_total", "counter", "Volumes, by what became of them.")
-      .value(p.displayed, "fate=\"displayed\"")
-      .value(p.skipped, "fate=\"skipped\"")
-      .value(p.lost_volumes, "fate=\"lost\"");
+      .value(c.displayed, "fate=\"displayed\"")
+      .value(c.volumes.skipped, "fate=\"skipped\"")
+      .value(c.volumes.lost_volumes, "fate=\"lost\"");
   m.name("lost_lines_total", "counter", "Kept lines of sweeps that did not come.")
-      .value(p.lost_lines);
-  m.name("lost_b_scans_total", "counter", "B-scans of which no sweep came.").value(p.lost_b_scans);
+      .value(c.volumes.lost_lines);
+  m.name("lost_b_scans_total", "counter", "B-scans of which no sweep came.")
+      .value(c.volumes.lost_b_scans);
   m.name("saturated_lines_total", "counter", "Lines at the camera's full scale.")
-      .value(p.saturated_lines);
-  m.name("frames_total", "counter", "Frames drawn.").value(p.frames_drawn);
+      .value(c.volumes.saturated_lines);
+  m.name("frames_total", "counter", "Frames drawn.").value(c.frames_drawn);
   m.name("missed_frames_total", "counter", "Refreshes that passed while a frame was drawn.")
-      .value(p.frames_missed);
+      .value(c.frames_missed);
   m.name("latency_ms", "gauge", "Last line of a volume to its first frame, of the whole run.")
-      .value(p.latency.p50_ms, "quantile=\"0.5\"")
-      .value(p.latency.p95_ms, "quantile=\"0.95\"");
+      .value(c.latency.p50_ms, "quantile=\"0.5\"")
+      .value(c.latency.p95_ms, "quantile=\"0.95\"");
   m.name("device_ready", "gauge", "1 while a device works.");
   for (const PictureStatus::DeviceLine& device : p.devices)
     m.value(
@@ -200,11 +194,13 @@ std::string to_metrics(const ApplianceStatus& s) {
 }
 
 std::string to_line(const PictureStatus& p) {
+  const RunCounters& c = p.counters;
   std::string line = fmt::format(
       "{}{}, {:.1f} volumes/s, {:.0f} frames/s, latency {:.0f} ms, lost {} lines, {} B-scans, {} "
       "volumes",
-      to_string(p.freshness.liveness), p.simulated ? ", simulated" : "", p.volumes_per_s,
-      p.frames_per_s, p.latency.p50_ms, p.lost_lines, p.lost_b_scans, p.lost_volumes);
+      to_string(p.freshness.liveness), p.simulated ? ", simulated" : "", c.rates.volumes_per_s,
+      c.rates.frames_per_s, c.latency.p50_ms, c.volumes.lost_lines, c.volumes.lost_b_scans,
+      c.volumes.lost_volumes);
   if (!p.notice.empty())
     line += "; " + p.notice;
   return line;

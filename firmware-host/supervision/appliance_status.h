@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware-host/supervision/run_counters.h"
 #include "firmware-host/supervision/thread_watch.h"
 #include "hal/clock.h"
 #include "hal/device.h"
@@ -37,12 +38,7 @@ struct PictureStatus {
   std::string source; // what the spectra are
   std::vector<DeviceLine> devices{};
   ui::Freshness freshness;
-  double lines_per_s = 0, volumes_per_s = 0, frames_per_s = 0;
-  std::uint64_t acquired = 0, published = 0, displayed = 0, skipped = 0;
-  std::uint64_t lost_lines = 0, lost_b_scans = 0, lost_volumes = 0;
-  std::uint64_t saturated_lines = 0;
-  std::uint64_t frames_drawn = 0, frames_missed = 0;
-  pipeline::DurationSummary latency;
+  RunCounters counters;
   std::string notice; // on the screen now; empty: none
   CalibrationAccount calibration{};
 };

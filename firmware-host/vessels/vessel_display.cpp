@@ -73,34 +73,32 @@ const std::string& VesselDisplay::notice(hal::TimePoint now) const {
   return now < notice_until_ ? notice_ : nothing_to_say;
 }
 
-void VesselDisplay::advance(ui::Renderer* renderer, ui::ViewActions& actions,
-                            ui::VesselStatus& status) {
-  take_loaded(renderer, actions, status);
+void VesselDisplay::advance(ui::Renderer* renderer, ui::ViewActions& actions) {
+  take_loaded(renderer, actions);
   take_written(renderer, actions);
-  if (status.state == ui::VesselStatus::State::loading)
-    status.progress = loader_.progress();
-  status.registered = setup_.registration.has_value();
+  if (status_.state == ui::VesselStatus::State::loading)
+    status_.progress = loader_.progress();
+  status_.registered = setup_.registration.has_value();
 }
 
-void VesselDisplay::take_loaded(ui::Renderer* renderer, ui::ViewActions& actions,
-                                ui::VesselStatus& status) {
+void VesselDisplay::take_loaded(ui::Renderer* renderer, ui::ViewActions& actions) {
   using State = ui::VesselStatus::State;
   auto result = loader_.take();
   if (!result) {
-    if (status.state == State::none)
-      status.state = State::loading;
+    if (status_.state == State::none)
+      status_.state = State::loading;
     return;
   }
   hal::Result<> shown;
   if (*result) {
     loaded_.emplace(std::move(**result));
     for (const pipeline::VesselCluster& cluster : loaded_->clusters().clusters)
-      status.branches[static_cast<std::size_t>(cluster.branch)] = true;
+      status_.branches[static_cast<std::size_t>(cluster.branch)] = true;
     shown = renderer != nullptr ? show(*renderer) : hal::Result<>{};
   } else {
     shown = tl::make_unexpected(result->error());
   }
-  status.state = shown ? State::shown : State::failed;
+  status_.state = shown ? State::shown : State::failed;
   actions.set_vessels_loaded(shown.has_value());
   if (shown && setup_.registration && setup_.registration->whose.said() && !setup_.operated.said())
     say(fmt::format("Vessels of {}", in_words(setup_.registration->whose)));
@@ -157,9 +155,8 @@ float VesselDisplay::detail_px(hal::TimePoint now, bool moved) {
   return governor_.detail_px(at_rest_);
 }
 
-void VesselDisplay::note(const ui::Renderer::VesselReport& report, hal::Duration budget,
-                         ui::VesselStatus& status) {
-  status.account = report.account;
+void VesselDisplay::note(const ui::Renderer::VesselReport& report, hal::Duration budget) {
+  status_.account = report.account;
   governor_.set_budget(budget / share_of_frame);
   if (!at_rest_ && report.cost > hal::Duration{})
     governor_.note(report.cost);

@@ -45,7 +45,7 @@ public:
                 pipeline::Wakeup& news);
 
   // Takes what was loaded or written meanwhile; `renderer` is null while the display is gone.
-  void advance(ui::Renderer* renderer, ui::ViewActions& actions, ui::VesselStatus& status);
+  void advance(ui::Renderer* renderer, ui::ViewActions& actions);
 
   // A new renderer shows what the lost one did.
   hal::Result<> show_again(ui::Renderer& renderer);
@@ -56,14 +56,15 @@ public:
   // How finely to draw the frame that begins now; `moved`: the view differs from the last frame's.
   float detail_px(hal::TimePoint now, bool moved);
   // After a frame; a share of `budget` is the vessels'.
-  void note(const ui::Renderer::VesselReport& report, hal::Duration budget,
-            ui::VesselStatus& status);
+  void note(const ui::Renderer::VesselReport& report, hal::Duration budget);
+
+  const ui::VesselStatus& status() const { return status_; }
 
   // One line for the surgeon while there is something to say; empty: nothing.
   const std::string& notice(hal::TimePoint now) const;
 
 private:
-  void take_loaded(ui::Renderer* renderer, ui::ViewActions& actions, ui::VesselStatus& status);
+  void take_loaded(ui::Renderer* renderer, ui::ViewActions& actions);
   void take_written(ui::Renderer* renderer, ui::ViewActions& actions);
   void say(std::string notice);
   hal::Result<> show(ui::Renderer& renderer) const;
@@ -81,6 +82,7 @@ private:
   ui::DetailGovernor governor_{{}};
   std::optional<hal::TimePoint> moved_at_;
   bool at_rest_ = true;
+  ui::VesselStatus status_;
   std::string notice_;
   hal::TimePoint notice_until_{};
 };

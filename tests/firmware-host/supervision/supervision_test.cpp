@@ -223,8 +223,8 @@ ApplianceStatus a_status() {
   s.picture->devices = {{"camera", "sim", hal::DeviceState::streaming},
                         {"pedal", "sim", hal::DeviceState::absent}};
   s.picture->freshness.liveness = ui::Liveness::stale;
-  s.picture->lost_lines = 12;
-  s.picture->displayed = 700;
+  s.picture->counters.volumes.lost_lines = 12;
+  s.picture->counters.displayed = 700;
   s.picture->notice = "Pedal disconnected: reconnecting";
   s.threads = {{"camera", false, 10ms}, {"worker 0", true, 4s}};
   s.faults = {{pipeline::Fault::dropped_frames, "back\\slash \"and\"\nline", 7, t0, t0 + 40s}};

@@ -1,0 +1,59 @@
+#include "firmware-host/run/status_writer.h"
+
+#include "firmware-host/outputs/local_time.h"
+
+namespace octascope::firmware_host {
+
+void StatusWriter::tell(const HostStatus& host) {
+  status_.devices = host.devices;
+  status_.device_count = host.device_count;
+  status_.simulated = host.simulated;
+  status_.source_description = host.source;
+  if (host.whose_recording) {
+    if (!status_.replay)
+      status_.replay.emplace();
+    status_.replay->whose = *host.whose_recording;
+  }
+  status_.configuration = host.configuration;
+  status_.another_camera = host.another_camera;
+  status_.recording = host.recording;
+  status_.notice = host.notice;
+}
+
+// The volume itself says that it was recorded, and when: nobody can forget to.
+void StatusWriter::show(const pipeline::Volume& volume) {
+  const pipeline::VolumeMetadata& metadata = volume.metadata;
+  shown_ =
+      ui::ShownVolume{metadata.last_line, metadata.published, metadata.recorded_ns.has_value()};
+  if (!metadata.recorded_ns)
+    status_.replay.reset();
+  else if (!status_.replay)
+    status_.replay.emplace();
+  if (status_.replay)
+    status_.replay->recorded = local_date_and_time(*metadata.recorded_ns);
+  status_.missing_b_scans = volume.missing_b_scans();
+  status_.saturated_lines = metadata.saturated_lines;
+}
+
+void StatusWriter::count(const RunCounters& counters, hal::TimePoint now) {
+  status_.now = now;
+  volume_rate_.update(counters.volumes.acquired, now);
+  line_rate_.update(counters.lines, now);
+  frame_rate_.update(counters.frames_drawn, now);
+  status_.volumes_per_s = volume_rate_.per_second();
+  status_.lines_per_s = line_rate_.per_second();
+  status_.frames_per_s = frame_rate_.per_second();
+  status_.losses = {counters.volumes.lost_lines, counters.volumes.lost_b_scans,
+                    counters.volumes.lost_volumes};
+  if (counters.latency.count > 0) {
+    status_.latency_p50_ms = counters.latency.p50_ms;
+    status_.latency_p95_ms = counters.latency.p95_ms;
+  }
+}
+
+void StatusWriter::judge(const ui::FreshnessLimits& limits,
+                         const std::optional<hal::TimePoint>& frozen_since) {
+  status_.freshness = ui::judge_freshness(shown_, status_.now, limits, frozen_since);
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,63 @@
+// Writes what the display tells about the machine: nobody else does.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "firmware-host/report/rate_meter.h"
+#include "firmware-host/supervision/run_counters.h"
+#include "hal/clock.h"
+#include "pipeline/volume/volume.h"
+#include "ui/status/freshness.h"
+#include "ui/status/status.h"
+
+namespace octascope::firmware_host {
+
+// What the host knows, and the render loop does not.
+struct HostStatus {
+  std::array<ui::DeviceStatus, ui::Status::most_devices> devices;
+  std::size_t device_count = 0;
+  bool simulated = false;
+  std::string source;                         // what the volumes are; short
+  std::optional<std::string> whose_recording; // empty: the volumes are live
+  ui::ConfigurationState configuration = ui::ConfigurationState::own;
+  bool another_camera = false;
+  ui::RecordingStatus recording;
+  std::string notice; // empty: none
+};
+
+// Bound to the render thread.
+class StatusWriter {
+public:
+  // The legends outlive it.
+  StatusWriter(const ui::Legend& legend, const ui::Legend& key_legend) {
+    status_.legend = &legend;
+    status_.key_legend = &key_legend;
+  }
+
+  const ui::Status& status() const { return status_; }
+  RunRates rates() const {
+    return {line_rate_.per_second(), volume_rate_.per_second(), frame_rate_.per_second()};
+  }
+  bool has_volume() const { return shown_.has_value(); }
+
+  void tell(const HostStatus& host);
+
+  // This volume is in the picture from now on.
+  void show(const pipeline::Volume& volume);
+
+  // The time of the next frame, and what was counted until then.
+  void count(const RunCounters& counters, hal::TimePoint now);
+  void judge(const ui::FreshnessLimits& limits, const std::optional<hal::TimePoint>& frozen_since);
+  void reduce_quality(const std::optional<float>& share) { status_.reduced_quality = share; }
+  void show_vessels(const ui::VesselStatus& vessels) { status_.vessels = vessels; }
+
+private:
+  ui::Status status_;
+  std::optional<ui::ShownVolume> shown_;
+  RateMeter volume_rate_, line_rate_, frame_rate_;
+};
+
+} // namespace octascope::firmware_host
