@@ -66,6 +66,8 @@ Result<std::unique_ptr<RawDevice>> RawDevice::open(const std::string& node) {
   opened->device_.reset(hid_open_path(node.c_str()));
   if (opened->device_)
     return opened;
+  if (const auto again = ask(node); !again) // it went meanwhile
+    return tl::make_unexpected(again.error());
   return fail(ErrorCode::system,
               fmt::format("{}: found a device that may be opened, and hidapi did not open it: {}; "
                           "it is tried again by itself",
