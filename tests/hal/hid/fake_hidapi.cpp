@@ -1,6 +1,6 @@
 #include "tests/hal/hid/fake_hidapi.h"
 
-#include <cerrno>
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdarg>
