@@ -73,13 +73,15 @@ void ViewActions::show_window(float offset_db, float size_db, hal::TimePoint tim
 }
 
 void ViewActions::turn(Action action, double detents) {
+  const Number* number = number_of(action);
+  if (number == nullptr)
+    return;
   if (action == Action::b_scan) {
     b_scan_rest_ += detents;
     detents = std::trunc(b_scan_rest_);
     b_scan_rest_ -= detents;
   }
-  const Number& number = *number_of(action);
-  number.set(state_, number.of(state_) + static_cast<float>(detents) * number.range.detent);
+  number->set(state_, number->of(state_) + static_cast<float>(detents) * number->range.detent);
   state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
 }
 

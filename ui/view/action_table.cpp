@@ -215,7 +215,10 @@ std::span<const ActionRow, action_count> action_table() {
 }
 
 NumberRange range_of(Action action, int b_scans) {
-  NumberRange range = number_of(action)->range;
+  const Number* number = number_of(action);
+  if (number == nullptr)
+    return {};
+  NumberRange range = number->range;
   if (range.highest == last_b_scan)
     range.highest = static_cast<float>(std::max(b_scans - 1, 1));
   return range;

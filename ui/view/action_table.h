@@ -127,7 +127,7 @@ inline const Number* number_of(Action action) {
   return std::get_if<Number>(&row_of(action).value);
 }
 
-// With numbers for both ends. `action` turns a number.
+// With numbers for both ends; empty for an action that turns no number.
 NumberRange range_of(Action action, int b_scans = 1);
 
 // For std::visit.

@@ -70,7 +70,8 @@ TEST(ControlThread, hands_on_the_last_of_a_lost_device_and_tells_that_it_is_lost
   EXPECT_EQ(events[1].index, 5);
   EXPECT_EQ(events[1].value, 0);
   ASSERT_FALSE(faults.records().empty());
-  EXPECT_EQ(faults.records()[0].kind, "disconnected");
+  EXPECT_EQ(faults.records()[0].kind,
+            fault_of(Device::control_input, hal::ErrorCode::disconnected));
 }
 
 } // namespace

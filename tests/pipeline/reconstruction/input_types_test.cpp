@@ -186,7 +186,7 @@ TEST_P(InputTypes, agree_with_the_reference_for_powers_of_two_on_both_paths) {
 }
 
 std::string name(const testing::TestParamInfo<Input>& info) {
-  std::string text{name_of(info.param.type)};
+  std::string text{to_string(info.param.type)};
   return text +
          fmt::format("_{}_bits_shift_{}", info.param.significant_bits, info.param.right_shift);
 }
