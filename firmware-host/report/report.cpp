@@ -85,6 +85,15 @@ Json view_to_json(const ui::ViewState& view) {
   return json;
 }
 
+Json picture_to_json(const ShownPicture& picture) {
+  return {{"liveness", to_string(picture.freshness.liveness)},
+          {"age_ms", rounded(hal::to_ms(picture.freshness.age))},
+          {"notice", picture.notice},
+          {"missing_b_scans", picture.missing_b_scans},
+          {"saturated_lines", picture.saturated_lines},
+          {"another_camera", picture.another_camera}};
+}
+
 Json actions_to_json(const RunReport& report) {
   Json actions;
   for (const ui::ActionRow& row : ui::action_table())
@@ -137,6 +146,7 @@ std::string to_json(const RunReport& r) {
       {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},
       {"frames", {{"drawn", r.counters.frames_drawn}, {"missed", r.counters.frames_missed}}},
       {"hot_path", {{"allocations", r.counters.hot_path_allocations}}},
+      {"picture", picture_to_json(r.picture)},
       {"view", view_to_json(r.view)},
       {"actions", actions_to_json(r)},
       {"faults", to_json(r.faults, r.started)},

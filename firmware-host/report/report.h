@@ -18,9 +18,19 @@
 #include "pipeline/scan/scan_plan.h"
 #include "pipeline/threads/duration_statistics.h"
 #include "ui/scene/ray_trial.h"
+#include "ui/status/freshness.h"
 #include "ui/view/view_state.h"
 
 namespace octascope::firmware_host {
+
+// What the display said at the end: the snapshot shows the same.
+struct ShownPicture {
+  ui::Freshness freshness;
+  std::string notice;      // empty: none
+  int missing_b_scans = 0; // of the shown volume
+  int saturated_lines = 0;
+  bool another_camera = false; // than the calibration's
+};
 
 struct RunReport {
   bool simulated = false;
@@ -42,6 +52,7 @@ struct RunReport {
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, control;
   std::optional<ui::RayTrial> rays;
   std::optional<double> first_picture_s;                 // since the process began
+  ShownPicture picture;
   ui::ViewState view;                                    // as it was left
   std::array<std::uint64_t, ui::action_count> actions{}; // how often each was done
   std::vector<pipeline::FaultRecord> faults;

@@ -51,6 +51,14 @@ void add_frames(RunReport& report, const FrameStatistics& frames) {
   report.rays = frames.rays;
 }
 
+void add_picture(RunReport& report, const ui::Status& shown) {
+  report.picture = {.freshness = shown.freshness,
+                    .notice = shown.notice,
+                    .missing_b_scans = shown.missing_b_scans,
+                    .saturated_lines = shown.saturated_lines,
+                    .another_camera = shown.another_camera};
+}
+
 } // namespace
 
 PictureStatus picture_status(const RunStatistics& run, hal::TimePoint now) {
@@ -78,6 +86,7 @@ RunReport report_on(const RunStatistics& run, const RunTimes& times,
   add_volumes(report, run.volumes);
   const FrameStatistics& frames = run.loop.statistics();
   add_frames(report, frames);
+  add_picture(report, run.loop.status());
   report.started = times.started;
   report.duration_s = hal::to_seconds(times.ended - times.started);
   report.counters = run.loop.final_counters(times.ended - times.started);

@@ -54,6 +54,11 @@ RunReport example() {
   r.counters.frames_drawn = 45;
   r.counters.frames_missed = 3;
   r.counters.hot_path_allocations = 4;
+  r.picture = {.freshness = {.liveness = ui::Liveness::stale, .age = 345678us},
+               .notice = "Too much light: lines are saturated",
+               .missing_b_scans = 2,
+               .saturated_lines = 6,
+               .another_camera = true};
   r.view.yaw_deg = -12.5F;
   r.view.technique = ui::Technique::shaded;
   r.view.layout = ui::LayoutKind::b_scan;
@@ -107,6 +112,12 @@ TEST(Report, says_every_figure_under_its_key) {
   EXPECT_EQ(j["latency_ms"], (json{{"p50", 12.346}, {"p95", 20.0}, {"max", 21.0}}));
   EXPECT_EQ(j["frames"], (json{{"drawn", 45}, {"missed", 3}}));
   EXPECT_EQ(j["hot_path"], (json{{"allocations", 4}}));
+  EXPECT_EQ(j["picture"], (json{{"liveness", "stale"},
+                                {"age_ms", 345.678},
+                                {"notice", "Too much light: lines are saturated"},
+                                {"missing_b_scans", 2},
+                                {"saturated_lines", 6},
+                                {"another_camera", true}}));
   EXPECT_EQ(j["view"], (json{{"window_offset_db", 8.0},
                              {"window_size_db", 36.0},
                              {"yaw_deg", -12.5},
