@@ -1,11 +1,19 @@
+#include <algorithm>
 #include <array>
+#include <atomic>
+#include <functional>
+#include <memory>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "firmware-host/report/notice.h"
+#include "pipeline/acquisition/volume_thread.h"
+#include "sim/clock/virtual_clock.h"
+#include "tests/support/devices/fake_devices.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -105,18 +113,114 @@ TEST_F(Notice, a_recording_that_ended_by_itself_is_told) {
     EXPECT_NE(of({fault("recording", kind, 0s)}), "") << kind;
 }
 
-TEST_F(Notice, has_words_for_every_fault_that_costs_volumes_or_b_scans) {
-  for (const auto& [device, kind] : {std::pair{"pipeline", "overrun"},
-                                     {"pipeline", "late_tick"},
-                                     {"galvo_trigger", "missed_pulse"},
-                                     {"line_camera", "overflow"},
-                                     {"line_camera", "dropped_frames"},
-                                     {"line_camera", "corrupted_frame"},
-                                     {"line_camera", "wrong_size"},
-                                     {"line_camera", "late_frame"},
-                                     {"line_camera", "unplaced_frame"},
-                                     {"line_camera", "doubled_frame"}})
-    EXPECT_NE(of({fault(device, kind, 0s)}), "") << device << " " << kind;
+// The pipeline loses volumes and B-scans in each way that no script of faults brings about
+// (tests/program/appliance/fault_test.cpp has those): what it tells of that is in the notice.
+class LosingPipeline : public testing::Test {
+protected:
+  static constexpr int b_scans = 8;
+
+  LosingPipeline() {
+    hal::LineCameraConfig config;
+    config.format.samples_per_line = plan_.samples;
+    config.format.lines_per_frame = plan_.lines_per_frame();
+    config.buffers = 64;
+    acquisition_ =
+        std::make_unique<pipeline::Acquisition>(camera_, config, clock_, faults_, arrived_);
+    volumes_ = std::make_unique<pipeline::VolumeThread>(
+        pipeline::VolumeThreadSetup{
+            .plan = plan_,
+            .trigger = {},
+            .workers = 1,
+            .reconstruct =
+                [this](std::size_t, const hal::LineFrame&, std::span<std::uint8_t>) {
+                  if (workers_hang_)
+                    go_on_.wait();
+                  return 0;
+                },
+            .average = *pipeline::NeighbourAverage::create({0, 1, 0}),
+            .most_volumes = std::nullopt},
+        trigger_, *acquisition_, camera_, clock_, faults_, arrived_, news_);
+    EXPECT_TRUE(acquisition_->start({}));
+    await([this] { return camera_.state() == DeviceState::streaming; });
+    volumes_->start({});
+    armed_ = trigger_.wait_for_pulse(0);
+  }
+  ~LosingPipeline() override {
+    workers_hang_ = false;
+    for (int i = 0; i < 100; ++i)
+      go_on_.post();
+    volumes_->stop();
+    acquisition_->stop();
+  }
+
+  static pipeline::ScanPlan small_plan() {
+    pipeline::ScanPlan plan;
+    plan.samples = 32;
+    plan.a_scans = 4;
+    plan.fly_back_lines = 1;
+    plan.b_scans = b_scans;
+    plan.line_rate_hz = 5000;
+    return plan;
+  }
+  static void await(const std::function<bool()>& so) {
+    while (!so())
+      std::this_thread::sleep_for(100us);
+  }
+  void deliver(int sweep) {
+    camera_.deliver(sequence_++, armed_ + sweep * plan_.frame_period(), 10);
+  }
+
+  // The notice about what the pipeline tells of, which is this alone.
+  std::string_view notice_of(pipeline::Fault kind) {
+    await([&] {
+      const auto records = faults_.records();
+      return std::ranges::find(records, kind, &pipeline::FaultRecord::kind) != records.end();
+    });
+    const auto records = faults_.records();
+    const auto told = std::ranges::find(records, kind, &pipeline::FaultRecord::kind);
+    return compose_notice({&*told, 1}, {}, told->last);
+  }
+
+  const pipeline::ScanPlan plan_ = small_plan();
+  sim::VirtualClock clock_;
+  tests::FakeCamera camera_;
+  tests::FakeTrigger trigger_{clock_};
+  pipeline::FaultLog faults_;
+  pipeline::Wakeup arrived_, news_;
+  hal::Semaphore go_on_;
+  std::atomic<bool> workers_hang_{false};
+  std::unique_ptr<pipeline::Acquisition> acquisition_;
+  std::unique_ptr<pipeline::VolumeThread> volumes_;
+  hal::TimePoint armed_;
+  std::uint64_t sequence_ = 0;
+};
+
+TEST_F(LosingPipeline, tells_of_ticks_that_it_slept_through) {
+  clock_.advance(4 * plan_.tick_period());
+  EXPECT_EQ(notice_of(pipeline::Fault::late_tick), "The computer is busy: volumes are lost");
+}
+
+TEST_F(LosingPipeline, tells_of_workers_that_are_too_slow) {
+  workers_hang_ = true;
+  for (int n = 1; n <= 3; ++n) {
+    deliver(0);
+    await([&] { return acquisition_->counters().frames == sequence_; });
+    clock_.sleep_until(armed_ + plan_.tick_period());
+    armed_ = trigger_.wait_for_pulse(static_cast<std::size_t>(n));
+  }
+  EXPECT_EQ(notice_of(pipeline::Fault::overrun), "Reconstruction is too slow: volumes are lost");
+}
+
+TEST_F(LosingPipeline, tells_of_frames_that_were_exposed_outside_every_sweep) {
+  deliver(b_scans + 1);
+  EXPECT_EQ(notice_of(pipeline::Fault::unplaced_frame),
+            "Line camera is out of step: B-scans are missing");
+}
+
+TEST_F(LosingPipeline, tells_of_sweeps_that_come_twice) {
+  deliver(0);
+  deliver(0);
+  EXPECT_EQ(notice_of(pipeline::Fault::doubled_frame), "Line camera sends B-scans twice");
 }
 
 } // namespace
