@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "firmware-host/configuration/run_options.h"
 #include "hal/result.h"
 #include "pipeline/files/png_image.h"
@@ -11,6 +13,17 @@ namespace octascope::firmware_host {
 
 // What cannot be written is found out now, not after the run; nothing stays behind.
 hal::Result<> check_outputs(const RunOptions& options);
+
+// Prints a report, and writes it where that was asked for.
+template <class Report>
+hal::Result<> leave_report(const Report& report, const RunOptions& options) {
+  fmt::print("{}", to_text(report));
+  if (!options.report)
+    return {};
+  HAL_CHECK(write_report(report, *options.report));
+  fmt::print("report:   {}\n", options.report->string());
+  return {};
+}
 
 // Writes the last picture where one was asked for, and prints where it is. `picture` is empty where
 // the display was gone.

@@ -8,7 +8,7 @@
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/configuration/run_options.h"
-#include "firmware-host/run/replay.h"
+#include "firmware-host/run/appliance.h"
 #include "firmware-host/run/stop_signal.h"
 #include "pipeline/recordings/replay/replay_schedule.h"
 
@@ -35,7 +35,7 @@ int replay(const ReplayArguments& arguments) {
   if (!options)
     return complain("replay", options.error());
   StopSignal stop_signal; // before the first thread
-  auto assembled = Replay::assemble(*options);
+  auto assembled = Appliance::assemble(*options, nullptr);
   if (!assembled)
     return complain("replay", assembled.error());
   if (const auto ran = (*assembled)->run(stop_signal); !ran)

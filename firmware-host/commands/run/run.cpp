@@ -87,7 +87,7 @@ int run(const char* command, const RunArguments& arguments) {
   if (const auto state = service_folders().state)
     if (const auto kept = crash_report.keep_in(crash_folder(*state)); !kept)
       fmt::print(stderr, "octascope {}: {}\n", command, kept.error().message);
-  auto appliance = Appliance::assemble(*options, crash_report);
+  auto appliance = Appliance::assemble(*options, &crash_report);
   if (!appliance)
     return complain(command, appliance.error());
   if (const auto ran = (*appliance)->run(stop_signal); !ran)
