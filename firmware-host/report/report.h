@@ -51,7 +51,7 @@ struct RunReport {
   double duration_s = 0;
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, control;
   std::optional<ui::RayTrial> rays;
-  std::optional<double> first_picture_s;                 // since the process began
+  std::optional<double> first_picture_s; // since the process began
   ShownPicture picture;
   ui::ViewState view;                                    // as it was left
   std::array<std::uint64_t, ui::action_count> actions{}; // how often each was done
