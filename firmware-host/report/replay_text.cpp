@@ -24,7 +24,7 @@ std::string in_short(std::string_view text, std::size_t most) {
 
 } // namespace
 
-std::string whose_recording(const pipeline::RecordingFacts& facts) {
+std::string recording_patient(const pipeline::RecordingFacts& facts) {
   const std::string eye = facts.eye == pipeline::Eye::not_said
                               ? "eye not said"
                               : fmt::format("{} eye", to_string(facts.eye));

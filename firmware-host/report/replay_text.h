@@ -12,7 +12,7 @@ namespace octascope::firmware_host {
 
 // "left eye, subject 4711"; "eye not said, subject not said". The eye comes first: of a long
 // subject there is room for its beginning only.
-std::string whose_recording(const pipeline::RecordingFacts& facts);
+std::string recording_patient(const pipeline::RecordingFacts& facts);
 
 // "eye.h5, volume 12 of 240, at rate 2: phantom eye". `position` counts from 0.
 std::string recording_source(const std::filesystem::path& file,

@@ -9,10 +9,10 @@ void StatusWriter::tell(const HostStatus& host) {
   status_.device_count = host.device_count;
   status_.simulated = host.simulated;
   status_.source_description = host.source;
-  if (host.whose_recording) {
+  if (host.recording_patient) {
     if (!status_.replay)
       status_.replay.emplace();
-    status_.replay->whose = *host.whose_recording;
+    status_.replay->whose = *host.recording_patient;
   }
   status_.configuration = host.configuration;
   status_.another_camera = host.another_camera;

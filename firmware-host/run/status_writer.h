@@ -20,8 +20,8 @@ struct HostStatus {
   std::array<ui::DeviceStatus, ui::Status::most_devices> devices;
   std::size_t device_count = 0;
   bool simulated = false;
-  std::string source;                         // what the volumes are; short
-  std::optional<std::string> whose_recording; // empty: the volumes are live
+  std::string source;                           // what the volumes are; short
+  std::optional<std::string> recording_patient; // empty: the volumes are live
   ui::ConfigurationState configuration = ui::ConfigurationState::own;
   bool another_camera = false;
   ui::RecordingStatus recording;

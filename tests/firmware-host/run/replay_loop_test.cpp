@@ -124,12 +124,12 @@ TEST_F(ReplayLoop, cannot_be_recorded_and_says_so) {
 
 TEST(ReplayWords, say_whose_it_is_with_the_eye_first) {
   pipeline::RecordingFacts facts;
-  EXPECT_EQ(firmware_host::whose_recording(facts), "eye not said, subject not said");
+  EXPECT_EQ(firmware_host::recording_patient(facts), "eye not said, subject not said");
   facts.eye = pipeline::Eye::right;
   facts.subject = "4711";
-  EXPECT_EQ(firmware_host::whose_recording(facts), "right eye, subject 4711");
+  EXPECT_EQ(firmware_host::recording_patient(facts), "right eye, subject 4711");
   facts.subject = "Überlänge mit Umläuten und\nmehr";
-  const std::string words = firmware_host::whose_recording(facts);
+  const std::string words = firmware_host::recording_patient(facts);
   EXPECT_EQ(words, "right eye, subject Überlänge mit …");
 }
 
