@@ -162,7 +162,7 @@ Result<> WindowDisplay::do_open(const DisplayConfig& config) {
   refresh_period_ = from_seconds(1.0 / (known ? mode.refresh_rate : config.refresh_hz));
   window_ = std::move(window);
   flips_ = 0;
-  last_flip_ = clock_.now() - refresh_period_;
+  pacer_ = FlipPacer{refresh_period_, clock_.now()};
   set_state(DeviceState::ready);
   return {};
 }
@@ -184,13 +184,12 @@ int WindowDisplay::do_height() const {
 Result<Flip> WindowDisplay::do_present() {
   if (window_ == nullptr)
     return fail(ErrorCode::absent, "window display: not open; open() it first");
+  const TimePoint submitted = clock_.now();
   window_->sdl.gl_swap_window(window_->window);
   glFinish();
-  const TimePoint completed = clock_.now();
-  // Half a period is less than any synchronised flip takes: this one came at once.
-  if (completed - last_flip_ < refresh_period_ / 2)
-    clock_.sleep_until(last_flip_ + refresh_period_);
-  last_flip_ = clock_.now();
+  const TimePoint completed =
+      pacer_.completed({.submitted = submitted, .stamp = std::nullopt, .received = clock_.now()});
+  clock_.sleep_until(pacer_.next_allowed());
   return Flip{completed, ++flips_};
 }
 

@@ -5,6 +5,7 @@
 
 #include "hal/clock.h"
 #include "hal/display.h"
+#include "hal/linux/system/flip_pacing.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -34,7 +35,7 @@ private:
   Clock& clock_;
   std::unique_ptr<Window> window_;
   Duration refresh_period_{};
-  TimePoint last_flip_;
+  FlipPacer pacer_;
   std::uint64_t flips_ = 0;
 };
 

@@ -20,8 +20,6 @@ constexpr int look_divisor = 2;
 // However slow a scan is: a thread that shows no life for longer is taken for stuck.
 constexpr hal::Duration longest_pause = 500ms;
 
-constexpr hal::Duration shortest_pause = 100us;
-
 } // namespace
 
 VolumeScheduler::VolumeScheduler(const ScanPlan& plan, std::optional<std::uint64_t> most_volumes)
@@ -81,6 +79,10 @@ void VolumeScheduler::pulse_failed() {
 void VolumeScheduler::not_ready() {
   if (last_number_ > 0)
     pulse_failed();
+}
+
+bool VolumeScheduler::awaits_sweeps(const PendingVolume& volume) const {
+  return volume.sweeps_came < plan_.sweeps() && volume.flushed < plan_.b_scans;
 }
 
 void VolumeScheduler::count_lost_volume() {
@@ -166,7 +168,7 @@ VolumeDecision VolumeScheduler::next(hal::TimePoint now, hal::TimePoint looked_u
   if (!buffer)
     return {};
   PendingVolume& volume = pending_[*buffer];
-  if (volume.sweeps_came < plan_.sweeps()) {
+  if (awaits_sweeps(volume)) {
     if (now < volume.accept_until)
       return {};
     // Where others had the processor, the camera's frames came in time, and its thread wakes no
@@ -212,12 +214,12 @@ void VolumeScheduler::published(std::uint32_t recycled, bool skipped) {
 }
 
 hal::TimePoint VolumeScheduler::next_wake(hal::TimePoint now) const {
-  hal::TimePoint wake = std::min(next_tick_, now + longest_pause);
-  if (const auto buffer = oldest()) {
-    const PendingVolume& volume = pending_[*buffer];
-    wake = std::min(wake, volume.give_up_at.value_or(volume.accept_until));
-  }
-  return std::max(wake, now + shortest_pause);
+  const hal::TimePoint wake = std::min(next_tick_, now + longest_pause);
+  const auto buffer = oldest();
+  if (!buffer || !awaits_sweeps(pending_[*buffer]))
+    return wake;
+  const PendingVolume& volume = pending_[*buffer];
+  return std::min(wake, volume.give_up_at.value_or(volume.accept_until));
 }
 
 VolumeCounters VolumeScheduler::counters() const {

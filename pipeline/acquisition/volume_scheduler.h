@@ -121,7 +121,8 @@ public:
 
   void count_saturated_lines(std::int32_t lines) { count(counts_.saturated_lines, lines); }
 
-  // When the thread has something to do at the latest, however quiet it is.
+  // When the thread has something to do at the latest, however quiet it is. A time that is over when
+  // it is asked for is told as it is: a tick that came due since tick_due() was asked waits no longer.
   hal::TimePoint next_wake(hal::TimePoint now) const;
 
   // What is under way will not be finished.
@@ -155,6 +156,8 @@ private:
   static void count(std::atomic<std::uint64_t>& counter, std::int64_t by = 1) {
     counter.fetch_add(static_cast<std::uint64_t>(by), std::memory_order_relaxed);
   }
+  // Whether time decides about it; otherwise the workers do.
+  bool awaits_sweeps(const PendingVolume& volume) const;
   void count_lost_volume();
   std::uint64_t under_way() const;
   std::optional<std::uint32_t> find(std::uint64_t number) const;

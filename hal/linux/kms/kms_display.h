@@ -14,7 +14,7 @@
 #include "hal/display.h"
 #include "hal/key_source.h"
 #include "hal/linux/kms/mode/overscan.h"
-#include "hal/linux/kms/scanout/flip_pacing.h"
+#include "hal/linux/system/flip_pacing.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -74,7 +74,7 @@ private:
   std::unique_ptr<Session> session_;
   std::string description_;
   Duration refresh_period_{};
-  kms::FlipPacer pacer_;
+  FlipPacer pacer_;
   std::uint64_t flips_ = 0;
 };
 

@@ -11,9 +11,9 @@
 #include "hal/linux/kms/drm/connector_watch.h"
 #include "hal/linux/kms/mode/output_choice.h"
 #include "hal/linux/kms/scanout/flip_events.h"
-#include "hal/linux/kms/scanout/flip_pacing.h"
 #include "hal/linux/kms/scanout/scanout.h"
 #include "hal/linux/kms/seat.h"
+#include "hal/linux/system/flip_pacing.h"
 
 namespace octascope::hal::linux_backend::kms {
 

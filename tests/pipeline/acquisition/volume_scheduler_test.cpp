@@ -272,9 +272,25 @@ TEST_F(VolumeSchedulerTest, it_wakes_for_ticks_and_for_the_oldest_volumes_end) {
   const hal::TimePoint over = accepts_until(first_tick) + 10us;
   ASSERT_EQ(next_unlooked(over).action, Action::look);
   EXPECT_EQ(scheduler.next_wake(over), over + patience());
-  EXPECT_EQ(scheduler.next_wake(over + patience()), over + patience() + 100us)
-      << "a moment at least";
+  EXPECT_EQ(scheduler.next_wake(tick(2) + 1us), over + patience())
+      << "what came due since it was asked about is not put off";
   ASSERT_EQ(next(over).action, Action::lose);
+  EXPECT_EQ(scheduler.next_wake(over), tick(2));
+}
+
+TEST_F(VolumeSchedulerTest, a_tick_that_comes_due_before_the_wait_is_not_put_off) {
+  pulse(first_tick);
+  deliver(first_tick, 0, 8);
+  EXPECT_EQ(scheduler.next_wake(tick(1) + 1us), tick(1));
+}
+
+TEST_F(VolumeSchedulerTest, a_volume_that_only_the_workers_hold_up_wakes_nobody) {
+  pulse(first_tick);
+  deliver(first_tick, 1, 8);
+  ASSERT_EQ(frame(first_tick, 0).submit.size(), 1U);
+  pulse(tick(1));
+  const hal::TimePoint over = accepts_until(first_tick);
+  ASSERT_EQ(next(over).action, Action::wait) << "nobody has made the first B-scan";
   EXPECT_EQ(scheduler.next_wake(over), tick(2));
 }
 

@@ -5,15 +5,15 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/linux/kms/scanout/flip_pacing.h"
+#include "hal/linux/system/flip_pacing.h"
 
 namespace octascope::tests {
 namespace {
 
 using hal::Duration;
 using hal::TimePoint;
-using hal::linux_backend::kms::FlipPacer;
-using hal::linux_backend::kms::FlipTimes;
+using hal::linux_backend::FlipPacer;
+using hal::linux_backend::FlipTimes;
 using namespace std::chrono_literals;
 
 constexpr Duration period = 16666667ns;

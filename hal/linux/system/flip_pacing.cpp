@@ -1,8 +1,8 @@
-#include "hal/linux/kms/scanout/flip_pacing.h"
+#include "hal/linux/system/flip_pacing.h"
 
 #include <algorithm>
 
-namespace octascope::hal::linux_backend::kms {
+namespace octascope::hal::linux_backend {
 
 TimePoint FlipPacer::completed(const FlipTimes& flip) {
   const bool credible =
@@ -15,4 +15,4 @@ TimePoint FlipPacer::completed(const FlipTimes& flip) {
   return completed_;
 }
 
-} // namespace octascope::hal::linux_backend::kms
+} // namespace octascope::hal::linux_backend

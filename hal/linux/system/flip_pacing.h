@@ -5,7 +5,7 @@
 
 #include "hal/clock.h"
 
-namespace octascope::hal::linux_backend::kms {
+namespace octascope::hal::linux_backend {
 
 // What is known of one flip.
 struct FlipTimes {
@@ -37,4 +37,4 @@ private:
   TimePoint next_allowed_;
 };
 
-} // namespace octascope::hal::linux_backend::kms
+} // namespace octascope::hal::linux_backend
