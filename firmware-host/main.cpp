@@ -1,7 +1,7 @@
 // octascope: the command line.
 #include <string>
 
-#include "firmware-host/commands/bench/bench.h"
+#include "firmware-host/commands/bench/bench_command.h"
 #include "firmware-host/commands/calibrate/calibrate.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/devices/status.h"

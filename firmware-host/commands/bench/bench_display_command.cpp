@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "firmware-host/commands/arguments.h"
-#include "firmware-host/commands/bench/bench.h"
+#include "firmware-host/commands/bench/bench_command.h"
 #include "firmware-host/commands/bench/bench_display.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/run/volume_source.h"

@@ -13,13 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include "firmware-host/commands/bench/bench.h"
 #include "firmware-host/commands/bench/bench_timing.h"
-#include "firmware-host/commands/command.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
 #include "pipeline/reconstruction/fft_plan.h"
 #include "pipeline/volume/level_scale.h"
@@ -32,7 +26,7 @@ using pipeline::BackgroundMode;
 using pipeline::Interpolation;
 using pipeline::ReconstructionPath;
 
-constexpr int samples = 1024;
+constexpr int samples = bench_samples;
 constexpr int a_scans = 300;
 constexpr int fewest_repeats = 9;
 constexpr double source_counts = 20000;
@@ -284,39 +278,6 @@ std::vector<BenchCase> all_cases() {
   return cases;
 }
 
-const char* path_name(ReconstructionPath path) {
-  return path == ReconstructionPath::fused ? "fused" : "fftw";
-}
-
-const char* interpolation_name(Interpolation interpolation) {
-  switch (interpolation) {
-  case Interpolation::linear: return "linear";
-  case Interpolation::cubic: return "cubic";
-  case Interpolation::sinc8: break;
-  }
-  return "sinc8";
-}
-
-const char* background_name(BackgroundMode background) {
-  return background == BackgroundMode::file ? "recorded" : "mean";
-}
-
-void print_text(const BenchReport& report) {
-  fmt::print("{}\nbare FFTW c2c {}: {:.0f} ns; raw data from a ring of {:.0f} MB; medians, "
-             "spread between the quartiles\n\n"
-             "path   isa     taps    dispersion background threads  lines/s   "
-             "x FFTW  spread  "
-             "error  differing\n",
-             report.cpu, samples, report.fftw_c2c_ns, report.ring_mb);
-  for (const BenchResult& result : report.cases)
-    fmt::print(
-        "{:<6} {:<7} {:<7} {:<10} {:<10} {:>7} {:>8.0f} k {:>7.3f} {:>6.1f} % {:>5} {:>8.3f} %\n",
-        path_name(result.what.path), result.what.isa, interpolation_name(result.what.interpolation),
-        result.what.dispersion ? "yes" : "no", background_name(result.what.background),
-        result.what.threads, result.lines_per_s / 1000, result.ratio_to_fftw, 100 * result.spread,
-        result.max_count_error, 100 * result.share_differing);
-}
-
 } // namespace
 
 hal::Result<BenchReport> bench_reconstruct(double seconds) {
@@ -334,54 +295,6 @@ hal::Result<BenchReport> bench_reconstruct(double seconds) {
   }
   report.fftw_c2c_ns = 1e9 * quantile(bare_seconds, 0.5);
   return report;
-}
-
-std::string to_json(const BenchReport& report) {
-  nlohmann::ordered_json json{
-      {"cpu", report.cpu}, {"fftw_c2c_1024_ns", report.fftw_c2c_ns}, {"ring_mb", report.ring_mb}};
-  auto& list = json["cases"] = nlohmann::ordered_json::array();
-  for (const BenchResult& result : report.cases)
-    list.push_back({{"path", path_name(result.what.path)},
-                    {"isa", result.what.isa},
-                    {"samples", samples},
-                    {"interpolation", interpolation_name(result.what.interpolation)},
-                    {"dispersion", result.what.dispersion},
-                    {"background", background_name(result.what.background)},
-                    {"threads", result.what.threads},
-                    {"lines_per_s", result.lines_per_s},
-                    {"ratio_to_fftw", result.ratio_to_fftw},
-                    {"spread", result.spread},
-                    {"repeats", result.repeats},
-                    {"max_count_error", result.max_count_error},
-                    {"share_differing", result.share_differing}});
-  return json.dump(2);
-}
-
-void add_bench_reconstruct_command(CLI::App& bench, int& exit_status) {
-  struct Options {
-    bool as_json = false;
-    double seconds = 30;
-  };
-  auto options = std::make_shared<Options>();
-  CLI::App* command = bench.add_subcommand(
-      "reconstruct", "Lines a second of each path, relative to bare FFTW transforms");
-  command->add_flag("--json", options->as_json, "One JSON object");
-  command->add_option("--seconds", options->seconds, "About how long to measure (30 if not given)")
-      ->check(CLI::Range(0.1, 3600.0));
-  command->footer("Example: octascope bench reconstruct --json");
-  command->callback([options, &exit_status] {
-    const auto report = bench_reconstruct(options->seconds);
-    if (!report) {
-      fmt::print(stderr, "octascope bench reconstruct: {}\n", report.error().message);
-      exit_status = exit_failed;
-      return;
-    }
-    if (options->as_json)
-      fmt::print("{}\n", to_json(*report));
-    else
-      print_text(*report);
-    exit_status = exit_done;
-  });
 }
 
 } // namespace octascope::firmware_host

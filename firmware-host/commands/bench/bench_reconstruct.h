@@ -10,6 +10,9 @@
 
 namespace octascope::firmware_host {
 
+// Of a line.
+inline constexpr int bench_samples = 1024;
+
 // What is measured: 300 lines of 1024 u16 samples a B-scan, Hann window, a chirp of 70 pixels,
 // 8-bit levels. The background is recorded, or the mean of the B-scan's lines: then they are read
 // twice.
@@ -44,6 +47,7 @@ struct BenchReport {
 // `seconds` is about what all the measuring takes.
 hal::Result<BenchReport> bench_reconstruct(double seconds);
 
+std::string to_text(const BenchReport& report);
 std::string to_json(const BenchReport& report);
 
 } // namespace octascope::firmware_host

@@ -1,4 +1,4 @@
-#include "firmware-host/commands/bench/bench.h"
+#include "firmware-host/commands/bench/bench_command.h"
 
 namespace octascope::firmware_host {
 
