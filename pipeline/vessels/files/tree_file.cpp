@@ -24,8 +24,11 @@ constexpr std::string_view expected_file =
 template <class Read> hal::Result<TreeFile> as_tree_file(hal::Result<Read> read) {
   if (!read)
     return tl::make_unexpected(std::move(read.error()));
-  return hal::Result<TreeFile>{
-      tl::in_place, TreeFile{std::move(read->tree), read->unit, std::move(read->counts)}};
+  hal::Result<TreeFile> file; // filled in place: GCC 14 finds fault with a moved-from variant
+  file->tree = std::move(read->tree);
+  file->unit = read->unit;
+  file->counts = std::move(read->counts);
+  return file;
 }
 
 hal::Result<TreeFile> read_clusters(const fs::path& file, const TreeReadOptions& options) {
