@@ -15,6 +15,7 @@
 #include "pipeline/volume/level_scale.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/files/calibrations.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -184,7 +185,7 @@ TEST(Reconstructor, never_reads_the_neighbouring_line) {
     const auto line = noise(samples, 5);
     const auto alone = reconstruct_db(calibration, line);
     std::vector<float> poisoned(3 * samples, std::numeric_limits<float>::quiet_NaN());
-    std::copy(line.begin(), line.end(), poisoned.begin() + samples);
+    std::ranges::copy(line, poisoned.begin() + samples);
     const auto between = reconstruct_db(calibration, poisoned);
     for (std::size_t z = 0; z < alone.size(); ++z)
       ASSERT_EQ(alone[z], between[alone.size() + z]) << z;
@@ -197,22 +198,21 @@ TEST(Reconstructor, reads_only_the_kept_lines) {
   hal::LineFormat camera;
   camera.samples_per_line = samples;
   camera.lines_per_frame = 5;
-  const auto reconstructor = Reconstructor::create({calibration, SpectrumFormat{camera}, 3});
-  ASSERT_TRUE(reconstructor);
-  EXPECT_EQ(reconstructor->kept_bytes(), 3U * samples * 2);
+  const auto reconstructor =
+      tests::must(Reconstructor::create({calibration, SpectrumFormat{camera}, 3}));
   std::mt19937 generator{1};
   std::vector<std::uint16_t> frame(5 * samples);
   for (auto& count : frame)
     count = static_cast<std::uint16_t>(generator() % 4000);
-  auto workspace = reconstructor->make_workspace();
-  std::vector<std::uint8_t> levels(reconstructor->levels());
-  std::vector<std::uint8_t> again(reconstructor->levels());
+  auto workspace = reconstructor.make_workspace();
+  std::vector<std::uint8_t> levels(reconstructor.levels());
+  std::vector<std::uint8_t> again(reconstructor.levels());
   const auto outcome =
-      reconstructor->reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), levels);
+      reconstructor.reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), levels);
   EXPECT_EQ(outcome.saturated_lines, 0);
   std::fill(frame.begin() + 3 * samples, frame.end(), std::uint16_t{4095});
   const auto with_fly_back =
-      reconstructor->reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), again);
+      reconstructor.reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), again);
   EXPECT_EQ(with_fly_back.saturated_lines, 0);
   EXPECT_EQ(levels, again);
 }
@@ -222,27 +222,26 @@ TEST(Reconstructor, counts_saturated_lines) {
   SpectrumFormat format{samples, hal::SampleType::u16};
   format.significant_bits = 12;
   format.right_shift = 4;
-  const auto reconstructor = Reconstructor::create({Calibration::identity(samples), format, 4});
-  ASSERT_TRUE(reconstructor);
+  const auto reconstructor =
+      tests::must(Reconstructor::create({Calibration::identity(samples), format, 4}));
   std::vector<std::uint16_t> frame(4 * samples, 4094 << 4);
   frame[samples - 1] = 4095 << 4;
   frame[2 * samples] = 4095 << 4;
   frame[2 * samples + 1] = 4095 << 4;
-  auto workspace = reconstructor->make_workspace();
-  std::vector<std::uint8_t> levels(reconstructor->levels());
-  EXPECT_EQ(reconstructor->reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), levels)
+  auto workspace = reconstructor.make_workspace();
+  std::vector<std::uint8_t> levels(reconstructor.levels());
+  EXPECT_EQ(reconstructor.reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), levels)
                 .saturated_lines,
             2);
 }
 
 TEST(Reconstructor, a_dark_line_is_dark) {
-  const auto reconstructor = Reconstructor::create(
-      {Calibration::identity(64), SpectrumFormat{64, hal::SampleType::u8}, 2});
-  ASSERT_TRUE(reconstructor);
-  auto workspace = reconstructor->make_workspace();
+  const auto reconstructor = tests::must(Reconstructor::create(
+      {Calibration::identity(64), SpectrumFormat{64, hal::SampleType::u8}, 2}));
+  auto workspace = reconstructor.make_workspace();
   const std::vector<std::byte> frame(128);
-  std::vector<std::uint8_t> levels(reconstructor->levels(), 9);
-  reconstructor->reconstruct_b_scan(workspace, frame, levels);
+  std::vector<std::uint8_t> levels(reconstructor.levels(), 9);
+  reconstructor.reconstruct_b_scan(workspace, frame, levels);
   EXPECT_EQ(levels, std::vector<std::uint8_t>(levels.size(), 0));
 }
 
@@ -253,19 +252,18 @@ TEST(Reconstructor, a_running_background_remembers) {
   Calibration calibration = Calibration::identity(samples);
   calibration.background_mode = BackgroundMode::running;
   calibration.window = make_spectral_window(SpectralWindow::flat, samples);
-  const auto reconstructor =
-      Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::u8}, 2});
-  ASSERT_TRUE(reconstructor);
-  auto workspace = reconstructor->make_workspace();
-  std::vector<float> db(reconstructor->levels());
+  const auto reconstructor = tests::must(
+      Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::u8}, 2}));
+  auto workspace = reconstructor.make_workspace();
+  std::vector<float> db(reconstructor.levels());
   const std::vector<std::byte> first(2 * samples, std::byte{100});
   const std::vector<std::byte> second(2 * samples, std::byte{200});
-  reconstructor->reconstruct_b_scan_db(workspace, first, db);
+  reconstructor.reconstruct_b_scan_db(workspace, first, db);
   EXPECT_LT(db[0], -100);
-  reconstructor->reconstruct_b_scan_db(workspace, second, db);
+  reconstructor.reconstruct_b_scan_db(workspace, second, db);
   EXPECT_NEAR(db[0], 20 * std::log10(50.0), 0.01);
   workspace.reset_background();
-  reconstructor->reconstruct_b_scan_db(workspace, second, db);
+  reconstructor.reconstruct_b_scan_db(workspace, second, db);
   EXPECT_LT(db[0], -100);
 }
 
@@ -274,17 +272,16 @@ TEST(Reconstructor, serves_many_threads) {
   calibration.dispersion_rad = tests::dispersion(256, 40, 10);
   const auto lines = noise(256 * 20, 6);
   const auto expected = reconstruct_db(calibration, lines);
-  const auto reconstructor =
-      Reconstructor::create({calibration, SpectrumFormat{256, hal::SampleType::f32}, 20});
-  ASSERT_TRUE(reconstructor);
-  std::vector<std::vector<float>> results(4, std::vector<float>(reconstructor->levels()));
+  const auto reconstructor = tests::must(
+      Reconstructor::create({calibration, SpectrumFormat{256, hal::SampleType::f32}, 20}));
+  std::vector<std::vector<float>> results(4, std::vector<float>(reconstructor.levels()));
   {
     std::vector<std::jthread> threads;
     for (auto& result : results)
       threads.emplace_back([&] {
-        auto workspace = reconstructor->make_workspace();
+        auto workspace = reconstructor.make_workspace();
         for (int i = 0; i < 10; ++i)
-          reconstructor->reconstruct_b_scan_db(workspace, std::as_bytes(std::span{lines}), result);
+          reconstructor.reconstruct_b_scan_db(workspace, std::as_bytes(std::span{lines}), result);
         // Making another one meanwhile disturbs nobody.
         EXPECT_TRUE(Reconstructor::create(
             {Calibration::identity(100), SpectrumFormat{100, hal::SampleType::u16}, 1}));
@@ -303,17 +300,16 @@ TEST(Reconstructor, allocates_nothing) {
       calibration.background_mode = mode;
       if (dispersed)
         calibration.dispersion_rad = tests::dispersion(1024, 40, 10);
-      const auto reconstructor =
-          Reconstructor::create({calibration, SpectrumFormat{1024, hal::SampleType::u16}, 20});
-      ASSERT_TRUE(reconstructor);
-      auto workspace = reconstructor->make_workspace();
+      const auto reconstructor = tests::must(
+          Reconstructor::create({calibration, SpectrumFormat{1024, hal::SampleType::u16}, 20}));
+      auto workspace = reconstructor.make_workspace();
       const std::vector<std::uint16_t> frame(20 * 1024, 777);
-      std::vector<std::uint8_t> levels(reconstructor->levels());
-      std::vector<float> db(reconstructor->levels());
+      std::vector<std::uint8_t> levels(reconstructor.levels());
+      std::vector<float> db(reconstructor.levels());
       const auto before = tests::allocations_of_this_thread();
       ASSERT_GT(before, 0U);
-      reconstructor->reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), levels);
-      reconstructor->reconstruct_b_scan_db(workspace, std::as_bytes(std::span{frame}), db);
+      reconstructor.reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), levels);
+      reconstructor.reconstruct_b_scan_db(workspace, std::as_bytes(std::span{frame}), db);
       EXPECT_EQ(tests::allocations_of_this_thread(), before);
     }
   }
@@ -321,9 +317,7 @@ TEST(Reconstructor, allocates_nothing) {
 
 TEST(Reconstructor, refuses_what_does_not_fit_together) {
   const auto message = [](const ReconstructionSetup& setup) {
-    const auto reconstructor = Reconstructor::create(setup);
-    EXPECT_FALSE(reconstructor);
-    return reconstructor ? std::string{} : reconstructor.error().message;
+    return tests::error_of(Reconstructor::create(setup)).message;
   };
   const Calibration good = Calibration::identity(64);
   const SpectrumFormat u16{64, hal::SampleType::u16};

@@ -19,6 +19,7 @@
 #include "pipeline/volume/level_scale.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/small_recording.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -132,9 +133,8 @@ TEST_F(DicomVolume, of_an_odd_size_is_padded_with_one_byte) {
   facts.geometry = {3, 5, 1, 3.5, 10, 37.5};
   Volume volume{facts.geometry};
   std::ranges::fill(volume.levels, std::uint8_t{77});
-  auto writer = DicomWriter::create(facts, small_recording_entry(0), options);
-  ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->write(path, volume, small_recording_entry(0), 0));
+  auto writer = tests::must(DicomWriter::create(facts, small_recording_entry(0), options));
+  ASSERT_TRUE(writer.write(path, volume, small_recording_entry(0), 0));
   DicomFile file{path};
   std::vector<std::uint8_t> expected(15, 77);
   expected.push_back(0);
@@ -290,9 +290,8 @@ TEST_F(DicomVolume, of_one_recording_is_one_series_always) {
   // Another recording that began in the same second.
   RecordedVolume first = small_recording_entry(0);
   ++first.wall_clock_ns;
-  auto other = DicomWriter::create(small_recording_facts(), first, options);
-  ASSERT_TRUE(other);
-  ASSERT_TRUE(other->write(path, small_recording_volume(0), first, 0));
+  auto other = tests::must(DicomWriter::create(small_recording_facts(), first, options));
+  ASSERT_TRUE(other.write(path, small_recording_volume(0), first, 0));
   add(DicomFile{path});
   EXPECT_EQ(series.size(), 2U);
   EXPECT_EQ(studies.size(), 2U);
@@ -318,10 +317,10 @@ TEST_F(DicomVolume, is_nobodys_but_its_owners) {
 }
 
 TEST_F(DicomVolume, appears_complete_or_not_at_all) {
-  auto writer = DicomWriter::create(small_recording_facts(), small_recording_entry(0), options);
-  ASSERT_TRUE(writer);
+  auto writer =
+      tests::must(DicomWriter::create(small_recording_facts(), small_recording_entry(0), options));
   const auto write_to = [&](const std::filesystem::path& where) {
-    return writer->write(where, small_recording_volume(0), small_recording_entry(0), 0);
+    return writer.write(where, small_recording_volume(0), small_recording_entry(0), 0);
   };
   EXPECT_EQ(write_to(folder / "no/such/v.dcm").error().code, hal::ErrorCode::absent);
   std::filesystem::create_directory(folder / "d");
@@ -352,9 +351,9 @@ TEST_F(DicomVolume, of_a_geometry_that_dicom_does_not_know_is_refused) {
     ASSERT_FALSE(writer) << depths << " " << b_scans;
     EXPECT_EQ(writer.error().code, hal::ErrorCode::unsupported);
   }
-  auto writer = DicomWriter::create(small_recording_facts(), small_recording_entry(0), options);
-  ASSERT_TRUE(writer);
-  EXPECT_FALSE(writer->write(path, Volume{{12, 7, 6, 3.5, 10, 37.5}}, small_recording_entry(0), 0));
+  auto writer =
+      tests::must(DicomWriter::create(small_recording_facts(), small_recording_entry(0), options));
+  EXPECT_FALSE(writer.write(path, Volume{{12, 7, 6, 3.5, 10, 37.5}}, small_recording_entry(0), 0));
 }
 
 TEST_F(DicomVolume, satisfies_a_checker_of_the_standard) {
