@@ -60,24 +60,6 @@ TEST_P(ZeroPadding, agrees_with_the_reference) {
   }
 }
 
-TEST_P(ZeroPadding, every_second_level_is_one_without_it) {
-  const int samples = GetParam();
-  Calibration calibration = tests::chirped_calibration(samples, samples / 20.0);
-  const auto counts = draw_counts(samples);
-  const auto plain = reconstruct(calibration, counts);
-  calibration.zero_padding = 2;
-  const auto padded = reconstruct(calibration, counts);
-  const auto depths = static_cast<std::size_t>(samples / 2);
-  for (std::size_t a = 0; a < lines; ++a) {
-    for (std::size_t z = 0; z < depths; ++z) {
-      const float level = plain[a * depths + z];
-      if (level > 0) {
-        ASSERT_NEAR(padded[a * static_cast<std::size_t>(samples) + 2 * z], level, 0.02F);
-      }
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(lengths, ZeroPadding, testing::Values(16, 17, 509, 1000, 1024));
 
 TEST(ZeroPadding, the_geometry_follows) {
