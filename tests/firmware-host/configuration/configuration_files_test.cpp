@@ -1,7 +1,5 @@
 // What keeps a configuration together and keeps the picture when one is broken.
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +8,7 @@
 #include "firmware-host/configuration/configuration_check.h"
 #include "firmware-host/configuration/kept/configuration_choice.h"
 #include "firmware-host/configuration/kept/last_good.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/must.h"
 
@@ -20,12 +19,6 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using ui::ConfigurationState;
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file}.rdbuf();
-  return text.str();
-}
 
 class ConfigurationFiles : public testing::Test {
 protected:
@@ -90,7 +83,8 @@ TEST_F(ConfigurationFiles, stay_together_when_the_originals_are_gone) {
   EXPECT_EQ(read.plan->b_scans, 20);
   EXPECT_EQ(read.look.transfers.functions().back().name, "mine");
   EXPECT_EQ(read.objectives.size(), 2U);
-  EXPECT_THAT(text_of(file), HasSubstr("# größer")) << "with the comments that people wrote";
+  EXPECT_THAT(tests::whole_file(file), HasSubstr("# größer"))
+      << "with the comments that people wrote";
 }
 
 TEST_F(ConfigurationFiles, that_name_what_cannot_be_read_are_not_kept) {

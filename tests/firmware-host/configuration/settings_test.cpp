@@ -1,6 +1,4 @@
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,6 +6,7 @@
 #include "firmware-host/configuration/kept/settings.h"
 #include "firmware-host/configuration/kept/settings_store.h"
 #include "sim/clock/virtual_clock.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/must.h"
 
@@ -55,11 +54,7 @@ protected:
     folder_.write("settings.toml", settings_text(configured_, state));
   }
   hal::Result<RestoredView> read() const { return read_settings(file(), configured_); }
-  std::string written() const {
-    std::ostringstream text;
-    text << std::ifstream{file()}.rdbuf();
-    return text.str();
-  }
+  std::string written() const { return tests::whole_file(file()); }
 
   tests::ScratchFolder folder_;
   ConfiguredView configured_;

@@ -1,7 +1,5 @@
 #include <cstdlib>
-#include <fstream>
 #include <numeric>
-#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -9,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/files/nrrd.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/must.h"
 
@@ -25,18 +24,12 @@ NrrdVolume float_volume() {
   return volume;
 }
 
-std::string contents(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  return text.str();
-}
-
 class Nrrd : public testing::Test {
 protected:
   // What the reader says about our own file with `from` replaced by `to`.
   std::string refusal(const std::string& from, const std::string& to) {
     EXPECT_TRUE(write_nrrd(folder / "v.nrrd", float_volume()));
-    std::string text = contents(folder / "v.nrrd");
+    std::string text = tests::whole_file(folder / "v.nrrd");
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
     text.replace(at, from.size(), to);
@@ -71,7 +64,7 @@ TEST_F(Nrrd, notes_are_in_the_header_whatever_they_hold) {
                                                notes, Readers::owner));
   ASSERT_TRUE(writer.write_b_scan(0, std::get<0>(volume.levels)));
   ASSERT_TRUE(writer.commit());
-  EXPECT_THAT(contents(folder / "v.nrrd"),
+  EXPECT_THAT(tests::whole_file(folder / "v.nrrd"),
               HasSubstr("\nSIMULATED:=yes\nsource:=two\\nlines, a \\\\ and µ \n\n"));
   using std::filesystem::perms;
   EXPECT_EQ(std::filesystem::status(folder / "v.nrrd").permissions(),
@@ -83,7 +76,7 @@ TEST_F(Nrrd, notes_are_in_the_header_whatever_they_hold) {
     EXPECT_EQ(std::system(
                   fmt::format("teem-unu head {} > {}", (folder / "v.nrrd").string(), out).c_str()),
               0);
-    EXPECT_THAT(contents(out), HasSubstr("source:=two\\nlines, a \\\\ and µ"));
+    EXPECT_THAT(tests::whole_file(out), HasSubstr("source:=two\\nlines, a \\\\ and µ"));
   }
 }
 
@@ -106,13 +99,13 @@ TEST_F(Nrrd, teem_reads_it) {
   ASSERT_EQ(std::system(
                 fmt::format("teem-unu minmax {} > {}", (folder / "v.nrrd").string(), out).c_str()),
             0);
-  EXPECT_THAT(contents(out), HasSubstr("min: -7.25"));
-  EXPECT_THAT(contents(out), HasSubstr("max: 15.75"));
+  EXPECT_THAT(tests::whole_file(out), HasSubstr("min: -7.25"));
+  EXPECT_THAT(tests::whole_file(out), HasSubstr("max: 15.75"));
 }
 
 TEST_F(Nrrd, header_is_the_contract) {
   ASSERT_TRUE(write_nrrd(folder / "v.nrrd", float_volume()));
-  const std::string text = contents(folder / "v.nrrd");
+  const std::string text = tests::whole_file(folder / "v.nrrd");
   EXPECT_TRUE(text.starts_with("NRRD0005\n"));
   for (const char* field :
        {"type: float\n", "dimension: 3\n", "sizes: 4 3 2\n", "spacings: 0.0035 0.01 0.0375\n",

@@ -2,9 +2,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "dcmtk/config/osconfig.h"
 #include "dcmtk/dcmdata/dctk.h"
@@ -17,6 +15,7 @@
 #include "pipeline/recordings/dicom/dicom_uid.h"
 #include "pipeline/recordings/dicom/dicom_writer.h"
 #include "pipeline/volume/level_scale.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/small_recording.h"
 #include "tests/support/must.h"
@@ -299,15 +298,10 @@ TEST_F(DicomVolume, of_one_recording_is_one_series_always) {
 }
 
 TEST_F(DicomVolume, is_written_alike_each_time) {
-  const auto contents = [&] {
-    std::ostringstream text;
-    text << std::ifstream{path, std::ios::binary}.rdbuf();
-    return text.str();
-  };
   write(small_recording_facts());
-  const std::string once = contents();
+  const std::string once = tests::whole_file(path);
   write(small_recording_facts());
-  EXPECT_EQ(contents(), once);
+  EXPECT_EQ(tests::whole_file(path), once);
 }
 
 TEST_F(DicomVolume, is_nobodys_but_its_owners) {
@@ -367,10 +361,9 @@ TEST_F(DicomVolume, satisfies_a_checker_of_the_standard) {
     const std::string out = (folder / "verdict").string();
     const int status =
         std::system(fmt::format("dciodvfy {} > {} 2>&1", path.string(), out).c_str());
-    std::ostringstream verdict;
-    verdict << std::ifstream{out}.rdbuf();
-    EXPECT_EQ(status, 0) << verdict.str();
-    EXPECT_THAT(verdict.str(), Not(HasSubstr("Error")));
+    const std::string verdict = tests::whole_file(out);
+    EXPECT_EQ(status, 0) << verdict;
+    EXPECT_THAT(verdict, Not(HasSubstr("Error")));
   }
 }
 

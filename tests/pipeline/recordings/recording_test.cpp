@@ -1,8 +1,6 @@
 // Recordings: what is written is read again, at any moment, and however the writer ended.
 #include <csignal>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -235,9 +233,7 @@ TEST_F(Recording, refuses_facts_that_cannot_be) {
 // own, since what HDF5 does with such a file is not ours to fix.
 TEST_F(Recording, with_damaged_bytes_is_read_or_refused) {
   write_small_recording(file, 3);
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  const std::string good = text.str();
+  const std::string good = tests::whole_file(file);
   std::mt19937_64 random{tests::fresh_seed()};
   int refused = 0;
   constexpr int rounds = 200;
