@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
 #include <tl/expected.hpp>
 
 namespace octascope::hal {
@@ -36,6 +37,12 @@ template <class T = void> using Result = tl::expected<T, Error>;
 
 inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
   return tl::make_unexpected(Error{code, std::move(message)});
+}
+
+template <class First, class... Rest>
+tl::unexpected<Error> fail(ErrorCode code, fmt::format_string<First, Rest...> pattern,
+                           First&& first, Rest&&... rest) {
+  return fail(code, fmt::format(pattern, std::forward<First>(first), std::forward<Rest>(rest)...));
 }
 
 } // namespace octascope::hal

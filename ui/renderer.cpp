@@ -4,7 +4,6 @@
 #include <vector>
 
 #include <GLES3/gl3.h>
-#include <fmt/format.h>
 
 #include "ui/gl/framebuffer.h"
 #include "ui/hud/canvas_renderer.h"
@@ -47,7 +46,7 @@ hal::Result<> check_size(int width, int height) {
   if (width >= 1 && height >= 1)
     return {};
   return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("renderer: size is {}x{}, expected at least 1x1", width, height));
+                   "renderer: size is {}x{}, expected at least 1x1", width, height);
 }
 
 float aspect_of(const Rect& rect) {

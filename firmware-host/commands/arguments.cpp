@@ -93,10 +93,9 @@ hal::Result<std::array<int, 2>> parse_size(std::string_view text) {
   std::array<int, 2> size{};
   if (parse_counts(text, 'x', 16384, size))
     return size;
-  return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("--size is \"{}\", expected width x height in pixels, 1 to 16384 "
-                               "each, as in 1280x720",
-                               text));
+  return hal::fail(
+      hal::ErrorCode::invalid_argument,
+      "--size is \"{}\", expected width x height in pixels, 1 to 16384 each, as in 1280x720", text);
 }
 
 bool read_number(std::string_view text, float& value, const ui::NumberRange& range) {
@@ -115,9 +114,9 @@ hal::Result<ui::DisplayWindow> parse_window(std::string_view text) {
       read_number(text.substr(comma + 1), window.size_db, size))
     return window;
   return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("--window is \"{}\", expected L,S: the level in dB where it begins "
-                               "({} to {}) and its size in dB ({} to {}), as in 8,36",
-                               text, offset.lowest, offset.highest, size.lowest, size.highest));
+                   "--window is \"{}\", expected L,S: the level in dB where it begins ({} to {}) "
+                   "and its size in dB ({} to {}), as in 8,36",
+                   text, offset.lowest, offset.highest, size.lowest, size.highest);
 }
 
 hal::Result<VolumeRange> parse_volumes(std::string_view text) {
@@ -134,9 +133,9 @@ hal::Result<VolumeRange> parse_volumes(std::string_view text) {
   if (good)
     return range;
   return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("--volumes is \"{}\", expected one volume, counted from 0, or a "
-                               "range, as in 12, 10-20, or 10- to the last",
-                               text));
+                   "--volumes is \"{}\", expected one volume, counted from 0, or a range, as in "
+                   "12, 10-20, or 10- to the last",
+                   text);
 }
 
 } // namespace octascope::firmware_host

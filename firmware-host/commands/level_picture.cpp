@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "pipeline/volume/level_scale.h"
 #include "ui/panels/projection.h"
 
@@ -94,9 +92,9 @@ hal::Result<pipeline::Image> to_scale(const pipeline::Image& grey, double column
   const double height = std::max(1.0, std::round(grey.height * row_spacing / pixel));
   if (!(width <= longest_side && height <= longest_side))
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("to scale, the picture would have {:.0f}×{:.0f} pixels, expected "
-                                 "at most {} either way; without --to-scale it has {}×{}",
-                                 width, height, longest_side, grey.width, grey.height));
+                     "to scale, the picture would have {:.0f}×{:.0f} pixels, expected at most {} "
+                     "either way; without --to-scale it has {}×{}",
+                     width, height, longest_side, grey.width, grey.height);
   pipeline::Image image{static_cast<int>(width), static_cast<int>(height), 1};
   const auto nearest = [](int at, int of, int source) {
     return static_cast<std::size_t>((2 * std::int64_t{at} + 1) * source / (2 * std::int64_t{of}));

@@ -1,7 +1,6 @@
 // B-scans and volumes from above as pictures, for looking at on a desk; the display draws its own.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 

@@ -33,7 +33,7 @@ void set_pixel(pipeline::Image& image, int x, int y, Colour colour) {
   const auto at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                    static_cast<std::size_t>(x)) *
                   3;
-  std::copy(colour.begin(), colour.end(), image.pixels.begin() + static_cast<std::ptrdiff_t>(at));
+  std::ranges::copy(colour, image.pixels.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
 void draw_line(pipeline::Image& image, double x0, double y0, double x1, double y1, Colour colour) {

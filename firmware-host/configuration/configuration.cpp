@@ -10,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include "firmware-host/configuration/control_device_file.h"
-#include "pipeline/files/config_document.h"
 
 namespace octascope::firmware_host {
 
@@ -77,8 +76,7 @@ std::string read_wish(ConfigTable& table, const char* key, std::string_view fall
   std::string wish = table.text(key, std::string{fallback});
   const bool is_known = std::ranges::find(known, wish) != known.end();
   if (!is_known && (others == OtherWords::refused || wish.empty()))
-    table.complain(
-        fmt::format("{} is \"{}\", expected one of: {}", key, wish, fmt::join(known, ", ")));
+    table.complain("{} is \"{}\", expected one of: {}", key, wish, fmt::join(known, ", "));
   return wish;
 }
 
@@ -127,9 +125,9 @@ void read_keyboards(ConfigTable& table, DeviceConfig& config) {
     const std::string_view digits = "0123456789abcdef";
     if (usb.size() != 9 || usb[4] != ':' || usb.find_first_not_of(digits) != 4 ||
         usb.find_first_not_of(digits, 5) != usb.npos)
-      table.complain(fmt::format("keyboards has \"{}\", expected vendor and product as "
-                                 "\"046d:c31c\"; `octascope devices` names those of each keyboard",
-                                 written));
+      table.complain("keyboards has \"{}\", expected vendor and product as \"046d:c31c\"; "
+                     "`octascope devices` names those of each keyboard",
+                     written);
     config.keyboards.push_back(std::move(usb));
   }
 }

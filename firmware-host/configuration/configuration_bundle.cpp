@@ -24,9 +24,8 @@ hal::Result<std::string> read_file(const fs::path& file) {
   if (in)
     text << in.rdbuf();
   if (!in)
-    return hal::fail(hal::ErrorCode::absent,
-                     fmt::format("{}: cannot be read: {}", file.string(),
-                                 std::generic_category().message(errno == 0 ? EIO : errno)));
+    return hal::fail(hal::ErrorCode::absent, "{}: cannot be read: {}", file.string(),
+                     std::generic_category().message(errno == 0 ? EIO : errno));
   return text.str();
 }
 
@@ -88,8 +87,8 @@ hal::Result<ConfigurationBundle> ConfigurationBundle::read(const fs::path& folde
     bundle.files_[entry->path().filename().string()] = std::move(content);
   }
   if (error)
-    return hal::fail(hal::ErrorCode::absent,
-                     fmt::format("{}: cannot be listed: {}", folder.string(), error.message()));
+    return hal::fail(hal::ErrorCode::absent, "{}: cannot be listed: {}", folder.string(),
+                     error.message());
   return bundle;
 }
 

@@ -1,7 +1,6 @@
 #include "firmware-host/configuration/control_device_file.h"
 
 #include <charconv>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -28,7 +27,7 @@ void read_usb(ConfigTable& root, ControlModel& model) {
   const auto vendor = usb.size() == 9 && usb[4] == ':' ? hex4(usb.substr(0, 4)) : std::nullopt;
   const auto product = vendor ? hex4(usb.substr(5)) : std::nullopt;
   if (!product)
-    root.complain(fmt::format("usb is \"{}\", expected vendor and product as \"05f3:00ff\"", usb));
+    root.complain("usb is \"{}\", expected vendor and product as \"05f3:00ff\"", usb);
   model.vendor = vendor.value_or(0);
   model.product = product.value_or(0);
 }
@@ -55,8 +54,8 @@ hal::Result<ControlModel> read(const hal::Result<pipeline::ConfigDocument>& docu
     model.report_id = static_cast<std::uint8_t>(root.integer("report_id", 0, {0, 255}));
   std::vector<ConfigTable> switches = root.tables("switch");
   if (switches.empty() || switches.size() > hal::linux_backend::most_switches)
-    root.complain(fmt::format("{} switches, expected 1 to {}", switches.size(),
-                              hal::linux_backend::most_switches));
+    root.complain("{} switches, expected 1 to {}", switches.size(),
+                  hal::linux_backend::most_switches);
   for (ConfigTable& entry : switches)
     read_switch(entry, model);
   if (!model.keys.empty() && !model.bits.empty())

@@ -31,9 +31,8 @@ int read_colour_map(ConfigTable& place, const TransferSet& set) {
   const std::string name = place.text("colours", "grey");
   if (const auto index = set.colour_map_named(name))
     return *index;
-  place.complain(
-      fmt::format("colours is \"{}\", expected one of {}", name,
-                  list_names(set.colour_maps(), [](const ColourMap& m) { return m.name(); })));
+  place.complain("colours is \"{}\", expected one of {}", name,
+                 list_names(set.colour_maps(), [](const ColourMap& m) { return m.name(); }));
   return 0;
 }
 
@@ -104,9 +103,8 @@ int read_transfer(ConfigTable& display, const TransferSet& set) {
   const std::string name = display.text("transfer", "window");
   if (const auto index = set.function_named(name))
     return *index;
-  display.complain(
-      fmt::format("transfer is \"{}\", expected one of {}", name,
-                  list_names(set.functions(), [](const TransferFunction& f) { return f.name; })));
+  display.complain("transfer is \"{}\", expected one of {}", name,
+                   list_names(set.functions(), [](const TransferFunction& f) { return f.name; }));
   return 0;
 }
 
@@ -114,9 +112,9 @@ ui::Technique read_technique(ConfigTable& display, ui::Technique fallback) {
   const std::string name = display.text("technique", ui::to_string(fallback));
   if (const auto technique = ui::technique_named(name))
     return *technique;
-  display.complain(fmt::format(
+  display.complain(
       "technique is \"{}\", expected one of {}", name,
-      list_names(ui::all_techniques, [](ui::Technique t) { return ui::to_string(t); })));
+      list_names(ui::all_techniques, [](ui::Technique t) { return ui::to_string(t); }));
   return fallback;
 }
 

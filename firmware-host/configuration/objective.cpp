@@ -56,8 +56,7 @@ std::vector<Objective> read_objectives(pipeline::ConfigTable root) {
     const bool known = std::ranges::any_of(
         objectives, [&](const Objective& o) { return o.name == objective->name; });
     if (known)
-      entry.complain(
-          fmt::format("name \"{}\" is there twice, expected a name of its own", objective->name));
+      entry.complain("name \"{}\" is there twice, expected a name of its own", objective->name);
     objectives.push_back(std::move(*objective));
   }
   return objectives;

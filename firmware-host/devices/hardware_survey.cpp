@@ -1,7 +1,6 @@
 #include "firmware-host/devices/hardware_survey.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -52,8 +51,8 @@ std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
     if (it->path().filename().string().starts_with(prefix))
       found.push_back(it->path());
   }
-  std::sort(found.begin(), found.end(),
-            [](const fs::path& a, const fs::path& b) { return natural(a) < natural(b); });
+  std::ranges::sort(found,
+                    [](const fs::path& a, const fs::path& b) { return natural(a) < natural(b); });
   return found;
 }
 

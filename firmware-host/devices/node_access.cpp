@@ -4,7 +4,6 @@
 #include <array>
 #include <fstream>
 #include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <grp.h>
@@ -33,7 +32,7 @@ std::string group_name(gid_t id) {
 }
 
 bool contains(const std::vector<std::string>& list, const std::string& name) {
-  return std::find(list.begin(), list.end(), name) != list.end();
+  return std::ranges::find(list, name) != list.end();
 }
 
 // With what right the node's group may open it.

@@ -1,9 +1,6 @@
 #include "firmware-host/devices/twins.h"
 
 #include <algorithm>
-#include <span>
-
-#include <fmt/format.h>
 
 #include "pipeline/reconstruction/spectra_file.h"
 #include "sim/devices/control_script.h"
@@ -47,14 +44,13 @@ hal::Result<pipeline::ScanPlan> recorded_plan(const pipeline::SpectraShape& shap
     configuration.objective->scale(plan);
   if (plan.sweeps() != shape.b_scans)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("--shape has {} sweeps, expected a multiple of the {} repeats of "
-                                 "each B-scan",
-                                 shape.b_scans, plan.repeats));
+                     "--shape has {} sweeps, expected a multiple of the {} repeats of each B-scan",
+                     shape.b_scans, plan.repeats);
   if (plan.a_scans < 1)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("--shape has {} lines a sweep, expected more than the {} "
-                                 "turn-around lines of a bidirectional scan",
-                                 shape.a_scans, plan.turn_around_lines));
+                     "--shape has {} lines a sweep, expected more than the {} turn-around lines of "
+                     "a bidirectional scan",
+                     shape.a_scans, plan.turn_around_lines);
   return plan.validate().map([&] { return plan; });
 }
 

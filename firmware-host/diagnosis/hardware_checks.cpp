@@ -61,7 +61,7 @@ std::vector<HealthCheck> check_permissions(const HardwareSurvey& survey) {
   std::vector<HealthCheck> checks;
   const auto judge = [&](const char* subject, const std::vector<FoundDevice>& devices) {
     const auto refused = [](const FoundDevice& device) { return !device.usable; };
-    const auto first = std::find_if(devices.begin(), devices.end(), refused);
+    const auto first = std::ranges::find_if(devices, refused);
     if (devices.empty())
       return;
     if (first == devices.end()) {
@@ -69,7 +69,7 @@ std::vector<HealthCheck> check_permissions(const HardwareSurvey& survey) {
                                                  devices.size() == 1 ? "it" : "all of them")));
       return;
     }
-    const auto count = std::count_if(devices.begin(), devices.end(), refused);
+    const auto count = std::ranges::count_if(devices, refused);
     checks.push_back({subject, Verdict::limited,
                       fmt::format("{} of {} cannot be used; {} ({}): {}", count, devices.size(),
                                   first->node, first->name, first->why_not),
@@ -111,9 +111,8 @@ std::vector<HealthCheck> check_display(const HardwareSurvey& survey) {
     if (display.usable)
       return {good("display", fmt::format("{}: {}, prefers {}", display.node,
                                           fact(display, "monitor"), fact(display, "mode")))};
-  const auto connected =
-      std::find_if(survey.displays.begin(), survey.displays.end(),
-                   [](const FoundDevice& display) { return display.name == "connected"; });
+  const auto connected = std::ranges::find_if(
+      survey.displays, [](const FoundDevice& display) { return display.name == "connected"; });
   const FoundDevice& display =
       connected != survey.displays.end() ? *connected : survey.displays.front();
   return {{"display", Verdict::limited, fmt::format("{}: {}", display.node, display.why_not),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <string_view>
 #include <thread>
@@ -108,7 +107,7 @@ HealthCheck check_clock(hal::Clock& clock) {
       l = clock.now() - deadline;
     }
   }}.join();
-  std::sort(late.begin(), late.end());
+  std::ranges::sort(late);
   const double median_ms = hal::to_ms(late[sleeps / 2]);
   const double p99_ms = hal::to_ms(late[sleeps * 99 / 100]);
   const std::string found =

@@ -12,19 +12,18 @@ namespace octascope::firmware_host {
 hal::Result<std::unique_ptr<Reconstruction>>
 Reconstruction::make(const Devices& devices, const Configuration& configuration,
                      ReconstructionCache& cache) {
-  auto made = pipeline::Reconstructor::create({.calibration = devices.calibration(),
-                                               .format = pipeline::SpectrumFormat{devices.format()},
-                                               .a_scans = devices.plan().converted_lines(),
-                                               .memory = &cache});
-  if (!made)
-    return tl::make_unexpected(made.error());
+  HAL_TRY(auto made,
+          pipeline::Reconstructor::create({.calibration = devices.calibration(),
+                                           .format = pipeline::SpectrumFormat{devices.format()},
+                                           .a_scans = devices.plan().converted_lines(),
+                                           .memory = &cache}));
   static_cast<void>(cache.save()); // what was not kept is measured again; the doctor says why
   HAL_TRY(const auto average, pipeline::NeighbourAverage::create(configuration.neighbour_weights));
   const std::size_t workers = configuration.workers > 0
                                   ? configuration.workers
                                   : std::max(1U, std::thread::hardware_concurrency());
   return std::unique_ptr<Reconstruction>(
-      new Reconstruction{std::move(*made), average, workers, configuration.worker_cores});
+      new Reconstruction{std::move(made), average, workers, configuration.worker_cores});
 }
 
 Reconstruction::Reconstruction(pipeline::Reconstructor reconstructor,

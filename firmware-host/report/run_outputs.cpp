@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <string_view>
 
-#include <fmt/format.h>
-
 #include "pipeline/files/atomic_file.h"
 
 namespace octascope::firmware_host {
@@ -34,9 +32,8 @@ hal::Result<> check_apart(const RunOptions& options) {
     for (std::size_t j = 0; j < i; ++j)
       if (files[i].file && files[j].file && same_file(*files[i].file, *files[j].file))
         return hal::fail(hal::ErrorCode::invalid_argument,
-                         fmt::format("{} and {} are both {}, expected two files: give one of them "
-                                     "another name",
-                                     files[j].name, files[i].name, files[i].file->string()));
+                         "{} and {} are both {}, expected two files: give one of them another name",
+                         files[j].name, files[i].name, files[i].file->string());
   return {};
 }
 
@@ -56,9 +53,8 @@ hal::Result<> leave_snapshot(const RunOptions& options,
   if (!options.snapshot)
     return {};
   if (!picture)
-    return hal::fail(hal::ErrorCode::absent,
-                     fmt::format("{}: not written: the display was gone at the end",
-                                 options.snapshot->string()));
+    return hal::fail(hal::ErrorCode::absent, "{}: not written: the display was gone at the end",
+                     options.snapshot->string());
   HAL_CHECK(pipeline::write_png(*options.snapshot, *picture));
   fmt::print("snapshot: {}\n", options.snapshot->string());
   return {};

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <utility>
 
 #include "pipeline/threads/hot_path.h"
 #include "ui/controls/simulated_control.h"
 #include "ui/gl/context_info.h"
-#include "ui/transfer/auto_window.h"
 #include "ui/transfer/histogram.h"
 
 namespace octascope::firmware_host {

@@ -2,8 +2,6 @@
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "firmware-host/report/replay_report.h"
 #include "firmware-host/report/replay_text.h"
 #include "firmware-host/report/run_outputs.h"
@@ -78,12 +76,11 @@ hal::Result<> ReplaySource::open() {
   recording_end_ = reader.end();
   auto source = pipeline::replay_source(std::move(reader));
   if (!source)
-    return hal::fail(source.error().code,
-                     fmt::format("{}: {}", wanted.file.string(), source.error().message));
+    return hal::fail(source.error().code, "{}: {}", wanted.file.string(), source.error().message);
   if (wanted.from >= volumes)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("--from is {}, expected 0 to {}: {} has {} volumes", wanted.from,
-                                 volumes - 1, wanted.file.string(), volumes));
+                     "--from is {}, expected 0 to {}: {} has {} volumes", wanted.from, volumes - 1,
+                     wanted.file.string(), volumes);
   volumes_ = std::make_unique<pipeline::ReplayThread>(
       std::move(*source),
       pipeline::ReplaySetup{
@@ -145,9 +142,8 @@ hal::Result<> ReplaySource::outcome() const {
   if (volumes_->end() != ReplayEnd::unreadable)
     return {};
   return hal::fail(hal::ErrorCode::bad_data,
-                   fmt::format("{}: no volume could be read any more: the file is damaged, or its "
-                               "disk is gone",
-                               options_.replay->file.string()));
+                   "{}: no volume could be read any more: the file is damaged, or its disk is gone",
+                   options_.replay->file.string());
 }
 
 } // namespace

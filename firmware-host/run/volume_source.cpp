@@ -9,9 +9,6 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/devices/twins.h"
@@ -39,14 +36,12 @@ bool is_recording(const std::filesystem::path& file) {
 hal::Result<LoadedVolume> read_recorded(const std::filesystem::path& file, std::size_t at) {
   HAL_TRY(auto reader, pipeline::RecordingReader::open(file));
   if (reader.volumes().empty())
-    return hal::fail(
-        hal::ErrorCode::bad_data,
-        fmt::format("{}: found a recording of no volumes, expected one at least", file.string()));
+    return hal::fail(hal::ErrorCode::bad_data,
+                     "{}: found a recording of no volumes, expected one at least", file.string());
   if (at >= reader.volumes().size())
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("--at is {}, expected 0 to {}: {} has {} volumes", at,
-                                 reader.volumes().size() - 1, file.string(),
-                                 reader.volumes().size()));
+                     "--at is {}, expected 0 to {}: {} has {} volumes", at,
+                     reader.volumes().size() - 1, file.string(), reader.volumes().size());
   const pipeline::RecordingFacts& facts = reader.facts();
   LoadedVolume loaded{pipeline::Volume{facts.geometry}, {facts.subject, facts.eye}};
   HAL_CHECK(reader.read(at, loaded.volume));
@@ -111,16 +106,15 @@ hal::Result<LoadedVolume> reconstruct(const VolumeRequest& request) {
   configuration.loop_volumes = 1;
   hal::linux_backend::MonotonicClock clock;
   HAL_TRY(const auto twins, make_twins(options, configuration, clock));
-  const auto reconstructor = pipeline::Reconstructor::create(
-      {.calibration = twins.calibration,
-       .format = pipeline::SpectrumFormat{twins.format},
-       .a_scans = twins.plan.converted_lines(),
-       // Not whichever is faster just now: the same levels each time.
-       .path = pipeline::ReconstructionPath::fftw});
-  if (!reconstructor)
-    return tl::make_unexpected(reconstructor.error());
+  HAL_TRY(const auto reconstructor,
+          pipeline::Reconstructor::create(
+              {.calibration = twins.calibration,
+               .format = pipeline::SpectrumFormat{twins.format},
+               .a_scans = twins.plan.converted_lines(),
+               // Not whichever is faster just now: the same levels each time.
+               .path = pipeline::ReconstructionPath::fftw}));
   HAL_TRY(const auto average, pipeline::NeighbourAverage::create(configuration.neighbour_weights));
-  return LoadedVolume{build_volume(twins, *reconstructor, average), {}};
+  return LoadedVolume{build_volume(twins, reconstructor, average), {}};
 }
 
 } // namespace
@@ -130,17 +124,17 @@ hal::Result<LoadedVolume> load_volume(const VolumeRequest& request) {
       (request.file ? 1 : 0) + (request.recording ? 1 : 0) + (request.phantom ? 1 : 0);
   if (sources != 1)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("found {} volumes to draw, expected one: --volume FILE, "
-                                 "--spectra FILE with --shape, or --phantom NAME",
-                                 sources));
+                     "found {} volumes to draw, expected one: --volume FILE, --spectra FILE with "
+                     "--shape, or --phantom NAME",
+                     sources);
   if (!request.file)
     return reconstruct(request);
   if (is_recording(*request.file))
     return read_recorded(*request.file, request.at.value_or(0));
   if (request.at)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("--at is {}, expected none: {} is no recording but one volume",
-                                 *request.at, request.file->string()));
+                     "--at is {}, expected none: {} is no recording but one volume", *request.at,
+                     request.file->string());
   return read_volume(*request.file);
 }
 

@@ -11,7 +11,6 @@
 
 #include <execinfo.h>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
@@ -233,10 +232,10 @@ hal::Result<> CrashReport::keep_in(const fs::path& folder) {
     const int number = errno;
     if (descriptor >= 0)
       ::close(descriptor);
-    return hal::fail(hal::ErrorCode::denied,
-                     fmt::format("{}: reports of crashes cannot be written ({}); expected a folder "
-                                 "that this user may write",
-                                 folder.string(), std::generic_category().message(number)));
+    return hal::fail(
+        hal::ErrorCode::denied,
+        "{}: reports of crashes cannot be written ({}); expected a folder that this user may write",
+        folder.string(), std::generic_category().message(number));
   }
   prepared().folder = descriptor;
   const std::vector<fs::path> reports = crash_reports(folder);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -36,10 +35,10 @@ hal::Result<sockaddr_un> address_of(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (path.native().size() >= sizeof address.sun_path)
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("{}: {} characters long, expected at most {}; choose a folder "
-                                 "nearer to the root",
-                                 path.string(), path.native().size(), sizeof address.sun_path - 1));
+    return hal::fail(
+        hal::ErrorCode::invalid_argument,
+        "{}: {} characters long, expected at most {}; choose a folder nearer to the root",
+        path.string(), path.native().size(), sizeof address.sun_path - 1);
   std::memcpy(address.sun_path, path.c_str(), path.native().size());
   return address;
 }
@@ -60,17 +59,17 @@ hal::Result<FileDescriptor> connect_to(const std::filesystem::path& path) {
   const int error = errno;
   if (error == ENOENT || error == ECONNREFUSED)
     return hal::fail(hal::ErrorCode::absent,
-                     fmt::format("{}: no appliance answers there; is it running (systemctl status "
-                                 "octascope), and is this its socket (--socket)?",
-                                 path.string()));
+                     "{}: no appliance answers there; is it running (systemctl status octascope), "
+                     "and is this its socket (--socket)?",
+                     path.string());
   if (error == EAGAIN)
-    return hal::fail(hal::ErrorCode::timed_out,
-                     fmt::format("{}: too many ask at once; try again", path.string()));
+    return hal::fail(hal::ErrorCode::timed_out, "{}: too many ask at once; try again",
+                     path.string());
   if (error == EACCES)
     return hal::fail(hal::ErrorCode::denied,
-                     fmt::format("{}: this user may not ask; expected root or a member of the "
-                                 "group that the socket belongs to",
-                                 path.string()));
+                     "{}: this user may not ask; expected root or a member of the group that the "
+                     "socket belongs to",
+                     path.string());
   return hal::linux_backend::system_failure(path.string(), "connecting", error,
                                             "try again; if that stays, restart octascope");
 }
@@ -79,9 +78,9 @@ hal::Result<FileDescriptor> listen_on(const std::filesystem::path& path) {
   HAL_TRY(const auto address, address_of(path));
   if (connect_to(path))
     return hal::fail(hal::ErrorCode::busy,
-                     fmt::format("{}: another octascope answers there; end it, or give this one a "
-                                 "RUNTIME_DIRECTORY of its own",
-                                 path.string()));
+                     "{}: another octascope answers there; end it, or give this one a "
+                     "RUNTIME_DIRECTORY of its own",
+                     path.string());
   FileDescriptor file = make_socket();
   ::unlink(path.c_str()); // of one that has ended
   // Nobody can connect before it listens, and by then the rights are there.
@@ -172,9 +171,8 @@ hal::Result<std::string> ask_status(const std::filesystem::path& socket) {
       break;
   }
   return hal::fail(hal::ErrorCode::timed_out,
-                   fmt::format("{}: no whole answer within 2 s; the appliance is busy or ending, "
-                               "try again",
-                               socket.string()));
+                   "{}: no whole answer within 2 s; the appliance is busy or ending, try again",
+                   socket.string());
 }
 
 } // namespace octascope::firmware_host

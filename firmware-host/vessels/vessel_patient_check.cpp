@@ -17,12 +17,11 @@ hal::Result<> check_vessel_patient(const std::filesystem::path& registration,
                                    const pipeline::PatientEye& picture) {
   if (may_be_same(vessels, picture))
     return {};
-  return hal::fail(
-      hal::ErrorCode::invalid_argument,
-      fmt::format("{}: [whose] says that the vessels are those of {}, expected those in "
-                  "the picture, of {}; take this eye's tree and registration; of a live picture "
-                  "--subject and --eye say whose it is",
-                  registration.string(), in_words(vessels), in_words(picture)));
+  return hal::fail(hal::ErrorCode::invalid_argument,
+                   "{}: [whose] says that the vessels are those of {}, expected those in the "
+                   "picture, of {}; take this eye's tree and registration; of a live picture "
+                   "--subject and --eye say whose it is",
+                   registration.string(), in_words(vessels), in_words(picture));
 }
 
 } // namespace octascope::firmware_host

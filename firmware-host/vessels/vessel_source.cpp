@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "pipeline/vessels/files/tree_file.h"
 
 namespace octascope::firmware_host {

@@ -1,7 +1,6 @@
 #include "hal/linux/sdl_library.h"
 
 #include <dlfcn.h>
-#include <fmt/format.h>
 
 namespace octascope::hal::linux_backend {
 
@@ -9,10 +8,9 @@ namespace {
 
 tl::unexpected<Error> refuse() {
   return fail(ErrorCode::unsupported,
-              fmt::format("window display: SDL 2 cannot be loaded ({}), expected its library; "
-                          "install it with `apt install libsdl2-2.0-0`, or choose --display kms or "
-                          "--display offscreen",
-                          ::dlerror()));
+              "window display: SDL 2 cannot be loaded ({}), expected its library; install it with "
+              "`apt install libsdl2-2.0-0`, or choose --display kms or --display offscreen",
+              ::dlerror());
 }
 
 template <class Function> bool find(void* library, const char* name, Function& function) {

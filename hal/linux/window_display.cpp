@@ -3,7 +3,6 @@
 #include <optional>
 
 #include <GLES3/gl3.h>
-#include <fmt/format.h>
 
 #include "hal/linux/sdl_library.h"
 
@@ -84,8 +83,7 @@ struct WindowDisplay::Window {
 
   tl::unexpected<Error> refuse(ErrorCode fault, std::string_view found,
                                std::string_view expected) const {
-    return fail(fault, fmt::format("window display: {} ({}), expected {}", found, sdl.get_error(),
-                                   expected));
+    return fail(fault, "window display: {} ({}), expected {}", found, sdl.get_error(), expected);
   }
 
   Result<> start_video() {
@@ -101,10 +99,9 @@ struct WindowDisplay::Window {
     const std::string_view driver = sdl.get_current_video_driver();
     if (driver != "x11" && driver != "wayland")
       return fail(ErrorCode::absent,
-                  fmt::format("window display: SDL found only its driver \"{}\", expected an X11 "
-                              "or Wayland display; set DISPLAY or WAYLAND_DISPLAY, or choose "
-                              "--display offscreen",
-                              driver));
+                  "window display: SDL found only its driver \"{}\", expected an X11 or Wayland "
+                  "display; set DISPLAY or WAYLAND_DISPLAY, or choose --display offscreen",
+                  driver);
     return {};
   }
 
@@ -144,13 +141,11 @@ Result<> WindowDisplay::do_open(const DisplayConfig& config) {
   if (state() != DeviceState::absent)
     return fail(ErrorCode::busy, "window display: open already; close() it first");
   if (config.width < 1 || config.height < 1)
-    return fail(ErrorCode::invalid_argument,
-                fmt::format("window display: size is {}x{}, expected at least 1x1", config.width,
-                            config.height));
+    return fail(ErrorCode::invalid_argument, "window display: size is {}x{}, expected at least 1x1",
+                config.width, config.height);
   if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
-    return fail(
-        ErrorCode::invalid_argument,
-        fmt::format("window display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
+    return fail(ErrorCode::invalid_argument, "window display: refresh_hz is {}, expected 1 to 1000",
+                config.refresh_hz);
   HAL_TRY(const auto sdl, SdlLibrary::load());
   auto window = std::make_unique<Window>(sdl);
   HAL_CHECK(window->start_video());

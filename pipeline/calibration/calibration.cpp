@@ -4,8 +4,6 @@
 #include <numeric>
 #include <string_view>
 
-#include <fmt/format.h>
-
 namespace octascope::pipeline {
 
 using hal::ErrorCode;
@@ -18,13 +16,12 @@ hal::Result<> check_curve(std::string_view name, const std::vector<Value>& curve
   if (curve.empty() && may_be_empty)
     return {};
   if (curve.size() != static_cast<std::size_t>(samples))
-    return hal::fail(ErrorCode::bad_data, fmt::format("calibration: {} has {} values, expected {}",
-                                                      name, curve.size(), samples));
+    return hal::fail(ErrorCode::bad_data, "calibration: {} has {} values, expected {}", name,
+                     curve.size(), samples);
   for (std::size_t m = 0; m < curve.size(); ++m) {
     if (!std::isfinite(curve[m]))
-      return hal::fail(
-          ErrorCode::bad_data,
-          fmt::format("calibration: {} {} is {}, expected a finite number", name, m, curve[m]));
+      return hal::fail(ErrorCode::bad_data, "calibration: {} {} is {}, expected a finite number",
+                       name, m, curve[m]);
   }
   return {};
 }
@@ -42,13 +39,11 @@ Calibration Calibration::identity(int samples) {
 
 hal::Result<> Calibration::validate() const {
   if (samples < fewest_samples || samples > most_samples)
-    return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("calibration: samples is {}, expected {} to {}", samples,
-                                 fewest_samples, most_samples));
+    return hal::fail(ErrorCode::invalid_argument, "calibration: samples is {}, expected {} to {}",
+                     samples, fewest_samples, most_samples);
   if (zero_padding != 1 && zero_padding != 2)
-    return hal::fail(
-        ErrorCode::invalid_argument,
-        fmt::format("calibration: zero_padding is {}, expected 1 (none) or 2", zero_padding));
+    return hal::fail(ErrorCode::invalid_argument,
+                     "calibration: zero_padding is {}, expected 1 (none) or 2", zero_padding);
   const bool no_background = background_mode != BackgroundMode::file;
   const auto curves =
       check_curve("position", positions, samples, false)
@@ -59,9 +54,8 @@ hal::Result<> Calibration::validate() const {
     return curves;
   for (std::size_t m = 0; m < positions.size(); ++m) {
     if (positions[m] < 0 || positions[m] > samples - 1)
-      return hal::fail(ErrorCode::bad_data,
-                       fmt::format("calibration: position {} is {}, expected 0 to {}", m,
-                                   positions[m], samples - 1));
+      return hal::fail(ErrorCode::bad_data, "calibration: position {} is {}, expected 0 to {}", m,
+                       positions[m], samples - 1);
   }
   return {};
 }

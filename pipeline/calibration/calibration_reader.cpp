@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,8 +71,7 @@ hal::Result<Calibration> CalibrationReader::read(int expected_samples) {
   if (error_)
     return tl::make_unexpected(*error_);
   if (const auto valid = calibration_.validate(); !valid)
-    return hal::fail(valid.error().code,
-                     fmt::format("{}: {}", file_.string(), valid.error().message));
+    return hal::fail(valid.error().code, "{}: {}", file_.string(), valid.error().message);
   return calibration_;
 }
 
@@ -239,7 +237,7 @@ void CalibrationReader::read_window() {
                     {"hann", "hamming", "blackman", "gaussian", "tukey", "flat", "shaped"});
   for (const std::string_view key : {"source", "dark", "fwhm", "highest_gain"}) {
     if (window.has(key) && kind != shaped)
-      window.complain(fmt::format("{} is given, but kind is not \"shaped\"", key));
+      window.complain("{} is given, but kind is not \"shaped\"", key);
   }
   read_shaping(window);
   if (kind == shaped)

@@ -1,6 +1,5 @@
 #include "pipeline/calibration/calibration_writer.h"
 
-#include <algorithm>
 #include <string_view>
 #include <utility>
 
@@ -146,10 +145,10 @@ hal::Result<> write_calibration(const FoundCalibration& found, const std::filesy
   outputs.push_back({file, toml(found, names)});
   for (std::size_t i = 0; i + 1 < outputs.size(); ++i) {
     if (outputs[i].file.lexically_normal() == file.lexically_normal())
-      return hal::fail(hal::ErrorCode::invalid_argument,
-                       fmt::format("{}: a curve file would have the same name, expected a name "
-                                   "that ends in .toml",
-                                   file.string()));
+      return hal::fail(
+          hal::ErrorCode::invalid_argument,
+          "{}: a curve file would have the same name, expected a name that ends in .toml",
+          file.string());
   }
 
   std::vector<AtomicFile> files;

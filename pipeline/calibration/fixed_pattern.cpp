@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "pipeline/threads/cpu_clones.h"
 
 namespace octascope::pipeline {
@@ -37,13 +35,13 @@ hal::Result<> FixedPatternRemoval::validate(int a_scans) const {
     return {};
   if (segments < fewest_segments || segments > most_segments)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("fixed_pattern: segments is {}, expected {} to {}", segments,
-                                 fewest_segments, most_segments));
+                     "fixed_pattern: segments is {}, expected {} to {}", segments, fewest_segments,
+                     most_segments);
   if (a_scans / segments < fewest_a_scans)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("fixed_pattern: {} segments of {} A-scans, expected at least {} "
-                                 "A-scans a segment: fewer segments, or mode = \"none\"",
-                                 segments, a_scans, fewest_a_scans));
+                     "fixed_pattern: {} segments of {} A-scans, expected at least {} A-scans a "
+                     "segment: fewer segments, or mode = \"none\"",
+                     segments, a_scans, fewest_a_scans);
   return {};
 }
 
@@ -53,8 +51,8 @@ FixedPatternRemover::FixedPatternRemover(int segments, int a_scans, int depths)
       variance_(depths_), pattern_(stride_) {}
 
 void FixedPatternRemover::sum_segment(int first, int last) noexcept {
-  std::fill(sums_.begin(), sums_.end(), 0.0F);
-  std::fill(squares_.begin(), squares_.end(), 0.0F);
+  std::ranges::fill(sums_, 0.0F);
+  std::ranges::fill(squares_, 0.0F);
   origin_ = a_scan(first);
   for (int a = first + 1; a < last; ++a)
     add_relative(a_scan(a), origin_, depths_, sums_.data(), squares_.data());

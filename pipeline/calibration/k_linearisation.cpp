@@ -85,15 +85,13 @@ hal::Result<std::vector<double>> positions_from_wavelength(std::span<const doubl
   for (int p = 0; p < samples; ++p) {
     const double here = wavelength(p);
     if (!std::isfinite(here) || here <= 0)
-      return hal::fail(
-          hal::ErrorCode::bad_data,
-          fmt::format("wavelength at pixel {} is {} nm, expected more than 0", p, here));
+      return hal::fail(hal::ErrorCode::bad_data,
+                       "wavelength at pixel {} is {} nm, expected more than 0", p, here);
     const double before = p == 0 ? 0 : wavelength(p - 1);
     if (p > 0 && (rising ? here <= before : here >= before))
       return hal::fail(hal::ErrorCode::bad_data,
-                       fmt::format("wavelength is not monotone: {} nm at pixel {}, {} nm at pixel "
-                                   "{}",
-                                   before, p - 1, here, p));
+                       "wavelength is not monotone: {} nm at pixel {}, {} nm at pixel {}", before,
+                       p - 1, here, p);
   }
 
   const double k_first = 1 / wavelength(0); // the factor 2π drops out

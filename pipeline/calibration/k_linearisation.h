@@ -2,7 +2,6 @@
 // how the counts between its pixels are found.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

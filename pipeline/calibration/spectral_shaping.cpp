@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "pipeline/calibration/spectral_window.h"
 
 namespace octascope::pipeline {
@@ -16,20 +14,19 @@ using hal::ErrorCode;
 
 hal::Result<> check(const SourceShaping& shaping, std::size_t samples) {
   if (shaping.source.size() != samples)
-    return hal::fail(ErrorCode::bad_data, fmt::format("source has {} values, expected {}",
-                                                      shaping.source.size(), samples));
-  const auto not_finite = std::find_if(shaping.source.begin(), shaping.source.end(),
-                                       [](float value) { return !std::isfinite(value); });
+    return hal::fail(ErrorCode::bad_data, "source has {} values, expected {}",
+                     shaping.source.size(), samples);
+  const auto not_finite =
+      std::ranges::find_if(shaping.source, [](float value) { return !std::isfinite(value); });
   if (not_finite != shaping.source.end())
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("source value {} is {}, expected a finite number",
-                                 not_finite - shaping.source.begin(), *not_finite));
+    return hal::fail(ErrorCode::bad_data, "source value {} is {}, expected a finite number",
+                     not_finite - shaping.source.begin(), *not_finite);
   const auto in_range = [](std::string_view name, double found, double lowest,
                            double highest) -> hal::Result<> {
     if (found >= lowest && found <= highest)
       return {};
-    return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("{} is {}, expected {} to {}", name, found, lowest, highest));
+    return hal::fail(ErrorCode::invalid_argument, "{} is {}, expected {} to {}", name, found,
+                     lowest, highest);
   };
   return in_range("fwhm", shaping.fwhm, SourceShaping::narrowest_fwhm, SourceShaping::widest_fwhm)
       .and_then([&] {
@@ -60,7 +57,7 @@ hal::Result<std::vector<double>> make_shaping_factors(const SourceShaping& shapi
                                                       Interpolation interpolation) {
   HAL_CHECK(check(shaping, positions.size()));
   const auto light = source_in_k(shaping.source, positions, interpolation);
-  const double brightest = *std::max_element(light.begin(), light.end());
+  const double brightest = *std::ranges::max_element(light);
   if (!(brightest > 0))
     return hal::fail(ErrorCode::bad_data, "source has no light: its highest value is 0 or less, "
                                           "expected a spectrum with its dark counts taken off");

@@ -31,19 +31,18 @@ double median(std::vector<double> values) {
 hal::Result<> check_lines(std::span<const double> lines_nm) {
   if (lines_nm.size() < fewest_lines)
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("{} emission lines are given, expected at least {}",
-                                 lines_nm.size(), fewest_lines));
+                     "{} emission lines are given, expected at least {}", lines_nm.size(),
+                     fewest_lines);
   const bool rising = lines_nm.back() > lines_nm.front();
   for (std::size_t i = 0; i < lines_nm.size(); ++i) {
     if (!std::isfinite(lines_nm[i]) || lines_nm[i] <= 0)
-      return hal::fail(
-          ErrorCode::invalid_argument,
-          fmt::format("emission line {} is {} nm, expected more than 0", i, lines_nm[i]));
+      return hal::fail(ErrorCode::invalid_argument,
+                       "emission line {} is {} nm, expected more than 0", i, lines_nm[i]);
     if (i > 0 && (rising ? lines_nm[i] <= lines_nm[i - 1] : lines_nm[i] >= lines_nm[i - 1]))
       return hal::fail(ErrorCode::invalid_argument,
-                       fmt::format("emission line {} is {} nm after {} nm, expected them in the "
-                                   "order of the pixels, rising or falling",
-                                   i, lines_nm[i], lines_nm[i - 1]));
+                       "emission line {} is {} nm after {} nm, expected them in the order of the "
+                       "pixels, rising or falling",
+                       i, lines_nm[i], lines_nm[i - 1]);
   }
   return {};
 }
@@ -75,7 +74,7 @@ std::vector<Peak> find_peaks(const std::vector<double>& level, double threshold)
     }
     peaks.push_back({sum > 0 ? moment / sum : static_cast<double>(p), smooth[p]});
   }
-  std::sort(peaks.begin(), peaks.end(), [](auto a, auto b) { return a.height > b.height; });
+  std::ranges::sort(peaks, [](auto a, auto b) { return a.height > b.height; });
   return peaks;
 }
 
@@ -133,7 +132,7 @@ hal::Result<LampCalibration> find_lamp_lines(std::span<const double> spectrum,
                                              std::string_view name) {
   HAL_CHECK(check_lines(lines_nm));
   const auto refuse = [&](std::string_view words) {
-    return hal::fail(ErrorCode::bad_data, fmt::format("{}: {}", name, words));
+    return hal::fail(ErrorCode::bad_data, "{}: {}", name, words);
   };
   if (spectrum.empty())
     return refuse("it has no samples, expected a spectrum of the lamp");
@@ -148,7 +147,7 @@ hal::Result<LampCalibration> find_lamp_lines(std::span<const double> spectrum,
     level[p] -= floor;
     deviation[p] = std::abs(level[p]);
   }
-  const double highest = *std::max_element(level.begin(), level.end());
+  const double highest = *std::ranges::max_element(level);
   std::vector<Peak> peaks = find_peaks(level, std::max(9 * median(deviation), 0.005 * highest));
   const std::size_t lines = lines_nm.size();
   if (highest <= 0 || peaks.size() < lines)
@@ -162,7 +161,7 @@ hal::Result<LampCalibration> find_lamp_lines(std::span<const double> spectrum,
                               lines, peaks[lines].pixel, peaks[lines].height,
                               peaks[lines - 1].pixel, peaks[lines - 1].height));
   peaks.resize(lines);
-  std::sort(peaks.begin(), peaks.end(), [](auto a, auto b) { return a.pixel < b.pixel; });
+  std::ranges::sort(peaks, [](auto a, auto b) { return a.pixel < b.pixel; });
 
   LampCalibration lamp;
   const auto scale = static_cast<double>(spectrum.size() - 1);

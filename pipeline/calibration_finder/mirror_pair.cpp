@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "pipeline/calibration/k_linearisation.h"
 
 namespace octascope::pipeline {
@@ -47,10 +45,9 @@ hal::Result<std::vector<double>> invert(const WavenumberPhase& k, std::size_t sa
     if (k.at(x) <= k.at(x - 1))
       return hal::fail(
           ErrorCode::bad_data,
-          fmt::format("wavenumber is not monotone: the mirrors' phases give {:.4f} rad "
-                      "at pixel {} and {:.4f} rad at pixel {}, expected it to rise; "
-                      "measure with more light, or farther apart",
-                      k.at(x - 1), p - 1, k.at(x), p));
+          "wavenumber is not monotone: the mirrors' phases give {:.4f} rad at pixel {} and {:.4f} "
+          "rad at pixel {}, expected it to rise; measure with more light, or farther apart",
+          k.at(x - 1), p - 1, k.at(x), p);
   }
   const double from = k.at(0);
   const double span = k.at(last) - from;
@@ -102,9 +99,9 @@ hal::Result<MirrorPair> combine_fringes(const std::array<Fringe, 2>& fringes, Sa
   const double apart = std::abs(k.at(static_cast<double>(samples - 1)) - k.at(0)) / two_pi;
   if (apart < fewest_fringes_apart)
     return hal::fail(ErrorCode::bad_data,
-                     fmt::format("the mirrors are too close to each other: {:.2f} fringes over the "
-                                 "line apart, expected at least {}; move the mirror farther",
-                                 apart, fewest_fringes_apart));
+                     "the mirrors are too close to each other: {:.2f} fringes over the line apart, "
+                     "expected at least {}; move the mirror farther",
+                     apart, fewest_fringes_apart);
   HAL_TRY(auto positions, invert(k, samples));
 
   MirrorPair pair{fringes, {}, {1, 1}, std::move(positions), {}};
@@ -141,9 +138,8 @@ hal::Result<MirrorPair> find_mirror_pair(std::span<const double> first,
                                          std::span<const double> second, SampleSide side) {
   if (first.size() != second.size())
     return hal::fail(ErrorCode::bad_data,
-                     fmt::format("the first mirror has {} samples, the second {}, "
-                                 "expected equal lines",
-                                 first.size(), second.size()));
+                     "the first mirror has {} samples, the second {}, expected equal lines",
+                     first.size(), second.size());
   HAL_TRY(auto one, find_fringe(first, "first mirror"));
   HAL_TRY(auto two, find_fringe(second, "second mirror"));
   return combine_fringes({std::move(one), std::move(two)}, side);

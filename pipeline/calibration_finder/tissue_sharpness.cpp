@@ -1,7 +1,5 @@
 #include "pipeline/calibration_finder/tissue_sharpness.h"
 
-#include <algorithm>
-#include <cmath>
 #include <complex>
 #include <functional>
 #include <utility>

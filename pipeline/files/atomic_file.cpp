@@ -1,7 +1,6 @@
 #include "pipeline/files/atomic_file.h"
 
 #include <cerrno>
-#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -22,8 +21,8 @@ tl::unexpected<hal::Error> system_failure(const fs::path& file, std::string_view
   const ErrorCode fault = reason == ENOENT                      ? ErrorCode::absent
                           : reason == EACCES || reason == EROFS ? ErrorCode::denied
                                                                 : ErrorCode::system;
-  return hal::fail(fault, fmt::format("{}: cannot {}: {}", file.string(), action,
-                                      std::generic_category().message(reason)));
+  return hal::fail(fault, "{}: cannot {}: {}", file.string(), action,
+                   std::generic_category().message(reason));
 }
 
 } // namespace
@@ -46,13 +45,11 @@ hal::Result<AtomicFile> AtomicFile::create(const fs::path& destination, Readers 
   const fs::file_status status = fs::status(destination, error);
   if (fs::exists(status) && !fs::is_regular_file(status))
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("{}: is a {}, expected the name of a file to write",
-                                 destination.string(),
-                                 fs::is_directory(status) ? "directory" : "device or the like"));
+                     "{}: is a {}, expected the name of a file to write", destination.string(),
+                     fs::is_directory(status) ? "directory" : "device or the like");
   if (!destination.has_filename())
-    return hal::fail(
-        ErrorCode::invalid_argument,
-        fmt::format("\"{}\": expected the name of a file to write", destination.string()));
+    return hal::fail(ErrorCode::invalid_argument, "\"{}\": expected the name of a file to write",
+                     destination.string());
   // Through a link, so that the file it points at is replaced and not the link.
   const fs::path target = fs::is_symlink(fs::symlink_status(destination, error))
                               ? fs::weakly_canonical(destination, error)

@@ -315,12 +315,12 @@ void ConfigTable::complain(std::string_view message) {
 hal::Result<ConfigDocument> ConfigDocument::load(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error))
-    return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("{}: is a directory, expected a TOML file", file.string()));
+    return hal::fail(ErrorCode::invalid_argument, "{}: is a directory, expected a TOML file",
+                     file.string());
   std::ifstream in{file, std::ios::binary};
   if (!in)
-    return hal::fail(ErrorCode::absent, fmt::format("{}: cannot be opened: {}", file.string(),
-                                                    std::generic_category().message(errno)));
+    return hal::fail(ErrorCode::absent, "{}: cannot be opened: {}", file.string(),
+                     std::generic_category().message(errno));
   std::ostringstream text;
   text << in.rdbuf();
   return parse(text.str(), file);
@@ -330,9 +330,8 @@ hal::Result<ConfigDocument> ConfigDocument::parse(std::string_view text, const f
   toml::parse_result parsed = toml::parse(text, name.string());
   if (!parsed) {
     const toml::parse_error& e = parsed.error();
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}:{}:{}: not TOML: {}", name.string(), e.source().begin.line,
-                                 e.source().begin.column, e.description()));
+    return hal::fail(ErrorCode::bad_data, "{}:{}:{}: not TOML: {}", name.string(),
+                     e.source().begin.line, e.source().begin.column, e.description());
   }
   auto shared = std::make_shared<Shared>();
   shared->table = std::move(parsed).table();
@@ -361,9 +360,8 @@ hal::Result<std::string> ConfigDocument::text_naming(std::span<const std::string
     const std::size_t length = quoted_length(std::string_view{shared.text}.substr(offset));
     if (length == 0 || offset < taken)
       return hal::fail(ErrorCode::bad_data,
-                       fmt::format("{}: cannot be copied with its files: expected \"{}\" in simple "
-                                   "quotes",
-                                   shared.file.string(), name));
+                       "{}: cannot be copied with its files: expected \"{}\" in simple quotes",
+                       shared.file.string(), name);
     text += shared.text.substr(taken, offset - taken) + toml_text(name);
     taken = offset + length;
   }

@@ -57,6 +57,10 @@ public:
 
   // Complains about this table: "<file>:<line>: [<table>] <message>".
   void complain(std::string_view message);
+  template <class First, class... Rest>
+  void complain(fmt::format_string<First, Rest...> pattern, First&& first, Rest&&... rest) {
+    complain(fmt::format(pattern, std::forward<First>(first), std::forward<Rest>(rest)...));
+  }
 
 private:
   friend class ConfigDocument;

@@ -34,8 +34,8 @@ public:
 
 private:
   tl::unexpected<hal::Error> refuse(std::string_view found, std::string_view expected) const {
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}: found {}, expected {}", file_.string(), found, expected));
+    return hal::fail(ErrorCode::bad_data, "{}: found {}, expected {}", file_.string(), found,
+                     expected);
   }
   hal::Result<> open();
   hal::Result<> read_fields();
@@ -52,14 +52,12 @@ private:
 
 hal::Result<NrrdVolume> NrrdReader::read() {
   HAL_CHECK(open());
-  const auto checked = read_fields()
-                           .and_then([&] { return expect("dimension", {"3"}); })
-                           .and_then([&] { return expect("encoding", {"raw"}); })
-                           .and_then([&] {
-                             return expect("type", {"uint8", "uchar", "unsigned char", "float"});
-                           });
-  if (!checked)
-    return tl::make_unexpected(checked.error());
+  HAL_CHECK(read_fields()
+                .and_then([&] { return expect("dimension", {"3"}); })
+                .and_then([&] { return expect("encoding", {"raw"}); })
+                .and_then([&] {
+                  return expect("type", {"uint8", "uchar", "unsigned char", "float"});
+                }));
   const bool is_float = fields_["type"] == "float";
   if (is_float || fields_.contains("endian")) {
     HAL_CHECK(expect("endian", {"little"}));
@@ -72,15 +70,14 @@ hal::Result<> NrrdReader::open() {
   std::error_code error;
   const fs::file_status status = fs::status(file_, error);
   if (status.type() == fs::file_type::not_found)
-    return hal::fail(
-        ErrorCode::absent,
-        fmt::format("{}: there is no such file, expected a NRRD volume", file_.string()));
+    return hal::fail(ErrorCode::absent, "{}: there is no such file, expected a NRRD volume",
+                     file_.string());
   if (!fs::is_regular_file(status))
     return refuse(fs::is_directory(status) ? "a directory" : "no regular file", "a NRRD volume");
   in_.open(file_, std::ios::binary);
   if (!in_)
-    return hal::fail(ErrorCode::denied, fmt::format("{}: cannot be opened: {}", file_.string(),
-                                                    std::generic_category().message(errno)));
+    return hal::fail(ErrorCode::denied, "{}: cannot be opened: {}", file_.string(),
+                     std::generic_category().message(errno));
   return {};
 }
 
@@ -130,7 +127,7 @@ hal::Result<> NrrdReader::expect(std::string_view field,
   const auto found = fields_.find(field);
   if (found == fields_.end())
     return refuse(fmt::format("no field \"{}\"", field), "it in the header");
-  if (std::find(values.begin(), values.end(), found->second) == values.end())
+  if (std::ranges::find(values, found->second) == values.end())
     return refuse(fmt::format("{}: {}", field, found->second),
                   fmt::format("{}: {}", field, *values.begin()));
   return {};
@@ -190,8 +187,7 @@ hal::Result<NrrdVolume> NrrdReader::read_voxels(const VolumeGeometry& geometry) 
                               geometry.b_scans, sizeof(Voxel)));
   std::vector<Voxel> voxels(geometry.voxels());
   if (!in_.read(reinterpret_cast<char*>(voxels.data()), static_cast<std::streamsize>(expected)))
-    return hal::fail(ErrorCode::system,
-                     fmt::format("{}: cannot be read to its end", file_.string()));
+    return hal::fail(ErrorCode::system, "{}: cannot be read to its end", file_.string());
   return NrrdVolume{geometry, std::move(voxels)};
 }
 

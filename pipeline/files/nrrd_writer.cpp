@@ -62,16 +62,14 @@ hal::Result<NrrdWriter> NrrdWriter::create(const fs::path& file, const VolumeGeo
                                            NrrdType type, const NrrdNotes& notes, Readers readers) {
   if (geometry.depths < 1 || geometry.a_scans < 1 || geometry.b_scans < 1)
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("{}: a volume of {}×{}×{} voxels cannot be written, expected at "
-                                 "least 1 each",
-                                 file.string(), geometry.depths, geometry.a_scans,
-                                 geometry.b_scans));
+                     "{}: a volume of {}×{}×{} voxels cannot be written, expected at least 1 each",
+                     file.string(), geometry.depths, geometry.a_scans, geometry.b_scans);
   for (const auto& [key, value] : notes) {
     const std::size_t bytes = escaped(key).size() + 2 + escaped(value).size();
     if (bytes > longest_nrrd_line)
       return hal::fail(ErrorCode::invalid_argument,
-                       fmt::format("{}: found {} bytes to note as \"{}\", expected at most {}",
-                                   file.string(), bytes, key, longest_nrrd_line));
+                       "{}: found {} bytes to note as \"{}\", expected at most {}", file.string(),
+                       bytes, key, longest_nrrd_line);
   }
   HAL_TRY(auto out, AtomicFile::create(file, readers));
   const std::string text = header(geometry, type, notes);
@@ -95,9 +93,9 @@ hal::Result<> NrrdWriter::write(int b, NrrdType type, std::span<const std::byte>
   const std::size_t expected = geometry_.b_scan_voxels() * voxel_bytes(type_);
   if (type != type_ || levels.size() != expected || b < 0 || b >= geometry_.b_scans)
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("NRRD: B-scan {} with {} bytes does not belong into this volume, "
-                                 "expected {} bytes and 0 to {}",
-                                 b, levels.size(), expected, geometry_.b_scans - 1));
+                     "NRRD: B-scan {} with {} bytes does not belong into this volume, expected {} "
+                     "bytes and 0 to {}",
+                     b, levels.size(), expected, geometry_.b_scans - 1);
   return file_.write_at(header_bytes_ + expected * static_cast<std::size_t>(b), levels);
 }
 
@@ -109,9 +107,8 @@ hal::Result<> write_nrrd(const fs::path& file, const NrrdVolume& volume) {
   return std::visit(
       [&](const auto& levels) -> hal::Result<> {
         if (levels.size() != volume.geometry.voxels())
-          return hal::fail(ErrorCode::invalid_argument,
-                           fmt::format("{}: found {} voxels, expected {}", file.string(),
-                                       levels.size(), volume.geometry.voxels()));
+          return hal::fail(ErrorCode::invalid_argument, "{}: found {} voxels, expected {}",
+                           file.string(), levels.size(), volume.geometry.voxels());
         for (int b = 0; b < volume.geometry.b_scans; ++b) {
           const auto b_scan =
               std::span{levels}.subspan(voxels * static_cast<std::size_t>(b), voxels);

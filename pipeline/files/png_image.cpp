@@ -1,12 +1,8 @@
 #include "pipeline/files/png_image.h"
 
 #include <span>
-#include <string_view>
 
-#include <fmt/format.h>
 #include <png.h>
-
-#include "pipeline/files/atomic_file.h"
 
 namespace octascope::pipeline {
 
@@ -23,7 +19,7 @@ struct PngRecord {
   ~PngRecord() { png_image_free(&png); }
 
   tl::unexpected<hal::Error> failure(const fs::path& file, ErrorCode fault) const {
-    return hal::fail(fault, fmt::format("{}: {}", file.string(), png.message));
+    return hal::fail(fault, "{}: {}", file.string(), png.message);
   }
 
   png_image png = {};
@@ -49,11 +45,10 @@ hal::Result<Image> read(const fs::path& file, bool with_opacity) {
 hal::Result<> write_png(const fs::path& file, const Image& image, Readers readers) {
   if (image.width < 1 || image.height < 1 || (image.channels != 1 && image.channels != 3) ||
       image.pixels.size() != Image{image.width, image.height, image.channels}.pixels.size())
-    return hal::fail(
-        ErrorCode::invalid_argument,
-        fmt::format("{}: an image of {}×{} pixels with {} channels and {} bytes cannot "
-                    "be written, expected 1 or 3 channels and bytes to match",
-                    file.string(), image.width, image.height, image.channels, image.pixels.size()));
+    return hal::fail(ErrorCode::invalid_argument,
+                     "{}: an image of {}×{} pixels with {} channels and {} bytes cannot be "
+                     "written, expected 1 or 3 channels and bytes to match",
+                     file.string(), image.width, image.height, image.channels, image.pixels.size());
   PngRecord record;
   record.png.width = static_cast<png_uint_32>(image.width);
   record.png.height = static_cast<png_uint_32>(image.height);

@@ -28,7 +28,7 @@ namespace {
 hal::Result<std::string> read_bytes(const fs::path& file, std::uintmax_t longest,
                                     std::string_view expected) {
   const auto refuse = [&](ErrorCode fault, std::string_view found) {
-    return hal::fail(fault, fmt::format("{}: {}, expected {}", file.string(), found, expected));
+    return hal::fail(fault, "{}: {}, expected {}", file.string(), found, expected);
   };
   std::error_code error;
   const fs::file_status status = fs::status(file, error);
@@ -129,15 +129,14 @@ hal::Result<std::vector<double>> parse_numbers(const fs::path& file, std::size_t
           [&](std::size_t line, std::string_view text) -> hal::Result<> {
             if (values.size() == most)
               return hal::fail(ErrorCode::bad_data,
-                               fmt::format("{}:{}: found one number more (\"{}\"), expected {} {}",
-                                           file.string(), line, shortened(text), bound, most));
+                               "{}:{}: found one number more (\"{}\"), expected {} {}",
+                               file.string(), line, shortened(text), bound, most);
             const auto value = finite_number(text);
             if (!value)
-              return hal::fail(
-                  ErrorCode::bad_data,
-                  fmt::format("{}:{}: found \"{}\" as number {} of {}, expected one finite "
-                              "number with a decimal point",
-                              file.string(), line, shortened(text), values.size(), count));
+              return hal::fail(ErrorCode::bad_data,
+                               "{}:{}: found \"{}\" as number {} of {}, expected one finite number "
+                               "with a decimal point",
+                               file.string(), line, shortened(text), values.size(), count);
             values.push_back(*value);
             return {};
           });
@@ -151,8 +150,8 @@ hal::Result<std::vector<double>> parse_numbers(const fs::path& file, std::size_t
 hal::Result<std::vector<double>> read_text_curve(const fs::path& file, std::size_t expected) {
   auto values = parse_numbers(file, expected, "exactly");
   if (values && values->size() != expected)
-    return hal::fail(ErrorCode::bad_data, fmt::format("{}: found {} numbers, expected {}",
-                                                      file.string(), values->size(), expected));
+    return hal::fail(ErrorCode::bad_data, "{}: found {} numbers, expected {}", file.string(),
+                     values->size(), expected);
   return values;
 }
 
@@ -171,9 +170,8 @@ hal::Result<std::vector<TextRow>> read_text_rows(const fs::path& file, std::size
   std::vector<TextRow> rows;
   const auto take = [&](std::size_t line, std::string_view text) -> hal::Result<> {
     const auto refuse = [&](std::string_view expected) {
-      return hal::fail(ErrorCode::bad_data,
-                       fmt::format("{}:{}: found \"{}\", expected {}", file.string(), line,
-                                   shortened(text), expected));
+      return hal::fail(ErrorCode::bad_data, "{}:{}: found \"{}\", expected {}", file.string(), line,
+                       shortened(text), expected);
     };
     if (rows.size() == most)
       return refuse(fmt::format("the end: {} lines are the most", most));
@@ -196,15 +194,14 @@ hal::Result<std::vector<float>> read_float_curve(const fs::path& file, std::size
       fmt::format("{} bytes ({} little-endian 32-bit floats)", expected_bytes, expected);
   HAL_TRY(const auto bytes, read_bytes(file, 65536 + 4 * expected_bytes, words));
   if (bytes.size() != expected_bytes)
-    return hal::fail(ErrorCode::bad_data, fmt::format("{}: found {} bytes, expected {}",
-                                                      file.string(), bytes.size(), words));
+    return hal::fail(ErrorCode::bad_data, "{}: found {} bytes, expected {}", file.string(),
+                     bytes.size(), words);
   std::vector<float> values(expected);
   bytes.copy(reinterpret_cast<char*>(values.data()), expected_bytes);
   for (std::size_t i = 0; i < expected; ++i) {
     if (!std::isfinite(values[i]))
-      return hal::fail(
-          ErrorCode::bad_data,
-          fmt::format("{}: value {} is {}, expected a finite number", file.string(), i, values[i]));
+      return hal::fail(ErrorCode::bad_data, "{}: value {} is {}, expected a finite number",
+                       file.string(), i, values[i]);
   }
   return values;
 }

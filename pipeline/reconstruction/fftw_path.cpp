@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-
-#include <fmt/format.h>
 
 namespace octascope::pipeline {
 
@@ -55,8 +52,8 @@ hal::Result<FftwPath> FftwPath::make(const Calibration& calibration, const Spect
   const bool keep_input = calibration.zero_padding > 1;
   path.transform_ = plan_line_transform(path.length_, path.complex_input_, keep_input);
   if (!path.transform_)
-    return hal::fail(hal::ErrorCode::system,
-                     fmt::format("reconstruction: FFTW has no plan for {} samples", path.length_));
+    return hal::fail(hal::ErrorCode::system, "reconstruction: FFTW has no plan for {} samples",
+                     path.length_);
   return path;
 }
 

@@ -4,8 +4,6 @@
 // a longer transform: removal of the fixed pattern, zero-padding.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 

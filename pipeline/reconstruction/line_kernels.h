@@ -4,7 +4,6 @@
 // unless said otherwise; nothing outside them is read, so a line never sees its neighbour.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 
 namespace octascope::pipeline {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -22,7 +21,7 @@ namespace {
 
 hal::Result<> check(const ReconstructionSetup& setup) {
   const auto refuse = [](std::string_view message) {
-    return hal::fail(ErrorCode::invalid_argument, fmt::format("reconstruction: {}", message));
+    return hal::fail(ErrorCode::invalid_argument, "reconstruction: {}", message);
   };
   if (setup.format.samples != setup.calibration.samples)
     return refuse(fmt::format("lines have {} samples, the calibration is for {}",
@@ -247,9 +246,6 @@ int Reconstructor::depths() const {
 }
 int Reconstructor::a_scans() const {
   return plan_->a_scans;
-}
-std::size_t Reconstructor::kept_bytes() const {
-  return plan_->format.line_bytes() * static_cast<std::size_t>(plan_->a_scans);
 }
 std::size_t Reconstructor::levels() const {
   return static_cast<std::size_t>(depths()) * static_cast<std::size_t>(a_scans());

@@ -73,8 +73,7 @@ public:
   int samples() const;
   int depths() const; // Calibration::depths(): samples / 2, rounded down, without zero-padding
   int a_scans() const;
-  std::size_t kept_bytes() const; // of the kept lines of a frame: the least that a frame has
-  std::size_t levels() const;     // of a B-scan: a_scans × depths
+  std::size_t levels() const; // of a B-scan: a_scans × depths
 
   ReconstructionPath path() const; // fftw or fused, what was chosen
   // The instruction set of the fused kernels ("AVX3", "AVX2", …); "native" for FFTW's path, whose
@@ -87,8 +86,8 @@ public:
   // else.
   std::optional<RunningBackground> make_running_background() const;
 
-  // `frame` begins with the kept lines, at least kept_bytes() and aligned for its sample type;
-  // fly-back lines behind them are not read. `levels` has levels() values [a][z], depth fastest.
+  // `frame` begins with the a_scans() kept lines, aligned for its sample type; fly-back lines behind
+  // them are not read. `levels` has levels() values [a][z], depth fastest.
   // `running`: with BackgroundMode::running, what RunningBackground::add() gave for this B-scan; of
   // no meaning otherwise. Without it the workspace averages the B-scans that it sees itself, which
   // is right where one worker sees all of them in order. Neither allocates, locks nor logs.

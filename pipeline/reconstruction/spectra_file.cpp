@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace octascope::pipeline {
 
@@ -27,8 +22,8 @@ constexpr int most_a_scans = 65536;
 
 hal::Result<> check(const SpectraShape& shape) {
   const auto refuse = [](std::string_view name, int found, int lowest, int highest) {
-    return hal::fail(ErrorCode::invalid_argument, fmt::format("shape: {} is {}, expected {} to {}",
-                                                              name, found, lowest, highest));
+    return hal::fail(ErrorCode::invalid_argument, "shape: {} is {}, expected {} to {}", name, found,
+                     lowest, highest);
   };
   if (shape.b_scans < 1 || shape.b_scans > most_b_scans)
     return refuse("B (B-scans)", shape.b_scans, 1, most_b_scans);
@@ -39,23 +34,14 @@ hal::Result<> check(const SpectraShape& shape) {
   return {};
 }
 
-// Owns the descriptor while the mapping is made.
-struct Descriptor {
-  int number;
-  ~Descriptor() {
-    if (number >= 0)
-      ::close(number);
-  }
-};
-
 } // namespace
 
 hal::Result<SpectraShape> SpectraShape::parse(std::string_view text) {
   const auto refuse = [&] {
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("shape: found \"{}\", expected B,A,N: three whole numbers that "
-                                 "fit into 31 bits, like 100,100,1024",
-                                 text));
+                     "shape: found \"{}\", expected B,A,N: three whole numbers that fit into 31 "
+                     "bits, like 100,100,1024",
+                     text);
   };
   std::array<int, 3> counts{};
   std::string_view rest = text;
@@ -83,50 +69,17 @@ hal::Result<SpectraFile> SpectraFile::open(const fs::path& file, const SpectraSh
   const std::string product =
       fmt::format("{} bytes = {} B-scans × {} A-scans × {} samples × {}", expected, shape.b_scans,
                   shape.a_scans, shape.samples, bytes_per_sample(type));
-  const auto refuse = [&](ErrorCode fault, std::string_view found) {
-    return hal::fail(fault, fmt::format("{}: {}, expected {}", file.string(), found, product));
-  };
-
-  // Without O_NONBLOCK a pipe would wait here for its writer.
-  const Descriptor descriptor{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-  if (descriptor.number < 0)
-    return refuse(errno == ENOENT   ? ErrorCode::absent
-                  : errno == EACCES ? ErrorCode::denied
-                                    : ErrorCode::system,
-                  fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
-  struct stat status = {};
-  if (::fstat(descriptor.number, &status) != 0)
-    return refuse(ErrorCode::system, std::generic_category().message(errno));
-  if (S_ISDIR(status.st_mode))
-    return refuse(ErrorCode::invalid_argument, "is a directory");
-  if (!S_ISREG(status.st_mode))
-    return refuse(ErrorCode::invalid_argument, "is not a regular file");
-  if (static_cast<std::uint64_t>(status.st_size) != expected)
-    return refuse(ErrorCode::bad_data, fmt::format("found {} bytes", status.st_size));
-
-  void* mapping = ::mmap(nullptr, expected, PROT_READ, MAP_PRIVATE, descriptor.number, 0);
-  if (mapping == MAP_FAILED)
-    return refuse(ErrorCode::system,
-                  fmt::format("cannot be mapped: {}", std::generic_category().message(errno)));
-  return SpectraFile{file, shape, type, {static_cast<const std::byte*>(mapping), expected}};
-}
-
-SpectraFile::SpectraFile(fs::path file, const SpectraShape& shape, hal::SampleType type,
-                         std::span<const std::byte> bytes)
-    : file_(std::move(file)), shape_(shape), type_(type), bytes_(bytes) {}
-
-SpectraFile::SpectraFile(SpectraFile&& other) noexcept
-    : file_(std::move(other.file_)), shape_(other.shape_), type_(other.type_),
-      bytes_(std::exchange(other.bytes_, {})) {}
-
-SpectraFile::~SpectraFile() {
-  if (!bytes_.empty())
-    ::munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
+  HAL_TRY(const auto input, InputFile::open(file, product, UINT64_MAX));
+  if (input.bytes() != expected)
+    return hal::fail(ErrorCode::bad_data, "{}: found {} bytes, expected {}", file.string(),
+                     input.bytes(), product);
+  HAL_TRY(auto mapped, input.map());
+  return SpectraFile{file, shape, type, std::move(mapped)};
 }
 
 std::span<const std::byte> SpectraFile::b_scan(int b) const {
-  const std::size_t size = bytes_.size() / static_cast<std::size_t>(shape_.b_scans);
-  return bytes_.subspan(size * static_cast<std::size_t>(b), size);
+  const std::size_t size = mapped_.bytes().size() / static_cast<std::size_t>(shape_.b_scans);
+  return mapped_.bytes().subspan(size * static_cast<std::size_t>(b), size);
 }
 
 std::optional<std::string> SpectraFile::find_non_finite(int b) const {
@@ -136,7 +89,7 @@ std::optional<std::string> SpectraFile::find_non_finite(int b) const {
   const std::span floats{reinterpret_cast<const float*>(bytes.data()),
                          bytes.size() / sizeof(float)};
   const auto found =
-      std::find_if(floats.begin(), floats.end(), [](float value) { return !std::isfinite(value); });
+      std::ranges::find_if(floats, [](float value) { return !std::isfinite(value); });
   if (found == floats.end())
     return std::nullopt;
   return fmt::format("{} is {}, expected a finite number",

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -11,6 +10,7 @@
 
 #include "hal/result.h"
 #include "pipeline/calibration/calibration.h" // how many samples a line may have
+#include "pipeline/files/input_file.h"
 #include "pipeline/reconstruction/spectrum_format.h"
 
 namespace octascope::pipeline {
@@ -37,10 +37,6 @@ public:
   static hal::Result<SpectraFile> open(const std::filesystem::path& file, const SpectraShape& shape,
                                        hal::SampleType type);
 
-  SpectraFile(SpectraFile&& other) noexcept;
-  SpectraFile& operator=(SpectraFile&&) = delete;
-  ~SpectraFile();
-
   const SpectraShape& shape() const { return shape_; }
   hal::SampleType type() const { return type_; }
 
@@ -56,7 +52,8 @@ public:
 
 private:
   SpectraFile(std::filesystem::path file, const SpectraShape& shape, hal::SampleType type,
-              std::span<const std::byte> bytes);
+              MappedFile mapped)
+      : file_(std::move(file)), shape_(shape), type_(type), mapped_(std::move(mapped)) {}
 
   template <class Count>
   std::optional<std::string> find_above(int b, const SpectrumFormat& format) const;
@@ -65,7 +62,7 @@ private:
   std::filesystem::path file_;
   SpectraShape shape_;
   hal::SampleType type_;
-  std::span<const std::byte> bytes_;
+  MappedFile mapped_;
 };
 
 } // namespace octascope::pipeline

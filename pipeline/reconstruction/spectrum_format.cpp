@@ -1,7 +1,5 @@
 #include "pipeline/reconstruction/spectrum_format.h"
 
-#include <fmt/format.h>
-
 namespace octascope::pipeline {
 
 SpectrumFormat::SpectrumFormat(int samples_per_line, hal::SampleType sample_type)
@@ -18,8 +16,8 @@ hal::Result<> SpectrumFormat::validate() const {
       significant_bits + right_shift <= bits)
     return {};
   return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("significant_bits {} and right_shift {} do not fit into {} bits",
-                               significant_bits, right_shift, bits));
+                   "significant_bits {} and right_shift {} do not fit into {} bits",
+                   significant_bits, right_shift, bits);
 }
 
 } // namespace octascope::pipeline

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 
 #include <fmt/format.h>
@@ -49,7 +48,7 @@ bool write_real(hid_t file, const char* name, double value) {
 }
 
 tl::unexpected<hal::Error> bad(const char* name, const std::string& what) {
-  return hal::fail(hal::ErrorCode::bad_data, fmt::format("attribute {}: {}", name, what));
+  return hal::fail(hal::ErrorCode::bad_data, "attribute {}: {}", name, what);
 }
 
 // A scalar attribute of one class of types.
@@ -110,9 +109,8 @@ hal::Result<> check_format(hid_t file) {
   const auto format = read_text(file, "format");
   if (!format || *format != recording_layout::format_name)
     return hal::fail(hal::ErrorCode::bad_data,
-                     fmt::format("is no recording of octascope: found the format \"{}\", "
-                                 "expected \"{}\"",
-                                 format ? *format : "", recording_layout::format_name));
+                     "is no recording of octascope: found the format \"{}\", expected \"{}\"",
+                     format ? *format : "", recording_layout::format_name);
   HAL_TRY(const auto version, read_whole(file, "format_version"));
   if (version != recording_layout::format_version)
     return bad("format_version", fmt::format("found {}, this program reads {}", version,

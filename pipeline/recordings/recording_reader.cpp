@@ -64,27 +64,25 @@ hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t t
   H5Pset_chunk_cache(access, 0, 0, 0);
   Hdf5Handle dataset{H5Dopen2(file, name, access), H5Dclose};
   if (!dataset.valid())
-    return hal::fail(hal::ErrorCode::bad_data,
-                     fmt::format("found no dataset /{}, expected one: the file is damaged, or "
-                                 "another program changed it",
-                                 name));
+    return hal::fail(
+        hal::ErrorCode::bad_data,
+        "found no dataset /{}, expected one: the file is damaged, or another program changed it",
+        name);
   const Hdf5Handle type{H5Dget_type(dataset), H5Tclose};
   const Hdf5Handle space{H5Dget_space(dataset), H5Sclose};
   std::array<hsize_t, 4> found{};
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 1 || rank > 4 || H5Sget_simple_extent_dims(space, found.data(), nullptr) != rank)
-    return hal::fail(hal::ErrorCode::bad_data, fmt::format("/{}: found {} dimensions, expected {}",
-                                                           name, rank, expected.size()));
+    return hal::fail(hal::ErrorCode::bad_data, "/{}: found {} dimensions, expected {}", name, rank,
+                     expected.size());
   const auto sizes = std::span{found}.first(static_cast<std::size_t>(rank));
   if (H5Tget_class(type) != type_class || sizes.size() != expected.size() ||
       !std::ranges::equal(sizes.subspan(1), expected.subspan(1)))
     return hal::fail(hal::ErrorCode::bad_data,
-                     fmt::format("/{}: found {} of {}, expected [volumes{}{}] of {}, as the "
-                                 "attributes say: the file is damaged, or another program changed "
-                                 "it",
-                                 name, sizes, words_for(H5Tget_class(type)),
-                                 expected.size() > 1 ? ", " : "",
-                                 fmt::join(expected.subspan(1), ", "), words_for(type_class)));
+                     "/{}: found {} of {}, expected [volumes{}{}] of {}, as the attributes say: "
+                     "the file is damaged, or another program changed it",
+                     name, sizes, words_for(H5Tget_class(type)), expected.size() > 1 ? ", " : "",
+                     fmt::join(expected.subspan(1), ", "), words_for(type_class));
   volumes = found[0];
   return dataset;
 }
@@ -149,7 +147,7 @@ RecordingReader::~RecordingReader() {
 hal::Result<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
   const Hdf5Silence silence;
   const auto refused = [&](const hal::Error& error) {
-    return hal::fail(error.code, fmt::format("{}: {}", path.string(), error.message));
+    return hal::fail(error.code, "{}: {}", path.string(), error.message);
   };
   if (const auto checked = check_file(path); !checked)
     return refused(checked.error());
@@ -211,21 +209,20 @@ hal::Result<> RecordingReader::read(std::size_t n, Volume& volume) {
   const Hdf5Silence silence;
   const VolumeGeometry& geometry = file_->facts.geometry;
   if (n >= file_->volumes.size() || volume.geometry != geometry)
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("{}: found a wish for volume {}, expected 0 to {}, into one of "
-                                 "the recording's geometry",
-                                 file_->path.string(), n,
-                                 static_cast<std::int64_t>(file_->volumes.size()) - 1));
+    return hal::fail(
+        hal::ErrorCode::invalid_argument,
+        "{}: found a wish for volume {}, expected 0 to {}, into one of the recording's geometry",
+        file_->path.string(), n, static_cast<std::int64_t>(file_->volumes.size()) - 1);
   if (!read_row(file_->levels, layout::levels_size(geometry, 0), n, volume.levels.data()) ||
       !read_row(file_->states, layout::states_size(geometry, 0), n, volume.b_scan_states.data()))
-    return hal::fail(hal::ErrorCode::bad_data, fmt::format("{}: volume {} cannot be read: {}",
-                                                           file_->path.string(), n, hdf5_reason()));
+    return hal::fail(hal::ErrorCode::bad_data, "{}: volume {} cannot be read: {}",
+                     file_->path.string(), n, hdf5_reason());
   for (BScanState& state : volume.b_scan_states)
     if (state > BScanState::saturated)
       return hal::fail(hal::ErrorCode::bad_data,
-                       fmt::format("{}: volume {}: found {} as a B-scan's state, expected 0 "
-                                   "(missing), 1 (good) or 2 (saturated)",
-                                   file_->path.string(), n, static_cast<int>(state)));
+                       "{}: volume {}: found {} as a B-scan's state, expected 0 (missing), 1 "
+                       "(good) or 2 (saturated)",
+                       file_->path.string(), n, static_cast<int>(state));
   const RecordedVolume& entry = file_->volumes[n];
   volume.metadata = {.index = entry.index,
                      .armed = time_point(entry.first_line_ns),

@@ -2,10 +2,8 @@
 
 #include <cerrno>
 #include <cstring>
-#include <optional>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "pipeline/recordings/hdf5.h"
@@ -78,11 +76,9 @@ struct RecordingWriter::File {
   tl::unexpected<hal::Error> failed(std::string_view what) {
     const std::string reason = hdf5_reason();
     broken = true;
-    return hal::fail(hal::ErrorCode::system,
-                     fmt::format("{}: {}: {}{}", path.string(), what, reason,
-                                 reason.find("No space") == std::string::npos
-                                     ? ""
-                                     : "; free some room on the disk"));
+    return hal::fail(hal::ErrorCode::system, "{}: {}: {}{}", path.string(), what, reason,
+                     reason.find("No space") == std::string::npos ? ""
+                                                                  : "; free some room on the disk");
   }
   bool make_datasets();
   bool append_levels(const Volume& volume);
@@ -134,8 +130,8 @@ hal::Result<RecordingWriter> RecordingWriter::create(const std::filesystem::path
                      : reason == ENOENT ? hal::ErrorCode::absent
                      : reason == EACCES ? hal::ErrorCode::denied
                                         : hal::ErrorCode::system,
-                     fmt::format("{}: cannot be made: {}{}", path.string(), std::strerror(reason),
-                                 reason == EEXIST ? "; a recording is never written over" : ""));
+                     "{}: cannot be made: {}{}", path.string(), std::strerror(reason),
+                     reason == EEXIST ? "; a recording is never written over" : "");
   }
   auto made = std::make_unique<File>(path, descriptor);
   made->geometry = facts.geometry;
@@ -157,10 +153,10 @@ hal::Result<> RecordingWriter::append(const Volume& volume, const RecordedVolume
   const Hdf5Silence silence;
   File& f = *file_;
   if (f.broken || volume.geometry != f.geometry)
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("{}: found a volume {}, expected one of the recording's own "
-                                 "geometry, before any failure",
-                                 f.path.string(), f.broken ? "after a failure" : "of another one"));
+    return hal::fail(
+        hal::ErrorCode::invalid_argument,
+        "{}: found a volume {}, expected one of the recording's own geometry, before any failure",
+        f.path.string(), f.broken ? "after a failure" : "of another one");
   const std::array<hsize_t, 1> rows{f.volumes + 1};
   if (!f.append_levels(volume) ||
       !append_row(f.states, H5T_NATIVE_UINT8, layout::states_size(f.geometry, rows[0]),
@@ -175,8 +171,8 @@ hal::Result<> RecordingWriter::sync() {
   if (::fdatasync(file_->descriptor) == 0)
     return {};
   file_->broken = true;
-  return hal::fail(hal::ErrorCode::system, fmt::format("{}: cannot be written to the disk: {}",
-                                                       file_->path.string(), std::strerror(errno)));
+  return hal::fail(hal::ErrorCode::system, "{}: cannot be written to the disk: {}",
+                   file_->path.string(), std::strerror(errno));
 }
 
 // Attributes cannot change while readers may look on: the file is closed and opened once more.

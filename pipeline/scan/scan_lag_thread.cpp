@@ -1,7 +1,5 @@
 #include "pipeline/scan/scan_lag_thread.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "pipeline/scan/sweep_alignment.h"

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace octascope::pipeline {
 
 namespace {
@@ -13,9 +11,8 @@ using hal::ErrorCode;
 hal::Result<> in_range(const char* key, double found, double lowest, double highest) {
   if (std::isfinite(found) && found >= lowest && found <= highest)
     return {};
-  return hal::fail(
-      ErrorCode::invalid_argument,
-      fmt::format("scan plan: {} is {}, expected {} to {}", key, found, lowest, highest));
+  return hal::fail(ErrorCode::invalid_argument, "scan plan: {} is {}, expected {} to {}", key,
+                   found, lowest, highest);
 }
 
 } // namespace

@@ -40,7 +40,7 @@ DurationSummary DurationStatistics::summary() const {
   const double max_ms = static_cast<double>(max_ns_.load(std::memory_order_relaxed)) * 1e-6;
   const auto percentile = [&](double share) {
     const auto rank = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(total)));
-    const auto bin = std::lower_bound(cumulated.begin(), cumulated.end(), rank);
+    const auto bin = std::ranges::lower_bound(cumulated, rank);
     return std::min(middle_of_bin_ms(static_cast<std::size_t>(bin - cumulated.begin())), max_ms);
   };
   return {total, percentile(0.5), percentile(0.95), max_ms};

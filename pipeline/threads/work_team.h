@@ -3,8 +3,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
-#include <type_traits>
 
 #include "pipeline/threads/wakeup.h"
 #include "pipeline/threads/worker_pool.h"

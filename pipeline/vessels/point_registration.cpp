@@ -7,8 +7,6 @@
 #include <numeric>
 #include <string_view>
 
-#include <fmt/format.h>
-
 namespace octascope::pipeline {
 namespace {
 
@@ -57,8 +55,7 @@ template <std::size_t N> Eigen<N> eigen_of(Matrix<N> m) {
       }
   std::array<std::size_t, N> order;
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return m[a][a] > m[b][b]; });
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) { return m[a][a] > m[b][b]; });
   Eigen<N> eigen;
   for (std::size_t i = 0; i < N; ++i) {
     eigen.values[i] = m[order[i]][order[i]];
@@ -98,11 +95,11 @@ hal::Result<> check_spread(std::span<const PointPair> pairs, Point PointPair::*s
   constexpr double narrowest = 0.01; // of the length
   if (along > 0 && across >= narrowest * along)
     return {};
-  return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("the {} points spread {:.4g} mm along a line and {:.4g} mm across "
-                               "it, expected at least {:.4g} mm across: the tree could turn about "
-                               "the line; add a point beside it",
-                               name, along, across, narrowest * along));
+  return hal::fail(
+      hal::ErrorCode::invalid_argument,
+      "the {} points spread {:.4g} mm along a line and {:.4g} mm across it, expected at least "
+      "{:.4g} mm across: the tree could turn about the line; add a point beside it",
+      name, along, across, narrowest * along);
 }
 
 std::array<std::array<double, 3>, 3> rotation_of(const std::array<double, quaternion>& q) {
@@ -162,7 +159,7 @@ std::vector<double> leave_each_out(std::span<const PointPair> pairs) {
     if (i > 0)
       others[i - 1] = pairs[i];
   }
-  std::reverse(errors.begin(), errors.end());
+  std::ranges::reverse(errors);
   return errors;
 }
 
@@ -171,8 +168,8 @@ std::vector<double> leave_each_out(std::span<const PointPair> pairs) {
 hal::Result<PointRegistration> register_points(std::span<const PointPair> pairs) {
   if (pairs.size() < fewest_point_pairs)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("found {} pairs of points, expected at least {}", pairs.size(),
-                                 fewest_point_pairs));
+                     "found {} pairs of points, expected at least {}", pairs.size(),
+                     fewest_point_pairs);
   HAL_TRY(const auto transform, fit(pairs));
   PointRegistration registration;
   registration.volume_from_tree = transform;

@@ -89,7 +89,7 @@ PatientEye read_whose(ConfigTable table) {
   if (const auto named = eye_named(eye))
     whose.eye = *named;
   else
-    table.complain(fmt::format("eye is \"{}\", expected \"left\" or \"right\"", eye));
+    table.complain("eye is \"{}\", expected \"left\" or \"right\"", eye);
   return whose;
 }
 
@@ -151,7 +151,7 @@ hal::Result<Registration> Registration::load(const fs::path& file) {
 
 hal::Result<> write_registration(const Registration& registration, const fs::path& file) {
   if (const std::string fault = fault_of(registration.volume_from_tree); !fault.empty())
-    return hal::fail(hal::ErrorCode::invalid_argument, fmt::format("{}: {}", file.string(), fault));
+    return hal::fail(hal::ErrorCode::invalid_argument, "{}: {}", file.string(), fault);
   HAL_TRY(auto out, AtomicFile::create(file));
   const std::string text = toml(registration);
   HAL_CHECK(out.write_at(0, std::as_bytes(std::span{text})));

@@ -36,8 +36,7 @@ struct Volume {
                                      geometry.b_scan_voxels());
   }
   int missing_b_scans() const {
-    return static_cast<int>(
-        std::count(b_scan_states.begin(), b_scan_states.end(), BScanState::missing));
+    return static_cast<int>(std::ranges::count(b_scan_states, BScanState::missing));
   }
 
   VolumeGeometry geometry;

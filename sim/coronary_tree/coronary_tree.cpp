@@ -3,8 +3,6 @@
 #include <atomic>
 #include <thread>
 
-#include <fmt/format.h>
-
 #include "sim/coronary_tree/heart/main_courses.h"
 #include "sim/coronary_tree/myocardium_voxels.h"
 #include "sim/coronary_tree/tree_layout.h"
@@ -171,13 +169,12 @@ void write_trunks(const Trunks& trunks, const TreeLayout& layout, pipeline::Vess
 hal::Result<CoronaryTree> generate_coronary_tree(const CoronaryTreeRequest& request,
                                                  const std::function<void(double)>& progress) {
   if (request.segments < fewest_coronary_segments || request.segments > most_coronary_segments)
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("{} segments asked for, expected {} to {}", request.segments,
-                                 fewest_coronary_segments, most_coronary_segments));
+    return hal::fail(hal::ErrorCode::invalid_argument, "{} segments asked for, expected {} to {}",
+                     request.segments, fewest_coronary_segments, most_coronary_segments);
   constexpr std::size_t most_threads = 256;
   if (request.threads < 1 || request.threads > most_threads)
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("{} threads, expected 1 to {}", request.threads, most_threads));
+    return hal::fail(hal::ErrorCode::invalid_argument, "{} threads, expected 1 to {}",
+                     request.threads, most_threads);
   const Trunks trunks = grow_trunks(request.seed);
   const TreeLayout layout =
       lay_out(trunks.plans, request.segments, key_of(request.seed, Purpose::layout));

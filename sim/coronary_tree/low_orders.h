@@ -8,7 +8,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 
 #include "pipeline/vessels/tree.h"
 #include "sim/coronary_tree/morphometry.h"

@@ -52,7 +52,7 @@ private:
         found.push_back({lots[i], b, i});
       }
     }
-    std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    std::ranges::sort(found, [](const Candidate& a, const Candidate& b) {
       return std::tie(a.lot, a.branch, a.element) < std::tie(b.lot, b.branch, b.element);
     });
     return found;

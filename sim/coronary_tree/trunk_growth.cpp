@@ -72,7 +72,7 @@ std::vector<std::uint32_t> Grower::daughters_at(const PlannedElement& mother,
     if (plan_.elements[mother.first_daughter + i].joint == joint)
       found.push_back(mother.first_daughter + i);
   // The first one is what the element goes on with where it ends: it takes what is left.
-  std::reverse(found.begin(), found.end());
+  std::ranges::reverse(found);
   return found;
 }
 
@@ -175,17 +175,16 @@ void Grower::place_joints(PlannedElement& mother, std::span<const double> joints
       places.push_back(plan_.elements[i].joint);
       waiting.push_back(i);
     }
-  std::sort(places.begin(), places.end());
+  std::ranges::sort(places);
   const auto all = static_cast<double>(regions.before(2 * course_.length_mm()));
   double fed = 0;
   for (const std::uint32_t place : places) {
     const double here = (joints[place] + joints[place + 1]) / 2;
     const double lacking = static_cast<double>(regions.before(here)) / all * mother.weight - fed;
-    const auto best =
-        std::min_element(waiting.begin(), waiting.end(), [&](std::uint32_t a, std::uint32_t b) {
-          return std::abs(plan_.elements[a].weight - lacking) <
-                 std::abs(plan_.elements[b].weight - lacking);
-        });
+    const auto best = std::ranges::min_element(waiting, [&](std::uint32_t a, std::uint32_t b) {
+      return std::abs(plan_.elements[a].weight - lacking) <
+             std::abs(plan_.elements[b].weight - lacking);
+    });
     plan_.elements[*best].joint = place;
     fed += plan_.elements[*best].weight;
     waiting.erase(best);

@@ -7,7 +7,6 @@
 // wall.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "sim/coronary_tree/heart/main_courses.h"

@@ -142,8 +142,7 @@ private:
     const auto size_below = [order](std::size_t daughter) {
       return daughter == order ? std::size_t{0} : daughter + 1;
     };
-    std::iter_swap(hand.begin(),
-                   std::max_element(hand.begin(), hand.end(), [&](std::size_t a, std::size_t b) {
+    std::iter_swap(hand.begin(), std::ranges::max_element(hand, [&](std::size_t a, std::size_t b) {
                      return size_below(a) < size_below(b);
                    }));
     // Where it ends, none of its own order: that would be the element itself.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "pipeline/vessels/tree.h"
 #include "sim/coronary_tree/heart/region.h"

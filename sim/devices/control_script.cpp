@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "pipeline/files/config_document.h"
 
 namespace octascope::sim {
@@ -22,8 +20,7 @@ ScriptedControl read_event(ConfigTable& table) {
   ScriptedControl event;
   const int named = table.has("switch") + table.has("knob") + table.has("axis");
   if (named != 1)
-    table.complain(
-        fmt::format("names {} controls, expected exactly one of switch, knob, axis", named));
+    table.complain("names {} controls, expected exactly one of switch, knob, axis", named);
   if (!table.has("time_s") || !table.has("value"))
     table.complain("time_s or value is missing, expected both in every event");
   event.at = hal::from_seconds(table.number("time_s", 0, {0, longest_s}));
@@ -50,14 +47,14 @@ hal::Result<ControlScript> read_script(const ConfigDocument& document) {
   ConfigTable root = document.root();
   for (ConfigTable& table : root.tables("event"))
     script.events.push_back(read_event(table));
-  std::stable_sort(script.events.begin(), script.events.end(),
-                   [](const ScriptedControl& a, const ScriptedControl& b) { return a.at < b.at; });
+  std::ranges::stable_sort(script.events, [](const ScriptedControl& a, const ScriptedControl& b) {
+    return a.at < b.at;
+  });
   if (root.has("repeat_s")) {
     script.repeat = hal::from_seconds(root.number("repeat_s", 1, {1e-3, longest_s}));
     if (!script.events.empty() && script.events.back().at >= script.repeat)
-      root.complain(fmt::format("repeat_s is {}, expected more than the last event's time_s, {}",
-                                hal::to_seconds(script.repeat),
-                                hal::to_seconds(script.events.back().at)));
+      root.complain("repeat_s is {}, expected more than the last event's time_s, {}",
+                    hal::to_seconds(script.repeat), hal::to_seconds(script.events.back().at));
   }
   HAL_CHECK(document.finish());
   return script;

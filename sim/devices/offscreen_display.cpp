@@ -7,7 +7,6 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GLES3/gl3.h>
-#include <fmt/format.h>
 
 namespace octascope::sim {
 
@@ -36,9 +35,9 @@ EGLDisplay find_display() {
 
 tl::unexpected<hal::Error> no_gles(std::string_view found) {
   return hal::fail(ErrorCode::unsupported,
-                   fmt::format("offscreen display: {} (EGL error 0x{:04x}), expected an EGL with "
-                               "GLES 3; install libegl-mesa0 and libgl1-mesa-dri",
-                               found, static_cast<unsigned>(eglGetError())));
+                   "offscreen display: {} (EGL error 0x{:04x}), expected an EGL with GLES 3; "
+                   "install libegl-mesa0 and libgl1-mesa-dri",
+                   found, static_cast<unsigned>(eglGetError()));
 }
 
 } // namespace
@@ -106,10 +105,10 @@ struct OffscreenDisplay::Surface {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
     if (width > largest || height > largest)
-      return hal::fail(ErrorCode::invalid_argument,
-                       fmt::format("offscreen display: size is {}x{}, expected at most {} either "
-                                   "way on this machine",
-                                   width, height, largest));
+      return hal::fail(
+          ErrorCode::invalid_argument,
+          "offscreen display: size is {}x{}, expected at most {} either way on this machine", width,
+          height, largest);
     glGenRenderbuffers(1, &colour);
     glBindRenderbuffer(GL_RENDERBUFFER, colour);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
@@ -117,10 +116,10 @@ struct OffscreenDisplay::Surface {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      return hal::fail(ErrorCode::system,
-                       fmt::format("offscreen display: a framebuffer of {}x{} is incomplete; try "
-                                   "a smaller size",
-                                   width, height));
+      return hal::fail(
+          ErrorCode::system,
+          "offscreen display: a framebuffer of {}x{} is incomplete; try a smaller size", width,
+          height);
     glViewport(0, 0, width, height);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
@@ -139,12 +138,11 @@ hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
     return hal::fail(ErrorCode::busy, "offscreen display: open already; close() it first");
   if (config.width < 1 || config.height < 1)
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("offscreen display: size is {}x{}, expected at least 1x1",
-                                 config.width, config.height));
+                     "offscreen display: size is {}x{}, expected at least 1x1", config.width,
+                     config.height);
   if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
-    return hal::fail(
-        ErrorCode::invalid_argument,
-        fmt::format("offscreen display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
+    return hal::fail(ErrorCode::invalid_argument,
+                     "offscreen display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz);
   if (lost_.load(std::memory_order_acquire))
     return hal::fail(ErrorCode::absent, "offscreen display: lost; waiting for it to be restored");
 

@@ -97,7 +97,7 @@ void ScopePicture::draw_still() {
 }
 
 void ScopePicture::draw(double phase, std::span<std::uint8_t> pixels) const {
-  std::copy(still_.begin(), still_.end(), pixels.begin());
+  std::ranges::copy(still_, pixels.begin());
   if (const Instrument* instrument = phantom_.instrument())
     draw_instrument(instrument->pose(phase), pixels);
 }

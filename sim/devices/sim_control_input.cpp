@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "sim/devices/deadline.h"
 
 namespace octascope::sim {
@@ -28,9 +26,8 @@ bool SimControlInput::inject(const ControlEvent& event) {
 hal::Result<> SimControlInput::do_open() {
   if (state() != DeviceState::absent)
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("simulated control input: open while {}, expected absent; call "
-                                 "close first",
-                                 to_string(state())));
+                     "simulated control input: open while {}, expected absent; call close first",
+                     to_string(state()));
   const TimePoint now = clock_.now();
   if (probe_.unplugged(now))
     return hal::fail(ErrorCode::absent,

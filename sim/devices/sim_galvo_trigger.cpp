@@ -1,7 +1,5 @@
 #include "sim/devices/sim_galvo_trigger.h"
 
-#include <fmt/format.h>
-
 namespace octascope::sim {
 
 using hal::DeviceState;
@@ -14,14 +12,12 @@ SimGalvoTrigger::SimGalvoTrigger(GalvoLink& link, hal::Clock& clock, const Fault
 hal::Result<> SimGalvoTrigger::do_open(const hal::GalvoTriggerConfig& config) {
   if (state() != DeviceState::absent)
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("simulated galvo trigger: open while {}, expected absent; call "
-                                 "close first",
-                                 to_string(state())));
+                     "simulated galvo trigger: open while {}, expected absent; call close first",
+                     to_string(state()));
   if (config.pulse_width <= hal::Duration{})
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("simulated galvo trigger: pulse_width is {} ns, expected more "
-                                 "than 0",
-                                 config.pulse_width.count()));
+                     "simulated galvo trigger: pulse_width is {} ns, expected more than 0",
+                     config.pulse_width.count());
   const TimePoint now = clock_.now();
   if (probe_.unplugged(now))
     return hal::fail(ErrorCode::absent,

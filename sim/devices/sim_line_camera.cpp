@@ -58,9 +58,8 @@ LineCameraTally SimLineCamera::tally() const {
 }
 
 hal::Result<> SimLineCamera::wrong_state(std::string_view call, std::string_view expected) const {
-  return hal::fail(ErrorCode::invalid_argument,
-                   fmt::format("simulated line camera: {} while {}, expected {}", call,
-                               to_string(state()), expected));
+  return hal::fail(ErrorCode::invalid_argument, "simulated line camera: {} while {}, expected {}",
+                   call, to_string(state()), expected);
 }
 
 hal::Result<> SimLineCamera::check(const hal::LineCameraConfig& config) const {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace octascope::sim {
 namespace {
 
@@ -16,8 +14,8 @@ constexpr int largest_side = 4096;
 hal::Result<> check_size(std::string_view whose, int width, int height) {
   if (width < 16 || height < 16 || width > largest_side || height > largest_side)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("scope camera: {} is {}×{}, expected 16×16 to {}×{}", whose, width,
-                                 height, largest_side, largest_side));
+                     "scope camera: {} is {}×{}, expected 16×16 to {}×{}", whose, width, height,
+                     largest_side, largest_side);
   return {};
 }
 
@@ -28,8 +26,8 @@ SimScopeCamera::make(const SimScopeCameraOptions& options, hal::Clock& clock) {
   HAL_CHECK(check_size("the twin's picture", options.width, options.height));
   if (options.loop <= hal::Duration::zero() || options.loop > std::chrono::seconds{10})
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("scope camera: the loop lasts {} s, expected more than 0 to 10",
-                                 hal::to_seconds(options.loop)));
+                     "scope camera: the loop lasts {} s, expected more than 0 to 10",
+                     hal::to_seconds(options.loop));
   HAL_TRY(auto phantom, make_phantom(options.phantom, options.seed));
   return std::unique_ptr<SimScopeCamera>(new SimScopeCamera(options, clock, std::move(phantom)));
 }
@@ -58,16 +56,14 @@ hal::Result<> SimScopeCamera::check_cable() {
 
 hal::Result<> SimScopeCamera::do_open(const hal::ScopeCameraConfig& config) {
   if (state() != hal::DeviceState::absent)
-    return hal::fail(
-        hal::ErrorCode::busy,
-        fmt::format("scope camera: open() found it {}, expected absent; close it first",
-                    to_string(state())));
+    return hal::fail(hal::ErrorCode::busy,
+                     "scope camera: open() found it {}, expected absent; close it first",
+                     to_string(state()));
   HAL_CHECK(check_size("the wish", config.width, config.height));
   if (!(config.frames_per_s > 0 && config.frames_per_s <= most_frames_per_s))
-    return hal::fail(
-        hal::ErrorCode::invalid_argument,
-        fmt::format("scope camera: the wish is {} frames/s, expected more than 0 to {}",
-                    config.frames_per_s, most_frames_per_s));
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "scope camera: the wish is {} frames/s, expected more than 0 to {}",
+                     config.frames_per_s, most_frames_per_s);
   if (!plugged_.load(std::memory_order_acquire))
     return hal::fail(hal::ErrorCode::absent,
                      "scope camera: found none, expected one; plug it in and try again");
@@ -79,8 +75,8 @@ hal::Result<> SimScopeCamera::do_open(const hal::ScopeCameraConfig& config) {
 hal::Result<> SimScopeCamera::do_start() {
   if (state() != hal::DeviceState::ready)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("scope camera: start() found it {}, expected ready; open it first",
-                                 to_string(state())));
+                     "scope camera: start() found it {}, expected ready; open it first",
+                     to_string(state()));
   HAL_CHECK(check_cable());
   started_ = clock_.now();
   next_ = 0;
@@ -93,10 +89,9 @@ hal::Result<std::optional<hal::ScopeFrame>> SimScopeCamera::do_wait_frame(hal::D
     return hal::fail(hal::ErrorCode::disconnected,
                      "scope camera: found failed, expected streaming; close it and open it again");
   if (state() != hal::DeviceState::streaming)
-    return hal::fail(
-        hal::ErrorCode::invalid_argument,
-        fmt::format("scope camera: wait_frame() found it {}, expected streaming; start it first",
-                    to_string(state())));
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "scope camera: wait_frame() found it {}, expected streaming; start it first",
+                     to_string(state()));
   const hal::TimePoint deadline = clock_.now() + timeout;
   for (;;) {
     HAL_CHECK(check_cable());

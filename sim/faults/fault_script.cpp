@@ -67,7 +67,7 @@ hal::Duration milliseconds_of(ConfigTable& table, std::string_view key, double f
 
 void require(ConfigTable& table, std::string_view key) {
   if (!table.has(key))
-    table.complain(fmt::format("{} is missing, expected in every fault", key));
+    table.complain("{} is missing, expected in every fault", key);
 }
 
 void read_device_and_kind(ConfigTable& table, ScriptedFault& fault) {
@@ -90,8 +90,8 @@ void read_device_and_kind(ConfigTable& table, ScriptedFault& fault) {
     }
     kinds.push_back(known.kind);
   }
-  table.complain(fmt::format("kind is '{}', expected for the {} one of \"{}\"", kind,
-                             facts_of(device).key, fmt::join(kinds, "\", \"")));
+  table.complain("kind is '{}', expected for the {} one of \"{}\"", kind, facts_of(device).key,
+                 fmt::join(kinds, "\", \""));
 }
 
 void read_times(ConfigTable& table, ScriptedFault& fault) {
@@ -110,8 +110,8 @@ void read_times(ConfigTable& table, ScriptedFault& fault) {
     table.complain("duration_s is missing, expected for this kind of fault");
   }
   if (fault.repeat > hal::Duration{} && fault.repeat <= fault.duration)
-    table.complain(fmt::format("repeat_s is {}, expected more than duration_s, {}",
-                               hal::to_seconds(fault.repeat), hal::to_seconds(fault.duration)));
+    table.complain("repeat_s is {}, expected more than duration_s, {}",
+                   hal::to_seconds(fault.repeat), hal::to_seconds(fault.duration));
 }
 
 void read_parameters(ConfigTable& table, ScriptedFault& fault) {

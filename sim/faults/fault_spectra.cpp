@@ -36,7 +36,7 @@ int saturate_lines(const hal::LineFormat& format, std::span<std::byte> frame, do
     const auto bytes =
         frame.subspan(static_cast<std::size_t>(line) * format.line_bytes(), format.line_bytes());
     if (format.sample_type == hal::SampleType::u8) {
-      std::fill(bytes.begin(), bytes.end(), static_cast<std::byte>(full_scale));
+      std::ranges::fill(bytes, static_cast<std::byte>(full_scale));
       continue;
     }
     for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {

@@ -17,8 +17,8 @@ hal::Result<std::unique_ptr<Phantom>> make_phantom(std::string_view name, std::u
   if (name == phantom_names[2])
     return std::make_unique<PlasticCap>(seed);
   return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("phantom: there is none named \"{}\", expected one of {}", name,
-                               fmt::join(phantom_names, ", ")));
+                   "phantom: there is none named \"{}\", expected one of {}", name,
+                   fmt::join(phantom_names, ", "));
 }
 
 } // namespace octascope::sim

@@ -1,7 +1,6 @@
 // What lies below one lateral position of a phantom, in millimetres of depth.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

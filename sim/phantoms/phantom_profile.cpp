@@ -54,9 +54,9 @@ ProfileMaker::Profile ProfileMaker::make_profile() const {
 
 void ProfileMaker::fill(Profile& profile, const Column& column, float x_mm, float y_mm,
                         std::uint64_t visit) const {
-  std::fill(profile.amplitude.begin(), profile.amplitude.end(), 0.0F);
-  std::fill(profile.transmission.begin(), profile.transmission.end(), 1.0F);
-  std::fill(profile.flowing.begin(), profile.flowing.end(), std::uint8_t{0});
+  std::ranges::fill(profile.amplitude, 0.0F);
+  std::ranges::fill(profile.transmission, 1.0F);
+  std::ranges::fill(profile.flowing, std::uint8_t{0});
   for (const Layer& layer : column.layers())
     paint(profile, layer, x_mm, y_mm);
   attenuate(profile, column.surfaces());

@@ -2,7 +2,6 @@
 // their speckle, and what is left of the light below.
 #pragma once
 
-#include <array>
 #include <complex>
 #include <cstdint>
 #include <span>

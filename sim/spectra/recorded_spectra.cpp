@@ -16,9 +16,8 @@ hal::Result<> check_count(const SpectraRecording& recording, const char* what, i
                           int lowest, int highest) {
   if (found >= lowest && found <= highest)
     return {};
-  return hal::fail(
-      ErrorCode::invalid_argument,
-      fmt::format("{}: {} is {}, expected {} to {}", recording.name, what, found, lowest, highest));
+  return hal::fail(ErrorCode::invalid_argument, "{}: {} is {}, expected {} to {}", recording.name,
+                   what, found, lowest, highest);
 }
 
 hal::Result<> check_size(const SpectraRecording& r) {
@@ -28,10 +27,8 @@ hal::Result<> check_size(const SpectraRecording& r) {
   if (r.samples.size() == expected)
     return {};
   return hal::fail(ErrorCode::invalid_argument,
-                   fmt::format("{}: has {} samples, expected {} for {} B-scans of {} A-scans of {} "
-                               "samples",
-                               r.name, r.samples.size(), expected, r.b_scans, r.a_scans,
-                               r.samples_per_line));
+                   "{}: has {} samples, expected {} for {} B-scans of {} A-scans of {} samples",
+                   r.name, r.samples.size(), expected, r.b_scans, r.a_scans, r.samples_per_line);
 }
 
 } // namespace
@@ -39,16 +36,14 @@ hal::Result<> check_size(const SpectraRecording& r) {
 hal::Result<std::unique_ptr<RecordedSpectra>> RecordedSpectra::make(SpectraRecording recording,
                                                                     int fly_back_lines) {
   const SpectraRecording& r = recording;
-  const auto checked =
+  HAL_CHECK(
       check_count(r, "the number of B-scans", r.b_scans, 1, most)
           .and_then([&] { return check_count(r, "the number of A-scans", r.a_scans, 1, most); })
           .and_then(
               [&] { return check_count(r, "the number of samples", r.samples_per_line, 1, most); })
           .and_then([&] { return check_count(r, "significant_bits", r.significant_bits, 1, 16); })
           .and_then([&] { return check_count(r, "fly_back_lines", fly_back_lines, 0, most); })
-          .and_then([&] { return check_size(r); });
-  if (!checked)
-    return tl::make_unexpected(checked.error());
+          .and_then([&] { return check_size(r); }));
   return std::unique_ptr<RecordedSpectra>{
       new RecordedSpectra{std::move(recording), fly_back_lines}};
 }

@@ -1,7 +1,6 @@
 #include "sim/spectra/volume_loop.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -25,13 +24,11 @@ void yield_to_everybody() {
 hal::Result<> VolumeLoopConfig::validate() const {
   HAL_CHECK(plan.validate());
   if (volumes < 1 || volumes > most_volumes)
-    return hal::fail(
-        hal::ErrorCode::invalid_argument,
-        fmt::format("volume loop: volumes is {}, expected 1 to {}", volumes, most_volumes));
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "volume loop: volumes is {}, expected 1 to {}", volumes, most_volumes);
   if (!(galvo_lag_us >= 0 && galvo_lag_us <= 1e6))
-    return hal::fail(
-        hal::ErrorCode::invalid_argument,
-        fmt::format("volume loop: galvo_lag_us is {}, expected 0 to 1e6", galvo_lag_us));
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "volume loop: galvo_lag_us is {}, expected 0 to 1e6", galvo_lag_us);
   SpectrometerConfig with_plan = spectrometer;
   with_plan.samples = plan.samples;
   return with_plan.validate();

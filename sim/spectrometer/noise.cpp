@@ -1,6 +1,5 @@
 #include "sim/spectrometer/noise.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "sim/spectrometer/noise.h"
 
 namespace octascope::sim {
@@ -24,9 +22,8 @@ struct Bound {
 hal::Result<> SpectrometerConfig::validate() const {
   if (samples < 16 || samples > 16384 || samples % 2 != 0)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("spectrometer: samples is {}, expected an even number from 16 to "
-                                 "16384",
-                                 samples));
+                     "spectrometer: samples is {}, expected an even number from 16 to 16384",
+                     samples);
   const double full_scale = std::ldexp(1.0, significant_bits);
   // r[m] rises where 4·bow·(1 + skew) < 1, which these bounds ensure.
   const Bound bounds[] = {
@@ -49,8 +46,8 @@ hal::Result<> SpectrometerConfig::validate() const {
   for (const Bound& bound : bounds)
     if (!(bound.found >= bound.lowest && bound.found <= bound.highest))
       return hal::fail(hal::ErrorCode::invalid_argument,
-                       fmt::format("spectrometer: {} is {}, expected {} to {}", bound.name,
-                                   bound.found, bound.lowest, bound.highest));
+                       "spectrometer: {} is {}, expected {} to {}", bound.name, bound.found,
+                       bound.lowest, bound.highest);
   return {};
 }
 

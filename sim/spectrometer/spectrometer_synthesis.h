@@ -12,7 +12,6 @@
 #include <complex>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include "sim/spectrometer/noise.h"
 #include "sim/spectrometer/spectrometer.h"

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "embedded_profiles.h"
-#include <fmt/format.h>
 
 namespace octascope::ui {
 
@@ -33,10 +32,10 @@ hal::Result<ControlProfile> built_in_profile(std::string_view name) {
   std::string known;
   for (const BuiltInProfile& profile : all)
     known += (known.empty() ? "" : ", ") + std::string{profile.name};
-  return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("control profile \"{}\" is not known, expected one of {}; for one "
-                               "of your own, give its file",
-                               name, known));
+  return hal::fail(
+      hal::ErrorCode::invalid_argument,
+      "control profile \"{}\" is not known, expected one of {}; for one of your own, give its file",
+      name, known);
 }
 
 std::optional<ControlProfile> built_in_profile_for(std::string_view usb_id, int switches) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,7 +26,7 @@ Action read_action(ConfigTable& table) {
   std::vector<std::string_view> known;
   for (const Action action : all_actions())
     known.push_back(to_string(action));
-  table.complain(fmt::format("action is \"{}\", expected one of {}", name, fmt::join(known, ", ")));
+  table.complain("action is \"{}\", expected one of {}", name, fmt::join(known, ", "));
   return Action::freeze;
 }
 
@@ -37,8 +36,8 @@ std::uint8_t index_among(ConfigTable& table, std::string_view key, const std::st
   const auto found = std::ranges::find(names, name);
   if (found != names.end())
     return static_cast<std::uint8_t>(found - names.begin());
-  table.complain(fmt::format("{} is \"{}\", expected one of \"{}\", as listed under [device]", key,
-                             name, fmt::join(names, "\", \"")));
+  table.complain("{} is \"{}\", expected one of \"{}\", as listed under [device]", key, name,
+                 fmt::join(names, "\", \""));
   return 0;
 }
 
@@ -57,7 +56,7 @@ SwitchSet read_switches(ConfigTable& table, std::string_view key,
   for (const std::string& name : table.texts(key)) {
     const SwitchSet one = SwitchSet{1} << index_among(table, key, name, names);
     if ((switches & one) != 0)
-      table.complain(fmt::format("{} names \"{}\" twice, expected each switch once", key, name));
+      table.complain("{} names \"{}\" twice, expected each switch once", key, name);
     switches |= one;
   }
   return switches;
@@ -114,8 +113,7 @@ void read_axis_action(ConfigTable& table, ControlProfile& profile) {
 void read_bind(ConfigTable& table, ControlProfile& profile) {
   const int named = table.has("switch") + table.has("with") + table.has("knob") + table.has("axis");
   if (named != 1) {
-    table.complain(
-        fmt::format("names {} controls, expected exactly one of switch, with, knob, axis", named));
+    table.complain("names {} controls, expected exactly one of switch, with, knob, axis", named);
     return;
   }
   if (table.has("knob"))
@@ -132,13 +130,12 @@ void read_names(ConfigTable& device, std::string_view key, std::size_t most,
     return;
   names = device.texts(key);
   if (names.size() > most)
-    device.complain(fmt::format("{} names {}, expected at most {}", key, names.size(), most));
+    device.complain("{} names {}, expected at most {}", key, names.size(), most);
   names.resize(std::min(names.size(), most));
   for (std::size_t i = 0; i < names.size(); ++i)
     if (names[i].empty() || std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i),
                                       names[i]) != names.begin() + static_cast<std::ptrdiff_t>(i))
-      device.complain(
-          fmt::format("{}[{}] is \"{}\", expected a name that no other has", key, i, names[i]));
+      device.complain("{}[{}] is \"{}\", expected a name that no other has", key, i, names[i]);
 }
 
 bool is_usb_id(std::string_view text) {
@@ -151,9 +148,8 @@ void read_device(ConfigTable device, ControlProfile& profile) {
   profile.usb = device.texts("usb");
   for (const std::string& id : profile.usb)
     if (!is_usb_id(id))
-      device.complain(fmt::format("usb has \"{}\", expected vendor and product as in "
-                                  "\"05f3:00ff\", lower case",
-                                  id));
+      device.complain("usb has \"{}\", expected vendor and product as in \"05f3:00ff\", lower case",
+                      id);
   read_names(device, "switches", most_switches, profile.switches);
   read_names(device, "knobs", most_knobs, profile.knobs);
   profile.switch_word = device.text("switch_word", profile.switch_word);
@@ -179,11 +175,11 @@ void read_menu(ConfigTable& root, ControlProfile& profile) {
   for (const std::string& name : root.texts("menu")) {
     const auto action = action_named(name);
     if (!action || !fits_menu(*action))
-      root.complain(fmt::format("menu has \"{}\", expected actions other than next_parameter, "
-                                "previous_parameter and adjust",
-                                name));
+      root.complain("menu has \"{}\", expected actions other than next_parameter, "
+                    "previous_parameter and adjust",
+                    name);
     else if (std::ranges::find(profile.menu, *action) != profile.menu.end())
-      root.complain(fmt::format("menu has \"{}\" twice, expected each action once", name));
+      root.complain("menu has \"{}\" twice, expected each action once", name);
     else
       profile.menu.push_back(*action);
   }

@@ -1,6 +1,5 @@
 #include "ui/controls/legend_lines.h"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cctype>

@@ -31,17 +31,17 @@ std::string_view name_of(GestureKind gesture) {
 }
 
 void complain_about_second(ConfigTable& table, std::string_view what, Action first) {
-  table.complain(fmt::format("{} is bound to {} already; expected once, so leave one out", what,
-                             to_string(first)));
+  table.complain("{} is bound to {} already; expected once, so leave one out", what,
+                 to_string(first));
 }
 
 // Both would begin while the switch is down.
 void check_hold(ConfigTable& table, const ControlProfile& profile, SwitchSet switches, bool holds,
                 std::string_view other, bool others) {
   if (holds && others)
-    table.complain(fmt::format("{}: \"hold\" begins to repeat before {} could be told from it; "
-                               "expected only one of them",
-                               names_of(profile, switches), other));
+    table.complain(
+        "{}: \"hold\" begins to repeat before {} could be told from it; expected only one of them",
+        names_of(profile, switches), other);
 }
 
 const SwitchAction* find(const ControlProfile& profile, SwitchSet switches, GestureKind gesture) {
@@ -82,12 +82,12 @@ void check(ConfigTable& table, const ControlProfile& before, const SwitchAction&
   check_hold(table, before, bound.switches, holds, "a knob turned meanwhile",
              modifies(before, bound.switches));
   if (holds && !has_direction(kind_of(bound.action)))
-    table.complain(fmt::format("{} happens once, so it cannot repeat; expected \"press\", "
-                               "\"long\" or \"double\"",
-                               to_string(bound.action)));
+    table.complain(
+        "{} happens once, so it cannot repeat; expected \"press\", \"long\" or \"double\"",
+        to_string(bound.action));
   if (bound.step != 1 && !has_direction(kind_of(bound.action)))
-    table.complain(fmt::format("step is {}, but {} knows no steps; expected none", bound.step,
-                               to_string(bound.action)));
+    table.complain("step is {}, but {} knows no steps; expected none", bound.step,
+                   to_string(bound.action));
 }
 
 void check(ConfigTable& table, const ControlProfile& before, const KnobAction& bound) {
@@ -98,8 +98,8 @@ void check(ConfigTable& table, const ControlProfile& before, const KnobAction& b
              find(before, bound.while_held, GestureKind::hold) != nullptr,
              "a knob turned meanwhile", bound.while_held != 0);
   if (!takes_detents(kind_of(bound.action)))
-    table.complain(fmt::format("{} cannot be turned; expected a switch for it, not a knob",
-                               to_string(bound.action)));
+    table.complain("{} cannot be turned; expected a switch for it, not a knob",
+                   to_string(bound.action));
 }
 
 void check(ConfigTable& table, const ControlProfile& before, const AxisAction& bound) {
@@ -107,9 +107,9 @@ void check(ConfigTable& table, const ControlProfile& before, const AxisAction& b
     if (other.axis == bound.axis)
       complain_about_second(table, axis_name(bound.axis), other.action);
   if (kind_of(bound.action) != ActionKind::continuous)
-    table.complain(fmt::format("{} is not continuous; expected rotate, tilt, distance or another "
-                               "that an axis can drive",
-                               to_string(bound.action)));
+    table.complain(
+        "{} is not continuous; expected rotate, tilt, distance or another that an axis can drive",
+        to_string(bound.action));
   if (bound.per_second == 0)
     table.complain("per_second is 0, which does nothing; expected a rate, as in 30");
 }

@@ -9,12 +9,13 @@
 
 namespace octascope::ui::gl {
 
-template <void (*generate)(GLuint&), void (*destroy)(GLuint)> class Object {
+template <void (*generate)(GLsizei, GLuint*), void (*destroy)(GLsizei, const GLuint*)>
+class Object {
 public:
   Object() = default;
   static Object make() {
     Object object;
-    generate(object.name_);
+    generate(1, &object.name_);
     return object;
   }
   Object(Object&& other) noexcept : name_{std::exchange(other.name_, 0)} {}
@@ -26,7 +27,7 @@ public:
   Object& operator=(const Object&) = delete;
   ~Object() {
     if (name_ != 0)
-      destroy(name_);
+      destroy(1, &name_);
   }
 
   GLuint name() const { return name_; }
@@ -36,34 +37,9 @@ private:
   GLuint name_ = 0;
 };
 
-inline void generate_texture(GLuint& name) {
-  glGenTextures(1, &name);
-}
-inline void destroy_texture(GLuint name) {
-  glDeleteTextures(1, &name);
-}
-inline void generate_buffer(GLuint& name) {
-  glGenBuffers(1, &name);
-}
-inline void destroy_buffer(GLuint name) {
-  glDeleteBuffers(1, &name);
-}
-inline void generate_vertex_array(GLuint& name) {
-  glGenVertexArrays(1, &name);
-}
-inline void destroy_vertex_array(GLuint name) {
-  glDeleteVertexArrays(1, &name);
-}
-inline void generate_framebuffer(GLuint& name) {
-  glGenFramebuffers(1, &name);
-}
-inline void destroy_framebuffer(GLuint name) {
-  glDeleteFramebuffers(1, &name);
-}
-
-using Texture = Object<generate_texture, destroy_texture>;
-using Buffer = Object<generate_buffer, destroy_buffer>;
-using VertexArray = Object<generate_vertex_array, destroy_vertex_array>;
-using Framebuffer = Object<generate_framebuffer, destroy_framebuffer>;
+using Texture = Object<glGenTextures, glDeleteTextures>;
+using Buffer = Object<glGenBuffers, glDeleteBuffers>;
+using VertexArray = Object<glGenVertexArrays, glDeleteVertexArrays>;
+using Framebuffer = Object<glGenFramebuffers, glDeleteFramebuffers>;
 
 } // namespace octascope::ui::gl

@@ -2,8 +2,6 @@
 
 #include <cstring>
 
-#include <fmt/format.h>
-
 namespace octascope::ui::gl {
 
 PixelUploader PixelUploader::create(std::size_t bytes) {
@@ -20,19 +18,18 @@ PixelUploader PixelUploader::create(std::size_t bytes) {
 
 hal::Result<> PixelUploader::stage(std::span<const std::uint8_t> pixels) {
   if (pixels.size() > bytes_)
-    return hal::fail(
-        hal::ErrorCode::invalid_argument,
-        fmt::format("pixel upload: {} bytes given, expected at most {}", pixels.size(), bytes_));
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "pixel upload: {} bytes given, expected at most {}", pixels.size(), bytes_);
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, buffers_[next_].name());
   next_ = (next_ + 1) % buffers_.size();
   void* memory = glMapBufferRange(GL_PIXEL_UNPACK_BUFFER, 0, static_cast<GLsizeiptr>(pixels.size()),
                                   GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
   if (memory == nullptr) {
     unbind();
-    return hal::fail(hal::ErrorCode::system,
-                     fmt::format("pixel upload: the driver maps no {} bytes (GL error 0x{:04x}); "
-                                 "free graphics memory",
-                                 pixels.size(), glGetError()));
+    return hal::fail(
+        hal::ErrorCode::system,
+        "pixel upload: the driver maps no {} bytes (GL error 0x{:04x}); free graphics memory",
+        pixels.size(), glGetError());
   }
   std::memcpy(memory, pixels.data(), pixels.size());
   if (glUnmapBuffer(GL_PIXEL_UNPACK_BUFFER) != GL_TRUE) {

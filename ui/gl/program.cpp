@@ -1,7 +1,6 @@
 #include "ui/gl/program.h"
 
 #include <array>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,11 +30,10 @@ hal::Result<> compile(const Shader& shader, std::string_view what, std::string_v
     return {};
   std::array<char, 2048> log{};
   glGetShaderInfoLog(shader.name, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  return hal::fail(hal::ErrorCode::unsupported,
-                   fmt::format("shader {}: found an error, expected GLSL ES 3.00 that this driver "
-                               "({}) compiles: {}",
-                               what, reinterpret_cast<const char*>(glGetString(GL_VERSION)),
-                               log.data()));
+  return hal::fail(
+      hal::ErrorCode::unsupported,
+      "shader {}: found an error, expected GLSL ES 3.00 that this driver ({}) compiles: {}", what,
+      reinterpret_cast<const char*>(glGetString(GL_VERSION)), log.data());
 }
 
 } // namespace
@@ -47,32 +45,20 @@ hal::Result<Program> Program::build(std::string_view name, std::string_view vert
   const Shader fragment{GL_FRAGMENT_SHADER};
   HAL_CHECK(compile(fragment, fmt::format("{}.frag", name), fragment_source));
 
-  Program program{glCreateProgram()};
-  glAttachShader(program.name_, vertex.name);
-  glAttachShader(program.name_, fragment.name);
-  glLinkProgram(program.name_);
+  Program program;
+  const GLuint linked_name = program.object_.name();
+  glAttachShader(linked_name, vertex.name);
+  glAttachShader(linked_name, fragment.name);
+  glLinkProgram(linked_name);
   GLint linked = GL_FALSE;
-  glGetProgramiv(program.name_, GL_LINK_STATUS, &linked);
+  glGetProgramiv(linked_name, GL_LINK_STATUS, &linked);
   if (linked != GL_TRUE) {
     std::array<char, 2048> log{};
-    glGetProgramInfoLog(program.name_, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    return hal::fail(
-        hal::ErrorCode::unsupported,
-        fmt::format("shader program {}: its stages do not link: {}", name, log.data()));
+    glGetProgramInfoLog(linked_name, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    return hal::fail(hal::ErrorCode::unsupported, "shader program {}: its stages do not link: {}",
+                     name, log.data());
   }
   return program;
-}
-
-Program::Program(Program&& other) noexcept : name_{std::exchange(other.name_, 0)} {}
-
-Program& Program::operator=(Program&& other) noexcept {
-  std::swap(name_, other.name_);
-  return *this;
-}
-
-Program::~Program() {
-  if (name_ != 0)
-    glDeleteProgram(name_);
 }
 
 } // namespace octascope::ui::gl

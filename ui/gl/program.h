@@ -6,6 +6,7 @@
 #include <GLES3/gl3.h>
 
 #include "hal/result.h"
+#include "ui/gl/objects.h"
 
 namespace octascope::ui::gl {
 
@@ -17,19 +18,16 @@ public:
   static hal::Result<Program> build(std::string_view name, std::string_view vertex_source,
                                     std::string_view fragment_source);
 
-  Program(Program&& other) noexcept;
-  Program& operator=(Program&& other) noexcept;
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
-  ~Program();
-
-  void use() const { glUseProgram(name_); }
+  void use() const { glUseProgram(object_.name()); }
   // −1, which GL ignores, for a uniform that the compiler has optimised away.
-  GLint uniform(const char* name) const { return glGetUniformLocation(name_, name); }
+  GLint uniform(const char* name) const { return glGetUniformLocation(object_.name(), name); }
 
 private:
-  explicit Program(GLuint name) : name_{name} {}
-  GLuint name_ = 0;
+  Program() = default;
+  static void create(GLsizei, GLuint* name) { *name = glCreateProgram(); }
+  static void destroy(GLsizei, const GLuint* name) { glDeleteProgram(*name); }
+
+  Object<create, destroy> object_ = Object<create, destroy>::make();
 };
 
 } // namespace octascope::ui::gl

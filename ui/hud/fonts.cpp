@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "embedded_fonts.h"
-#include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_freetype.h>
 
@@ -41,21 +40,8 @@ Typeface inter() {
 
 Fonts::Fonts() : atlas_{IM_NEW(ImFontAtlas)()} {}
 
-Fonts::Fonts(Fonts&& other) noexcept
-    : atlas_{std::exchange(other.atlas_, nullptr)}, texture_{std::move(other.texture_)} {
-  std::copy(std::begin(other.fonts_), std::end(other.fonts_), std::begin(fonts_));
-}
-
-Fonts& Fonts::operator=(Fonts&& other) noexcept {
-  std::swap(atlas_, other.atlas_);
-  std::swap(fonts_, other.fonts_);
-  texture_ = std::move(other.texture_);
-  return *this;
-}
-
-Fonts::~Fonts() {
-  if (atlas_ != nullptr)
-    IM_DELETE(atlas_);
+void Fonts::Destroy::operator()(ImFontAtlas* atlas) const {
+  IM_DELETE(atlas);
 }
 
 hal::Result<Fonts> Fonts::create(float unit, const Typeface& typeface) {
@@ -89,9 +75,9 @@ hal::Result<Fonts> Fonts::create(float unit, const Typeface& typeface) {
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (width > largest || height > largest)
     return hal::fail(hal::ErrorCode::unsupported,
-                     fmt::format("heads-up display: found that this GL takes textures up to {}, "
-                                 "expected {}x{} for the glyphs of this size; choose a smaller one",
-                                 largest, width, height));
+                     "heads-up display: found that this GL takes textures up to {}, expected {}x{} "
+                     "for the glyphs of this size; choose a smaller one",
+                     largest, width, height);
   result.texture_ = gl::Texture::make();
   glBindTexture(GL_TEXTURE_2D, result.texture_.name());
   glTexStorage2D(GL_TEXTURE_2D, 1, GL_R8, width, height);

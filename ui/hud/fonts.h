@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "hal/result.h"
@@ -39,18 +40,18 @@ class Fonts {
 public:
   // `unit` as in Layout. ErrorCode::unsupported: this GL takes no texture of that size.
   static hal::Result<Fonts> create(float unit, const Typeface& typeface = inter());
-  Fonts(Fonts&& other) noexcept;
-  Fonts& operator=(Fonts&& other) noexcept;
-  ~Fonts();
 
   const ImFont& font(TextStyle style) const { return *fonts_[static_cast<int>(style)]; }
   const ImFontAtlas& atlas() const { return *atlas_; }
   GLuint texture() const { return texture_.name(); }
 
 private:
+  struct Destroy {
+    void operator()(ImFontAtlas* atlas) const;
+  };
   Fonts();
 
-  ImFontAtlas* atlas_; // owned; ImGui's header stays out of ours
+  std::unique_ptr<ImFontAtlas, Destroy> atlas_; // ImGui's header stays out of ours
   ImFont* fonts_[text_style_count] = {};
   gl::Texture texture_;
 };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <glm/vec3.hpp>
-
 #include "ui/hud/legend.h"
 #include "ui/hud/two_lines.h"
 

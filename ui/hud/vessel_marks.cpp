@@ -2,7 +2,6 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
-#include <utility>
 
 #include "ui/hud/hud.h"
 #include "ui/view/segment_counts.h"

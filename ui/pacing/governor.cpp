@@ -30,10 +30,6 @@ constexpr double finer_share = 0.8;
 // No step of the ladder costs more than 1.6 times the next coarser one: from here it still fits.
 constexpr double idle_share = 0.55;
 
-hal::Duration from_ms(double ms) {
-  return hal::from_seconds(ms * 1e-3);
-}
-
 std::size_t index_of(Technique technique) {
   return static_cast<std::size_t>(technique);
 }
@@ -69,14 +65,6 @@ double Governor::predict_ms(const Knowledge& knowledge, std::size_t rung) const 
   const double fixed = fixed_ms_.empty() ? 0 : fixed_ms_.value();
   return fixed +
          knowledge.full_ms.value() * sample_share(ladder[rung]) * knowledge.correction[rung];
-}
-
-hal::Duration Governor::predict(Technique technique, const DrawQuality& quality) const {
-  const Knowledge& knowledge = knowledge_[index_of(technique)];
-  const auto rung = std::ranges::find(ladder, quality);
-  if (knowledge.full_ms.empty() || rung == ladder.end())
-    return {};
-  return from_ms(predict_ms(knowledge, static_cast<std::size_t>(rung - ladder.begin())));
 }
 
 double Governor::budget_ms() const {

@@ -57,9 +57,6 @@ public:
   // How long after the last movement the view counts as resting.
   static constexpr hal::Duration rest_after = std::chrono::milliseconds{250};
 
-  // What a frame would cost now; 0 while nothing is known of the technique.
-  hal::Duration predict(Technique technique, const DrawQuality& quality) const;
-
 private:
   static constexpr std::size_t kept = 7;
   static constexpr std::size_t most_rungs = 16;

@@ -1,7 +1,5 @@
 #include "ui/panels/b_scan_panel.h"
 
-#include <string>
-
 #include "embedded_shaders.h"
 
 #include "ui/panels/hatch.h"

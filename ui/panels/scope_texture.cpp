@@ -1,7 +1,6 @@
 #include "ui/panels/scope_texture.h"
 
 #include "embedded_shaders.h"
-#include <fmt/format.h>
 
 #include "ui/gl/kept_framebuffer.h"
 #include "ui/gl/picture_texture.h"
@@ -35,16 +34,16 @@ std::size_t row_count(const hal::ScopeFrame& frame) {
 hal::Result<> check(const hal::ScopeFrame& frame) {
   if (frame.width < 1 || frame.height < 1 || frame.stride_bytes < 0 ||
       static_cast<std::size_t>(frame.stride_bytes) < row_bytes(frame))
-    return hal::fail(hal::ErrorCode::bad_data,
-                     fmt::format("microscope picture: {}x{} with a stride of {} bytes, expected "
-                                 "a stride of at least {}",
-                                 frame.width, frame.height, frame.stride_bytes, row_bytes(frame)));
+    return hal::fail(
+        hal::ErrorCode::bad_data,
+        "microscope picture: {}x{} with a stride of {} bytes, expected a stride of at least {}",
+        frame.width, frame.height, frame.stride_bytes, row_bytes(frame));
   const std::size_t needed =
       static_cast<std::size_t>(frame.stride_bytes) * (row_count(frame) - 1) + row_bytes(frame);
   if (frame.pixels.size() < needed)
     return hal::fail(hal::ErrorCode::bad_data,
-                     fmt::format("microscope picture: {} bytes for {}x{}, expected {}",
-                                 frame.pixels.size(), frame.width, frame.height, needed));
+                     "microscope picture: {} bytes for {}x{}, expected {}", frame.pixels.size(),
+                     frame.width, frame.height, needed);
   return {};
 }
 
@@ -95,10 +94,10 @@ hal::Result<> ScopeTexture::resize(const hal::ScopeFrame& frame) {
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (frame.width > largest || frame.height > largest)
-    return hal::fail(hal::ErrorCode::unsupported,
-                     fmt::format("microscope picture: {}x{}, this GL draws at most {}x{}; set the "
-                                 "camera to a smaller size",
-                                 frame.width, frame.height, largest, largest));
+    return hal::fail(
+        hal::ErrorCode::unsupported,
+        "microscope picture: {}x{}, this GL draws at most {}x{}; set the camera to a smaller size",
+        frame.width, frame.height, largest, largest);
   format_ = frame.format;
   width_ = frame.width;
   height_ = frame.height;

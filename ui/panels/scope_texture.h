@@ -1,7 +1,6 @@
 // The microscope's picture as a texture, from the pixels that cameras send.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 
 #include "hal/result.h"

@@ -6,7 +6,6 @@
 
 #include "ui/hud/hud.h"
 #include "ui/hud/palette.h"
-#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 

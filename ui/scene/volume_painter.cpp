@@ -164,9 +164,7 @@ hal::Result<> VolumePainter::draw_by_gl(EyePictures& pictures, const VolumeScene
 
 hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const Camera& camera,
                                     const DrawQuality& quality, const Rect& rect) {
-  const auto pictures = pictures_of(eye);
-  if (!pictures)
-    return tl::make_unexpected(pictures.error());
+  HAL_TRY(const auto pictures, pictures_of(eye));
   if (quality.rays == RayBackend::processor)
     want_processor();
   update_transfer(view);
@@ -178,14 +176,14 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
     scene.mesh = techniques_.surface()->prepare(view);
   }
   const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
-  (*pictures)->processor_drew = processor;
+  pictures->processor_drew = processor;
   const auto vessels =
       update_vessels(eye, scene, quality, rect, processor ? MaskReader::processor : MaskReader::gl);
   if (!vessels)
     return tl::make_unexpected(vessels.error());
   scene.vessels = *vessels ? &**vessels : nullptr;
-  return processor ? cast_rays(**pictures, scene, quality, rect)
-                   : draw_by_gl(**pictures, scene, quality, rect);
+  return processor ? cast_rays(*pictures, scene, quality, rect)
+                   : draw_by_gl(*pictures, scene, quality, rect);
 }
 
 bool VolumePainter::wants_volume(const ViewState& view) const {

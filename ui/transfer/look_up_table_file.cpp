@@ -25,18 +25,17 @@ constexpr std::size_t most_entries = TransferCurve::most_entries;
 hal::Result<LookUpTable> read_text(const fs::path& file) {
   HAL_TRY(const auto rows, pipeline::read_text_rows(file, most_entries, {1, 4}));
   if (rows.size() < 2)
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}: found {} entries, expected 2 to {}, one a line",
-                                 file.string(), rows.size(), most_entries));
+    return hal::fail(ErrorCode::bad_data, "{}: found {} entries, expected 2 to {}, one a line",
+                     file.string(), rows.size(), most_entries);
   LookUpTable table;
   std::vector<TransferTable::Colour> colours;
   for (const pipeline::TextRow& row : rows) {
     for (const double value : row.numbers)
       if (value < 0 || value > 1)
-        return hal::fail(ErrorCode::bad_data,
-                         fmt::format("{}:{}: found {}, expected numbers from 0 to 1; divide all by "
-                                     "their highest, as 255",
-                                     file.string(), row.line, value));
+        return hal::fail(
+            ErrorCode::bad_data,
+            "{}:{}: found {}, expected numbers from 0 to 1; divide all by their highest, as 255",
+            file.string(), row.line, value);
     table.opacities.push_back(static_cast<float>(row.numbers.back()));
     if (row.numbers.size() == 4)
       colours.push_back({static_cast<float>(row.numbers[0]), static_cast<float>(row.numbers[1]),
@@ -73,11 +72,10 @@ private:
 
 hal::Result<> check(const fs::path& file, const pipeline::Image& image, const Strip& strip) {
   const auto refuse = [&](std::string found) {
-    return hal::fail(
-        ErrorCode::bad_data,
-        fmt::format("{}: found {}, expected a strip of 2 to {} pixels whose rows along "
-                    "it are all the same; draw it one pixel wide",
-                    file.string(), found, most_entries));
+    return hal::fail(ErrorCode::bad_data,
+                     "{}: found {}, expected a strip of 2 to {} pixels whose rows along it are all "
+                     "the same; draw it one pixel wide",
+                     file.string(), found, most_entries);
   };
   if (strip.entries() < 2 || strip.entries() > most_entries)
     return refuse(fmt::format("{}x{} pixels", image.width, image.height));

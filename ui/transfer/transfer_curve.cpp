@@ -80,16 +80,14 @@ hal::Result<TransferCurve> TransferCurve::spline(std::span<const CurvePoint> poi
 
 hal::Result<TransferCurve> TransferCurve::table(std::span<const float> opacities) {
   if (opacities.size() < 2 || opacities.size() > most_entries)
-    return hal::fail(
-        hal::ErrorCode::invalid_argument,
-        fmt::format("found {} entries, expected 2 to {}", opacities.size(), most_entries));
+    return hal::fail(hal::ErrorCode::invalid_argument, "found {} entries, expected 2 to {}",
+                     opacities.size(), most_entries);
   TransferCurve curve;
   const auto last = static_cast<float>(opacities.size() - 1);
   for (std::size_t i = 0; i < opacities.size(); ++i) {
     if (!within_unit(opacities[i]))
-      return hal::fail(
-          hal::ErrorCode::invalid_argument,
-          fmt::format("the opacity of entry {} is {}, expected 0 to 1", i + 1, opacities[i]));
+      return hal::fail(hal::ErrorCode::invalid_argument,
+                       "the opacity of entry {} is {}, expected 0 to 1", i + 1, opacities[i]);
     curve.knots_.push_back({static_cast<float>(i) / last, opacities[i], 0});
   }
   return curve;

@@ -1,7 +1,6 @@
 // Opacity across the display window.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <utility>
 
-#include <fmt/format.h>
-
 namespace octascope::ui {
 
 namespace {
@@ -50,9 +48,8 @@ hal::Result<TransferSet> TransferSet::with(std::vector<TransferFunction> functio
   for (TransferFunction& function : functions) {
     if (grown.function_named(function.name))
       return hal::fail(hal::ErrorCode::invalid_argument,
-                       fmt::format("a transfer function \"{}\" is there already; choose another "
-                                   "name",
-                                   function.name));
+                       "a transfer function \"{}\" is there already; choose another name",
+                       function.name);
     Contents contents = *grown.contents_;
     contents.functions.push_back(std::move(function));
     grown = TransferSet{std::move(contents)};

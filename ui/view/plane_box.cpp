@@ -88,14 +88,6 @@ PlanePolygon intersect_plane_box(const glm::vec3& half, const glm::vec3& normal,
   return polygon;
 }
 
-float polygon_area(const PlanePolygon& polygon) {
-  glm::vec3 sum{0};
-  for (std::size_t i = 2; i < static_cast<std::size_t>(polygon.count); ++i)
-    sum += glm::cross(polygon.corners[i - 1] - polygon.corners[0],
-                      polygon.corners[i] - polygon.corners[0]);
-  return glm::length(sum) / 2;
-}
-
 StackSpacing space_planes(const Camera& camera, const glm::vec3& half, int planes) {
   const Stretch stretch = stretch_along_view(camera, half);
   const float spacing = stretch.length_mm / static_cast<float>(planes);

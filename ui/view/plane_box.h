@@ -26,8 +26,6 @@ struct PlanePolygon {
 // Cuts the box [−half, half] with the plane {p : p · normal = offset}, normal a unit vector.
 PlanePolygon intersect_plane_box(const glm::vec3& half, const glm::vec3& normal, float offset);
 
-float polygon_area(const PlanePolygon& polygon);
-
 // Distances of the planes from the eye along the view: first + i · spacing, i < planes. Where the
 // eye is inside the box, the stack begins at the near plane.
 struct StackSpacing {

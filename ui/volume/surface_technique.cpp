@@ -1,7 +1,6 @@
 #include "ui/volume/surface_technique.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 
 #include "embedded_shaders.h"

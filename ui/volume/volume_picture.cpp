@@ -4,7 +4,6 @@
 #include <string_view>
 
 #include "embedded_shaders.h"
-#include <fmt/format.h>
 
 #include "ui/gl/kept_framebuffer.h"
 #include "ui/gl/picture_texture.h"
@@ -64,9 +63,9 @@ hal::Result<> VolumePicture::resize(int width, int height) {
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
     return hal::fail(hal::ErrorCode::system,
-                     fmt::format("volume display: a picture of {}x{} is no complete framebuffer "
-                                 "(status 0x{:04x}); choose a smaller size",
-                                 width, height, status));
+                     "volume display: a picture of {}x{} is no complete framebuffer (status "
+                     "0x{:04x}); choose a smaller size",
+                     width, height, status);
   width_ = width;
   height_ = height;
   return {};

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace octascope::ui {
 
 namespace {
@@ -13,17 +11,17 @@ hal::Result<> check(const pipeline::Volume& volume) {
   if (g.depths < 1 || g.a_scans < 1 || g.b_scans < 1 || volume.levels.size() != g.voxels() ||
       volume.b_scan_states.size() != static_cast<std::size_t>(g.b_scans))
     return hal::fail(hal::ErrorCode::bad_data,
-                     fmt::format("volume display: found {} levels and {} B-scan states, expected "
-                                 "those of {} depths x {} A-scans x {} B-scans",
-                                 volume.levels.size(), volume.b_scan_states.size(), g.depths,
-                                 g.a_scans, g.b_scans));
+                     "volume display: found {} levels and {} B-scan states, expected those of {} "
+                     "depths x {} A-scans x {} B-scans",
+                     volume.levels.size(), volume.b_scan_states.size(), g.depths, g.a_scans,
+                     g.b_scans);
   GLint largest = 0;
   glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
   if (std::max({g.depths, g.a_scans, g.b_scans}) > largest)
     return hal::fail(hal::ErrorCode::unsupported,
-                     fmt::format("volume display: found {} depths x {} A-scans x {} B-scans, "
-                                 "expected at most {} along each axis on this GPU; scan fewer",
-                                 g.depths, g.a_scans, g.b_scans, largest));
+                     "volume display: found {} depths x {} A-scans x {} B-scans, expected at most "
+                     "{} along each axis on this GPU; scan fewer",
+                     g.depths, g.a_scans, g.b_scans, largest);
   return {};
 }
 

@@ -1,9 +1,5 @@
 #include "firmware-host/commands/bench/bench_display.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdlib>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -164,8 +160,8 @@ hal::Result<> dump(const pipeline::Volume& volume, const std::filesystem::path& 
   std::filesystem::create_directories(folder, error);
   if (error)
     return hal::fail(hal::ErrorCode::system,
-                     fmt::format("{}: cannot be made: {}; choose a folder that you may write to",
-                                 folder.string(), error.message()));
+                     "{}: cannot be made: {}; choose a folder that you may write to",
+                     folder.string(), error.message());
   return pipeline::write_nrrd(folder / "volume.nrrd", {volume.geometry, volume.levels});
 }
 

@@ -51,10 +51,6 @@ void print_text(const DisplayBenchReport& report) {
 }
 
 int run(const BenchDisplayArguments& arguments) {
-  const auto complain = [](const hal::Error& error) {
-    fmt::print(stderr, "octascope bench display: {}\n", error.message);
-    return error.code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
-  };
   VolumeRequest request;
   if (arguments.volume.empty())
     request.phantom = "anterior_eye";
@@ -64,7 +60,7 @@ int run(const BenchDisplayArguments& arguments) {
   if (!arguments.size.empty()) {
     const auto size = parse_size(arguments.size);
     if (!size)
-      return complain(size.error());
+      return complain("bench display", size.error());
     options.sizes = {*size};
   }
   options.technique = ui::technique_named(arguments.technique);
@@ -73,14 +69,14 @@ int run(const BenchDisplayArguments& arguments) {
         arguments.drawn_by == "processor" ? ui::RayBackend::processor : ui::RayBackend::shader;
   const auto loaded = load_volume(request);
   if (!loaded)
-    return complain(loaded.error());
+    return complain("bench display", loaded.error());
   options.seconds = arguments.seconds;
   options.live = !arguments.no_live;
   if (!arguments.dump.empty())
     options.dump = arguments.dump;
   const auto report = bench_display(loaded->volume, options);
   if (!report)
-    return complain(report.error());
+    return complain("bench display", report.error());
   if (arguments.as_json)
     fmt::print("{}\n", to_json(*report));
   else

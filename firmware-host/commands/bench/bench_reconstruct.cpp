@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <barrier>
-#include <chrono>
 #include <cmath>
 #include <complex>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <numbers>
 #include <random>

@@ -69,10 +69,9 @@ hal::Result<> run_self(std::vector<std::string> arguments) {
   ::posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   if (spawned != 0 || ::waitpid(child, &status, 0) != child || status != 0)
-    return hal::fail(hal::ErrorCode::system,
-                     fmt::format("the live probe could not run `{}`: {}", fmt::join(arguments, " "),
-                                 spawned != 0 ? std::system_category().message(spawned)
-                                              : fmt::format("status {}", status)));
+    return hal::fail(
+        hal::ErrorCode::system, "the live probe could not run `{}`: {}", fmt::join(arguments, " "),
+        spawned != 0 ? std::system_category().message(spawned) : fmt::format("status {}", status));
   return {};
 }
 

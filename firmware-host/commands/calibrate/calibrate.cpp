@@ -76,13 +76,13 @@ hal::Result<std::vector<double>> CalibrationRun::read(const std::filesystem::pat
   if (samples_ == 0)
     samples_ = found;
   if (found != samples_)
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}: has {} samples, the files before it {}; say with --samples "
-                                 "how many make one line",
-                                 file.string(), found, samples_));
+    return hal::fail(
+        ErrorCode::bad_data,
+        "{}: has {} samples, the files before it {}; say with --samples how many make one line",
+        file.string(), found, samples_);
   // A dark that both mirrors share is read twice.
   const std::string name = file.filename().string();
-  if (std::find(inputs_.begin(), inputs_.end(), name) == inputs_.end())
+  if (std::ranges::find(inputs_, name) == inputs_.end())
     inputs_.push_back(name);
   return spectrum;
 }
@@ -242,8 +242,8 @@ hal::Result<> CalibrationRun::read_tissue() {
   samples_ = options_.tissue_shape.samples;
   if (options_.samples && *options_.samples != samples_)
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("--samples is {}, --shape has {} samples, expected the same",
-                                 *options_.samples, samples_));
+                     "--samples is {}, --shape has {} samples, expected the same",
+                     *options_.samples, samples_);
   inputs_.push_back(options_.tissue->filename().string());
   return {};
 }
@@ -254,10 +254,10 @@ hal::Result<> CalibrationRun::use_tissue() {
     measure.add_b_scan(b_scan);
   const auto dispersion = pipeline::find_tissue_dispersion(measure, samples_);
   if (!(dispersion.sharpness_before > 0))
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}: no interference: the B-scans that were looked at do not "
-                                 "change from line to line",
-                                 options_.tissue->string()));
+    return hal::fail(
+        ErrorCode::bad_data,
+        "{}: no interference: the B-scans that were looked at do not change from line to line",
+        options_.tissue->string());
   found_.calibration.dispersion_rad = dispersion.theta_rad;
   found_.dispersion_polynomial_rad = dispersion.unit_polynomial_rad;
   verdict_.method += ", dispersion from tissue";

@@ -2,7 +2,6 @@
 // and a verdict on it.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>

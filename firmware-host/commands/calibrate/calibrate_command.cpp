@@ -30,9 +30,8 @@ hal::Result<std::vector<double>> parse_lines(std::string_view text) {
     const bool more = next != end && *next == ',' && next + 1 != end;
     if (error != std::errc{} || (next != end && !more))
       return hal::fail(hal::ErrorCode::invalid_argument,
-                       fmt::format("--lines is \"{}\", expected wavelengths in nm, as in "
-                                   "810.37,826.45,840.82",
-                                   text));
+                       "--lines is \"{}\", expected wavelengths in nm, as in 810.37,826.45,840.82",
+                       text);
     lines.push_back(value);
     at = more ? next + 1 : next;
   }

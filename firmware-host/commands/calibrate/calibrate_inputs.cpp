@@ -36,10 +36,10 @@ hal::Result<pipeline::SpectraShape> shape_of(const std::filesystem::path& file,
   const std::uintmax_t values = bytes / bytes_per_sample(type);
   const auto most = static_cast<std::uintmax_t>(pipeline::most_samples);
   if (!input.samples && values > most)
-    return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("{}: found {} samples, more than a line has; say with --samples "
-                                 "how many make one line",
-                                 file.string(), values));
+    return hal::fail(
+        ErrorCode::invalid_argument,
+        "{}: found {} samples, more than a line has; say with --samples how many make one line",
+        file.string(), values);
   // Of a file that is missing or empty, the reader speaks.
   const int samples = input.samples.value_or(
       values < static_cast<std::uintmax_t>(pipeline::fewest_samples) ? pipeline::fewest_samples
@@ -53,8 +53,8 @@ hal::Result<pipeline::SpectraShape> shape_of(const std::filesystem::path& file,
 // than once: a slow fringe in few bits has one flat top, a clipped one has many.
 std::optional<std::size_t> find_plateau(std::span<const double> line) {
   constexpr int fewest = 4; // noise does not do that
-  const double highest = *std::max_element(line.begin(), line.end());
-  if (highest <= *std::min_element(line.begin(), line.end()))
+  const double highest = *std::ranges::max_element(line);
+  if (highest <= *std::ranges::min_element(line))
     return std::nullopt;
   std::optional<std::size_t> first;
   int run = 0;
@@ -72,16 +72,16 @@ hal::Result<> check_saturation(const std::string& place, std::span<const double>
                                std::optional<double> full_scale) {
   for (std::size_t p = 0; full_scale && p < line.size(); ++p) {
     if (line[p] >= *full_scale)
-      return hal::fail(ErrorCode::bad_data,
-                       fmt::format("{}: saturated: sample {} is {}, expected less than {}; measure "
-                                   "with less light",
-                                   place, p, line[p], *full_scale));
+      return hal::fail(
+          ErrorCode::bad_data,
+          "{}: saturated: sample {} is {}, expected less than {}; measure with less light", place,
+          p, line[p], *full_scale);
   }
   if (const auto plateau = find_plateau(line))
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}: saturated: samples {} to {} are all {}, the highest value; "
-                                 "measure with less light",
-                                 place, *plateau, *plateau + 3, line[*plateau]));
+    return hal::fail(
+        ErrorCode::bad_data,
+        "{}: saturated: samples {} to {} are all {}, the highest value; measure with less light",
+        place, *plateau, *plateau + 3, line[*plateau]);
   return {};
 }
 
@@ -97,10 +97,10 @@ hal::Result<std::vector<double>> read_text(const std::filesystem::path& file,
   const std::size_t n = samples ? static_cast<std::size_t>(*samples) : values->size();
   if (values->size() < static_cast<std::size_t>(pipeline::fewest_samples) ||
       values->size() % n != 0)
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}: found {} numbers, expected {}", file.string(), values->size(),
-                                 samples ? fmt::format("lines of {} samples", n)
-                                         : fmt::format("at least {}", pipeline::fewest_samples)));
+    return hal::fail(ErrorCode::bad_data, "{}: found {} numbers, expected {}", file.string(),
+                     values->size(),
+                     samples ? fmt::format("lines of {} samples", n)
+                             : fmt::format("at least {}", pipeline::fewest_samples));
   return values;
 }
 

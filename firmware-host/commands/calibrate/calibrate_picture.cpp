@@ -17,7 +17,7 @@ constexpr int panel_height = 260;
 
 pipeline::Image blank(int panels) {
   pipeline::Image image{width, panels * panel_height, 3};
-  std::fill(image.pixels.begin(), image.pixels.end(), std::uint8_t{255});
+  std::ranges::fill(image.pixels, std::uint8_t{255});
   return image;
 }
 

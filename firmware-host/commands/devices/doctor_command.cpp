@@ -70,9 +70,8 @@ void add_doctor_command(CLI::App& program, int& exit_status) {
       print_json(checks);
     else
       print_text(checks);
-    const bool fails = std::any_of(checks.begin(), checks.end(), [](const HealthCheck& check) {
-      return check.verdict == Verdict::fails;
-    });
+    const bool fails = std::ranges::any_of(
+        checks, [](const HealthCheck& check) { return check.verdict == Verdict::fails; });
     exit_status = fails ? exit_failed : exit_done;
   });
 }

@@ -1,7 +1,6 @@
 #include "firmware-host/commands/recordings/export.h"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -24,23 +23,20 @@ struct Chosen {
 
 hal::Result<Chosen> choose_volumes(const ExportOptions& options, std::size_t volumes) {
   if (volumes == 0)
-    return hal::fail(ErrorCode::absent,
-                     fmt::format("{}: found no volumes in it, there is nothing to export",
-                                 options.recording.string()));
+    return hal::fail(ErrorCode::absent, "{}: found no volumes in it, there is nothing to export",
+                     options.recording.string());
   const std::size_t last = options.volumes.last.value_or(volumes - 1);
   if (options.volumes.first < volumes && last < volumes)
     return Chosen{options.volumes.first, last - options.volumes.first + 1};
-  return hal::fail(ErrorCode::invalid_argument,
-                   fmt::format("--volumes asks for volume {}, {} has 0 to {}",
-                               std::max(options.volumes.first, last), options.recording.string(),
-                               volumes - 1));
+  return hal::fail(ErrorCode::invalid_argument, "--volumes asks for volume {}, {} has 0 to {}",
+                   std::max(options.volumes.first, last), options.recording.string(), volumes - 1);
 }
 
 hal::Result<> check_b_scan(const ExportOptions& options, int b_scans) {
   if (!options.b_scan || (*options.b_scan >= 0 && *options.b_scan < b_scans))
     return {};
-  return hal::fail(ErrorCode::invalid_argument,
-                   fmt::format("--bscan is {}, expected 0 to {}", *options.b_scan, b_scans - 1));
+  return hal::fail(ErrorCode::invalid_argument, "--bscan is {}, expected 0 to {}", *options.b_scan,
+                   b_scans - 1);
 }
 
 hal::Result<ExportPlace> choose_place(const ExportOptions& options, std::size_t volumes) {
@@ -109,9 +105,7 @@ hal::Result<ExportOutcome> export_recording(const ExportOptions& asked,
     HAL_TRY(const auto window, window_for(reader, chosen.first, volume));
     options.window = window;
   }
-  const auto exporter = make_volume_exporter(options, facts, reader.volumes().front());
-  if (!exporter)
-    return tl::make_unexpected(exporter.error());
+  HAL_TRY(const auto exporter, make_volume_exporter(options, facts, reader.volumes().front()));
 
   ExportOutcome outcome{.volumes = chosen.count,
                         .first = place.file_of(chosen.first),
@@ -120,8 +114,8 @@ hal::Result<ExportOutcome> export_recording(const ExportOptions& asked,
                         .simulated = facts.simulated,
                         .pixels = pixels_in_words(options, facts.geometry)};
   const auto done =
-      place.prepare((*exporter)->file_bytes() * chosen.count, chosen.first).and_then([&] {
-        return write_volumes(reader, chosen, place, **exporter, volume, progress, outcome);
+      place.prepare(exporter->file_bytes() * chosen.count, chosen.first).and_then([&] {
+        return write_volumes(reader, chosen, place, *exporter, volume, progress, outcome);
       });
   if (!done) {
     place.remove_empty_folder();

@@ -1,7 +1,6 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,16 +45,14 @@ hal::Result<ExportFormat> format_of(const ExportCommandLine& line) {
       return format.format;
   }
   return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("--to is missing, and --out {} does not tell it; expected nrrd, "
-                               "dicom or png",
-                               line.out));
+                   "--to is missing, and --out {} does not tell it; expected nrrd, dicom or png",
+                   line.out);
 }
 
 // Options that mean nothing to the chosen format.
 hal::Result<> check_use(const ExportCommandLine& line, ExportFormat format) {
   const auto only_for = [](std::string_view option, std::string_view words) {
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("{} is for --to {} only", option, words));
+    return hal::fail(hal::ErrorCode::invalid_argument, "{} is for --to {} only", option, words);
   };
   if (line.u8 && format != ExportFormat::nrrd)
     return only_for("--u8", "nrrd");
@@ -119,12 +116,10 @@ int run(const ExportCommandLine& line) {
     ProgressLine progress{fmt::format("exporting {}", line.file)};
     return export_recording(options, [&](double done) { progress.update(done); });
   });
-  if (exported) {
-    tell(*exported);
-    return exit_done;
-  }
-  fmt::print(stderr, "octascope export: {}\n", exported.error().message);
-  return exported.error().code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
+  if (!exported)
+    return complain("export", exported.error());
+  tell(*exported);
+  return exit_done;
 }
 
 void add_picture_options(CLI::App& command, ExportCommandLine& line) {

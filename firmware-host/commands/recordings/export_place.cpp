@@ -21,8 +21,7 @@ constexpr std::array<std::string_view, 4> known_extensions{".nrrd", ".dcm", ".pn
 
 bool is_other_format(const fs::path& out, const std::string& extension) {
   const std::string found = out.extension().string();
-  return found != extension && std::find(known_extensions.begin(), known_extensions.end(), found) !=
-                                   known_extensions.end();
+  return found != extension && std::ranges::find(known_extensions, found) != known_extensions.end();
 }
 
 } // namespace
@@ -30,10 +29,10 @@ bool is_other_format(const fs::path& out, const std::string& extension) {
 hal::Result<> check_room(const fs::path& folder, std::uint64_t bytes, std::uint64_t available) {
   if (bytes <= available)
     return {};
-  return hal::fail(ErrorCode::system,
-                   fmt::format("{}: found {} free, expected {} for the files; fewer volumes "
-                               "(--volumes) or another disk",
-                               folder.string(), size_words(available), size_words(bytes)));
+  return hal::fail(
+      ErrorCode::system,
+      "{}: found {} free, expected {} for the files; fewer volumes (--volumes) or another disk",
+      folder.string(), size_words(available), size_words(bytes));
 }
 
 hal::Result<ExportPlace> ExportPlace::choose(const fs::path& out, const std::string& extension,
@@ -43,24 +42,21 @@ hal::Result<ExportPlace> ExportPlace::choose(const fs::path& out, const std::str
   ExportPlace place;
   if (!fs::is_directory(status) && is_other_format(out, extension))
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("--out is {}, expected a name ending with {}, or a folder",
-                                 out.string(), extension));
+                     "--out is {}, expected a name ending with {}, or a folder", out.string(),
+                     extension);
   if (!fs::is_directory(status) && out.extension() == extension) {
     if (volumes != 1)
       return hal::fail(
           ErrorCode::invalid_argument,
-          fmt::format("--out is {}, one file for {} volumes; expected a folder, or one "
-                      "volume (--volumes N)",
-                      out.string(), volumes));
+          "--out is {}, one file for {} volumes; expected a folder, or one volume (--volumes N)",
+          out.string(), volumes);
     place.file_ = out;
     return place;
   }
   if (fs::exists(status) && !fs::is_directory(status))
-    return hal::fail(
-        ErrorCode::invalid_argument,
-        fmt::format("--out is {}, which is a file; expected a folder, or a name ending "
-                    "with {}",
-                    out.string(), extension));
+    return hal::fail(ErrorCode::invalid_argument,
+                     "--out is {}, which is a file; expected a folder, or a name ending with {}",
+                     out.string(), extension);
   place.folder_ = out;
   place.ending_ = suffix + extension;
   return place;
@@ -75,9 +71,9 @@ hal::Result<> ExportPlace::prepare(std::uint64_t bytes, std::size_t first) {
   if (!folder_.empty()) {
     made_folder_ = fs::create_directory(folder_, error);
     if (error)
-      return hal::fail(
-          error == std::errc::permission_denied ? ErrorCode::denied : ErrorCode::absent,
-          fmt::format("{}: the folder cannot be made: {}", folder_.string(), error.message()));
+      return hal::fail(error == std::errc::permission_denied ? ErrorCode::denied
+                                                             : ErrorCode::absent,
+                       "{}: the folder cannot be made: {}", folder_.string(), error.message());
   }
   const fs::path file = file_of(first);
   HAL_CHECK(pipeline::AtomicFile::create(file));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/recordings/info.h"
 #include "firmware-host/commands/recordings/recording_summary.h"
@@ -163,10 +164,8 @@ void print_text(const RecordingReport& report) {
 
 int run(const InfoCommandLine& line) {
   const auto report = report_on(line.file);
-  if (!report) {
-    fmt::print(stderr, "octascope info: {}\n", report.error().message);
-    return report.error().code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
-  }
+  if (!report)
+    return complain("info", report.error());
   if (line.configuration)
     fmt::print("{}", report->facts.configuration);
   else if (line.json)

@@ -131,14 +131,12 @@ make_volume_exporter(const ExportOptions& options, const RecordingFacts& facts,
   case ExportFormat::png: return Made{std::make_unique<PngExporter>(options)};
   case ExportFormat::dicom: break;
   }
-  auto writer =
-      pipeline::DicomWriter::create(facts, first,
-                                    {.window = {options.window->offset_db, options.window->size_db},
-                                     .patient_id = options.subject,
-                                     .exported_by = this_program()});
-  if (!writer)
-    return tl::make_unexpected(writer.error());
-  return Made{std::make_unique<DicomExporter>(std::move(*writer))};
+  HAL_TRY(auto writer, pipeline::DicomWriter::create(
+                           facts, first,
+                           {.window = {options.window->offset_db, options.window->size_db},
+                            .patient_id = options.subject,
+                            .exported_by = this_program()}));
+  return Made{std::make_unique<DicomExporter>(std::move(writer))};
 }
 
 } // namespace octascope::firmware_host

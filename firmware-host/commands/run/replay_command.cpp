@@ -3,7 +3,6 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"

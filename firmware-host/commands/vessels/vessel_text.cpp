@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "ui/view/segment_counts.h"
-
 namespace octascope::firmware_host {
 
 using pipeline::VesselBranch;

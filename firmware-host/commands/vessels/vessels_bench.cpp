@@ -15,7 +15,6 @@
 #include "pipeline/files/png_image.h"
 #include "ui/gl/context_info.h"
 #include "ui/gl/framebuffer.h"
-#include "ui/view/segment_counts.h"
 
 namespace octascope::firmware_host {
 
@@ -35,8 +34,8 @@ hal::Result<> make_folder(const std::filesystem::path& folder) {
   if (!error)
     return {};
   return hal::fail(hal::ErrorCode::system,
-                   fmt::format("{}: cannot be made: {}; choose a folder that you may write to",
-                               folder.string(), error.message()));
+                   "{}: cannot be made: {}; choose a folder that you may write to", folder.string(),
+                   error.message());
 }
 
 // One method in one view.
@@ -67,10 +66,8 @@ public:
                          std::ranges::find(options_.methods, what.name) != options_.methods.end();
       if (!asked)
         continue;
-      auto made = ui::make_vessel_method(what.kind, nodes_, {what.choice, {}, {}});
-      if (!made)
-        return tl::make_unexpected(made.error());
-      methods_.emplace_back(&what, std::move(*made));
+      HAL_TRY(auto made, ui::make_vessel_method(what.kind, nodes_, {what.choice, {}, {}}));
+      methods_.emplace_back(&what, std::move(made));
     }
     auto made = ui::make_vessel_method(ui::VesselMethodKind::quads_gpu, nodes_);
     if (!made)
@@ -96,9 +93,7 @@ public:
     result.what = what;
     result.view = ui::make_benchmark_view(what, tree_, options_.width, options_.height);
     HAL_TRY(const auto quads, painter_.picture(*quads_, result.view));
-    const auto supersampled = supersampled_quads(result.view);
-    if (!supersampled)
-      return tl::make_unexpected(supersampled.error());
+    HAL_TRY(const auto supersampled, supersampled_quads(result.view));
     HAL_TRY(auto measured, time_methods(result.view));
     for (const Measured& m : measured) {
       HAL_TRY(const auto drawn, painter_.picture(*m.method, result.view));
@@ -111,8 +106,8 @@ public:
                             mean_difference(drawn, quads),
                             {},
                             {}};
-      if (*supersampled)
-        made.supersampled_difference = mean_difference(drawn, **supersampled);
+      if (supersampled)
+        made.supersampled_difference = mean_difference(drawn, *supersampled);
       if (m.what->kind == ui::VesselMethodKind::balanced)
         made.shares = dynamic_cast<const ui::StreamedQuadsMethod&>(*m.method).shares();
       report(what, made);
@@ -122,10 +117,8 @@ public:
   }
 
   hal::Result<VesselsFlightReport> fly() {
-    auto hybrid = ui::make_vessel_method(ui::VesselMethodKind::hybrid, nodes_);
-    if (!hybrid)
-      return tl::make_unexpected(hybrid.error());
-    return bench_flight(painter_, **hybrid, *quads_, options_.flight_places, options_.progress);
+    HAL_TRY(auto hybrid, ui::make_vessel_method(ui::VesselMethodKind::hybrid, nodes_));
+    return bench_flight(painter_, *hybrid, *quads_, options_.flight_places, options_.progress);
   }
 
 private:

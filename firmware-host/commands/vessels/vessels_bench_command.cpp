@@ -84,13 +84,12 @@ double build_ms(const pipeline::VesselTree& tree, pipeline::ClusterArrays& array
 hal::Result<Loaded> grow(const VesselsBenchCommandLine& line) {
   ProgressLine progress{"growing"};
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  const auto grown = sim::generate_coronary_tree({line.segments, 1, cores},
-                                                 [&](double done) { progress.update(done); });
-  if (!grown)
-    return tl::make_unexpected(grown.error());
+  HAL_TRY(const auto grown,
+          sim::generate_coronary_tree({line.segments, 1, cores},
+                                      [&](double done) { progress.update(done); }));
   pipeline::ClusterArrays arrays;
-  const double took_ms = build_ms(grown->tree, arrays);
-  auto facts = pipeline::facts_of(grown->tree, arrays.error, "generated, seed 1");
+  const double took_ms = build_ms(grown.tree, arrays);
+  auto facts = pipeline::facts_of(grown.tree, arrays.error, "generated, seed 1");
   Loaded loaded =
       described(LoadedVessels{std::move(arrays), std::move(facts)}, "generated, seed 1");
   loaded.tree.build_ms = took_ms;
@@ -129,10 +128,7 @@ hal::Result<> bench(const VesselsBenchCommandLine& line) {
 
 int run(const VesselsBenchCommandLine& line) {
   const auto done = bench(line);
-  if (done)
-    return exit_done;
-  fmt::print(stderr, "octascope {}: {}\n", line.name, done.error().message);
-  return done.error().code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
+  return done ? exit_done : complain(line.name, done.error());
 }
 
 std::vector<std::string> bench_method_names() {

@@ -1,7 +1,6 @@
 #include "firmware-host/commands/vessels/vessels_bench_painter.h"
 
 #include "ui/gl/framebuffer.h"
-#include "ui/view/segment_counts.h"
 
 namespace octascope::firmware_host {
 

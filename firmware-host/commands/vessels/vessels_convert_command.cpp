@@ -2,11 +2,11 @@
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/tree_options.h"
 #include "firmware-host/commands/vessels/vessels.h"
@@ -43,10 +43,8 @@ hal::Result<> run(const VesselsConvertCommandLine& line) {
     return tl::make_unexpected(read.error());
   {
     ProgressLine progress{fmt::format("writing {}", line.out.string())};
-    const auto written = write_tree(line.out, read->tree, provenance_of(*read, line.file),
-                                    [&](double done) { progress.update(done); });
-    if (!written)
-      return tl::make_unexpected(written.error());
+    HAL_CHECK(write_tree(line.out, read->tree, provenance_of(*read, line.file),
+                         [&](double done) { progress.update(done); }));
   }
   fmt::print("{}: {} nodes written\n", line.out.string(), read->tree.nodes());
   return {};
@@ -72,12 +70,7 @@ void add_vessels_convert_command(CLI::App& vessels, int& exit_status) {
                   "Example: octascope vessels convert heart.swc --unit um --out heart.vessels");
   command->callback([line, &exit_status] {
     const auto done = run(*line);
-    exit_status = exit_done;
-    if (!done) {
-      fmt::print(stderr, "octascope vessels convert: {}\n", done.error().message);
-      exit_status =
-          done.error().code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
-    }
+    exit_status = done ? exit_done : complain("vessels convert", done.error());
   });
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/vessels/morphometry_json.h"
 #include "firmware-host/commands/vessels/vessels.h"
@@ -52,29 +53,25 @@ hal::Result<> run(const VesselsGenerateCommandLine& line) {
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   const sim::CoronaryTreeRequest request{line.segments, line.seed,
                                          line.threads > 0 ? line.threads : cores};
-  auto coronary = [&] {
+  HAL_TRY(auto coronary, [&] {
     ProgressLine progress{"growing"};
     return sim::generate_coronary_tree(request, [&](double done) { progress.update(done); });
-  }();
-  if (!coronary)
-    return tl::make_unexpected(coronary.error());
+  }());
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   {
     ProgressLine progress{"writing"};
-    const auto written = write_tree(
-        line.out, coronary->tree,
+    HAL_CHECK(write_tree(
+        line.out, coronary.tree,
         fmt::format("octascope vessels generate --segments {} --seed {}", line.segments, line.seed),
-        [&](double done) { progress.update(done); });
-    if (!written)
-      return tl::make_unexpected(written.error());
+        [&](double done) { progress.update(done); }));
   }
   if (line.json) {
-    print_json(line, *coronary, took.count());
+    print_json(line, coronary, took.count());
     return {};
   }
   fmt::print("{} segments, {} nodes, seed {}, grown in {:.1f} s\n\n{}", line.segments,
-             coronary->tree.nodes(), line.seed, took.count(),
-             sim::to_text(sim::compare_with_published(*coronary)));
+             coronary.tree.nodes(), line.seed, took.count(),
+             sim::to_text(sim::compare_with_published(coronary)));
   return {};
 }
 
@@ -104,12 +101,7 @@ void add_vessels_generate_command(CLI::App& vessels, int& exit_status) {
       "Example: octascope vessels generate --segments 11000000 --seed 1 --out heart.vessels");
   command->callback([line, &exit_status] {
     const auto done = run(*line);
-    exit_status = exit_done;
-    if (!done) {
-      fmt::print(stderr, "octascope vessels generate: {}\n", done.error().message);
-      exit_status =
-          done.error().code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
-    }
+    exit_status = done ? exit_done : complain("vessels generate", done.error());
   });
 }
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/tree_options.h"
 #include "firmware-host/commands/vessels/morphometry_json.h"
@@ -249,10 +249,8 @@ int run(const VesselsInfoCommandLine& line) {
     options.progress = [&](double done) { progress.update(done); };
     file = pipeline::read_tree(line.file, options);
   }
-  if (!file) {
-    fmt::print(stderr, "octascope vessels info: {}\n", file.error().message);
-    return file.error().code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
-  }
+  if (!file)
+    return complain("vessels info", file.error());
   FileReport report{line.file, 0, std::move(*file), {}, {}};
   std::error_code gone; // since it was read: then there is no number of bytes
   const auto bytes = std::filesystem::file_size(line.file, gone);

@@ -5,8 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "firmware-host/commands/offscreen_gl.h"
 #include "firmware-host/commands/vessels/vessel_text.h"
 #include "ui/gl/framebuffer.h"
@@ -55,12 +53,10 @@ hal::Result<VesselsRendering> draw(const pipeline::VesselClusters& tree,
   ui::VesselScene scene{tree, camera, glm::mat4{1}, {}, options.width, options.height};
   scene.look.colouring = options.colouring;
   scene.look = ui::with_cue(scene.look, made.view, bounds, options.width, options.height);
-  auto method = ui::make_vessel_method(options.method, std::make_shared<ui::NodeTexture>(),
-                                       {{}, options.tubes, {}});
-  if (!method)
-    return tl::make_unexpected(method.error());
+  HAL_TRY(auto method, ui::make_vessel_method(options.method, std::make_shared<ui::NodeTexture>(),
+                                              {{}, options.tubes, {}}));
   HAL_TRY(auto still, ui::VesselStill::create());
-  HAL_TRY(const auto account, still.draw(**method, scene, made.view.mm_per_pixel));
+  HAL_TRY(const auto account, still.draw(*method, scene, made.view.mm_per_pixel));
   made.account = account;
   made.picture = ui::gl::read_framebuffer(options.width, options.height);
   return made;
@@ -77,9 +73,9 @@ hal::Result<VesselsRendering> render_vessels(const pipeline::VesselClusters& tre
     shown = with_clusters(tree, of_branch);
     if (shown.segments == 0)
       return hal::fail(hal::ErrorCode::invalid_argument,
-                       fmt::format("--branch is {}, found no segment of it, expected a branch that "
-                                   "the tree has; leave the option out to draw all",
-                                   to_string(*options.branch)));
+                       "--branch is {}, found no segment of it, expected a branch that the tree "
+                       "has; leave the option out to draw all",
+                       to_string(*options.branch));
   }
   HAL_TRY(const auto gl, OffscreenGl::open(options.width, options.height));
   return draw(shown, options);

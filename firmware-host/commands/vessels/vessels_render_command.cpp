@@ -71,10 +71,7 @@ hal::Result<> render(const VesselsRenderCommandLine& line) {
 
 int run(const VesselsRenderCommandLine& line) {
   const auto done = render(line);
-  if (done)
-    return exit_done;
-  fmt::print(stderr, "octascope vessels render: {}\n", done.error().message);
-  return done.error().code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
+  return done ? exit_done : complain("vessels render", done.error());
 }
 
 void add_view_options(CLI::App& command, VesselsRenderCommandLine& line) {

@@ -6,9 +6,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
-#include <optional>
 #include <thread>
-#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -165,32 +163,29 @@ unsigned worker_count(const ReconstructOptions& options) {
 hal::Result<pipeline::SpectrumFormat> format_of(const ReconstructOptions& options) {
   pipeline::SpectrumFormat format{options.shape.samples, options.type};
   if (options.type == hal::SampleType::f32 && options.right_shift != 0)
-    return hal::fail(
-        ErrorCode::invalid_argument,
-        fmt::format("--shift is {}, but f32 cannot be shifted, expected 0", options.right_shift));
+    return hal::fail(ErrorCode::invalid_argument,
+                     "--shift is {}, but f32 cannot be shifted, expected 0", options.right_shift);
   const int bits = format.significant_bits;
   format.right_shift = options.right_shift;
   format.significant_bits = options.significant_bits.value_or(bits - options.right_shift);
   if (options.right_shift < 0 || format.significant_bits < 1 ||
       format.significant_bits + options.right_shift > bits)
-    return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("--shift is {}, expected 0 to {}: the sample has {} bits, {} of "
-                                 "them significant",
-                                 options.right_shift, bits - options.significant_bits.value_or(1),
-                                 bits, options.significant_bits.value_or(bits)));
+    return hal::fail(
+        ErrorCode::invalid_argument,
+        "--shift is {}, expected 0 to {}: the sample has {} bits, {} of them significant",
+        options.right_shift, bits - options.significant_bits.value_or(1), bits,
+        options.significant_bits.value_or(bits));
   return format;
 }
 
 hal::Result<> check(const ReconstructOptions& options) {
   if (options.picture &&
       (options.picture_b_scan < 0 || options.picture_b_scan >= options.shape.b_scans))
-    return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("--bscan is {}, expected 0 to {}", options.picture_b_scan,
-                                 options.shape.b_scans - 1));
+    return hal::fail(ErrorCode::invalid_argument, "--bscan is {}, expected 0 to {}",
+                     options.picture_b_scan, options.shape.b_scans - 1);
   if (options.picture && options.picture->lexically_normal() == options.volume.lexically_normal())
-    return hal::fail(
-        ErrorCode::invalid_argument,
-        fmt::format("--out and --png are both {}, expected two files", options.volume.string()));
+    return hal::fail(ErrorCode::invalid_argument, "--out and --png are both {}, expected two files",
+                     options.volume.string());
   return {};
 }
 

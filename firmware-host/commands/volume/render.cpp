@@ -1,7 +1,5 @@
 #include "firmware-host/commands/volume/render.h"
 
-#include <fmt/format.h>
-
 #include "firmware-host/commands/offscreen_gl.h"
 #include "ui/renderer.h"
 
@@ -31,17 +29,15 @@ hal::Result<> check_processor(const ui::Renderer& renderer, const RenderOptions&
 
 hal::Result<pipeline::Image> draw(const pipeline::Volume& volume, const RenderOptions& options,
                                   const hal::Clock& clock) {
-  const auto renderer = ui::Renderer::create(options.transfers);
-  if (!renderer)
-    return tl::make_unexpected(renderer.error());
-  HAL_CHECK((*renderer)->show_volume(volume));
+  HAL_TRY(const auto renderer, ui::Renderer::create(options.transfers));
+  HAL_CHECK(renderer->show_volume(volume));
   if (options.vessels)
-    HAL_CHECK((*renderer)->show_vessels(*options.vessels, clock));
+    HAL_CHECK(renderer->show_vessels(*options.vessels, clock));
   const ui::ViewState view = windowed(options, volume);
-  HAL_CHECK((*renderer)->prepare(volume, view, options.quality));
-  HAL_CHECK(check_processor(**renderer, options));
-  HAL_CHECK((*renderer)->draw_volume_alone(view, options.width, options.height, options.quality));
-  return (*renderer)->read_back(options.width, options.height);
+  HAL_CHECK(renderer->prepare(volume, view, options.quality));
+  HAL_CHECK(check_processor(*renderer, options));
+  HAL_CHECK(renderer->draw_volume_alone(view, options.width, options.height, options.quality));
+  return renderer->read_back(options.width, options.height);
 }
 
 } // namespace
@@ -50,9 +46,9 @@ hal::Result<pipeline::Image> render_volume(const pipeline::Volume& volume,
                                            const RenderOptions& options) {
   if (options.quality.rays == ui::RayBackend::processor && !casts_rays(options.view.technique))
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("--drawn-by is processor for the technique {}, which GL draws; "
-                                 "expected rays, shaded or maximum with it",
-                                 to_string(options.view.technique)));
+                     "--drawn-by is processor for the technique {}, which GL draws; expected rays, "
+                     "shaded or maximum with it",
+                     to_string(options.view.technique));
   HAL_TRY(const auto gl, OffscreenGl::open(options.width, options.height));
   return draw(volume, options, gl->clock());
 }

@@ -1,6 +1,4 @@
-#include <array>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -110,8 +108,8 @@ hal::Result<int> index_named(std::string_view option, const std::string& name, c
       return static_cast<int>(i);
     names += fmt::format("{}{}", i == 0 ? "" : ", ", name_of(items[i]));
   }
-  return hal::fail(hal::ErrorCode::invalid_argument,
-                   fmt::format("{} is \"{}\", expected one of {}", option, name, names));
+  return hal::fail(hal::ErrorCode::invalid_argument, "{} is \"{}\", expected one of {}", option,
+                   name, names);
 }
 
 // The look of the configuration, and over it what the command line says.
@@ -130,18 +128,14 @@ hal::Result<> read_look(const RenderArguments& a, RenderOptions& options) {
   if (!a.technique.empty())
     options.view.technique = *ui::technique_named(a.technique);
   if (!a.transfer.empty()) {
-    const auto index = index_named("--transfer", a.transfer, options.transfers.functions(),
-                                   [](const ui::TransferFunction& f) { return f.name; });
-    if (!index)
-      return tl::make_unexpected(index.error());
-    options.view.transfer = *index;
+    HAL_TRY(const auto index, index_named("--transfer", a.transfer, options.transfers.functions(),
+                                          [](const ui::TransferFunction& f) { return f.name; }));
+    options.view.transfer = index;
   }
   if (!a.colours.empty()) {
-    const auto index = index_named("--colours", a.colours, options.transfers.colour_maps(),
-                                   [](const ui::ColourMap& m) { return m.name(); });
-    if (!index)
-      return tl::make_unexpected(index.error());
-    options.view.colour_map = *index;
+    HAL_TRY(const auto index, index_named("--colours", a.colours, options.transfers.colour_maps(),
+                                          [](const ui::ColourMap& m) { return m.name(); }));
+    options.view.colour_map = index;
   }
   return {};
 }
@@ -207,10 +201,7 @@ hal::Result<> render(const RenderArguments& arguments) {
 
 int run(const RenderArguments& arguments) {
   const auto done = render(arguments);
-  if (done)
-    return exit_done;
-  fmt::print(stderr, "octascope render: {}\n", done.error().message);
-  return done.error().code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
+  return done ? exit_done : complain("render", done.error());
 }
 
 void add_volume_options(CLI::App& command, RenderArguments& a) {

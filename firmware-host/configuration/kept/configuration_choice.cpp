@@ -1,7 +1,5 @@
 #include "firmware-host/configuration/kept/configuration_choice.h"
 
-#include <fmt/format.h>
-
 #include "firmware-host/configuration/configuration_check.h"
 #include "firmware-host/configuration/kept/last_good.h"
 

@@ -2,8 +2,6 @@
 
 #include <system_error>
 
-#include <fmt/format.h>
-
 #include "firmware-host/configuration/configuration_check.h"
 #include "pipeline/files/atomic_file.h"
 
@@ -15,8 +13,8 @@ namespace {
 
 tl::unexpected<hal::Error> failure(const fs::path& file, const char* action,
                                    const std::error_code& error) {
-  return hal::fail(hal::ErrorCode::system,
-                   fmt::format("{}: cannot be {}: {}", file.string(), action, error.message()));
+  return hal::fail(hal::ErrorCode::system, "{}: cannot be {}: {}", file.string(), action,
+                   error.message());
 }
 
 } // namespace

@@ -50,7 +50,7 @@ void read_choice(ConfigTable& table, std::string_view key, const ui::Choice& cho
   std::string known;
   for (const ui::ChoiceValue& value : choice.values)
     known += fmt::format("{}{}", known.empty() ? "" : ", ", value.name);
-  table.complain(fmt::format("{} is \"{}\", expected one of: {}", key, name, known));
+  table.complain("{} is \"{}\", expected one of: {}", key, name, known);
 }
 
 // Leaves the view's where the key is not there, or names what there is no more.

@@ -37,19 +37,18 @@ GpioGalvoTrigger::~GpioGalvoTrigger() {
 Result<> GpioGalvoTrigger::do_open(const GalvoTriggerConfig& config) {
   if (state() != DeviceState::absent)
     return fail(ErrorCode::invalid_argument,
-                fmt::format("GPIO galvo trigger: open while {}, expected absent; call close first",
-                            to_string(state())));
+                "GPIO galvo trigger: open while {}, expected absent; call close first",
+                to_string(state()));
   if (config.pulse_width <= Duration{})
     return fail(ErrorCode::invalid_argument,
-                fmt::format("GPIO galvo trigger: pulse_width is {} ns, expected more than 0",
-                            config.pulse_width.count()));
+                "GPIO galvo trigger: pulse_width is {} ns, expected more than 0",
+                config.pulse_width.count());
   if (settings_.sync_edges_per_pulse < 1 ||
       std::cmp_greater(settings_.sync_edges_per_pulse, GpioLine::kernel_buffer))
     return fail(
         ErrorCode::invalid_argument,
-        fmt::format("GPIO galvo trigger: sync_edges_per_pulse is {}, expected 1 to {}, what "
-                    "the kernel keeps",
-                    settings_.sync_edges_per_pulse, GpioLine::kernel_buffer));
+        "GPIO galvo trigger: sync_edges_per_pulse is {}, expected 1 to {}, what the kernel keeps",
+        settings_.sync_edges_per_pulse, GpioLine::kernel_buffer);
   config_ = config;
   Result<> ready = take_lines();
   if (ready && config_.pulse_width > longest_wait)
@@ -81,9 +80,8 @@ Result<TimePoint> GpioGalvoTrigger::do_arm() {
                 "GPIO galvo trigger: arm while absent, expected ready; call open first");
   if (state() == DeviceState::failed)
     return fail(ErrorCode::disconnected,
-                fmt::format("GPIO galvo trigger: line \"{}\" failed before; close it and open it "
-                            "again",
-                            settings_.line));
+                "GPIO galvo trigger: line \"{}\" failed before; close it and open it again",
+                settings_.line);
   await_low();
   read_sync_edges();
   const TimePoint before = clock_.now();

@@ -54,14 +54,13 @@ std::string listed_chips(const GpioSurvey& survey) {
 tl::unexpected<Error> missing(const GpioSurvey& survey, std::string_view wanted) {
   if (!survey.complaints.empty())
     return fail(survey.udev_at_work ? ErrorCode::absent : ErrorCode::denied,
-                fmt::format("GPIO line \"{}\": not found in {}, and not every chip could be asked: "
-                            "{}",
-                            wanted, listed_chips(survey), survey.complaints.front()));
+                "GPIO line \"{}\": not found in {}, and not every chip could be asked: {}", wanted,
+                listed_chips(survey), survey.complaints.front());
   return fail(ErrorCode::absent,
-              fmt::format("GPIO line \"{}\": found {}, expected one with a line of that name; name "
-                          "the line in the device tree (gpio-line-names), or give it in the "
-                          "configuration as \"gpiochip0:17\"; `gpioinfo` lists lines",
-                          wanted, listed_chips(survey)));
+              "GPIO line \"{}\": found {}, expected one with a line of that name; name the line in "
+              "the device tree (gpio-line-names), or give it in the configuration as "
+              "\"gpiochip0:17\"; `gpioinfo` lists lines",
+              wanted, listed_chips(survey));
 }
 
 Result<GpioLineAddress> by_offset(const GpioSurvey& survey, std::string_view wanted,
@@ -72,8 +71,8 @@ Result<GpioLineAddress> by_offset(const GpioSurvey& survey, std::string_view wan
     if (place.offset < chip.lines.size())
       return GpioLineAddress{chip.node, place.offset};
     return fail(ErrorCode::invalid_argument,
-                fmt::format("GPIO line \"{}\": offset {} found, expected 0 to {}, the lines of {}",
-                            wanted, place.offset, chip.lines.size() - 1, chip.node));
+                "GPIO line \"{}\": offset {} found, expected 0 to {}, the lines of {}", wanted,
+                place.offset, chip.lines.size() - 1, chip.node);
   }
   return missing(survey, wanted);
 }
@@ -125,10 +124,10 @@ Result<GpioLineAddress> find_gpio_line(const GpioSurvey& survey, std::string_vie
     return missing(survey, wanted);
   if (found.size() > 1)
     return fail(ErrorCode::invalid_argument,
-                fmt::format("GPIO line \"{}\": {} lines have that name ({}:{} and {}:{}), expected "
-                            "one; give chip and offset",
-                            wanted, found.size(), file_name(found[0].node), found[0].offset,
-                            file_name(found[1].node), found[1].offset));
+                "GPIO line \"{}\": {} lines have that name ({}:{} and {}:{}), expected one; give "
+                "chip and offset",
+                wanted, found.size(), file_name(found[0].node), found[0].offset,
+                file_name(found[1].node), found[1].offset);
   return found.front();
 }
 

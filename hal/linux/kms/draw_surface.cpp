@@ -22,10 +22,10 @@ namespace {
 
 tl::unexpected<Error> no_egl(const Card& card, std::string_view found) {
   return fail(ErrorCode::unsupported,
-              fmt::format("kms display: {} on {} ({}; EGL error 0x{:04x}), expected GLES 3 on GBM; "
-                          "install libegl-mesa0, libgbm1 and libgl1-mesa-dri, or the driver's own "
-                          "EGL; where no GPU is meant to be, set LIBGL_ALWAYS_SOFTWARE=1",
-                          found, card.node, card.driver, static_cast<unsigned>(eglGetError())));
+              "kms display: {} on {} ({}; EGL error 0x{:04x}), expected GLES 3 on GBM; install "
+              "libegl-mesa0, libgbm1 and libgl1-mesa-dri, or the driver's own EGL; where no GPU is "
+              "meant to be, set LIBGL_ALWAYS_SOFTWARE=1",
+              found, card.node, card.driver, static_cast<unsigned>(eglGetError()));
 }
 
 bool has_extension(const char* list, std::string_view name) {
@@ -254,11 +254,10 @@ bool DrawSurface::uses_modifiers() const {
 Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
   // Before the flip: it would show an old picture as if it were new.
   if (const auto cause = parts_->reset.cause())
-    return fail(
-        ErrorCode::disconnected,
-        fmt::format("kms display: the graphics processor was reset ({}), and what was drawn "
-                    "is lost; it is opened again",
-                    *cause));
+    return fail(ErrorCode::disconnected,
+                "kms display: the graphics processor was reset ({}), and what was drawn is lost; "
+                "it is opened again",
+                *cause);
   DrawnPicture picture;
   if (with_fence && parts_->create_sync != nullptr)
     picture.fence = parts_->swap_with_fence();
@@ -266,9 +265,9 @@ Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
     parts_->swapped = eglSwapBuffers(parts_->display, parts_->surface) == EGL_TRUE;
   if (!parts_->swapped)
     return fail(ErrorCode::disconnected,
-                fmt::format("kms display: the picture could not be finished (EGL error 0x{:04x}): "
-                            "the graphics device is gone or has been reset; it is opened again",
-                            static_cast<unsigned>(eglGetError())));
+                "kms display: the picture could not be finished (EGL error 0x{:04x}): the graphics "
+                "device is gone or has been reset; it is opened again",
+                static_cast<unsigned>(eglGetError()));
   picture.buffer = gbm_surface_lock_front_buffer(parts_->buffers);
   if (picture.buffer == nullptr)
     return fail(ErrorCode::system, "kms display: no buffer with the picture; it is opened again");
@@ -279,10 +278,10 @@ Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
     if (const int error =
             add_framebuffer(parts_->card, parts_->can_name_modifiers, picture.buffer, made->id)) {
       release(picture.buffer);
-      return fail(ErrorCode::system,
-                  fmt::format("kms display: the card did not take a buffer as a picture: {}; it is "
-                              "opened again",
-                              std::generic_category().message(error)));
+      return fail(
+          ErrorCode::system,
+          "kms display: the card did not take a buffer as a picture: {}; it is opened again",
+          std::generic_category().message(error));
     }
     added = made.release();
     gbm_bo_set_user_data(picture.buffer, added, remove_framebuffer);

@@ -4,8 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
-#include <vector>
 
 #include "hal/linux/kms/drm/topology.h"
 #include "hal/linux/system/file_descriptor.h"

@@ -24,13 +24,11 @@ constexpr std::chrono::milliseconds paused_wait{100};
 
 Result<> check_config(const DisplayConfig& config) {
   if (config.width < 1 || config.height < 1)
-    return fail(ErrorCode::invalid_argument,
-                fmt::format("kms display: size is {}x{}, expected at least 1x1", config.width,
-                            config.height));
+    return fail(ErrorCode::invalid_argument, "kms display: size is {}x{}, expected at least 1x1",
+                config.width, config.height);
   if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
-    return fail(
-        ErrorCode::invalid_argument,
-        fmt::format("kms display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz));
+    return fail(ErrorCode::invalid_argument, "kms display: refresh_hz is {}, expected 1 to 1000",
+                config.refresh_hz);
   return {};
 }
 
@@ -132,9 +130,9 @@ struct KmsDisplay::Session {
     HAL_TRY(auto shown_at, show());
     if (!shown_at)
       return fail(ErrorCode::busy,
-                  fmt::format("{}: another program took the card while it was opened; "
-                              "end that program; it is tried again by itself",
-                              output->name()));
+                  "{}: another program took the card while it was opened; end that program; it is "
+                  "tried again by itself",
+                  output->name());
     return {};
   }
 

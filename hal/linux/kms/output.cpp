@@ -55,9 +55,9 @@ Output::~Output() {
 Result<> Output::check() {
   if (watch_.disconnected())
     return fail(ErrorCode::disconnected,
-                fmt::format("{}: the monitor is gone, expected it to stay plugged in and switched "
-                            "on; check its cable and power; it is tried again by itself",
-                            name_));
+                "{}: the monitor is gone, expected it to stay plugged in and switched on; check "
+                "its cable and power; it is tried again by itself",
+                name_);
   if (watch_.changed() && link_is_bad())
     want_mode();
   return {};
@@ -82,9 +82,9 @@ Result<std::optional<FlipTimes>> Output::show(const DrawnPicture& picture) {
   if (error == EINVAL || error == ENOENT)
     return set_mode(picture);
   if (error == EBUSY)
-    return fail(ErrorCode::timed_out, fmt::format("{}: the flip before is not done after {} s; the "
-                                                  "output is opened again",
-                                                  name_, patience.count()));
+    return fail(ErrorCode::timed_out,
+                "{}: the flip before is not done after {} s; the output is opened again", name_,
+                patience.count());
   return system_failure(name_, "showing a picture", error, "the output is opened again");
 }
 
@@ -147,8 +147,8 @@ Result<std::optional<FlipTimes>> Output::wait_for_flip(FlipTimes times) {
     HAL_CHECK(check());
   }
   return fail(ErrorCode::timed_out,
-              fmt::format("{}: a picture was not shown within {} s; the output is opened again",
-                          name_, patience.count()));
+              "{}: a picture was not shown within {} s; the output is opened again", name_,
+              patience.count());
 }
 
 } // namespace octascope::hal::linux_backend::kms

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 #include <xf86drm.h>
@@ -29,11 +28,10 @@ int milliseconds(Duration duration) {
 
 tl::unexpected<Error> taken(std::string_view reason) {
   return fail(ErrorCode::busy,
-              fmt::format("kms display: the card is another program's ({}), expected it to be free "
-                          "to show pictures; `sudo fuser -v /dev/dri/card*` names who has it "
-                          "(a desktop, a login screen, another octascope): end that program, or "
-                          "choose --display window",
-                          reason));
+              "kms display: the card is another program's ({}), expected it to be free to show "
+              "pictures; `sudo fuser -v /dev/dri/card*` names who has it (a desktop, a login "
+              "screen, another octascope): end that program, or choose --display window",
+              reason);
 }
 
 // Where libseat is asked without need it makes a manager of itself: a child process that inherits
@@ -50,10 +48,10 @@ bool has_manager() {
 
 tl::unexpected<Error> no_manager(std::string_view found) {
   return fail(ErrorCode::absent,
-              fmt::format("kms display: no manager of seats answers ({}), expected seatd or "
-                          "logind; start octascope from a console login or by its systemd unit, "
-                          "or `sudo apt install seatd`, or as root with --no-seat",
-                          found));
+              "kms display: no manager of seats answers ({}), expected seatd or logind; start "
+              "octascope from a console login or by its systemd unit, or `sudo apt install seatd`, "
+              "or as root with --no-seat",
+              found);
 }
 
 class ManagedSeat final : public Seat {
@@ -71,9 +69,9 @@ public:
     for (Duration waited{}; !active(); waited += slice) {
       if (broken_ || waited >= patience)
         return fail(ErrorCode::busy,
-                    fmt::format("kms display: another console is in front of seat {}, expected "
-                                "ours; switch to it (Ctrl-Alt-F1 and on)",
-                                libseat_seat_name(seat_)));
+                    "kms display: another console is in front of seat {}, expected ours; switch to "
+                    "it (Ctrl-Alt-F1 and on)",
+                    libseat_seat_name(seat_));
       wait(slice);
     }
     return {};

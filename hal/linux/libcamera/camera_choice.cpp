@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,7 +24,7 @@ std::string list(const std::vector<LibcameraFound>& found) {
 
 template <class Suits>
 std::optional<std::size_t> first(const std::vector<LibcameraFound>& found, Suits suits) {
-  const auto it = std::find_if(found.begin(), found.end(), suits);
+  const auto it = std::ranges::find_if(found, suits);
   if (it == found.end())
     return std::nullopt;
   return static_cast<std::size_t>(it - found.begin());
@@ -73,9 +72,8 @@ Result<std::size_t> choose_camera(const std::vector<LibcameraFound>& found,
   if (wish.empty()) {
     if (const auto free = first(found, [](const LibcameraFound& c) { return !c.taken; }))
       return *free;
-    return fail(
-        ErrorCode::absent,
-        fmt::format("scope camera: found only {}, expected one more; plug it in", list(found)));
+    return fail(ErrorCode::absent, "scope camera: found only {}, expected one more; plug it in",
+                list(found));
   }
   if (const auto same =
           first(found, [&](const LibcameraFound& c) { return c.id == wish || c.model == wish; }))
@@ -84,10 +82,10 @@ Result<std::size_t> choose_camera(const std::vector<LibcameraFound>& found,
         return c.id.find(wish) != std::string::npos || c.model.find(wish) != std::string::npos;
       }))
     return *part;
-  return fail(ErrorCode::absent,
-              fmt::format("scope camera: expected \"{}\", found {}; plug it in, or name one of "
-                          "those that are there",
-                          wish, list(found)));
+  return fail(
+      ErrorCode::absent,
+      "scope camera: expected \"{}\", found {}; plug it in, or name one of those that are there",
+      wish, list(found));
 }
 
 Error explain_absence(const fs::path& root) {

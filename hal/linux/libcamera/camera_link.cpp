@@ -61,8 +61,8 @@ std::string names_of(const std::vector<OfferedFormat>& offers) {
 void SignalListener::listen_to(const std::shared_ptr<libcamera::Camera>& camera) {
   queue_->listen_to(camera.get());
   std::erase_if(connected_, [](const auto& known) { return known.expired(); });
-  const bool known = std::any_of(connected_.begin(), connected_.end(),
-                                 [&](const auto& other) { return other.lock() == camera; });
+  const bool known =
+      std::ranges::any_of(connected_, [&](const auto& other) { return other.lock() == camera; });
   if (known)
     return;
   // The lambdas own a share of the queue and name the camera by its address alone: it owns them.
@@ -120,9 +120,7 @@ Result<> CameraLink::Parts::configure(const ScopeCameraConfig& config) {
   configuration = display_configuration(*camera);
   if (!configuration || configuration->empty())
     return fail(ErrorCode::unsupported,
-                fmt::format("scope camera \"{}\": it has no stream for a display; take another "
-                            "camera",
-                            model));
+                "scope camera \"{}\": it has no stream for a display; take another camera", model);
   libcamera::StreamConfiguration& wish = configuration->at(0);
   const std::vector<OfferedFormat> offers = offered_by(wish);
   for (const FormatWish& format : choose_formats(offers, config)) {
@@ -145,9 +143,9 @@ Result<> CameraLink::Parts::configure(const ScopeCameraConfig& config) {
     return {};
   }
   return fail(ErrorCode::unsupported,
-              fmt::format("scope camera \"{}\": found the formats {}, expected NV12, YUYV, BGR888, "
-                          "XBGR8888, ABGR8888 or MJPEG; take another camera",
-                          model, names_of(offers)));
+              "scope camera \"{}\": found the formats {}, expected NV12, YUYV, BGR888, XBGR8888, "
+              "ABGR8888 or MJPEG; take another camera",
+              model, names_of(offers));
 }
 
 Result<> CameraLink::Parts::allocate() {
@@ -169,9 +167,8 @@ Result<> CameraLink::Parts::allocate() {
   }
   if (requests.empty())
     return fail(ErrorCode::bad_data,
-                fmt::format("scope camera \"{}\": its driver gave no buffer, expected {}; plug it "
-                            "in again",
-                            model, wished_buffers));
+                "scope camera \"{}\": its driver gave no buffer, expected {}; plug it in again",
+                model, wished_buffers);
   return {};
 }
 

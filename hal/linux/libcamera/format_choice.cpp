@@ -43,10 +43,9 @@ std::optional<PictureSize> nearest(const OfferedFormat& offer, PictureSize wish)
     return PictureSize{
         std::clamp(wish.width, offer.range->smallest.width, offer.range->largest.width),
         std::clamp(wish.height, offer.range->smallest.height, offer.range->largest.height)};
-  const auto best =
-      std::min_element(offer.sizes.begin(), offer.sizes.end(), [&](PictureSize a, PictureSize b) {
-        return distance(a, wish) < distance(b, wish);
-      });
+  const auto best = std::ranges::min_element(offer.sizes, [&](PictureSize a, PictureSize b) {
+    return distance(a, wish) < distance(b, wish);
+  });
   if (best == offer.sizes.end())
     return std::nullopt;
   return *best;
@@ -87,7 +86,7 @@ std::vector<FormatWish> choose_formats(const std::vector<OfferedFormat>& offered
     if (const auto size = nearest(offer, wish); size && size->width > 0 && size->height > 0)
       wishes.push_back({offer.fourcc, *encoding, *size});
   }
-  std::stable_sort(wishes.begin(), wishes.end(), [&](const FormatWish& a, const FormatWish& b) {
+  std::ranges::stable_sort(wishes, [&](const FormatWish& a, const FormatWish& b) {
     const int from_a = distance(a.size, wish);
     const int from_b = distance(b.size, wish);
     return from_a != from_b ? from_a < from_b
@@ -128,9 +127,8 @@ std::string format_name(std::uint32_t fourcc) {
   std::string text;
   for (int i = 0; i < 4; ++i)
     text.push_back(static_cast<char>(fourcc >> (8 * i) & 0xFF));
-  const bool readable = std::all_of(text.begin(), text.end(), [](char c) {
-    return std::isprint(static_cast<unsigned char>(c)) != 0;
-  });
+  const bool readable = std::ranges::all_of(
+      text, [](char c) { return std::isprint(static_cast<unsigned char>(c)) != 0; });
   return readable ? text : fmt::format("{:#010x}", fourcc);
 }
 

@@ -1,7 +1,6 @@
 #include "hal/linux/libcamera/libcamera_scope_camera.h"
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,20 +25,19 @@ Result<> check(const ScopeCameraConfig& wish) {
   const auto side = [](int pixels) { return pixels >= 1 && pixels <= largest_side; };
   if (!side(wish.width) || !side(wish.height))
     return fail(ErrorCode::invalid_argument,
-                fmt::format("scope camera: the wish is {}x{}, expected 1x1 to {}x{}", wish.width,
-                            wish.height, largest_side, largest_side));
+                "scope camera: the wish is {}x{}, expected 1x1 to {}x{}", wish.width, wish.height,
+                largest_side, largest_side);
   if (!(wish.frames_per_s > 0 && wish.frames_per_s <= most_frames_per_s))
     return fail(ErrorCode::invalid_argument,
-                fmt::format("scope camera: the wish is {} frames/s, expected more than 0 to {}",
-                            wish.frames_per_s, most_frames_per_s));
+                "scope camera: the wish is {} frames/s, expected more than 0 to {}",
+                wish.frames_per_s, most_frames_per_s);
   return {};
 }
 
 tl::unexpected<Error> wrong_state(std::string_view call, DeviceState found,
                                   std::string_view expected) {
-  return fail(
-      ErrorCode::invalid_argument,
-      fmt::format("scope camera: {}() found it {}, expected {}", call, to_string(found), expected));
+  return fail(ErrorCode::invalid_argument, "scope camera: {}() found it {}, expected {}", call,
+              to_string(found), expected);
 }
 
 enum class Place : std::uint8_t { idle, in_camera, on_loan, returned };
@@ -221,8 +219,8 @@ LibcameraScopeCamera::Losses LibcameraScopeCamera::losses() const {
 Result<> LibcameraScopeCamera::do_open(const ScopeCameraConfig& config) {
   if (state() != DeviceState::absent)
     return fail(ErrorCode::busy,
-                fmt::format("scope camera: open() found it {}, expected absent; close it first",
-                            to_string(state())));
+                "scope camera: open() found it {}, expected absent; close it first",
+                to_string(state()));
   HAL_CHECK(check(config));
   HAL_TRY(auto chosen, parts_->session.choose(parts_->options.camera, parts_->options.taken_nodes));
   auto link = CameraLink::open(chosen, config);

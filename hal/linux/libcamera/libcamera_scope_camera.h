@@ -1,8 +1,6 @@
 // The scope camera by libcamera: USB cameras and those on a board's camera connector alike.
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <optional>

@@ -1,6 +1,5 @@
 #include "hal/linux/libcamera/mapped_picture.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -13,20 +12,8 @@
 
 namespace octascope::hal::linux_backend {
 
-MappedPicture::Mapping::Mapping(Mapping&& other) noexcept
-    : address_{std::exchange(other.address_, nullptr)}, length_{other.length_},
-      descriptor_{other.descriptor_} {}
-
-MappedPicture::Mapping& MappedPicture::Mapping::operator=(Mapping&& other) noexcept {
-  std::swap(address_, other.address_);
-  std::swap(length_, other.length_);
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
-}
-
-MappedPicture::Mapping::~Mapping() {
-  if (address_ != nullptr)
-    ::munmap(const_cast<std::byte*>(address_), length_);
+void MappedPicture::Unmap::operator()(const std::byte* address) const {
+  ::munmap(const_cast<std::byte*>(address), length);
 }
 
 Result<MappedPicture> MappedPicture::map(const PlanePlan& plan, std::size_t bytes,
@@ -36,7 +23,8 @@ Result<MappedPicture> MappedPicture::map(const PlanePlan& plan, std::size_t byte
     void* const address = ::mmap(nullptr, file.length, PROT_READ, MAP_SHARED, file.descriptor, 0);
     if (address == MAP_FAILED)
       return system_failure(device, "mapping a picture's memory", errno);
-    picture.mappings_.emplace_back(address, file.length, file.descriptor);
+    picture.mappings_.push_back(
+        {{static_cast<const std::byte*>(address), Unmap{file.length}}, file.descriptor});
   }
   picture.pieces_ = plan.pieces;
   if (picture.pieces_.size() > 1)
@@ -51,7 +39,7 @@ void MappedPicture::synchronise(std::uint64_t flags) {
     dma_buf_sync request{flags | DMA_BUF_SYNC_READ};
     int result = -1;
     do {
-      result = ::ioctl(mapping.descriptor(), DMA_BUF_IOCTL_SYNC, &request);
+      result = ::ioctl(mapping.descriptor, DMA_BUF_IOCTL_SYNC, &request);
     } while (result == -1 && (errno == EINTR || errno == EAGAIN) && flags == DMA_BUF_SYNC_END);
   }
 }
@@ -61,10 +49,10 @@ std::span<const std::byte> MappedPicture::begin_reading() {
   reading_ = true;
   if (gathered_.empty()) {
     const PlanePlan::Piece& whole = pieces_.front();
-    return {mappings_[whole.file].address() + whole.offset, whole.length};
+    return {mappings_[whole.file].bytes.get() + whole.offset, whole.length};
   }
   for (const PlanePlan::Piece& piece : pieces_)
-    std::memcpy(gathered_.data() + piece.place, mappings_[piece.file].address() + piece.offset,
+    std::memcpy(gathered_.data() + piece.place, mappings_[piece.file].bytes.get() + piece.offset,
                 piece.length);
   return gathered_;
 }

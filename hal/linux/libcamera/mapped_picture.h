@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -17,9 +18,6 @@ public:
   // `device` is named in the Error. `bytes` is the whole picture's size, for one in pieces.
   static Result<MappedPicture> map(const PlanePlan& plan, std::size_t bytes,
                                    std::string_view device);
-  MappedPicture(MappedPicture&&) noexcept = default;
-  MappedPicture& operator=(MappedPicture&&) noexcept = default;
-  ~MappedPicture() = default;
 
   // Between the two the processor sees what the device wrote. Pieces that lie apart are put
   // together here, in memory of ours; else nothing is copied. Allocates nothing.
@@ -27,21 +25,13 @@ public:
   void end_reading();
 
 private:
-  class Mapping {
-  public:
-    Mapping(void* address, std::size_t length, int descriptor)
-        : address_{static_cast<const std::byte*>(address)}, length_{length}, descriptor_{
-                                                                                 descriptor} {}
-    Mapping(Mapping&& other) noexcept;
-    Mapping& operator=(Mapping&& other) noexcept;
-    ~Mapping();
-    const std::byte* address() const { return address_; }
-    int descriptor() const { return descriptor_; }
-
-  private:
-    const std::byte* address_;
-    std::size_t length_;
-    int descriptor_;
+  struct Unmap {
+    std::size_t length;
+    void operator()(const std::byte* address) const;
+  };
+  struct Mapping {
+    std::unique_ptr<const std::byte[], Unmap> bytes;
+    int descriptor;
   };
 
   MappedPicture() = default;

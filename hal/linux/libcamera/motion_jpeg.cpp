@@ -1,9 +1,7 @@
 #include "hal/linux/libcamera/motion_jpeg.h"
 
 #include <string_view>
-#include <utility>
 
-#include <fmt/format.h>
 #include <turbojpeg.h>
 
 namespace octascope::hal::linux_backend {
@@ -16,17 +14,8 @@ Result<MotionJpegDecoder> MotionJpegDecoder::make() {
   return MotionJpegDecoder{handle};
 }
 
-MotionJpegDecoder::MotionJpegDecoder(MotionJpegDecoder&& other) noexcept
-    : handle_{std::exchange(other.handle_, nullptr)} {}
-
-MotionJpegDecoder& MotionJpegDecoder::operator=(MotionJpegDecoder&& other) noexcept {
-  std::swap(handle_, other.handle_);
-  return *this;
-}
-
-MotionJpegDecoder::~MotionJpegDecoder() {
-  if (handle_ != nullptr)
-    tjDestroy(handle_);
+void MotionJpegDecoder::Destroy::operator()(void* handle) const {
+  tjDestroy(handle);
 }
 
 Result<> MotionJpegDecoder::decode(std::span<const std::byte> jpeg, PictureSize size,
@@ -35,9 +24,8 @@ Result<> MotionJpegDecoder::decode(std::span<const std::byte> jpeg, PictureSize 
   if (!decoded) {
     // A damaged header can leave libjpeg-turbo 2.1 in a state in which it refuses good pictures
     // ever after ("SOS before SOF").
-    if (handle_ != nullptr)
-      tjDestroy(handle_);
-    handle_ = tjInitDecompress();
+    handle_.reset();
+    handle_.reset(tjInitDecompress());
   }
   return decoded;
 }
@@ -52,24 +40,23 @@ Result<> MotionJpegDecoder::try_to_decode(std::span<const std::byte> jpeg, Pictu
   int height = 0;
   int subsampling = 0;
   int colours = 0;
-  if (tjDecompressHeader3(handle_, bytes, jpeg.size(), &width, &height, &subsampling, &colours) !=
-      0)
-    return fail(ErrorCode::bad_data,
-                fmt::format("scope camera: a JPEG of {} bytes has no header: {}", jpeg.size(),
-                            tjGetErrorStr2(handle_)));
+  if (tjDecompressHeader3(handle_.get(), bytes, jpeg.size(), &width, &height, &subsampling,
+                          &colours) != 0)
+    return fail(ErrorCode::bad_data, "scope camera: a JPEG of {} bytes has no header: {}",
+                jpeg.size(), tjGetErrorStr2(handle_.get()));
   if (width != size.width || height != size.height ||
       rgb.size() < static_cast<std::size_t>(3 * width) * static_cast<std::size_t>(height))
-    return fail(ErrorCode::bad_data, fmt::format("scope camera: a JPEG of {}x{}, expected {}x{}",
-                                                 width, height, size.width, size.height));
-  if (tjDecompress2(handle_, bytes, jpeg.size(), reinterpret_cast<unsigned char*>(rgb.data()),
+    return fail(ErrorCode::bad_data, "scope camera: a JPEG of {}x{}, expected {}x{}", width, height,
+                size.width, size.height);
+  if (tjDecompress2(handle_.get(), bytes, jpeg.size(), reinterpret_cast<unsigned char*>(rgb.data()),
                     width, 3 * width, height, TJPF_RGB, 0) == 0)
     return {};
-  const std::string_view why = tjGetErrorStr2(handle_);
-  if (tjGetErrorCode(handle_) == TJERR_WARNING &&
+  const std::string_view why = tjGetErrorStr2(handle_.get());
+  if (tjGetErrorCode(handle_.get()) == TJERR_WARNING &&
       why.find("extraneous bytes") != std::string_view::npos)
     return {};
-  return fail(ErrorCode::bad_data,
-              fmt::format("scope camera: a damaged JPEG of {} bytes: {}", jpeg.size(), why));
+  return fail(ErrorCode::bad_data, "scope camera: a damaged JPEG of {} bytes: {}", jpeg.size(),
+              why);
 }
 
 } // namespace octascope::hal::linux_backend

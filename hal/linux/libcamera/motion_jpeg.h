@@ -15,9 +15,6 @@ class MotionJpegDecoder {
 public:
   // ErrorCode::system: no memory.
   static Result<MotionJpegDecoder> make();
-  MotionJpegDecoder(MotionJpegDecoder&&) noexcept;
-  MotionJpegDecoder& operator=(MotionJpegDecoder&&) noexcept;
-  ~MotionJpegDecoder();
 
   // One picture into `rgb`, rows of 3 · width bytes from the top. Cameras leave out the Huffman
   // tables and put a few bytes too many between segments: both are fine. ErrorCode::bad_data: it is
@@ -25,11 +22,14 @@ public:
   Result<> decode(std::span<const std::byte> jpeg, PictureSize size, std::span<std::byte> rgb);
 
 private:
+  struct Destroy {
+    void operator()(void* handle) const;
+  };
   explicit MotionJpegDecoder(void* handle) : handle_{handle} {}
   Result<> try_to_decode(std::span<const std::byte> jpeg, PictureSize size,
                          std::span<std::byte> rgb);
 
-  void* handle_;
+  std::unique_ptr<void, Destroy> handle_;
 };
 
 } // namespace octascope::hal::linux_backend

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <limits>
 
-#include <fmt/format.h>
-
 namespace octascope::hal::linux_backend {
 
 namespace {
 
 std::size_t file_of(std::vector<PlanePlan::File>& files, const BufferPlane& plane) {
   const std::size_t end = plane.offset + plane.length;
-  const auto known = std::find_if(files.begin(), files.end(), [&](const PlanePlan::File& file) {
-    return file.descriptor == plane.descriptor;
-  });
+  const auto known = std::ranges::find_if(
+      files, [&](const PlanePlan::File& file) { return file.descriptor == plane.descriptor; });
   if (known != files.end()) {
     known->length = std::max(known->length, end);
     return static_cast<std::size_t>(known - files.begin());
@@ -25,9 +22,9 @@ std::size_t file_of(std::vector<PlanePlan::File>& files, const BufferPlane& plan
 tl::unexpected<Error> too_short(const PictureLayout& layout, std::size_t found,
                                 std::size_t expected) {
   return fail(ErrorCode::bad_data,
-              fmt::format("scope camera: a plane of {} bytes for {}x{} with rows of {}, expected "
-                          "at least {}: the camera's driver contradicts itself",
-                          found, layout.size.width, layout.size.height, layout.stride, expected));
+              "scope camera: a plane of {} bytes for {}x{} with rows of {}, expected at least {}: "
+              "the camera's driver contradicts itself",
+              found, layout.size.width, layout.size.height, layout.stride, expected);
 }
 
 // The planes that the format has when each lies for itself.
@@ -49,15 +46,14 @@ bool sound(const BufferPlane& plane) {
 } // namespace
 
 Result<PlanePlan> plan_planes(const std::vector<BufferPlane>& planes, const PictureLayout& layout) {
-  if (planes.empty() || !std::all_of(planes.begin(), planes.end(), sound))
+  if (planes.empty() || !std::ranges::all_of(planes, sound))
     return fail(ErrorCode::bad_data, "scope camera: its driver gave a buffer without memory");
   if (layout.size.width < 1 || layout.size.height < 1 ||
       layout.stride < row_bytes(layout.encoding, layout.size.width))
     return fail(ErrorCode::bad_data,
-                fmt::format("scope camera: {}x{} with rows of {} bytes, expected rows of at least "
-                            "{}",
-                            layout.size.width, layout.size.height, layout.stride,
-                            row_bytes(layout.encoding, layout.size.width)));
+                "scope camera: {}x{} with rows of {} bytes, expected rows of at least {}",
+                layout.size.width, layout.size.height, layout.stride,
+                row_bytes(layout.encoding, layout.size.width));
   PlanePlan plan;
   const BufferPlane& first = planes.front();
   if (layout.encoding == Encoding::motion_jpeg) {

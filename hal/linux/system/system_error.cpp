@@ -58,9 +58,8 @@ tl::unexpected<Error> system_failure(std::string_view device, std::string_view a
                                      int error_number, std::string_view remedy) {
   const ErrorCode fault = error_code_of(error_number);
   const std::string advice = remedy.empty() ? usual_remedy(device, fault) : std::string{remedy};
-  return fail(fault, fmt::format("{}: {} failed: {}{}{}", device, action,
-                                 std::generic_category().message(error_number),
-                                 advice.empty() ? "" : "; ", advice));
+  return fail(fault, "{}: {} failed: {}{}{}", device, action,
+              std::generic_category().message(error_number), advice.empty() ? "" : "; ", advice);
 }
 
 Result<FileDescriptor> open_device(const std::string& node, int flags) {
@@ -72,9 +71,7 @@ Result<FileDescriptor> open_device(const std::string& node, int flags) {
     const int why = errno;
     if (why == EACCES && udev_is_at_work())
       return fail(ErrorCode::absent,
-                  fmt::format("{}: udev has not gone through it yet; it is tried "
-                              "again by itself",
-                              node));
+                  "{}: udev has not gone through it yet; it is tried again by itself", node);
     // A node whose driver has gone says ENODEV or ENXIO: to whoever opens it, it is not there.
     return system_failure(node, "opening", why == ENODEV || why == ENXIO ? ENOENT : why);
   }

@@ -96,13 +96,12 @@ Result<std::string> set(const FileDescriptor& file, std::string_view node,
                         std::int64_t wanted) {
   if (!found)
     return fail(ErrorCode::unsupported,
-                fmt::format("{}: it has no control \"{}\", which is configured to be {}; take it "
-                            "out of the configuration, `v4l2-ctl -d {} --list-ctrls` shows what "
-                            "it has",
-                            node, name, wanted, node));
+                "{}: it has no control \"{}\", which is configured to be {}; take it out of the "
+                "configuration, `v4l2-ctl -d {} --list-ctrls` shows what it has",
+                node, name, wanted, node);
   const auto value = fit_setting(found->range, wanted);
   if (!value)
-    return fail(value.error().code, fmt::format("{}: {}", node, value.error().message));
+    return fail(value.error().code, "{}: {}", node, value.error().message);
   HAL_CHECK(write(file, node, *found, *value));
   return fmt::format("{} set to {}{}", found->range.name, *value,
                      found->governed ? ", which has no effect while another control governs it"
@@ -127,7 +126,7 @@ Result<std::string> set_line_rate(const FileDescriptor& file, std::string_view n
                        line_rate_hz);
   const auto pixels = blanking_for(line_rate_hz, *pixel_rate, width, blanking->range);
   if (!pixels)
-    return fail(pixels.error().code, fmt::format("{}: {}", node, pixels.error().message));
+    return fail(pixels.error().code, "{}: {}", node, pixels.error().message);
   HAL_CHECK(write(file, node, *blanking, *pixels));
   return fmt::format("line rate set to {:.1f} Hz",
                      static_cast<double>(*pixel_rate) / static_cast<double>(width + *pixels));
@@ -138,13 +137,13 @@ Result<std::string> set_line_rate(const FileDescriptor& file, std::string_view n
 Result<std::int64_t> fit_setting(const SettingRange& range, std::int64_t wanted) {
   if (!range.settable)
     return fail(ErrorCode::unsupported,
-                fmt::format("control \"{}\" cannot be set to a number, it is configured to be {}; "
-                            "take it out of the configuration",
-                            range.name, wanted));
+                "control \"{}\" cannot be set to a number, it is configured to be {}; take it out "
+                "of the configuration",
+                range.name, wanted);
   if (wanted < range.least || wanted > range.most)
     return fail(ErrorCode::invalid_argument,
-                fmt::format("control \"{}\" is configured to be {}, expected {} to {}", range.name,
-                            wanted, range.least, range.most));
+                "control \"{}\" is configured to be {}, expected {} to {}", range.name, wanted,
+                range.least, range.most);
   // In unsigned numbers: the distance of two 64-bit numbers need not fit a signed one.
   const auto step = static_cast<std::uint64_t>(std::max<std::int64_t>(range.step, 1));
   const std::uint64_t above =
@@ -165,14 +164,14 @@ Result<std::int64_t> blanking_for(double line_rate_hz, std::int64_t pixel_rate_h
   const auto most = static_cast<double>(blanking.most);
   if (!(rate > 0 && width + least > 0 && most >= least))
     return fail(ErrorCode::unsupported,
-                fmt::format("the sensor's pixel rate is {} Hz, its blanking {} to {}; expected "
-                            "figures that make a line rate",
-                            pixel_rate_hz, blanking.least, blanking.most));
+                "the sensor's pixel rate is {} Hz, its blanking {} to {}; expected figures that "
+                "make a line rate",
+                pixel_rate_hz, blanking.least, blanking.most);
   if (!(pixels >= least && pixels <= most))
     return fail(ErrorCode::unsupported,
-                fmt::format("the line rate is configured to be {} Hz, expected {:.1f} to {:.1f} Hz "
-                            "with lines of {} pixels on this sensor",
-                            line_rate_hz, rate / (width + most), rate / (width + least), width));
+                "the line rate is configured to be {} Hz, expected {:.1f} to {:.1f} Hz with lines "
+                "of {} pixels on this sensor",
+                line_rate_hz, rate / (width + most), rate / (width + least), width);
   return fit_setting(blanking, static_cast<std::int64_t>(pixels));
 }
 
@@ -181,8 +180,8 @@ Result<std::vector<std::string>> apply_settings(const FileDescriptor& file, std:
                                                 int width) {
   if (settings.exposure_us && !(*settings.exposure_us > 0))
     return fail(ErrorCode::invalid_argument,
-                fmt::format("{}: the exposure is configured to be {} µs, expected more than 0",
-                            node, *settings.exposure_us));
+                "{}: the exposure is configured to be {} µs, expected more than 0", node,
+                *settings.exposure_us);
   std::vector<Result<std::string>> done;
   for (const NamedSetting& other : settings.others)
     done.push_back(set(file, node, find(file, other.name), other.name, other.value));

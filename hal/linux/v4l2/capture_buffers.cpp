@@ -53,14 +53,14 @@ Result<std::unique_ptr<CaptureBuffers>> CaptureBuffers::map(const FileDescriptor
   const auto got = static_cast<int>(std::min<__u32>(request.count, 1000));
   if (got < least)
     return fail(ErrorCode::system,
-                fmt::format("{}: the driver has {} buffers, expected at least {}: "
-                            "end what else uses it, or free memory",
-                            node, got, least));
+                "{}: the driver has {} buffers, expected at least {}: end what else uses it, or "
+                "free memory",
+                node, got, least);
   if (got > wanted)
     return fail(ErrorCode::unsupported,
-                fmt::format("{}: the driver works with no fewer than {} "
-                            "buffers, {} are configured; configure {} or more",
-                            node, got, wanted, got));
+                "{}: the driver works with no fewer than {} buffers, {} are configured; configure "
+                "{} or more",
+                node, got, wanted, got);
   buffers->mapped_.reserve(static_cast<std::size_t>(got));
   for (int i = 0; i < got; ++i) {
     HAL_CHECK(buffers->map_one(i, bytes));
@@ -73,9 +73,8 @@ Result<> CaptureBuffers::map_one(int index, std::size_t bytes) {
   if (control(file_, VIDIOC_QUERYBUF, &buffer) == -1)
     return system_failure(node_, fmt::format("asking for buffer {}", index), errno);
   if (buffer.length < bytes)
-    return fail(ErrorCode::unsupported,
-                fmt::format("{}: buffer {} has {} bytes, expected at least {}", node_, index,
-                            buffer.length, bytes));
+    return fail(ErrorCode::unsupported, "{}: buffer {} has {} bytes, expected at least {}", node_,
+                index, buffer.length, bytes);
   void* const memory = ::mmap(nullptr, buffer.length, PROT_READ | PROT_WRITE, MAP_SHARED,
                               file_.get(), buffer.m.offset);
   if (memory == MAP_FAILED)

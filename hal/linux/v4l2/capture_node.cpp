@@ -67,9 +67,10 @@ Result<CaptureNode> CaptureNode::open(const std::string& node) {
   v4l2_capability capability{};
   if (control(file, VIDIOC_QUERYCAP, &capability) == -1) {
     if (errno == ENOTTY)
-      return fail(ErrorCode::unsupported, fmt::format("{}: it is no video device; expected a V4L2 "
-                                                      "camera, `octascope devices` lists them",
-                                                      node));
+      return fail(
+          ErrorCode::unsupported,
+          "{}: it is no video device; expected a V4L2 camera, `octascope devices` lists them",
+          node);
     return system_failure(node, "asking what it can do", errno);
   }
   const std::uint32_t capabilities = (capability.capabilities & V4L2_CAP_DEVICE_CAPS) != 0
@@ -82,8 +83,8 @@ Result<CaptureNode> CaptureNode::open(const std::string& node) {
   if ((capabilities & needed) != needed ||
       (capabilities & (V4L2_CAP_VIDEO_M2M | V4L2_CAP_VIDEO_M2M_MPLANE)) != 0)
     return fail(ErrorCode::unsupported,
-                fmt::format("{}: \"{}\" is {}; expected a camera that streams mapped buffers", node,
-                            identity.card, what_it_is(capabilities)));
+                "{}: \"{}\" is {}; expected a camera that streams mapped buffers", node,
+                identity.card, what_it_is(capabilities));
   return CaptureNode{std::move(file), std::move(identity)};
 }
 
@@ -192,10 +193,10 @@ Result<> CaptureNode::set_window(const SensorWindow& window) const {
                           static_cast<int>(got.height)};
   if (made != window)
     return fail(ErrorCode::unsupported,
-                fmt::format("{}: the sensor's window became {}×{} at {},{}; expected {}×{} at "
-                            "{},{}: configure one that the sensor can do",
-                            identity_.node, made.width, made.height, made.left, made.top,
-                            window.width, window.height, window.left, window.top));
+                "{}: the sensor's window became {}×{} at {},{}; expected {}×{} at {},{}: configure "
+                "one that the sensor can do",
+                identity_.node, made.width, made.height, made.left, made.top, window.width,
+                window.height, window.left, window.top);
   return {};
 }
 

@@ -72,10 +72,9 @@ tl::unexpected<Error> nothing_fits(std::span<const OfferedFormat> offered,
     if (line_pixel_format(format.code) == nullptr && (known_turned || offered.size() == 1))
       reason += fmt::format("; {} has {}", fourcc_text(format.code), why_unreadable(format.code));
   }
-  return fail(ErrorCode::unsupported,
-              fmt::format("it offers {}{}; expected {} at {}×{} pixels ({})", words(offered),
-                          reason, serving(wanted), wanted.samples_per_line, wanted.lines_per_frame,
-                          words(wanted)));
+  return fail(ErrorCode::unsupported, "it offers {}{}; expected {} at {}×{} pixels ({})",
+              words(offered), reason, serving(wanted), wanted.samples_per_line,
+              wanted.lines_per_frame, words(wanted));
 }
 
 } // namespace
@@ -104,8 +103,8 @@ std::string words(const LineFormat& wanted) {
 
 Result<> check_wish(const LineFormat& wanted) {
   const auto refuse = [&](std::string_view expected) {
-    return fail(ErrorCode::invalid_argument,
-                fmt::format("the format is {}; expected {}", words(wanted), expected));
+    return fail(ErrorCode::invalid_argument, "the format is {}; expected {}", words(wanted),
+                expected);
   };
   if (wanted.samples_per_line < 1 || wanted.lines_per_frame < 1)
     return refuse("at least one line of one sample");

@@ -4,7 +4,6 @@
 // A B-scan is a picture of samples_per_line × lines_per_frame pixels.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>

@@ -82,8 +82,8 @@ V4l2CameraTally V4l2LineCamera::tally() const {
 }
 
 Result<> V4l2LineCamera::wrong_state(std::string_view call, std::string_view expected) const {
-  return fail(ErrorCode::invalid_argument, fmt::format("line camera: {} while {}, expected {}",
-                                                       call, to_string(state()), expected));
+  return fail(ErrorCode::invalid_argument, "line camera: {} while {}, expected {}", call,
+              to_string(state()), expected);
 }
 
 Result<> V4l2LineCamera::do_open(const LineCameraConfig& config) {

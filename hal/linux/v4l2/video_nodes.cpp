@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -90,9 +89,8 @@ Result<std::string> pick_line_camera(const std::vector<LineCameraCandidate>& can
   if (denial != nullptr)
     reasons += fmt::format("; {} of them may not be opened: {}", denied, denial->message);
   return fail(denial != nullptr ? ErrorCode::denied : ErrorCode::absent,
-              fmt::format("no line camera among {} video devices, expected one with {}{}",
-                          candidates.size(), words(wanted),
-                          reasons.empty() ? "; check its plug and its driver" : reasons));
+              "no line camera among {} video devices, expected one with {}{}", candidates.size(),
+              words(wanted), reasons.empty() ? "; check its plug and its driver" : reasons);
 }
 
 } // namespace octascope::hal::linux_backend

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <span>
 
 #include "dcmtk/dcmdata/dcerror.h"
 

@@ -1,7 +1,6 @@
 #include "pipeline/recordings/dicom/dicom_writer.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -38,11 +37,9 @@ hal::Result<> check(const VolumeGeometry& g) {
       slice_locations(g).size() <= most_text_bytes)
     return {};
   return hal::fail(ErrorCode::unsupported,
-                   fmt::format("DICOM: found volumes of {} depths × {} A-scans × {} B-scans, "
-                               "expected at most {} × {} of {} voxels, and fewer than some "
-                               "thousand B-scans; NRRD takes any",
-                               g.depths, g.a_scans, g.b_scans, most_columns, most_columns,
-                               most_pixel_bytes));
+                   "DICOM: found volumes of {} depths × {} A-scans × {} B-scans, expected at most "
+                   "{} × {} of {} voxels, and fewer than some thousand B-scans; NRRD takes any",
+                   g.depths, g.a_scans, g.b_scans, most_columns, most_columns, most_pixel_bytes);
 }
 
 // DCMTK makes the head of a file from its dictionary, and without it a wrong one.
@@ -57,11 +54,11 @@ hal::Result<> check_dictionary() {
 hal::Result<> check_patient_id(const std::string& id) {
   if (is_long_string(id))
     return {};
-  return hal::fail(ErrorCode::invalid_argument,
-                   fmt::format("DICOM: found the subject \"{}\", expected for a patient ID at most "
-                               "64 characters of UTF-8, no backslash, no control characters; "
-                               "--subject gives another",
-                               id));
+  return hal::fail(
+      ErrorCode::invalid_argument,
+      "DICOM: found the subject \"{}\", expected for a patient ID at most 64 characters of UTF-8, "
+      "no backslash, no control characters; --subject gives another",
+      id);
 }
 
 // [b][a][z] to [b][z][a].
@@ -226,8 +223,8 @@ hal::Result<> write_file(const std::filesystem::path& path, DcmFileFormat& conte
   if (!consumer.outcome())
     return consumer.outcome();
   if (written.bad())
-    return hal::fail(ErrorCode::system,
-                     fmt::format("{}: DICOM cannot be written: {}", path.string(), written.text()));
+    return hal::fail(ErrorCode::system, "{}: DICOM cannot be written: {}", path.string(),
+                     written.text());
   return file.commit();
 }
 
@@ -257,9 +254,8 @@ DicomWriter::DicomWriter(RecordingFacts facts, DicomOptions options, std::string
 hal::Result<> DicomWriter::write(const std::filesystem::path& file, const Volume& volume,
                                  const RecordedVolume& entry, std::size_t n) {
   if (volume.geometry != facts_.geometry)
-    return hal::fail(
-        ErrorCode::invalid_argument,
-        fmt::format("{}: volume {} is of another geometry than its recording", file.string(), n));
+    return hal::fail(ErrorCode::invalid_argument,
+                     "{}: volume {} is of another geometry than its recording", file.string(), n);
   turn_frames(volume, frames_);
   const std::string patient_id = options_.patient_id.value_or(facts_.subject);
   DcmFileFormat content;
@@ -290,8 +286,8 @@ hal::Result<> DicomWriter::write(const std::filesystem::path& file, const Volume
   put_window(item, options_.window);
   put_pixels(item, frames_);
   if (item.condition().bad())
-    return hal::fail(ErrorCode::system, fmt::format("{}: DICOM cannot hold it: {}", file.string(),
-                                                    item.condition().text()));
+    return hal::fail(ErrorCode::system, "{}: DICOM cannot hold it: {}", file.string(),
+                     item.condition().text());
   return write_file(file, content);
 }
 

@@ -4,8 +4,6 @@
 #include <memory>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "pipeline/threads/hot_path.h"
 
 namespace octascope::pipeline {
@@ -124,9 +122,9 @@ hal::Result<> ReplayPlayer::read_next() {
     if (volume.missing_b_scans() < volume.geometry.b_scans)
       return {};
     return hal::fail(hal::ErrorCode::bad_data,
-                     fmt::format("volume {}: found none of its {} B-scans, expected one at least: "
-                                 "the file is damaged or was cut off",
-                                 next_, volume.geometry.b_scans));
+                     "volume {}: found none of its {} B-scans, expected one at least: the file is "
+                     "damaged or was cut off",
+                     next_, volume.geometry.b_scans);
   });
 }
 

@@ -1,7 +1,6 @@
 #include "pipeline/vessels/clusters/cluster_checker.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -157,9 +156,7 @@ private:
   }
 
   // First copies of roots come before the others.
-  bool is_root(std::uint32_t node) const {
-    return std::binary_search(roots_.begin(), roots_.end(), node);
-  }
+  bool is_root(std::uint32_t node) const { return std::ranges::binary_search(roots_, node); }
 
   void count_segments(const VesselCluster& cluster) {
     auto& counts = segments_[static_cast<std::size_t>(cluster.branch)];
@@ -236,9 +233,8 @@ ClusterFileParts parts_of(const ClusterFileHeader& header) {
 tl::unexpected<hal::Error> damaged(std::string_view name, std::uint64_t offset,
                                    std::string_view found_and_expected) {
   return hal::fail(hal::ErrorCode::bad_data,
-                   fmt::format("{}: at byte {}: {}; the file is damaged, copy it again or make it "
-                               "anew",
-                               name, offset, found_and_expected));
+                   "{}: at byte {}: {}; the file is damaged, copy it again or make it anew", name,
+                   offset, found_and_expected);
 }
 
 hal::Result<> check_header(const ClusterFileHeader& header, std::string_view name) {

@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cerrno>
 #include <cstring>
-#include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "pipeline/files/atomic_file.h"
 #include "pipeline/vessels/clusters/cluster_checker.h"
@@ -34,7 +29,7 @@ constexpr std::uint32_t turned_byte_order = 0x04030201;
 
 hal::Result<> check_beginning(std::span<const std::byte> bytes, std::string_view name) {
   const auto refuse = [&](ErrorCode fault, std::string_view what) {
-    return hal::fail(fault, fmt::format("{}: {}", name, what));
+    return hal::fail(fault, "{}: {}", name, what);
   };
   if (bytes.size() < sizeof(ClusterFileHeader))
     return refuse(ErrorCode::bad_data,
@@ -117,49 +112,6 @@ ClusterFileHeader header_from(const VesselClusters& clusters, const VesselFacts&
   return header;
 }
 
-// Owns the descriptor while the mapping is made.
-struct Descriptor {
-  int number;
-  ~Descriptor() {
-    if (number >= 0)
-      ::close(number);
-  }
-};
-
-hal::Result<std::span<const std::byte>> map_file(const fs::path& file) {
-  const auto refuse = [&](ErrorCode fault, std::string_view found) {
-    return hal::fail(fault, fmt::format("{}: {}, expected a .vessels file", file.string(), found));
-  };
-  const auto words = [] { return std::generic_category().message(errno); };
-  // Without O_NONBLOCK a pipe would wait here for its writer.
-  const Descriptor descriptor{::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
-  if (descriptor.number < 0)
-    return refuse(errno == ENOENT   ? ErrorCode::absent
-                  : errno == EACCES ? ErrorCode::denied
-                                    : ErrorCode::system,
-                  fmt::format("cannot be opened: {}", words()));
-  struct stat status = {};
-  if (::fstat(descriptor.number, &status) != 0)
-    return refuse(ErrorCode::system, words());
-  if (!S_ISREG(status.st_mode))
-    return refuse(ErrorCode::invalid_argument,
-                  S_ISDIR(status.st_mode) ? "is a directory" : "is not a regular file");
-  if (status.st_size == 0)
-    return refuse(ErrorCode::bad_data, "is empty");
-  const auto size = static_cast<std::size_t>(status.st_size);
-  void* mapping = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor.number, 0);
-  if (mapping == MAP_FAILED)
-    return refuse(ErrorCode::system, fmt::format("cannot be mapped: {}", words()));
-  // All of it is read at once by the check; where the kernel takes no advice, it is only slower.
-  ::madvise(mapping, size, MADV_WILLNEED);
-  return std::span{static_cast<const std::byte*>(mapping), size};
-}
-
-void unmap(std::span<const std::byte> bytes) {
-  if (!bytes.empty())
-    ::munmap(const_cast<std::byte*>(bytes.data()), bytes.size());
-}
-
 } // namespace
 
 hal::Result<ClusterFileContent> read_cluster_bytes(std::span<const std::byte> bytes,
@@ -181,31 +133,22 @@ hal::Result<ClusterFileContent> read_cluster_bytes(std::span<const std::byte> by
 }
 
 hal::Result<ClusterFile> ClusterFile::open(const fs::path& file) {
-  HAL_TRY(const auto bytes, map_file(file));
-  auto content = read_cluster_bytes(bytes, file.string());
-  if (!content) {
-    unmap(bytes);
-    return tl::make_unexpected(content.error());
-  }
-  return ClusterFile{bytes, std::move(*content)};
-}
-
-ClusterFile::ClusterFile(std::span<const std::byte> bytes, ClusterFileContent content)
-    : bytes_{bytes}, content_{std::move(content)} {}
-
-ClusterFile::ClusterFile(ClusterFile&& other) noexcept
-    : bytes_{std::exchange(other.bytes_, {})}, content_{std::exchange(other.content_, {})} {}
-
-ClusterFile::~ClusterFile() {
-  unmap(bytes_);
+  HAL_TRY(const auto input, InputFile::open(file, "a .vessels file", UINT64_MAX));
+  if (input.bytes() == 0)
+    return hal::fail(ErrorCode::bad_data, "{}: is empty, expected a .vessels file", file.string());
+  HAL_TRY(auto mapped, input.map());
+  // All of it is read at once by the check; where the kernel takes no advice, it is only slower.
+  ::madvise(const_cast<std::byte*>(mapped.bytes().data()), mapped.bytes().size(), MADV_WILLNEED);
+  HAL_TRY(auto content, read_cluster_bytes(mapped.bytes(), file.string()));
+  return ClusterFile{std::move(mapped), std::move(content)};
 }
 
 hal::Result<> write_cluster_file(const fs::path& file, const VesselClusters& clusters,
                                  const VesselFacts& facts) {
   if (facts.provenance.size() > longest_provenance)
     return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("{}: the provenance has {} bytes, expected at most {}",
-                                 file.string(), facts.provenance.size(), longest_provenance));
+                     "{}: the provenance has {} bytes, expected at most {}", file.string(),
+                     facts.provenance.size(), longest_provenance);
   const ClusterFileHeader header = header_from(clusters, facts);
   // What open() would refuse is not written.
   auto good = check_header(header, file.string()).and_then([&] {

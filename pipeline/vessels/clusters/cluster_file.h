@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "hal/result.h"
+#include "pipeline/files/input_file.h"
 #include "pipeline/vessels/clusters.h"
 #include "pipeline/vessels/clusters/cluster_facts.h"
 
@@ -34,19 +35,16 @@ public:
   // read_cluster_bytes().
   static hal::Result<ClusterFile> open(const std::filesystem::path& file);
 
-  ClusterFile(ClusterFile&& other) noexcept;
-  ClusterFile& operator=(ClusterFile&&) = delete;
-  ~ClusterFile();
-
   // Valid as long as the object that open() returned, or that it was moved to.
   const VesselClusters& clusters() const { return content_.clusters; }
   const VesselFacts& facts() const { return content_.facts; }
-  std::size_t bytes() const { return bytes_.size(); }
+  std::size_t bytes() const { return mapped_.bytes().size(); }
 
 private:
-  ClusterFile(std::span<const std::byte> bytes, ClusterFileContent content);
+  ClusterFile(MappedFile mapped, ClusterFileContent content)
+      : mapped_{std::move(mapped)}, content_{std::move(content)} {}
 
-  std::span<const std::byte> bytes_;
+  MappedFile mapped_;
   ClusterFileContent content_;
 };
 

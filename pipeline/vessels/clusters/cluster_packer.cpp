@@ -74,7 +74,7 @@ void ClusterPacker::find_references() {
 }
 
 void ClusterPacker::sort_members() {
-  std::sort(members_.begin(), members_.end(), [this](std::uint32_t a, std::uint32_t b) {
+  std::ranges::sort(members_, [this](std::uint32_t a, std::uint32_t b) {
     return std::tuple{tree_.orders[b], lot(a)} < std::tuple{tree_.orders[a], lot(b)};
   });
 }
@@ -132,7 +132,7 @@ VesselCluster ClusterPacker::frame() {
   for (const Reference& reference : references_)
     if (reference.is_parent)
       include(reference.node);
-  std::for_each(members_.begin(), members_.end(), include);
+  std::ranges::for_each(members_, include);
   shorten_directions(box);
 
   VesselCluster cluster{};

@@ -61,7 +61,7 @@ public:
       else
         small.push_back({piece.kind, morton_code(box, piece.box.middle()), i});
     }
-    std::sort(small.begin(), small.end(), [](const Placed& a, const Placed& b) {
+    std::ranges::sort(small, [](const Placed& a, const Placed& b) {
       return std::tie(a.kind, a.code, a.piece) < std::tie(b.kind, b.code, b.piece);
     });
     for (const Placed& placed : small)

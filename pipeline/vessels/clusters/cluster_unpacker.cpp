@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include <fmt/format.h>
-
 namespace octascope::pipeline {
 namespace {
 
@@ -35,9 +33,9 @@ public:
       if (originals_[node] == node && number_[node] == not_yet)
         if (!add_with_ancestors(node))
           return hal::fail(hal::ErrorCode::bad_data,
-                           fmt::format("vessel clusters: the segment of packed node {} is its own "
-                                       "ancestor, expected a tree; make the file anew",
-                                       node));
+                           "vessel clusters: the segment of packed node {} is its own ancestor, "
+                           "expected a tree; make the file anew",
+                           node);
     }
     return std::move(tree_);
   }

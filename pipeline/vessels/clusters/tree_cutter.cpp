@@ -105,7 +105,7 @@ private:
   static std::size_t join(Branch& own, std::span<Branch> children) {
     if (children.size() > many)
       return 0;
-    std::sort(children.begin(), children.end(), [](const Branch& a, const Branch& b) {
+    std::ranges::sort(children, [](const Branch& a, const Branch& b) {
       return std::tie(a.piece.segments, a.top) < std::tie(b.piece.segments, b.top);
     });
     std::size_t joined = 0;
@@ -140,7 +140,7 @@ private:
     places_.clear();
     for (const Branch& branch : branches)
       places_.push_back({branch.piece.kind, morton_code(box, branch.piece.box.middle()), branch});
-    std::sort(places_.begin(), places_.end(), [](const Placed& a, const Placed& b) {
+    std::ranges::sort(places_, [](const Placed& a, const Placed& b) {
       return std::tie(a.kind, a.code, a.branch.top) < std::tie(b.kind, b.code, b.branch.top);
     });
     std::transform(places_.begin(), places_.end(), branches.begin(),

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "pipeline/vessels/files/input_file.h"
+#include "pipeline/files/input_file.h"
 #include "pipeline/vessels/files/swc_comments.h"
 #include "pipeline/vessels/files/swc_row.h"
 #include "pipeline/vessels/files/swc_table.h"
@@ -45,9 +44,8 @@ private:
   hal::Result<> take_comment(std::string_view line);
   tl::unexpected<hal::Error> refuse(std::uint64_t line, std::size_t column, std::string_view found,
                                     std::string_view expected) const {
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}:{}:{}: found {}, expected {}", name_.string(), line, column,
-                                 found, expected));
+    return hal::fail(ErrorCode::bad_data, "{}:{}:{}: found {}, expected {}", name_.string(), line,
+                     column, found, expected);
   }
   hal::Result<> take_line(std::string_view line, int shift);
   std::uint64_t line_of(std::size_t row) const;
@@ -201,8 +199,8 @@ hal::Result<SwcTree> parse_swc(std::string_view text, const fs::path& name,
                                const TreeReadOptions& options) {
   if (text.size() > options.limits.bytes)
     return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}: found {} bytes, more than the limit of {}, expected {}",
-                                 name.string(), text.size(), options.limits.bytes, expected_file));
+                     "{}: found {} bytes, more than the limit of {}, expected {}", name.string(),
+                     text.size(), options.limits.bytes, expected_file);
   SwcReader reader{name, options};
   const std::size_t whole = text.rfind('\n') + 1;
   hal::Result<> taken = reader.take(text.substr(0, whole));
@@ -228,9 +226,8 @@ hal::Result<SwcTree> read_swc(const fs::path& file, const TreeReadOptions& optio
       block[there++] = '\n';
     const std::size_t whole = std::string_view{block.data(), there}.rfind('\n') + 1;
     if (whole == 0 && !last)
-      return hal::fail(ErrorCode::bad_data,
-                       fmt::format("{}: found a line of more than {} bytes, expected {}",
-                                   file.string(), room, expected_file));
+      return hal::fail(ErrorCode::bad_data, "{}: found a line of more than {} bytes, expected {}",
+                       file.string(), room, expected_file);
     HAL_CHECK(reader.take({block.data(), whole}));
     if (done == 0) // the rest will have rows of about this length
       reader.reserve(static_cast<std::size_t>(

@@ -30,9 +30,8 @@ bool is_length(float value) {
 
 hal::Result<> check(const fs::path& file, const VesselTree& tree) {
   const auto refuse = [&](std::string_view found, std::string_view expected) {
-    return hal::fail(ErrorCode::invalid_argument,
-                     fmt::format("{}: cannot be written: found {}, expected {}", file.string(),
-                                 found, expected));
+    return hal::fail(ErrorCode::invalid_argument, "{}: cannot be written: found {}, expected {}",
+                     file.string(), found, expected);
   };
   const std::size_t nodes = tree.nodes();
   if (nodes == 0 || nodes > largest_swc_id)

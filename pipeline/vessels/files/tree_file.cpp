@@ -5,12 +5,10 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
+#include "pipeline/files/input_file.h"
 #include "pipeline/vessels/clusters/cluster_file.h"
 #include "pipeline/vessels/clusters/cluster_file_format.h"
 #include "pipeline/vessels/clusters/cluster_unpacker.h"
-#include "pipeline/vessels/files/input_file.h"
 
 namespace octascope::pipeline {
 
@@ -35,7 +33,7 @@ hal::Result<TreeFile> read_clusters(const fs::path& file, const TreeReadOptions&
   HAL_TRY(const auto clusters, ClusterFile::open(file));
   auto tree = unpack_tree(clusters.clusters(), options.progress);
   if (!tree)
-    return hal::fail(tree.error().code, fmt::format("{}: {}", file.string(), tree.error().message));
+    return hal::fail(tree.error().code, "{}: {}", file.string(), tree.error().message);
   return TreeFile{std::move(*tree), LengthUnit::mm, clusters.facts()};
 }
 
@@ -58,9 +56,8 @@ hal::Result<TreeFileKind> tree_file_kind(const fs::path& file, const TreeLimits&
   if (begins_like_clusters(beginning))
     return TreeFileKind::clusters;
   if (beginning.find('\0') != std::string_view::npos && !beginning.starts_with('<'))
-    return hal::fail(
-        hal::ErrorCode::bad_data,
-        fmt::format("{}: found bytes that are no text, expected {}", file.string(), expected_file));
+    return hal::fail(hal::ErrorCode::bad_data, "{}: found bytes that are no text, expected {}",
+                     file.string(), expected_file);
   const std::size_t first = beginning.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   const bool xml = first != std::string_view::npos && beginning[first] == '<';
   return xml ? TreeFileKind::vtp : TreeFileKind::swc;

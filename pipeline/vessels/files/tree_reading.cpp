@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include <fmt/format.h>
-
 namespace octascope::pipeline {
 
 tl::unexpected<hal::Error> reading_stopped(const std::filesystem::path& name) {
-  return hal::fail(hal::ErrorCode::disconnected,
-                   fmt::format("{}: reading was broken off", name.string()));
+  return hal::fail(hal::ErrorCode::disconnected, "{}: reading was broken off", name.string());
 }
 
 hal::Result<std::uint64_t> mend_zero_radii(VesselTree& tree, ZeroRadius policy,
@@ -19,9 +16,9 @@ hal::Result<std::uint64_t> mend_zero_radii(VesselTree& tree, ZeroRadius policy,
     return zeros;
   if (policy == ZeroRadius::refuse)
     return hal::fail(hal::ErrorCode::bad_data,
-                     fmt::format("{}: found {} nodes of radius 0, expected none "
-                                 "(--zero-radius parent gives them their parents')",
-                                 name.string(), zeros));
+                     "{}: found {} nodes of radius 0, expected none (--zero-radius parent gives "
+                     "them their parents')",
+                     name.string(), zeros);
   constexpr float none = std::numeric_limits<float>::infinity();
   float smallest = none;
   for (const float radius : tree.radii_mm) {
@@ -29,9 +26,9 @@ hal::Result<std::uint64_t> mend_zero_radii(VesselTree& tree, ZeroRadius policy,
       smallest = std::min(smallest, radius);
   }
   if (smallest == none)
-    return hal::fail(hal::ErrorCode::bad_data, fmt::format("{}: found no radius but 0 in {} nodes, "
-                                                           "expected radii of more than 0",
-                                                           name.string(), zeros));
+    return hal::fail(hal::ErrorCode::bad_data,
+                     "{}: found no radius but 0 in {} nodes, expected radii of more than 0",
+                     name.string(), zeros);
   for (std::size_t i = 0; i < tree.nodes(); ++i) {
     if (tree.radii_mm[i] == 0)
       tree.radii_mm[i] = tree.parents[i] == no_parent ? smallest : tree.radii_mm[tree.parents[i]];

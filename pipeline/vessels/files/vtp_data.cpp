@@ -19,9 +19,8 @@ static_assert(std::endian::native == std::endian::little, "files are little-endi
 
 tl::unexpected<hal::Error> refuse(const pugi::xml_node& array, std::string_view found,
                                   std::string_view expected) {
-  return hal::fail(hal::ErrorCode::bad_data,
-                   fmt::format("array \"{:.60}\": found {}, expected {}",
-                               array.attribute("Name").value(), found, expected));
+  return hal::fail(hal::ErrorCode::bad_data, "array \"{:.60}\": found {}, expected {}",
+                   array.attribute("Name").value(), found, expected);
 }
 
 constexpr std::string_view blanks = " \t\r\n";

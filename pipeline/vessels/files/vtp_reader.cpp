@@ -4,13 +4,12 @@
 #include <cctype>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
 
+#include "pipeline/files/input_file.h"
 #include "pipeline/vessels/files/centreline_joiner.h"
-#include "pipeline/vessels/files/input_file.h"
 #include "pipeline/vessels/files/vtp_data.h"
 #include "pipeline/vessels/vessel_orders.h"
 
@@ -70,11 +69,11 @@ public:
 
 private:
   tl::unexpected<hal::Error> refuse(std::string_view found, std::string_view expected) const {
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}: found {}, expected {}", name_.string(), found, expected));
+    return hal::fail(ErrorCode::bad_data, "{}: found {}, expected {}", name_.string(), found,
+                     expected);
   }
   tl::unexpected<hal::Error> told(const hal::Error& error) const {
-    return hal::fail(error.code, fmt::format("{}: {}", name_.string(), error.message));
+    return hal::fail(error.code, "{}: {}", name_.string(), error.message);
   }
   hal::Result<> read_encoding(const pugi::xml_node& file, std::string_view appended);
   hal::Result<std::uint64_t> count_of(const pugi::xml_node& piece, const char* attribute) const;
@@ -99,10 +98,8 @@ hal::Result<VtpTree> VtpReader::read(std::string_view text) {
   const pugi::xml_parse_result parsed = document.load_buffer(
       parts.xml.data(), parts.xml.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!parsed)
-    return hal::fail(ErrorCode::bad_data,
-                     fmt::format("{}:{}: found no XML: {}, expected {}", name_.string(),
-                                 place_in(parts.xml, parsed.offset), parsed.description(),
-                                 expected_file));
+    return hal::fail(ErrorCode::bad_data, "{}:{}: found no XML: {}, expected {}", name_.string(),
+                     place_in(parts.xml, parsed.offset), parsed.description(), expected_file);
   const pugi::xml_node file = document.child("VTKFile");
   if (!file)
     return refuse("XML without a VTKFile", expected_file);

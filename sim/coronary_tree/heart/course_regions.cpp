@@ -14,8 +14,8 @@ CourseRegions::CourseRegions(Region region, const Course& course) : region_{regi
     sides_[dot(place - on_course, left) < 0].push_back({place, along});
   }
   for (auto& side : sides_)
-    std::stable_sort(side.begin(), side.end(),
-                     [](const Cell& a, const Cell& b) { return a.along_mm < b.along_mm; });
+    std::ranges::stable_sort(side,
+                             [](const Cell& a, const Cell& b) { return a.along_mm < b.along_mm; });
 }
 
 std::size_t CourseRegions::before(double along_mm) const {

@@ -21,6 +21,7 @@
 #include "sim/spectrometer/spectrometer.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/must.h"
 #include "tests/support/pictures/tissue_surface.h"
 #include "tests/support/program/built_places.h"
 
@@ -40,7 +41,7 @@ Outcome run_octascope(std::vector<std::string> arguments) {
   CLI::App app;
   app.require_subcommand(1);
   add_calibrate_command(app, outcome.status);
-  std::reverse(arguments.begin(), arguments.end());
+  std::ranges::reverse(arguments);
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   try {
@@ -110,15 +111,14 @@ TEST_F(CalibrateCommand, writes_what_loads_and_says_how_good_it_is) {
   ASSERT_EQ(outcome.status, 0) << outcome.messages;
   EXPECT_EQ(folder.count(), files + 4); // TOML, two curves, picture
 
-  const auto loaded = pipeline::Calibration::load(out, 1024);
-  ASSERT_TRUE(loaded) << loaded.error().message;
+  const auto loaded = tests::must(pipeline::Calibration::load(out, 1024));
   for (std::size_t m = 100; m < 924; ++m) {
-    EXPECT_NEAR(loaded->positions[m], spectrometer.true_k_positions()[m], 0.3); // k up to its ends
-    EXPECT_NEAR(loaded->dispersion_rad[m], spectrometer.true_dispersion_rad()[m], 0.3);
+    EXPECT_NEAR(loaded.positions[m], spectrometer.true_k_positions()[m], 0.3); // k up to its ends
+    EXPECT_NEAR(loaded.dispersion_rad[m], spectrometer.true_dispersion_rad()[m], 0.3);
   }
-  EXPECT_NEAR(loaded->depth_spacing_um, 3.5, 0.01); // 455 µm over 130 bins
-  EXPECT_EQ(loaded->refractive_index, 1.0) << "mirrors are moved in air";
-  EXPECT_EQ(loaded->camera, "Octoplus, \"7\"");
+  EXPECT_NEAR(loaded.depth_spacing_um, 3.5, 0.01); // 455 µm over 130 bins
+  EXPECT_EQ(loaded.refractive_index, 1.0) << "mirrors are moved in air";
+  EXPECT_EQ(loaded.camera, "Octoplus, \"7\"");
 
   const auto verdict = nlohmann::json::parse(outcome.out);
   EXPECT_NEAR(verdict["mirrors"][0]["depth_bins"].get<double>(), 190, 0.3);
@@ -135,11 +135,10 @@ TEST_F(CalibrateCommand, writes_what_loads_and_says_how_good_it_is) {
   EXPECT_LT(verdict["depth_error_bins"].get<double>(), 0.05);
   EXPECT_TRUE(verdict["monotone"].get<bool>());
 
-  const auto picture = pipeline::read_png(png);
-  ASSERT_TRUE(picture) << picture.error().message;
-  EXPECT_EQ(picture->channels, 3);
-  const auto dark_dots = std::count_if(picture->pixels.begin(), picture->pixels.end(),
-                                       [](std::uint8_t value) { return value < 128; });
+  const auto picture = tests::must(pipeline::read_png(png));
+  EXPECT_EQ(picture.channels, 3);
+  const auto dark_dots =
+      std::ranges::count_if(picture.pixels, [](std::uint8_t value) { return value < 128; });
   EXPECT_GT(dark_dots, 20000); // curves are on it
 }
 
@@ -172,13 +171,12 @@ TEST_F(CalibrateCommand, lamp_becomes_a_wavelength_polynomial) {
   const auto lamp = folder.write_values<std::uint16_t>("lamp.raw", counts(mean, 2)).string();
   const auto outcome = calibrate({"--lamp", lamp, "--lines", lines, "--spacing-um", "2.5"});
   ASSERT_EQ(outcome.status, 0) << outcome.messages;
-  const auto loaded = pipeline::Calibration::load(out, 1024);
-  ASSERT_TRUE(loaded) << loaded.error().message;
+  const auto loaded = tests::must(pipeline::Calibration::load(out, 1024));
   const std::vector<double> truth{800, 0.08, 4e-6};
   const auto positions = pipeline::positions_from_wavelength(truth, 1024);
   for (std::size_t m = 0; m < 1024; ++m)
-    EXPECT_NEAR(loaded->positions[m], (*positions)[m], 0.2);
-  EXPECT_NEAR(loaded->depth_spacing_um, 2.5, 1e-12);
+    EXPECT_NEAR(loaded.positions[m], (*positions)[m], 0.2);
+  EXPECT_NEAR(loaded.depth_spacing_um, 2.5, 1e-12);
   expect_refusal({"--lamp", lamp, "--lines", "800,x"}, 2, "--lines is");
   expect_refusal({"--lamp", lamp, "--lines", "800,801,802,803,804"}, 1, "do not fit");
 }
@@ -187,11 +185,9 @@ TEST_F(CalibrateCommand, depths_are_told_in_the_medium_that_is_asked_for) {
   const auto outcome = calibrate({"--mirror", far, "--mirror", near, "--dark", dark,
                                   "--distance-um", "455", "--refractive-index", "1.38", "--json"});
   ASSERT_EQ(outcome.status, 0) << outcome.messages;
-  const auto loaded = pipeline::Calibration::load(out, 1024);
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_NEAR(loaded->depth_spacing_um, 3.5 / 1.38, 0.01)
-      << "a delay in air is a shorter way there";
-  EXPECT_EQ(loaded->refractive_index, 1.38);
+  const auto loaded = tests::must(pipeline::Calibration::load(out, 1024));
+  EXPECT_NEAR(loaded.depth_spacing_um, 3.5 / 1.38, 0.01) << "a delay in air is a shorter way there";
+  EXPECT_EQ(loaded.refractive_index, 1.38);
   EXPECT_EQ(nlohmann::json::parse(outcome.out)["refractive_index"], 1.38);
   expect_refusal({"--mirror", far, "--mirror", near, "--refractive-index", "1.38"}, 2,
                  "--refractive-index tells in what");
@@ -298,9 +294,8 @@ TEST_F(CalibrateCommand, real_mirrors_and_tissue) {
   reconstruction.volume = folder / "volume.nrrd";
   const auto done = reconstruct_volume(reconstruction);
   ASSERT_TRUE(done) << done.error().message;
-  const auto volume = pipeline::read_nrrd(reconstruction.volume);
-  ASSERT_TRUE(volume) << volume.error().message;
-  const auto& levels = std::get<std::vector<float>>(volume->levels);
+  const auto volume = tests::must(pipeline::read_nrrd(reconstruction.volume));
+  const auto& levels = std::get<std::vector<float>>(volume.levels);
   EXPECT_NEAR(tests::tissue_surface(levels, 50, 0), 50, 10);
   EXPECT_NEAR(tests::tissue_surface(levels, 50, 90), 25, 8);
 }

@@ -1,7 +1,6 @@
 // Every technique's picture of every phantom and of real tissue, against pictures kept in
 // tests/golden/techniques; and the same rays cast by the processor and by a shader.
 #include <array>
-#include <filesystem>
 #include <string>
 
 #include <fmt/format.h>

@@ -15,6 +15,7 @@
 #include "pipeline/files/png_image.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/must.h"
 #include "tests/support/pictures/tissue_surface.h"
 #include "tests/support/program/built_places.h"
 
@@ -29,7 +30,7 @@ int run_octascope(std::vector<std::string> arguments) {
   CLI::App app;
   app.require_subcommand(1);
   add_reconstruct_command(app, exit_status);
-  std::reverse(arguments.begin(), arguments.end());
+  std::ranges::reverse(arguments);
   try {
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
@@ -64,16 +65,14 @@ protected:
 
 TEST_F(ReconstructCommand, writes_a_volume_and_a_picture) {
   ASSERT_EQ(reconstruct({"--bscan", "4", "--png", png}), 0);
-  const auto volume = pipeline::read_nrrd(out);
-  ASSERT_TRUE(volume) << volume.error().message;
-  EXPECT_EQ(volume->geometry.depths, 16);
-  EXPECT_EQ(volume->geometry.a_scans, 4);
-  EXPECT_EQ(volume->geometry.b_scans, 5);
-  const auto picture = pipeline::read_png(png);
-  ASSERT_TRUE(picture) << picture.error().message;
-  EXPECT_EQ(picture->width, 4);
-  EXPECT_EQ(picture->height, 16);
-  EXPECT_EQ(picture->channels, 1);
+  const auto volume = tests::must(pipeline::read_nrrd(out));
+  EXPECT_EQ(volume.geometry.depths, 16);
+  EXPECT_EQ(volume.geometry.a_scans, 4);
+  EXPECT_EQ(volume.geometry.b_scans, 5);
+  const auto picture = tests::must(pipeline::read_png(png));
+  EXPECT_EQ(picture.width, 4);
+  EXPECT_EQ(picture.height, 16);
+  EXPECT_EQ(picture.channels, 1);
   EXPECT_EQ(folder.count(), 3); // the spectra and these two: nothing half-written
 }
 
@@ -95,9 +94,8 @@ TEST_F(ReconstructCommand, takes_every_type) {
   const auto expected = std::get<std::vector<float>>(pipeline::read_nrrd(out)->levels);
   const auto expect_the_same = [&](std::vector<std::string> options) {
     ASSERT_EQ(reconstruct(std::move(options)), 0);
-    const auto volume = pipeline::read_nrrd(out);
-    ASSERT_TRUE(volume);
-    const auto& levels = std::get<std::vector<float>>(volume->levels);
+    const auto volume = tests::must(pipeline::read_nrrd(out));
+    const auto& levels = std::get<std::vector<float>>(volume.levels);
     ASSERT_EQ(levels.size(), expected.size());
     for (std::size_t i = 0; i < levels.size(); ++i)
       if (expected[i] > 0) {
@@ -129,9 +127,8 @@ TEST_F(ReconstructCommand, refuses_what_does_not_fit_the_type) {
   options.shape = {5, 4, 32};
   options.significant_bits = 10;
   options.volume = out;
-  const auto done = reconstruct_volume(options);
-  ASSERT_FALSE(done);
-  EXPECT_THAT(done.error().message, HasSubstr("expected at most 1023: 10 bits"));
+  EXPECT_THAT(tests::error_of(reconstruct_volume(options)).message,
+              HasSubstr("expected at most 1023: 10 bits"));
 }
 
 TEST_F(ReconstructCommand, a_running_background_is_the_same_for_any_number_of_threads) {
@@ -156,10 +153,9 @@ TEST_F(ReconstructCommand, zero_padding_halves_the_spacing) {
   folder.write("c.toml", "[spectrometer]\nsamples = 32\n[k_linear]\npolynomial = [0.0, 31.0]\n"
                          "[transform]\nzero_padding = 2\n[depth]\nspacing_um = 3.0\n");
   ASSERT_EQ(reconstruct({"--calibration", (folder / "c.toml").string()}), 0);
-  const auto volume = pipeline::read_nrrd(out);
-  ASSERT_TRUE(volume);
-  EXPECT_EQ(volume->geometry.depths, 32);
-  EXPECT_NEAR(volume->geometry.depth_spacing_um, 1.5, 1e-9);
+  const auto volume = tests::must(pipeline::read_nrrd(out));
+  EXPECT_EQ(volume.geometry.depths, 32);
+  EXPECT_NEAR(volume.geometry.depth_spacing_um, 1.5, 1e-9);
 }
 
 TEST_F(ReconstructCommand, wrong_use_is_2) {
@@ -193,9 +189,8 @@ TEST_F(ReconstructCommand, floats_must_be_finite) {
   options.shape = {5, 4, 32};
   options.type = hal::SampleType::f32;
   options.volume = out;
-  const auto done = reconstruct_volume(options);
-  ASSERT_FALSE(done);
-  EXPECT_THAT(done.error().message, HasSubstr("B-scan 1, A-scan 2, sample 8 is inf"));
+  EXPECT_THAT(tests::error_of(reconstruct_volume(options)).message,
+              HasSubstr("B-scan 1, A-scan 2, sample 8 is inf"));
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -205,10 +200,9 @@ TEST_F(ReconstructCommand, real_tissue_has_its_sloping_surface) {
       (tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml").string();
   spectra = (tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw").string();
   ASSERT_EQ(reconstruct({"--calibration", calibration}, "100,100,1024"), 0);
-  const auto volume = pipeline::read_nrrd(out);
-  ASSERT_TRUE(volume) << volume.error().message;
-  EXPECT_NEAR(volume->geometry.depth_spacing_um, 3.5, 1e-9);
-  const auto& levels = std::get<std::vector<float>>(volume->levels);
+  const auto volume = tests::must(pipeline::read_nrrd(out));
+  EXPECT_NEAR(volume.geometry.depth_spacing_um, 3.5, 1e-9);
+  const auto& levels = std::get<std::vector<float>>(volume.levels);
   const int left = tests::tissue_surface(levels, 50, 0);
   const int right = tests::tissue_surface(levels, 50, 90);
   fmt::print("  surface of B-scan 50: bin {} at the left, {} at the right\n", left, right);

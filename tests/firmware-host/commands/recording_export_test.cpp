@@ -10,6 +10,7 @@
 #include "firmware-host/commands/recordings/recording_summary.h"
 #include "firmware-host/commands/size_text.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -38,13 +39,11 @@ TEST(Sizes, are_megabytes_up_to_a_gigabyte) {
 
 TEST(ExportPlaces, are_a_file_for_one_volume_and_a_folder_for_several) {
   const tests::ScratchFolder folder;
-  const auto one = ExportPlace::choose(folder / "a.dcm", ".dcm", "-x", 1);
-  ASSERT_TRUE(one) << one.error().message;
-  EXPECT_EQ(one->file_of(17), folder / "a.dcm");
-  const auto several = ExportPlace::choose(folder / "a", ".dcm", "-x", 20);
-  ASSERT_TRUE(several) << several.error().message;
-  EXPECT_EQ(several->file_of(17), folder / "a/volume-0017-x.dcm");
-  EXPECT_EQ(several->file_of(12345), folder / "a/volume-12345-x.dcm");
+  const auto one = tests::must(ExportPlace::choose(folder / "a.dcm", ".dcm", "-x", 1));
+  EXPECT_EQ(one.file_of(17), folder / "a.dcm");
+  const auto several = tests::must(ExportPlace::choose(folder / "a", ".dcm", "-x", 20));
+  EXPECT_EQ(several.file_of(17), folder / "a/volume-0017-x.dcm");
+  EXPECT_EQ(several.file_of(12345), folder / "a/volume-12345-x.dcm");
   // Nothing is made before prepare().
   EXPECT_EQ(folder.count(), 0);
   EXPECT_EQ(ExportPlace::choose(folder / "a.dcm", ".dcm", "", 2).error().code,
@@ -57,25 +56,21 @@ TEST(ExportPlaces, are_refused_before_the_work) {
   const tests::ScratchFolder folder;
   std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read |
                                                   std::filesystem::perms::owner_exec);
-  auto inside = ExportPlace::choose(folder / "a", ".dcm", "", 2);
-  ASSERT_TRUE(inside);
-  EXPECT_EQ(inside->prepare(1, 0).error().code, hal::ErrorCode::denied);
-  auto file = ExportPlace::choose(folder / "a.dcm", ".dcm", "", 1);
-  ASSERT_TRUE(file);
-  EXPECT_EQ(file->prepare(1, 0).error().code, hal::ErrorCode::denied);
+  auto inside = tests::must(ExportPlace::choose(folder / "a", ".dcm", "", 2));
+  EXPECT_EQ(inside.prepare(1, 0).error().code, hal::ErrorCode::denied);
+  auto file = tests::must(ExportPlace::choose(folder / "a.dcm", ".dcm", "", 1));
+  EXPECT_EQ(file.prepare(1, 0).error().code, hal::ErrorCode::denied);
   std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
 }
 
 TEST(ExportPlaces, without_room_are_refused_and_leave_nothing) {
   const tests::ScratchFolder folder;
-  auto place = ExportPlace::choose(folder / "a", ".nrrd", "", 2);
-  ASSERT_TRUE(place);
-  const auto prepared = place->prepare(std::uint64_t{1} << 62, 0);
-  ASSERT_FALSE(prepared);
-  EXPECT_THAT(prepared.error().message, HasSubstr("expected 4611686018.43 GB for the files"));
-  place->remove_empty_folder();
+  auto place = tests::must(ExportPlace::choose(folder / "a", ".nrrd", "", 2));
+  EXPECT_THAT(tests::error_of(place.prepare(std::uint64_t{1} << 62, 0)).message,
+              HasSubstr("expected 4611686018.43 GB for the files"));
+  place.remove_empty_folder();
   EXPECT_EQ(folder.count(), 0);
-  EXPECT_TRUE(place->prepare(1, 0));
+  EXPECT_TRUE(place.prepare(1, 0));
   EXPECT_EQ(check_room("d", 5'000'000, 4'999'999).error().message,
             "d: found 5.0 MB free, expected 5.0 MB for the files; fewer volumes (--volumes) or "
             "another disk");
@@ -115,16 +110,14 @@ TEST(PicturesToScale, are_as_large_as_what_they_show) {
   pipeline::Image grey{10, 4, 1};
   for (std::size_t i = 0; i < grey.pixels.size(); ++i)
     grey.pixels[i] = static_cast<std::uint8_t>(i);
-  const auto wider = to_scale(grey, 30, 10);
-  ASSERT_TRUE(wider);
-  EXPECT_EQ(wider->width, 30);
-  EXPECT_EQ(wider->height, 4);
-  for (std::size_t i = 0; i < wider->pixels.size(); ++i)
-    EXPECT_EQ(wider->pixels[i], grey.pixels[i / 3]);
-  const auto higher = to_scale(grey, 10, 25);
-  ASSERT_TRUE(higher);
-  EXPECT_EQ(higher->width, 10);
-  EXPECT_EQ(higher->height, 10);
+  const auto wider = tests::must(to_scale(grey, 30, 10));
+  EXPECT_EQ(wider.width, 30);
+  EXPECT_EQ(wider.height, 4);
+  for (std::size_t i = 0; i < wider.pixels.size(); ++i)
+    EXPECT_EQ(wider.pixels[i], grey.pixels[i / 3]);
+  const auto higher = tests::must(to_scale(grey, 10, 25));
+  EXPECT_EQ(higher.width, 10);
+  EXPECT_EQ(higher.height, 10);
   EXPECT_EQ(to_scale(grey, 7, 7)->pixels, grey.pixels);
   EXPECT_FALSE(to_scale(grey, 1e6, 1));
 }

@@ -11,6 +11,7 @@
 #include "sim/phantoms/phantom.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/must.h"
 #include "tests/support/program/built_places.h"
 #include "tests/support/spectra/scattering_spectra.h"
 
@@ -82,16 +83,14 @@ TEST_F(RealTissue, leaves_the_upper_border_free) {
 // half of it crosses zero delay and is folded as it would be in front of the microscope.
 TEST_F(RealTissue, is_told_where_it_is_moved_across_zero_delay) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
-  const auto loaded = pipeline::Calibration::load(calibration, shape.samples);
-  ASSERT_TRUE(loaded);
-  const auto file = pipeline::SpectraFile::open(spectra, shape, hal::SampleType::u16);
-  ASSERT_TRUE(file);
+  const auto loaded = tests::must(pipeline::Calibration::load(calibration, shape.samples));
+  const auto file = tests::must(pipeline::SpectraFile::open(spectra, shape, hal::SampleType::u16));
   constexpr double moved_bins = 60;
   const auto samples = static_cast<std::size_t>(shape.samples);
   std::vector<double> factor(samples);
   std::size_t m = 0; // the first sample uniform in k that lies behind pixel p
   for (std::size_t p = 0; p < samples; ++p) {
-    while (m + 1 < samples && loaded->positions[m] < static_cast<double>(p))
+    while (m + 1 < samples && loaded.positions[m] < static_cast<double>(p))
       ++m;
     factor[p] = std::cos(2 * std::numbers::pi * moved_bins * static_cast<double>(m) /
                          static_cast<double>(samples));
@@ -99,7 +98,7 @@ TEST_F(RealTissue, is_told_where_it_is_moved_across_zero_delay) {
   constexpr int b_scans = 8;
   std::vector<std::uint16_t> moved;
   for (int b = 0; b < b_scans; ++b) {
-    const std::span<const std::byte> bytes = file->b_scan(b * 12);
+    const std::span<const std::byte> bytes = file.b_scan(b * 12);
     const auto* counts = reinterpret_cast<const std::uint16_t*>(bytes.data());
     std::vector<double> mean(samples);
     for (std::size_t i = 0; i < samples * 100; ++i)

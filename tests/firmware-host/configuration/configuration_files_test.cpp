@@ -1,7 +1,5 @@
 // What keeps a configuration together and keeps the picture when one is broken.
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +8,9 @@
 #include "firmware-host/configuration/configuration_check.h"
 #include "firmware-host/configuration/kept/configuration_choice.h"
 #include "firmware-host/configuration/kept/last_good.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -19,12 +19,6 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using ui::ConfigurationState;
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file}.rdbuf();
-  return text.str();
-}
 
 class ConfigurationFiles : public testing::Test {
 protected:
@@ -84,22 +78,19 @@ TEST_F(ConfigurationFiles, stay_together_when_the_originals_are_gone) {
   ASSERT_TRUE(keep());
   fs::remove_all(folder_ / "etc");
   fs::remove_all(folder_ / "opt");
-  const auto file = LastGood{state()}.file();
-  ASSERT_TRUE(file);
-  const auto read = load_whole_configuration(*file);
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->plan->b_scans, 20);
-  EXPECT_EQ(read->look.transfers.functions().back().name, "mine");
-  EXPECT_EQ(read->objectives.size(), 2U);
-  EXPECT_THAT(text_of(*file), HasSubstr("# größer")) << "with the comments that people wrote";
+  const auto file = tests::must(LastGood{state()}.file());
+  const auto read = tests::must(load_whole_configuration(file));
+  EXPECT_EQ(read.plan->b_scans, 20);
+  EXPECT_EQ(read.look.transfers.functions().back().name, "mine");
+  EXPECT_EQ(read.objectives.size(), 2U);
+  EXPECT_THAT(tests::whole_file(file), HasSubstr("# größer"))
+      << "with the comments that people wrote";
 }
 
 TEST_F(ConfigurationFiles, that_name_what_cannot_be_read_are_not_kept) {
   ASSERT_TRUE(keep());
   fs::remove(folder_ / "etc/tables/dispersion.txt");
-  const auto kept = keep();
-  ASSERT_FALSE(kept);
-  EXPECT_THAT(kept.error().message, HasSubstr("dispersion.txt"));
+  EXPECT_THAT(tests::error_of(keep()).message, HasSubstr("dispersion.txt"));
   EXPECT_TRUE(load_whole_configuration(*LastGood{state()}.file())) << "the older one stays";
 }
 
@@ -113,9 +104,8 @@ TEST_F(ConfigurationFiles, that_name_a_file_to_write_are_kept_without_it) {
 TEST_F(ConfigurationFiles, of_a_name_in_three_quotes_are_not_guessed_at) {
   folder_.write("etc/octascope.toml", "[controls]\nfile = \"\"\"pedal.toml\"\"\"\n");
   folder_.write("etc/pedal.toml", "");
-  const auto bundle = ConfigurationBundle::gather(own());
-  ASSERT_FALSE(bundle);
-  EXPECT_THAT(bundle.error().message, HasSubstr("simple quotes"));
+  EXPECT_THAT(tests::error_of(ConfigurationBundle::gather(own())).message,
+              HasSubstr("simple quotes"));
 }
 
 TEST_F(ConfigurationFiles, are_replaced_as_a_whole) {
@@ -150,41 +140,37 @@ TEST_F(ConfigurationFiles, that_did_not_change_are_not_written_again) {
 }
 
 TEST_F(ConfigurationFiles, in_order_are_used_themselves) {
-  const auto chosen = choose();
-  ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->state, ConfigurationState::own);
-  EXPECT_EQ(chosen->used, own());
-  EXPECT_EQ(configuration_notice(*chosen), "");
+  const auto chosen = tests::must(choose());
+  EXPECT_EQ(chosen.state, ConfigurationState::own);
+  EXPECT_EQ(chosen.used, own());
+  EXPECT_EQ(configuration_notice(chosen), "");
 }
 
 TEST_F(ConfigurationFiles, that_are_broken_give_way_to_the_last_good_ones) {
   ASSERT_TRUE(keep());
   write_configuration("b_scans = 0");
-  const auto chosen = choose();
-  ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->state, ConfigurationState::last_good);
-  EXPECT_EQ(chosen->configuration.plan->b_scans, 20);
-  EXPECT_EQ(chosen->used, LastGood{state()}.file());
-  EXPECT_EQ(configuration_notice(*chosen),
+  const auto chosen = tests::must(choose());
+  EXPECT_EQ(chosen.state, ConfigurationState::last_good);
+  EXPECT_EQ(chosen.configuration.plan->b_scans, 20);
+  EXPECT_EQ(chosen.used, LastGood{state()}.file());
+  EXPECT_EQ(configuration_notice(chosen),
             "octascope.toml:4: [scan] b_scans is 0, expected a whole number from 1 to 65536");
 }
 
 TEST_F(ConfigurationFiles, with_a_broken_calibration_give_way_too) {
   ASSERT_TRUE(keep());
   folder_.write("opt/calibration.toml", "[spectrometer]\nsamples = 64\n");
-  const auto chosen = choose();
-  ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->state, ConfigurationState::last_good);
-  EXPECT_THAT(chosen->refusal, HasSubstr("samples is 64"));
+  const auto chosen = tests::must(choose());
+  EXPECT_EQ(chosen.state, ConfigurationState::last_good);
+  EXPECT_THAT(chosen.refusal, HasSubstr("samples is 64"));
 }
 
 TEST_F(ConfigurationFiles, of_which_none_is_good_leave_what_is_built_in_and_say_so) {
   fs::remove(own());
-  const auto chosen = choose();
-  ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->state, ConfigurationState::built_in);
-  EXPECT_FALSE(chosen->configuration.plan);
-  EXPECT_THAT(configuration_notice(*chosen),
+  const auto chosen = tests::must(choose());
+  EXPECT_EQ(chosen.state, ConfigurationState::built_in);
+  EXPECT_FALSE(chosen.configuration.plan);
+  EXPECT_THAT(configuration_notice(chosen),
               testing::StartsWith("octascope.toml: cannot be opened"));
 }
 
@@ -193,14 +179,12 @@ TEST_F(ConfigurationFiles, that_fail_later_give_way_one_after_the_other) {
   RunOptions options;
   options.configuration = own();
   const auto own_one = choose();
-  const auto second = next_choice(*own_one, "the camera refuses it", options, state());
-  ASSERT_TRUE(second);
-  EXPECT_EQ(second->state, ConfigurationState::last_good);
-  const auto third = next_choice(*second, "and this one", options, state());
-  ASSERT_TRUE(third);
-  EXPECT_EQ(third->state, ConfigurationState::built_in);
-  EXPECT_EQ(third->refusal, "the camera refuses it") << "why the file is not used";
-  EXPECT_FALSE(next_choice(*third, "nothing", options, state()));
+  const auto second = tests::must(next_choice(*own_one, "the camera refuses it", options, state()));
+  EXPECT_EQ(second.state, ConfigurationState::last_good);
+  const auto third = tests::must(next_choice(second, "and this one", options, state()));
+  EXPECT_EQ(third.state, ConfigurationState::built_in);
+  EXPECT_EQ(third.refusal, "the camera refuses it") << "why the file is not used";
+  EXPECT_FALSE(next_choice(third, "nothing", options, state()));
 }
 
 TEST_F(ConfigurationFiles, that_are_broken_end_a_run_at_a_console) {

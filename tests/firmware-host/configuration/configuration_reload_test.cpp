@@ -1,7 +1,6 @@
 // A configuration that is written while the appliance runs.
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <thread>
 
 #include <gmock/gmock.h>

@@ -5,6 +5,7 @@
 
 #include "firmware-host/configuration/configuration.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -20,18 +21,17 @@ protected:
 };
 
 TEST_F(ConfigurationFile, empty_means_the_defaults) {
-  const auto c = load("");
-  ASSERT_TRUE(c) << c.error().message;
+  const auto c = tests::must(load(""));
   const Configuration defaults;
-  EXPECT_FALSE(c->plan) << "the phantom's or the recording's own";
-  EXPECT_FALSE(c->calibration);
-  EXPECT_EQ(c->width, defaults.width);
-  EXPECT_EQ(c->phantom, defaults.phantom);
-  EXPECT_EQ(c->veil_after, defaults.veil_after);
+  EXPECT_FALSE(c.plan) << "the phantom's or the recording's own";
+  EXPECT_FALSE(c.calibration);
+  EXPECT_EQ(c.width, defaults.width);
+  EXPECT_EQ(c.phantom, defaults.phantom);
+  EXPECT_EQ(c.veil_after, defaults.veil_after);
 }
 
 TEST_F(ConfigurationFile, sets_what_it_names) {
-  const auto c = load(R"([scan]
+  const auto c = tests::must(load(R"([scan]
 samples = 512
 a_scans = 200
 fly_back_lines = 50
@@ -62,38 +62,37 @@ loop_volumes = 4
 galvo_lag_us = 110.5
 faults = "f.toml"
 controls = "/etc/controls.toml"
-)");
-  ASSERT_TRUE(c) << c.error().message;
-  ASSERT_TRUE(c->plan);
-  EXPECT_EQ(*c->plan, (pipeline::ScanPlan{.samples = 512,
-                                          .a_scans = 200,
-                                          .fly_back_lines = 50,
-                                          .b_scans = 60,
-                                          .line_rate_hz = 100e3,
-                                          .depth_spacing_um = 4,
-                                          .a_spacing_um = 20,
-                                          .b_spacing_um = 30.5,
-                                          .bidirectional = true,
-                                          .turn_around_lines = 12,
-                                          .scan_lag_a_scans = 4.25,
-                                          .find_scan_lag = false,
-                                          .repeats = 2}));
-  EXPECT_EQ(c->calibration, folder_ / "cal/c.toml") << "relative to the file";
-  EXPECT_EQ(c->workers, 3U);
-  EXPECT_EQ(c->worker_cores, (std::vector{1, 0}));
-  EXPECT_EQ(c->galvo_lag_us, 110.5);
-  EXPECT_EQ(c->width, 1920);
-  EXPECT_EQ(c->height, 1080);
-  EXPECT_TRUE(c->fullscreen);
-  EXPECT_EQ(c->veil_after, std::chrono::milliseconds{2500});
-  EXPECT_EQ(c->phantom, "nail_fold");
-  EXPECT_EQ(c->loop_volumes, 4);
-  EXPECT_EQ(c->faults, folder_ / "f.toml");
-  EXPECT_EQ(c->controls, "/etc/controls.toml");
+)"));
+  ASSERT_TRUE(c.plan);
+  EXPECT_EQ(*c.plan, (pipeline::ScanPlan{.samples = 512,
+                                         .a_scans = 200,
+                                         .fly_back_lines = 50,
+                                         .b_scans = 60,
+                                         .line_rate_hz = 100e3,
+                                         .depth_spacing_um = 4,
+                                         .a_spacing_um = 20,
+                                         .b_spacing_um = 30.5,
+                                         .bidirectional = true,
+                                         .turn_around_lines = 12,
+                                         .scan_lag_a_scans = 4.25,
+                                         .find_scan_lag = false,
+                                         .repeats = 2}));
+  EXPECT_EQ(c.calibration, folder_ / "cal/c.toml") << "relative to the file";
+  EXPECT_EQ(c.workers, 3U);
+  EXPECT_EQ(c.worker_cores, (std::vector{1, 0}));
+  EXPECT_EQ(c.galvo_lag_us, 110.5);
+  EXPECT_EQ(c.width, 1920);
+  EXPECT_EQ(c.height, 1080);
+  EXPECT_TRUE(c.fullscreen);
+  EXPECT_EQ(c.veil_after, std::chrono::milliseconds{2500});
+  EXPECT_EQ(c.phantom, "nail_fold");
+  EXPECT_EQ(c.loop_volumes, 4);
+  EXPECT_EQ(c.faults, folder_ / "f.toml");
+  EXPECT_EQ(c.controls, "/etc/controls.toml");
 }
 
 TEST_F(ConfigurationFile, says_which_devices_serve) {
-  const auto c = load(R"([devices]
+  const auto c = tests::must(load(R"([devices]
 line_camera = "/dev/video7"
 significant_bits = 10
 right_shift = 2
@@ -110,9 +109,8 @@ connector = "HDMI-A-2"
 mode = "1920x1080@50"
 overscan_percent = 2.5
 seat = false
-)");
-  ASSERT_TRUE(c) << c.error().message;
-  const DeviceConfig& d = c->devices;
+)"));
+  const DeviceConfig& d = c.devices;
   EXPECT_EQ(d.line_camera, "/dev/video7");
   EXPECT_EQ(d.significant_bits, 10);
   EXPECT_EQ(d.right_shift, 2);
@@ -141,16 +139,15 @@ TEST(MachineConfiguration, is_for_real_devices_alone) {
 }
 
 TEST_F(ConfigurationFile, a_plan_that_names_little_keeps_the_other_defaults) {
-  const auto c = load("[scan]\nb_scans = 10\n");
-  ASSERT_TRUE(c);
+  const auto c = tests::must(load("[scan]\nb_scans = 10\n"));
   pipeline::ScanPlan expected;
   expected.b_scans = 10;
-  EXPECT_EQ(c->plan, expected);
+  EXPECT_EQ(c.plan, expected);
 }
 
 TEST_F(ConfigurationFile, sets_how_a_volume_looks) {
   folder_.write("bone.csv", "0, 0, 0, 0\n1, 0.5, 0.25, 0.75\n");
-  const auto c = load(R"([display]
+  const auto c = tests::must(load(R"([display]
 technique = "surface"
 transfer = "bone"
 colours = "dawn"
@@ -164,9 +161,8 @@ colours = "amber"
 name = "bone"
 kind = "table"
 file = "bone.csv"
-)");
-  ASSERT_TRUE(c) << c.error().message;
-  const LookConfiguration& look = c->look;
+)"));
+  const LookConfiguration& look = c.look;
   const auto built_in = static_cast<int>(ui::TransferSet{}.functions().size());
   EXPECT_EQ(look.technique, ui::Technique::surface);
   EXPECT_EQ(look.transfer, built_in + 1);
@@ -187,21 +183,19 @@ file = "bone.csv"
 
 TEST_F(ConfigurationFile, a_look_up_table_in_error_is_told_with_both_places) {
   folder_.write("bad.csv", "0\n0.5\n2\n");
-  const auto c = load("\n[[transfer]]\nname = \"bad\"\nkind = \"table\"\nfile = \"bad.csv\"\n");
-  ASSERT_FALSE(c);
-  EXPECT_THAT(c.error().message, HasSubstr("c.toml:2: [transfer]"));
-  EXPECT_THAT(c.error().message, HasSubstr("bad.csv:3: found 2"));
+  const auto c = tests::error_of(
+      load("\n[[transfer]]\nname = \"bad\"\nkind = \"table\"\nfile = \"bad.csv\"\n"));
+  EXPECT_THAT(c.message, HasSubstr("c.toml:2: [transfer]"));
+  EXPECT_THAT(c.message, HasSubstr("bad.csv:3: found 2"));
 }
 
 TEST_F(ConfigurationFile, chooses_what_the_controls_do) {
-  const auto named = load("[controls]\nprofile = \"powermate\"\n");
-  ASSERT_TRUE(named) << named.error().message;
-  EXPECT_EQ(load_controls(*named)->name, "PowerMate");
+  const auto named = tests::must(load("[controls]\nprofile = \"powermate\"\n"));
+  EXPECT_EQ(load_controls(named)->name, "PowerMate");
   EXPECT_EQ(load_controls(Configuration{})->name, "Three-switch pedal and knob");
   folder_.write("mine.toml", "name = \"Mine\"\n");
-  const auto own = load("[controls]\nfile = \"mine.toml\"\n");
-  ASSERT_TRUE(own) << own.error().message;
-  EXPECT_EQ(load_controls(*own)->name, "Mine");
+  const auto own = tests::must(load("[controls]\nfile = \"mine.toml\"\n"));
+  EXPECT_EQ(load_controls(own)->name, "Mine");
   EXPECT_THAT(load("[controls]\nprofile = \"pedal\"\n").error().message,
               testing::AllOf(HasSubstr("c.toml:1: [controls]"), HasSubstr("\"pedal\""),
                              HasSubstr("shuttle_pro")));
@@ -211,9 +205,8 @@ TEST_F(ConfigurationFile, chooses_what_the_controls_do) {
 
 TEST_F(ConfigurationFile, lists_keyboards_by_vendor_and_product) {
   EXPECT_TRUE(load("").value().devices.keyboards.empty());
-  const auto two = load("[controls]\nkeyboards = [\"046d:c31c\", \"04D9:A1CD\"]\n");
-  ASSERT_TRUE(two) << two.error().message;
-  EXPECT_EQ(two->devices.keyboards, (std::vector<std::string>{"046d:c31c", "04d9:a1cd"}));
+  const auto two = tests::must(load("[controls]\nkeyboards = [\"046d:c31c\", \"04D9:A1CD\"]\n"));
+  EXPECT_EQ(two.devices.keyboards, (std::vector<std::string>{"046d:c31c", "04d9:a1cd"}));
   for (const std::string wrong : {"", "046d", "046dc31c", "046d:c31", "046d:c31cc", "046g:c31c",
                                   "0x46:c31c", "046d-c31c", "046d:*", "Logitech"}) {
     const auto refused = load("[controls]\nkeyboards = \"" + wrong + "\"\n");
@@ -225,10 +218,9 @@ TEST_F(ConfigurationFile, lists_keyboards_by_vendor_and_product) {
 }
 
 TEST_F(ConfigurationFile, that_is_missing_is_named) {
-  const auto c = load_configuration(folder_ / "nowhere.toml");
-  ASSERT_FALSE(c);
-  EXPECT_EQ(c.error().code, hal::ErrorCode::absent);
-  EXPECT_THAT(c.error().message, HasSubstr("nowhere.toml"));
+  const auto c = tests::error_of(load_configuration(folder_ / "nowhere.toml"));
+  EXPECT_EQ(c.code, hal::ErrorCode::absent);
+  EXPECT_THAT(c.message, HasSubstr("nowhere.toml"));
 }
 
 struct Refused {
@@ -242,11 +234,10 @@ class RefusedConfiguration : public testing::TestWithParam<Refused> {};
 
 TEST_P(RefusedConfiguration, is_refused_as_a_whole_in_one_line_with_its_place) {
   const tests::ScratchFolder folder;
-  const auto c = load_configuration(folder.write("c.toml", GetParam().text));
-  ASSERT_FALSE(c);
-  EXPECT_THAT(c.error().message, HasSubstr("c.toml"));
-  EXPECT_THAT(c.error().message, HasSubstr(GetParam().told));
-  EXPECT_EQ(c.error().message.find('\n'), std::string::npos) << c.error().message;
+  const auto c = tests::error_of(load_configuration(folder.write("c.toml", GetParam().text)));
+  EXPECT_THAT(c.message, HasSubstr("c.toml"));
+  EXPECT_THAT(c.message, HasSubstr(GetParam().told));
+  EXPECT_EQ(c.message.find('\n'), std::string::npos) << c.message;
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -3,6 +3,7 @@
 #include "firmware-host/configuration/control_device_file.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
+#include "tests/support/must.h"
 #include "ui/controls/control_profile.h"
 
 namespace octascope::firmware_host {
@@ -33,20 +34,18 @@ ControlModel by_keys() {
 
 TEST(ControlDeviceFile, what_is_written_is_read_again) {
   for (const ControlModel& model : {by_bits(), by_keys()}) {
-    const auto read = parse_control_device(control_device_text(model), "name");
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(*read, model);
+    const auto read = tests::must(parse_control_device(control_device_text(model), "name"));
+    EXPECT_EQ(read, model);
   }
 }
 
 TEST(ControlDeviceFile, the_first_profile_is_a_profile_for_it) {
   for (const ControlModel& model : {by_bits(), by_keys()}) {
-    const auto profile = ui::ControlProfile::parse(first_profile_text(model), "name");
-    ASSERT_TRUE(profile) << profile.error().message;
-    EXPECT_EQ(profile->usb,
+    const auto profile = tests::must(ui::ControlProfile::parse(first_profile_text(model), "name"));
+    EXPECT_EQ(profile.usb,
               (std::vector<std::string>{hal::linux_backend::usb_id(model.vendor, model.product)}));
-    EXPECT_TRUE(profile->reaches(ui::Action::freeze));
-    EXPECT_TRUE(profile->reaches(ui::Action::next_parameter));
+    EXPECT_TRUE(profile.reaches(ui::Action::freeze));
+    EXPECT_TRUE(profile.reaches(ui::Action::next_parameter));
   }
 }
 

@@ -6,7 +6,6 @@
 #include <sstream>
 #include <string>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "firmware-host/configuration/configuration_check.h"

@@ -4,6 +4,7 @@
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/devices/twins.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -35,30 +36,30 @@ protected:
 };
 
 TEST_F(Objectives, give_the_scan_its_size_and_so_the_picture_its_scale) {
-  const auto c = load(std::string{"[microscope]\nobjective = \"f 200 mm\"\n"
-                                  "[scan]\na_scans = 300\nb_scans = 80\na_spacing_um = 1\n"} +
-                      lenses);
-  ASSERT_TRUE(c) << c.error().message;
-  const pipeline::ScanPlan plan = plan_of({}, *c);
+  const auto c =
+      tests::must(load(std::string{"[microscope]\nobjective = \"f 200 mm\"\n"
+                                   "[scan]\na_scans = 300\nb_scans = 80\na_spacing_um = 1\n"} +
+                       lenses));
+  const pipeline::ScanPlan plan = plan_of({}, c);
   EXPECT_DOUBLE_EQ(plan.a_spacing_um, 20) << "6 mm by 300 A-scans";
   EXPECT_DOUBLE_EQ(plan.b_spacing_um, 50) << "4 mm by 80 B-scans";
-  EXPECT_FALSE(c->calibration);
-  EXPECT_FALSE(c->window);
+  EXPECT_FALSE(c.calibration);
+  EXPECT_FALSE(c.window);
 }
 
 TEST_F(Objectives, leave_what_they_do_not_name_and_come_before_the_rest) {
-  const auto c = load(std::string{"[microscope]\nobjective = \"f 175 mm\"\n"
-                                  "[scan]\nb_spacing_um = 31\n[calibration]\nfile = \"any.toml\"\n"
-                                  "[display]\nwindow_offset_db = 1\nwindow_size_db = 2\n"} +
-                      lenses);
-  ASSERT_TRUE(c) << c.error().message;
-  const pipeline::ScanPlan plan = plan_of({}, *c);
+  const auto c =
+      tests::must(load(std::string{"[microscope]\nobjective = \"f 175 mm\"\n"
+                                   "[scan]\nb_spacing_um = 31\n[calibration]\nfile = \"any.toml\"\n"
+                                   "[display]\nwindow_offset_db = 1\nwindow_size_db = 2\n"} +
+                       lenses));
+  const pipeline::ScanPlan plan = plan_of({}, c);
   EXPECT_DOUBLE_EQ(plan.a_spacing_um, 15);
   EXPECT_DOUBLE_EQ(plan.b_spacing_um, 31);
-  EXPECT_EQ(c->calibration, folder_ / "f175.toml");
-  ASSERT_TRUE(c->window);
-  EXPECT_EQ(c->window->offset_db, 12);
-  EXPECT_EQ(c->window->size_db, 30);
+  EXPECT_EQ(c.calibration, folder_ / "f175.toml");
+  ASSERT_TRUE(c.window);
+  EXPECT_EQ(c.window->offset_db, 12);
+  EXPECT_EQ(c.window->size_db, 30);
 }
 
 TEST_F(Objectives, are_never_guessed) {

@@ -1,6 +1,4 @@
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +6,9 @@
 #include "firmware-host/configuration/kept/settings.h"
 #include "firmware-host/configuration/kept/settings_store.h"
 #include "sim/clock/virtual_clock.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -54,11 +54,7 @@ protected:
     folder_.write("settings.toml", settings_text(configured_, state));
   }
   hal::Result<RestoredView> read() const { return read_settings(file(), configured_); }
-  std::string written() const {
-    std::ostringstream text;
-    text << std::ifstream{file()}.rdbuf();
-    return text.str();
-  }
+  std::string written() const { return tests::whole_file(file()); }
 
   tests::ScratchFolder folder_;
   ConfiguredView configured_;
@@ -69,10 +65,9 @@ TEST_F(Settings, come_back_as_they_were_and_nothing_else_does) {
   ui::ViewState moved = set;
   move_camera(moved);
   write(moved);
-  const auto read = this->read();
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->view, set);
-  EXPECT_TRUE(read->window);
+  const auto read = tests::must(this->read());
+  EXPECT_EQ(read.view, set);
+  EXPECT_TRUE(read.window);
 }
 
 TEST_F(Settings, that_nobody_changed_are_not_in_the_file) {
@@ -90,10 +85,9 @@ TEST_F(Settings, give_way_to_a_configuration_that_was_edited) {
   state.layout = ui::LayoutKind::quad;
   write(state);
   configured_.view.technique = ui::Technique::maximum;
-  const auto read = this->read();
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->view.technique, ui::Technique::maximum);
-  EXPECT_EQ(read->view.layout, ui::LayoutKind::quad);
+  const auto read = tests::must(this->read());
+  EXPECT_EQ(read.view.technique, ui::Technique::maximum);
+  EXPECT_EQ(read.view.layout, ui::LayoutKind::quad);
 }
 
 // The window that suits a volume differs from volume to volume; the surgeon's own counts.
@@ -104,11 +98,10 @@ TEST_F(Settings, of_the_window_count_over_an_automatic_one) {
   write(state);
   configured_.view.window_offset_db = 3; // of another volume
   configured_.view.window_size_db = 50;
-  const auto read = this->read();
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_TRUE(read->window);
-  EXPECT_EQ(read->view.window_offset_db, 20);
-  EXPECT_EQ(read->view.window_size_db, ui::ViewState{}.window_size_db) << "half a window is none";
+  const auto read = tests::must(this->read());
+  EXPECT_TRUE(read.window);
+  EXPECT_EQ(read.view.window_offset_db, 20);
+  EXPECT_EQ(read.view.window_size_db, ui::ViewState{}.window_size_db) << "half a window is none";
   configured_.automatic_window = false;
   EXPECT_FALSE(this->read()->window) << "somebody configured one meanwhile";
 }
@@ -125,9 +118,8 @@ TEST_F(Settings, that_are_broken_are_refused) {
 TEST_F(Settings, survive_a_transfer_function_that_is_gone) {
   folder_.write("settings.toml", "[settings]\ntransfer = \"veins\"\n"
                                  "[configured]\ntransfer = \"window\"\n");
-  const auto read = this->read();
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->view, configured_.view);
+  const auto read = tests::must(this->read());
+  EXPECT_EQ(read.view, configured_.view);
 }
 
 class SettingsFile : public Settings {
@@ -156,9 +148,8 @@ TEST_F(SettingsFile, is_written_soon_after_a_change_and_at_the_end) {
   EXPECT_THAT(written(), HasSubstr("layout = \"quad\""));
   {
     SettingsStore keeper{file(), clock_, faults_};
-    const auto restored = keeper.restore(configured_);
-    ASSERT_TRUE(restored);
-    EXPECT_EQ(restored->view.layout, ui::LayoutKind::quad);
+    const auto restored = tests::must(keeper.restore(configured_));
+    EXPECT_EQ(restored.view.layout, ui::LayoutKind::quad);
     state.stereo = ui::StereoMode::side_by_side;
     keeper.finish(configured_, state);
   }

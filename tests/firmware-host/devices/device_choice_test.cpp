@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "firmware-host/devices/device_choice.h"
@@ -5,12 +6,20 @@
 namespace octascope::firmware_host {
 namespace {
 
+using testing::ElementsAre;
+
 DetectedDevices everything() {
   return {.line_camera = {true, "/dev/video20 grabber, Y12"},
           .galvo_trigger = {true, "gpiochip0 line 4, octascope-trigger"},
           .control_input = {true, "VEC Infinity pedal"},
           .scope_camera = {true, "microscope camera"},
           .console_display = {true, "card0 HDMI-A-1"}};
+}
+
+// Line camera, trigger, controls, scope camera, display.
+std::vector<std::string_view> backends(const DeviceChoices& c) {
+  return {c.line_camera.backend, c.galvo_trigger.backend, c.control_input.backend,
+          c.scope_camera.backend, c.display.backend};
 }
 
 RunOptions simulate() {
@@ -27,31 +36,20 @@ TEST(DeviceChoice, without_devices_the_twins_serve) {
   const DeviceChoices choices = choose_devices(nothing, {});
   for (const DeviceChoice& choice : choices.all())
     EXPECT_FALSE(choice.reason.empty()) << facts_of(choice.device).key;
-  EXPECT_EQ(choices.line_camera.backend, "sim");
-  EXPECT_EQ(choices.galvo_trigger.backend, "sim");
-  EXPECT_EQ(choices.control_input.backend, "sim");
-  EXPECT_EQ(choices.scope_camera.backend, "sim");
-  EXPECT_EQ(choices.display.backend, "offscreen");
+  EXPECT_THAT(backends(choices), ElementsAre("sim", "sim", "sim", "sim", "offscreen"));
   EXPECT_NE(choices.line_camera.reason.find("no video node"), std::string::npos);
 }
 
 TEST(DeviceChoice, what_is_plugged_in_serves_without_being_asked) {
   const DeviceChoices choices = choose_devices(everything(), {});
-  EXPECT_EQ(choices.line_camera.backend, "v4l2");
-  EXPECT_EQ(choices.galvo_trigger.backend, "gpio");
-  EXPECT_EQ(choices.control_input.backend, "hid");
-  EXPECT_EQ(choices.scope_camera.backend, "libcamera");
-  EXPECT_EQ(choices.display.backend, "kms");
+  EXPECT_THAT(backends(choices), ElementsAre("v4l2", "gpio", "hid", "libcamera", "kms"));
   EXPECT_NE(choices.line_camera.reason.find("/dev/video20"), std::string::npos);
 }
 
 TEST(DeviceChoice, twins_that_were_asked_for_serve_in_spite_of_what_is_plugged_in) {
   const DeviceChoices choices = choose_devices(everything(), simulate());
-  EXPECT_EQ(choices.line_camera.backend, "sim");
-  EXPECT_EQ(choices.galvo_trigger.backend, "sim");
-  EXPECT_EQ(choices.control_input.backend, "sim");
-  EXPECT_EQ(choices.scope_camera.backend, "sim");
-  EXPECT_EQ(choices.display.backend, "kms") << "a display shows twins as well";
+  EXPECT_THAT(backends(choices), ElementsAre("sim", "sim", "sim", "sim", "kms"))
+      << "a display shows twins as well";
   EXPECT_EQ(choices.line_camera.reason.find("/dev/video20"), std::string::npos);
 }
 

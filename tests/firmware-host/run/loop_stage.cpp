@@ -178,22 +178,24 @@ void LoopStage::TearDown() {
     acquisition_->stop();
 }
 
-void LoopStage::start(ui::ViewState view) {
+firmware_host::RenderLoopSetup LoopStage::setup() {
   firmware_host::RenderLoopSetup setup;
   setup.display.width = 640;
   setup.display.height = 360;
-  setup.view = view;
   setup.controls = profile();
   setup.window_from_first_volume = false;
   setup.b_scans = plan().b_scans;
-  setup.lines_per_frame = plan().lines_per_frame();
-  setup.freshness.volume_period = plan().tick_period();
+  return setup;
+}
+
+void LoopStage::open(firmware_host::RenderLoopSetup setup, pipeline::VolumeFeed& volumes,
+                     const pipeline::Acquisition* acquisition, pipeline::ScopeThread* scope) {
   loop_ = std::make_unique<firmware_host::RenderLoop>(
       firmware_host::RenderLoopParts{.display = display_,
                                      .clock = clock_,
-                                     .volumes = *volumes_,
-                                     .acquisition = acquisition_.get(),
-                                     .scope = scope_thread_.get(),
+                                     .volumes = volumes,
+                                     .acquisition = acquisition,
+                                     .scope = scope,
                                      .controls = *control_thread_,
                                      .faults = faults_,
                                      .news = news_,
@@ -204,6 +206,14 @@ void LoopStage::start(ui::ViewState view) {
       std::move(setup));
   const auto opened = loop_->open();
   ASSERT_TRUE(opened) << opened.error().message;
+}
+
+void LoopStage::start(ui::ViewState view) {
+  firmware_host::RenderLoopSetup live = setup();
+  live.view = view;
+  live.lines_per_frame = plan().lines_per_frame();
+  live.freshness.volume_period = plan().tick_period();
+  open(std::move(live), *volumes_, acquisition_.get(), scope_thread_.get());
 }
 
 void LoopStage::turn() {

@@ -117,8 +117,11 @@ protected:
   static ui::ControlProfile profile();
   static pipeline::ScanPlan plan();
 
-  // Makes and opens a loop that begins with `view`.
+  // Makes and opens a loop that begins with `view`; or one of other volumes, with what all have.
   void start(ui::ViewState view);
+  static firmware_host::RenderLoopSetup setup();
+  void open(firmware_host::RenderLoopSetup setup, pipeline::VolumeFeed& volumes,
+            const pipeline::Acquisition* acquisition, pipeline::ScopeThread* scope);
 
   // One round of the loop; if it drew nothing, a refresh passes all the same.
   void turn();

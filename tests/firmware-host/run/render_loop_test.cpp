@@ -1,6 +1,4 @@
 // What a surgeon relies on, frame by frame on a time axis that stands still between them.
-#include <algorithm>
-#include <array>
 #include <string>
 
 #include "tests/firmware-host/run/loop_stage.h"

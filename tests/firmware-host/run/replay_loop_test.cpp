@@ -39,31 +39,10 @@ class ReplayLoop : public LoopStage {
 protected:
   // As start() does, with the recording in the camera's place.
   void start_replay() {
-    firmware_host::RenderLoopSetup setup;
-    setup.display.width = 640;
-    setup.display.height = 360;
-    setup.controls = profile();
-    setup.controls.switch_actions.push_back(
+    firmware_host::RenderLoopSetup replay = setup();
+    replay.controls.switch_actions.push_back(
         {.switches = 2, .gesture = ui::GestureKind::press, .action = ui::Action::record});
-    setup.window_from_first_volume = false;
-    setup.b_scans = small_geometry.b_scans;
-    loop_ = std::make_unique<firmware_host::RenderLoop>(
-        firmware_host::RenderLoopParts{.display = display_,
-                                       .clock = clock_,
-                                       .volumes = player_,
-                                       .acquisition = nullptr,
-                                       .scope = nullptr,
-                                       .controls = *control_thread_,
-                                       .faults = faults_,
-                                       .news = news_,
-                                       .keep_picture = [](const pipeline::Image&) { return true; },
-                                       .record = {},
-                                       .simulated_control = {},
-                                       .threads = {},
-                                       .proof = &proof_},
-        std::move(setup));
-    const auto opened = loop_->open();
-    ASSERT_TRUE(opened) << opened.error().message;
+    open(std::move(replay), player_, nullptr, nullptr);
   }
   void turn_with_replay() {
     player_.step(clock_.now());

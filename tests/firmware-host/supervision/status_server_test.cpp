@@ -11,6 +11,7 @@
 
 #include "firmware-host/supervision/status_server.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -92,13 +93,11 @@ TEST(StatusServer, replaces_what_an_ended_program_left_and_takes_its_own_away) {
 
 TEST(StatusServer, is_missed_with_words_that_help) {
   const ScratchFolder folder;
-  const auto nobody = ask_status(folder / "status.sock");
-  ASSERT_FALSE(nobody);
-  EXPECT_EQ(nobody.error().code, hal::ErrorCode::absent);
-  EXPECT_THAT(nobody.error().message, HasSubstr("systemctl status octascope"));
-  const auto far = ask_status(folder / std::string(200, 'x'));
-  ASSERT_FALSE(far);
-  EXPECT_EQ(far.error().code, hal::ErrorCode::invalid_argument);
+  const auto nobody = tests::error_of(ask_status(folder / "status.sock"));
+  EXPECT_EQ(nobody.code, hal::ErrorCode::absent);
+  EXPECT_THAT(nobody.message, HasSubstr("systemctl status octascope"));
+  EXPECT_EQ(tests::error_of(ask_status(folder / std::string(200, 'x'))).code,
+            hal::ErrorCode::invalid_argument);
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include "firmware-host/vessels/vessel_source.h"
 #include "pipeline/vessels/clusters/cluster_unpacker.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 #include "tests/support/vessels/random_tree.h"
 #include "tests/support/vessels/same_tree.h"
 
@@ -24,9 +25,8 @@ protected:
     EXPECT_EQ(loaded.facts().nodes, 3003U);
     EXPECT_GT(loaded.bytes(), 3000U * 8);
     EXPECT_LT(loaded.bytes(), 3000U * 10);
-    const auto unpacked = pipeline::unpack_tree(loaded.clusters());
-    ASSERT_TRUE(unpacked) << unpacked.error().message;
-    tests::TreeComparison comparison{tree_, *unpacked};
+    const auto unpacked = tests::must(pipeline::unpack_tree(loaded.clusters()));
+    tests::TreeComparison comparison{tree_, unpacked};
     EXPECT_EQ(comparison.run(), "");
     EXPECT_LE(comparison.error().position_um, loaded.facts().error.position_um * 1.01F);
   }
@@ -37,11 +37,10 @@ protected:
 
 TEST_F(VesselSource, maps_our_own_format) {
   ASSERT_TRUE(write_tree(folder_ / "tree", tree_, "by lot"));
-  auto loaded = load_vessels(folder_ / "tree");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_TRUE(loaded->is_mapped());
-  EXPECT_EQ(loaded->facts().provenance, "by lot");
-  const LoadedVessels moved = std::move(*loaded);
+  auto loaded = tests::must(load_vessels(folder_ / "tree"));
+  EXPECT_TRUE(loaded.is_mapped());
+  EXPECT_EQ(loaded.facts().provenance, "by lot");
+  const LoadedVessels moved = std::move(loaded);
   expect_the_tree(moved);
 }
 
@@ -50,20 +49,19 @@ TEST_F(VesselSource, packs_swc) {
   std::vector<double> told;
   pipeline::TreeReadOptions options;
   options.progress = [&](double done) { told.push_back(done); };
-  auto loaded = load_vessels(folder_ / "tree.swc", options);
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_FALSE(loaded->is_mapped());
-  EXPECT_EQ(loaded->facts().provenance, "tree.swc");
-  const LoadedVessels moved = std::move(*loaded);
+  auto loaded = tests::must(load_vessels(folder_ / "tree.swc", options));
+  EXPECT_FALSE(loaded.is_mapped());
+  EXPECT_EQ(loaded.facts().provenance, "tree.swc");
+  const LoadedVessels moved = std::move(loaded);
   expect_the_tree(moved);
   EXPECT_TRUE(std::ranges::is_sorted(told));
   EXPECT_EQ(told.back(), 1);
 }
 
 TEST_F(VesselSource, says_what_is_wrong_with_a_file) {
-  const auto bad = load_vessels(folder_.write("bad.swc", "1 0 0 0 0 zero -1\n"));
-  ASSERT_FALSE(bad);
-  EXPECT_THAT(bad.error().message, testing::HasSubstr("bad.swc:1:11: found"));
+  EXPECT_THAT(
+      tests::error_of(load_vessels(folder_.write("bad.swc", "1 0 0 0 0 zero -1\n"))).message,
+      testing::HasSubstr("bad.swc:1:11: found"));
   const auto absent = load_vessels(folder_ / "absent");
   ASSERT_FALSE(absent);
   EXPECT_EQ(absent.error().code, hal::ErrorCode::absent);

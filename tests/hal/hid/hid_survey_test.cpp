@@ -1,11 +1,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "hal/linux/hid/models/udev_rules.h"
+#include "hal/linux/hid/models/control_model.h"
 #include "hal/linux/hid/survey/hid_survey.h"
 #include "tests/hal/hid/fake_hidapi.h"
 #include "tests/support/files/mutation.h"
@@ -108,12 +109,29 @@ TEST(ControlModels, fit_the_board) {
   }
 }
 
-// OCTASCOPE_RENEW_GOLDEN=1 writes it anew.
+// The kernel names a HID device bus:vendor:product.number, whatever its bus is.
+std::string udev_rule(const ControlModel& model) {
+  if (model.by_evdev())
+    return fmt::format("SUBSYSTEM==\"input\", KERNEL==\"event*\", ATTRS{{id/vendor}}==\"{:04x}\", "
+                       "ATTRS{{id/product}}==\"{:04x}\", GROUP=\"input\", MODE=\"0660\", "
+                       "TAG+=\"uaccess\"\n",
+                       model.vendor, model.product);
+  return fmt::format("SUBSYSTEM==\"hidraw\", KERNELS==\"*:{:04X}:{:04X}.*\", GROUP=\"input\", "
+                     "MODE=\"0660\", TAG+=\"uaccess\"\n",
+                     model.vendor, model.product);
+}
+
+// A rule for each control that is listed, in the list's order, and the trigger's.
 TEST(UdevRules, in_deploy_are_those_of_the_list) {
-  const fs::path file = tests::source_folder() / "deploy/70-octascope.rules";
-  if (std::getenv("OCTASCOPE_RENEW_GOLDEN") != nullptr)
-    std::ofstream{file} << udev_rules();
-  EXPECT_EQ(tests::whole_file(file), udev_rules());
+  std::string rules;
+  std::set<std::string> written; // models of one vendor and product share a rule
+  for (const ControlModel& model : listed_control_models())
+    if (const std::string rule = udev_rule(model); written.insert(rule).second)
+      rules += fmt::format("\n# {}\n{}", model.name, rule);
+  rules += "\n# galvo trigger\nSUBSYSTEM==\"gpio\", KERNEL==\"gpiochip*\", GROUP=\"gpio\", "
+           "MODE=\"0660\"\n";
+  const std::string file = tests::whole_file(tests::source_folder() / "deploy/70-octascope.rules");
+  EXPECT_EQ(file.substr(file.find("\n\n") + 1), rules); // after the head, which is comments
 }
 
 } // namespace

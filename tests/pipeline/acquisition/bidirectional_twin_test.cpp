@@ -14,6 +14,7 @@
 #include "pipeline/scan/scan_lag_estimator.h"
 #include "pipeline/scan/scan_lag_tracker.h"
 #include "sim/spectra/volume_loop.h"
+#include "tests/support/must.h"
 
 namespace octascope {
 namespace {
@@ -42,9 +43,7 @@ protected:
     plan.repeats = GetParam().repeats;
     config.volumes = 2;
     config.galvo_lag_us = GetParam().lag_a_scans / plan.line_rate_hz * 1e6;
-    auto made = sim::VolumeLoop::make(config);
-    ASSERT_TRUE(made) << made.error().message;
-    loop = std::move(*made);
+    loop = tests::must(sim::VolumeLoop::make(config));
     while (loop->ready_volumes() < 2)
       std::this_thread::sleep_for(std::chrono::milliseconds{2});
     reconstruct_volumes();
@@ -56,15 +55,15 @@ protected:
     auto calibration = pipeline::Calibration::identity(plan().samples);
     calibration.positions = loop->spectrometer().true_k_positions();
     calibration.dispersion_rad = loop->spectrometer().true_dispersion_rad();
-    auto made = pipeline::Reconstructor::create({.calibration = calibration,
-                                                 .format = pipeline::SpectrumFormat{loop->format()},
-                                                 .a_scans = plan().converted_lines()});
-    ASSERT_TRUE(made) << made.error().message;
-    auto workspace = made->make_workspace();
+    auto made = tests::must(
+        pipeline::Reconstructor::create({.calibration = calibration,
+                                         .format = pipeline::SpectrumFormat{loop->format()},
+                                         .a_scans = plan().converted_lines()}));
+    auto workspace = made.make_workspace();
     for (std::uint64_t volume = 0; volume < 2; ++volume) {
       for (int sweep = 0; sweep < plan().sweeps(); ++sweep)
-        made->reconstruct_b_scan(workspace, loop->frame(volume, sweep),
-                                 sweeps.emplace_back(made->levels()));
+        made.reconstruct_b_scan(workspace, loop->frame(volume, sweep),
+                                sweeps.emplace_back(made.levels()));
     }
   }
 
@@ -193,29 +192,28 @@ TEST(BidirectionalTwinInTheDark, an_empty_field_moves_nothing) {
   plan.bidirectional = true;
   pipeline::ScanLagEstimator estimator{plan};
   pipeline::ScanLagTracker tracker{3};
-  const auto spectrometer = sim::Spectrometer::make({.samples = 128});
-  ASSERT_TRUE(spectrometer);
-  const sim::SpectrumSynthesis synthesis{*spectrometer};
+  const auto spectrometer = tests::must(sim::Spectrometer::make({.samples = 128}));
+  const sim::SpectrumSynthesis synthesis{spectrometer};
   auto workspace = synthesis.make_workspace();
   auto calibration = pipeline::Calibration::identity(128);
   const hal::LineFormat format{.samples_per_line = 128, .lines_per_frame = plan.lines_per_frame()};
-  auto reconstructor = pipeline::Reconstructor::create({.calibration = calibration,
-                                                        .format = pipeline::SpectrumFormat{format},
-                                                        .a_scans = plan.converted_lines()});
-  ASSERT_TRUE(reconstructor);
-  auto buffers = reconstructor->make_workspace();
+  auto reconstructor =
+      tests::must(pipeline::Reconstructor::create({.calibration = calibration,
+                                                   .format = pipeline::SpectrumFormat{format},
+                                                   .a_scans = plan.converted_lines()}));
+  auto buffers = reconstructor.make_workspace();
   std::vector<float> mean(128);
   const std::vector<std::complex<float>> nothing(64);
   synthesis.mean_counts(nothing, {}, workspace, mean);
   std::vector<std::uint16_t> frame(static_cast<std::size_t>(plan.lines_per_frame()) * 128);
-  std::vector<std::uint8_t> levels(reconstructor->levels());
+  std::vector<std::uint8_t> levels(reconstructor.levels());
   std::uint64_t key = 0;
   for (int volume = 0; volume < 6; ++volume) {
     pipeline::DownsampledSweep sketch{plan};
     for (int sweep = 0; sweep < plan.sweeps(); ++sweep) {
       for (std::size_t line = 0; line < frame.size(); line += 128)
         synthesis.expose(mean, ++key * 0x9e3779b97f4a7c15U, std::span{frame}.subspan(line, 128));
-      reconstructor->reconstruct_b_scan(buffers, std::as_bytes(std::span{frame}), levels);
+      reconstructor.reconstruct_b_scan(buffers, std::as_bytes(std::span{frame}), levels);
       sketch.draw(sweep, levels);
     }
     tracker.update(estimator.estimate(sketch));

@@ -97,14 +97,6 @@ TEST(NeighbourAverage, small_volumes_work) {
   expect_exact(random_volume({1, 1, 2, 1, 1, 1}, 7), {});
 }
 
-TEST(NeighbourAverage, rounds_to_the_nearest) {
-  Volume volume{{1, 1, 3, 1, 1, 1}};
-  volume.levels = {10, 11, 11};
-  volume.b_scan_states.assign(3, BScanState::good);
-  EXPECT_EQ(average_all(*NeighbourAverage::create({}), volume),
-            (std::vector<std::uint8_t>{10, 11, 11})); // 10.33, 10.75, 11
-}
-
 TEST(NeighbourAverage, allocates_nothing) {
   Volume volume = random_volume(geometry, 8);
   const auto average = NeighbourAverage::create({});

@@ -33,44 +33,6 @@ TEST_F(VolumeSchedulerTest, ticks_that_were_slept_through_are_lost_volumes) {
   EXPECT_EQ(counters.triggered, 0U);
 }
 
-TEST_F(VolumeSchedulerTest, a_pulse_that_fails_loses_its_volume) {
-  scheduler.tick(first_tick);
-  scheduler.pulse_failed();
-  EXPECT_EQ(scheduler.counters().planned, 1U);
-  EXPECT_EQ(scheduler.counters().lost_volumes, 1U);
-  EXPECT_EQ(scheduler.counters().triggered, 0U);
-  EXPECT_EQ(next(first_tick + 1s).action, Action::wait) << "nothing is under way";
-}
-
-TEST_F(VolumeSchedulerTest, nothing_is_lost_without_a_camera_until_it_has_streamed_once) {
-  scheduler.tick(first_tick);
-  scheduler.not_ready();
-  EXPECT_EQ(scheduler.counters().planned, 0U);
-  EXPECT_EQ(scheduler.counters().lost_volumes, 0U);
-  ASSERT_TRUE(pulse(tick(1)));
-  scheduler.tick(tick(2));
-  scheduler.not_ready();
-  EXPECT_EQ(scheduler.counters().planned, 2U);
-  EXPECT_EQ(scheduler.counters().lost_volumes, 1U);
-}
-
-TEST_F(VolumeSchedulerTest, a_pulse_while_the_workers_are_three_volumes_behind_is_lost) {
-  std::vector<std::uint32_t> buffers;
-  for (int n = 0; n < 3; ++n) {
-    buffers.push_back(pulse(tick(n)).value());
-    for (int sweep = 0; sweep < 8; ++sweep)
-      frame(tick(n), sweep); // and nobody makes them
-  }
-  std::ranges::sort(buffers);
-  EXPECT_EQ(buffers, (std::vector<std::uint32_t>{2, 3, 4})) << "0 and 1 are the renderer's";
-  EXPECT_FALSE(pulse(tick(3)));
-  EXPECT_EQ(frame(tick(3), 0).verdict, FrameVerdict::late) << "a frame of the lost one";
-  EXPECT_EQ(scheduler.counters().planned, 4U);
-  EXPECT_EQ(scheduler.counters().triggered, 4U);
-  EXPECT_EQ(scheduler.counters().lost_volumes, 1U);
-  EXPECT_EQ(next(tick(4) - moment).action, Action::wait) << "for the workers";
-}
-
 TEST_F(VolumeSchedulerTest, a_frame_is_submitted_as_it_comes_and_in_its_place) {
   const std::uint32_t buffer = pulse(first_tick).value();
   for (const int sweep : {3, 1, 0, 2, 7, 6, 5, 4}) { // the time decides, not the order
@@ -107,42 +69,6 @@ TEST_F(VolumeSchedulerTest, a_whole_volume_is_published_as_soon_as_its_b_scans_a
   EXPECT_EQ(pulse(tick(1)), 0U) << "what came back is built in";
 }
 
-TEST_F(VolumeSchedulerTest, a_volume_that_nobody_took_is_skipped) {
-  for (int n = 0; n < 2; ++n) {
-    const std::uint32_t buffer = pulse(tick(n)).value();
-    deliver(tick(n), 0, 8);
-    ASSERT_EQ(next(tick(n + 1) - moment).action, Action::publish);
-    scheduler.published(buffer, n == 1);
-  }
-  EXPECT_EQ(scheduler.counters().published, 2U);
-  EXPECT_EQ(scheduler.counters().skipped, 1U);
-}
-
-TEST_F(VolumeSchedulerTest, missing_frames_are_waited_for_until_the_volumes_time_is_over) {
-  const std::uint32_t buffer = pulse(first_tick).value();
-  deliver(first_tick, 0, 2);
-  deliver(first_tick, 3, 7);
-  EXPECT_EQ(next(accepts_until(first_tick) - moment).action, Action::wait);
-  const VolumeDecision decision = next(accepts_until(first_tick));
-  EXPECT_EQ(decision.action, Action::publish);
-  EXPECT_EQ(decision.buffer, buffer);
-  EXPECT_EQ(decision.volume.lost_b_scans, 2);
-  EXPECT_EQ(decision.volume.lost_lines, 2 * 4);
-  EXPECT_EQ(scheduler.counters().lost_b_scans, 2U);
-  EXPECT_EQ(scheduler.counters().lost_lines, 2U * 4);
-  EXPECT_EQ(scheduler.counters().lost_volumes, 0U);
-}
-
-TEST_F(VolumeSchedulerTest, a_frame_that_comes_just_in_time_makes_the_volume_whole) {
-  pulse(first_tick);
-  deliver(first_tick, 0, 7);
-  ASSERT_EQ(next(accepts_until(first_tick) - moment).action, Action::wait);
-  deliver(first_tick, 7, 8);
-  const VolumeDecision decision = next(accepts_until(first_tick) - moment);
-  EXPECT_EQ(decision.action, Action::publish);
-  EXPECT_EQ(decision.volume.lost_b_scans, 0);
-}
-
 TEST_F(VolumeSchedulerTest, a_volume_of_which_nothing_came_is_lost) {
   const std::uint32_t buffer = pulse(first_tick).value();
   EXPECT_EQ(next(accepts_until(first_tick) - moment).action, Action::wait);
@@ -171,25 +97,6 @@ TEST_F(VolumeSchedulerTest, a_camera_not_looked_at_is_waited_for_but_not_for_eve
   EXPECT_EQ(last.volume.lost_b_scans, 3);
 }
 
-TEST_F(VolumeSchedulerTest, what_a_late_look_brings_is_not_late) {
-  pulse(first_tick);
-  deliver(first_tick, 0, 5);
-  const hal::TimePoint over = accepts_until(first_tick);
-  ASSERT_EQ(next_unlooked(over).action, Action::look);
-  deliver(first_tick, 5, 8);
-  const VolumeDecision decision = next_unlooked(over + patience() / 2);
-  EXPECT_EQ(decision.action, Action::publish);
-  EXPECT_EQ(decision.volume.lost_b_scans, 0);
-}
-
-TEST_F(VolumeSchedulerTest, a_look_that_brings_nothing_ends_the_wait) {
-  pulse(first_tick);
-  deliver(first_tick, 0, 5);
-  const hal::TimePoint over = accepts_until(first_tick);
-  ASSERT_EQ(next_unlooked(over).action, Action::look);
-  EXPECT_EQ(scheduler.next(over + 1ms, over, true).action, Action::publish);
-}
-
 TEST_F(VolumeSchedulerTest, a_camera_that_does_not_stream_is_not_waited_for) {
   pulse(first_tick);
   deliver(first_tick, 0, 5);
@@ -209,24 +116,6 @@ TEST_F(VolumeSchedulerTest, each_volume_asks_for_a_look_of_its_own) {
     scheduler.tick(tick(2 * n + 1));
     scheduler.not_ready();
   }
-}
-
-TEST_F(VolumeSchedulerTest, volumes_are_published_in_order) {
-  const std::uint32_t first = pulse(tick(0)).value();
-  deliver(tick(0), 0, 7);
-  frame(tick(0), 7);
-  const std::uint32_t second = pulse(tick(1)).value();
-  deliver(tick(1), 0, 8);
-  EXPECT_EQ(next(tick(2) - moment).action, Action::wait) << "the second is whole, the first is not";
-  scheduler.b_scan_made(first);
-  VolumeDecision decision = next(tick(2) - moment);
-  EXPECT_EQ(decision.action, Action::publish);
-  EXPECT_EQ(decision.buffer, first);
-  scheduler.published(0, false);
-  decision = next(tick(2) - moment);
-  EXPECT_EQ(decision.action, Action::publish);
-  EXPECT_EQ(decision.buffer, second);
-  EXPECT_EQ(decision.volume.number, 2U);
 }
 
 TEST_F(VolumeSchedulerTest, frames_without_a_place_are_refused_and_change_nothing) {
@@ -253,15 +142,6 @@ TEST_F(VolumeSchedulerTest, a_frame_belongs_to_the_sweep_that_is_nearest) {
   const hal::TimePoint third = time_of(first_tick, 3);
   EXPECT_EQ(scheduler.place(third + 499us, third + 1ms).b_scan, 3);
   EXPECT_EQ(frame(first_tick, -1).verdict, FrameVerdict::outside);
-}
-
-TEST_F(VolumeSchedulerTest, what_is_under_way_at_the_end_is_unfinished) {
-  pulse(tick(0));
-  deliver(tick(0), 0, 8);
-  pulse(tick(1));
-  scheduler.end();
-  EXPECT_EQ(scheduler.counters().unfinished, 2U);
-  EXPECT_EQ(scheduler.counters().planned, 2U);
 }
 
 TEST_F(VolumeSchedulerTest, it_wakes_for_ticks_and_for_the_oldest_volumes_end) {

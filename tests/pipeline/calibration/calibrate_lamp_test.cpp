@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/calibration_finder/lamp_lines.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -44,7 +45,7 @@ std::vector<double> lamp(const std::vector<double>& lines_nm, bool mirrored = fa
     }
   }
   if (mirrored)
-    std::reverse(counts.begin(), counts.end());
+    std::ranges::reverse(counts);
   return counts;
 }
 
@@ -56,24 +57,22 @@ double polynomial(const std::vector<double>& coefficients, double x) {
 }
 
 TEST(LampLines, give_the_wavelength_of_every_pixel) {
-  const auto found = find_lamp_lines(lamp(argon_nm), argon_nm, "lamp");
-  ASSERT_TRUE(found) << found.error().message;
-  ASSERT_EQ(found->polynomial_nm.size(), 4U);
+  const auto found = tests::must(find_lamp_lines(lamp(argon_nm), argon_nm, "lamp"));
+  ASSERT_EQ(found.polynomial_nm.size(), 4U);
   for (std::size_t i = 0; i < argon_nm.size(); ++i)
-    EXPECT_NEAR(found->pixels[i], pixel_of(argon_nm[i]), 0.05);
+    EXPECT_NEAR(found.pixels[i], pixel_of(argon_nm[i]), 0.05);
   double worst = 0;
   for (double p = 100; p < 920; p += 1)
-    worst = std::max(worst, std::abs(polynomial(found->polynomial_nm, p) - wavelength_nm(p)));
-  fmt::print("  wavelength within {:.5f} nm, lines within {:.5f} nm rms\n", worst, found->rms_nm);
+    worst = std::max(worst, std::abs(polynomial(found.polynomial_nm, p) - wavelength_nm(p)));
+  fmt::print("  wavelength within {:.5f} nm, lines within {:.5f} nm rms\n", worst, found.rms_nm);
   EXPECT_LT(worst, 0.01);
-  EXPECT_LT(found->rms_nm, 0.005);
+  EXPECT_LT(found.rms_nm, 0.005);
 }
 
 TEST(LampLines, may_fall) {
   const std::vector<double> falling{argon_nm.rbegin(), argon_nm.rend()};
-  const auto found = find_lamp_lines(lamp(argon_nm, true), falling, "lamp");
-  ASSERT_TRUE(found) << found.error().message;
-  EXPECT_NEAR(polynomial(found->polynomial_nm, 500), wavelength_nm(1023 - 500), 0.01);
+  const auto found = tests::must(find_lamp_lines(lamp(argon_nm, true), falling, "lamp"));
+  EXPECT_NEAR(polynomial(found.polynomial_nm, 500), wavelength_nm(1023 - 500), 0.01);
 }
 
 TEST(LampLines, refuses_what_cannot_be_matched) {

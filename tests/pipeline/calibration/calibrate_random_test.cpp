@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "pipeline/calibration_finder/axial_psf.h"
 #include "pipeline/calibration_finder/mirror_pair.h"
 #include "sim/spectrometer/spectrometer.h"
 #include "tests/support/files/fresh_seed.h"
@@ -175,6 +176,18 @@ void expect_true_curves(int fewest_lines, bool always_dark,
     const auto second = mirror_line(*s, c, c.bins[1], generator);
     const auto found = find_mirror_pair(first, second, c.side());
     ASSERT_TRUE(found) << found.error().message << "; " << c.describe();
+    EXPECT_NEAR(found->depth_bins[1] - found->depth_bins[0],
+                std::abs(c.bins[1]) - std::abs(c.bins[0]), 0.5)
+        << c.describe();
+    Calibration calibration = Calibration::identity(c.config.samples);
+    calibration.positions = found->positions;
+    calibration.dispersion_rad = found->dispersion_rad;
+    for (const std::size_t i : {0U, 1U})
+      EXPECT_LE(measure_axial_psf(remove_slow_part(i == 0 ? first : second), calibration,
+                                  found->theta_sign[i])
+                    .fwhm_bins,
+                3.2)
+          << c.describe();
     const Errors errors = errors_of(*found, *s);
     r.add(errors.positions_px);
     theta.add(errors.dispersion_rad);

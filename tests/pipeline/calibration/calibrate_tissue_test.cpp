@@ -1,6 +1,5 @@
 // Dispersion from sharpness alone: of simulated tissue whose dispersion is known, and of the real.
 #include <cmath>
-#include <filesystem>
 #include <random>
 #include <vector>
 

@@ -9,6 +9,7 @@
 #include "pipeline/calibration/calibration.h"
 #include "pipeline/calibration/calibration_writer.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -40,37 +41,34 @@ protected:
 };
 
 TEST_F(CalibrationOptions, have_defaults) {
-  const auto c = load(straight);
-  ASSERT_TRUE(c) << c.error().message;
-  EXPECT_EQ(c->zero_padding, 1);
-  EXPECT_EQ(c->fixed_pattern.mode, FixedPatternMode::none);
-  EXPECT_EQ(c->window_kind, SpectralWindow::hann);
-  EXPECT_FALSE(c->shaping);
+  const auto c = tests::must(load(straight));
+  EXPECT_EQ(c.zero_padding, 1);
+  EXPECT_EQ(c.fixed_pattern.mode, FixedPatternMode::none);
+  EXPECT_EQ(c.window_kind, SpectralWindow::hann);
+  EXPECT_FALSE(c.shaping);
 }
 
 TEST_F(CalibrationOptions, are_read) {
-  const auto c = load(straight + "[transform]\nzero_padding = 2\n"
-                                 "[fixed_pattern]\nmode = \"minimum_variance\"\nsegments = 5\n"
-                                 "[window]\nkind = \"tukey\"\n");
-  ASSERT_TRUE(c) << c.error().message;
-  EXPECT_EQ(c->zero_padding, 2);
-  EXPECT_EQ(c->depths(), 64);
-  EXPECT_EQ(c->fixed_pattern.mode, FixedPatternMode::minimum_variance);
-  EXPECT_EQ(c->fixed_pattern.segments, 5);
-  EXPECT_EQ(c->window_kind, SpectralWindow::tukey);
+  const auto c =
+      tests::must(load(straight + "[transform]\nzero_padding = 2\n"
+                                  "[fixed_pattern]\nmode = \"minimum_variance\"\nsegments = 5\n"
+                                  "[window]\nkind = \"tukey\"\n"));
+  EXPECT_EQ(c.zero_padding, 2);
+  EXPECT_EQ(c.depths(), 64);
+  EXPECT_EQ(c.fixed_pattern.mode, FixedPatternMode::minimum_variance);
+  EXPECT_EQ(c.fixed_pattern.segments, 5);
+  EXPECT_EQ(c.window_kind, SpectralWindow::tukey);
 }
 
 TEST_F(CalibrationOptions, shape_a_recorded_source) {
   folder.write_values<float>("dark.raw", std::vector<float>(samples, 4.0F));
-  const auto c = load(shaped + "dark = \"dark.raw\"\nfwhm = 0.5\nhighest_gain = 20\n");
-  ASSERT_TRUE(c) << c.error().message;
-  ASSERT_TRUE(c->shaping);
-  EXPECT_EQ(c->shaping->source[3], source[3] - 4);
-  EXPECT_EQ(c->shaping->fwhm, 0.5);
-  EXPECT_EQ(c->shaping->highest_gain, 20);
-  const auto factors = make_shaping_factors(*c->shaping, c->positions, c->interpolation);
-  ASSERT_TRUE(factors);
-  EXPECT_EQ(c->window, *factors);
+  const auto c = tests::must(load(shaped + "dark = \"dark.raw\"\nfwhm = 0.5\nhighest_gain = 20\n"));
+  ASSERT_TRUE(c.shaping);
+  EXPECT_EQ(c.shaping->source[3], source[3] - 4);
+  EXPECT_EQ(c.shaping->fwhm, 0.5);
+  EXPECT_EQ(c.shaping->highest_gain, 20);
+  const auto factors = tests::must(make_shaping_factors(*c.shaping, c.positions, c.interpolation));
+  EXPECT_EQ(c.window, factors);
 }
 
 TEST_F(CalibrationOptions, take_a_source_as_text) {
@@ -78,9 +76,8 @@ TEST_F(CalibrationOptions, take_a_source_as_text) {
   for (const float count : source)
     text += fmt::format("{}\n", count);
   folder.write("s.txt", text);
-  const auto c = load(straight + "[window]\nkind = \"shaped\"\nsource = \"s.txt\"\n");
-  ASSERT_TRUE(c) << c.error().message;
-  EXPECT_EQ(c->shaping->source, source);
+  const auto c = tests::must(load(straight + "[window]\nkind = \"shaped\"\nsource = \"s.txt\"\n"));
+  EXPECT_EQ(c.shaping->source, source);
 }
 
 TEST_F(CalibrationOptions, are_refused_out_of_range) {
@@ -130,20 +127,19 @@ TEST_F(CalibrationOptions, come_back_from_the_writer) {
   c.shaping = SourceShaping{source, 0.35, 25};
   c.window = *make_shaping_factors(*c.shaping, c.positions, c.interpolation);
   ASSERT_TRUE(write_calibration(found, folder / "out.toml"));
-  const auto read = Calibration::load(folder / "out.toml", samples);
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->background_mode, BackgroundMode::file);
-  EXPECT_EQ(read->background, c.background);
-  EXPECT_EQ(read->fixed_pattern.mode, c.fixed_pattern.mode);
-  EXPECT_EQ(read->fixed_pattern.segments, 11);
-  EXPECT_EQ(read->zero_padding, 2);
-  EXPECT_EQ(read->refractive_index, 1.376);
-  EXPECT_EQ(read->camera, "Octoplus, serial 7");
-  ASSERT_TRUE(read->shaping);
-  EXPECT_EQ(read->shaping->source, source);
-  EXPECT_EQ(read->shaping->fwhm, 0.35);
-  EXPECT_EQ(read->shaping->highest_gain, 25);
-  EXPECT_EQ(read->window, c.window);
+  const auto read = tests::must(Calibration::load(folder / "out.toml", samples));
+  EXPECT_EQ(read.background_mode, BackgroundMode::file);
+  EXPECT_EQ(read.background, c.background);
+  EXPECT_EQ(read.fixed_pattern.mode, c.fixed_pattern.mode);
+  EXPECT_EQ(read.fixed_pattern.segments, 11);
+  EXPECT_EQ(read.zero_padding, 2);
+  EXPECT_EQ(read.refractive_index, 1.376);
+  EXPECT_EQ(read.camera, "Octoplus, serial 7");
+  ASSERT_TRUE(read.shaping);
+  EXPECT_EQ(read.shaping->source, source);
+  EXPECT_EQ(read.shaping->fwhm, 0.35);
+  EXPECT_EQ(read.shaping->highest_gain, 25);
+  EXPECT_EQ(read.window, c.window);
 }
 
 TEST_F(CalibrationOptions, every_window_and_background_comes_back) {
@@ -156,11 +152,10 @@ TEST_F(CalibrationOptions, every_window_and_background_comes_back) {
       found.calibration.window_kind = kind;
       found.calibration.window = make_spectral_window(kind, samples);
       ASSERT_TRUE(write_calibration(found, folder / "out.toml"));
-      const auto read = Calibration::load(folder / "out.toml", samples);
-      ASSERT_TRUE(read) << read.error().message;
-      EXPECT_EQ(read->window, found.calibration.window);
-      EXPECT_EQ(read->window_kind, kind);
-      EXPECT_EQ(read->background_mode, mode);
+      const auto read = tests::must(Calibration::load(folder / "out.toml", samples));
+      EXPECT_EQ(read.window, found.calibration.window);
+      EXPECT_EQ(read.window_kind, kind);
+      EXPECT_EQ(read.background_mode, mode);
     }
   }
 }

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -9,6 +8,7 @@
 #include "pipeline/calibration/calibration.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/must.h"
 #include "tests/support/program/built_places.h"
 
 namespace octascope::pipeline {
@@ -53,33 +53,31 @@ TEST_F(CalibrationFile, loads_every_section) {
                "\xEF\xBB\xBF# positions\r\n-0.05\r\n" + curve(62, 1) + "\n63.2 # the last\n");
   std::vector<float> dark(samples, 12.5F);
   folder.write_values<float>("dark.raw", dark);
-  const auto c =
+  const auto c = tests::must(
       load(with_table + "interpolation = \"cubic\"\n"
                         "[dispersion]\npolynomial = [1.0, 0.0, 2.0]\nsign = -1\n"
                         "[background]\nmode = \"file\"\nfile = \"dark.raw\"\n"
                         "[window]\nkind = \"flat\"\n"
-                        "[depth]\nspacing_um = 4.5\na_spacing_um = 6\nb_spacing_um = 7\n");
-  ASSERT_TRUE(c) << c.error().message;
-  EXPECT_EQ(c->positions.front(), 0); // clamped
-  EXPECT_EQ(c->positions[1], 1);
-  EXPECT_EQ(c->positions.back(), 63);
-  EXPECT_EQ(c->interpolation, Interpolation::cubic);
-  EXPECT_DOUBLE_EQ(c->dispersion_rad.front(), -1);
-  EXPECT_DOUBLE_EQ(c->dispersion_rad.back(), -3);
-  EXPECT_EQ(c->background_mode, BackgroundMode::file);
-  EXPECT_EQ(c->background, dark);
-  EXPECT_EQ(c->window, std::vector<double>(samples, 1.0));
-  EXPECT_EQ(c->depth_spacing_um, 4.5);
-  EXPECT_EQ(c->a_spacing_um, 6);
-  EXPECT_EQ(c->b_spacing_um, 7);
+                        "[depth]\nspacing_um = 4.5\na_spacing_um = 6\nb_spacing_um = 7\n"));
+  EXPECT_EQ(c.positions.front(), 0); // clamped
+  EXPECT_EQ(c.positions[1], 1);
+  EXPECT_EQ(c.positions.back(), 63);
+  EXPECT_EQ(c.interpolation, Interpolation::cubic);
+  EXPECT_DOUBLE_EQ(c.dispersion_rad.front(), -1);
+  EXPECT_DOUBLE_EQ(c.dispersion_rad.back(), -3);
+  EXPECT_EQ(c.background_mode, BackgroundMode::file);
+  EXPECT_EQ(c.background, dark);
+  EXPECT_EQ(c.window, std::vector<double>(samples, 1.0));
+  EXPECT_EQ(c.depth_spacing_um, 4.5);
+  EXPECT_EQ(c.a_spacing_um, 6);
+  EXPECT_EQ(c.b_spacing_um, 7);
 }
 
 TEST_F(CalibrationFile, may_name_its_camera) {
   const std::string named = "[spectrometer]\nsamples = 64\ncamera = \"Octoplus, serial 7\"\n"
                             "[k_linear]\npolynomial = [0.0, 63.0]\n";
-  const auto c = load(named);
-  ASSERT_TRUE(c) << c.error().message;
-  EXPECT_EQ(c->camera, "Octoplus, serial 7");
+  const auto c = tests::must(load(named));
+  EXPECT_EQ(c.camera, "Octoplus, serial 7");
   EXPECT_EQ(calibration_camera(folder / "c.toml").value(), "Octoplus, serial 7");
   EXPECT_EQ(load(straight)->camera, "");
   EXPECT_EQ(calibration_camera(folder / "c.toml").value(), "");
@@ -87,9 +85,9 @@ TEST_F(CalibrationFile, may_name_its_camera) {
 }
 
 TEST_F(CalibrationFile, may_say_the_medium_of_its_depths) {
-  const auto c = load(straight + "[depth]\nspacing_um = 2.5\nrefractive_index = 1.38\n");
-  ASSERT_TRUE(c) << c.error().message;
-  EXPECT_EQ(c->refractive_index, 1.38);
+  const auto c =
+      tests::must(load(straight + "[depth]\nspacing_um = 2.5\nrefractive_index = 1.38\n"));
+  EXPECT_EQ(c.refractive_index, 1.38);
   EXPECT_FALSE(load(straight + "[depth]\nspacing_um = 2.5\n")->refractive_index) << "nobody said";
   for (const char* wrong : {"0.99", "2.01", "nan", "\"air\""})
     EXPECT_THAT(refusal(straight + "[depth]\nspacing_um = 2.5\nrefractive_index = " + wrong + "\n"),
@@ -99,25 +97,23 @@ TEST_F(CalibrationFile, may_say_the_medium_of_its_depths) {
 }
 
 TEST_F(CalibrationFile, has_defaults) {
-  const auto c = load(straight);
-  ASSERT_TRUE(c) << c.error().message;
-  EXPECT_EQ(c->interpolation, Interpolation::sinc8);
-  EXPECT_EQ(c->background_mode, BackgroundMode::mean);
-  EXPECT_TRUE(c->dispersion_rad.empty());
-  EXPECT_EQ(c->positions, Calibration::identity(samples).positions);
-  EXPECT_EQ(c->window, Calibration::identity(samples).window);
+  const auto c = tests::must(load(straight));
+  EXPECT_EQ(c.interpolation, Interpolation::sinc8);
+  EXPECT_EQ(c.background_mode, BackgroundMode::mean);
+  EXPECT_TRUE(c.dispersion_rad.empty());
+  EXPECT_EQ(c.positions, Calibration::identity(samples).positions);
+  EXPECT_EQ(c.window, Calibration::identity(samples).window);
 }
 
 TEST_F(CalibrationFile, wavelengths_become_positions_uniform_in_k) {
   const double a0 = 800;
   const double a1 = 1.1;
   const double a2 = 0.002;
-  const auto c =
-      load(spectrometer + "[k_linear]\nwavelength_polynomial_nm = [800.0, 1.1, 0.002]\n");
-  ASSERT_TRUE(c) << c.error().message;
+  const auto c = tests::must(
+      load(spectrometer + "[k_linear]\nwavelength_polynomial_nm = [800.0, 1.1, 0.002]\n"));
   const auto k = [&](double p) { return 2 * std::numbers::pi / (a0 + a1 * p + a2 * p * p); };
   for (int m = 0; m < samples; ++m)
-    EXPECT_NEAR(k(c->positions[static_cast<std::size_t>(m)]), k(0) + (k(63) - k(0)) * m / 63.0,
+    EXPECT_NEAR(k(c.positions[static_cast<std::size_t>(m)]), k(0) + (k(63) - k(0)) * m / 63.0,
                 1e-12);
 }
 
@@ -128,12 +124,11 @@ TEST_F(CalibrationFile, falling_positions_are_monotone_too) {
 
 TEST_F(CalibrationFile, the_supplied_curves_pass) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/k_linear.txt");
-  const auto c =
-      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024);
-  ASSERT_TRUE(c) << c.error().message;
-  EXPECT_EQ(c->positions.front(), 0);
-  EXPECT_NEAR(c->positions.back(), 1022.93, 0.01);
-  EXPECT_EQ(c->dispersion_rad.size(), 1024U);
+  const auto c = tests::must(
+      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024));
+  EXPECT_EQ(c.positions.front(), 0);
+  EXPECT_NEAR(c.positions.back(), 1022.93, 0.01);
+  EXPECT_EQ(c.dispersion_rad.size(), 1024U);
 }
 
 TEST_F(CalibrationFile, refuses_curves_that_are_not_numbers) {

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include "tests/support/files/fresh_seed.h"
+#include "tests/support/must.h"
 #include "tests/support/spectra/roll_off.h"
 
 namespace octascope::pipeline {
@@ -86,9 +87,8 @@ TEST_P(DepthOracle, finds_every_reflector_where_and_as_strong_as_it_is) {
   const Calibration calibration = calibration_of(s, Interpolation::sinc8);
   const std::vector<double> depths = random_depths(s.samples, 200, seed);
   const auto expect_true = [&](ReconstructionPath path, const std::string& isa) {
-    const auto points = tests::measure_roll_off(calibration, depths, seed, path, isa);
-    ASSERT_TRUE(points) << points.error().message;
-    const Worst worst = worst_of(*points, calibration);
+    const auto points = tests::must(tests::measure_roll_off(calibration, depths, seed, path, isa));
+    const Worst worst = worst_of(points, calibration);
     fmt::print("  {:5} {:6}: position within {:.4f} bin to {:.0f} % of the range, {:.4f} beyond; "
                "level within {:.4f} dB to half of it\n",
                path == ReconstructionPath::fftw ? "fftw" : "fused", isa, worst.position_bins,
@@ -134,12 +134,12 @@ TEST_P(InterpolationRollOff, is_what_the_documents_say) {
   std::vector<double> depths;
   for (int i = -20; i <= 20; ++i)
     depths.push_back(centre + i / 5.0);
-  const auto points = tests::measure_roll_off(calibration, depths, 7, ReconstructionPath::fftw);
-  ASSERT_TRUE(points) << points.error().message;
+  const auto points =
+      tests::must(tests::measure_roll_off(calibration, depths, 7, ReconstructionPath::fftw));
   double loss = 0;
   double artefact = -999;
-  for (const RollOffPoint& point : *points) {
-    loss += point.loss_db / static_cast<double>(points->size());
+  for (const RollOffPoint& point : points) {
+    loss += point.loss_db / static_cast<double>(points.size());
     artefact = std::max(artefact, point.peak.artefact_db);
   }
   fmt::print("  at {:.0f} % of the range: loss {:.3f} dB, artefacts {:.1f} dB\n",

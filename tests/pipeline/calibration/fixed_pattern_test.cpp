@@ -1,5 +1,4 @@
 // Fixed lines vanish; a horizontal reflector stays where the mean would take it.
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <cstdint>

@@ -1,7 +1,6 @@
 // A source with ripple has side lobes that no window takes away; shaping does.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "pipeline/reconstruction/reconstructor.h"
 #include "tests/support/files/calibrations.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -78,10 +78,9 @@ TEST(SpectralShaping, takes_the_side_lobes_of_a_rippled_source_away) {
     calibration.background_mode = BackgroundMode::none;
     const Psf before = psf_of(mirror_db(calibration, chirp));
     const SourceShaping shaping = ripple_source();
-    const auto factors =
-        make_shaping_factors(shaping, calibration.positions, calibration.interpolation);
-    ASSERT_TRUE(factors) << factors.error().message;
-    calibration.window = *factors;
+    const auto factors = tests::must(
+        make_shaping_factors(shaping, calibration.positions, calibration.interpolation));
+    calibration.window = factors;
     const Psf after = psf_of(mirror_db(calibration, chirp));
     fmt::print("  chirp {}: side lobes {:.1f} dB with Hann, {:.1f} dB shaped; peak {:.2f} and "
                "{:.2f} dB\n",
@@ -100,8 +99,7 @@ TEST(SpectralShaping, makes_the_spectrum_the_gaussian_it_names) {
   shaping.highest_gain = 1000;
   const auto calibration = Calibration::identity(samples);
   const auto factors =
-      make_shaping_factors(shaping, calibration.positions, calibration.interpolation);
-  ASSERT_TRUE(factors);
+      tests::must(make_shaping_factors(shaping, calibration.positions, calibration.interpolation));
   double sum = 0;
   double moment = 0;
   for (int p = 0; p < samples; ++p) {
@@ -110,7 +108,7 @@ TEST(SpectralShaping, makes_the_spectrum_the_gaussian_it_names) {
   }
   const double centre = moment / sum;
   const auto shaped = [&](double p) {
-    return light(std::round(p)) * (*factors)[static_cast<std::size_t>(std::lround(p))];
+    return light(std::round(p)) * (factors)[static_cast<std::size_t>(std::lround(p))];
   };
   const double middle = shaped(centre);
   for (const double x : {-0.3, -0.15, -0.05, 0.1, 0.15, 0.3}) {
@@ -127,11 +125,10 @@ TEST(SpectralShaping, limits_the_gain_where_the_source_is_weak) {
   const auto calibration = Calibration::identity(samples);
   for (const double gain : {2.0, 10.0}) {
     shaping.highest_gain = gain;
-    const auto factors =
-        make_shaping_factors(shaping, calibration.positions, calibration.interpolation);
-    ASSERT_TRUE(factors);
-    EXPECT_NEAR((*factors)[500] / (*factors)[524], gain, 0.05 * gain);
-    for (const double factor : *factors) {
+    const auto factors = tests::must(
+        make_shaping_factors(shaping, calibration.positions, calibration.interpolation));
+    EXPECT_NEAR((factors)[500] / (factors)[524], gain, 0.05 * gain);
+    for (const double factor : factors) {
       EXPECT_TRUE(std::isfinite(factor));
       EXPECT_GE(factor, 0);
     }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/files/config_document.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -42,9 +43,8 @@ TEST(ConfigDocument, refuses_with_place_found_and_expected) {
 
 TEST(ConfigDocument, reads_one_text_or_several) {
   const auto document =
-      ConfigDocument::parse("one = \"a\"\nmore = [\"b\", \"c\"]\nindex = 2\n", "c");
-  ASSERT_TRUE(document);
-  ConfigTable root = document->root();
+      tests::must(ConfigDocument::parse("one = \"a\"\nmore = [\"b\", \"c\"]\nindex = 2\n", "c"));
+  ConfigTable root = document.root();
   EXPECT_EQ(root.texts("one"), std::vector<std::string>{"a"});
   EXPECT_EQ(root.texts("more"), (std::vector<std::string>{"b", "c"}));
   EXPECT_EQ(root.texts("none"), std::vector<std::string>{});
@@ -52,12 +52,11 @@ TEST(ConfigDocument, reads_one_text_or_several) {
   EXPECT_FALSE(root.has_integer("one"));
   EXPECT_FALSE(root.has_integer("none"));
   root.integer("index", 0, {0, 9});
-  EXPECT_TRUE(document->finish());
+  EXPECT_TRUE(document.finish());
   for (const char* wrong : {"key = 3", "key = [\"a\", 3]"}) {
-    const auto refused = ConfigDocument::parse(wrong, "c");
-    ASSERT_TRUE(refused);
-    EXPECT_TRUE(refused->root().texts("key").empty());
-    EXPECT_FALSE(refused->finish()) << wrong;
+    const auto refused = tests::must(ConfigDocument::parse(wrong, "c"));
+    EXPECT_TRUE(refused.root().texts("key").empty());
+    EXPECT_FALSE(refused.finish()) << wrong;
   }
 }
 

@@ -1,6 +1,5 @@
 // The running background: by its recurrence, in any number of threads, without allocation.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <random>
 #include <span>
@@ -12,6 +11,7 @@
 #include "pipeline/reconstruction/reconstructor.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/files/calibrations.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -104,18 +104,16 @@ TEST(RunningBackground, one_workspace_that_sees_all_in_order_gives_the_same) {
   Calibration calibration = tests::chirped_calibration(samples, 15);
   calibration.background_mode = BackgroundMode::running;
   const auto made =
-      Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::u16}, a_scans,
-                             ReconstructionPath::fftw});
-  ASSERT_TRUE(made);
-  auto own = made->make_workspace();
-  auto given = made->make_workspace();
-  auto running = made->make_running_background();
-  ASSERT_TRUE(running);
-  std::vector<std::uint8_t> one(made->levels());
-  std::vector<std::uint8_t> other(made->levels());
+      tests::must(Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::u16},
+                                         a_scans, ReconstructionPath::fftw}));
+  auto own = made.make_workspace();
+  auto given = made.make_workspace();
+  auto running = tests::must(made.make_running_background());
+  std::vector<std::uint8_t> one(made.levels());
+  std::vector<std::uint8_t> other(made.levels());
   for (const BScan& b_scan : all) {
-    made->reconstruct_b_scan(own, bytes(b_scan), one);
-    made->reconstruct_b_scan(given, bytes(b_scan), other, running->add(bytes(b_scan)));
+    made.reconstruct_b_scan(own, bytes(b_scan), one);
+    made.reconstruct_b_scan(given, bytes(b_scan), other, running.add(bytes(b_scan)));
     ASSERT_EQ(one, other);
   }
 }
@@ -125,9 +123,8 @@ TEST(RunningBackground, is_there_for_its_mode_alone) {
   for (const auto mode : {BackgroundMode::mean, BackgroundMode::none}) {
     Calibration calibration = Calibration::identity(samples);
     calibration.background_mode = mode;
-    const auto made = Reconstructor::create({calibration, format, a_scans});
-    ASSERT_TRUE(made);
-    EXPECT_FALSE(made->make_running_background());
+    const auto made = tests::must(Reconstructor::create({calibration, format, a_scans}));
+    EXPECT_FALSE(made.make_running_background());
   }
 }
 

@@ -1,8 +1,6 @@
 // The choice between the paths: measured once, then remembered.
-#include <cstdint>
 #include <map>
 #include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 

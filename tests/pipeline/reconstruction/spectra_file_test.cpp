@@ -1,13 +1,12 @@
-#include <cmath>
 #include <numeric>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include "pipeline/reconstruction/spectra_file.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -15,9 +14,8 @@ namespace {
 using testing::HasSubstr;
 
 TEST(SpectraShape, is_three_whole_numbers) {
-  const auto shape = SpectraShape::parse("3,20,1024");
-  ASSERT_TRUE(shape);
-  EXPECT_EQ(*shape, (SpectraShape{3, 20, 1024}));
+  const auto shape = tests::must(SpectraShape::parse("3,20,1024"));
+  EXPECT_EQ(shape, (SpectraShape{3, 20, 1024}));
   for (const char* text :
        {"", "3", "3,20", "3,20,1024,1", "3,20,", ",20,1024", "3, 20,1024", "a,b,c", "3.0,20,1024",
         "3,20,99999999999999999999", "3,20,1024 ", "0x3,1,16"})
@@ -35,9 +33,7 @@ TEST(SpectraShape, counts_are_within_reason) {
 class SpectraFiles : public testing::Test {
 protected:
   std::string refusal(const std::filesystem::path& file, const SpectraShape& shape) {
-    const auto spectra = SpectraFile::open(file, shape, hal::SampleType::u16);
-    EXPECT_FALSE(spectra);
-    return spectra ? "" : spectra.error().message;
+    return tests::error_of(SpectraFile::open(file, shape, hal::SampleType::u16)).message;
   }
   tests::ScratchFolder folder;
 };
@@ -46,12 +42,11 @@ TEST_F(SpectraFiles, hands_out_b_scans) {
   std::vector<std::uint16_t> counts(3 * 2 * 16);
   std::iota(counts.begin(), counts.end(), std::uint16_t{0});
   const auto file = folder.write_values<std::uint16_t>("s.raw", counts);
-  const auto spectra = SpectraFile::open(file, {3, 2, 16}, hal::SampleType::u16);
-  ASSERT_TRUE(spectra) << spectra.error().message;
-  const auto b_scan = spectra->b_scan(2);
+  const auto spectra = tests::must(SpectraFile::open(file, {3, 2, 16}, hal::SampleType::u16));
+  const auto b_scan = spectra.b_scan(2);
   ASSERT_EQ(b_scan.size(), 64U);
   EXPECT_EQ(reinterpret_cast<const std::uint16_t*>(b_scan.data())[31], 95);
-  EXPECT_FALSE(spectra->find_non_finite(0));
+  EXPECT_FALSE(spectra.find_non_finite(0));
 }
 
 TEST_F(SpectraFiles, refuses_sizes_that_do_not_fit) {
@@ -83,10 +78,9 @@ TEST_F(SpectraFiles, finds_floats_that_are_none) {
   std::vector<float> values(2 * 2 * 16, 1.0F);
   values[2 * 16 + 16 + 5] = std::nanf("");
   const auto file = folder.write_values<float>("f.raw", values);
-  const auto spectra = SpectraFile::open(file, {2, 2, 16}, hal::SampleType::f32);
-  ASSERT_TRUE(spectra);
-  EXPECT_FALSE(spectra->find_non_finite(0));
-  EXPECT_EQ(spectra->find_non_finite(1),
+  const auto spectra = tests::must(SpectraFile::open(file, {2, 2, 16}, hal::SampleType::f32));
+  EXPECT_FALSE(spectra.find_non_finite(0));
+  EXPECT_EQ(spectra.find_non_finite(1),
             file.string() + ": B-scan 1, A-scan 1, sample 5 is nan, expected a finite number");
 }
 

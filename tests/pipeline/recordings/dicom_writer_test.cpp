@@ -2,9 +2,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "dcmtk/config/osconfig.h"
 #include "dcmtk/dcmdata/dctk.h"
@@ -17,8 +15,10 @@
 #include "pipeline/recordings/dicom/dicom_uid.h"
 #include "pipeline/recordings/dicom/dicom_writer.h"
 #include "pipeline/volume/level_scale.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/small_recording.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -132,9 +132,8 @@ TEST_F(DicomVolume, of_an_odd_size_is_padded_with_one_byte) {
   facts.geometry = {3, 5, 1, 3.5, 10, 37.5};
   Volume volume{facts.geometry};
   std::ranges::fill(volume.levels, std::uint8_t{77});
-  auto writer = DicomWriter::create(facts, small_recording_entry(0), options);
-  ASSERT_TRUE(writer);
-  ASSERT_TRUE(writer->write(path, volume, small_recording_entry(0), 0));
+  auto writer = tests::must(DicomWriter::create(facts, small_recording_entry(0), options));
+  ASSERT_TRUE(writer.write(path, volume, small_recording_entry(0), 0));
   DicomFile file{path};
   std::vector<std::uint8_t> expected(15, 77);
   expected.push_back(0);
@@ -290,9 +289,8 @@ TEST_F(DicomVolume, of_one_recording_is_one_series_always) {
   // Another recording that began in the same second.
   RecordedVolume first = small_recording_entry(0);
   ++first.wall_clock_ns;
-  auto other = DicomWriter::create(small_recording_facts(), first, options);
-  ASSERT_TRUE(other);
-  ASSERT_TRUE(other->write(path, small_recording_volume(0), first, 0));
+  auto other = tests::must(DicomWriter::create(small_recording_facts(), first, options));
+  ASSERT_TRUE(other.write(path, small_recording_volume(0), first, 0));
   add(DicomFile{path});
   EXPECT_EQ(series.size(), 2U);
   EXPECT_EQ(studies.size(), 2U);
@@ -300,15 +298,10 @@ TEST_F(DicomVolume, of_one_recording_is_one_series_always) {
 }
 
 TEST_F(DicomVolume, is_written_alike_each_time) {
-  const auto contents = [&] {
-    std::ostringstream text;
-    text << std::ifstream{path, std::ios::binary}.rdbuf();
-    return text.str();
-  };
   write(small_recording_facts());
-  const std::string once = contents();
+  const std::string once = tests::whole_file(path);
   write(small_recording_facts());
-  EXPECT_EQ(contents(), once);
+  EXPECT_EQ(tests::whole_file(path), once);
 }
 
 TEST_F(DicomVolume, is_nobodys_but_its_owners) {
@@ -318,10 +311,10 @@ TEST_F(DicomVolume, is_nobodys_but_its_owners) {
 }
 
 TEST_F(DicomVolume, appears_complete_or_not_at_all) {
-  auto writer = DicomWriter::create(small_recording_facts(), small_recording_entry(0), options);
-  ASSERT_TRUE(writer);
+  auto writer =
+      tests::must(DicomWriter::create(small_recording_facts(), small_recording_entry(0), options));
   const auto write_to = [&](const std::filesystem::path& where) {
-    return writer->write(where, small_recording_volume(0), small_recording_entry(0), 0);
+    return writer.write(where, small_recording_volume(0), small_recording_entry(0), 0);
   };
   EXPECT_EQ(write_to(folder / "no/such/v.dcm").error().code, hal::ErrorCode::absent);
   std::filesystem::create_directory(folder / "d");
@@ -352,9 +345,9 @@ TEST_F(DicomVolume, of_a_geometry_that_dicom_does_not_know_is_refused) {
     ASSERT_FALSE(writer) << depths << " " << b_scans;
     EXPECT_EQ(writer.error().code, hal::ErrorCode::unsupported);
   }
-  auto writer = DicomWriter::create(small_recording_facts(), small_recording_entry(0), options);
-  ASSERT_TRUE(writer);
-  EXPECT_FALSE(writer->write(path, Volume{{12, 7, 6, 3.5, 10, 37.5}}, small_recording_entry(0), 0));
+  auto writer =
+      tests::must(DicomWriter::create(small_recording_facts(), small_recording_entry(0), options));
+  EXPECT_FALSE(writer.write(path, Volume{{12, 7, 6, 3.5, 10, 37.5}}, small_recording_entry(0), 0));
 }
 
 TEST_F(DicomVolume, satisfies_a_checker_of_the_standard) {
@@ -368,10 +361,9 @@ TEST_F(DicomVolume, satisfies_a_checker_of_the_standard) {
     const std::string out = (folder / "verdict").string();
     const int status =
         std::system(fmt::format("dciodvfy {} > {} 2>&1", path.string(), out).c_str());
-    std::ostringstream verdict;
-    verdict << std::ifstream{out}.rdbuf();
-    EXPECT_EQ(status, 0) << verdict.str();
-    EXPECT_THAT(verdict.str(), Not(HasSubstr("Error")));
+    const std::string verdict = tests::whole_file(out);
+    EXPECT_EQ(status, 0) << verdict;
+    EXPECT_THAT(verdict, Not(HasSubstr("Error")));
   }
 }
 

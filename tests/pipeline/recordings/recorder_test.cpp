@@ -12,6 +12,7 @@
 #include "tests/support/allocation_counter.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/small_recording.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -72,19 +73,18 @@ TEST_F(RecorderTest, keeps_what_comes_while_it_is_on) {
   recorder.offer(small_recording_volume(10));
   recorder.stop();
 
-  auto reader = RecordingReader::open(folder / "a.h5");
-  ASSERT_TRUE(reader) << reader.error().message;
-  EXPECT_TRUE(reader->end().finished);
-  ASSERT_EQ(reader->volumes().size(), 9U);
+  auto reader = tests::must(RecordingReader::open(folder / "a.h5"));
+  EXPECT_TRUE(reader.end().finished);
+  ASSERT_EQ(reader.volumes().size(), 9U);
   Volume volume{small_recording_facts().geometry};
   for (std::uint64_t n = 1; n < 10; ++n) {
-    ASSERT_TRUE(reader->read(n - 1, volume));
+    ASSERT_TRUE(reader.read(n - 1, volume));
     EXPECT_EQ(volume.levels, small_recording_volume(n).levels);
     EXPECT_EQ(volume.b_scan_states, small_recording_volume(n).b_scan_states);
-    EXPECT_EQ(reader->volumes()[n - 1].index, small_recording_volume(n).metadata.index);
+    EXPECT_EQ(reader.volumes()[n - 1].index, small_recording_volume(n).metadata.index);
   }
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto age = now - std::chrono::nanoseconds{reader->volumes().back().wall_clock_ns};
+  const auto age = now - std::chrono::nanoseconds{reader.volumes().back().wall_clock_ns};
   EXPECT_LT(age, 60s);
   EXPECT_GT(age, 0s);
 }
@@ -103,10 +103,9 @@ TEST_F(RecorderTest, keeps_or_counts_whatever_is_offered) {
   const RecorderStatus status = recorder.status();
   EXPECT_GE(status.kept, 4U);
   EXPECT_EQ(status.kept + status.not_kept, offered);
-  const auto reader = RecordingReader::open(folder / "a.h5");
-  ASSERT_TRUE(reader);
-  EXPECT_EQ(reader->volumes().size(), status.kept);
-  EXPECT_EQ(reader->end().not_kept, status.not_kept);
+  const auto reader = tests::must(RecordingReader::open(folder / "a.h5"));
+  EXPECT_EQ(reader.volumes().size(), status.kept);
+  EXPECT_EQ(reader.end().not_kept, status.not_kept);
 }
 
 TEST_F(RecorderTest, makes_one_recording_after_the_other_and_mixes_none) {

@@ -1,8 +1,6 @@
 // Recordings: what is written is read again, at any moment, and however the writer ended.
 #include <csignal>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -18,6 +16,7 @@
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/small_recording.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -40,13 +39,12 @@ protected:
     return opened.error().message;
   }
   void expect_volumes(std::uint64_t count) {
-    auto reader = RecordingReader::open(file);
-    ASSERT_TRUE(reader) << reader.error().message;
-    ASSERT_EQ(reader->volumes().size(), count);
+    auto reader = tests::must(RecordingReader::open(file));
+    ASSERT_EQ(reader.volumes().size(), count);
     Volume volume{small_recording_facts().geometry};
     for (std::uint64_t n = 0; n < count; ++n) {
-      EXPECT_EQ(reader->volumes()[n], small_recording_entry(n));
-      const auto read = reader->read(n, volume);
+      EXPECT_EQ(reader.volumes()[n], small_recording_entry(n));
+      const auto read = reader.read(n, volume);
       ASSERT_TRUE(read) << read.error().message;
       const Volume written = small_recording_volume(n);
       EXPECT_EQ(volume.levels, written.levels) << "volume " << n;
@@ -64,9 +62,8 @@ protected:
 TEST_F(Recording, is_read_as_it_was_written) {
   write_small_recording(file, 5);
   expect_volumes(5);
-  const auto reader = RecordingReader::open(file);
-  ASSERT_TRUE(reader);
-  const RecordingFacts& facts = reader->facts();
+  const auto reader = tests::must(RecordingReader::open(file));
+  const RecordingFacts& facts = reader.facts();
   const RecordingFacts written = small_recording_facts();
   EXPECT_EQ(facts.geometry, written.geometry);
   EXPECT_EQ(facts.volume_period_s, written.volume_period_s);
@@ -77,8 +74,8 @@ TEST_F(Recording, is_read_as_it_was_written) {
   EXPECT_EQ(facts.subject, written.subject);
   EXPECT_EQ(facts.eye, written.eye);
   EXPECT_EQ(facts.configuration, written.configuration);
-  EXPECT_TRUE(reader->end().finished);
-  EXPECT_EQ(reader->end().not_kept, 2U);
+  EXPECT_TRUE(reader.end().finished);
+  EXPECT_EQ(reader.end().not_kept, 2U);
 }
 
 TEST_F(Recording, may_hold_nothing_and_say_nothing) {
@@ -87,15 +84,13 @@ TEST_F(Recording, may_hold_nothing_and_say_nothing) {
   facts.eye = Eye::not_said;
   facts.configuration.clear();
   {
-    auto writer = RecordingWriter::create(file, facts);
-    ASSERT_TRUE(writer);
-    ASSERT_TRUE(writer->finish({}));
+    auto writer = tests::must(RecordingWriter::create(file, facts));
+    ASSERT_TRUE(writer.finish({}));
   }
-  const auto reader = RecordingReader::open(file);
-  ASSERT_TRUE(reader) << reader.error().message;
-  EXPECT_EQ(reader->facts().subject, "");
-  EXPECT_EQ(reader->facts().eye, Eye::not_said);
-  EXPECT_TRUE(reader->volumes().empty());
+  const auto reader = tests::must(RecordingReader::open(file));
+  EXPECT_EQ(reader.facts().subject, "");
+  EXPECT_EQ(reader.facts().eye, Eye::not_said);
+  EXPECT_TRUE(reader.volumes().empty());
 }
 
 TEST_F(Recording, can_be_read_by_its_owner_only) {
@@ -107,33 +102,30 @@ TEST_F(Recording, can_be_read_by_its_owner_only) {
 
 TEST_F(Recording, is_never_written_over) {
   write_small_recording(file, 3);
-  const auto again = RecordingWriter::create(file, small_recording_facts());
-  ASSERT_FALSE(again);
-  EXPECT_EQ(again.error().code, hal::ErrorCode::invalid_argument);
-  EXPECT_THAT(again.error().message, HasSubstr("never written over"));
+  const auto again = tests::error_of(RecordingWriter::create(file, small_recording_facts()));
+  EXPECT_EQ(again.code, hal::ErrorCode::invalid_argument);
+  EXPECT_THAT(again.message, HasSubstr("never written over"));
   expect_volumes(3);
 }
 
 TEST_F(Recording, into_a_missing_folder_is_refused) {
-  const auto refused = RecordingWriter::create(folder / "none/r.h5", small_recording_facts());
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, hal::ErrorCode::absent);
+  EXPECT_EQ(
+      tests::error_of(RecordingWriter::create(folder / "none/r.h5", small_recording_facts())).code,
+      hal::ErrorCode::absent);
 }
 
 TEST_F(Recording, takes_no_volume_of_another_geometry) {
-  auto writer = RecordingWriter::create(file, small_recording_facts());
-  ASSERT_TRUE(writer);
+  auto writer = tests::must(RecordingWriter::create(file, small_recording_facts()));
   VolumeGeometry other = small_recording_facts().geometry;
   ++other.depths;
-  EXPECT_FALSE(writer->append(Volume{other}, {}));
-  append_small_volumes(*writer, 0, 2); // it still takes its own
+  EXPECT_FALSE(writer.append(Volume{other}, {}));
+  append_small_volumes(writer, 0, 2); // it still takes its own
 }
 
 TEST_F(Recording, that_was_dropped_holds_what_came) {
   {
-    auto writer = RecordingWriter::create(file, small_recording_facts());
-    ASSERT_TRUE(writer);
-    append_small_volumes(*writer, 0, 4);
+    auto writer = tests::must(RecordingWriter::create(file, small_recording_facts()));
+    append_small_volumes(writer, 0, 4);
   }
   expect_volumes(4);
   EXPECT_FALSE(RecordingReader::open(file)->end().finished);
@@ -157,10 +149,9 @@ TEST_F(Recording, of_a_program_that_was_killed_holds_what_came) {
 
 // By another process: HDF5 does not share a file with itself.
 TEST_F(Recording, can_be_read_while_it_is_written) {
-  auto writer = RecordingWriter::create(file, small_recording_facts());
-  ASSERT_TRUE(writer);
+  auto writer = tests::must(RecordingWriter::create(file, small_recording_facts()));
   for (std::uint64_t n = 0; n < 4; ++n) {
-    append_small_volumes(*writer, n, n + 1);
+    append_small_volumes(writer, n, n + 1);
     const pid_t child = ::fork();
     if (child == 0) {
       auto reader = RecordingReader::open(file);
@@ -194,9 +185,8 @@ TEST_F(Recording, that_outgrows_the_disk_says_so_and_keeps_what_it_has) {
   ASSERT_EQ(::waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFEXITED(status));
   ASSERT_GT(WEXITSTATUS(status), 0);
-  const auto reader = RecordingReader::open(file);
-  ASSERT_TRUE(reader) << reader.error().message;
-  EXPECT_GE(reader->volumes().size() + 1, static_cast<std::size_t>(WEXITSTATUS(status)));
+  const auto reader = tests::must(RecordingReader::open(file));
+  EXPECT_GE(reader.volumes().size() + 1, static_cast<std::size_t>(WEXITSTATUS(status)));
 }
 
 TEST_F(Recording, refuses_what_is_none) {
@@ -243,9 +233,7 @@ TEST_F(Recording, refuses_facts_that_cannot_be) {
 // own, since what HDF5 does with such a file is not ours to fix.
 TEST_F(Recording, with_damaged_bytes_is_read_or_refused) {
   write_small_recording(file, 3);
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  const std::string good = text.str();
+  const std::string good = tests::whole_file(file);
   std::mt19937_64 random{tests::fresh_seed()};
   int refused = 0;
   constexpr int rounds = 200;

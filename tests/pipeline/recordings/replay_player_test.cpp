@@ -1,5 +1,6 @@
 // What a replay shows, and when: with times of the test's own, and a recording that it makes up.
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -9,6 +10,7 @@
 #include "tests/support/allocation_counter.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/small_recording.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -272,13 +274,11 @@ TEST_F(ReplayPlayerTest, a_renderer_that_is_slow_gets_the_newest) {
 TEST(ReplayedFile, is_read_a_volume_at_a_time_and_allocates_nothing) {
   const tests::ScratchFolder folder;
   tests::write_small_recording(folder / "r.h5", 8);
-  auto reader = RecordingReader::open(folder / "r.h5");
-  ASSERT_TRUE(reader) << reader.error().message;
-  auto source = replay_source(std::move(*reader));
-  ASSERT_TRUE(source) << source.error().message;
+  auto reader = tests::must(RecordingReader::open(folder / "r.h5"));
+  auto source = tests::must(replay_source(std::move(reader)));
   FaultLog faults;
   Wakeup news;
-  ReplayPlayer player{std::move(*source), {}, faults, news};
+  ReplayPlayer player{std::move(source), {}, faults, news};
   hal::TimePoint now = start;
   const auto play_volumes = [&](std::uint64_t until) {
     while (player.counters().published < until)
@@ -297,24 +297,19 @@ TEST(ReplayedFile, is_read_a_volume_at_a_time_and_allocates_nothing) {
 TEST(ReplayedFile, without_volumes_is_refused) {
   const tests::ScratchFolder folder;
   tests::write_small_recording(folder / "r.h5", 0);
-  auto reader = RecordingReader::open(folder / "r.h5");
-  ASSERT_TRUE(reader) << reader.error().message;
-  const auto source = replay_source(std::move(*reader));
-  ASSERT_FALSE(source);
-  EXPECT_THAT(source.error().message, HasSubstr("no volumes"));
+  auto reader = tests::must(RecordingReader::open(folder / "r.h5"));
+  EXPECT_THAT(tests::error_of(replay_source(std::move(reader))).message, HasSubstr("no volumes"));
 }
 
 // Cut off while it is replayed: what was lost is told, and what is left goes on.
 TEST(ReplayedFile, that_is_cut_off_meanwhile_is_told) {
   const tests::ScratchFolder folder;
   tests::write_small_recording(folder / "r.h5", 8);
-  auto reader = RecordingReader::open(folder / "r.h5");
-  ASSERT_TRUE(reader) << reader.error().message;
-  auto source = replay_source(std::move(*reader));
-  ASSERT_TRUE(source) << source.error().message;
+  auto reader = tests::must(RecordingReader::open(folder / "r.h5"));
+  auto source = tests::must(replay_source(std::move(reader)));
   FaultLog faults;
   Wakeup news;
-  ReplayPlayer player{std::move(*source), {.once = true}, faults, news};
+  ReplayPlayer player{std::move(source), {.once = true}, faults, news};
   hal::TimePoint now = start;
   while (player.counters().published < 2)
     now = std::max(player.step(now), now);

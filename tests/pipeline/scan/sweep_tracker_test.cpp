@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/scan/sweep_tracker.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -24,10 +25,9 @@ TEST(SweepTracker, places_frames_by_their_time) {
   SweepTracker tracker{plan};
   EXPECT_EQ(tracker.armed(1, start), start + plan.sweep_duration());
   for (const int b : {0, 5, 41, 79}) {
-    const auto slot = tracker.place(start + b * plan.frame_period() + 20us);
-    ASSERT_TRUE(slot);
-    EXPECT_EQ(slot->volume, 1U);
-    EXPECT_EQ(slot->sweep, b);
+    const auto slot = tests::must(tracker.place(start + b * plan.frame_period() + 20us));
+    EXPECT_EQ(slot.volume, 1U);
+    EXPECT_EQ(slot.sweep, b);
   }
   EXPECT_FALSE(tracker.place(start + 81 * plan.frame_period()));
   EXPECT_FALSE(tracker.place(start - plan.frame_period()));
@@ -39,9 +39,8 @@ TEST(SweepTracker, counts_repeats_like_any_other_sweep) {
   SweepTracker tracker{plan};
   const hal::TimePoint end = tracker.armed(1, start);
   EXPECT_EQ(end, start + plan.sweep_duration());
-  const auto slot = tracker.place(start + 319 * plan.frame_period());
-  ASSERT_TRUE(slot);
-  EXPECT_EQ(slot->sweep, 319);
+  const auto slot = tests::must(tracker.place(start + 319 * plan.frame_period()));
+  EXPECT_EQ(slot.sweep, 319);
   EXPECT_FALSE(tracker.place(start + 320 * plan.frame_period()));
 }
 
@@ -50,14 +49,12 @@ TEST(SweepTracker, knows_that_a_pulse_during_a_sweep_is_latched) {
   SweepTracker tracker{plan};
   const hal::TimePoint second = tracker.armed(1, start);
   EXPECT_EQ(tracker.armed(2, second - 7ms), second + plan.sweep_duration());
-  const auto last = tracker.place(second - plan.frame_period());
-  ASSERT_TRUE(last);
-  EXPECT_EQ(last->volume, 1U);
-  EXPECT_EQ(last->sweep, 79);
-  const auto first = tracker.place(second);
-  ASSERT_TRUE(first);
-  EXPECT_EQ(first->volume, 2U);
-  EXPECT_EQ(first->sweep, 0);
+  const auto last = tests::must(tracker.place(second - plan.frame_period()));
+  EXPECT_EQ(last.volume, 1U);
+  EXPECT_EQ(last.sweep, 79);
+  const auto first = tests::must(tracker.place(second));
+  EXPECT_EQ(first.volume, 2U);
+  EXPECT_EQ(first.sweep, 0);
 }
 
 // The first pulse came late, the scanner missed the second, and so nothing held up the third: its
@@ -94,10 +91,9 @@ TEST(SweepTracker, follows_a_camera_whose_clock_drifts) {
   for (std::uint64_t volume = 1; volume <= 20; ++volume) {
     tracker.armed(volume, true_time - (volume == 1 ? 0ms : 1ms));
     for (int b = 0; b < plan.b_scans; ++b, true_time += true_period) {
-      const auto slot = tracker.place(true_time);
-      ASSERT_TRUE(slot);
-      ASSERT_EQ(slot->volume, volume);
-      ASSERT_EQ(slot->sweep, b);
+      const auto slot = tests::must(tracker.place(true_time));
+      ASSERT_EQ(slot.volume, volume);
+      ASSERT_EQ(slot.sweep, b);
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/threads/background_task.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -26,9 +27,8 @@ TEST(BackgroundTask, is_polled_without_waiting_and_has_each_outcome_once) {
   go.release();
   task.wait();
   EXPECT_TRUE(task.busy()) << "its outcome was not taken";
-  const auto outcome = task.take();
-  ASSERT_TRUE(outcome);
-  EXPECT_EQ(**outcome, "written");
+  const auto outcome = tests::must(task.take());
+  EXPECT_EQ(*outcome, "written");
   EXPECT_FALSE(task.busy());
   EXPECT_EQ(task.take(), std::nullopt) << "taken already";
   task.wait(); // for nothing
@@ -51,9 +51,8 @@ TEST(BackgroundTask, runs_one_job_at_a_time_on_a_thread_of_its_own) {
   go.release();
   task.wait();
   EXPECT_FALSE(task.start(second)) << "its outcome would be lost";
-  const auto ran_on = task.take();
-  ASSERT_TRUE(ran_on);
-  EXPECT_NE(*ran_on, std::this_thread::get_id());
+  const auto ran_on = tests::must(task.take());
+  EXPECT_NE(ran_on, std::this_thread::get_id());
   EXPECT_FALSE(second_ran);
   EXPECT_TRUE(task.start(second));
   task.wait();

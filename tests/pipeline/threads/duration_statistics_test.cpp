@@ -19,7 +19,7 @@ TEST(DurationStatistics, percentiles_are_right_within_two_percent) {
     all.push_back(ms(random));
     statistics.add(hal::from_seconds(all.back() * 1e-3));
   }
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   const DurationSummary s = statistics.summary();
   EXPECT_EQ(s.count, 20000U);
   EXPECT_NEAR(s.p50_ms / all[10000 - 1], 1.0, 0.02);

@@ -16,6 +16,7 @@
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 #include "tests/support/vessels/vessel_trees.h"
 
 namespace octascope::pipeline {
@@ -111,9 +112,8 @@ TEST_F(ClusterFileTest, gives_back_what_was_written) {
   for (const auto& [name, tree] : tests::trees_of_all_shapes(3000, tests::fresh_seed())) {
     SCOPED_TRACE(name);
     write(tree, "seed 7, scale factor 1.86\nfrom β.swc");
-    auto opened = ClusterFile::open(file);
-    ASSERT_TRUE(opened) << opened.error().message;
-    const ClusterFile moved = std::move(*opened);
+    auto opened = tests::must(ClusterFile::open(file));
+    const ClusterFile moved = std::move(opened);
     EXPECT_EQ(moved.facts(), facts);
     EXPECT_EQ(moved.clusters().segments, arrays.segments);
     EXPECT_TRUE(std::ranges::equal(std::as_bytes(moved.clusters().clusters),
@@ -134,9 +134,8 @@ TEST_F(ClusterFileTest, states_facts_that_a_walk_through_the_tree_finds) {
   grower.grow(fork, 0, 0.4F, 8);
   grower.grow(fork, 2, 0.1F, 5);
   write(grower.tree);
-  const auto opened = ClusterFile::open(file);
-  ASSERT_TRUE(opened) << opened.error().message;
-  const VesselFacts& found = opened->facts();
+  const auto opened = tests::must(ClusterFile::open(file));
+  const VesselFacts& found = opened.facts();
   EXPECT_EQ(found.nodes, 6U);
   EXPECT_EQ(found.roots, 2U);
   EXPECT_EQ(found.lone_roots, 1U);
@@ -156,16 +155,14 @@ TEST_F(ClusterFileTest, states_facts_that_a_walk_through_the_tree_finds) {
 
 TEST_F(ClusterFileTest, keeps_a_tree_without_segments) {
   write(VesselTree{});
-  const auto opened = ClusterFile::open(file);
-  ASSERT_TRUE(opened) << opened.error().message;
-  EXPECT_EQ(opened->clusters().clusters.size(), 0U);
-  EXPECT_EQ(opened->facts(), facts);
+  const auto opened = tests::must(ClusterFile::open(file));
+  EXPECT_EQ(opened.clusters().clusters.size(), 0U);
+  EXPECT_EQ(opened.facts(), facts);
 }
 
 TEST_F(ClusterFileTest, refuses_what_is_no_file_of_clusters) {
   const auto refusal = [&](const std::filesystem::path& path) {
-    const auto opened = ClusterFile::open(path);
-    return opened ? "not refused" : opened.error().message;
+    return tests::error_of(ClusterFile::open(path)).message;
   };
   EXPECT_THAT(refusal(folder / "none.vessels"), HasSubstr("none.vessels: cannot be opened"));
   EXPECT_THAT(refusal(folder.path()), HasSubstr("is a directory"));
@@ -292,11 +289,9 @@ TEST_F(ClusterFileTest, finds_rings_when_unpacking) {
   changed.header().roots -= 1;
   changed.header().nodes -= 1;
   changed.seal();
-  const auto content = changed.read();
-  ASSERT_TRUE(content) << content.error().message;
-  const auto tree = unpack_tree(content->clusters);
-  ASSERT_FALSE(tree);
-  EXPECT_THAT(tree.error().message, HasSubstr("is its own ancestor"));
+  const auto content = tests::must(changed.read());
+  EXPECT_THAT(tests::error_of(unpack_tree(content.clusters)).message,
+              HasSubstr("is its own ancestor"));
 }
 
 TEST_F(ClusterFileTest, writes_nothing_that_it_would_not_read) {
@@ -306,9 +301,8 @@ TEST_F(ClusterFileTest, writes_nothing_that_it_would_not_read) {
   facts.segments[2][2] += 1;
   EXPECT_FALSE(write_cluster_file(file, arrays.view(), facts));
   facts = facts_of(tree, arrays.error, std::string(longest_provenance + 1, 'x'));
-  const auto written = write_cluster_file(file, arrays.view(), facts);
-  ASSERT_FALSE(written);
-  EXPECT_THAT(written.error().message, HasSubstr("3073 bytes, expected at most 3072"));
+  EXPECT_THAT(tests::error_of(write_cluster_file(file, arrays.view(), facts)).message,
+              HasSubstr("3073 bytes, expected at most 3072"));
   EXPECT_EQ(folder.count(), 0);
 }
 

@@ -10,6 +10,7 @@
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -87,16 +88,14 @@ TEST_F(PointRegistrationTest, finds_half_turns_and_flat_sets) {
     std::vector<PointPair> flat;
     for (const Point& p : {Point{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {5, 5, 0}})
       flat.push_back({p, expected.apply(p)});
-    const auto found = register_points(flat);
-    ASSERT_TRUE(found) << found.error().message;
-    EXPECT_LT(difference(found->volume_from_tree, expected), 1e-9);
+    const auto found = tests::must(register_points(flat));
+    EXPECT_LT(difference(found.volume_from_tree, expected), 1e-9);
   }
 }
 
 TEST_F(PointRegistrationTest, has_less_left_over_than_any_transform_beside_it) {
   const auto noisy = pairs(transform(), 6, 0.3);
-  const auto found = register_points(noisy);
-  ASSERT_TRUE(found);
+  const auto found = tests::must(register_points(noisy));
   const auto squares = [&](const RigidTransform& by) {
     double sum = 0;
     for (const PointPair& pair : noisy) {
@@ -106,13 +105,13 @@ TEST_F(PointRegistrationTest, has_less_left_over_than_any_transform_beside_it) {
     }
     return sum;
   };
-  const double least = squares(found->volume_from_tree);
-  EXPECT_NEAR(std::sqrt(least / 6), found->rms_mm, 1e-12);
+  const double least = squares(found.volume_from_tree);
+  EXPECT_NEAR(std::sqrt(least / 6), found.rms_mm, 1e-12);
   for (int i = 0; i < 200; ++i) {
     const RigidTransform beside =
         turned(number(-0.01, 0.01), number(-0.01, 0.01), number(-0.01, 0.01),
                {number(-0.01, 0.01), number(-0.01, 0.01), number(-0.01, 0.01)});
-    EXPECT_GE(squares(beside * found->volume_from_tree), least);
+    EXPECT_GE(squares(beside * found.volume_from_tree), least);
   }
 }
 
@@ -125,11 +124,10 @@ TEST_F(PointRegistrationTest, leaves_the_residual_that_theory_says) {
   double left_out = 0;
   constexpr int rounds = 2000;
   for (int round = 0; round < rounds; ++round) {
-    const auto found = register_points(pairs(transform(), count, noise));
-    ASSERT_TRUE(found);
-    squares += found->rms_mm * found->rms_mm / rounds;
-    ASSERT_EQ(found->left_out_mm.size(), count);
-    left_out += *found->left_out_rms_mm / rounds;
+    const auto found = tests::must(register_points(pairs(transform(), count, noise)));
+    squares += found.rms_mm * found.rms_mm / rounds;
+    ASSERT_EQ(found.left_out_mm.size(), count);
+    left_out += *found.left_out_rms_mm / rounds;
   }
   EXPECT_NEAR(squares, (1 - 2.0 / count) * 3 * noise * noise, 0.04 * 3 * noise * noise);
   EXPECT_GT(left_out, std::sqrt(3) * noise); // the point's own error, and the fit's
@@ -138,13 +136,12 @@ TEST_F(PointRegistrationTest, leaves_the_residual_that_theory_says) {
 TEST_F(PointRegistrationTest, leaves_each_pair_out) {
   auto marked = pairs(transform(), 8, 0);
   marked[3].volume[1] += 2; // one is marked wrongly
-  const auto found = register_points(marked);
-  ASSERT_TRUE(found);
-  EXPECT_NEAR(found->left_out_mm[3], 2, 1e-9); // the others are exact
-  EXPECT_LT(found->residuals_mm[3], 2);
+  const auto found = tests::must(register_points(marked));
+  EXPECT_NEAR(found.left_out_mm[3], 2, 1e-9); // the others are exact
+  EXPECT_LT(found.residuals_mm[3], 2);
   for (std::size_t i = 0; i < 8; ++i)
     if (i != 3) {
-      EXPECT_GT(found->left_out_mm[i], 1e-3);
+      EXPECT_GT(found.left_out_mm[i], 1e-3);
     }
   const auto three = register_points(std::vector<PointPair>{
       {{0, 0, 0}, {0, 0, 0}}, {{1, 0, 0}, {1, 0, 0}}, {{0, 1, 0}, {0, 1, 0}}});
@@ -154,8 +151,7 @@ TEST_F(PointRegistrationTest, leaves_each_pair_out) {
 
 TEST_F(PointRegistrationTest, refuses_points_about_which_the_tree_could_turn) {
   const auto refusal = [](std::vector<PointPair> pairs) {
-    const auto found = register_points(pairs);
-    return found ? "not refused" : found.error().message;
+    return tests::error_of(register_points(pairs)).message;
   };
   const Point o{0, 0, 0};
   EXPECT_THAT(refusal({}), HasSubstr("found 0 pairs of points, expected at least 3"));
@@ -191,10 +187,9 @@ TEST_F(RegistrationFile, gives_back_the_same_numbers) {
   registration.provenance = {
       "octascope 1", "A. \"B\" C", "2026-11-21T10:00:00Z", "by hand", "pairs.csv", 6, 0.0125};
   ASSERT_TRUE(write_registration(registration, folder / "r.toml"));
-  const auto loaded = Registration::load(folder / "r.toml");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->volume_from_tree, registration.volume_from_tree);
-  EXPECT_EQ(loaded->provenance, registration.provenance);
+  const auto loaded = tests::must(Registration::load(folder / "r.toml"));
+  EXPECT_EQ(loaded.volume_from_tree, registration.volume_from_tree);
+  EXPECT_EQ(loaded.provenance, registration.provenance);
   EXPECT_EQ(folder.count(), 1);
 }
 
@@ -204,9 +199,8 @@ TEST_F(RegistrationFile, says_whose_vessels_they_are_as_far_as_somebody_said) {
     Registration registration;
     registration.whose = whose;
     ASSERT_TRUE(write_registration(registration, folder / "r.toml"));
-    const auto loaded = Registration::load(folder / "r.toml");
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    EXPECT_EQ(loaded->whose, whose);
+    const auto loaded = tests::must(Registration::load(folder / "r.toml"));
+    EXPECT_EQ(loaded.whose, whose);
     std::filesystem::remove(folder / "r.toml");
   }
   EXPECT_THAT(
@@ -244,9 +238,8 @@ TEST_F(RegistrationFile, refuses_what_is_not_rigid_and_what_it_does_not_know) {
 TEST_F(RegistrationFile, is_not_written_when_it_is_not_rigid) {
   Registration registration;
   registration.volume_from_tree.rotation[0][0] = 2;
-  const auto written = write_registration(registration, folder / "r.toml");
-  ASSERT_FALSE(written);
-  EXPECT_THAT(written.error().message, HasSubstr("is not rigid"));
+  EXPECT_THAT(tests::error_of(write_registration(registration, folder / "r.toml")).message,
+              HasSubstr("is not rigid"));
   EXPECT_EQ(folder.count(), 0);
 }
 

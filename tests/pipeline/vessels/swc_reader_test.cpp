@@ -10,6 +10,7 @@
 #include "pipeline/vessels/files/swc_reader.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -25,11 +26,7 @@ const std::string small = "1 16 0 0 0 100 -1\n"
                           "4 16 1000 500 0 40 2\n";
 
 SwcTree good(std::string_view text, const TreeReadOptions& options = {}) {
-  auto read = parse_swc(text, "v.swc", options);
-  if (read)
-    return std::move(*read);
-  ADD_FAILURE() << read.error().message;
-  return {};
+  return tests::must(parse_swc(text, "v.swc", options));
 }
 
 // The message without the file's name: place, found and expected.
@@ -350,8 +347,7 @@ TEST(SwcReader, reads_files_as_it_reads_text) {
 TEST(SwcReader, says_what_is_wrong_with_a_file) {
   const tests::ScratchFolder folder;
   const auto message = [](const std::filesystem::path& file, const TreeReadOptions& options = {}) {
-    const auto read = read_swc(file, options);
-    return read ? "" : read.error().message;
+    return tests::error_of(read_swc(file, options)).message;
   };
   EXPECT_THAT(message(folder / "nowhere.swc"), HasSubstr("nowhere.swc: cannot be opened: No such"));
   EXPECT_THAT(message(folder.path()), HasSubstr("is a directory, expected an SWC file"));

@@ -1,6 +1,5 @@
 // Centrelines in VTK's files: what VTK 9.1 itself wrote (tests/centrelines), and what it would not.
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "pipeline/vessels/files/vtp_reader.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
 #include "tests/support/program/built_places.h"
 
 namespace octascope::pipeline {
@@ -48,21 +48,14 @@ struct Text {
 };
 
 VtpTree good(std::string_view text, const TreeReadOptions& options = {}) {
-  auto read = parse_vtp(text, "v.vtp", options);
-  if (read)
-    return std::move(*read);
-  ADD_FAILURE() << read.error().message;
-  return {};
+  return tests::must(parse_vtp(text, "v.vtp", options));
 }
 
 std::string refusal(std::string_view text, const TreeReadOptions& options = {}) {
-  const auto read = parse_vtp(text, "v.vtp", options);
-  EXPECT_FALSE(read);
-  if (read)
-    return {};
-  EXPECT_EQ(read.error().code, hal::ErrorCode::bad_data);
-  EXPECT_THAT(read.error().message, testing::StartsWith("v.vtp:"));
-  return read.error().message;
+  const hal::Error error = tests::error_of(parse_vtp(text, "v.vtp", options));
+  EXPECT_EQ(error.code, hal::ErrorCode::bad_data);
+  EXPECT_THAT(error.message, testing::StartsWith("v.vtp:"));
+  return error.message;
 }
 
 template <class Spoil> std::string refusal_of(Spoil spoil) {
@@ -77,14 +70,13 @@ TEST(VtpReader, reads_what_vtk_writes_in_every_encoding) {
   VesselTree first;
   int files = 0;
   for (const auto& entry : fs::directory_iterator{tests::source_folder() / "tests/centrelines"}) {
-    const auto read = read_vtp(entry.path());
-    ASSERT_TRUE(read) << read.error().message;
-    const VesselTree& tree = read->tree;
-    EXPECT_EQ(read->counts.points, 24U);
-    EXPECT_EQ(read->counts.lines, 3U);
-    EXPECT_EQ(read->counts.merged_points, 9U);
-    EXPECT_EQ(read->counts.roots, 1U);
-    EXPECT_EQ(read->counts.radius_array, "MaximumInscribedSphereRadius");
+    const auto read = tests::must(read_vtp(entry.path()));
+    const VesselTree& tree = read.tree;
+    EXPECT_EQ(read.counts.points, 24U);
+    EXPECT_EQ(read.counts.lines, 3U);
+    EXPECT_EQ(read.counts.merged_points, 9U);
+    EXPECT_EQ(read.counts.roots, 1U);
+    EXPECT_EQ(read.counts.radius_array, "MaximumInscribedSphereRadius");
     ASSERT_EQ(tree.nodes(), 15U) << entry.path();
     if (files++ == 0)
       first = tree;
@@ -242,17 +234,13 @@ TEST(VtpReader, refuses_data_that_end_early) {
 
 TEST(TreeFile, is_told_by_its_content) {
   const tests::ScratchFolder folder;
-  const auto swc = read_tree(folder.write("a.vtp", "1 0 0 0 0 1 -1\n"));
-  ASSERT_TRUE(swc);
-  EXPECT_TRUE(std::holds_alternative<SwcCounts>(swc->counts));
-  EXPECT_EQ(swc->unit, LengthUnit::um);
-  const auto vtp = read_tree(folder.write("b.swc", "\xEF\xBB\xBF" + Text{}.file()));
-  ASSERT_TRUE(vtp) << vtp.error().message;
-  EXPECT_TRUE(std::holds_alternative<VtpCounts>(vtp->counts));
-  EXPECT_EQ(vtp->unit, LengthUnit::mm);
-  const auto neither = read_tree(folder.write("c.swc", {"\0\1\2", 3}));
-  ASSERT_FALSE(neither);
-  EXPECT_THAT(neither.error().message,
+  const auto swc = tests::must(read_tree(folder.write("a.vtp", "1 0 0 0 0 1 -1\n")));
+  EXPECT_TRUE(std::holds_alternative<SwcCounts>(swc.counts));
+  EXPECT_EQ(swc.unit, LengthUnit::um);
+  const auto vtp = tests::must(read_tree(folder.write("b.swc", "\xEF\xBB\xBF" + Text{}.file())));
+  EXPECT_TRUE(std::holds_alternative<VtpCounts>(vtp.counts));
+  EXPECT_EQ(vtp.unit, LengthUnit::mm);
+  EXPECT_THAT(tests::error_of(read_tree(folder.write("c.swc", {"\0\1\2", 3}))).message,
               HasSubstr("c.swc: found bytes that are no text, expected a "
                         "vessel tree: a .vessels file, SWC text or VTK XML poly data"));
 }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -159,16 +158,6 @@ TEST_F(GovernorTest, live_volumes_of_a_still_view_get_the_larger_budget) {
   EXPECT_GT(ui::sample_share(resting), ui::sample_share(moving));
   EXPECT_LT(machine.true_ms(resting), 45);
   EXPECT_EQ(draw(machine, 0.1, true).front(), moving) << "remembered";
-}
-
-TEST_F(GovernorTest, predicts_what_it_has_learnt) {
-  const Machine machine{.full_ms = 80, .exponent = 0.9};
-  EXPECT_EQ(governor_.predict(Technique::rays, ui::full_quality), hal::Duration{});
-  const auto quality = draw(machine, 5, true).back();
-  EXPECT_NEAR(hal::to_ms(governor_.predict(Technique::rays, quality)), machine.true_ms(quality),
-              0.05 * machine.true_ms(quality));
-  EXPECT_EQ(governor_.predict(Technique::planes, quality), hal::Duration{})
-      << "each technique is known by itself";
 }
 
 } // namespace

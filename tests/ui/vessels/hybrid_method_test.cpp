@@ -1,5 +1,4 @@
 // Vessels drawn by the processor, in GL's picture and depth.
-#include <bit>
 #include <limits>
 #include <vector>
 
@@ -133,37 +132,6 @@ TEST_F(HybridMethod, accounts_for_every_segment_whoever_has_it) {
       EXPECT_GT(account->splatted, 0U);
     }
   }
-}
-
-TEST_F(HybridMethod, merges_only_while_time_demands_it_and_says_so) {
-  auto method = ui::HybridMethod::create(1, {}, {});
-  ASSERT_TRUE(method) << method.error().message;
-  const auto frames = [&](int count, double ms) {
-    ui::SegmentCounts account;
-    for (int i = 0; i < count; ++i) {
-      const auto drawn = method->draw(scene());
-      EXPECT_TRUE(drawn);
-      account = *drawn;
-      method->note_cost(hal::from_seconds(1e-3 * ms));
-    }
-    return account;
-  };
-  frames(20, 100); // nobody asked for a frame time
-  EXPECT_EQ(method->shown_detail_px(), 0);
-  method->hold_frame_time(hal::from_seconds(0.03));
-  EXPECT_EQ(frames(20, 29).merged, 0U);
-  EXPECT_EQ(method->shown_detail_px(), 0);
-  EXPECT_GT(frames(60, 50).merged, 0U);
-  const float detail_px = method->shown_detail_px();
-  EXPECT_GT(detail_px, 0.1F);
-  method->set_at_rest(true);
-  EXPECT_EQ(frames(20, 500).merged, 0U);
-  EXPECT_EQ(method->shown_detail_px(), 0);
-  method->set_at_rest(false);
-  EXPECT_GT(frames(1, 28).merged, 0U);
-  EXPECT_EQ(method->shown_detail_px(), detail_px); // what rest costs changed nothing
-  EXPECT_EQ(frames(400, 10).merged, 0U);
-  EXPECT_EQ(method->shown_detail_px(), 0);
 }
 
 } // namespace

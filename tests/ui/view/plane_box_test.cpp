@@ -12,6 +12,14 @@ namespace {
 
 constexpr glm::vec3 half{1.5F, 0.9F, 1.2F};
 
+float polygon_area(const PlanePolygon& polygon) {
+  glm::vec3 sum{0};
+  for (std::size_t i = 2; i < static_cast<std::size_t>(polygon.count); ++i)
+    sum += glm::cross(polygon.corners[i - 1] - polygon.corners[0],
+                      polygon.corners[i] - polygon.corners[0]);
+  return glm::length(sum) / 2;
+}
+
 TEST(PlaneBox, axis_aligned_cuts_are_the_faces_rectangles) {
   EXPECT_NEAR(polygon_area(intersect_plane_box(half, {1, 0, 0}, 0.3F)), 1.8 * 2.4, 1e-5);
   EXPECT_NEAR(polygon_area(intersect_plane_box(half, {0, -1, 0}, 0.5F)), 3.0 * 2.4, 1e-5);

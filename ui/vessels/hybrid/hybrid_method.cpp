@@ -2,8 +2,6 @@
 
 #include <GLES3/gl3.h>
 
-#include "ui/view/segment_counts.h"
-
 namespace octascope::ui {
 
 hal::Result<HybridMethod> HybridMethod::create(std::size_t helpers,
@@ -13,20 +11,7 @@ hal::Result<HybridMethod> HybridMethod::create(std::size_t helpers,
   return HybridMethod{std::move(splatter), std::move(picture), std::move(share)};
 }
 
-void HybridMethod::hold_frame_time(hal::Duration target) {
-  if (governor_)
-    governor_->set_budget(target);
-  else
-    governor_.emplace(target);
-}
-
-void HybridMethod::note_cost(hal::Duration cost) {
-  if (governor_ && !at_rest_)
-    governor_->note(cost);
-}
-
 hal::Result<SegmentCounts> HybridMethod::do_draw(const VesselScene& scene) {
-  shown_detail_px_ = governor_ ? governor_->detail_px(at_rest_) : detail_px_;
   SegmentCounts account;
   if (share_.gl) {
     split_by_radius(scene, share_.gl_radius_px, split_);
@@ -34,7 +19,7 @@ hal::Result<SegmentCounts> HybridMethod::do_draw(const VesselScene& scene) {
     account = by_gl;
     glFlush(); // GL begins now, beside the splatter
   }
-  HAL_TRY(const auto by_processor, splatter_.draw(scene, image_, {split_, shown_detail_px_}));
+  HAL_TRY(const auto by_processor, splatter_.draw(scene, image_, {split_, detail_px_}));
   account.splatted += by_processor.splatted;
   account.merged += by_processor.merged;
   account.culled += by_processor.culled;

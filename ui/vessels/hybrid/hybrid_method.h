@@ -6,11 +6,9 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 
 #include "hal/result.h"
 #include "pipeline/threads/worker_pool.h"
-#include "ui/vessels/hybrid/detail_governor.h"
 #include "ui/vessels/hybrid/gl_share.h"
 #include "ui/vessels/scene/vessel_method.h"
 #include "ui/vessels/splatter/splat_picture.h"
@@ -31,23 +29,8 @@ public:
   static hal::Result<HybridMethod> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
                                           Share share);
 
-  // For the frames that follow; see SplatShare::detail_px. Ends hold_frame_time().
-  void set_detail_px(float detail_px) {
-    governor_.reset();
-    detail_px_ = detail_px;
-  }
-
-  // From now on vessels are merged as far as it takes, and no further, for frames to cost no more
-  // than that, by what note_cost() is told; see DetailGovernor. May be told anew at any time.
-  void hold_frame_time(hal::Duration target);
-  // Of the whole last frame, whatever else was in it.
-  void note_cost(hal::Duration cost);
-  // Where nothing moves, a frame may take its time and shows every vessel.
-  void set_at_rest(bool at_rest) { at_rest_ = at_rest; }
-
-  // The radius below which vessels were merged in the last frame, to be shown beside the picture.
-  // 0: all were drawn as they are.
-  float shown_detail_px() const { return shown_detail_px_; }
+  // For the frames that follow; see SplatShare::detail_px.
+  void set_detail_px(float detail_px) { detail_px_ = detail_px; }
 
   // What the processor drew in the last frame, with distances.
   const DepthImage& splats() const { return image_; }
@@ -62,10 +45,7 @@ private:
   Share share_;
   DepthImage image_;
   VesselSplit split_; // empty without a share of GL's
-  std::optional<DetailGovernor> governor_;
-  bool at_rest_ = false;
   float detail_px_ = 0;
-  float shown_detail_px_ = 0;
 };
 
 } // namespace octascope::ui

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "ui/vessels/scene/vessel_uniforms.h"
-#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 

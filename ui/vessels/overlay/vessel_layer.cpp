@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include <fmt/format.h>
-
 #include "ui/gl/kept_framebuffer.h"
 #include "ui/gl/picture_texture.h"
 
@@ -16,10 +14,9 @@ hal::Result<> VesselLayer::update(Splatter& splatter, const VesselScene& scene, 
       scene.width, scene.height};
   if (drawn_ != key) {
     drawn_.reset();
-    const auto account = splatter.draw(scene, image_, {.taken = {}, .detail_px = detail_px});
-    if (!account)
-      return tl::make_unexpected(account.error());
-    account_ = *account;
+    HAL_TRY(const auto account,
+            splatter.draw(scene, image_, {.taken = {}, .detail_px = detail_px}));
+    account_ = account;
     drawn_ = key;
     ++drawings_;
   }
@@ -42,9 +39,9 @@ hal::Result<> VesselLayer::resize(int width, int height) {
   const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
   if (status != GL_FRAMEBUFFER_COMPLETE)
     return hal::fail(hal::ErrorCode::system,
-                     fmt::format("vessel display: a picture of {}x{} is no complete framebuffer "
-                                 "(status 0x{:04x}); choose a smaller size",
-                                 width, height, status));
+                     "vessel display: a picture of {}x{} is no complete framebuffer (status "
+                     "0x{:04x}); choose a smaller size",
+                     width, height, status);
   width_ = width;
   height_ = height;
   return {};

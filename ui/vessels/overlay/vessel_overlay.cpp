@@ -1,7 +1,6 @@
 #include "ui/vessels/overlay/vessel_overlay.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <thread>
 #include <utility>
 

@@ -6,11 +6,9 @@
 #include <cstdint>
 
 #include "embedded_shaders.h"
-#include <fmt/format.h>
 
 #include "ui/gl/framebuffer.h"
 #include "ui/gl/picture_texture.h"
-#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 
@@ -45,9 +43,9 @@ hal::Result<> check_framebuffer(int width, int height) {
   if (status == GL_FRAMEBUFFER_COMPLETE)
     return {};
   return hal::fail(hal::ErrorCode::system,
-                   fmt::format("vessels: a picture of {}x{} is no complete framebuffer (status "
-                               "0x{:04x}); choose a smaller size",
-                               width, height, status));
+                   "vessels: a picture of {}x{} is no complete framebuffer (status 0x{:04x}); "
+                   "choose a smaller size",
+                   width, height, status);
 }
 
 } // namespace

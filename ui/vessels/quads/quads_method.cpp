@@ -1,7 +1,6 @@
 #include "ui/vessels/quads/quads_method.h"
 
 #include "ui/vessels/scene/vessel_uniforms.h"
-#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "ui/vessels/scene/vessel_uniforms.h"
-#include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
 

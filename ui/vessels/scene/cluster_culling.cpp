@@ -1,7 +1,6 @@
 #include "ui/vessels/scene/cluster_culling.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

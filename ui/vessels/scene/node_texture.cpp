@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 namespace octascope::ui {
 
 namespace {
@@ -29,9 +27,8 @@ hal::Result<> NodeTexture::show(const pipeline::VesselClusters& tree) {
   const std::size_t count = tree.nodes.size();
   if (count > layer_nodes * most_layers)
     return hal::fail(hal::ErrorCode::system,
-                     fmt::format("vessels: found {} nodes, expected at most {}; draw a part of the "
-                                 "tree",
-                                 count, layer_nodes * most_layers));
+                     "vessels: found {} nodes, expected at most {}; draw a part of the tree", count,
+                     layer_nodes * most_layers);
   const std::size_t all_rows = std::max<std::size_t>(1, (count + columns - 1) / columns);
   const std::size_t layers = (all_rows + rows - 1) / rows;
   texture_ = {}; // before the new one: both together may not fit
@@ -44,9 +41,9 @@ hal::Result<> NodeTexture::show(const pipeline::VesselClusters& tree) {
   if (glGetError() != GL_NO_ERROR) {
     texture_ = {};
     return hal::fail(hal::ErrorCode::system,
-                     fmt::format("vessels: the graphics driver has no room for a texture of {} MB; "
-                                 "draw by the processor, or a smaller tree",
-                                 layers * layer_nodes * sizeof(pipeline::PackedNode) / 1'000'000));
+                     "vessels: the graphics driver has no room for a texture of {} MB; draw by the "
+                     "processor, or a smaller tree",
+                     layers * layer_nodes * sizeof(pipeline::PackedNode) / 1'000'000);
   }
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

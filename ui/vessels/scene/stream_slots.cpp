@@ -1,7 +1,5 @@
 #include "ui/vessels/scene/stream_slots.h"
 
-#include <fmt/format.h>
-
 namespace octascope::ui {
 
 StreamSlots::StreamSlots(std::size_t slots, std::size_t bytes)
@@ -22,9 +20,9 @@ hal::Result<> StreamSlots::open(std::size_t slot) {
                                                GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT));
   if (memory_[slot] == nullptr)
     return hal::fail(hal::ErrorCode::system,
-                     fmt::format("vessels: the graphics driver gives no memory for {} bytes of "
-                                 "vertices; let GL expand the vessels (quads-gpu)",
-                                 bytes_));
+                     "vessels: the graphics driver gives no memory for {} bytes of vertices; let "
+                     "GL expand the vessels (quads-gpu)",
+                     bytes_);
   return {};
 }
 

@@ -15,8 +15,6 @@
 // connected line.
 #pragma once
 
-#include <cstdint>
-
 #include <glm/mat4x4.hpp>
 
 #include "pipeline/vessels/clusters.h"

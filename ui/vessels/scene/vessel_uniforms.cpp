@@ -1,7 +1,5 @@
 #include "ui/vessels/scene/vessel_uniforms.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 namespace octascope::ui {

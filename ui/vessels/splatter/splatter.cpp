@@ -85,9 +85,9 @@ hal::Result<Splatter> Splatter::create(std::size_t helpers, const pipeline::Thre
   const SplatKernels* kernels = splat_kernels(isa);
   if (kernels == nullptr)
     return hal::fail(hal::ErrorCode::unsupported,
-                     fmt::format("vessel splatter: found no instruction set {}of those compiled in "
-                                 "on this processor; draw vessels with GL",
-                                 isa.empty() ? std::string{} : fmt::format("'{}' ", isa)));
+                     "vessel splatter: found no instruction set {}of those compiled in on this "
+                     "processor; draw vessels with GL",
+                     isa.empty() ? std::string{} : fmt::format("'{}' ", isa));
   return Splatter{*kernels, std::make_unique<WorkTeam>(helpers, setup)};
 }
 
@@ -95,15 +95,14 @@ hal::Result<SegmentCounts> Splatter::draw(const VesselScene& scene, DepthImage& 
                                           const SplatShare& share) {
   if (scene.width <= 0 || scene.height <= 0)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     fmt::format("vessel splatter: a picture of {} by {} pixels, expected at least "
-                                 "one; give the window a size",
-                                 scene.width, scene.height));
+                     "vessel splatter: a picture of {} by {} pixels, expected at least one; give "
+                     "the window a size",
+                     scene.width, scene.height);
   if (!share.taken.empty() && share.taken.size() != scene.tree.clusters.size())
     return hal::fail(
         hal::ErrorCode::invalid_argument,
-        fmt::format("vessel splatter: shares of {} clusters, expected {}; give one for "
-                    "each cluster or none",
-                    share.taken.size(), scene.tree.clusters.size()));
+        "vessel splatter: shares of {} clusters, expected {}; give one for each cluster or none",
+        share.taken.size(), scene.tree.clusters.size());
   image.resize(scene.width, scene.height);
   const auto pixels =
       static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);

@@ -1,7 +1,6 @@
 // The triangles of tubes, whoever expands them.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>

@@ -1,7 +1,6 @@
 #include "ui/vessels/view/dense_place.h"
 
 #include <array>
-#include <cstdint>
 #include <map>
 
 #include <glm/common.hpp>

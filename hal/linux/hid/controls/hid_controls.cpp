@@ -48,8 +48,8 @@ std::vector<std::string> HidControls::complaints() const {
 Result<> HidControls::do_open() {
   if (state() != DeviceState::absent)
     return fail(ErrorCode::invalid_argument,
-                fmt::format("HID controls: open while {}, expected absent; call close first",
-                            to_string(state())));
+                "HID controls: open while {}, expected absent; call close first",
+                to_string(state()));
   // Watched before they are looked for: what is plugged in between is not missed.
   const Result<> opened = watch().and_then([this] { return open_all(); });
   if (!opened) {
@@ -82,12 +82,10 @@ Result<> HidControls::open_all() {
     return {};
   if (!refused.empty())
     return tl::make_unexpected(refused.front());
-  return fail(
-      ErrorCode::absent,
-      fmt::format("HID controls: found {}, expected a pedal or knob that is listed in "
-                  "docs/DEVICES.md; plug one in, or teach a new one with `octascope devices "
-                  "--learn`",
-                  found_instead(nodes)));
+  return fail(ErrorCode::absent,
+              "HID controls: found {}, expected a pedal or knob that is listed in docs/DEVICES.md; "
+              "plug one in, or teach a new one with `octascope devices --learn`",
+              found_instead(nodes));
 }
 
 void HidControls::open_one(const PluggedControl& control, std::vector<ServingControl>& serving,

@@ -6,7 +6,6 @@
 // for all of them; after close() and open() the rest serves on.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>

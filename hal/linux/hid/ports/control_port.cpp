@@ -11,9 +11,8 @@ Result<std::unique_ptr<ControlPort>> ControlPort::open(const HidNode& node,
                                                        const ControlModel& model) {
   auto port = model.by_evdev() ? open_evdev_port(node, model) : open_raw_port(node, model);
   if (!port)
-    return fail(port.error().code,
-                fmt::format("{} ({}): {}{}", model.name, usb_id(model.vendor, model.product),
-                            port.error().message, remedy_of_control(node.node, port.error().code)));
+    return fail(port.error().code, "{} ({}): {}{}", model.name, usb_id(model.vendor, model.product),
+                port.error().message, remedy_of_control(node.node, port.error().code));
   return port;
 }
 

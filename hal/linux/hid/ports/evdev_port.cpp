@@ -31,12 +31,10 @@ private:
 
   Result<bool> do_read(std::optional<HidReading>& reading) override {
     reading.reset();
-    const auto event = file_.next();
+    HAL_TRY(const auto event, file_.next());
     if (!event)
-      return tl::make_unexpected(event.error());
-    if (!*event)
       return false;
-    reading = decoder_.decode(**event);
+    reading = decoder_.decode(*event);
     return true;
   }
 

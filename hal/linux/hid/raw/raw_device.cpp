@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <hidapi.h>
 #include <linux/hidraw.h>
 
@@ -69,9 +68,9 @@ Result<std::unique_ptr<RawDevice>> RawDevice::open(const std::string& node) {
   if (const auto again = ask(node); !again) // it went meanwhile
     return tl::make_unexpected(again.error());
   return fail(ErrorCode::system,
-              fmt::format("{}: found a device that may be opened, and hidapi did not open it: {}; "
-                          "it is tried again by itself",
-                          node, narrow(hid_error(nullptr))));
+              "{}: found a device that may be opened, and hidapi did not open it: {}; it is tried "
+              "again by itself",
+              node, narrow(hid_error(nullptr)));
 }
 
 Result<std::size_t> RawDevice::read(std::span<std::uint8_t> report,

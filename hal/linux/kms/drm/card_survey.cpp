@@ -147,7 +147,7 @@ std::vector<std::string> card_nodes() {
        !ignored && entry != end; entry.increment(ignored))
     if (const int number = card_number(entry->path().filename().string()); number >= 0)
       found.emplace_back(number, entry->path().string());
-  std::sort(found.begin(), found.end());
+  std::ranges::sort(found);
   std::vector<std::string> nodes;
   for (auto& [number, node] : found)
     nodes.push_back(std::move(node));

@@ -15,11 +15,11 @@ constexpr int smallest = 100;
 constexpr int largest = 16384;
 
 tl::unexpected<Error> not_a_mode(std::string_view text) {
-  return fail(ErrorCode::invalid_argument,
-              fmt::format("kms display: mode is \"{}\", expected \"preferred\", \"1920x1080\", "
-                          "\"1920x1080@60\" or, with computed timings, \"1920x1080M@60\" ({} to {} "
-                          "pixels either way, 1 to 1000 Hz)",
-                          text, smallest, largest));
+  return fail(
+      ErrorCode::invalid_argument,
+      "kms display: mode is \"{}\", expected \"preferred\", \"1920x1080\", \"1920x1080@60\" or, "
+      "with computed timings, \"1920x1080M@60\" ({} to {} pixels either way, 1 to 1000 Hz)",
+      text, smallest, largest);
 }
 
 // The number at the front of `text`, which it shortens.
@@ -45,11 +45,10 @@ tl::unexpected<Error> no_such_mode(std::span<const Mode> modes, const ModeWish& 
   for (const Mode& mode : modes)
     list += (list.empty() ? "" : ", ") + to_text(mode);
   return fail(ErrorCode::unsupported,
-              fmt::format("kms display: no mode {}x{}{}, expected one of the monitor's: {}; set "
-                          "the mode to one of them, or to \"{}x{}M\" to try computed timings",
-                          wish.width, wish.height,
-                          wish.refresh_hz ? fmt::format("@{}", *wish.refresh_hz) : "",
-                          list.empty() ? "none" : list, wish.width, wish.height));
+              "kms display: no mode {}x{}{}, expected one of the monitor's: {}; set the mode to "
+              "one of them, or to \"{}x{}M\" to try computed timings",
+              wish.width, wish.height, wish.refresh_hz ? fmt::format("@{}", *wish.refresh_hz) : "",
+              list.empty() ? "none" : list, wish.width, wish.height);
 }
 
 // Lines of vertical sync, by which monitors tell the aspect ratio (CVT 1.1, table 3-2).

@@ -70,13 +70,12 @@ tl::unexpected<Error> nothing_connected(std::span<const Card> cards, const std::
   const std::string list = list_of(cards);
   if (sockets_of(cards, name).empty())
     return fail(ErrorCode::absent,
-                fmt::format("kms display: no connector \"{}\", expected one of: {}; fix the "
-                            "configured name",
-                            name, list));
+                "kms display: no connector \"{}\", expected one of: {}; fix the configured name",
+                name, list);
   return fail(ErrorCode::absent,
-              fmt::format("kms display: no monitor found{}; connectors: {}; check the cable and "
-                          "the monitor's power; it is tried again by itself",
-                          name.empty() ? "" : " at " + name, list));
+              "kms display: no monitor found{}; connectors: {}; check the cable and the monitor's "
+              "power; it is tried again by itself",
+              name.empty() ? "" : " at " + name, list);
 }
 
 std::optional<Socket> choose_socket(std::span<const Card> cards, const std::string& name) {
@@ -100,7 +99,7 @@ bool reaches(std::uint32_t possible_crtcs, std::size_t index) {
 // nobody uses; else any.
 std::optional<std::size_t> choose_crtc(const Card& card, const Connector& connector) {
   const auto used_elsewhere = [&](std::uint32_t crtc) {
-    return std::any_of(card.connectors.begin(), card.connectors.end(), [&](const Connector& other) {
+    return std::ranges::any_of(card.connectors, [&](const Connector& other) {
       return other.id != connector.id && other.current_crtc == crtc;
     });
   };
@@ -147,12 +146,12 @@ Result<OutputChoice> choose_output(std::span<const Card> cards, const OutputWish
   const auto crtc = choose_crtc(card, connector);
   if (!crtc)
     return fail(ErrorCode::unsupported,
-                fmt::format("kms display: nothing in {} ({}) can send a picture to {}, expected a "
-                            "CRTC; use another connector: {}",
-                            card.node, card.driver, connector.name, list_of(cards)));
+                "kms display: nothing in {} ({}) can send a picture to {}, expected a CRTC; use "
+                "another connector: {}",
+                card.node, card.driver, connector.name, list_of(cards));
   auto mode = choose_mode(connector.modes, wish.mode);
   if (!mode)
-    return fail(mode.error().code, fmt::format("{} ({})", mode.error().message, connector.name));
+    return fail(mode.error().code, "{} ({})", mode.error().message, connector.name);
 
   OutputChoice choice;
   choice.card = socket->card;
@@ -171,11 +170,11 @@ std::vector<std::uint32_t> common_formats(const Plane* plane,
   const auto shows = [&](std::uint32_t format) {
     if (plane == nullptr || plane->formats.empty())
       return format == DRM_FORMAT_XRGB8888;
-    return std::find(plane->formats.begin(), plane->formats.end(), format) != plane->formats.end();
+    return std::ranges::find(plane->formats, format) != plane->formats.end();
   };
   std::vector<std::uint32_t> common;
   for (const std::uint32_t format : wanted)
-    if (shows(format) && std::find(drawable.begin(), drawable.end(), format) != drawable.end())
+    if (shows(format) && std::ranges::find(drawable, format) != drawable.end())
       common.push_back(format);
   return common;
 }

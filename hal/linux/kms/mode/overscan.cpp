@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 namespace octascope::hal::linux_backend::kms {
 
 Result<Rectangle> visible_part(int width, int height, const Overscan& overscan) {
   for (const double margin : {overscan.left, overscan.right, overscan.top, overscan.bottom})
     if (!(margin >= 0 && margin <= 25))
       return fail(ErrorCode::invalid_argument,
-                  fmt::format("kms display: an overscan margin is {} %, expected 0 to 25", margin));
+                  "kms display: an overscan margin is {} %, expected 0 to 25", margin);
   const auto pixels = [](int whole, double percent) {
     return static_cast<int>(std::lround(whole * percent / 100));
   };

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include <GLES3/gl3.h>
-#include <fmt/format.h>
 
 namespace octascope::hal::linux_backend::kms {
 
@@ -20,9 +19,9 @@ Result<> VisibleFrame::create(int screen_width, int screen_height, const Rectang
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
       return fail(ErrorCode::system,
-                  fmt::format("kms display: a framebuffer of {}x{} is incomplete; choose a smaller "
-                              "mode, or no overscan margins",
-                              part.width, part.height));
+                  "kms display: a framebuffer of {}x{} is incomplete; choose a smaller mode, or no "
+                  "overscan margins",
+                  part.width, part.height);
   }
   glViewport(0, 0, part.width, part.height);
   glClearColor(0, 0, 0, 1);

@@ -1,7 +1,6 @@
 #include "hal/linux/kms/scanout/atomic_request.h"
 
 #include <cerrno>
-#include <cstdint>
 
 #include <xf86drm.h>
 

@@ -1,12 +1,13 @@
-// A regular file that is read from front to back, or whole.
+// A regular file that is read from front to back, read whole, or mapped.
 //
-// Read, not mapped: a file on a medium that is pulled out in the middle gives an error here, and
-// would end the program there.
+// A file on a medium that is pulled out in the middle gives an error where it is read, and ends the
+// program where it is mapped.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,22 @@
 #include "hal/result.h"
 
 namespace octascope::pipeline {
+
+// A mapped file's bytes, for as long as this lives.
+class MappedFile {
+public:
+  explicit MappedFile(std::span<const std::byte> bytes)
+      : bytes_{bytes.data(), Unmap{bytes.size()}} {}
+
+  std::span<const std::byte> bytes() const { return {bytes_.get(), bytes_.get_deleter().size}; }
+
+private:
+  struct Unmap {
+    std::size_t size;
+    void operator()(const std::byte* bytes) const;
+  };
+  std::unique_ptr<const std::byte[], Unmap> bytes_;
+};
 
 class InputFile {
 public:
@@ -31,15 +48,20 @@ public:
   // Fills as much of `buffer` as there is; less only at the end of the file.
   hal::Result<std::size_t> read(std::span<char> buffer) const;
 
+  // All of it, which must not be nothing.
+  hal::Result<MappedFile> map() const;
+
   // What is left, up to `most` bytes.
   hal::Result<std::string> read_rest(std::uint64_t most) const;
 
 private:
-  InputFile(int descriptor, std::filesystem::path file, std::uint64_t bytes)
-      : descriptor_(descriptor), file_(std::move(file)), bytes_(bytes) {}
+  InputFile(int descriptor, std::filesystem::path file, std::string_view expected,
+            std::uint64_t bytes)
+      : descriptor_(descriptor), file_(std::move(file)), expected_(expected), bytes_(bytes) {}
 
   int descriptor_;
   std::filesystem::path file_;
+  std::string expected_;
   std::uint64_t bytes_;
 };
 

@@ -1,4 +1,4 @@
-#include "pipeline/vessels/files/input_file.h"
+#include "pipeline/files/input_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -7,6 +7,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,10 +16,14 @@ namespace octascope::pipeline {
 namespace fs = std::filesystem;
 using hal::ErrorCode;
 
+void MappedFile::Unmap::operator()(const std::byte* bytes) const {
+  ::munmap(const_cast<std::byte*>(bytes), size);
+}
+
 hal::Result<InputFile> InputFile::open(const fs::path& file, std::string_view expected,
                                        std::uint64_t most_bytes) {
   const auto refuse = [&](ErrorCode fault, std::string_view found) {
-    return hal::fail(fault, fmt::format("{}: {}, expected {}", file.string(), found, expected));
+    return hal::fail(fault, "{}: {}, expected {}", file.string(), found, expected);
   };
   // Without O_NONBLOCK a pipe would wait here for its writer.
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -29,7 +34,7 @@ hal::Result<InputFile> InputFile::open(const fs::path& file, std::string_view ex
                   fmt::format("cannot be opened: {}", std::generic_category().message(errno)));
   struct stat status = {};
   const bool known = ::fstat(descriptor, &status) == 0;
-  InputFile input{descriptor, file, static_cast<std::uint64_t>(status.st_size)};
+  InputFile input{descriptor, file, expected, static_cast<std::uint64_t>(status.st_size)};
   if (!known)
     return refuse(ErrorCode::system, std::generic_category().message(errno));
   if (S_ISDIR(status.st_mode))
@@ -45,7 +50,7 @@ hal::Result<InputFile> InputFile::open(const fs::path& file, std::string_view ex
 
 InputFile::InputFile(InputFile&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)), file_(std::move(other.file_)),
-      bytes_(other.bytes_) {}
+      expected_(std::move(other.expected_)), bytes_(other.bytes_) {}
 
 InputFile::~InputFile() {
   if (descriptor_ >= 0)
@@ -59,14 +64,21 @@ hal::Result<std::size_t> InputFile::read(std::span<char> buffer) const {
     if (got < 0 && errno == EINTR)
       continue;
     if (got < 0)
-      return hal::fail(ErrorCode::system,
-                       fmt::format("{}: cannot be read to its end: {}", file_.string(),
-                                   std::generic_category().message(errno)));
+      return hal::fail(ErrorCode::system, "{}: cannot be read to its end: {}", file_.string(),
+                       std::generic_category().message(errno));
     if (got == 0)
       break;
     filled += static_cast<std::size_t>(got);
   }
   return filled;
+}
+
+hal::Result<MappedFile> InputFile::map() const {
+  void* mapping = ::mmap(nullptr, bytes_, PROT_READ, MAP_PRIVATE, descriptor_, 0);
+  if (mapping == MAP_FAILED)
+    return hal::fail(ErrorCode::system, "{}: cannot be mapped: {}, expected {}", file_.string(),
+                     std::generic_category().message(errno), expected_);
+  return MappedFile{{static_cast<const std::byte*>(mapping), bytes_}};
 }
 
 hal::Result<std::string> InputFile::read_rest(std::uint64_t most) const {
