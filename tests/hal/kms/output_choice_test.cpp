@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/kms/mode/output_choice.h"
+#include "tests/support/fails_with.h"
 
 namespace octascope::tests {
 namespace {
@@ -134,8 +135,7 @@ TEST(OutputChoice, says_what_is_missing) {
   const auto message_of = [](const std::vector<Card>& cards, hal::ErrorCode fault,
                              const std::string& name = {}) {
     const auto choice = choose_output(cards, {name, {}, true});
-    EXPECT_FALSE(choice);
-    EXPECT_EQ(choice.error().code, fault);
+    EXPECT_THAT(choice, FailsWith(fault));
     return choice.error().message;
   };
   EXPECT_THAT(message_of({}, hal::ErrorCode::absent),
@@ -160,9 +160,7 @@ TEST(OutputChoice, says_what_is_missing) {
 TEST(OutputChoice, names_the_socket_whose_mode_is_not_to_be_had) {
   const std::vector<Card> cards{card_of()};
   const auto choice = choose_output(cards, {"", {800, 600, {}}, true});
-  ASSERT_FALSE(choice);
-  EXPECT_EQ(choice.error().code, hal::ErrorCode::unsupported);
-  EXPECT_THAT(choice.error().message, AllOf(HasSubstr("HDMI-A-1"), HasSubstr("1920x1080")));
+  ASSERT_THAT(choice, FailsWith(hal::ErrorCode::unsupported, "HDMI-A-1", "1920x1080"));
 }
 
 TEST(Formats, are_those_that_both_can_without_alpha_first) {
