@@ -30,6 +30,9 @@ template <class... Words> auto FailsWith(hal::ErrorCode code, const Words&... wo
   return IsErrorWith(std::optional{code}, std::vector<std::string>{words...});
 }
 
+inline auto FailsSaying(const std::vector<std::string>& words) {
+  return IsErrorWith(std::optional<hal::ErrorCode>{}, words);
+}
 template <class... Words> auto FailsSaying(const Words&... words) {
   return IsErrorWith(std::optional<hal::ErrorCode>{}, std::vector<std::string>{words...});
 }
