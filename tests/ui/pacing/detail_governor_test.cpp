@@ -13,14 +13,6 @@ double cost_ms(float detail_px, double full_ms) {
   return 6 + full_ms * std::min(1.0, thin_px / std::max(double{detail_px}, 1e-6));
 }
 
-TEST(DetailGovernor, draws_everything_where_there_is_time) {
-  ui::DetailGovernor governor{hal::from_seconds(0.04)};
-  for (int i = 0; i < 50; ++i) {
-    EXPECT_EQ(governor.detail_px(false), 0);
-    governor.note(hal::from_seconds(1e-3 * cost_ms(0, 20)));
-  }
-}
-
 TEST(DetailGovernor, comes_into_the_budget_and_stays_without_swinging) {
   std::mt19937_64 random{1};
   std::uniform_real_distribution<double> noise{0.96, 1.04};
@@ -78,14 +70,6 @@ TEST(DetailGovernor, settles_though_merging_has_its_price) {
       EXPECT_LE(turns, 2) << scene_ms;
     }
   }
-}
-
-TEST(DetailGovernor, at_rest_everything_is_drawn) {
-  ui::DetailGovernor governor{hal::from_seconds(0.01)};
-  for (int i = 0; i < 60; ++i)
-    governor.note(hal::from_seconds(0.1));
-  EXPECT_GT(governor.detail_px(false), 0);
-  EXPECT_EQ(governor.detail_px(true), 0);
 }
 
 } // namespace
