@@ -2,9 +2,7 @@
 // clocks to test.
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <ostream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,16 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "hal/clock.h"
-#include "tests/contract/name_of_case.h"
+#include "tests/contract/contract_case.h"
 #include "tests/support/allocation_counter.h"
 
 namespace octascope::tests {
 
-struct ClockCase {
-  std::string name;
-  std::function<std::unique_ptr<hal::Clock>()> make;
-  friend void PrintTo(const ClockCase& c, std::ostream* out) { *out << c.name; }
-};
+using ClockCase = ContractCase<hal::Clock>;
 
 class ClockContract : public testing::TestWithParam<ClockCase> {
 protected:

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/control_input.h"
-#include "tests/contract/name_of_case.h"
+#include "tests/contract/contract_case.h"
 #include "tests/support/allocation_counter.h"
 
 namespace octascope::tests {
@@ -41,11 +41,7 @@ public:
   virtual void replug() {}
 };
 
-struct ControlInputCase {
-  std::string name;
-  std::function<std::unique_ptr<ControlInputBench>()> make;
-  friend void PrintTo(const ControlInputCase& c, std::ostream* out) { *out << c.name; }
-};
+using ControlInputCase = ContractCase<ControlInputBench>;
 
 class ControlInputContract : public testing::TestWithParam<ControlInputCase> {
 protected:
@@ -75,12 +71,6 @@ protected:
         moves.push_back({event.kind, event.index, event.value});
       }
     }
-  }
-
-  template <class R> static void expect_fault(const R& result, hal::ErrorCode fault) {
-    ASSERT_FALSE(result.has_value());
-    EXPECT_EQ(result.error().code, fault) << result.error().message;
-    EXPECT_GT(result.error().message.size(), 20U) << "a message says what to do";
   }
 
   std::unique_ptr<ControlInputBench> bench_ = GetParam().make();

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/display.h"
+#include "tests/support/fails_with.h"
 
 namespace octascope::tests {
 
@@ -103,10 +104,7 @@ TYPED_TEST_P(DisplayContract, refuses_what_makes_no_sense_and_stays_absent) {
   hal::DisplayConfig no_rate = this->config();
   no_rate.refresh_hz = 0;
   for (const hal::DisplayConfig& config : {no_width, no_rate}) {
-    const auto opened = display.open(config);
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, hal::ErrorCode::invalid_argument);
-    EXPECT_NE(opened.error().message.find("expected"), std::string::npos);
+    EXPECT_THAT(display.open(config), FailsWith(hal::ErrorCode::invalid_argument, "expected"));
     EXPECT_EQ(display.state(), hal::DeviceState::absent);
   }
 }
@@ -114,12 +112,9 @@ TYPED_TEST_P(DisplayContract, refuses_what_makes_no_sense_and_stays_absent) {
 TYPED_TEST_P(DisplayContract, says_so_when_it_is_not_open_or_opened_twice) {
   hal::Display& display = this->display();
   const auto flip = display.present();
-  ASSERT_FALSE(flip);
-  EXPECT_EQ(flip.error().code, hal::ErrorCode::absent);
+  ASSERT_THAT(flip, FailsWith(hal::ErrorCode::absent));
   ASSERT_TRUE(display.open(this->config()));
-  const auto again = display.open(this->config());
-  ASSERT_FALSE(again);
-  EXPECT_EQ(again.error().code, hal::ErrorCode::busy);
+  EXPECT_THAT(display.open(this->config()), FailsWith(hal::ErrorCode::busy));
   EXPECT_EQ(display.state(), hal::DeviceState::ready);
 }
 

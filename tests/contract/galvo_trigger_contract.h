@@ -2,15 +2,13 @@
 // GalvoTriggerContract with it.
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "hal/galvo_trigger.h"
-#include "tests/contract/name_of_case.h"
+#include "tests/contract/contract_case.h"
 #include "tests/support/allocation_counter.h"
 
 namespace octascope::tests {
@@ -30,20 +28,10 @@ public:
   virtual void replug() {}
 };
 
-struct GalvoTriggerCase {
-  std::string name;
-  std::function<std::unique_ptr<GalvoTriggerBench>()> make;
-  friend void PrintTo(const GalvoTriggerCase& c, std::ostream* out) { *out << c.name; }
-};
+using GalvoTriggerCase = ContractCase<GalvoTriggerBench>;
 
 class GalvoTriggerContract : public testing::TestWithParam<GalvoTriggerCase> {
 protected:
-  template <class R> static void expect_fault(const R& result, hal::ErrorCode fault) {
-    ASSERT_FALSE(result.has_value());
-    EXPECT_EQ(result.error().code, fault) << result.error().message;
-    EXPECT_GT(result.error().message.size(), 20U) << "a message says what to do";
-  }
-
   std::unique_ptr<GalvoTriggerBench> bench_ = GetParam().make();
   hal::GalvoTrigger& trigger_ = bench_->trigger();
   hal::Clock& clock_ = bench_->clock();

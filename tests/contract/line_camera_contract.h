@@ -3,17 +3,15 @@
 // test.cpp shows how); loans, disconnects and threads are in line_camera_loans_contract.h.
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <memory>
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "hal/line_camera.h"
-#include "tests/contract/name_of_case.h"
+#include "tests/contract/contract_case.h"
 
 namespace octascope::tests {
 
@@ -50,11 +48,7 @@ public:
   virtual void replug() {}
 };
 
-struct LineCameraCase {
-  std::string name;
-  std::function<std::unique_ptr<LineCameraBench>()> make;
-  friend void PrintTo(const LineCameraCase& c, std::ostream* out) { *out << c.name; }
-};
+using LineCameraCase = ContractCase<LineCameraBench>;
 
 class LineCameraContract : public testing::TestWithParam<LineCameraCase> {
 protected:
@@ -93,12 +87,6 @@ protected:
     const MaybeFrame frame = camera_.wait_frame(timeout);
     ASSERT_TRUE(frame.has_value()) << frame.error().message;
     EXPECT_FALSE(frame->has_value());
-  }
-
-  template <class R> static void expect_fault(const R& result, hal::ErrorCode fault) {
-    ASSERT_FALSE(result.has_value());
-    EXPECT_EQ(result.error().code, fault) << result.error().message;
-    EXPECT_GT(result.error().message.size(), 20U) << "a message says what to do";
   }
 
   std::unique_ptr<LineCameraBench> bench_ = GetParam().make();

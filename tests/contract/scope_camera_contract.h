@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/scope_camera.h"
+#include "tests/support/fails_with.h"
 
 namespace octascope::tests {
 
@@ -93,8 +94,7 @@ TEST_P(ScopeCameraContract, an_impossible_wish_is_an_invalid_argument) {
        {hal::ScopeCameraConfig{0, 480, 30}, hal::ScopeCameraConfig{640, -1, 30},
         hal::ScopeCameraConfig{640, 480, 0}, hal::ScopeCameraConfig{640, 480, -30}}) {
     const auto opened = camera_.open(wish);
-    ASSERT_FALSE(opened);
-    EXPECT_EQ(opened.error().code, hal::ErrorCode::invalid_argument);
+    ASSERT_THAT(opened, FailsWith(hal::ErrorCode::invalid_argument));
     EXPECT_FALSE(opened.error().message.empty());
     EXPECT_EQ(camera_.state(), hal::DeviceState::absent);
   }
@@ -198,8 +198,7 @@ TEST_P(ScopeCameraContract, unplugged_it_fails_and_comes_back_after_close_and_op
   auto frame = camera_.wait_frame(patience);
   for (int i = 0; i < 100 && frame; ++i)
     frame = camera_.wait_frame(patience);
-  ASSERT_FALSE(frame);
-  EXPECT_EQ(frame.error().code, hal::ErrorCode::disconnected);
+  ASSERT_THAT(frame, FailsWith(hal::ErrorCode::disconnected));
   EXPECT_FALSE(frame.error().message.empty());
   EXPECT_EQ(camera_.state(), hal::DeviceState::failed);
   EXPECT_FALSE(camera_.wait_frame(hal::Duration::zero()));
@@ -207,9 +206,7 @@ TEST_P(ScopeCameraContract, unplugged_it_fails_and_comes_back_after_close_and_op
 
   camera_.close();
   EXPECT_EQ(camera_.state(), hal::DeviceState::absent);
-  const auto without = camera_.open({});
-  ASSERT_FALSE(without);
-  EXPECT_EQ(without.error().code, hal::ErrorCode::absent);
+  EXPECT_THAT(camera_.open({}), FailsWith(hal::ErrorCode::absent));
   EXPECT_EQ(camera_.state(), hal::DeviceState::absent);
 
   rig_.replug();

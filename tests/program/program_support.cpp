@@ -28,6 +28,12 @@ loop_volumes = 1
 )");
 }
 
+ProgramResult run_well(std::vector<std::string> arguments, WallClock::duration most) {
+  ProgramResult result = run_octascope(std::move(arguments), most);
+  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  return result;
+}
+
 std::vector<std::string> small_run(const ScratchFolder& folder, std::vector<std::string> more) {
   std::vector<std::string> words{
       "run",       "--sim",     "--config", write_small_configuration(folder),
@@ -43,6 +49,20 @@ nlohmann::json read_report(const fs::path& file) {
     return report;
   ADD_FAILURE() << file << " is no report";
   return nlohmann::json::object();
+}
+
+void expect_all(const nlohmann::json& said, const nlohmann::json& expected) {
+  for (const auto& [key, value] : expected.items()) {
+    SCOPED_TRACE(key);
+    if (!said.contains(key))
+      ADD_FAILURE() << "missing";
+    else if (value.is_object())
+      expect_all(said[key], value);
+    else if (value.is_number_float() && said[key].is_number())
+      EXPECT_NEAR(said[key].get<double>(), value.get<double>(), 1e-9);
+    else
+      EXPECT_EQ(said[key], value);
+  }
 }
 
 nlohmann::json find_fault(const nlohmann::json& report, std::string_view device,

@@ -27,11 +27,18 @@ std::filesystem::path write_small_configuration(const ScratchFolder& folder);
 inline constexpr int small_width = 640;
 inline constexpr int small_height = 360;
 
+// As run_octascope(); a failed test where it does not end well.
+ProgramResult run_well(std::vector<std::string> arguments,
+                       WallClock::duration most = std::chrono::seconds{120});
+
 // `run` on twins with that configuration, offscreen, and these options more.
 std::vector<std::string> small_run(const ScratchFolder& folder, std::vector<std::string> more);
 
 // The report that a run left; an empty object, and a failed test, where there is none.
 nlohmann::json read_report(const std::filesystem::path& file);
+
+// `said` has all that is in `expected`, objects likewise; numbers to 1e-9.
+void expect_all(const nlohmann::json& said, const nlohmann::json& expected);
 
 // The entry of `faults` with this device and kind; null if there is none.
 nlohmann::json find_fault(const nlohmann::json& report, std::string_view device,

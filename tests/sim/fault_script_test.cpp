@@ -5,18 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "sim/faults/fault_script.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/program/built_places.h"
 
 namespace octascope::sim {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::HasSubstr;
-
-std::string complaint(std::string_view text) {
-  const auto script = FaultScript::parse(text, "bad.toml");
-  return script ? "" : script.error().message;
-}
 
 TEST(FaultScript, reads_every_parameter) {
   const auto script = FaultScript::parse("[[fault]]\ndevice = \"line_camera\"\n"
@@ -50,28 +45,26 @@ TEST(FaultScript, an_empty_file_is_a_day_without_faults) {
 
 TEST(FaultScript, refuses_what_makes_no_sense) {
   const std::string camera = "[[fault]]\ndevice = \"line_camera\"\nat_s = 1\n";
-  EXPECT_THAT(complaint("[[fault]]\nkind = \"unplug\"\nat_s = 1\nduration_s = 1"),
-              HasSubstr("bad.toml:1: [fault] device is missing"));
-  EXPECT_THAT(complaint("[[fault]]\ndevice = \"toaster\"\nkind = \"unplug\"\nat_s = 1"),
-              HasSubstr("device is 'toaster', expected one of \"line_camera\""));
-  EXPECT_THAT(complaint(camera + "kind = \"bounce\"\nduration_s = 1"),
-              HasSubstr("kind is 'bounce', expected for the line_camera one of \"unplug\", "));
-  EXPECT_THAT(complaint(camera + "kind = \"unplug\""), HasSubstr("duration_s is missing"));
-  EXPECT_THAT(complaint(camera + "kind = \"dropped_frames\""), HasSubstr("has no end"));
-  EXPECT_THAT(complaint(camera + "kind = \"unplug\"\nduration_s = 2\nrepeat_s = 2"),
-              HasSubstr("repeat_s is 2, expected more than duration_s, 2"));
-  EXPECT_THAT(complaint(camera + "kind = \"unplug\"\nduration_s = -1"),
-              HasSubstr("duration_s is -1"));
-  EXPECT_THAT(complaint(camera + "kind = \"unplug\"\nduration_s = 1\nlate_ms = 3"),
-              HasSubstr("unknown key \"late_ms\""));
-  EXPECT_THAT(complaint(camera + "kind = \"unplug\"\nduration_s = 1\ncount = 3"),
-              HasSubstr("unknown key \"count\""));
-  EXPECT_THAT(complaint(camera + "kind = \"wrong_size\"\ncount = 1\nsize_share = 1"),
-              HasSubstr("size_share is 1"));
-  EXPECT_THAT(complaint(camera + "kind = \"dropped_frames\"\ncount = 1\nprobability = 1.5"),
-              HasSubstr("probability is 1.5"));
-  EXPECT_THAT(complaint("fault = 3"), HasSubstr("fault is 3"));
-  EXPECT_THAT(complaint("[[fualt]]\n"), HasSubstr("unknown key \"fualt\""));
+  const std::vector<std::pair<std::string, std::string>> refused{
+      {"[[fault]]\nkind = \"unplug\"\nat_s = 1\nduration_s = 1",
+       "bad.toml:1: [fault] device is missing"},
+      {"[[fault]]\ndevice = \"toaster\"\nkind = \"unplug\"\nat_s = 1",
+       "device is 'toaster', expected one of \"line_camera\""},
+      {camera + "kind = \"bounce\"\nduration_s = 1",
+       "kind is 'bounce', expected for the line_camera one of \"unplug\", "},
+      {camera + "kind = \"unplug\"", "duration_s is missing"},
+      {camera + "kind = \"dropped_frames\"", "has no end"},
+      {camera + "kind = \"unplug\"\nduration_s = 2\nrepeat_s = 2",
+       "repeat_s is 2, expected more than duration_s, 2"},
+      {camera + "kind = \"unplug\"\nduration_s = -1", "duration_s is -1"},
+      {camera + "kind = \"unplug\"\nduration_s = 1\nlate_ms = 3", "unknown key \"late_ms\""},
+      {camera + "kind = \"unplug\"\nduration_s = 1\ncount = 3", "unknown key \"count\""},
+      {camera + "kind = \"wrong_size\"\ncount = 1\nsize_share = 1", "size_share is 1"},
+      {camera + "kind = \"dropped_frames\"\ncount = 1\nprobability = 1.5", "probability is 1.5"},
+      {"fault = 3", "fault is 3"},
+      {"[[fualt]]\n", "unknown key \"fualt\""}};
+  for (const auto& [text, told] : refused)
+    EXPECT_THAT(FaultScript::parse(text, "bad.toml"), tests::FailsSaying(told)) << text;
 }
 
 TEST(FaultScript, the_samples_load_and_cover_every_kind_of_every_device) {

@@ -19,6 +19,7 @@ std::string shipped(const std::string& name) {
 }
 
 template <class Script> void try_all(const std::string& good) {
+  ASSERT_FALSE(good.empty());
   ASSERT_TRUE(Script::parse(good, "script.toml"));
   std::mt19937_64 generator{tests::fresh_seed()};
   int refused = 0;
@@ -34,7 +35,7 @@ template <class Script> void try_all(const std::string& good) {
 }
 
 TEST(MutatedScripts, of_faults) {
-  try_all<FaultScript>(shipped("faults/everything.toml"));
+  try_all<FaultScript>(shipped("faults/examples/everything.toml"));
 }
 
 TEST(MutatedScripts, of_controls) {

@@ -5,6 +5,7 @@
 #include "sim/clock/virtual_clock.h"
 #include "sim/devices/offscreen_display.h"
 #include "tests/contract/display_contract.h"
+#include "tests/support/fails_with.h"
 
 namespace octascope::tests {
 namespace {
@@ -56,15 +57,11 @@ TEST_F(OffscreenDisplay, a_lost_display_fails_and_comes_back) {
   ASSERT_TRUE(display_.present());
   std::thread{[&] { display_.lose(); }}.join();
   for (int i = 0; i < 2; ++i) {
-    const auto flip = display_.present();
-    ASSERT_FALSE(flip);
-    EXPECT_EQ(flip.error().code, hal::ErrorCode::disconnected);
+    EXPECT_THAT(display_.present(), FailsWith(hal::ErrorCode::disconnected));
     EXPECT_EQ(display_.state(), hal::DeviceState::failed);
   }
   display_.close();
-  const auto refused = display_.open({});
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, hal::ErrorCode::absent);
+  EXPECT_THAT(display_.open({}), FailsWith(hal::ErrorCode::absent));
   EXPECT_EQ(display_.state(), hal::DeviceState::absent);
 
   display_.restore();
@@ -88,10 +85,7 @@ TEST_F(OffscreenDisplay, refuses_a_size_beyond_the_gpu) {
   display_.close();
   hal::DisplayConfig config;
   config.width = 1'000'000;
-  const auto opened = display_.open(config);
-  ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().code, hal::ErrorCode::invalid_argument);
-  EXPECT_NE(opened.error().message.find("1000000x720"), std::string::npos);
+  EXPECT_THAT(display_.open(config), FailsWith(hal::ErrorCode::invalid_argument, "1000000x720"));
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 
 #include "sim/devices/sim_control_input.h"
 #include "tests/sim/twin_support.h"
+#include "tests/support/fails_with.h"
 
 namespace octascope::sim {
 namespace {
@@ -15,7 +16,6 @@ using hal::ControlKind;
 using hal::TimePoint;
 using namespace std::chrono_literals;
 using testing::ElementsAre;
-using testing::HasSubstr;
 
 constexpr auto pedal = ControlKind::pedal_switch;
 
@@ -23,11 +23,6 @@ ControlScript script(std::string_view text) {
   auto parsed = ControlScript::parse(text, "hands.toml");
   EXPECT_TRUE(parsed) << (parsed ? "" : parsed.error().message);
   return parsed.value_or(ControlScript{});
-}
-
-std::string complaint(std::string_view text) {
-  const auto parsed = ControlScript::parse(text, "hands.toml");
-  return parsed ? "" : parsed.error().message;
 }
 
 std::vector<ControlEvent> read_for(SimControlInput& input, hal::Clock& clock,
@@ -50,18 +45,18 @@ constexpr std::string_view press_and_turn = "[[event]]\ntime_s = 0.2\nknob = 0\n
                                             "[[event]]\ntime_s = 0.3\naxis = 4\nvalue = 250\n";
 
 TEST(ControlScript, refuses_what_no_hand_can_do) {
-  EXPECT_THAT(complaint("[[event]]\ntime_s = 1\nvalue = 1"),
-              HasSubstr("names 0 controls, expected exactly one"));
-  EXPECT_THAT(complaint("[[event]]\ntime_s = 1\nvalue = 1\nswitch = 0\nknob = 0"),
-              HasSubstr("names 2 controls"));
-  EXPECT_THAT(complaint("[[event]]\ntime_s = 1\nswitch = 0"), HasSubstr("value is missing"));
-  EXPECT_THAT(complaint("[[event]]\ntime_s = 1\nswitch = 3\nvalue = 1"), HasSubstr("switch is 3"));
-  EXPECT_THAT(complaint("[[event]]\ntime_s = 1\nswitch = 0\nvalue = 2"), HasSubstr("value is 2"));
-  EXPECT_THAT(complaint("[[event]]\ntime_s = 1\naxis = 0\nvalue = 1001"),
-              HasSubstr("value is 1001"));
-  EXPECT_THAT(complaint("[[event]]\ntime_s = -1\nknob = 0\nvalue = 1"), HasSubstr("time_s is -1"));
-  EXPECT_THAT(complaint("repeat_s = 1\n[[event]]\ntime_s = 1\nknob = 0\nvalue = 1"),
-              HasSubstr("repeat_s is 1, expected more than"));
+  const std::vector<std::pair<std::string, std::string>> refused{
+      {"[[event]]\ntime_s = 1\nvalue = 1", "names 0 controls, expected exactly one"},
+      {"[[event]]\ntime_s = 1\nvalue = 1\nswitch = 0\nknob = 0", "names 2 controls"},
+      {"[[event]]\ntime_s = 1\nswitch = 0", "value is missing"},
+      {"[[event]]\ntime_s = 1\nswitch = 3\nvalue = 1", "switch is 3"},
+      {"[[event]]\ntime_s = 1\nswitch = 0\nvalue = 2", "value is 2"},
+      {"[[event]]\ntime_s = 1\naxis = 0\nvalue = 1001", "value is 1001"},
+      {"[[event]]\ntime_s = -1\nknob = 0\nvalue = 1", "time_s is -1"},
+      {"repeat_s = 1\n[[event]]\ntime_s = 1\nknob = 0\nvalue = 1",
+       "repeat_s is 1, expected more than"}};
+  for (const auto& [text, told] : refused)
+    EXPECT_THAT(ControlScript::parse(text, "hands.toml"), tests::FailsSaying(told)) << text;
 }
 
 TEST(SimControlInput, plays_its_script_at_its_times_and_again) {

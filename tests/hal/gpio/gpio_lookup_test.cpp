@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "hal/linux/gpio/gpio_lookup.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
 
 namespace octascope::hal::linux_backend {
@@ -10,6 +11,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using tests::FailsWith;
 
 GpioSurvey two_chips() {
   return {{{"/dev/gpiochip0", "pinctrl-a", {{0, "LED", "", false}, {1, "", "sysfs", true}}},
@@ -33,10 +35,7 @@ TEST(GpioLookup, chip_and_offset_are_taken_as_they_are) {
 
 void expect_refusal(const GpioSurvey& survey, std::string_view wanted, ErrorCode fault,
                     std::string_view message) {
-  const auto found = find_gpio_line(survey, wanted);
-  ASSERT_FALSE(found) << wanted;
-  EXPECT_EQ(found.error().code, fault) << found.error().message;
-  EXPECT_THAT(found.error().message, HasSubstr(std::string{message}));
+  EXPECT_THAT(find_gpio_line(survey, wanted), FailsWith(fault, std::string{message}));
 }
 
 TEST(GpioLookup, nothing_is_guessed) {

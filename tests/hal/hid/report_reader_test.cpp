@@ -10,6 +10,7 @@
 #include "hal/linux/hid/raw/raw_device.h"
 #include "hal/linux/hid/raw/report_reader.h"
 #include "tests/hal/hid/fake_hidapi.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
 
 namespace octascope::hal::linux_backend {
@@ -17,6 +18,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::FailsWith;
 using Report = std::vector<std::uint8_t>;
 
 class RawDevices : public testing::Test {
@@ -97,10 +99,7 @@ TEST_F(ReportReaderTest, what_was_sent_before_the_end_comes_first) {
   while (reader_->take())
     ASSERT_TRUE(has_news(*reader_));
   for (int again = 0; again < 2; ++again) {
-    const auto end = reader_->take();
-    ASSERT_FALSE(end);
-    EXPECT_EQ(end.error().code, ErrorCode::disconnected);
-    EXPECT_THAT(end.error().message, HasSubstr(node_));
+    EXPECT_THAT(reader_->take(), FailsWith(ErrorCode::disconnected, node_));
     EXPECT_TRUE(has_news(*reader_, 0)) << "nobody waits for it in vain";
   }
 }
@@ -121,20 +120,14 @@ TEST_F(ReportReaderTest, ends_while_it_waits_for_room) {
 }
 
 TEST_F(RawDevices, one_that_is_not_there_is_absent) {
-  const auto device = RawDevice::open((folder_.path() / "hidraw7").string());
-  ASSERT_FALSE(device);
-  EXPECT_EQ(device.error().code, ErrorCode::absent);
+  EXPECT_THAT(RawDevice::open((folder_.path() / "hidraw7").string()), FailsWith(ErrorCode::absent));
   EXPECT_EQ(hidapi_.begun(), 0);
 }
 
 TEST_F(RawDevices, where_hidapi_alone_refuses_its_words_are_told) {
   const std::string node = plug("hidraw0");
   hidapi_.refuse_to_open(true);
-  const auto device = RawDevice::open(node);
-  ASSERT_FALSE(device);
-  EXPECT_EQ(device.error().code, ErrorCode::system);
-  EXPECT_THAT(device.error().message,
-              testing::AllOf(HasSubstr(node), HasSubstr("no reason at all")));
+  EXPECT_THAT(RawDevice::open(node), FailsWith(ErrorCode::system, node, "no reason at all"));
 }
 
 TEST_F(RawDevices, are_listed_once_each_in_the_order_of_their_numbers) {

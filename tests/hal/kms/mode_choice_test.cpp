@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/kms/mode/mode_choice.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/mutation.h"
 
 namespace octascope::tests {
@@ -93,11 +94,8 @@ TEST(ModeWish, that_makes_no_sense_is_refused_with_examples) {
   for (const char* const text :
        {"1920", "x1080", "1920x", "1920x1080@", "1920x1080@0", "1920x1080@nan", "1920x1080@60Hz",
         "1920 x 1080", "-5x100", "99x99", "99999x10", "1920x1080m", "1920x1080@inf", "prefered"}) {
-    const auto wish = parse_mode_wish(text);
-    ASSERT_FALSE(wish) << text;
-    EXPECT_EQ(wish.error().code, hal::ErrorCode::invalid_argument);
-    EXPECT_THAT(wish.error().message, HasSubstr(text));
-    EXPECT_THAT(wish.error().message, HasSubstr("\"1920x1080@60\""));
+    EXPECT_THAT(parse_mode_wish(text),
+                FailsWith(hal::ErrorCode::invalid_argument, text, "\"1920x1080@60\""));
   }
 }
 
@@ -134,11 +132,8 @@ TEST(ModeChoice, takes_the_nearest_rate_but_not_another_one) {
   EXPECT_NEAR(refresh_hz(*choose_mode(modes, {1920, 1080, 60.0})), 60, 0.01);
   EXPECT_NEAR(refresh_hz(*choose_mode(modes, {1920, 1080, 59.9})), 59.94, 0.01);
   EXPECT_NEAR(refresh_hz(*choose_mode(modes, {1920, 1080, 50.2})), 50, 0.01);
-  const auto none = choose_mode(modes, {1920, 1080, 75.0});
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().code, hal::ErrorCode::unsupported);
-  EXPECT_THAT(none.error().message, HasSubstr("1280x720@75.00"));
-  EXPECT_THAT(none.error().message, HasSubstr("1920x1080M"));
+  EXPECT_THAT(choose_mode(modes, {1920, 1080, 75.0}),
+              FailsWith(hal::ErrorCode::unsupported, "1280x720@75.00", "1920x1080M"));
 }
 
 TEST(ModeChoice, passes_over_interlaced_ones) {

@@ -6,14 +6,13 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/kms/mode/output_choice.h"
+#include "tests/support/fails_with.h"
 
 namespace octascope::tests {
 namespace {
 
 using namespace hal::linux_backend::kms;
-using testing::AllOf;
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 Connector connector_of(std::uint32_t id, std::string name, ConnectionStatus status,
@@ -131,38 +130,32 @@ TEST(OutputChoice, never_takes_a_writeback_socket) {
 }
 
 TEST(OutputChoice, says_what_is_missing) {
-  const auto message_of = [](const std::vector<Card>& cards, hal::ErrorCode fault,
-                             const std::string& name = {}) {
-    const auto choice = choose_output(cards, {name, {}, true});
-    EXPECT_FALSE(choice);
-    EXPECT_EQ(choice.error().code, fault);
-    return choice.error().message;
+  using hal::ErrorCode;
+  const auto choose = [](const std::vector<Card>& cards, const std::string& name = {}) {
+    return choose_output(cards, {name, {}, true});
   };
-  EXPECT_THAT(message_of({}, hal::ErrorCode::absent),
-              AllOf(HasSubstr("lspci"), HasSubstr("offscreen")));
+  EXPECT_THAT(choose({}), FailsWith(ErrorCode::absent, "lspci", "offscreen"));
 
   std::vector<Card> cards{Card{}};
-  EXPECT_THAT(message_of(cards, hal::ErrorCode::absent), HasSubstr("no sockets"));
-  cards[0].problem = hal::Error{hal::ErrorCode::denied, "/dev/dri/card0: opening failed"};
-  EXPECT_EQ(message_of(cards, hal::ErrorCode::denied), "/dev/dri/card0: opening failed");
+  EXPECT_THAT(choose(cards), FailsWith(ErrorCode::absent, "no sockets"));
+  const hal::Error denied{ErrorCode::denied, "/dev/dri/card0: opening failed"};
+  cards[0].problem = denied;
+  EXPECT_THAT(choose(cards), FailsWith(denied.code, denied.message));
 
   cards = {card_of()};
-  EXPECT_THAT(message_of(cards, hal::ErrorCode::absent, "DP-9"),
-              AllOf(HasSubstr("\"DP-9\""), HasSubstr("card0:DP-1 (disconnected)"),
-                    HasSubstr("card0:HDMI-A-1 (connected)")));
-  EXPECT_THAT(message_of(cards, hal::ErrorCode::absent, "DP-1"),
-              AllOf(HasSubstr("at DP-1"), HasSubstr("cable")));
+  EXPECT_THAT(choose(cards, "DP-9"),
+              FailsWith(ErrorCode::absent, "\"DP-9\"", "card0:DP-1 (disconnected)",
+                        "card0:HDMI-A-1 (connected)"));
+  EXPECT_THAT(choose(cards, "DP-1"), FailsWith(ErrorCode::absent, "at DP-1", "cable"));
 
   cards[0].connectors[1].possible_crtcs = 0;
-  EXPECT_THAT(message_of(cards, hal::ErrorCode::unsupported), HasSubstr("expected a CRTC"));
+  EXPECT_THAT(choose(cards), FailsWith(ErrorCode::unsupported, "expected a CRTC"));
 }
 
 TEST(OutputChoice, names_the_socket_whose_mode_is_not_to_be_had) {
   const std::vector<Card> cards{card_of()};
   const auto choice = choose_output(cards, {"", {800, 600, {}}, true});
-  ASSERT_FALSE(choice);
-  EXPECT_EQ(choice.error().code, hal::ErrorCode::unsupported);
-  EXPECT_THAT(choice.error().message, AllOf(HasSubstr("HDMI-A-1"), HasSubstr("1920x1080")));
+  ASSERT_THAT(choice, FailsWith(hal::ErrorCode::unsupported, "HDMI-A-1", "1920x1080"));
 }
 
 TEST(Formats, are_those_that_both_can_without_alpha_first) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/kms/mode/overscan.h"
+#include "tests/support/fails_with.h"
 
 namespace octascope::tests {
 namespace {
@@ -43,10 +44,8 @@ TEST(Overscan, that_makes_no_sense_is_refused) {
        {-0.1, 25.1, 1e300, std::nan(""), std::numeric_limits<double>::infinity()})
     for (const Overscan& overscan : {Overscan{margin, 0, 0, 0}, Overscan{0, margin, 0, 0},
                                      Overscan{0, 0, margin, 0}, Overscan{0, 0, 0, margin}}) {
-      const auto part = visible_part(100, 100, overscan);
-      ASSERT_FALSE(part);
-      EXPECT_EQ(part.error().code, hal::ErrorCode::invalid_argument);
-      EXPECT_NE(part.error().message.find("expected 0 to 25"), std::string::npos);
+      EXPECT_THAT(visible_part(100, 100, overscan),
+                  FailsWith(hal::ErrorCode::invalid_argument, "expected 0 to 25"));
     }
 }
 

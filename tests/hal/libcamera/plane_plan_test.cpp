@@ -9,6 +9,7 @@
 #include "hal/linux/libcamera/plane_plan.h"
 #include "hal/linux/system/file_descriptor.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/fresh_seed.h"
 
 namespace octascope::tests {
@@ -46,9 +47,7 @@ TEST(PlanePlan, planes_apart_are_two_pieces) {
 
 TEST(PlanePlan, a_plane_that_is_too_short_is_refused_with_both_sizes) {
   const auto plan = backend::plan_planes({{7, 0, 62}}, {Encoding::yuyv, {6, 4}, 17});
-  ASSERT_FALSE(plan);
-  EXPECT_EQ(plan.error().code, hal::ErrorCode::bad_data);
-  EXPECT_NE(plan.error().message.find("62 bytes"), std::string::npos) << plan.error().message;
+  ASSERT_THAT(plan, FailsWith(hal::ErrorCode::bad_data, "62 bytes"));
   EXPECT_FALSE(backend::plan_planes({{7, 0, 32}, {8, 0, 13}}, nv12)) << "chroma";
   EXPECT_FALSE(backend::plan_planes({}, yuyv));
   EXPECT_FALSE(backend::plan_planes({{-1, 0, 100}}, yuyv));
@@ -130,9 +129,8 @@ TEST(MappedPicture, reads_one_piece_where_it_lies) {
 }
 
 TEST(MappedPicture, says_what_could_not_be_mapped) {
-  const auto picture = backend::MappedPicture::map({{{-1, 4096}}, {{0, 0, 10, 0}}}, 10, "camera");
-  ASSERT_FALSE(picture);
-  EXPECT_NE(picture.error().message.find("mapping"), std::string::npos);
+  EXPECT_THAT(backend::MappedPicture::map({{{-1, 4096}}, {{0, 0, 10, 0}}}, 10, "camera"),
+              FailsSaying("mapping"));
 }
 
 } // namespace

@@ -3,11 +3,14 @@
 
 #include "hal/linux/v4l2/format_negotiation.h"
 #include "hal/linux/v4l2/pixel_formats.h"
+#include "tests/support/fails_with.h"
 
 namespace octascope::hal::linux_backend {
 namespace {
 
 using testing::HasSubstr;
+using tests::FailsSaying;
+using tests::FailsWith;
 
 constexpr auto grey = fourcc('G', 'R', 'E', 'Y');
 constexpr auto y10 = fourcc('Y', '1', '0', ' ');
@@ -103,33 +106,25 @@ TEST(FormatNegotiation, sizes_decide) {
 
 TEST(FormatNegotiation, refusals_have_found_and_expected) {
   const auto format = wanted(SampleType::u16, 12);
-  const auto nothing = rank_formats({}, format);
-  ASSERT_FALSE(nothing);
-  EXPECT_EQ(nothing.error().code, ErrorCode::absent);
+  EXPECT_THAT(rank_formats({}, format), FailsWith(ErrorCode::absent));
   const auto wrong =
       rank_formats(std::vector{of_size(y12, 640, 480), OfferedFormat{yuyv, {}}}, format);
-  ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().code, ErrorCode::unsupported);
+  ASSERT_THAT(wrong, FailsWith(ErrorCode::unsupported));
   EXPECT_EQ(wrong.error().message,
             "it offers Y12 640×480 and 1 other formats; expected Y12 or Y16 at 1024×379 pixels "
             "(379 lines of 1024 samples, 12 bits in u16, shift 0)");
-  const auto turned = rank_formats(std::vector{OfferedFormat{y16_be, {}}}, format);
-  ASSERT_FALSE(turned);
-  EXPECT_THAT(turned.error().message, HasSubstr("Y16 (big-endian) has big-endian samples, expected "
-                                                "little-endian ones"));
-  const auto packed = rank_formats(std::vector{OfferedFormat{y10_packed, {}}}, format);
-  ASSERT_FALSE(packed);
-  EXPECT_THAT(packed.error().message, HasSubstr("Y10P has packed samples"));
+  EXPECT_THAT(rank_formats(std::vector{OfferedFormat{y16_be, {}}}, format),
+              FailsSaying("Y16 (big-endian) has big-endian samples, expected "
+                          "little-endian ones"));
+  EXPECT_THAT(rank_formats(std::vector{OfferedFormat{y10_packed, {}}}, format),
+              FailsSaying("Y10P has packed samples"));
 }
 
 TEST(FormatNegotiation, impossible_wishes_are_the_callers_fault) {
   const auto refused = [](auto change) {
     LineFormat format = wanted(SampleType::u16, 12);
     change(format);
-    const auto checked = check_wish(format);
-    ASSERT_FALSE(checked);
-    EXPECT_EQ(checked.error().code, ErrorCode::invalid_argument);
-    EXPECT_THAT(checked.error().message, HasSubstr("expected"));
+    EXPECT_THAT(check_wish(format), FailsWith(ErrorCode::invalid_argument, "expected"));
   };
   refused([](LineFormat& f) { f.sample_type = SampleType::f32; });
   refused([](LineFormat& f) { f.samples_per_line = 0; });
@@ -151,10 +146,7 @@ TEST(FormatNegotiation, what_the_driver_gave_is_checked) {
   const auto refused = [&](auto change, const char* words) {
     GivenFormat given = good;
     change(given);
-    const auto checked = check_given(asked, given);
-    ASSERT_FALSE(checked) << words;
-    EXPECT_EQ(checked.error().code, ErrorCode::unsupported);
-    EXPECT_THAT(checked.error().message, HasSubstr(words));
+    EXPECT_THAT(check_given(asked, given), FailsWith(ErrorCode::unsupported, words));
   };
   refused([](GivenFormat& g) { g.code = yuyv; }, "YUYV, expected Y12");
   refused([](GivenFormat& g) { g.width = 1280; }, "1280×379 pixels, expected 1024×379");

@@ -4,6 +4,7 @@
 #include "sim/clock/virtual_clock.h"
 #include "tests/contract/line_camera_loans_contract.h"
 #include "tests/hal/v4l2/modelled_driver.h"
+#include "tests/support/fails_with.h"
 
 namespace octascope::tests {
 namespace {
@@ -57,9 +58,7 @@ const LineCameraCase in_real_time{"real_time",
 TEST(ModelledCamera, an_impossible_window_is_refused_before_anything_is_opened) {
   VirtualClock clock;
   V4l2LineCamera camera{{.node = "/dev/video-none", .window = {{0, 0, -1, 8}}}, clock};
-  const auto refused = camera.open(small_config());
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, hal::ErrorCode::invalid_argument);
+  EXPECT_THAT(camera.open(small_config()), FailsWith(hal::ErrorCode::invalid_argument));
 }
 
 TEST(ModelledCamera, the_sequence_wraps_unseen) {

@@ -6,6 +6,7 @@
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/v4l2/v4l2_line_camera.h"
 #include "hal/linux/v4l2/video_nodes.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
 
 namespace octascope::hal::linux_backend {
@@ -13,6 +14,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using tests::FailsWith;
 
 LineCameraCandidate camera(const char* node, const char* bus) {
   return {.identity = {node, "card", "driver", bus},
@@ -48,38 +50,29 @@ TEST(VideoNodes, the_first_that_suits_is_picked_but_the_one_of_last_time_before)
 }
 
 TEST(VideoNodes, without_one_it_is_absent_and_each_camera_has_its_reason) {
-  const auto none = pick_line_camera({}, "", {});
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().code, ErrorCode::absent);
-  EXPECT_THAT(none.error().message, HasSubstr("0 video devices, expected one with 379 lines"));
-  const auto wrong =
-      pick_line_camera({unsuitable("/dev/video0", ErrorCode::unsupported, "a web camera")}, "", {});
-  ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().code, ErrorCode::absent);
-  EXPECT_THAT(wrong.error().message, HasSubstr("a web camera"));
+  EXPECT_THAT(pick_line_camera({}, "", {}),
+              FailsWith(ErrorCode::absent, "0 video devices, expected one with 379 lines"));
+  EXPECT_THAT(
+      pick_line_camera({unsuitable("/dev/video0", ErrorCode::unsupported, "a web camera")}, "", {}),
+      FailsWith(ErrorCode::absent, "a web camera"));
 }
 
 TEST(VideoNodes, missing_permission_is_said_once) {
-  const auto denied = pick_line_camera({unsuitable("/dev/video0", ErrorCode::denied, "join video"),
-                                        unsuitable("/dev/video1", ErrorCode::denied, "join video")},
-                                       "", {});
-  ASSERT_FALSE(denied);
-  EXPECT_EQ(denied.error().code, ErrorCode::denied);
-  EXPECT_THAT(denied.error().message, HasSubstr("2 of them may not be opened: join video"));
+  EXPECT_THAT(pick_line_camera({unsuitable("/dev/video0", ErrorCode::denied, "join video"),
+                                unsuitable("/dev/video1", ErrorCode::denied, "join video")},
+                               "", {}),
+              FailsWith(ErrorCode::denied, "2 of them may not be opened: join video"));
 }
 
 TEST(VideoNodes, what_is_no_video_device_is_refused_in_words) {
   MonotonicClock clock;
   V4l2LineCamera nowhere{{.node = "/dev/video-none"}, clock};
   const auto absent = nowhere.open({});
-  ASSERT_FALSE(absent);
-  EXPECT_EQ(absent.error().code, ErrorCode::absent);
+  ASSERT_THAT(absent, FailsWith(ErrorCode::absent));
   EXPECT_EQ(nowhere.state(), DeviceState::absent);
   V4l2LineCamera other{{.node = "/dev/null"}, clock};
-  const auto refused = other.open({});
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
-  EXPECT_THAT(refused.error().message, HasSubstr("/dev/null: it is no video device"));
+  EXPECT_THAT(other.open({}),
+              FailsWith(ErrorCode::unsupported, "/dev/null: it is no video device"));
 }
 
 } // namespace

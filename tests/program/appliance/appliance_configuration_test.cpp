@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/program/program_support.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/program/built_places.h"
 
 namespace octascope::tests {
@@ -22,12 +23,6 @@ using nlohmann::json;
 using testing::HasSubstr;
 
 constexpr ui::Colour warning = ui::palette::warning;
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file}.rdbuf();
-  return text.str();
-}
 
 bool comes_true(const std::function<bool()>& condition) {
   const auto end = WallClock::now() + 60s;
@@ -90,7 +85,7 @@ protected:
 TEST_F(Service, runs_on_the_last_good_configuration_and_says_so) {
   configure("technique = \"maximum\"\n");
   EXPECT_EQ(find_fault(run(), "host", "configuration_refused"), nullptr);
-  EXPECT_EQ(text_of(last_good()), text_of(folder_ / "octascope.toml"));
+  EXPECT_EQ(whole_file(last_good()), whole_file(folder_ / "octascope.toml"));
 
   configure("technique = \"raze\"\n");
   const json report = run();
@@ -100,7 +95,8 @@ TEST_F(Service, runs_on_the_last_good_configuration_and_says_so) {
   EXPECT_THAT(fault["message"].get<std::string>(), HasSubstr("technique is \"raze\""));
   EXPECT_GT(marked_badge(), 3);
   EXPECT_GT(marked_notice(), 10);
-  EXPECT_THAT(text_of(last_good()), HasSubstr("maximum")) << "a broken one is never the last good";
+  EXPECT_THAT(whole_file(last_good()), HasSubstr("maximum"))
+      << "a broken one is never the last good";
 }
 
 TEST_F(Service, tells_which_configuration_it_uses) {
@@ -150,7 +146,7 @@ TEST_F(Service, brings_back_what_pedal_and_knob_have_set) {
       folder_.write("turn.toml", "[[event]]\ntime_s = 0.3\nknob = 0\nvalue = 5\n");
   const json before = run({"--volumes", "6", "--controls", script})["view"];
   EXPECT_NE(before["window_offset_db"], 4);
-  EXPECT_THAT(text_of(state() / "settings.toml"), HasSubstr("window_offset_db = "));
+  EXPECT_THAT(whole_file(state() / "settings.toml"), HasSubstr("window_offset_db = "));
   const json after = run()["view"];
   EXPECT_EQ(after["window_offset_db"], before["window_offset_db"]);
   EXPECT_EQ(after["window_size_db"], 60);
@@ -177,7 +173,7 @@ TEST_F(Service, takes_over_what_is_edited_while_it_runs) {
   const std::string look = "opacity = 0.25\ntransfer = \"mine\"\n[[transfer]]\nname = \"mine\"\n"
                            "points = [[0, 0], [1, 1]]\n";
   configure("technique = \"maximum\"\n" + look);
-  EXPECT_TRUE(comes_true([&] { return text_of(last_good()).find("mine") != std::string::npos; }))
+  EXPECT_TRUE(comes_true([&] { return whole_file(last_good()).find("mine") != std::string::npos; }))
       << "taken over, and proved by the next picture";
 
   configure("technique = \"slices\"\nwidth = 800\n" + look);
@@ -213,9 +209,7 @@ TEST(DoctorOfConfigurations, tells_everything_that_is_wrong) {
   EXPECT_THAT(broken.out, HasSubstr("c.toml:2: [scan] b_scans is 0"));
   EXPECT_THAT(broken.out, HasSubstr("c.toml:4: [display] opacity is 7"));
   EXPECT_THAT(broken.out, HasSubstr("c.toml:5: [display] unknown key \"widht\""));
-  const ProgramResult good =
-      run_octascope({"doctor", "--config", (source_folder() / "deploy/example.toml").string()});
-  EXPECT_EQ(good.exit_status, 0) << good.describe();
+  run_well({"doctor", "--config", (source_folder() / "deploy/example.toml").string()});
 }
 
 TEST(DoctorOfConfigurations, tells_of_a_calibration_that_names_no_camera) {
@@ -223,8 +217,7 @@ TEST(DoctorOfConfigurations, tells_of_a_calibration_that_names_no_camera) {
   folder.write("k.toml",
                "[spectrometer]\nsamples = 1024\n[k_linear]\npolynomial = [0.0, 1023.0]\n");
   const fs::path file = folder.write("c.toml", "[calibration]\nfile = \"k.toml\"\n");
-  const ProgramResult result = run_octascope({"doctor", "--config", file});
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  const ProgramResult result = run_well({"doctor", "--config", file});
   EXPECT_THAT(result.out, HasSubstr("k.toml names no camera"));
 }
 

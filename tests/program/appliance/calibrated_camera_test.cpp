@@ -28,8 +28,7 @@ protected:
                                   "--report",      report,      "--snapshot", snapshot};
     if (!faults.empty())
       more.insert(more.end(), {"--faults", folder.write("faults.toml", faults)});
-    ProgramResult result = run_octascope(small_run(folder, more));
-    EXPECT_EQ(result.exit_status, 0) << result.describe();
+    ProgramResult result = run_well(small_run(folder, more));
     told = read_report(report);
     return result;
   }

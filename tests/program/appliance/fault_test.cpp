@@ -352,9 +352,8 @@ TEST(NoFault, has_no_marks) {
   const ScratchFolder folder;
   const std::string snapshot = folder / "picture.png";
   const std::string report_file = folder / "report.json";
-  const ProgramResult result = run_octascope(
+  run_well(
       small_run(folder, {"--duration", "1.2", "--snapshot", snapshot, "--report", report_file}));
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
   const pipeline::Image picture = read_snapshot(snapshot);
   const json report = read_report(report_file);
   EXPECT_GT(count_colour(picture, badge_row(picture), ui::palette::simulated), 0);
@@ -403,9 +402,7 @@ TEST(Everything, at_once_is_survived) {
   const std::string report_file = folder / "report.json";
   const auto script = folder.write(
       "faults.toml", three_times_as_fast(source_folder() / "sim/faults/examples/everything.toml"));
-  const ProgramResult result = run_octascope(
-      small_run(folder, {"--faults", script, "--duration", "6", "--report", report_file}));
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  run_well(small_run(folder, {"--faults", script, "--duration", "6", "--report", report_file}));
   const json report = read_report(report_file);
   for (const auto& [device, kind] : {std::pair{"line_camera", "disconnected"},
                                      {"line_camera", "dropped_frames"},

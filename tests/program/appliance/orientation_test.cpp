@@ -83,8 +83,7 @@ protected:
                                    "window_size_db = 20\nopacity = 0.9\n")};
     for (const auto& part : {recording(), more})
       words.insert(words.end(), part.begin(), part.end());
-    const ProgramResult result = run_octascope(words);
-    EXPECT_EQ(result.exit_status, 0) << result.describe();
+    run_well(words);
     return read_snapshot(folder_ / "live.png");
   }
 

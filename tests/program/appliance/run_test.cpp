@@ -56,8 +56,7 @@ TEST(Run, leaves_a_whole_report_and_a_picture) {
     arguments.insert(arguments.end(), {"--config", write_small_configuration(folder)});
   arguments.insert(arguments.end(), {"--display", "offscreen", "--size", "320x180", "--duration",
                                      "3", "--snapshot", snapshot, "--report", report_file});
-  const ProgramResult result = run_octascope(arguments);
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  const ProgramResult result = run_well(arguments);
   EXPECT_EQ(result.err, "") << "no terminal, no status line";
   EXPECT_THAT(result.out, testing::HasSubstr("volumes displayed"));
   EXPECT_THAT(result.out, testing::HasSubstr(report_file));
@@ -95,9 +94,7 @@ TEST(Run, leaves_a_whole_report_and_a_picture) {
 TEST(Run, small_scene_loses_nothing) {
   const ScratchFolder folder;
   const std::string report_file = folder / "report.json";
-  const ProgramResult result =
-      run_octascope(small_run(folder, {"--volumes", "5", "--report", report_file}));
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  run_well(small_run(folder, {"--volumes", "5", "--report", report_file}));
   const json report = read_report(report_file);
   EXPECT_EQ(report["volumes"]["published"], 5);
   EXPECT_EQ(report["volumes"]["displayed"].get<int>() + report["volumes"]["skipped"].get<int>(), 5);

@@ -45,8 +45,7 @@ json run_scan(const std::string& more_scan, std::vector<std::string> more, int v
       "--volumes", std::to_string(volumes),
       "--report",  report_file};
   words.insert(words.end(), more.begin(), more.end());
-  const ProgramResult result = run_octascope(words);
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  run_well(words);
   return read_report(report_file);
 }
 

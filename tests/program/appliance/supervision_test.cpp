@@ -6,7 +6,6 @@
 #include <cstring>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,6 +18,7 @@
 
 #include "hal/linux/system/file_descriptor.h"
 #include "tests/program/program_support.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/program/built_places.h"
 
 namespace octascope::tests {
@@ -112,13 +112,6 @@ private:
   FileDescriptor socket_{::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)};
 };
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in{file};
-  std::ostringstream text;
-  text << in.rdbuf();
-  return std::move(text).str();
-}
-
 // One thread of a child stands still while the object lives. Of several of one name, which threads
 // pass on to those that they start, the first.
 class Standstill {
@@ -126,7 +119,7 @@ public:
   Standstill(pid_t process, const std::string& thread) {
     for (const auto& task :
          std::filesystem::directory_iterator{"/proc/" + std::to_string(process) + "/task"}) {
-      std::string name = text_of(task.path() / "comm");
+      std::string name = whole_file(task.path() / "comm");
       if (name == thread + "\n" && thread_ == 0)
         thread_ = std::stoi(task.path().filename().string());
     }
@@ -160,17 +153,7 @@ TEST(Supervision, says_ready_with_the_first_picture_and_kicks_with_those_that_fo
   EXPECT_EQ(run.wait().exit_status, 0);
 }
 
-TEST(Supervision, asks_for_patience_until_volumes_are_shown_steadily) {
-  Service service;
-  ProgramRun run{service.command()};
-  const std::string told = service.listen(60s, "READY=1");
-  EXPECT_THAT(told, HasSubstr("WATCHDOG_USEC=60000000"));
-  EXPECT_THAT(service.listen(60s, "WATCHDOG_USEC="), HasSubstr("WATCHDOG_USEC=800000"))
-      << "as the unit says";
-  EXPECT_THAT(service.listen(60s, "WATCHDOG=1"), HasSubstr("WATCHDOG=1"));
-}
-
-TEST(Supervision, tells_each_step_of_the_start_and_asks_for_its_time) {
+TEST(Supervision, tells_each_step_of_the_start_and_asks_for_patience_until_volumes_come_steadily) {
   Service service;
   ProgramRun run{service.command()};
   const std::string told = service.listen(60s, "READY=1");
@@ -178,6 +161,10 @@ TEST(Supervision, tells_each_step_of_the_start_and_asks_for_its_time) {
                            "measuring the reconstruction", "drawing the first picture"})
     EXPECT_THAT(told,
                 HasSubstr(std::string{"EXTEND_TIMEOUT_USEC=120000000\nSTATUS=Starting: "} + step));
+  EXPECT_THAT(told, HasSubstr("WATCHDOG_USEC=60000000"));
+  EXPECT_THAT(service.listen(60s, "WATCHDOG_USEC="), HasSubstr("WATCHDOG_USEC=800000"))
+      << "as the unit says";
+  EXPECT_THAT(service.listen(60s, "WATCHDOG=1"), HasSubstr("WATCHDOG=1"));
 }
 
 TEST(Supervision, kicks_on_while_the_picture_says_truthfully_that_nothing_comes) {
@@ -256,7 +243,8 @@ TEST(Supervision, answers_with_all_that_is_known) {
   EXPECT_EQ(words.exit_status, 0) << words.describe();
   EXPECT_THAT(words.out,
               AllOf(HasSubstr("SIMULATED"), HasSubstr("of this camera"), HasSubstr("volumes/s")));
-  EXPECT_THAT(text_of(service.runtime() / "metrics.prom"), HasSubstr("octascope_uptime_seconds "));
+  EXPECT_THAT(whole_file(service.runtime() / "metrics.prom"),
+              HasSubstr("octascope_uptime_seconds "));
 }
 
 TEST(Supervision, is_missed_with_words_that_help) {
@@ -272,8 +260,7 @@ TEST(Supervision, is_missed_with_words_that_help) {
 TEST(Supervision, writes_nothing_unasked) {
   const ScratchFolder folder;
   const bool runs = std::filesystem::exists("/run/octascope/status.sock"); // another one
-  const ProgramResult result = run_octascope(small_run(folder, {"--volumes", "2"}));
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  run_well(small_run(folder, {"--volumes", "2"}));
   EXPECT_EQ(folder.count(), 1) << "the configuration";
   EXPECT_EQ(std::filesystem::exists("/run/octascope/status.sock"), runs);
 }
@@ -296,7 +283,7 @@ TEST_P(Crash, leaves_a_report_and_the_next_run_tells_of_it) {
   ASSERT_EQ(reports.size(), 1U);
   EXPECT_THAT(reports[0].filename().string(),
               testing::MatchesRegex("crash-[0-9]{8}-[0-9]{6}\\.txt"));
-  const std::string report = text_of(reports[0]);
+  const std::string report = whole_file(reports[0]);
   EXPECT_THAT(report, HasSubstr("octascope "));
   EXPECT_THAT(report, HasSubstr("signal: " + std::to_string(GetParam())));
   EXPECT_THAT(report, HasSubstr("thread: oct")) << "whichever got the signal";

@@ -25,13 +25,7 @@ class VesselOverlayProgram : public testing::Test {
 protected:
   // Nothing but noise below the window.
   void SetUp() override {
-    pipeline::VolumeGeometry geometry;
-    geometry.depths = 40;
-    geometry.a_scans = 40;
-    geometry.b_scans = 32;
-    geometry.depth_spacing_um = 30;
-    geometry.a_spacing_um = 40;
-    geometry.b_spacing_um = 50;
+    const pipeline::VolumeGeometry geometry{40, 40, 32, 30, 40, 50};
     ASSERT_TRUE(pipeline::write_nrrd(folder_ / "volume.nrrd",
                                      {geometry, std::vector<float>(geometry.voxels(), 0)}));
     folder_.write("tree.swc", vessel);
@@ -178,11 +172,9 @@ TEST_F(VesselOverlayProgram, another_eyes_vessels_are_not_drawn_into_a_recording
 
 TEST_F(VesselOverlayProgram, a_display_without_its_tree_goes_on_and_says_why) {
   folder_.write("broken.swc", "1 3 0 0 0 1 -1\n2 3 1 0 0 x 1\n");
-  const ProgramResult result = run_octascope(
-      small_run(folder_, {"--volumes", "4", "--vessels", folder_ / "broken.swc", "--report",
-                          folder_ / "report.json", "--snapshot", folder_ / "last.png"}),
-      60s);
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  run_well(small_run(folder_, {"--volumes", "4", "--vessels", folder_ / "broken.swc", "--report",
+                               folder_ / "report.json", "--snapshot", folder_ / "last.png"}),
+           60s);
   const json report = read_report(folder_ / "report.json");
   EXPECT_GE(report["volumes"]["published"].get<int>(), 4);
   const json fault = find_fault(report, "vessels", "not_shown");
@@ -193,8 +185,7 @@ TEST_F(VesselOverlayProgram, a_display_without_its_tree_goes_on_and_says_why) {
 TEST_F(VesselOverlayProgram, a_running_display_shows_the_tree_and_that_it_is_not_registered) {
   const auto last = [&](std::vector<std::string> more) {
     more.insert(more.end(), {"--volumes", "5", "--snapshot", folder_ / "last.png"});
-    const ProgramResult result = run_octascope(small_run(folder_, more), 60s);
-    EXPECT_EQ(result.exit_status, 0) << result.describe();
+    run_well(small_run(folder_, more), 60s);
     return read_snapshot(folder_ / "last.png");
   };
   const pipeline::Image with = last({"--vessels", folder_ / "tree.swc"});

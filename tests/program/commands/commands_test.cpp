@@ -17,16 +17,14 @@ const std::vector<std::string> all_devices{"line_camera", "galvo_trigger", "cont
                                            "scope_camera", "display"};
 
 TEST(Devices, says_what_is_there_and_what_would_serve) {
-  const ProgramResult result = run_octascope({"devices"});
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  const ProgramResult result = run_well({"devices"});
   EXPECT_EQ(result.err, "");
   for (const std::string& device : all_devices)
     EXPECT_THAT(result.out, HasSubstr(device));
 }
 
 TEST(Devices, as_json) {
-  const ProgramResult result = run_octascope({"devices", "--json"});
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  const ProgramResult result = run_well({"devices", "--json"});
   const json told = json::parse(result.out);
   for (const char* kind : {"video", "gpio", "hid", "displays"})
     EXPECT_TRUE(told.at("found").at(kind).is_array()) << kind;
@@ -64,8 +62,7 @@ TEST(Doctor, speaks_to_people) {
 }
 
 TEST(Version, is_a_number) {
-  const ProgramResult result = run_octascope({"--version"});
-  EXPECT_EQ(result.exit_status, 0);
+  const ProgramResult result = run_well({"--version"});
   EXPECT_THAT(result.out, testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\n"));
 }
 
@@ -75,8 +72,7 @@ TEST_P(Help, has_an_example) {
   std::vector<std::string> arguments{"--help"};
   if (!GetParam().empty())
     arguments.insert(arguments.begin(), GetParam());
-  const ProgramResult result = run_octascope(arguments);
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  const ProgramResult result = run_well(arguments);
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, HasSubstr("Example"));
   EXPECT_THAT(result.out, HasSubstr("octascope " + GetParam()));

@@ -1,8 +1,6 @@
 // octascope export as a user runs it: every format against the recording's own levels.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "dcmtk/config/osconfig.h"
 #include "dcmtk/dcmdata/dctk.h"
@@ -13,6 +11,7 @@
 #include "pipeline/files/nrrd.h"
 #include "pipeline/volume/level_scale.h"
 #include "tests/program/program_support.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/files/small_recording.h"
 
 namespace octascope::tests {
@@ -52,11 +51,6 @@ protected:
     EXPECT_TRUE(result.err.starts_with("octascope")) << result.err;
     EXPECT_EQ(listing(folder.path()), before);
     return result.err;
-  }
-  std::string contents(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream{file, std::ios::binary}.rdbuf();
-    return text.str();
   }
 
   ScratchFolder folder;
@@ -113,7 +107,7 @@ TEST_F(Export, to_nrrd_holds_every_level_in_decibels) {
 
 TEST_F(Export, to_nrrd_says_in_the_header_what_it_is) {
   done({"--out", folder / "v.nrrd", "--volumes", "2"});
-  const std::string file = contents(folder / "v.nrrd");
+  const std::string file = whole_file(folder / "v.nrrd");
   const std::string header = file.substr(0, file.find("\n\n"));
   for (const char* line :
        {"SIMULATED:=yes, some or all of it is not the patient's", "volume:=2", "index:=4",
@@ -122,7 +116,7 @@ TEST_F(Export, to_nrrd_says_in_the_header_what_it_is) {
         "recorded_by:=octascope, in a test"})
     EXPECT_THAT(header, HasSubstr(std::string{"\n"} + line));
   done({"--out", folder / "v.nrrd", "--volumes", "2", "--subject", ""});
-  EXPECT_THAT(contents(folder / "v.nrrd"), Not(HasSubstr("subject:=")));
+  EXPECT_THAT(whole_file(folder / "v.nrrd"), Not(HasSubstr("subject:=")));
 }
 
 TEST_F(Export, to_nrrd_of_8_bits_holds_the_counts) {
@@ -293,7 +287,7 @@ TEST_F(Export, finds_one_window_for_all_pictures) {
   ASSERT_NE(at, std::string::npos) << all;
   const std::string one = done({"--out", folder / "one.png", "--volumes", "0", "--bscan", "0"});
   EXPECT_THAT(one, HasSubstr(all.substr(at, all.find('\n', at) - at)));
-  EXPECT_EQ(contents(folder / "one.png"), contents(folder / "out/volume-0000-b-scan-0000.png"));
+  EXPECT_EQ(whole_file(folder / "one.png"), whole_file(folder / "out/volume-0000-b-scan-0000.png"));
 }
 
 TEST_F(Export, refuses_wrong_use) {
@@ -342,7 +336,7 @@ TEST_F(Export, says_at_once_what_cannot_be) {
 }
 
 TEST_F(Export, finds_a_damaged_or_empty_recording) {
-  const std::string whole = contents(recording);
+  const std::string whole = whole_file(recording);
   folder.write("r.h5", whole.substr(0, whole.size() / 2));
   EXPECT_THAT(refused({"--to", "nrrd", "--out", out}, 1), HasSubstr("r.h5"));
   folder.write("r.h5", "no recording at all");

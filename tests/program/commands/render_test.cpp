@@ -17,10 +17,7 @@ using testing::HasSubstr;
 
 // A bright ball in the middle and a dimmer slab under it, in a box that no two edges share.
 pipeline::NrrdVolume ball_over_slab() {
-  pipeline::VolumeGeometry geometry;
-  geometry.depths = 48;
-  geometry.a_scans = 40;
-  geometry.b_scans = 32;
+  const pipeline::VolumeGeometry geometry{48, 40, 32, 30, 40, 50};
   std::vector<float> levels;
   for (int b = 0; b < geometry.b_scans; ++b)
     for (int a = 0; a < geometry.a_scans; ++a)
@@ -28,9 +25,6 @@ pipeline::NrrdVolume ball_over_slab() {
         const int square = (b - 16) * (b - 16) + (a - 20) * (a - 20) + (z - 20) * (z - 20);
         levels.push_back(square < 64 ? 50.0F : z > 40 ? 30.0F : 0.0F);
       }
-  geometry.depth_spacing_um = 30;
-  geometry.a_spacing_um = 40;
-  geometry.b_spacing_um = 50;
   return {geometry, levels};
 }
 
@@ -48,8 +42,7 @@ protected:
     if (std::ranges::find(more, "--window") == more.end())
       words.insert(words.end(), {"--window", "10,40"});
     words.insert(words.end(), more.begin(), more.end());
-    const ProgramResult result = run_octascope(words, 60s);
-    EXPECT_EQ(result.exit_status, 0) << result.describe();
+    const ProgramResult result = run_well(words, 60s);
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(result.err, "");
     return read_snapshot(folder_ / "out.png");

@@ -30,9 +30,8 @@ std::vector<std::string> small_record(const ScratchFolder& folder, std::vector<s
 TEST(Record, keeps_every_volume_from_the_first_on) {
   const ScratchFolder folder;
   const std::string report_file = folder / "report.json";
-  const ProgramResult result = run_octascope(small_record(
+  const ProgramResult result = run_well(small_record(
       folder, {"--volumes", "6", "--report", report_file, "--eye", "right", "--subject", "17"}));
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
   EXPECT_THAT(result.out, HasSubstr("r.h5, "));
 
   auto reader = open_recording(folder / "r.h5");
@@ -61,8 +60,7 @@ TEST(Record, keeps_every_volume_from_the_first_on) {
 
 TEST(Record, says_nothing_of_subject_and_eye_that_nobody_said) {
   const ScratchFolder folder;
-  const ProgramResult result = run_octascope(small_record(folder, {"--volumes", "2"}));
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  run_well(small_record(folder, {"--volumes", "2"}));
   const auto reader = open_recording(folder / "r.h5");
   EXPECT_EQ(reader.facts().eye, pipeline::Eye::not_said);
   EXPECT_EQ(reader.facts().subject, "");

@@ -57,8 +57,7 @@ TEST(Recording, real_spectra_show_their_surface) {
   if (sanitized) // the full line rate is out of reach
     arguments.insert(arguments.end(),
                      {"--config", folder.write("slow.toml", "[scan]\nline_rate_hz = 2500\n")});
-  const ProgramResult result = run_octascope(arguments);
-  ASSERT_EQ(result.exit_status, 0) << result.describe();
+  run_well(arguments);
   const auto report = read_report(report_file);
   EXPECT_GE(report["volumes"]["displayed"], 1);
   EXPECT_EQ(report["volumes"]["published"], volumes);
@@ -88,10 +87,8 @@ TEST(Recording, the_shipped_calibration_fits_the_shipped_command) {
   if (!std::filesystem::exists(beside))
     GTEST_SKIP() << "no " << beside << ", where the calibration's curves are looked for";
   const ScratchFolder folder;
-  const ProgramResult result =
-      run_octascope({"reconstruct", "--spectra", beside, "--shape", "100,100,1024", "--calibration",
-                     shipped, "--out", folder / "v.nrrd"});
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  run_well({"reconstruct", "--spectra", beside, "--shape", "100,100,1024", "--calibration", shipped,
+            "--out", folder / "v.nrrd"});
 }
 
 std::string unu() {
@@ -110,10 +107,8 @@ TEST(Recording, another_reader_opens_the_reconstructed_volume) {
   const ScratchFolder folder;
   const std::string volume = folder / "v.nrrd";
   const std::string png = folder / "b.png";
-  const ProgramResult made = run_octascope({"reconstruct", "--spectra", spectra(), "--shape",
-                                            "100,100,1024", "--calibration", calibration(folder),
-                                            "--out", volume, "--bscan", "50", "--png", png});
-  ASSERT_EQ(made.exit_status, 0) << made.describe();
+  run_well({"reconstruct", "--spectra", spectra(), "--shape", "100,100,1024", "--calibration",
+            calibration(folder), "--out", volume, "--bscan", "50", "--png", png});
   const pipeline::Image b_scan = read_snapshot(png);
   EXPECT_EQ(b_scan.width, 100);
   EXPECT_EQ(b_scan.height, 512);

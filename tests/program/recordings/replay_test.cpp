@@ -17,7 +17,6 @@ using namespace std::chrono_literals;
 using testing::HasSubstr;
 
 constexpr int replay_width = 1280;
-constexpr int replay_height = 720;
 
 pipeline::RecordingFacts ball_facts(bool simulated) {
   pipeline::RecordingFacts facts;
@@ -87,8 +86,7 @@ protected:
   // The picture and the report of a replay that ended well.
   pipeline::Image replay(std::vector<std::string> more) {
     more.insert(more.end(), {"--snapshot", folder_ / "s.png", "--report", folder_ / "r.json"});
-    const ProgramResult result = run_octascope(words(more), 60s);
-    EXPECT_EQ(result.exit_status, 0) << result.describe();
+    const ProgramResult result = run_well(words(more), 60s);
     EXPECT_EQ(result.err, "");
     report_ = read_report(folder_ / "r.json");
     pipeline::Image picture = read_snapshot(folder_ / "s.png");
@@ -96,12 +94,10 @@ protected:
     return picture;
   }
   pipeline::Image render(const ui::Rect& view, int at) {
-    const ProgramResult result =
-        run_octascope({"render", "--volume", file_, "--at", std::to_string(at), "--size",
-                       std::to_string(view.width) + "x" + std::to_string(view.height), "--window",
-                       "20,60", "--technique", "maximum", "--box", "--out", folder_ / "v.png"},
-                      60s);
-    EXPECT_EQ(result.exit_status, 0) << result.describe();
+    run_well({"render", "--volume", file_, "--at", std::to_string(at), "--size",
+              std::to_string(view.width) + "x" + std::to_string(view.height), "--window", "20,60",
+              "--technique", "maximum", "--box", "--out", folder_ / "v.png"},
+             60s);
     return read_snapshot(folder_ / "v.png");
   }
 
@@ -200,7 +196,7 @@ TEST_F(ReplayProgram, tells_when_the_file_goes_away_under_it) {
 
 struct BadReplay {
   std::string name;
-  std::vector<std::string> words; // with FILE for a good recording
+  std::string words; // with FILE for a good recording
   int exit_status;
   std::string says;
 };
@@ -216,7 +212,8 @@ TEST_P(RefusedReplay, says_what_was_found_and_what_was_expected) {
   std::filesystem::resize_file(folder_ / "short.h5",
                                std::filesystem::file_size(folder_ / "short.h5") / 3);
   std::vector<std::string> all;
-  for (std::string word : GetParam().words) {
+  std::istringstream words{GetParam().words};
+  for (std::string word; words >> word;) {
     if (word == "FILE")
       word = file_;
     else if (std::filesystem::path{word}.has_extension())
@@ -233,29 +230,20 @@ TEST_P(RefusedReplay, says_what_was_found_and_what_was_expected) {
 INSTANTIATE_TEST_SUITE_P(
     All, RefusedReplay,
     testing::Values(
-        BadReplay{"no_file", {"replay"}, 2, "file is required"},
-        BadReplay{"absent", {"replay", "none.h5"}, 1, "no such file"},
-        BadReplay{"text", {"replay", "text.h5"}, 1, "no recording"},
-        BadReplay{"cut_off", {"replay", "short.h5"}, 1, "short.h5"},
-        BadReplay{"from_beyond", {"replay", "FILE", "--from", "4"}, 2, "expected 0 to 3"},
-        BadReplay{"stands_still", {"replay", "FILE", "--rate", "0"}, 2, "--rate"},
-        BadReplay{
-            "both_ends", {"replay", "FILE", "--duration", "1", "--volumes", "1"}, 2, "--duration"},
-        BadReplay{"others_vessels",
-                  {"replay", "FILE", "--vessels", "tree.swc", "--registration", "right.toml"},
-                  2,
+        BadReplay{"no_file", "replay", 2, "file is required"},
+        BadReplay{"absent", "replay none.h5", 1, "no such file"},
+        BadReplay{"text", "replay text.h5", 1, "no recording"},
+        BadReplay{"cut_off", "replay short.h5", 1, "short.h5"},
+        BadReplay{"from_beyond", "replay FILE --from 4", 2, "expected 0 to 3"},
+        BadReplay{"stands_still", "replay FILE --rate 0", 2, "--rate"},
+        BadReplay{"both_ends", "replay FILE --duration 1 --volumes 1", 2, "--duration"},
+        BadReplay{"others_vessels", "replay FILE --vessels tree.swc --registration right.toml", 2,
                   "expected those in the picture, of subject 4711, left eye"},
-        BadReplay{"size", {"replay", "FILE", "--size", "big"}, 2, "big"},
-        BadReplay{"render_beyond",
-                  {"render", "--volume", "FILE", "--at", "4", "--out", "v.png"},
-                  2,
-                  "expected 0 to 3"},
-        BadReplay{"render_at_of_one",
-                  {"render", "--volume", "v.nrrd", "--at", "0", "--out", "v.png"},
-                  2,
+        BadReplay{"size", "replay FILE --size big", 2, "big"},
+        BadReplay{"render_beyond", "render --volume FILE --at 4 --out v.png", 2, "expected 0 to 3"},
+        BadReplay{"render_at_of_one", "render --volume v.nrrd --at 0 --out v.png", 2,
                   "no recording"},
-        BadReplay{
-            "render_text", {"render", "--volume", "short.h5", "--out", "v.png"}, 1, "short.h5"}),
+        BadReplay{"render_text", "render --volume short.h5 --out v.png", 1, "short.h5"}),
     [](const auto& test) { return test.param.name; });
 
 // By its content, whatever it is called.

@@ -12,9 +12,8 @@ using testing::HasSubstr;
 
 TEST(VesselsGenerate, writes_a_tree_that_info_reads) {
   const ScratchFolder folder;
-  const ProgramResult made = run_octascope({"vessels", "generate", "--segments", "1500", "--seed",
-                                            "3", "--out", folder / "heart.swc", "--json"});
-  ASSERT_EQ(made.exit_status, 0) << made.describe();
+  const ProgramResult made = run_well({"vessels", "generate", "--segments", "1500", "--seed", "3",
+                                       "--out", folder / "heart.swc", "--json"});
   const json table = json::parse(made.out);
   EXPECT_EQ(table["segments"], 1500);
   EXPECT_EQ(table["lowest_order"], 8);
@@ -30,25 +29,19 @@ TEST(VesselsGenerate, writes_a_tree_that_info_reads) {
 
 TEST(VesselsGenerate, writes_our_own_format_that_info_tells_in_full) {
   const ScratchFolder folder;
-  const ProgramResult made = run_octascope(
+  const ProgramResult made = run_well(
       {"vessels", "generate", "--segments", "60000", "--out", folder / "heart.vessels", "--json"});
-  ASSERT_EQ(made.exit_status, 0) << made.describe();
-  const ProgramResult read = run_octascope({"vessels", "info", folder / "heart.vessels", "--json"});
-  ASSERT_EQ(read.exit_status, 0) << read.describe();
+  const ProgramResult read = run_well({"vessels", "info", folder / "heart.vessels", "--json"});
   EXPECT_EQ(read.err, "");
   const json told = json::parse(read.out);
-  EXPECT_EQ(told["kind"], "vessels");
-  EXPECT_EQ(told["unit"], "mm");
-  EXPECT_EQ(told["segments"], 60000);
-  EXPECT_EQ(told["nodes"], 60003);
-  EXPECT_EQ(told["roots"], 3);
-  EXPECT_EQ(told["lone_roots"], 0);
-  EXPECT_EQ(told["coincident"], 0);
-  EXPECT_EQ(told["checksums"], "good");
+  expect_all(told, json::parse(R"({
+    "kind": "vessels", "unit": "mm", "segments": 60000, "nodes": 60003, "roots": 3,
+    "lone_roots": 0, "coincident": 0, "checksums": "good",
+    "provenance": "octascope vessels generate --segments 60000 --seed 1"
+  })"));
   EXPECT_EQ(told["bytes"], std::filesystem::file_size(folder / "heart.vessels"));
   EXPECT_LE(told["bytes_a_segment"], 9.0);
   EXPECT_GT(told["position_error_um"], 0.0);
-  EXPECT_EQ(told["provenance"], "octascope vessels generate --segments 60000 --seed 1");
   const json grown = json::parse(made.out)["table"];
   ASSERT_EQ(told["table"].size(), grown.size());
   for (std::size_t i = 0; i < grown.size(); ++i) {

@@ -22,10 +22,8 @@ constexpr int segments = 3000;
 class VesselPictures : public ::testing::Test {
 protected:
   void SetUp() override {
-    const ProgramResult made =
-        run_octascope({"vessels", "generate", "--segments", std::to_string(segments), "--seed", "1",
-                       "--out", tree_});
-    ASSERT_EQ(made.exit_status, 0) << made.describe();
+    run_well({"vessels", "generate", "--segments", std::to_string(segments), "--seed", "1", "--out",
+              tree_});
   }
 
   ProgramResult render(std::vector<std::string> options) const {
@@ -104,10 +102,8 @@ TEST_F(VesselPictures, say_what_cannot_be_drawn) {
 
 TEST_F(VesselPictures, are_measured) {
   const std::string dump = folder_ / "pictures";
-  const ProgramResult measured =
-      run_octascope({"vessels", "bench", tree_, "--json", "--size", "160x90", "--seconds", "0.01",
-                     "--supersampled", "--dump", dump});
-  ASSERT_EQ(measured.exit_status, 0) << measured.describe();
+  const ProgramResult measured = run_well({"vessels", "bench", tree_, "--json", "--size", "160x90",
+                                           "--seconds", "0.01", "--supersampled", "--dump", dump});
   const json report = json::parse(measured.out);
   EXPECT_EQ(report["segments"], segments);
   EXPECT_EQ(report["size"], "160x90");
@@ -138,10 +134,9 @@ TEST_F(VesselPictures, are_measured) {
 }
 
 TEST_F(VesselPictures, are_compared_along_a_flight) {
-  const ProgramResult flown = run_octascope(
-      {"vessels", "bench", tree_, "--json", "--size", "160x90", "--seconds", "0.01", "--no-build",
-       "--views", "close", "--methods", "hybrid", "--fly-through", "--places", "9"});
-  ASSERT_EQ(flown.exit_status, 0) << flown.describe();
+  const ProgramResult flown = run_well({"vessels", "bench", tree_, "--json", "--size", "160x90",
+                                        "--seconds", "0.01", "--no-build", "--views", "close",
+                                        "--methods", "hybrid", "--fly-through", "--places", "9"});
   const json flight = json::parse(flown.out)["fly_through"];
   EXPECT_EQ(flight["places"], 9);
   EXPECT_GT(flight["length_mm"], 80);
@@ -154,9 +149,8 @@ TEST_F(VesselPictures, are_compared_along_a_flight) {
   EXPECT_THAT(flown.err, HasSubstr("flight 9 of 9: target"));
   EXPECT_THAT(flown.err, HasSubstr("mm, 0.0040"));
   const ProgramResult still =
-      run_octascope({"vessels", "bench", tree_, "--json", "--size", "160x90", "--seconds", "0.01",
-                     "--no-build", "--views", "close", "--methods", "hybrid"});
-  ASSERT_EQ(still.exit_status, 0) << still.describe();
+      run_well({"vessels", "bench", tree_, "--json", "--size", "160x90", "--seconds", "0.01",
+                "--no-build", "--views", "close", "--methods", "hybrid"});
   EXPECT_FALSE(json::parse(still.out).contains("fly_through"));
   const ProgramResult help = run_octascope({"vessels", "bench", "--help"});
   EXPECT_THAT(help.out, HasSubstr("--fly-through"));
@@ -164,9 +158,8 @@ TEST_F(VesselPictures, are_compared_along_a_flight) {
 
 TEST(BenchVessels, grows_its_own_tree) {
   const ProgramResult measured =
-      run_octascope({"bench", "vessels", "--segments", "2000", "--json", "--size", "160x90",
-                     "--seconds", "0.01", "--views", "whole", "--methods", "hybrid,quads-cpu"});
-  ASSERT_EQ(measured.exit_status, 0) << measured.describe();
+      run_well({"bench", "vessels", "--segments", "2000", "--json", "--size", "160x90", "--seconds",
+                "0.01", "--views", "whole", "--methods", "hybrid,quads-cpu"});
   const json report = json::parse(measured.out);
   EXPECT_EQ(report["segments"], 2000);
   EXPECT_TRUE(report["load_ms"].is_null());

@@ -26,8 +26,7 @@ constexpr std::string_view small = "# small\n\n"
 json info(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{"vessels", "info", "--json"};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  const ProgramResult result = run_octascope(words);
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  const ProgramResult result = run_well(words);
   EXPECT_EQ(result.err, "");
   return json::parse(result.out, nullptr, false);
 }
@@ -35,21 +34,11 @@ json info(const std::vector<std::string>& arguments) {
 TEST(VesselsInfo, tells_a_tree_in_json) {
   const ScratchFolder folder;
   const json told = info({folder.write("small.swc", small)});
-  EXPECT_EQ(told.at("kind"), "swc");
-  EXPECT_EQ(told.at("unit"), "um");
-  EXPECT_EQ(told.at("nodes"), 5);
-  EXPECT_EQ(told.at("segments"), 4);
-  EXPECT_EQ(told.at("roots"), 1);
-  EXPECT_EQ(told.at("branch_points"), 1);
-  EXPECT_EQ(told.at("tips"), 2);
-  EXPECT_EQ(told.at("bounds_mm"), json::parse("[[0, -0.5, 0], [1, 0.5, 0.25]]"));
-  EXPECT_EQ(told.at("rows"), 7);
-  EXPECT_EQ(told.at("comments"), 1);
-  EXPECT_EQ(told.at("blanks"), 1);
-  EXPECT_EQ(told.at("late_parents"), 1);
-  EXPECT_EQ(told.at("zero_radii"), 1);
-  EXPECT_EQ(told.at("coincident"), 1);
-  EXPECT_EQ(told.at("branches").at("lad"), 4);
+  expect_all(told, json::parse(R"({
+    "kind": "swc", "unit": "um", "nodes": 5, "segments": 4, "roots": 1, "branch_points": 1,
+    "tips": 2, "bounds_mm": [[0, -0.5, 0], [1, 0.5, 0.25]], "rows": 7, "comments": 1, "blanks": 1,
+    "late_parents": 1, "zero_radii": 1, "coincident": 1, "branches": {"lad": 4}
+  })"));
   EXPECT_EQ(told.at("types"), json::parse(R"({"17": 5})"));
   int segments = 0;
   for (const json& order : told.at("orders"))
@@ -65,16 +54,12 @@ TEST(VesselsInfo, takes_the_unit_from_the_command_line) {
 
 TEST(VesselsInfo, reads_centrelines_of_vtk) {
   const json told = info({(source_folder() / "tests/centrelines/binary_zlib_u64.vtp").string()});
-  EXPECT_EQ(told.at("kind"), "vtp");
-  EXPECT_EQ(told.at("nodes"), 15);
-  EXPECT_EQ(told.at("branch_points"), 2);
-  EXPECT_EQ(told.at("merged_points"), 9);
+  expect_all(told, {{"kind", "vtp"}, {"nodes", 15}, {"branch_points", 2}, {"merged_points", 9}});
 }
 
 TEST(VesselsInfo, speaks_to_people) {
   const ScratchFolder folder;
-  const ProgramResult result = run_octascope({"vessels", "info", folder.write("small.swc", small)});
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  const ProgramResult result = run_well({"vessels", "info", folder.write("small.swc", small)});
   EXPECT_EQ(result.err, "");
   EXPECT_THAT(result.out, HasSubstr("5 nodes, 4 segments, 1 roots, 1 branch points, 2 tips"));
   EXPECT_THAT(result.out, HasSubstr("bounds 0 to 1, -0.5 to 0.5, 0 to 0.25 mm"));
@@ -105,8 +90,7 @@ TEST(VesselsConvert, goes_to_our_format_and_back) {
   const ScratchFolder folder;
   const std::filesystem::path swc = folder.write("small.swc", small);
   const auto convert = [&](const std::filesystem::path& from, const std::filesystem::path& to) {
-    const ProgramResult result = run_octascope({"vessels", "convert", from, "--out", to});
-    EXPECT_EQ(result.exit_status, 0) << result.describe();
+    const ProgramResult result = run_well({"vessels", "convert", from, "--out", to});
     EXPECT_EQ(result.out, to.string() + ": 5 nodes written\n");
     EXPECT_EQ(result.err, "");
   };
@@ -129,14 +113,10 @@ TEST(VesselsConvert, goes_to_our_format_and_back) {
 TEST(VesselsConvert, keeps_a_tree_of_one_node) {
   const ScratchFolder folder;
   const std::filesystem::path swc = folder.write("one.swc", "1 0 1000 2000 3000 4 -1\n");
-  const ProgramResult result =
-      run_octascope({"vessels", "convert", swc, "--out", folder / "one.vessels"});
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  run_well({"vessels", "convert", swc, "--out", folder / "one.vessels"});
   const json told = info({folder / "one.vessels"});
-  EXPECT_EQ(told.at("nodes"), 1);
-  EXPECT_EQ(told.at("lone_roots"), 1);
-  EXPECT_EQ(told.at("tips"), 1);
-  EXPECT_EQ(told.at("bounds_mm"), json::parse("[[1, 2, 3], [1, 2, 3]]"));
+  expect_all(told, json::parse(R"({"nodes": 1, "lone_roots": 1, "tips": 1,
+                                   "bounds_mm": [[1, 2, 3], [1, 2, 3]]})"));
 }
 
 TEST(VesselsConvert, writes_nothing_of_a_bad_file) {
@@ -151,10 +131,10 @@ TEST(VesselsConvert, writes_nothing_of_a_bad_file) {
 
 struct BadTree {
   std::string name;
-  std::vector<std::string> more; // arguments
   std::string text;
-  int exit_status;
-  std::string told; // with @ for the file
+  std::string told;                   // with @ for the file
+  std::vector<std::string> more = {}; // arguments
+  int exit_status = 1;
   friend void PrintTo(const BadTree& tree, std::ostream* out) { *out << tree.name; }
 };
 
@@ -178,41 +158,26 @@ TEST_P(BadTrees, are_refused_in_one_line) {
 INSTANTIATE_TEST_SUITE_P(
     Vessels, BadTrees,
     testing::Values(
-        BadTree{"garbage",
-                {},
-                "1 0 0 zero 0 1 -1\n",
-                1,
+        BadTree{"garbage", "1 0 0 zero 0 1 -1\n",
                 "@:1:7: found \"zero\" as y, expected a finite decimal number\n"},
-        BadTree{"no_root",
-                {},
-                "1 0 0 0 0 1 2\n2 0 0 0 0 1 1\n",
-                1,
+        BadTree{"no_root", "1 0 0 0 0 1 2\n2 0 0 0 0 1 1\n",
                 "@:1:13: found a cycle of 2 nodes, 1 among them, expected parents that lead to a "
                 "root\n"},
-        BadTree{"two_roots",
-                {},
-                "1 0 0 0 0 1 -1\n2 0 0 0 0 1 -1\n",
-                1,
+        BadTree{"two_roots", "1 0 0 0 0 1 -1\n2 0 0 0 0 1 -1\n",
                 "@:2:13: found a second root, expected one; several are allowed as a forest "
                 "(--forest)\n"},
         BadTree{"late_and_strict",
-                {"--strict"},
                 "2 0 0 0 0 1 1\n1 0 0 0 0 1 -1\n",
-                1,
-                "@:1:13: found the parent 1 in a later row"},
+                "@:1:13: found the parent 1 in a later row",
+                {"--strict"}},
         BadTree{"zero_and_refused",
-                {"--zero-radius", "refuse"},
                 "1 0 0 0 0 0 -1\n",
-                1,
-                "@: found 1 nodes of radius 0, expected none"},
-        BadTree{"empty", {}, "", 1, "@:1:1: found the end of the file and no node"},
-        BadTree{"half_of_xml",
-                {},
-                "<VTKFile type=\"PolyData\">\n<PolyData",
-                1,
-                "@:2:9: found no XML: "},
-        BadTree{"unknown_unit", {"--unit", "inch"}, "1 0 0 0 0 1 -1\n", 2, "--unit"},
-        BadTree{"two_files", {"another.swc"}, "1 0 0 0 0 1 -1\n", 2, "another.swc"}),
+                "@: found 1 nodes of radius 0, expected none",
+                {"--zero-radius", "refuse"}},
+        BadTree{"empty", "", "@:1:1: found the end of the file and no node"},
+        BadTree{"half_of_xml", "<VTKFile type=\"PolyData\">\n<PolyData", "@:2:9: found no XML: "},
+        BadTree{"unknown_unit", "1 0 0 0 0 1 -1\n", "--unit", {"--unit", "inch"}, 2},
+        BadTree{"two_files", "1 0 0 0 0 1 -1\n", "another.swc", {"another.swc"}, 2}),
     [](const auto& test) { return test.param.name; });
 
 TEST(VesselsInfo, refuses_what_is_no_file) {

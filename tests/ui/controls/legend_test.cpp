@@ -1,13 +1,10 @@
 // The echo's words and the legend's picture.
 #include <gtest/gtest.h>
 
-#include "tests/ui/support/gl_test.h"
-#include "tests/ui/support/scene.h"
-#include "tests/ui/support/synthetic_volume.h"
+#include "tests/ui/support/renderer_stage.h"
 #include "ui/controls/built_in_profiles.h"
 #include "ui/hud/echo.h"
 #include "ui/hud/legend.h"
-#include "ui/renderer.h"
 #include "ui/view/action_table.h"
 
 namespace octascope::tests {
@@ -42,37 +39,12 @@ TEST(Echo, says_what_a_control_did) {
     }
 }
 
-class LegendPicture : public GlTest {
+class LegendPicture : public RendererTest {
 protected:
-  void TearDown() override { renderer_.reset(); }
-
   void show(int width, int height) {
-    renderer_.reset();
-    open(width, height);
-    width_ = width;
-    height_ = height;
-    auto renderer = Renderer::create();
-    ASSERT_TRUE(renderer) << renderer.error().message;
-    renderer_ = std::move(*renderer);
-    ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
-    const ScopePicture scope{320, 240};
-    ASSERT_TRUE(renderer_->show_scope_picture(scope.frame(live_status().now), scope.field()));
+    open_renderer(width, height);
+    show_scene();
   }
-  pipeline::Image draw(const ViewState& view, const Status& status) {
-    EXPECT_TRUE(renderer_->draw(view, status, width_, height_));
-    return renderer_->read_back(width_, height_);
-  }
-  static int changed(const pipeline::Image& a, const pipeline::Image& b, const Rect& rect) {
-    int count = 0;
-    for (int y = rect.y; y < rect.bottom(); ++y)
-      for (int x = rect.x; x < rect.right(); ++x)
-        count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
-    return count;
-  }
-
-  std::unique_ptr<Renderer> renderer_;
-  int width_ = 0;
-  int height_ = 0;
 };
 
 TEST_F(LegendPicture, stands_beside_the_volumes_centre_for_every_profile) {

@@ -2,18 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
-#include <string>
 
 #include <imgui.h>
 
-#include "tests/ui/support/gl_test.h"
-#include "tests/ui/support/scene.h"
-#include "tests/ui/support/synthetic_volume.h"
+#include "tests/ui/support/renderer_stage.h"
 #include "ui/hud/hud.h"
 #include "ui/layout/box_edges.h"
 #include "ui/layout/stereo.h"
-#include "ui/renderer.h"
 
 namespace octascope::tests {
 namespace {
@@ -67,65 +62,8 @@ TEST_F(HudInAllSizes, glyphs_fit_into_the_textures_that_gles_3_promises) {
   }
 }
 
-TEST_F(HudInAllSizes, all_badges_find_room) {
-  const HudText text = compose_hud_text({}, worst_status(), {});
-  // All but the configuration's: the notice line says that, too, where one more finds no room; and
-  // a replay's, below.
-  ASSERT_GE(text.badge_count, HudText::most_badges - 3);
-  for (const auto& [width, height] : sizes)
-    for (const LayoutKind kind : kinds) {
-      const Layout layout = lay_out(width, height, aspects, kind);
-      const auto fonts = Fonts::create(layout.unit);
-      ASSERT_TRUE(fonts) << fonts.error().message;
-      Canvas canvas;
-      canvas.begin(*fonts, width, height);
-      const BadgePlaces places = place_badges(canvas, layout, text);
-      for (const Rect& badge : std::span{places}.first(text.badge_count)) {
-        EXPECT_GE(badge.x, layout.marks.x);
-        EXPECT_GE(badge.y, layout.marks.y);
-        EXPECT_LE(badge.right(), layout.marks.right()) << width << "x" << height;
-        EXPECT_LE(badge.bottom(), layout.marks.bottom())
-            << width << "x" << height << ", kind " << static_cast<int>(kind);
-      }
-    }
-}
-
-// Where everything is said at once, no lower than what is said of a replay.
-TEST_F(HudInAllSizes, that_the_calibration_is_another_cameras_finds_room_beside_all_others) {
-  Status status = worst_status();
-  status.another_camera = true;
-  const HudText text = compose_hud_text({}, status, {});
-  for (const auto& [width, height] : sizes)
-    for (const LayoutKind kind : kinds) {
-      const Layout layout = lay_out(width, height, aspects, kind);
-      const auto fonts = Fonts::create(layout.unit);
-      ASSERT_TRUE(fonts) << fonts.error().message;
-      Canvas canvas;
-      canvas.begin(*fonts, width, height);
-      const BadgePlaces places = place_badges(canvas, layout, text);
-      for (std::size_t i = 0; i < text.badge_count; ++i)
-        if (text.badges[i].kind == BadgeKind::calibration) {
-          EXPECT_LE(places[i].right(), layout.marks.right()) << width << "x" << height;
-          EXPECT_LE(places[i].bottom(), layout.large.y + layout.large.height * 2 / 5)
-              << width << "x" << height << ", kind " << static_cast<int>(kind);
-        }
-    }
-}
-
-// A subject of any length is cut to what is the longest here.
-Status worst_replay() {
-  Status status = worst_status();
-  status.freshness = {Liveness::frozen, std::chrono::seconds{3599}, std::chrono::seconds{3599}};
-  status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03",
-                               .whose = "eye not said, subject Wwwwwwwwwwwwwwww…"};
-  return status;
-}
-
-// What must be seen at once within the marks; the rest, where everything is said at once, no lower
-// than two fifths of the large picture, so that its middle stays free.
-TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
-  const HudText text = compose_hud_text({}, worst_replay(), {});
-  ASSERT_EQ(text.badge_count, HudText::most_badges - 1);
+// In every size and layout, each badge of the text with its place.
+template <class Look> void for_each_badge(const HudText& text, const Look& look) {
   for (const auto& [width, height] : sizes)
     for (const LayoutKind kind : kinds) {
       const Layout layout = lay_out(width, height, aspects, kind);
@@ -135,53 +73,68 @@ TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
       canvas.begin(*fonts, width, height);
       const BadgePlaces places = place_badges(canvas, layout, text);
       for (std::size_t i = 0; i < text.badge_count; ++i) {
-        const BadgeKind badge = text.badges[i].kind;
-        const bool small = badge == BadgeKind::whose || badge == BadgeKind::incomplete;
-        const int lowest =
-            small ? layout.large.y + layout.large.height * 2 / 5 : layout.marks.bottom();
-        EXPECT_LE(places[i].right(), layout.marks.right())
-            << width << "x" << height << ", " << text.badges[i].text.view();
-        EXPECT_LE(places[i].bottom(), lowest)
-            << width << "x" << height << ", kind " << static_cast<int>(kind) << ", "
-            << text.badges[i].text.view();
+        SCOPED_TRACE(testing::Message()
+                     << width << "x" << height << ", kind " << static_cast<int>(kind) << ", "
+                     << text.badges[i].text.view());
+        look(text.badges[i].kind, places[i], layout);
       }
     }
 }
 
-class HudInAllLayouts : public GlTest {
+TEST_F(HudInAllSizes, all_badges_find_room) {
+  const HudText text = compose_hud_text({}, worst_status(), {});
+  // All but the configuration's: the notice line says that, too, where one more finds no room; and
+  // a replay's, below.
+  ASSERT_GE(text.badge_count, HudText::most_badges - 3);
+  for_each_badge(text, [](BadgeKind, const Rect& badge, const Layout& layout) {
+    EXPECT_GE(badge.x, layout.marks.x);
+    EXPECT_GE(badge.y, layout.marks.y);
+    EXPECT_LE(badge.right(), layout.marks.right());
+    EXPECT_LE(badge.bottom(), layout.marks.bottom());
+  });
+}
+
+// Where everything is said at once, no lower than what is said of a replay.
+TEST_F(HudInAllSizes, that_the_calibration_is_another_cameras_finds_room_beside_all_others) {
+  Status status = worst_status();
+  status.another_camera = true;
+  const HudText text = compose_hud_text({}, status, {});
+  for_each_badge(text, [](BadgeKind kind, const Rect& badge, const Layout& layout) {
+    if (kind == BadgeKind::calibration) {
+      EXPECT_LE(badge.right(), layout.marks.right());
+      EXPECT_LE(badge.bottom(), layout.large.y + layout.large.height * 2 / 5);
+    }
+  });
+}
+
+// A subject of any length is cut to what is the longest here. What must be seen at once is within the
+// marks; the rest, where everything is said at once, no lower than two fifths of the large picture,
+// so that its middle stays free.
+TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
+  Status status = worst_status();
+  status.freshness = {Liveness::frozen, std::chrono::seconds{3599}, std::chrono::seconds{3599}};
+  status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03",
+                               .whose = "eye not said, subject Wwwwwwwwwwwwwwww…"};
+  const HudText text = compose_hud_text({}, status, {});
+  ASSERT_EQ(text.badge_count, HudText::most_badges - 1);
+  for_each_badge(text, [](BadgeKind kind, const Rect& badge, const Layout& layout) {
+    const bool small = kind == BadgeKind::whose || kind == BadgeKind::incomplete;
+    EXPECT_LE(badge.right(), layout.marks.right());
+    EXPECT_LE(badge.bottom(),
+              small ? layout.large.y + layout.large.height * 2 / 5 : layout.marks.bottom());
+  });
+}
+
+class HudInAllLayouts : public RendererTest {
 protected:
   static constexpr int width = 1280;
   static constexpr int height = 720;
 
   void SetUp() override {
-    open(width, height);
-    if (IsSkipped())
-      return;
-    auto made = Renderer::create();
-    ASSERT_TRUE(made) << made.error().message;
-    renderer_ = std::move(*made);
-    const auto volume = tissue_volume(small_geometry);
-    ASSERT_TRUE(renderer_->show_volume(volume));
-    renderer_->show_levels(level_shares(volume));
-    const ScopePicture scope{320, 240};
-    ASSERT_TRUE(renderer_->show_scope_picture(scope.frame(live_status().now), scope.field()));
+    open_renderer(width, height);
+    if (!IsSkipped())
+      show_scene();
   }
-  void TearDown() override { renderer_.reset(); }
-
-  pipeline::Image draw(const ViewState& view, const Status& status) {
-    const auto drawn = renderer_->draw(view, status, width, height);
-    EXPECT_TRUE(drawn) << drawn.error().message;
-    return renderer_->read_back(width, height);
-  }
-  static int changed(const pipeline::Image& a, const pipeline::Image& b, const Rect& rect) {
-    int count = 0;
-    for (int y = rect.y; y < rect.bottom(); ++y)
-      for (int x = rect.x; x < rect.right(); ++x)
-        count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
-    return count;
-  }
-
-  std::unique_ptr<Renderer> renderer_;
 };
 
 TEST_F(HudInAllLayouts, nothing_hides_the_middle_of_the_large_picture) {

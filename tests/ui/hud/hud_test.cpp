@@ -2,12 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/picture_file.h"
-#include "tests/ui/support/scene.h"
-#include "tests/ui/support/synthetic_volume.h"
+#include "tests/ui/support/renderer_stage.h"
 #include "ui/hud/hud.h"
-#include "ui/renderer.h"
 
 namespace octascope::tests {
 namespace {
@@ -176,18 +173,6 @@ TEST(HudText, an_old_microscope_picture_is_stale) {
   EXPECT_EQ(hud.scope.note.view(), "stale 3 s");
 }
 
-TEST(HudText, the_echo_lasts_for_a_moment) {
-  Status status = live_status();
-  ViewState view;
-  view.echo = {Action::tilt, false, {}, status.now + std::chrono::milliseconds{1}};
-  const HudText hud = compose_hud_text(view, status, {});
-  EXPECT_TRUE(hud.echo.visible);
-  EXPECT_EQ(hud.echo.name, "Tilt");
-  EXPECT_EQ(hud.echo.value.view(), "35°");
-  status.now = view.echo.until;
-  EXPECT_FALSE(compose_hud_text(view, status, {}).echo.visible);
-}
-
 TEST(FixedText, long_text_is_cut_between_characters) {
   FixedText<5> text;
   text.format("abc–de"); // the dash is three bytes, from 3 to 5
@@ -198,37 +183,10 @@ TEST(FixedText, long_text_is_cut_between_characters) {
   EXPECT_EQ(text.view(), "12345");
 }
 
-class HudPicture : public GlTest {
+class HudPicture : public RendererTest {
 protected:
   static constexpr int width = 640;
   static constexpr int height = 360;
-
-  void SetUp() override {
-    GlTest::SetUp();
-    if (IsSkipped())
-      return;
-    auto made = Renderer::create();
-    ASSERT_TRUE(made) << made.error().message;
-    renderer_ = std::move(*made);
-  }
-  void TearDown() override { renderer_.reset(); }
-
-  pipeline::Image draw(const ViewState& view, const Status& status) {
-    const auto drawn = renderer_->draw(view, status, width, height);
-    EXPECT_TRUE(drawn) << drawn.error().message;
-    return renderer_->read_back(width, height);
-  }
-
-  // Pixels of a rectangle that differ.
-  static int changed(const pipeline::Image& a, const pipeline::Image& b, const Rect& rect) {
-    int count = 0;
-    for (int y = rect.y; y < rect.bottom(); ++y)
-      for (int x = rect.x; x < rect.right(); ++x)
-        count += a.pixel(x, y) != b.pixel(x, y) ? 1 : 0;
-    return count;
-  }
-
-  std::unique_ptr<Renderer> renderer_;
 };
 
 TEST_F(HudPicture, the_colours_of_vessels_are_explained_beside_the_centre) {
@@ -249,27 +207,6 @@ TEST_F(HudPicture, the_colours_of_vessels_are_explained_beside_the_centre) {
             0);
 }
 
-TEST_F(HudPicture, badges_change_the_corner_and_never_the_centre) {
-  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
-  Status status = live_status();
-  status.simulated = false;
-  const pipeline::Image live = draw({}, status);
-  const Layout layout = lay_out(width, height, {});
-  const Rect corner{0, 0, layout.view.width, layout.view.height / 4};
-  const Rect centre{layout.view.width / 4, layout.view.height / 4, layout.view.width / 2,
-                    layout.view.height / 2};
-  for (const Liveness liveness : {Liveness::stale, Liveness::frozen}) {
-    status.freshness = {liveness, std::chrono::seconds{2}, std::chrono::seconds{2}};
-    const pipeline::Image marked = draw({}, status);
-    EXPECT_GT(changed(live, marked, corner), 500);
-    EXPECT_EQ(changed(live, marked, centre), 0);
-  }
-  status.freshness = live_status().freshness;
-  status.simulated = true;
-  EXPECT_GT(changed(live, draw({}, status), corner), 200);
-}
-
-// REPLAY is told from every other state without its words: another plate, another frame.
 TEST_F(HudPicture, the_bars_along_depth_say_in_what_medium_they_hold) {
   const auto with = [&](std::optional<double> refractive_index) {
     pipeline::VolumeGeometry geometry = small_geometry;
@@ -289,6 +226,7 @@ TEST_F(HudPicture, the_bars_along_depth_say_in_what_medium_they_hold) {
   EXPECT_GT(changed(tissue, with(1.0), lower_left(layout.view)), 20);
 }
 
+// REPLAY is told from every other state without its words: another plate, another frame.
 TEST_F(HudPicture, a_replay_looks_like_nothing_else) {
   ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
   Status status = live_status();
@@ -312,22 +250,6 @@ TEST_F(HudPicture, a_replay_looks_like_nothing_else) {
   status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03", .whose = "left eye"};
   EXPECT_GT(plate(status, palette::replay), 1500);
   EXPECT_LT(plate(status, palette::warning) + plate(status, palette::frozen), 20);
-}
-
-TEST_F(HudPicture, a_veiled_picture_is_dark_all_over) {
-  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
-  Status status = live_status();
-  const auto brightness = [&](const pipeline::Image& image) {
-    const Layout layout = lay_out(width, height, {});
-    double sum = 0;
-    for (int y = 60; y < layout.view.height - 20; ++y)
-      for (int x = 20; x < layout.view.width - 20; ++x)
-        sum += image.pixel(x, y)[1];
-    return sum;
-  };
-  const double live = brightness(draw({}, status));
-  status.freshness = {Liveness::veiled, std::chrono::seconds{9}, {}};
-  EXPECT_LT(brightness(draw({}, status)), 0.45 * live);
 }
 
 TEST_F(HudPicture, is_drawn_again_only_when_it_would_look_different) {

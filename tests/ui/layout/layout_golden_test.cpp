@@ -1,17 +1,14 @@
 // Golden pictures of every layout, in and out of order, and of stereo.
 #include "tests/ui/support/block_typeface.h"
-#include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/golden.h"
-#include "tests/ui/support/scene.h"
-#include "tests/ui/support/synthetic_volume.h"
-#include "ui/renderer.h"
+#include "tests/ui/support/renderer_stage.h"
 
 namespace octascope::tests {
 namespace {
 
 using namespace ui;
 
-class GoldenLayout : public GlTest {
+class GoldenLayout : public RendererTest {
 protected:
   static Status troubled() {
     Status status = live_status();
@@ -33,23 +30,18 @@ protected:
     return view;
   }
 
+  // A scope_width of 0: there is no microscope.
   pipeline::Image draw(const ViewState& view, const Status& status, int width, int height,
-                       bool incomplete = false, bool has_scope = true, int scope_width = 320) {
-    open(width, height);
-    auto renderer = Renderer::create({}, {}, block_typeface());
-    EXPECT_TRUE(renderer) << renderer.error().message;
+                       bool incomplete = false, int scope_width = 320) {
+    open_renderer(width, height, block_typeface());
     auto volume = tissue_volume(small_geometry);
     if (incomplete)
       mark_incomplete(volume);
-    EXPECT_TRUE((*renderer)->show_volume(volume));
-    (*renderer)->show_levels(level_shares(volume));
-    const ScopePicture scope{scope_width, 240};
-    if (has_scope) {
-      EXPECT_TRUE((*renderer)->show_scope_picture(scope.frame(status.now), scope.field()));
-    }
-    const auto drawn = (*renderer)->draw(view, status, width, height);
-    EXPECT_TRUE(drawn) << drawn.error().message;
-    return (*renderer)->read_back(width, height);
+    EXPECT_TRUE(renderer_->show_volume(volume));
+    renderer_->show_levels(level_shares(volume));
+    if (scope_width > 0)
+      show_scope(scope_width);
+    return RendererTest::draw(view, status);
   }
 };
 
@@ -71,7 +63,7 @@ TEST_F(GoldenLayout, a_wide_microscope_picture_with_the_volume_inset) {
   status.freshness = {Liveness::frozen, std::chrono::seconds{12}, std::chrono::seconds{12}};
   ViewState view = window_turned(LayoutKind::microscope, status);
   view.frozen = true;
-  expect_golden(draw(view, status, 640, 360, false, true, 480), "inset_640x360");
+  expect_golden(draw(view, status, 640, 360, false, 480), "inset_640x360");
 }
 
 TEST_F(GoldenLayout, quad_in_trouble) {
@@ -90,7 +82,7 @@ TEST_F(GoldenLayout, volume_in_trouble_at_1024x768) {
 TEST_F(GoldenLayout, a_recording_without_a_microscope) {
   ViewState view;
   view.b_scan = 20;
-  expect_golden(draw(view, live_status(), 640, 360, false, false), "recording_640x360");
+  expect_golden(draw(view, live_status(), 640, 360, false, 0), "recording_640x360");
 }
 
 TEST_F(GoldenLayout, side_by_side) {

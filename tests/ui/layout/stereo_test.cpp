@@ -6,13 +6,10 @@
 #include <glm/geometric.hpp>
 
 #include "tests/support/files/fresh_seed.h"
-#include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/reference_rays.h"
-#include "tests/ui/support/scene.h"
-#include "tests/ui/support/synthetic_volume.h"
+#include "tests/ui/support/renderer_stage.h"
 #include "ui/layout/stereo.h"
-#include "ui/renderer.h"
 
 namespace octascope::tests {
 namespace {
@@ -47,15 +44,6 @@ glm::vec3 any_point(std::mt19937& random) {
   return extents * glm::vec3{share(random), share(random), share(random)};
 }
 
-TEST(Stereo, the_volumes_centre_is_in_the_middle_of_both_pictures) {
-  std::mt19937 random{fresh_seed()};
-  for (int i = 0; i < 100; ++i) {
-    const EyePair eyes{any_view(random), 1.4F};
-    for (const Camera* camera : {&eyes.left, &eyes.right, &eyes.centre})
-      EXPECT_LT(glm::length(camera->project({0, 0, 0})), 1e-5F);
-  }
-}
-
 TEST(Stereo, near_points_cross_far_points_do_not_and_none_moves_up_or_down) {
   std::mt19937 random{fresh_seed()};
   for (int i = 0; i < 1000; ++i) {
@@ -64,6 +52,8 @@ TEST(Stereo, near_points_cross_far_points_do_not_and_none_moves_up_or_down) {
     const glm::vec2 left = eyes.left.project(point);
     const glm::vec2 right = eyes.right.project(point);
     EXPECT_NEAR(left.y, right.y, 1e-5F);
+    for (const Camera* camera : {&eyes.left, &eyes.right, &eyes.centre})
+      EXPECT_LT(glm::length(camera->project({0, 0, 0})), 1e-5F) << "the volume's centre";
     const float nearer = eyes.centre.depth_of({0, 0, 0}) - eyes.centre.depth_of(point);
     if (std::abs(nearer) > 0.01F) {
       EXPECT_GT((left.x - right.x) * nearer, 0) << "crossed where it is nearer";
@@ -158,22 +148,18 @@ bool differ(const std::array<std::uint8_t, 3>& a, const std::array<std::uint8_t,
   return false;
 }
 
-class StereoPicture : public GlTest {
+class StereoPicture : public RendererTest {
 protected:
   static constexpr int width = 1280;
   static constexpr int height = 720;
 
-  pipeline::Image draw(const ViewState& view, const Status& status) {
-    open(width, height);
-    auto renderer = Renderer::create();
-    EXPECT_TRUE(renderer) << renderer.error().message;
+  void SetUp() override {
+    open_renderer(width, height);
+    if (IsSkipped())
+      return;
     auto volume = tissue_volume(small_geometry);
     mark_incomplete(volume);
-    EXPECT_TRUE((*renderer)->show_volume(volume));
-    const ScopePicture scope{320, 240};
-    EXPECT_TRUE((*renderer)->show_scope_picture(scope.frame(status.now), scope.field()));
-    EXPECT_TRUE((*renderer)->draw(view, status, width, height));
-    return (*renderer)->read_back(width, height);
+    show_scene(volume);
   }
 };
 

@@ -1,30 +1,22 @@
 // Golden pictures: the whole display against pictures kept in tests/golden, in a typeface of blocks
 // (tests/ui/support/block_typeface.h).
 #include "tests/ui/support/block_typeface.h"
-#include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/golden.h"
-#include "tests/ui/support/scene.h"
-#include "tests/ui/support/synthetic_volume.h"
-#include "ui/renderer.h"
+#include "tests/ui/support/renderer_stage.h"
 
 namespace octascope::tests {
 namespace {
 
-class GoldenPicture : public GlTest {
+class GoldenPicture : public RendererTest {
 protected:
   pipeline::Image draw(const pipeline::Volume* volume, const ui::ViewState& view,
                        const ui::Status& status, int width, int height) {
-    open(width, height);
-    auto renderer = ui::Renderer::create({}, {}, block_typeface());
-    EXPECT_TRUE(renderer) << renderer.error().message;
+    open_renderer(width, height, block_typeface());
     if (volume != nullptr) {
-      EXPECT_TRUE((*renderer)->show_volume(*volume));
+      EXPECT_TRUE(renderer_->show_volume(*volume));
     }
-    const ScopePicture scope{320, 240};
-    EXPECT_TRUE((*renderer)->show_scope_picture(scope.frame(status.now), scope.field()));
-    const auto drawn = (*renderer)->draw(view, status, width, height);
-    EXPECT_TRUE(drawn) << drawn.error().message;
-    return (*renderer)->read_back(width, height);
+    show_scope();
+    return RendererTest::draw(view, status);
   }
 };
 

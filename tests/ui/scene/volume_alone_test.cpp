@@ -1,26 +1,10 @@
 // The renderer's picture of the volume alone, beside its picture of the whole display.
-#include "tests/ui/support/gl_test.h"
-#include "tests/ui/support/scene.h"
-#include "tests/ui/support/synthetic_volume.h"
-#include "ui/renderer.h"
+#include "tests/ui/support/renderer_stage.h"
 
 namespace octascope::tests {
 namespace {
 
-class VolumeAlone : public GlTest {
-protected:
-  void SetUp() override {
-    GlTest::SetUp();
-    if (IsSkipped())
-      return;
-    auto made = ui::Renderer::create();
-    ASSERT_TRUE(made) << made.error().message;
-    renderer_ = std::move(*made);
-  }
-  void TearDown() override { renderer_.reset(); }
-
-  std::unique_ptr<ui::Renderer> renderer_;
-};
+class VolumeAlone : public RendererTest {};
 
 TEST_F(VolumeAlone, needs_a_volume_and_a_size) {
   const auto drawn = renderer_->draw_volume_alone({}, 640, 360);

@@ -32,10 +32,9 @@ inline const std::array<Vision, 4> all_visions{
            {1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733, 0.691367,
             0.303900}}};
 
-// CIE 1976 L*a*b* under D65 of what that eye sees.
-inline glm::dvec3 seen_lab(ui::Colour colour, const Vision& vision) {
-  const auto linear = [](std::uint8_t value) {
-    const double s = value / 255.0;
+// CIE 1976 L*a*b* under D65 of what that eye sees of an sRGB colour, 0…1.
+inline glm::dvec3 seen_lab_of_srgb(const glm::dvec3& colour, const Vision& vision) {
+  const auto linear = [](double s) {
     return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
   };
   const glm::dvec3 rgb = glm::clamp(
@@ -47,6 +46,10 @@ inline glm::dvec3 seen_lab(ui::Colour colour, const Vision& vision) {
     return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116;
   };
   return {116 * f(xyz.y) - 16, 500 * (f(xyz.x) - f(xyz.y)), 200 * (f(xyz.y) - f(xyz.z))};
+}
+
+inline glm::dvec3 seen_lab(ui::Colour colour, const Vision& vision) {
+  return seen_lab_of_srgb(glm::dvec3{colour.r, colour.g, colour.b} / 255.0, vision);
 }
 
 inline double seen_difference(ui::Colour a, ui::Colour b, const Vision& vision) {

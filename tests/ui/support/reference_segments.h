@@ -28,11 +28,7 @@ struct ReferenceSegment {
 struct ReferencePlace {
   double off_px;      // from the axis
   double radius_px;   // there
-  double axis_mm;     // its distance
   double distance_mm; // of what is seen: the axis, or of wide segments the surface
-  // Likewise, were the segment thinner or thicker by a thousandth: between them, rounding decides.
-  double farthest_mm;
-  double nearest_mm;
 
   double outside_px() const { return off_px - radius_px; }
 };

@@ -22,6 +22,13 @@ struct DrawnVessels {
   bool covered(std::size_t pixel) const { return depth[pixel] < 1; }
 };
 
+// Of what the window's depth says, 0…1, along the view.
+inline double distance_mm(const ui::Camera& camera, float depth) {
+  const double near = camera.near_mm;
+  const double far = camera.far_mm;
+  return near * far / (far - double{depth} * (far - near));
+}
+
 // Needs a current context.
 class VesselStage {
 public:

@@ -2,9 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include <gtest/gtest.h>
 
+#include "tests/ui/support/colour_vision.h"
 #include "ui/transfer/oklab.h"
 #include "ui/transfer/transfer_set.h"
 
@@ -12,38 +14,6 @@ namespace octascope::tests {
 namespace {
 
 using Colour = ui::TransferTable::Colour;
-using Matrix = std::array<std::array<double, 3>, 3>;
-
-// What dichromats see, on linear RGB: G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, "A
-// physiologically-based model for simulation of color vision deficiency" (IEEE TVCG 15, 2009), at
-// severity 1.
-constexpr Matrix protanopia{{{0.152286, 1.052583, -0.204868},
-                             {0.114503, 0.786281, 0.099216},
-                             {-0.003882, -0.048116, 1.051998}}};
-constexpr Matrix deuteranopia{{{0.367322, 0.860646, -0.227968},
-                               {0.280085, 0.672501, 0.047413},
-                               {-0.011820, 0.042940, 0.968881}}};
-constexpr Matrix all_cones{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
-double linear(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-// CIE 1976 L*, 0…100, of sRGB as somebody with these cones sees it.
-double lightness(const Colour& colour, const Matrix& cones) {
-  const std::array rgb{linear(static_cast<double>(colour.red)),
-                       linear(static_cast<double>(colour.green)),
-                       linear(static_cast<double>(colour.blue))};
-  constexpr std::array shares{0.2126, 0.7152, 0.0722};
-  double y = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    double channel = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      channel += cones[i][k] * rgb[k];
-    y += shares[i] * std::clamp(channel, 0.0, 1.0);
-  }
-  return y > 0.008856 ? 116 * std::cbrt(y) - 16 : 903.3 * y;
-}
 
 class ColourMaps : public testing::Test {
 protected:
@@ -84,10 +54,14 @@ TEST_F(ColourMaps, rise_linearly_in_lightness) {
 
 TEST_F(ColourMaps, keep_their_order_to_the_colour_blind) {
   for (const ui::ColourMap& map : set_.colour_maps())
-    for (const Matrix& cones : {all_cones, protanopia, deuteranopia}) {
-      double last = lightness(map.at(0), cones);
+    for (const Vision& vision : std::span{all_visions}.first(3)) { // the fourth is rare
+      const auto lightness = [&](float u) {
+        const Colour colour = map.at(u);
+        return seen_lab_of_srgb(glm::dvec3{colour.red, colour.green, colour.blue}, vision).x;
+      };
+      double last = lightness(0);
       for (int i = 1; i <= 32; ++i) {
-        const double here = lightness(map.at(static_cast<float>(i) / 32), cones);
+        const double here = lightness(static_cast<float>(i) / 32);
         EXPECT_GT(here, last + 0.6) << map.name() << " at " << i << "/32";
         last = here;
       }

@@ -58,27 +58,27 @@ TEST(LevelHistogram, shares_are_roots_over_decibels) {
   EXPECT_EQ(std::ranges::count_if(shares, [](float s) { return s > 0; }), 2);
 }
 
-// Two thirds tissue: its peak is the higher one, and no noise.
-TEST(SuggestedWindow, takes_no_tissue_for_noise) {
+using Levels = std::normal_distribution<float>;
+
+// Tissue in one voxel of so many, noise in the others; or the other way round.
+pipeline::Volume speckled(Levels one, std::size_t of, Levels others) {
   pipeline::Volume volume = uniform_volume({100, 60, 40, 1, 1, 1}, 0);
   std::mt19937 random{5};
-  std::normal_distribution<float> noise{45, 6};
-  std::normal_distribution<float> tissue{90, 9};
   for (std::size_t i = 0; i < volume.levels.size(); ++i)
-    volume.levels[i] = static_cast<std::uint8_t>(i % 3 == 0 ? noise(random) : tissue(random));
-  const auto window = ui::suggest_window(volume);
+    volume.levels[i] = static_cast<std::uint8_t>(i % of == 0 ? one(random) : others(random));
+  return volume;
+}
+
+// Two thirds tissue: its peak is the higher one, and no noise.
+TEST(SuggestedWindow, takes_no_tissue_for_noise) {
+  const auto window = ui::suggest_window(speckled(Levels{45, 6}, 3, Levels{90, 9}));
   ASSERT_TRUE(window);
   EXPECT_NEAR(window->offset_db, pipeline::level_db(57), 2.1);
 }
 
 // Noise with a standard deviation of 6 counts around 60, tissue around 150 in a tenth of it.
 TEST(SuggestedWindow, begins_above_the_noise_and_ends_at_the_brightest) {
-  pipeline::Volume volume = uniform_volume({100, 60, 40, 1, 1, 1}, 0);
-  std::mt19937 random{3};
-  std::normal_distribution<float> noise{60, 6};
-  std::normal_distribution<float> tissue{150, 10};
-  for (std::size_t i = 0; i < volume.levels.size(); ++i)
-    volume.levels[i] = static_cast<std::uint8_t>(i % 10 == 0 ? tissue(random) : noise(random));
+  pipeline::Volume volume = speckled(Levels{150, 10}, 10, Levels{60, 6});
   const auto window = ui::suggest_window(volume);
   ASSERT_TRUE(window);
   EXPECT_NEAR(window->offset_db, pipeline::level_db(72), 2.1);

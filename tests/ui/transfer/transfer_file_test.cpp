@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
 #include "ui/transfer/look_up_table_file.h"
 
@@ -10,17 +11,12 @@ namespace octascope::tests {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 using Colour = ui::TransferTable::Colour;
 
 class LookUpTableFile : public testing::Test {
 protected:
   auto text(std::string_view words) {
     return ui::read_look_up_table(folder_.write("t.csv", words));
-  }
-  std::string told(std::string_view words) {
-    const auto read = text(words);
-    return read ? "nothing" : read.error().message;
   }
   auto png(int width, int height, png_uint_32 format, const std::vector<std::uint8_t>& pixels) {
     const auto file = folder_ / "t.PNG";
@@ -52,28 +48,26 @@ TEST_F(LookUpTableFile, of_colours_with_any_usual_separator) {
 }
 
 TEST_F(LookUpTableFile, in_error_is_refused_with_its_line) {
-  EXPECT_THAT(told("0\nx\n"), HasSubstr("t.csv:2: found \"x\", expected 1 or 4 finite numbers"));
-  EXPECT_THAT(told("0\n\n1,1\n"), HasSubstr("t.csv:3: found \"1,1\""));
-  EXPECT_THAT(told("0,0,0,0\n1\n"),
-              HasSubstr("t.csv:2: found \"1\", expected 4 numbers as in line 1"));
-  EXPECT_THAT(told("0,0,0,0\n1,,1,1\n"), HasSubstr("t.csv:2"));
-  EXPECT_THAT(told("0,0,0,0\n1,1,1,\n"), HasSubstr("t.csv:2"));
-  EXPECT_THAT(told("0\nnan\n"), HasSubstr("t.csv:2"));
-  EXPECT_THAT(told("0\n255\n"),
-              HasSubstr("t.csv:2: found 255, expected numbers from 0 to 1; divide"));
-  EXPECT_THAT(told("0\n-0.1\n"), HasSubstr("t.csv:2: found -0.1"));
-  EXPECT_THAT(told("0.5\n"), HasSubstr("found 1 entries, expected 2 to 4096"));
-  EXPECT_THAT(told("# nothing\n"), HasSubstr("found 0 entries"));
-  EXPECT_THAT(told(""), HasSubstr("is empty"));
+  EXPECT_THAT(text("0\nx\n"), FailsSaying("t.csv:2: found \"x\", expected 1 or 4 finite numbers"));
+  EXPECT_THAT(text("0\n\n1,1\n"), FailsSaying("t.csv:3: found \"1,1\""));
+  EXPECT_THAT(text("0,0,0,0\n1\n"),
+              FailsSaying("t.csv:2: found \"1\", expected 4 numbers as in line 1"));
+  EXPECT_THAT(text("0,0,0,0\n1,,1,1\n"), FailsSaying("t.csv:2"));
+  EXPECT_THAT(text("0,0,0,0\n1,1,1,\n"), FailsSaying("t.csv:2"));
+  EXPECT_THAT(text("0\nnan\n"), FailsSaying("t.csv:2"));
+  EXPECT_THAT(text("0\n255\n"),
+              FailsSaying("t.csv:2: found 255, expected numbers from 0 to 1; divide"));
+  EXPECT_THAT(text("0\n-0.1\n"), FailsSaying("t.csv:2: found -0.1"));
+  EXPECT_THAT(text("0.5\n"), FailsSaying("found 1 entries, expected 2 to 4096"));
+  EXPECT_THAT(text("# nothing\n"), FailsSaying("found 0 entries"));
+  EXPECT_THAT(text(""), FailsSaying("is empty"));
   std::string long_one;
   for (int i = 0; i < 4097; ++i)
     long_one += "0\n";
-  EXPECT_THAT(told(long_one), HasSubstr("t.csv:4097: found \"0\", expected the end"));
+  EXPECT_THAT(text(long_one), FailsSaying("t.csv:4097: found \"0\", expected the end"));
   long_one.resize(long_one.size() - 2);
   EXPECT_TRUE(text(long_one)) << "4096 are fine";
-  const auto absent = ui::read_look_up_table(folder_ / "none.csv");
-  ASSERT_FALSE(absent);
-  EXPECT_EQ(absent.error().code, hal::ErrorCode::absent);
+  EXPECT_THAT(ui::read_look_up_table(folder_ / "none.csv"), FailsWith(hal::ErrorCode::absent));
 }
 
 TEST_F(LookUpTableFile, of_a_grey_strip_is_opacity) {
@@ -100,16 +94,11 @@ TEST_F(LookUpTableFile, of_a_strip_with_transparency_has_both) {
 }
 
 TEST_F(LookUpTableFile, of_a_picture_is_refused) {
-  const auto photo = png(2, 2, PNG_FORMAT_GRAY, {0, 1, 2, 3});
-  ASSERT_FALSE(photo);
-  EXPECT_THAT(photo.error().message, HasSubstr("row 2 other than row 1 at pixel 1"));
-  const auto dot = png(1, 1, PNG_FORMAT_GRAY, {0});
-  ASSERT_FALSE(dot);
-  EXPECT_THAT(dot.error().message, HasSubstr("1x1 pixels"));
+  EXPECT_THAT(png(2, 2, PNG_FORMAT_GRAY, {0, 1, 2, 3}),
+              FailsSaying("row 2 other than row 1 at pixel 1"));
+  EXPECT_THAT(png(1, 1, PNG_FORMAT_GRAY, {0}), FailsSaying("1x1 pixels"));
   folder_.write("no.png", "no picture");
-  const auto torn = ui::read_look_up_table(folder_ / "no.png");
-  ASSERT_FALSE(torn);
-  EXPECT_THAT(torn.error().message, HasSubstr("no.png"));
+  EXPECT_THAT(ui::read_look_up_table(folder_ / "no.png"), FailsSaying("no.png"));
 }
 
 } // namespace

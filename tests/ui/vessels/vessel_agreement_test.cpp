@@ -34,12 +34,6 @@ struct Disagreement {
   int in_depth = 0;    // likewise
 };
 
-double distance_mm(const ui::Camera& camera, float depth) {
-  const double near = camera.near_mm;
-  const double far = camera.far_mm;
-  return near * far / (far - double{depth} * (far - near));
-}
-
 Disagreement compare(const ui::VesselScene& scene, const DrawnVessels& a, const DrawnVessels& b) {
   const auto reference = reference_vessels(scene);
   Disagreement found;

@@ -11,6 +11,7 @@
 
 #include "sim/coronary_tree/coronary_tree.h"
 #include "tests/ui/support/gl_test.h"
+#include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/vessel_stage.h"
 #include "ui/vessels/hybrid/hybrid_method.h"
 #include "ui/vessels/hybrid/quads_share.h"
@@ -38,13 +39,6 @@ constexpr float step_px = 0.5F;
 // Of 255. A frame of the hybrid may change by what quads change by in the same step, and so much.
 constexpr double most_beside_quads = 2;
 constexpr double most_beyond_quads_step = 0.5;
-
-double difference(const pipeline::Image& a, const pipeline::Image& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    sum += std::abs(int{a.pixels[i]} - int{b.pixels[i]});
-  return sum / static_cast<double>(a.pixels.size());
-}
 
 // A heart of so few segments ends at order 5. Its orders are counted from the bottom, so that those
 // that may be thinner than a pixel, and merged, are there too.
@@ -124,13 +118,10 @@ private:
         nearest =
             std::min(nearest, drawn_.depth[static_cast<std::size_t>((y + dy) * width + x + dx)]);
     ++found_.places;
-    found_.lost += nearest < 1 && distance_mm(nearest) <= pixel.depth_mm + tolerance_mm ? 0 : 1;
-  }
-
-  float distance_mm(float window_depth) const {
-    const float near = scene_.camera.near_mm;
-    const float far = scene_.camera.far_mm;
-    return near * far / (far - window_depth * (far - near));
+    found_.lost +=
+        nearest < 1 && distance_mm(scene_.camera, nearest) <= double{pixel.depth_mm + tolerance_mm}
+            ? 0
+            : 1;
   }
 
   const ui::VesselScene& scene_;
@@ -170,15 +161,15 @@ protected:
         DrawnVessels full = stage.draw(quads, scene);
         EXPECT_EQ(drawn.account.total(), stage.tree().segments) << stretch << ' ' << i;
         result.merged += drawn.account.merged;
-        result.from_quads = std::max(result.from_quads, difference(drawn.colour, full.colour));
+        result.from_quads = std::max(result.from_quads, compare(drawn.colour, full.colour).mean);
         const Centrelines lines = CentrelineCheck{scene, drawn}.check(tree);
         result.lines.places += lines.places;
         result.lines.lost += lines.lost;
         if (last) {
-          const double change = difference(drawn.colour, last->colour);
+          const double change = compare(drawn.colour, last->colour).mean;
           result.change = std::max(result.change, change);
           result.beyond_quads =
-              std::max(result.beyond_quads, change - difference(full.colour, last_quads->colour));
+              std::max(result.beyond_quads, change - compare(full.colour, last_quads->colour).mean);
         }
         last = std::move(drawn);
         last_quads = std::move(full);

@@ -102,8 +102,6 @@ TEST_F(VesselMethods, quads_have_the_distance_and_brightness_of_the_nearest_axis
     const ui::VesselScene scene = stage.scene(view);
     const auto reference = reference_vessels(scene);
     const DrawnVessels drawn = stage.draw(stage.method(VesselMethodKind::quads_gpu), scene);
-    const auto near = static_cast<double>(scene.camera.near_mm);
-    const auto far = static_cast<double>(scene.camera.far_mm);
     int compared = 0;
     int apart = 0;
     for (std::size_t i = 0; i < pixel_count(); ++i) {
@@ -111,8 +109,7 @@ TEST_F(VesselMethods, quads_have_the_distance_and_brightness_of_the_nearest_axis
       if (!pixel.covered() || pixel.to_outline_px < 0.01)
         continue;
       ++compared;
-      const auto depth = static_cast<double>(drawn.depth[i]);
-      const double depth_mm = near * far / (far - depth * (far - near));
+      const double depth_mm = distance_mm(scene.camera, drawn.depth[i]);
       int brightest = 0; // of a branch's colour, whatever it is
       for (std::size_t channel = 0; channel < 3; ++channel)
         brightest = std::max(brightest, int{drawn.colour.pixels[3 * i + channel]});
@@ -144,10 +141,9 @@ TEST_F(VesselMethods, near_vessels_bulge_towards_the_eye_by_their_radius) {
     const DrawnVessels drawn = stage.draw(stage.method(kind), scene);
     const auto middle = static_cast<std::size_t>(VesselStage::height / 2 * VesselStage::width +
                                                  VesselStage::width / 2);
-    const float near = scene.camera.near_mm;
-    const float far = scene.camera.far_mm;
-    const float depth_mm = near * far / (far - drawn.depth[middle] * (far - near));
-    EXPECT_NEAR(depth_mm, scene.camera.depth_of(glm::vec3{0}) - 1, 0.02F) << to_string(kind);
+    EXPECT_NEAR(distance_mm(scene.camera, drawn.depth[middle]),
+                scene.camera.depth_of(glm::vec3{0}) - 1, 0.02F)
+        << to_string(kind);
     EXPECT_EQ(drawn.account.drawn, 1U);
   }
 }

@@ -1,20 +1,19 @@
 // What can be wrong with a GPIO line: told in words, survived, over when it is over.
 #include <cstring>
-#include <functional>
 #include <thread>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <grp.h>
 #include <linux/gpio.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "hal/linux/gpio/gpio_lookup.h"
 #include "hal/linux/system/system_error.h"
+#include "tests/support/fails_with.h"
 #include "tests/virtual_hardware/gpio/gpio_bench.h"
 #include "tests/virtual_hardware/support/resource_count.h"
+#include "tests/virtual_hardware/support/without_permission.h"
 
 namespace octascope::tests {
 namespace {
@@ -22,29 +21,10 @@ namespace {
 using hal::ErrorCode;
 using hal::linux_backend::FileDescriptor;
 using hal::linux_backend::GpioGalvoTrigger;
-using testing::AllOf;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-class GpioFaults : public GpioTest {
-protected:
-  static void expect_fault(const auto& result, ErrorCode fault, const auto& message) {
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().code, fault) << result.error().message;
-    EXPECT_THAT(result.error().message, message);
-  }
-
-  static void expect_no_leak(const std::function<void()>& work) {
-    const ResourceCount before = resources_in_use();
-    work();
-    const ResourceCount after = resources_in_use();
-    std::printf("  before: %s\n  after:  %s\n", testing::PrintToString(before).c_str(),
-                testing::PrintToString(after).c_str());
-    EXPECT_EQ(after.descriptors, before.descriptors);
-    EXPECT_LE(after.mappings, before.mappings + 1); // the heap itself may be split once
-    EXPECT_LE(after.heap_bytes, before.heap_bytes + 4096);
-  }
-};
+class GpioFaults : public GpioTest {};
 
 // As another program would hold it.
 FileDescriptor hold(const std::string& node, unsigned line, const char* consumer) {
@@ -62,8 +42,7 @@ FileDescriptor hold(const std::string& node, unsigned line, const char* consumer
 TEST_F(GpioFaults, a_line_held_by_another_names_the_holder_until_it_is_free) {
   FileDescriptor other = hold(chip_->node(), trigger_line, "pump-control");
   GpioGalvoTrigger trigger{clock_};
-  expect_fault(trigger.open({}), ErrorCode::busy,
-               AllOf(HasSubstr("octascope-trigger"), HasSubstr("pump-control")));
+  EXPECT_THAT(trigger.open({}), FailsWith(ErrorCode::busy, "octascope-trigger", "pump-control"));
   EXPECT_EQ(trigger.state(), hal::DeviceState::absent);
   other.reset();
   EXPECT_TRUE(trigger.open({}));
@@ -72,15 +51,14 @@ TEST_F(GpioFaults, a_line_held_by_another_names_the_holder_until_it_is_free) {
 TEST_F(GpioFaults, an_open_trigger_holds_its_line_under_its_name) {
   GpioGalvoTrigger first{clock_}, second{clock_};
   ASSERT_TRUE(first.open({}));
-  expect_fault(second.open({}), ErrorCode::busy, HasSubstr("held by \"octascope\""));
+  EXPECT_THAT(second.open({}), FailsWith(ErrorCode::busy, "held by \"octascope\""));
   first.close();
   EXPECT_TRUE(second.open({}));
 }
 
 TEST_F(GpioFaults, an_unknown_line_is_never_guessed) {
   GpioGalvoTrigger trigger{clock_, {.line = "pump"}};
-  expect_fault(trigger.open({}), ErrorCode::absent,
-               AllOf(HasSubstr("\"pump\""), HasSubstr("6 lines"), HasSubstr("gpioinfo")));
+  EXPECT_THAT(trigger.open({}), FailsWith(ErrorCode::absent, "\"pump\"", "6 lines", "gpioinfo"));
 }
 
 TEST_F(GpioFaults, a_name_that_two_lines_have_is_refused) {
@@ -88,7 +66,7 @@ TEST_F(GpioFaults, a_name_that_two_lines_have_is_refused) {
       SimGpioChip::make("octascope-second-" + std::to_string(::getpid()), {"octascope-trigger"});
   ASSERT_TRUE(second);
   GpioGalvoTrigger trigger{clock_};
-  expect_fault(trigger.open({}), ErrorCode::invalid_argument, HasSubstr("2 lines"));
+  EXPECT_THAT(trigger.open({}), FailsWith(ErrorCode::invalid_argument, "2 lines"));
   const std::string chip = chip_->node().substr(std::strlen("/dev/"));
   GpioGalvoTrigger exact{clock_, {.line = chip + ":3"}};
   ASSERT_TRUE(exact.open({.pulse_width = 10s}));
@@ -100,29 +78,17 @@ TEST_F(GpioFaults, a_name_that_two_lines_have_is_refused) {
 TEST_F(GpioFaults, an_offset_that_the_chip_does_not_have_is_refused) {
   const std::string chip = chip_->node().substr(std::strlen("/dev/"));
   GpioGalvoTrigger trigger{clock_, {.line = chip + ":6"}};
-  expect_fault(trigger.open({}), ErrorCode::invalid_argument, HasSubstr("0 to 5"));
+  EXPECT_THAT(trigger.open({}), FailsWith(ErrorCode::invalid_argument, "0 to 5"));
 }
 
-// In a child, because it cannot become root again.
 TEST_F(GpioFaults, without_permission_the_message_says_which_group) {
   while (hal::linux_backend::udev_is_at_work()) // it is not denied before
     std::this_thread::sleep_for(10ms);
   ASSERT_EQ(::chmod(chip_->node().c_str(), 0600), 0);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::setgroups(0, nullptr) != 0 || ::setuid(65534) != 0)
-      ::_exit(2);
-    GpioGalvoTrigger trigger{clock_};
-    const auto opened = trigger.open({});
-    const bool told = !opened && opened.error().code == ErrorCode::denied &&
-                      opened.error().message.find("usermod -aG gpio") != std::string::npos;
-    if (!told)
-      std::fprintf(stderr, "%s\n", opened ? "it opened" : opened.error().message.c_str());
-    ::_exit(told ? 0 : 1);
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status;
+  check_as_nobody([&] {
+    EXPECT_THAT(GpioGalvoTrigger{clock_}.open({}),
+                FailsWith(ErrorCode::denied, "usermod -aG gpio"));
+  });
 }
 
 TEST_F(GpioFaults, a_chip_that_goes_in_the_middle_of_a_long_pulse_is_survived) {
@@ -130,10 +96,10 @@ TEST_F(GpioFaults, a_chip_that_goes_in_the_middle_of_a_long_pulse_is_survived) {
   ASSERT_TRUE(trigger.open({.pulse_width = 20ms}));
   ASSERT_TRUE(trigger.arm());
   ASSERT_TRUE(chip_->remove());
-  expect_fault(trigger.arm(), ErrorCode::disconnected, HasSubstr("octascope-trigger"));
+  EXPECT_THAT(trigger.arm(), FailsWith(ErrorCode::disconnected, "octascope-trigger"));
   EXPECT_EQ(trigger.state(), hal::DeviceState::failed);
   trigger.close();
-  expect_fault(trigger.open({}), ErrorCode::absent, HasSubstr("octascope-trigger"));
+  EXPECT_THAT(trigger.open({}), FailsWith(ErrorCode::absent, "octascope-trigger"));
   ASSERT_TRUE(chip_->restore());
   ASSERT_TRUE(trigger.open({.pulse_width = 20ms}));
   EXPECT_FALSE(chip_->level(trigger_line));
@@ -159,10 +125,10 @@ TEST_F(GpioFaults, two_hundred_plug_cycles_leak_nothing) {
   };
   for (int i = 0; i < 10; ++i) // libraries and locales take their share at first
     cycle(i % 2 == 0);
-  expect_no_leak([&] {
-    for (int i = 0; i < 200 && !HasFatalFailure(); ++i)
-      cycle(i % 2 == 0);
-  });
+  const ResourceCount before = resources_in_use();
+  for (int i = 0; i < 200 && !HasFatalFailure(); ++i)
+    cycle(i % 2 == 0);
+  expect_no_leak(before);
 }
 
 TEST_F(GpioFaults, two_hundred_openings_leak_nothing) {
@@ -177,10 +143,10 @@ TEST_F(GpioFaults, two_hundred_openings_leak_nothing) {
   // The C library keeps up to seven freed blocks of each size, which count as in use.
   for (int i = 0; i < 40; ++i)
     cycle(i % 2 == 0 ? 1ms : 50us);
-  expect_no_leak([&] {
-    for (int i = 0; i < 200 && !HasFatalFailure(); ++i)
-      cycle(i % 2 == 0 ? 1ms : 50us);
-  });
+  const ResourceCount before = resources_in_use();
+  for (int i = 0; i < 200 && !HasFatalFailure(); ++i)
+    cycle(i % 2 == 0 ? 1ms : 50us);
+  expect_no_leak(before);
 }
 
 TEST_F(GpioFaults, the_survey_says_what_is_there_and_what_is_missing) {

@@ -1,4 +1,5 @@
 // The scanner's answers on the sync line, compared with the pulses.
+#include "tests/support/fails_with.h"
 #include "tests/virtual_hardware/gpio/gpio_bench.h"
 
 namespace octascope::tests {
@@ -14,6 +15,20 @@ protected:
     EXPECT_TRUE(chip_->pull(sync_line, false));
     // gpio-sim tells of an edge with the kernel's next timer tick, and merges those before it.
     clock_.sleep_for(30ms);
+  }
+  // So many after each pulse.
+  void pulse_and_answer(GpioGalvoTrigger& trigger, std::initializer_list<int> answers) {
+    for (const int count : answers) {
+      ASSERT_TRUE(trigger.arm());
+      for (int i = 0; i < count; ++i)
+        answer();
+    }
+  }
+  static void expect_counted(const GpioGalvoTrigger& trigger, std::uint64_t edges,
+                             std::uint64_t missed, std::uint64_t unexpected) {
+    EXPECT_EQ(trigger.counters().sync_edges, edges);
+    EXPECT_EQ(trigger.counters().missed_edges, missed);
+    EXPECT_EQ(trigger.counters().unexpected_edges, unexpected);
   }
 };
 
@@ -41,50 +56,27 @@ TEST_F(GpioSync, missing_and_unexpected_answers_are_told_apart) {
   GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-sync"}};
   ASSERT_TRUE(trigger.open({}));
   answer(); // nobody asked
-  for (const int answers : {1, 0, 0, 3, 1, 0}) {
-    ASSERT_TRUE(trigger.arm());
-    for (int i = 0; i < answers; ++i)
-      answer();
-  }
-  ASSERT_TRUE(trigger.arm());
-  EXPECT_EQ(trigger.counters().sync_edges, 6U);
-  EXPECT_EQ(trigger.counters().missed_edges, 3U);
-  EXPECT_EQ(trigger.counters().unexpected_edges, 3U);
+  pulse_and_answer(trigger, {1, 0, 0, 3, 1, 0, 0});
+  expect_counted(trigger, 6, 3, 3);
 }
 
 TEST_F(GpioSync, several_answers_a_pulse_can_be_expected) {
   GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-sync", .sync_edges_per_pulse = 16}};
   ASSERT_TRUE(trigger.open({}));
-  for (const int answers : {16, 14}) {
-    ASSERT_TRUE(trigger.arm());
-    for (int i = 0; i < answers; ++i)
-      answer();
-  }
-  ASSERT_TRUE(trigger.arm());
-  EXPECT_EQ(trigger.counters().sync_edges, 30U);
-  EXPECT_EQ(trigger.counters().missed_edges, 2U);
+  pulse_and_answer(trigger, {16, 14, 0});
+  expect_counted(trigger, 30, 2, 0);
 }
 
 TEST_F(GpioSync, of_more_answers_than_the_kernel_keeps_as_many_are_counted_as_it_keeps) {
   GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-sync"}};
   ASSERT_TRUE(trigger.open({}));
-  ASSERT_TRUE(trigger.arm());
-  for (int i = 0; i < 18; ++i)
-    answer();
-  ASSERT_TRUE(trigger.arm());
-  answer();
-  ASSERT_TRUE(trigger.arm());
-  EXPECT_EQ(trigger.counters().sync_edges, 17U);
-  EXPECT_EQ(trigger.counters().missed_edges, 0U);
-  EXPECT_EQ(trigger.counters().unexpected_edges, 15U);
+  pulse_and_answer(trigger, {18, 1, 0});
+  expect_counted(trigger, 17, 0, 15);
 }
 
 TEST_F(GpioSync, a_sync_line_that_is_not_there_is_told) {
   GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-answer"}};
-  const auto opened = trigger.open({});
-  ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().code, hal::ErrorCode::absent);
-  EXPECT_NE(opened.error().message.find("octascope-answer"), std::string::npos);
+  EXPECT_THAT(trigger.open({}), FailsWith(hal::ErrorCode::absent, "octascope-answer"));
   GpioGalvoTrigger other{clock_};
   EXPECT_TRUE(other.open({})) << "the trigger line was given back";
 }

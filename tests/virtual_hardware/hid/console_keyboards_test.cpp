@@ -187,10 +187,7 @@ TEST_F(ConsoleKeyboardsTest, system_calls_under_fire_end_well) {
         return keyboards.serving().empty() ? std::nullopt : std::optional{"not let go"};
       },
       false);
-  std::printf("  %u calls, %u runs\n", report.calls, report.runs);
-  EXPECT_GT(report.calls, 20U);
-  for (const std::string& complaint : report.complaints)
-    ADD_FAILURE() << complaint;
+  expect_good(report, 20);
   keyboards_.attend(true);
   type(*keyboard, KEY_O);
   EXPECT_THAT(keys(keyboards_), ElementsAre("+o", "-o"));

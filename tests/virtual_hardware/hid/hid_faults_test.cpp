@@ -4,33 +4,25 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <grp.h>
 #include <linux/input.h>
 #include <poll.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "hal/linux/system/system_error.h"
+#include "tests/support/fails_with.h"
 #include "tests/virtual_hardware/hid/hid_bench.h"
+#include "tests/virtual_hardware/support/without_permission.h"
 
 namespace octascope::tests {
 namespace {
 
 using hal::ErrorCode;
 using hal::linux_backend::HidControls;
-using testing::AllOf;
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-class HidFaults : public HidTest {
-protected:
-  static void expect_fault(const auto& result, ErrorCode fault, const auto& message) {
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().code, fault) << result.error().message;
-    EXPECT_THAT(result.error().message, message);
-  }
-};
+class HidFaults : public HidTest {};
 
 VirtualPedalKind strange_keyboard() {
   VirtualPedalKind kind = pcsensor_pedal("Somebody's keyboard");
@@ -53,11 +45,11 @@ bool is_heard(VirtualPedal& pedal) {
 }
 
 TEST_F(HidFaults, nothing_that_is_known_is_told_with_what_is_there) {
-  expect_fault(controls_.open(), ErrorCode::absent, HasSubstr("no HID device"));
+  EXPECT_THAT(controls_.open(), FailsWith(ErrorCode::absent, "no HID device"));
   const auto keyboard = plug_in(strange_keyboard());
   ASSERT_TRUE(keyboard);
-  expect_fault(controls_.open(), ErrorCode::absent,
-               AllOf(HasSubstr("1234:5678 Somebody's keyboard"), HasSubstr("--learn")));
+  EXPECT_THAT(controls_.open(),
+              FailsWith(ErrorCode::absent, "1234:5678 Somebody's keyboard", "--learn"));
 }
 
 TEST_F(HidFaults, a_strange_keyboard_steers_nothing_and_is_left_alone) {
@@ -85,35 +77,22 @@ TEST_F(HidFaults, a_pedal_that_somebody_has_grabbed_is_busy_until_it_is_let_go) 
   ASSERT_TRUE(pedal);
   HidControls other{clock_};
   ASSERT_TRUE(other.open());
-  expect_fault(controls_.open(), ErrorCode::busy,
-               AllOf(HasSubstr("PCsensor"), HasSubstr(pedal->event_node()), HasSubstr("grabbed")));
+  EXPECT_THAT(controls_.open(),
+              FailsWith(ErrorCode::busy, "PCsensor", pedal->event_node(), "grabbed"));
   other.close();
   EXPECT_TRUE(controls_.open());
 }
 
-// In a child, because it cannot become root again.
 TEST_F(HidFaults, without_permission_the_message_names_the_udev_rule) {
   const auto pedal = plug_in(vec_pedal());
   ASSERT_TRUE(pedal);
   while (hal::linux_backend::udev_is_at_work()) // it is not denied before
     std::this_thread::sleep_for(10ms);
   ASSERT_EQ(::chmod(pedal->hidraw_node().c_str(), 0600), 0);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::setgroups(0, nullptr) != 0 || ::setuid(65534) != 0)
-      ::_exit(2);
-    HidControls controls{clock_};
-    const auto opened = controls.open();
-    const bool told = !opened && opened.error().code == ErrorCode::denied &&
-                      opened.error().message.find("70-octascope.rules") != std::string::npos &&
-                      opened.error().message.find("VEC Infinity") != std::string::npos;
-    if (!told)
-      std::fprintf(stderr, "%s\n", opened ? "it opened" : opened.error().message.c_str());
-    ::_exit(told ? 0 : 1);
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << "status " << status;
+  check_as_nobody([&] {
+    EXPECT_THAT(HidControls{clock_}.open(),
+                FailsWith(ErrorCode::denied, "70-octascope.rules", "VEC Infinity"));
+  });
 }
 
 TEST_F(HidFaults, one_that_cannot_be_opened_does_not_keep_the_others_from_serving) {

@@ -55,10 +55,7 @@ TEST_F(HidUnderFire, hidapi_and_evdev_end_well) {
   ASSERT_TRUE(pedal && typing);
   const FireReport report = under_fire(
       every_kind, usual_errors(), [&] { return use(*pedal, *typing); }, false, spared);
-  std::printf("  %u calls, %u runs\n", report.calls, report.runs);
-  EXPECT_GT(report.calls, 40U);
-  for (const std::string& complaint : report.complaints)
-    ADD_FAILURE() << complaint;
+  expect_good(report, 40);
   EXPECT_EQ(use(*pedal, *typing), std::nullopt);
 }
 

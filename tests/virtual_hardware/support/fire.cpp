@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
@@ -228,6 +230,13 @@ FireReport under_fire(unsigned kinds, std::span<const int> errors,
     }
   spared_request = 0;
   return report;
+}
+
+void expect_good(const FireReport& report, unsigned least_calls) {
+  std::printf("  %u calls, %u runs\n", report.calls, report.runs);
+  EXPECT_GE(report.calls, least_calls);
+  for (const std::string& complaint : report.complaints)
+    ADD_FAILURE() << complaint;
 }
 
 unsigned fire_every() {

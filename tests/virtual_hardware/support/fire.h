@@ -93,6 +93,9 @@ FireReport under_fire(unsigned kinds, std::span<const int> errors,
                       const std::function<std::optional<std::string>()>& scenario,
                       bool check_recovery = true, unsigned long spared = 0);
 
+// Prints it; a failed test for each complaint, and where there were fewer calls.
+void expect_good(const FireReport& report, unsigned least_calls);
+
 // Of so many shots one is fired: 1, unless OCTASCOPE_FIRE_EVERY says more.
 unsigned fire_every();
 

@@ -27,6 +27,12 @@ struct ScanoutPicture {
 // colour.
 hal::Result<ScanoutPicture> read_scanout(const std::string& card = {});
 
+// Of a pixel near the corner; -1: no output is on.
+inline int red_on_screen() {
+  const auto picture = read_scanout();
+  return picture ? picture->pixel(7, 7)[0] : -1;
+}
+
 // The largest difference of two colour values, of 255; 256 where the sizes differ.
 int largest_difference(const ScanoutPicture& a, const ScanoutPicture& b);
 

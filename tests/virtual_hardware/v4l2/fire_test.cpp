@@ -70,46 +70,31 @@ std::optional<std::string> use(LineCamera& camera, LoopbackFeeder* feeder) {
   return std::nullopt;
 }
 
-void report(const FireReport& done, unsigned least_calls) {
-  std::printf("  %u calls, %u runs\n", done.calls, done.runs);
-  EXPECT_GE(done.calls, least_calls);
-  for (const std::string& complaint : done.complaints)
-    ADD_FAILURE() << complaint;
+// By its name, or looked for among all nodes.
+void fire_at_loopback(bool by_name, unsigned kinds, std::span<const int> errors,
+                      unsigned least_calls) {
+  const auto node = LoopbackFeeder::find();
+  if (!node)
+    GTEST_SKIP() << "no v4l2loopback node: load the module, or run this in the bench's kernel";
+  const LineFormat format = small_config().format;
+  auto feeder = LoopbackFeeder::open(*node, format.samples_per_line, format.lines_per_frame);
+  ASSERT_TRUE(feeder) << feeder.error().message;
+  MonotonicClock clock;
+  const auto scenario = [&] {
+    V4l2LineCamera camera{{.node = by_name ? *node : ""}, clock};
+    return use(camera, &*feeder);
+  };
+  const bool check_recovery = by_name;
+  expect_good(under_fire(kinds, errors, scenario, check_recovery), least_calls);
 }
 
 TEST(UnderFire, v4l2loopback) {
-  const auto node = LoopbackFeeder::find();
-  if (!node)
-    GTEST_SKIP() << "no v4l2loopback node: load the module, or run this in the bench's kernel";
-  const LineFormat format = small_config().format;
-  auto feeder = LoopbackFeeder::open(*node, format.samples_per_line, format.lines_per_frame);
-  ASSERT_TRUE(feeder) << feeder.error().message;
-  MonotonicClock clock;
-  report(under_fire(ours, usual_errors(),
-                    [&]() -> std::optional<std::string> {
-                      V4l2LineCamera camera{{.node = *node}, clock};
-                      return use(camera, &*feeder);
-                    }),
-         30);
+  fire_at_loopback(true, ours, usual_errors(), 30);
 }
 
 TEST(UnderFire, v4l2loopback_looked_for_among_all) {
-  const auto node = LoopbackFeeder::find();
-  if (!node)
-    GTEST_SKIP() << "no v4l2loopback node: load the module, or run this in the bench's kernel";
-  const LineFormat format = small_config().format;
-  auto feeder = LoopbackFeeder::open(*node, format.samples_per_line, format.lines_per_frame);
-  ASSERT_TRUE(feeder) << feeder.error().message;
-  MonotonicClock clock;
   constexpr int errors[] = {EINTR, ENODEV, EACCES};
-  report(under_fire(
-             static_cast<unsigned>(CallKind::open), errors,
-             [&]() -> std::optional<std::string> {
-               V4l2LineCamera camera{{}, clock};
-               return use(camera, &*feeder);
-             },
-             false),
-         2);
+  fire_at_loopback(false, static_cast<unsigned>(CallKind::open), errors, 2);
 }
 
 TEST(UnderFire, vivid) {
@@ -119,7 +104,7 @@ TEST(UnderFire, vivid) {
   vivid->reset();
   MonotonicClock clock;
   constexpr int errors[] = {ENODEV, ENOMEM};
-  report(
+  expect_good(
       under_fire(
           ours, errors,
           [&]() -> std::optional<std::string> {

@@ -6,13 +6,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/v4l2/v4l2_line_camera.h"
 #include "hal/linux/v4l2/video_nodes.h"
-#include "tests/virtual_hardware/support/fire.h"
+#include "tests/support/fails_with.h"
 #include "tests/virtual_hardware/support/loopback_feeder.h"
+#include "tests/virtual_hardware/support/resource_count.h"
 
 namespace octascope::tests {
 namespace {
@@ -60,10 +60,7 @@ protected:
 
 TEST_F(LoopbackFault, without_a_writer_it_is_absent_and_comes_with_one) {
   V4l2LineCamera camera{{.node = node_}, clock_};
-  const auto opened = camera.open(config_of());
-  ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().code, ErrorCode::absent) << opened.error().message;
-  EXPECT_THAT(opened.error().message, HasSubstr("no format yet"));
+  EXPECT_THAT(camera.open(config_of()), FailsWith(ErrorCode::absent, "no format yet"));
   const auto fed = feeder();
   EXPECT_TRUE(camera.open(config_of()));
   for (const std::string& note : camera.notes())
@@ -73,11 +70,7 @@ TEST_F(LoopbackFault, without_a_writer_it_is_absent_and_comes_with_one) {
 TEST_F(LoopbackFault, another_size_is_refused_with_found_and_expected) {
   const auto fed = feeder(640, 64);
   V4l2LineCamera camera{{.node = node_}, clock_};
-  const auto opened = camera.open(config_of());
-  ASSERT_FALSE(opened);
-  EXPECT_EQ(opened.error().code, ErrorCode::unsupported);
-  EXPECT_THAT(opened.error().message, HasSubstr("640×64"));
-  EXPECT_THAT(opened.error().message, HasSubstr("320×48"));
+  EXPECT_THAT(camera.open(config_of()), FailsWith(ErrorCode::unsupported, "640×64", "320×48"));
   EXPECT_EQ(camera.state(), DeviceState::absent);
   EXPECT_TRUE(camera.open(config_of(640, 64)));
 }
@@ -211,13 +204,10 @@ TEST_F(LoopbackFault, opened_and_closed_200_times_nothing_leaks) {
   auto fed = feeder();
   V4l2LineCamera camera{{.node = node_}, clock_};
   const auto whole = frame_of(fed, 3);
-  Holdings before;
-  std::size_t heap_before = 0;
+  ResourceCount before;
   for (int cycle = 0; cycle < 205; ++cycle) {
-    if (cycle == 5) { // what is allocated once is there
-      before = Holdings::now();
-      heap_before = ::mallinfo2().uordblks;
-    }
+    if (cycle == 5) // what is allocated once is there
+      before = resources_in_use();
     ASSERT_TRUE(camera.open(config_of())) << cycle;
     ASSERT_TRUE(camera.start()) << cycle;
     ASSERT_TRUE(fed.write(whole));
@@ -229,11 +219,7 @@ TEST_F(LoopbackFault, opened_and_closed_200_times_nothing_leaks) {
       camera.stop();
     camera.close();
   }
-  const std::size_t heap_after = ::mallinfo2().uordblks;
-  const Holdings after = Holdings::now();
-  EXPECT_EQ(after.descriptors, before.descriptors);
-  EXPECT_EQ(after.mappings, before.mappings);
-  EXPECT_LE(heap_after, heap_before + 4096);
+  expect_no_leak(before);
 }
 
 } // namespace

@@ -6,11 +6,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include "hal/linux/v4l2/video_nodes.h"
 #include "tests/virtual_hardware/support/fire.h"
+#include "tests/virtual_hardware/support/resource_count.h"
 #include "tests/virtual_hardware/v4l2/vivid_fixture.h"
 
 namespace octascope::tests {
@@ -238,16 +238,13 @@ TEST_F(VividFault, a_camera_without_permission_says_what_to_do) {
 }
 
 TEST_F(VividFault, unplugged_and_plugged_200_times_nothing_leaks) {
-  Holdings before;
-  std::size_t heap_before = 0;
+  ResourceCount before;
   LineCameraConfig config = usual_config();
   config.format.samples_per_line = 256;
   config.format.lines_per_frame = 32;
   for (int cycle = 0; cycle < 205; ++cycle) {
-    if (cycle == 5) { // what is allocated once is there
-      before = Holdings::now();
-      heap_before = ::mallinfo2().uordblks;
-    }
+    if (cycle == 5) // what is allocated once is there
+      before = resources_in_use();
     ASSERT_NO_FATAL_FAILURE(open_and_start(config)) << cycle;
     const LineFrame loan = next_frame();
     ASSERT_TRUE(vivid_->set("Disconnect"));
@@ -258,11 +255,7 @@ TEST_F(VividFault, unplugged_and_plugged_200_times_nothing_leaks) {
     camera_.close();
     ASSERT_FALSE(HasFailure()) << cycle;
   }
-  const std::size_t heap_after = ::mallinfo2().uordblks;
-  const Holdings after = Holdings::now();
-  EXPECT_EQ(after.descriptors, before.descriptors);
-  EXPECT_EQ(after.mappings, before.mappings);
-  EXPECT_LE(heap_after, heap_before + 4096);
+  expect_no_leak(before);
 }
 
 } // namespace

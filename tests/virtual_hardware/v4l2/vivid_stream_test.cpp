@@ -9,6 +9,7 @@
 
 #include "hal/linux/v4l2/v4l2_line_camera.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/support/fails_with.h"
 #include "tests/virtual_hardware/v4l2/vivid_fixture.h"
 
 namespace octascope::tests {
@@ -164,16 +165,13 @@ TEST_F(VividStream, settings_are_checked_and_told) {
 
   options.settings.gain = 100'000;
   V4l2LineCamera too_loud{options, clock_};
-  const auto refused = too_loud.open(usual_config());
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("\"Gain\" is configured to be 100000, expected"));
+  EXPECT_THAT(too_loud.open(usual_config()),
+              FailsSaying("\"Gain\" is configured to be 100000, expected"));
 
   options.settings = {.exposure_us = 5, .gain = {}, .others = {}};
   V4l2LineCamera without{options, clock_};
   const auto none = without.open(usual_config());
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().code, ErrorCode::unsupported);
-  EXPECT_THAT(none.error().message, HasSubstr("no control \"Exposure Time\""));
+  ASSERT_THAT(none, FailsWith(ErrorCode::unsupported, "no control \"Exposure Time\""));
 }
 
 TEST_F(VividStream, a_sensor_window_is_set_or_refused_with_what_it_became) {
