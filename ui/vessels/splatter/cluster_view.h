@@ -125,7 +125,7 @@ private:
   const pipeline::VesselCluster& cluster_;
 };
 
-// The part of a segment beyond the near distance, if any of it is in the picture.
+// The part of a segment that is no nearer than the near distance, if any of it is in the picture.
 std::optional<ScreenSegment> clip_to_near(const SplatFrame& frame, const ViewPlace& parent,
                                           const ViewPlace& end);
 

@@ -298,7 +298,7 @@ private:
     counts_.culled += end - begin - in_picture;
   }
 
-  // Draws segments that may extend beyond the near distance, one by one.
+  // Draws segments that may be partly nearer than the near distance, one by one.
   HWY_NOINLINE void splat_clipped(const pipeline::VesselCluster& cluster, const ClusterView& view,
                                   const pipeline::PackedNode* nodes, std::size_t taken) {
     const BaseColour* colours = frame_.colours[static_cast<std::size_t>(cluster.branch)].data();
