@@ -15,7 +15,7 @@ namespace octascope::ui {
 // Threads: as gl/objects.h.
 class VesselStill {
 public:
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<VesselStill> create();
 
   // Draws over the whole bound framebuffer, on the display's background, and leaves the viewport as

@@ -26,7 +26,7 @@ namespace octascope::ui {
 class SurfaceTechnique final : public VolumeTechnique {
 public:
   // `threads` is called on the thread that makes the meshes.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<std::unique_ptr<SurfaceTechnique>> create(TransferSet transfers = {},
                                                                pipeline::ThreadSetup threads = {});
 
