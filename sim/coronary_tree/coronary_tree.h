@@ -1,4 +1,4 @@
-// Generates the coronary arteries of a pig's heart at random, by statistics measured on casts.
+// Generates the coronary arteries of a pig's heart at random, from statistics measured on casts.
 //
 // Orders, connectivity, diameters and lengths follow sim/coronary_tree/morphometry.h; the shape of
 // the heart is in sim/coronary_tree/heart/heart_wall.h. Layout after Kaimovitz, Lanir, Kassab (Ann

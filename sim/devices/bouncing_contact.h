@@ -15,8 +15,7 @@ namespace octascope::sim {
 class BouncingContact {
 public:
   // The foot goes down or up at `t`. With a `bounce` fault the contact then opens and closes that
-  // many times, evenly over the fault's duration, before it settles. A new move ends an older
-  // burst.
+  // many times, evenly over its bounce_spread, before it settles. A new move ends an older burst.
   void foot(hal::TimePoint t, bool pressed, const ScriptedFault* bounce);
 
   // From `t` on the contact is stuck at `level`, or follows the foot again (empty).

@@ -15,7 +15,7 @@ struct Point3 {
 };
 
 struct InstrumentPath {
-  Point3 hinge; // the fixed point of the shaft: the incision, outside the field
+  Point3 hinge; // the pivot of the shaft: the incision, outside the field
   Point3 tip;   // the tip's mean position
   Point3 reach; // half axes of the tip's closed path
   float shaft_radius_mm = 0.2F;

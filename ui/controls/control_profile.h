@@ -21,7 +21,7 @@
 //   switch = "left"                            # a name or an index
 //   gesture = "long"                           # press, long, double or hold (repeats while held)
 //   action = "technique"                       # ui/view/action_table.cpp
-//   step = -1                                  # steps, negative: backwards; default 1
+//   step = -1                                  # detents or steps; negative: backwards; default 1
 //   [[bind]]
 //   with = ["left", "right"]                   # down together
 //   gesture = "chord"

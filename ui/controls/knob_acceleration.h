@@ -14,7 +14,7 @@ inline constexpr double most_acceleration = 8;
 struct KnobMotion {
   hal::TimePoint last{};
   std::int8_t direction = 0; // of the last event; 0 before the first
-  double turns_per_s = 0;    // smoothed over 150 ms; 0 after a change of direction
+  double turns_per_s = 0;    // smoothed over 150 ms; 0 at the first event of a direction
   double units = 0;          // of the last event, signed: slow units × acceleration
 
   // The motion after `detents` more, at `time`. Times before the last event count as its time.

@@ -46,7 +46,7 @@ private:
   struct Knob {
     KnobMotion motion;
     std::optional<Action> action; // the last action that it turned
-    double rest = 0;              // fraction of a unit left over
+    double rest = 0;              // fraction of a unit not yet applied
   };
 
   ControlRequests perform_told();

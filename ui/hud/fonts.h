@@ -25,7 +25,7 @@ inline constexpr double lookup_arcmin = 10;
 enum class TextStyle : std::uint8_t { label, body, value, badge };
 inline constexpr int text_style_count = 4;
 
-// Two weights of one typeface, as font files that FreeType reads. Borrowed while Fonts uses them.
+// Two weights of one typeface, as font files that FreeType reads. Borrowed by Fonts::create().
 struct Typeface {
   std::span<const unsigned char> medium;
   std::span<const unsigned char> semi_bold;
@@ -38,6 +38,7 @@ Typeface inter();
 class Fonts {
 public:
   // `unit` as in Layout. ErrorCode::unsupported: this GL does not support so large a texture.
+  // ErrorCode::system: FreeType cannot build the glyphs.
   static hal::Result<Fonts> create(float unit, const Typeface& typeface = inter());
 
   const ImFont& font(TextStyle style) const { return *fonts_[static_cast<int>(style)]; }

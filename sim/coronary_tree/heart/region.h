@@ -25,9 +25,9 @@ template <class Key> void lowest_first(Region places, std::size_t count, const K
   std::size_t end = places.size();
   while (count > begin && count < end && end - begin > 1) {
     const double pivot = key(places[begin + (end - begin) / 2]);
-    std::size_t lower = begin; // below the pivot before it; equal to it up to `equal`
+    std::size_t lower = begin; // [begin, lower): below the pivot; [lower, equal): the pivot's
     std::size_t equal = begin;
-    std::size_t upper = end; // above the pivot from it on
+    std::size_t upper = end; // [upper, end): above the pivot
     while (equal < upper) {
       const double k = key(places[equal]);
       if (k < pivot)
