@@ -1,8 +1,7 @@
 // The scanner between the simulated trigger and the simulated line camera: pulses in, sweeps out.
 //
-// One pulse starts the sweeps of one volume. A pulse during the sweeps of another volume is
-// latched, one deep, and its sweeps follow directly; a further one is lost and counted
-// (hal/galvo_trigger.h).
+// One pulse starts the sweeps of one volume. A pulse during these is latched, one deep, and takes
+// effect right after them; a further one is lost and counted (hal/galvo_trigger.h).
 #pragma once
 
 #include <array>

@@ -1,5 +1,4 @@
-// One simulated device's view of the fault schedule: keeps track of what it has already seen and
-// counted.
+// One simulated device's view of the fault schedule, with what it has already seen and counted.
 //
 // Not thread-safe: belongs to the device's thread. Allocates only at construction.
 #pragma once

@@ -16,9 +16,8 @@
 //            do not change a straight line fitted to the phase
 //   dark     dark_counts and a fixed pattern; gain[p] = 1 and a fixed pattern
 //
-// So a linearised line is x[m] = s(r[m]), and multiplying by exp(+iθ[m]) compensates the
-// dispersion. A mirror of amplitude a at depth d then has its peak at bin d, with the level
-// mirror_level_db().
+// So a linearised line is x[m] = s(r[m]), and exp(+iθ[m]) compensates the dispersion. A mirror of
+// amplitude a at depth d then has its peak at bin d, with the level mirror_level_db().
 #pragma once
 
 #include <cstdint>

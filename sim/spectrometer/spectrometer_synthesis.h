@@ -1,5 +1,4 @@
-// A fast version of the spectrometer's forward model: whole A-scans of tissue, in microseconds per
-// line.
+// The spectrometer's forward model, fast: whole A-scans of tissue, in microseconds per line.
 //
 // Tissue is a complex amplitude in every depth bin, a surface a Reflector at any fraction of a bin.
 // One inverse FFT computes the sum of their fringes on a grid uniform in k (shifted to the middle

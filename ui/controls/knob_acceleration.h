@@ -21,8 +21,7 @@ struct KnobMotion {
   KnobMotion turned(std::int32_t detents, int detents_per_turn, hal::TimePoint time) const;
 };
 
-// Units of a slow turn: one per detent for knobs of up to 24 detents per turn, less for finer ones.
-// Pure.
+// Units of a slow turn: one per detent for up to 24 detents per turn, less for finer knobs. Pure.
 double slow_units(std::int32_t detents, int detents_per_turn);
 
 // Units per slow unit: 1 up to half a turn per second, 8 from four turns per second on, smooth and

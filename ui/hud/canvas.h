@@ -28,8 +28,7 @@ public:
   // Clears the canvas for a target of that size. The fonts are borrowed until the next begin().
   void begin(const Fonts& fonts, int width, int height);
 
-  // `position` is the text's upper left corner, rounded to pixels; the text is as high as its style.
-  // Returns its width.
+  // `position` is the upper left corner; the text is as high as its style. Returns its width.
   float text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words);
   // With a dark outline, legible on any picture.
   void shadowed_text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words);

@@ -9,13 +9,11 @@
 
 namespace octascope::ui {
 
-// Shares of the voxels per level, lowest first; the bins divide the range of levels
-// (pipeline/volume/level_scale.h) evenly.
+// Shares of the voxels, lowest levels first, in equal bins (pipeline/volume/level_scale.h).
 using LevelShares = std::array<float, 128>;
 
 // A plate with the histogram, the window's opacity curve over it (0 below, a ramp, 1 above) and the
-// levels in decibels under it. Heights are square roots of shares; otherwise noise would dwarf
-// tissue.
+// levels in decibels under it. Heights are square roots of shares: noise would dwarf tissue.
 void draw_window_histogram(Canvas& canvas, const Rect& rect, const LevelShares& shares,
                            const ViewState& view, float unit);
 

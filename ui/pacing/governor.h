@@ -1,5 +1,4 @@
-// Chooses the drawing quality of the volume so that the frame rate holds. Pure: times are
-// arguments.
+// Chooses the volume's drawing quality so that the frame rate holds. Pure: times are arguments.
 //
 // A frame's cost has a fixed part (panels, text, compositing) and a part that grows with the number
 // of samples. Both are learnt from ordinary frames, per technique and per step of the quality

@@ -11,9 +11,8 @@
 namespace octascope::ui {
 
 // Levels of two neighbouring A-scans interleaved, depth fastest: [b cell row][a cell][z][2]. Row r
-// holds B-scan r−1; the first and last are repeated; cells are numbered as in
-// pipeline/volume/occupancy.h. Takes twice the volume's memory and one copying pass, and halves the
-// loads of every sample.
+// holds B-scan r−1; the first and last are repeated; for cells see pipeline/volume/occupancy.h.
+// Takes twice the volume's memory and one copying pass, and halves the loads of every sample.
 //
 // Threads: update() of different B-scans may run concurrently. Allocates at construction.
 class CellVolume {

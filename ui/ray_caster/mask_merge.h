@@ -6,10 +6,9 @@
 
 namespace octascope::ui {
 
-// `image` is the volume up to the vessels. The colour of each vessel pixel is composited under it.
-// If the vessels are not opaque, the result is mixed there with `alone`, the volume without
-// vessels, which may be null only if `opacity` is 1. `image.drawn` grows to contain all vessels.
-// All images have the same size.
+// Composites the vessels' colours under `image`, the volume up to the vessels. If `opacity` is less
+// than 1, mixes the result there with `alone`, the volume without vessels; else that may be null.
+// `image.drawn` grows to contain all vessels. All images have the same size.
 void merge_mask(RayImage& image, const DepthImage& vessels, float opacity, const RayImage* alone);
 
 } // namespace octascope::ui

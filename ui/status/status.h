@@ -76,8 +76,7 @@ struct Status {
   double volumes_per_s = 0;
   double lines_per_s = 0;
   double frames_per_s = 0;
-  // From the camera timestamp of a volume's last line to the first frame that shows it. Empty: none
-  // measured.
+  // Camera timestamp of a volume's last line → first frame that shows it. Empty: none measured.
   std::optional<double> latency_p50_ms;
   std::optional<double> latency_p95_ms;
   Losses losses;
@@ -103,8 +102,7 @@ struct Status {
 
   RecordingStatus recording;
 
-  // The legends of pedal and knob and of the keys; null: nothing to show. They must outlive every
-  // draw().
+  // Of pedal and knob, and of the keys; null: nothing to show. They must outlive every draw().
   const Legend* legend = nullptr;
   const Legend* key_legend = nullptr;
 

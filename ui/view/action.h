@@ -1,5 +1,4 @@
-// The actions of keys, pedals, knobs and pucks. For their names, keys and values see
-// action_table.h.
+// The actions of keys, pedals, knobs and pucks. Their names, keys and values: action_table.h.
 #pragma once
 
 #include <array>

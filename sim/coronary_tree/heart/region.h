@@ -1,5 +1,4 @@
-// A piece of muscle as a set of evenly spread places, and its division between the vessels that
-// feed it.
+// A piece of muscle as a set of evenly spread places, and its division between vessels.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +13,7 @@ using Region = std::span<Vector3>;
 
 Vector3 centre_of(std::span<const Vector3> places); // if empty: the origin
 
-// The direction (unit vector) of the places' greatest extent; perpendicular to `flat` unless that
-// is zero.
+// The unit vector of the places' greatest extent, perpendicular to `flat` unless that is zero.
 Vector3 longest_axis(std::span<const Vector3> places, Vector3 centre, Vector3 flat);
 
 // Reorders the places so that the `count` with the lowest keys come first. Implemented here because

@@ -50,8 +50,7 @@ inline Vector3 any_across(Vector3 axis) {
   return unit(across(least, axis), {0, 0, 1});
 }
 
-// Turns `from` towards `to` (unit vectors) until the cosine of the angle between them is in the
-// range.
+// `from` turned towards `to` (unit vectors), by an angle whose cosine is in the range.
 inline Vector3 turned(Vector3 from, Vector3 to, double least_cosine, double most_cosine) {
   const double cosine = std::clamp(dot(from, to), least_cosine, most_cosine);
   const Vector3 side = unit(across(to, from), any_across(from));

@@ -21,13 +21,11 @@ public:
   // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<VesselPicture> create();
 
-  // Resizes to the scene's size, clears and draws the scene. Framebuffer binding and viewport are
-  // kept. ErrorCode::system: this GL cannot render to a picture of that size. Other errors: the
-  // method's.
+  // Resizes, clears and draws the scene; keeps framebuffer binding and viewport. ErrorCode::system:
+  // this GL cannot render to a picture of that size. Other errors: the method's.
   hal::Result<SegmentCounts> draw(VesselMethod& method, const VesselScene& scene);
 
-  // Rows from the bottom. Colours are opaque or transparent; depths are by the camera's
-  // view_projection.
+  // Rows from the bottom. Opaque or transparent colours; depths by the camera's view_projection.
   GLuint colour_texture() const { return colour_.name(); }
   GLuint depth_texture() const { return depth_.name(); }
   int width() const { return width_; }
@@ -35,8 +33,7 @@ public:
 
   // RGB on black, rows from the top. Waits for the drawing; allocates.
   pipeline::Image read_colour() const;
-  // Window depth, 0…1 from near to far plane, 1 where there is nothing; rows from the top. Also
-  // waits and allocates.
+  // Window depth, 0…1 from near to far plane (1: empty), rows from the top. Waits; allocates.
   std::vector<float> read_depth() const;
 
 private:

@@ -1,5 +1,4 @@
-// Numbered batches of drawing work, submitted to GL in order and expanded by whichever thread is
-// free.
+// Numbered batches of drawing work, submitted to GL in order, expanded by any free thread.
 #pragma once
 
 #include <atomic>

@@ -1,7 +1,6 @@
 // Draws vessel trees on the processor: each segment's rounded trapezoid
 // (ui/vessels/scene/vessel_scene.h) in the pixels whose centres it covers, nearest in front. The
-// result does not depend on the drawing order, so threads share one picture and it is always the
-// same to the bit.
+// drawing order does not matter: threads share one picture, and the result is the same to the bit.
 #pragma once
 
 #include <cstddef>
