@@ -1,7 +1,7 @@
 // A simulated display: draws into memory, without a screen, a window system or a GPU.
 //
-// Uses a surfaceless EGL context (included in every Mesa) and a framebuffer of the requested size,
-// bound as the draw target. Refreshes are ticks of the injected clock, which pace frames like a screen.
+// Uses a surfaceless EGL context (included in every Mesa), with a framebuffer of the requested size
+// as the draw target. Refreshes are ticks of the injected clock and pace frames like a screen.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// Intersects rays with the round cone of a wide segment, as ui/shaders/vessel_relief.glsl does, with
-// the pixels of a row in the lanes. For one instruction set; see splat_kernels.h.
+// Intersects rays with the round cone of a wide segment, as ui/shaders/vessel_relief.glsl does; the
+// pixels of a row are in the lanes. For one instruction set; see splat_kernels.h.
 #if defined(OCTASCOPE_SPLAT_RELIEF_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_RELIEF_INL
 #undef OCTASCOPE_SPLAT_RELIEF_INL
