@@ -1,16 +1,16 @@
-// The arteries of a pig's heart, drawn by lot from what was measured on casts.
+// Generates the coronary arteries of a pig's heart at random, from statistics measured on casts.
 //
 // Orders, connectivity, diameters and lengths follow sim/coronary_tree/morphometry.h; the shape of
-// the heart is sim/coronary_tree/heart/heart_wall.h. Layout after Kaimovitz, Lanir, Kassab (Ann Biomed
-// Eng 33, 2005): orders 11 to 9 upon the heart, 8 to 5 through its wall, 4 to 0 filling it. The
-// space is filled by dividing the muscle from the trunk to the twigs, each vessel heading for the
-// middle of its own piece.
+// the heart is in sim/coronary_tree/heart/heart_wall.h. Layout after Kaimovitz, Lanir, Kassab (Ann
+// Biomed Eng 33, 2005): orders 11 to 9 on the heart's surface, 8 to 5 through its wall, 4 to 0
+// filling it. To fill the space, the muscle is divided from the trunk to the twigs, and each vessel
+// heads for the middle of its own piece.
 //
-// The same seed and number of segments give the same bits, whatever the number of threads, on every
-// machine with IEEE 754 double and single precision: there is no arithmetic but sums, products,
-// quotients and square roots, no contraction of them, no random number but hashes, and no order
-// that the standard library leaves open. The same seed gives the same large vessels (orders 11 to
-// 5) at every number of segments that has them.
+// The same seed and number of segments give the same bits, for any number of threads and on every
+// machine with IEEE 754 double and single precision. For this, the arithmetic uses only sums,
+// products, quotients and square roots without contraction, random numbers are hashes, and nothing
+// depends on an order that the standard library leaves open. The large vessels (orders 11 to 5)
+// depend only on the seed, for every number of segments that includes them.
 #pragma once
 
 #include <cstdint>
@@ -28,20 +28,20 @@ inline constexpr std::uint32_t most_coronary_segments = 20'000'000;
 struct CoronaryTreeRequest {
   std::uint32_t segments = fewest_coronary_segments;
   std::uint64_t seed = 1;
-  std::size_t threads = 1; // the caller's is one of them
+  std::size_t threads = 1; // including the caller's
 };
 
 struct CoronaryTree {
-  // Exactly the segments asked for; three roots more nodes, one each for RCA, LAD and LCX. Depth
-  // first: parents before children, neighbours in space mostly neighbours in the file. The frame is
-  // heart_wall.h's.
+  // Exactly the requested number of segments. There are three more nodes than segments: the roots
+  // of RCA, LAD and LCX. Depth first: parents before children; neighbours in space are mostly
+  // neighbours in the file. In the frame of heart_wall.h.
   pipeline::VesselTree tree;
-  LowOrders low;                // what was cut or added of orders 4 to 0
-  std::size_t lowest_order = 0; // that is there, perhaps in part
+  LowOrders low;                // what was omitted or added in orders 4 to 0
+  std::size_t lowest_order = 0; // the lowest one present, perhaps only in part
 };
 
-// `progress` is called by this thread with numbers from 0 to 1; may be empty. Fails for a number of
-// segments or threads out of range.
+// `progress` is called on this thread with numbers from 0 to 1; may be empty. Fails if the number
+// of segments or threads is out of range.
 hal::Result<CoronaryTree> generate_coronary_tree(const CoronaryTreeRequest& request,
                                                  const std::function<void(double)>& progress = {});
 

@@ -1,4 +1,4 @@
-// Numbers drawn by lot that a key repeats exactly, on every machine.
+// Random numbers that depend only on a key, the same on every machine.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace octascope::sim {
 
-// The n-th number is a hash of the key and n. Two keys give unrelated numbers.
+// The n-th number is a hash of the key and n. Different keys give unrelated numbers.
 class HashRandom {
 public:
   explicit HashRandom(std::uint64_t key) : key_{key} {}
@@ -30,7 +30,7 @@ public:
     return static_cast<std::size_t>(unit() * static_cast<double>(count));
   }
 
-  // Nearly normal, mean 0, variance 1, within ±3.5: the sum of four even ones.
+  // Approximately normal, mean 0, variance 1, within ±3.5: the sum of four uniform numbers.
   double normal() {
     const std::uint64_t b = bits();
     const std::uint64_t sum =
@@ -48,7 +48,7 @@ public:
     return wanted.mean * root * root;
   }
 
-  // One of the two whole numbers around a positive one, right on average.
+  // Rounds a positive number up or down at random, so that the mean is right.
   std::size_t rounded(double value) { return static_cast<std::size_t>(value + unit()); }
 
   template <class T> void shuffle(std::span<T> items) {

@@ -1,12 +1,12 @@
-// What was measured on casts of pig hearts: how many vessels of which size, and how they join.
+// Measurements on casts of pig hearts: numbers and sizes of vessels, and how they join.
 //
 // Kassab, Rider, Tang, Fung: Morphometry of pig coronary arterial trees, Am J Physiol 265 (1993),
 // H350–H365, tables 1–3 (segments), 5 (segments per element), 6–8 (connectivity), 9 (totals).
 // A segment lies between two forks; an element is a run of segments of one order. Orders 1 to 3 of
 // LAD and LCX were measured together.
 //
-// Not in those tables, and assumed here: order 0, the first segment of a capillary, has a diameter
-// of 6.2 ± 1.1 µm, a length of 52 ± 32 µm, and one segment an element.
+// Not in those tables, but assumed here: order 0, the first segment of a capillary, has a diameter
+// of 6.2 ± 1.1 µm, a length of 52 ± 32 µm, and one segment per element.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct MeanAndDeviation {
   double deviation = 0; // standard deviation; 0: one observation
 };
 
-// Of one order of one branch. elements.deviation is a standard error.
+// One order of one branch. elements.deviation is a standard error.
 struct OrderMorphometry {
   MeanAndDeviation diameter_um;
   MeanAndDeviation length_mm;
@@ -32,7 +32,7 @@ struct OrderMorphometry {
 
 struct BranchMorphometry {
   std::array<OrderMorphometry, pipeline::vessel_order_count> orders;
-  // [daughter][mother]: elements of the daughter's order that spring from one of the mother's.
+  // [daughter][mother]: elements of the daughter's order per element of the mother's.
   std::array<std::array<double, pipeline::vessel_order_count>, pipeline::vessel_order_count>
       daughters;
   std::size_t highest_order = 0;
@@ -46,8 +46,8 @@ inline constexpr std::array<pipeline::VesselBranch, 3> coronary_branches{
 
 const BranchMorphometry& morphometry(pipeline::VesselBranch branch);
 
-// The diameters that make a vessel one of that order (ibid., equations 1a and 1b): the middle
-// between one order's mean plus deviation and the next one's mean minus deviation.
+// The diameters that assign a vessel to that order (ibid., equations 1a and 1b): the limits are
+// midway between one order's mean plus deviation and the next one's mean minus deviation.
 struct DiameterRange {
   double least_um;
   double most_um;

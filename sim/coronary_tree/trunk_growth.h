@@ -1,10 +1,10 @@
-// Where the large vessels (orders 11 to 5) run, and which piece of muscle each feeds.
+// The courses of the large vessels (orders 11 to 5), and the piece of muscle that each feeds.
 //
-// Each element has a region of muscle, as large as its weight. At each fork the region is divided
-// between what springs off and what goes on; the vessel goes towards the middle of what is left. So
-// the muscle is divided down to the smallest vessels without gap or overlap. Orders 11 to 9 run
-// upon the heart (in the septum, where there is no outside, within it), the others through the
-// wall.
+// Each element has a region of muscle in proportion to its weight. At each fork the region is
+// divided between the daughters and the continuing vessel, which heads for the middle of its
+// remaining region. So the muscle is divided down to the smallest vessels without gap or overlap.
+// Orders 11 to 9 run on the heart's surface (in the septum, which has no outside, within it), the
+// others through the wall.
 #pragma once
 
 #include <vector>
@@ -20,9 +20,9 @@ struct TrunkNode {
   double diameter_um;
 };
 
-// Beside each planned element. Those of low orders have no nodes.
+// One per planned element. Elements of low orders have no nodes.
 struct GrownElement {
-  std::size_t first_node = 0; // one a segment
+  std::size_t first_node = 0; // one per segment
   std::size_t first_cell = 0; // its region
   std::size_t cells = 0;
   Vector3 start;
@@ -37,8 +37,8 @@ struct GrownTrunk {
   std::vector<GrownElement> elements;
 };
 
-// Reorders the cells so that each element's lie together. May also change at which joints the
-// daughters of the artery itself spring off: where the muscle is that they feed.
+// Reorders the cells so that each element's are contiguous. May also change the joints at which the
+// artery's own daughters spring off, to match the muscle that they feed.
 GrownTrunk grow_trunk(const BranchMorphometry& branch, TrunkPlan& plan, const Course& course,
                       Region cells, std::uint64_t key);
 

@@ -1,4 +1,4 @@
-// Grows the small vessels (orders 4 to 0) of one beginning into their piece of muscle.
+// Grows the small vessels (orders 4 to 0) from one beginning into their piece of muscle.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace octascope::sim {
 
-// What all small vessels of one branch share.
+// Shared by all small vessels of one branch.
 struct TwigRules {
   pipeline::VesselBranch branch;
   const BranchMorphometry* facts;
@@ -19,7 +19,7 @@ struct TwigRules {
 
 struct Twig {
   std::size_t order = 0;
-  std::uint32_t segments = 0; // with all that springs from it; at least 1
+  std::uint32_t segments = 0; // including everything that springs from it; at least 1
   std::uint32_t node = 0;     // its first in the tree; the others follow
   std::uint32_t parent = 0;   // the node it springs from
   Vector3 start;
@@ -28,8 +28,8 @@ struct Twig {
   Region region; // not empty
 };
 
-// Writes exactly `segments` nodes, depth first, beginning at `node`. Nothing else is touched, so
-// that threads can grow different twigs of one tree at once.
+// Writes exactly `segments` nodes, depth first, from `node` on. Touches nothing else, so threads
+// can grow different twigs of one tree concurrently.
 void grow_twig(const TwigRules& rules, const Twig& twig, std::uint64_t key,
                pipeline::VesselTree& tree);
 

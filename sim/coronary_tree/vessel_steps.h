@@ -1,4 +1,4 @@
-// What large and small vessels do alike at each fork: their diameters, lengths and angles.
+// What large and small vessels have in common at forks: diameters, lengths and angles.
 #pragma once
 
 #include "sim/coronary_tree/hash_random.h"
@@ -10,7 +10,7 @@ namespace octascope::sim {
 // The diameters of an element's segments, from the first to the last.
 class Calibre {
 public:
-  // Not wider than the mother.
+  // Never wider than the mother.
   Calibre(const BranchMorphometry& branch, std::size_t order, std::size_t segments,
           double mother_um, HashRandom& draws);
 
@@ -18,24 +18,24 @@ public:
 
 private:
   double mean_um_;
-  double first_um_; // more than the mean
-  double step_um_;  // less at each fork
+  double first_um_; // above the mean
+  double step_um_;  // decrease per fork
   double least_um_;
   double most_um_;
 };
 
-// A segment's length: of four drawn from the published distribution the one nearest to what the
-// vessel needs on its way. Most need more than the mean, so that lengths come out at about one
-// deviation above it; with less the published number of vessels would not reach all of the muscle.
+// A segment's length: of four samples from the published distribution, the one nearest to what the
+// vessel needs. Most vessels need more than the mean, so lengths average about one deviation above
+// it; otherwise the published number of vessels would not reach all of the muscle.
 double segment_length_mm(const OrderMorphometry& order, double needed_mm, HashRandom& draws);
 
-// The direction of a daughter that wants to go to `target` (unit vectors): at about the angle to
-// its mother that costs the least work to maintain and perfuse (Murray, J Gen Physiol 9, 1926),
+// The direction of a daughter that heads for `target` (unit vectors). Its angle to the mother is
+// about the one with the least work for maintenance and perfusion (Murray, J Gen Physiol 9, 1926),
 // which follows from the three diameters.
 Vector3 daughter_direction(Vector3 mother, Vector3 target, double mother_um, double daughter_um,
                            double sister_um);
 
-// Onwards towards `target`, turning no further than this cosine, and winding a little.
+// Continues towards `target`, turning no further than this cosine, and winding a little.
 Vector3 onward_direction(Vector3 direction, Vector3 target, double least_cosine, double winding,
                          HashRandom& draws);
 

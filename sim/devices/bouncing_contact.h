@@ -1,7 +1,7 @@
-// One switch contact of the simulated pedal, with all that can be wrong with it.
+// One switch contact of the simulated pedal, with its possible faults.
 //
-// The foot presses; the contact follows: at once, with a burst of bounces, or not at all while it
-// is stuck. Pure logic over explicit times.
+// The contact follows the foot at once, with a burst of bounces, or not at all while it is stuck.
+// Pure logic over explicit times.
 #pragma once
 
 #include <optional>
@@ -15,22 +15,22 @@ namespace octascope::sim {
 class BouncingContact {
 public:
   // The foot goes down or up at `t`. With a `bounce` fault the contact then opens and closes that
-  // often, in even steps over the fault's time, before it rests; a new move ends an older burst.
+  // many times, evenly over its bounce_spread, before it settles. A new move ends an older burst.
   void foot(hal::TimePoint t, bool pressed, const ScriptedFault* bounce);
 
-  // From `t` on the contact is stuck at a level, or follows the foot again (nothing).
+  // From `t` on the contact is stuck at `level`, or follows the foot again (empty).
   void stick(hal::TimePoint t, std::optional<bool> level);
 
-  // When something happens next if the foot does not move: a bounce, or a change that is certain.
+  // The time of the next bounce or debounced change, if the foot does not move.
   std::optional<hal::TimePoint> next_time() const;
 
-  // Plays on to `t`, which is next_time() or earlier; returns the change that is certain by then.
+  // Advances to `t`, which must not be after next_time(). Returns the debounced change, if any.
   std::optional<hal::SwitchChange> play_to(hal::TimePoint t);
 
-  // As the device last reported it.
+  // The state last reported by the device.
   bool reported() const { return debouncer_.closed(); }
 
-  // That the debouncer took out, ever.
+  // The total number of bounces that the debouncer removed.
   std::uint64_t bounces() const { return debouncer_.bounces(); }
 
   // Foot up, nothing pending, nothing to report.
@@ -43,7 +43,7 @@ private:
   hal::SwitchDebouncer debouncer_;
   bool foot_ = false;
   std::optional<bool> stuck_;
-  int bounces_left_ = 0; // an odd number: the contact is away from where the foot wants it
+  int bounces_left_ = 0; // odd: the contact differs from the foot's position
   hal::Duration bounce_step_{};
   hal::TimePoint next_bounce_{};
 };

@@ -1,7 +1,7 @@
 // A bounded queue of control events, from any thread to one.
 //
-// Lock-free: each place carries a turn number that says whose move it is, writer's or reader's
-// (D. Vyukov's bounded queue, with a single reader). Allocates nothing.
+// Lock-free: a turn number in each slot says whether the writer or the reader may use it (D.
+// Vyukov's bounded queue, with a single reader). Allocates nothing.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ public:
       places_[i].turn.store(i, std::memory_order_relaxed);
   }
 
-  // Any thread; false when the queue is full.
+  // Any thread; false if the queue is full.
   bool push(const hal::ControlEvent& event) {
     std::size_t ticket = head_.load(std::memory_order_relaxed);
     while (true) {
@@ -41,7 +41,7 @@ public:
     }
   }
 
-  // The reading thread only.
+  // Only the reading thread.
   std::optional<hal::ControlEvent> pop() {
     Place& place = places_[tail_ % capacity];
     if (place.turn.load(std::memory_order_acquire) != tail_ + 1)

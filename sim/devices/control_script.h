@@ -1,9 +1,9 @@
-// What a foot and a hand will do, read from a TOML file.
+// Scripted foot and hand movements, read from a TOML file.
 //
-//   repeat_s = 10.0        # optional: play the whole again after so long, for ever
+//   repeat_s = 10.0        # optional: period of endless repetition of the whole script
 //
 //   [[event]]
-//   time_s = 1.0           # since the input was first opened; events may stand in any order
+//   time_s = 1.0           # since the input was first opened; events may be in any order
 //   switch = 0             # exactly one of: switch = 0 … 2 (left, centre, right)
 //   value = 1              #   1 pressed, 0 released
 //
@@ -17,7 +17,7 @@
 //   axis = 4               # axis = 0 … 5: value −1000 … 1000
 //   value = 250
 //
-// Strict, as all configuration: unknown keys and values out of range are refused.
+// Strict, like all configuration: unknown keys and values out of range are refused.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ inline constexpr int switch_count = 3;
 inline constexpr int knob_count = 1;
 inline constexpr int axis_count = 6;
 
-// Whether the simulated device has such a control and it can take such a value.
+// Whether the simulated device has the control and the value is in its range.
 bool is_plausible(const hal::ControlEvent& event);
 
 struct ScriptedControl {
@@ -47,22 +47,22 @@ struct ScriptedControl {
 };
 
 struct ControlScript {
-  std::vector<ScriptedControl> events; // in the order of their times
+  std::vector<ScriptedControl> events; // sorted by time
   hal::Duration repeat{};              // 0: played once; else longer than the last event's time
 
   static hal::Result<ControlScript> load(const std::filesystem::path& file);
   static hal::Result<ControlScript> parse(std::string_view text, const std::filesystem::path& name);
 };
 
-// The place in a script that is being played. Pure; borrows the script.
+// The current position in a script. Pure; borrows the script.
 class ControlScriptCursor {
 public:
   explicit ControlScriptCursor(const ControlScript& script) : script_(script) {}
 
-  // When the next event is due, since time zero; nothing when the script is over.
+  // When the next event is due, since time zero; empty at the end of the script.
   std::optional<hal::Duration> next_time() const;
 
-  // Only while there is a next event.
+  // Only if there is a next event.
   const ScriptedControl& take();
 
 private:

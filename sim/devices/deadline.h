@@ -1,4 +1,4 @@
-// Deadlines of waits whose timeout the caller chose.
+// Deadlines for waits with a timeout from the caller.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace octascope::sim {
 
-// now + timeout, without overflow for a timeout that means "for ever".
+// now + timeout, without overflow for timeouts that mean "for ever".
 inline hal::TimePoint deadline_after(hal::TimePoint now, hal::Duration timeout) {
   return now + std::clamp<hal::Duration>(timeout, hal::Duration{}, std::chrono::years{1});
 }

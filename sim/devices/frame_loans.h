@@ -1,4 +1,4 @@
-// Which of a camera twin's buffers are free, reserved for a waiting frame, or on loan.
+// The state of a simulated camera's buffers: free, reserved for a waiting frame, or on loan.
 //
 // One thread (the camera's) reserves and lends; any thread gives back. Lock-free, no allocation.
 #pragma once
@@ -16,13 +16,13 @@ public:
 
   FrameLoans() { void_all(); }
 
-  // With every buffer free; 1 ≤ buffers ≤ most_buffers.
+  // All buffers become free; 1 ≤ buffers ≤ most_buffers.
   void reset(int buffers) {
     void_all();
     buffers_ = buffers;
   }
 
-  // A free buffer, or nothing.
+  // A free buffer, or empty.
   std::optional<int> reserve() {
     for (int tried = 0; tried < buffers_; ++tried) {
       const int buffer = (newest_ + 1 + tried) % buffers_;
@@ -41,7 +41,7 @@ public:
   // From reserved to on loan.
   void lend(int buffer) { state(buffer).store(lent_state, std::memory_order_release); }
 
-  // From on loan to free; false when it is not on loan. Any thread.
+  // From on loan to free; false if it is not on loan. Any thread.
   bool give_back(int buffer) {
     if (buffer < 0 || buffer >= most_buffers)
       return false;

@@ -1,7 +1,7 @@
-// The scanner between the twin of the trigger and the twin of the camera: pulses in, sweeps out.
+// The scanner between the simulated trigger and the simulated line camera: pulses in, sweeps out.
 //
-// One pulse starts the sweeps of one volume. A pulse during the sweeps of another is latched, one
-// deep, and starts right behind them; a further one is lost and counted (hal/galvo_trigger.h).
+// One pulse starts the sweeps of one volume. A pulse during these is latched, one deep, and takes
+// effect right after them; a further one is lost and counted (hal/galvo_trigger.h).
 #pragma once
 
 #include <array>
@@ -18,20 +18,20 @@ enum class PulseFate : std::uint8_t { started, latched, lost };
 // Lock-free. One thread sends pulses; any thread reads.
 class GalvoLink {
 public:
-  // How many of the newest sweeps are remembered.
+  // The number of newest sweeps that are remembered.
   static constexpr std::uint64_t memory = 64;
 
-  // Of all B-scans of a volume together (ScanPlan::sweep_duration), > 0.
+  // `sweep_duration`: of all B-scans of a volume together (ScanPlan::sweep_duration), > 0.
   explicit GalvoLink(hal::Duration sweep_duration) : sweep_duration_(sweep_duration) {}
 
-  // The trigger's thread, with times that do not decrease.
+  // Only the trigger's thread, with times that do not decrease.
   PulseFate pulse(hal::TimePoint rising_edge);
 
-  // Volumes swept so far, with the one that runs and the one that is latched.
+  // Volume sweeps so far, including the running and the latched one.
   std::uint64_t sweeps() const { return sweeps_.load(std::memory_order_acquire); }
 
-  // When volume sweep number `index` (from 0) started or will start. Nothing when there is no such
-  // sweep, or when it is no longer remembered.
+  // The actual or future start of volume sweep number `index` (from 0). Empty if there is no such
+  // sweep or it is no longer remembered.
   std::optional<hal::TimePoint> start_of(std::uint64_t index) const;
 
   hal::Duration sweep_duration() const { return sweep_duration_; }
@@ -39,7 +39,7 @@ public:
 
 private:
   const hal::Duration sweep_duration_;
-  hal::TimePoint newest_start_{}; // of the pulsing thread alone
+  hal::TimePoint newest_start_{}; // used by the pulsing thread only
   std::array<std::atomic<std::int64_t>, memory> starts_ns_{};
   std::atomic<std::uint64_t> sweeps_{0};
   std::atomic<std::uint64_t> lost_pulses_{0};

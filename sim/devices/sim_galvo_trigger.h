@@ -1,4 +1,4 @@
-// The twin of the galvo trigger: its pulses reach the scanner of a GalvoLink.
+// The simulated galvo trigger: its pulses reach the scanner of a GalvoLink.
 #pragma once
 
 #include "hal/galvo_trigger.h"
@@ -9,7 +9,7 @@ namespace octascope::sim {
 
 class SimGalvoTrigger final : public hal::GalvoTrigger {
 public:
-  // All that is borrowed outlives the trigger; `faults` may be null.
+  // All borrowed objects must outlive the trigger; `faults` may be null.
   SimGalvoTrigger(GalvoLink& link, hal::Clock& clock, const FaultSchedule* faults = nullptr);
 
 private:

@@ -1,5 +1,5 @@
-// A plastic cap: a domed shell with grip ribs outside, a cross of walls inside, and a thin network
-// of channels in its wall, through which a scattering fluid runs.
+// A plastic cap: a domed shell with grip ribs outside, a cross of walls inside, and in its wall a
+// thin network of channels with a flowing, scattering fluid.
 #pragma once
 
 #include "sim/phantoms/phantom.h"
@@ -20,7 +20,7 @@ public:
   const Instrument* instrument() const override { return nullptr; }
 
   static constexpr float wall_mm = 0.36F;
-  static constexpr float inner_rib_mm = 0.075F; // half width of the walls of the cross
+  static constexpr float inner_rib_mm = 0.075F; // half width of the cross's walls
   static float outer_mm(float x_mm, float y_mm);
   static float inner_mm(float x_mm, float y_mm);
 

@@ -1,5 +1,5 @@
-// Skin at a nail fold: the skin's layers, the nail that comes out from under it, its root, and
-// the loops of capillaries along the fold.
+// Skin at a nail fold: the skin's layers, the nail that emerges from under it, the nail's root, and
+// the capillary loops along the fold.
 #pragma once
 
 #include "sim/phantoms/phantom.h"
@@ -20,7 +20,7 @@ public:
   Look look(float x_mm, float y_mm) const override;
   const Instrument* instrument() const override { return nullptr; }
 
-  static constexpr float root_y_mm = -1.15F; // where the nail begins, under the skin
+  static constexpr float root_y_mm = -1.15F; // beginning of the nail, under the skin
   static constexpr float plate_mm = 0.38F;   // full thickness
   static float nail_top_mm(float x_mm, float y_mm);
   static float nail_thickness_mm(float y_mm);

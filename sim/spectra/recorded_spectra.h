@@ -1,4 +1,4 @@
-// A recording of raw spectra, played for ever as if a camera delivered it.
+// Plays a recording of raw spectra in an endless loop, as if a camera delivered it.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,25 @@
 
 namespace octascope::sim {
 
-// One volume of raw spectra in the order [sweep][line][sample] (B-scan and A-scan, of a plain
-// scan), 16-bit counts in the machine's (little-endian) order. The caller opens the file;
-// `keep_alive` holds what `samples` points into.
+// One volume of raw spectra in the order [sweep][line][sample] (for a plain scan: B-scan and
+// A-scan), 16-bit counts in the machine's (little-endian) byte order. The caller opens the file;
+// `keep_alive` owns the memory of `samples`.
 struct SpectraRecording {
   std::span<const std::uint16_t> samples;
   int b_scans = 0;
   int a_scans = 0;
   int samples_per_line = 0;
   int significant_bits = 16;
-  std::string name; // of the file, for people
+  std::string name; // of the file, for display
   std::shared_ptr<const void> keep_alive;
 };
 
 class RecordedSpectra final : public SpectraSource {
 public:
-  // A recording has no fly-back. With fly_back_lines > 0 each frame gets that many lines behind its
-  // A-scans, taken from these backwards as the returning beam would meet them; that costs a copy of
-  // the recording, while without them its samples are used where they are.
-  // ErrorCode::invalid_argument: counts and the number of samples do not fit together.
+  // A recording has no fly-back. With fly_back_lines > 0, that many lines are appended to each
+  // frame, taken from its A-scans in reverse order, as the returning beam would meet them. This
+  // costs a copy of the recording; otherwise its samples are used in place.
+  // ErrorCode::invalid_argument: the counts do not match the number of samples.
   static hal::Result<std::unique_ptr<RecordedSpectra>> make(SpectraRecording recording,
                                                             int fly_back_lines = 0);
 
@@ -45,8 +45,8 @@ private:
 
   SpectraRecording recording_;
   hal::LineFormat format_;
-  std::vector<std::uint16_t> with_fly_back_;     // empty without
-  std::span<const std::uint16_t> frame_samples_; // all frames, one behind the other
+  std::vector<std::uint16_t> with_fly_back_;     // empty if there is none
+  std::span<const std::uint16_t> frame_samples_; // all frames, contiguous
 };
 
 } // namespace octascope::sim

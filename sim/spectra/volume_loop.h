@@ -1,4 +1,4 @@
-// Volumes of raw spectra of a phantom, made in advance and played round and round.
+// Precomputed volumes of a phantom's raw spectra, played in a loop.
 #pragma once
 
 #include <atomic>
@@ -24,27 +24,27 @@ namespace octascope::sim {
 struct VolumeLoopConfig {
   std::string phantom = "anterior_eye";
   pipeline::ScanPlan plan;
-  int volumes = 6; // of the loop; each takes plan.sweeps() frames of memory
+  int volumes = 6; // in the loop; each takes plan.sweeps() frames of memory
   std::uint64_t seed = 1;
-  double galvo_lag_us = 25; // of the mirror behind its command, bidirectional: what drivers leave
-  SpectrometerConfig spectrometer; // its `samples` is overruled by the plan's
+  double galvo_lag_us = 25; // of the mirror behind its command, bidirectional; as drivers leave it
+  SpectrometerConfig spectrometer; // `samples` is replaced by the plan's
 
   hal::Result<> validate() const;
 };
 
-// The phantom with the plan that it suggests. ErrorCode::invalid_argument for a name that is none.
+// The phantom with its suggested plan. ErrorCode::invalid_argument: no such phantom.
 hal::Result<VolumeLoopConfig> suggested_loop(std::string_view phantom);
 
 // Line l of sweep s of volume v shows the scene at the phase (v + (s + l/lines)/sweeps)/volumes:
-// instruments move along their path once a loop, flowing scatterers are new at each visit, tissue
-// keeps its speckle, noise differs from line to line. The beam looks where the mirrors point
+// instruments move along their path once per loop, flowing scatterers are new at each visit, tissue
+// keeps its speckle, and noise differs from line to line. The beam is where the mirrors point
 // (beam_path.h): at A-scan a, x = (a − (a_scans − 1)/2)·a_spacing; B-scan b lies at
 // y = (b − (b_scans − 1)/2)·b_spacing, each of its repeats with fly-back or turn-around.
 //
-// The first volume is made by make(), on all cores. The others follow one by one in a background
-// thread at the lowest priority; until they are there, frame() loops over
-// those that are ready, and a volume's number keeps its place while its B-scans are read in turn.
-// The destructor ends the work within a line.
+// make() computes the first volume, on all cores. A background thread of the lowest priority
+// computes the others one by one. Until they are ready, frame() loops over the ready ones; a volume
+// number keeps its place in the loop while its B-scans are read in order. The destructor stops the
+// computation within a line's time.
 class VolumeLoop final : public SpectraSource {
 public:
   // Plans an FFT (see SpectrumSynthesis) and takes some tenths of a second.
@@ -60,7 +60,7 @@ public:
 
   const Spectrometer& spectrometer() const { return spectrometer_; }
   const Phantom& phantom() const { return *phantom_; }
-  const BeamPath& beam_path() const { return beam_path_; } // the truth, for tests
+  const BeamPath& beam_path() const { return beam_path_; } // ground truth for tests
   const pipeline::ScanPlan& plan() const { return config_.plan; }
   int volumes() const { return config_.volumes; }
   // Thread-safe; rises from 1 to volumes().
@@ -85,11 +85,11 @@ private:
   BeamPath beam_path_;
   SpectrumSynthesis synthesis_;
   ProfileMaker profiles_;
-  std::vector<std::unique_ptr<std::uint16_t[]>> ring_; // the first ready_ of them are made
+  std::vector<std::unique_ptr<std::uint16_t[]>> ring_; // the first ready_ are computed
   std::atomic<int> ready_{0};
-  // The volume that was asked for last and its place in the ring: (volume + 1)·256 + place.
+  // The last requested volume and its place in the ring: (volume + 1)·256 + place.
   mutable std::atomic<std::uint64_t> served_{0};
-  std::jthread background_; // last: it ends before what it works on
+  std::jthread background_; // last member: stops before what it works on is destroyed
 };
 
 } // namespace octascope::sim

@@ -1,7 +1,7 @@
-// Randomness that a seed repeats exactly: hashes, a table of Gaussian numbers, smooth noise.
+// Reproducible randomness from a seed: hashes, a table of Gaussian numbers, smooth noise.
 //
-// Nothing here keeps a state, so that any line of any volume can be made on its own, by any thread,
-// in any order, and comes out the same.
+// Everything here is stateless, so that any thread can compute any line of any volume, in any
+// order, with the same result.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,7 @@
 
 namespace octascope::sim {
 
-// The finaliser of SplitMix64 (Steele, Lea, Flood, 2014): every bit of the input reaches every bit
-// of the result.
+// The finaliser of SplitMix64 (Steele, Lea, Flood, 2014): every input bit affects every output bit.
 constexpr std::uint64_t hash(std::uint64_t key) {
   key += 0x9e3779b97f4a7c15U;
   key = (key ^ (key >> 30U)) * 0xbf58476d1ce4e5b9U;
@@ -30,20 +29,20 @@ constexpr std::uint64_t hash(std::uint64_t a, std::uint64_t b, std::uint64_t c, 
   return hash(hash(a, b, c), d);
 }
 
-// A hash as a number in [0, 1).
+// Converts a hash to a number in [0, 1).
 constexpr double unit_interval(std::uint64_t key) {
   return static_cast<double>(hash(key) >> 11U) * 0x1p-53;
 }
 
-// 2^size_log2 numbers of mean 0 and variance 1, read in runs that begin anywhere. Immutable once
-// made, so thread-safe.
+// 2^size_log2 numbers of mean 0 and variance 1, read in runs from any start. Immutable, so
+// thread-safe.
 class GaussianTable {
 public:
-  // Runs may be up to `longest_run` numbers long.
+  // Runs may have up to `longest_run` numbers.
   GaussianTable(std::uint64_t seed, int size_log2, std::size_t longest_run);
 
-  // `count` ≤ longest_run numbers; the same key gives the same numbers. Runs of different keys
-  // overlap where the table's size makes them: it is to be much larger than a run.
+  // `count` ≤ longest_run numbers; the same key gives the same numbers. Runs of different keys can
+  // overlap, so the table should be much larger than a run.
   std::span<const float> run(std::uint64_t key, std::size_t count) const {
     return std::span{values_}.subspan(static_cast<std::size_t>(hash(key)) & mask_, count);
   }
@@ -58,7 +57,7 @@ private:
 float smooth_noise(std::uint64_t seed, float x, float y);
 float smooth_noise(std::uint64_t seed, float x, float y, float z);
 
-// Three octaves of it, each of half the size and half the strength, in about [−1, 1].
+// Three octaves of smooth noise, each of half the size and half the strength, in about [−1, 1].
 float rough_noise(std::uint64_t seed, float x, float y);
 
 } // namespace octascope::sim

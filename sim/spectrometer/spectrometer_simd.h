@@ -1,8 +1,8 @@
-// Loops that the compiler vectorises, compiled once for each generation of the processor and
-// chosen when the program is loaded.
+// For loops that the compiler vectorises: compiles one clone per processor generation; the loader
+// chooses one at program start.
 #pragma once
 
-// The choice is made before a sanitizer's run-time is ready, and other architectures have no need.
+// Not with sanitizers: their run-time is not ready at that time. Other architectures need none.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(OCTASCOPE_SANITIZED)
 #define OCTASCOPE_VECTOR_LOOP __attribute__((target_clones("avx512f", "avx2", "default")))
 #else

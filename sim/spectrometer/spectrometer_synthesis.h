@@ -1,12 +1,12 @@
-// The spectrometer's forward model, fast: whole A-scans of tissue, a line in microseconds.
+// The spectrometer's forward model, fast: whole A-scans of tissue, in microseconds per line.
 //
 // Tissue is a complex amplitude in every depth bin, a surface a Reflector at any fraction of a bin.
-// One inverse FFT makes the sum of their fringes on a grid uniform in k (shifted to the middle of
-// the depth range, so that the grid oversamples it twice), and a Kaiser-Bessel kernel of 4 taps
-// reads it at each pixel's own position; the kernel's weight in depth is divided out beforehand
-// (a non-uniform FFT of the second kind: Fessler and Sutton, IEEE Trans. Signal Process. 51, 2003).
-// Envelope, gain and dispersion are folded into the taps. The error against the closed form is
-// below 0.3 % of an amplitude.
+// One inverse FFT computes the sum of their fringes on a grid uniform in k (shifted to the middle
+// of the depth range, so that the grid oversamples it twice). A 4-tap Kaiser-Bessel kernel
+// interpolates it at each pixel's own position; the kernel's weight in depth is divided out
+// beforehand (a non-uniform FFT of the second kind: Fessler and Sutton, IEEE Trans. Signal Process.
+// 51, 2003). Envelope, gain and dispersion are included in the taps. The error relative to the
+// closed form is below 0.3 % of an amplitude.
 #pragma once
 
 #include <complex>
@@ -18,9 +18,9 @@
 
 namespace octascope::sim {
 
-// Immutable once made: any number of threads may work with one, each with a Workspace of its own.
-// Making one plans an FFT, and FFTW's planner is not thread-safe: make it where no other thread
-// plans, that is while the program is put together.
+// Immutable, so many threads may share one, each with its own Workspace. The constructor plans an
+// FFT, and FFTW's planner is not thread-safe: construct it while no other thread plans, that is
+// during start-up.
 class SpectrumSynthesis {
 public:
   class Workspace {
@@ -36,7 +36,7 @@ public:
     std::unique_ptr<Buffers> buffers_;
   };
 
-  // Borrows nothing: the spectrometer's curves are copied into tables.
+  // Keeps no reference: the spectrometer's curves are copied into tables.
   explicit SpectrumSynthesis(const Spectrometer& spectrometer);
   ~SpectrumSynthesis();
   SpectrumSynthesis(const SpectrumSynthesis&) = delete;
@@ -44,13 +44,13 @@ public:
 
   Workspace make_workspace() const;
 
-  // mean[p] of one line. `scatterers`: N/2 amplitudes, counts and phases as a Reflector's, one for
-  // each depth bin. `counts`: N.
+  // mean[p] of one line. `scatterers`: N/2 amplitudes, one per depth bin, with counts and phases as
+  // in a Reflector. `counts`: N.
   void mean_counts(std::span<const std::complex<float>> scatterers,
                    std::span<const Reflector> surfaces, Workspace& workspace,
                    std::span<float> counts) const;
 
-  // count[p]: noise (the same for the same key), saturation and rounding on mean[p].
+  // count[p]: adds noise (the same for the same key) to mean[p], rounds and saturates.
   void expose(std::span<const float> mean, std::uint64_t noise_key,
               std::span<std::uint16_t> counts) const;
 

@@ -1,4 +1,4 @@
-// The profiles that the program brings with it: ui/controls/profiles/*.toml.
+// The built-in control profiles: ui/controls/profiles/*.toml.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace octascope::ui {
 
-// Every function with three switches and a knob.
+// Offers every function with three switches and a knob.
 inline constexpr std::string_view default_profile = "three_switch_pedal";
 
 struct BuiltInProfile {
@@ -19,11 +19,11 @@ struct BuiltInProfile {
 };
 std::span<const BuiltInProfile> built_in_profiles();
 
-// ErrorCode::invalid_argument: there is none of that name; the message lists those that there are.
+// ErrorCode::invalid_argument: no such profile; the message lists the existing ones.
 hal::Result<ControlProfile> built_in_profile(std::string_view name);
 
-// The profile made for the device "05f3:00ff". Models with one pedal and with three share an id: of
-// several profiles, the one with that number of switches. Empty if there is none.
+// The profile for a device id such as "05f3:00ff". One-pedal and three-pedal models can share an
+// id; `switches` then decides between their profiles. Empty if there is none.
 std::optional<ControlProfile> built_in_profile_for(std::string_view usb_id, int switches);
 
 } // namespace octascope::ui

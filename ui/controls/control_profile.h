@@ -1,12 +1,12 @@
 // What each pedal, knob and axis of a device does, read from a TOML file.
 //
 //   name = "Three-switch pedal and knob"       # for people
-//   menu = ["window_offset", "tilt"]           # what next_parameter goes through; else all that is
-//                                              # continuous
+//   menu = ["window_offset", "tilt"]           # what next_parameter goes through; default: all
+//                                              # continuous actions
 //   [device]
-//   usb = ["05f3:00ff"]                        # which devices it is made for: vendor:product
+//   usb = ["05f3:00ff"]                        # matching devices: vendor:product
 //   switches = ["left", "centre", "right"]     # names of switches 0, 1, 2, …; this is the default
-//   switch_word = "pedal"                      # what a switch is called: "Left pedal"
+//   switch_word = "pedal"                      # noun for a switch: "Left pedal"
 //   knobs = ["knob"]                           # likewise
 //   detents_per_turn = 24
 //   stick = "puck"                             # what the axes belong to
@@ -21,22 +21,22 @@
 //   switch = "left"                            # a name or an index
 //   gesture = "long"                           # press, long, double or hold (repeats while held)
 //   action = "technique"                       # ui/view/action_table.cpp
-//   step = -1                                  # so many detents, or back; else 1
+//   step = -1                                  # detents or steps; negative: backwards; default 1
 //   [[bind]]
 //   with = ["left", "right"]                   # down together
 //   gesture = "chord"
 //   action = "legend"
 //   [[bind]]
 //   knob = 0                                   # a name or an index
-//   while_held = "left"                        # or a list; else: with no such switch held
+//   while_held = "left"                        # or a list; default: with no such switch held
 //   action = "rotate"
 //   [[bind]]
 //   axis = "rz"                                # x y z rx ry rz
 //   action = "rotate"
-//   per_second = 30                            # detents at full deflection; negative: the other way
+//   per_second = 30                            # detents at full deflection; negative: reversed
 //
-// Strict: unknown keys, switches and actions are refused, and so are bindings that contradict each
-// other or could never act.
+// Strict: rejects unknown keys, switches and actions, and bindings that conflict or could never
+// act.
 #pragma once
 
 #include <cstdint>
@@ -92,15 +92,14 @@ struct ControlProfile {
   static hal::Result<ControlProfile> parse(std::string_view text,
                                            const std::filesystem::path& name);
 
-  // Whether this device alone can do the action: it is bound to a control, or can be chosen from
-  // the menu and then done.
+  // Whether this device alone can trigger the action: through a bound control, or through the menu.
   bool reaches(Action action) const;
 
-  // What the recogniser must tell apart.
+  // The bindings that the recogniser must distinguish.
   std::vector<SwitchBinding> switch_bindings() const;
 };
 
-// Whether a menu may hold the action: all but those that go through the menu.
+// Whether a menu may contain the action: all but those that operate the menu itself.
 bool fits_menu(Action action);
 
 // "x" … "rz".

@@ -1,18 +1,18 @@
 // Recognises gestures from the times at which switches go down and up: press, long press, double
 // press, hold (which repeats), chord, and a switch held while a knob turns.
 //
-// A gesture is reported at the earliest moment at which it cannot become another one that is bound.
-// If these are bound to the switch:
+// A gesture is reported as soon as it cannot become another bound gesture. When that is depends on
+// what is bound to the switch:
 //
 //   only a press                   when the switch goes down
-//   a chord that it is part of     when the chord is complete, or after 80 ms
-//   a long press too               press: on release; long press: after 600 ms
-//   a knob while it is held, too   press and long press: on release
-//   a double press too             press: 300 ms after release; double: when it goes down again
+//   a chord that includes it       when the chord is complete, or after 80 ms
+//   also a long press              press: on release; long press: after 600 ms
+//   also a knob while it is held   press and long press: on release
+//   also a double press            press: 300 ms after release; double: when it goes down again
 //   hold                           first at once if nothing else is bound, else after 400 ms;
 //                                  then every 100 ms, gradually faster
 //
-// Pure: no clock. All times are the caller's.
+// Pure: no clock; the caller supplies all times.
 #pragma once
 
 #include <array>
@@ -31,76 +31,74 @@ using pipeline::SwitchSet;
 enum class GestureKind : std::uint8_t { press, long_press, double_press, hold };
 
 struct GestureTimes {
-  hal::Duration chord = std::chrono::milliseconds{80};         // within which all must be down
-  hal::Duration long_press = std::chrono::milliseconds{600};   // down for so long
-  hal::Duration double_press = std::chrono::milliseconds{300}; // from up to down
+  hal::Duration chord = std::chrono::milliseconds{80};         // within which all must go down
+  hal::Duration long_press = std::chrono::milliseconds{600};   // held at least this long
+  hal::Duration double_press = std::chrono::milliseconds{300}; // from release to next press
   hal::Duration hold_delay = std::chrono::milliseconds{400};
   hal::Duration hold_every = std::chrono::milliseconds{100};
 };
 
-// What is bound to one set of switches. To several switches only `press` and `modifies` can be
-// bound.
+// What is bound to a set of switches. Sets of several switches support only `press` and `modifies`.
 struct SwitchBinding {
   SwitchSet switches = 0;
   bool press = false;
   bool long_press = false;
   bool double_press = false;
-  bool hold = false;     // not together with long_press or modifies
-  bool modifies = false; // a knob turned meanwhile means something else
+  bool hold = false;     // excludes long_press and modifies
+  bool modifies = false; // changes the meaning of a knob turned meanwhile
 };
 
 struct Gesture {
-  hal::TimePoint time; // at which it was certain, not at which advance() found it
+  hal::TimePoint time; // when it became certain, not when advance() noticed it
   GestureKind kind = GestureKind::press;
   SwitchSet switches = 0;
   bool operator==(const Gesture&) const = default;
 };
 
-// The time from one repetition to the next, the n-th (from 0): `every` at first, shortening to 40 %
-// of it. Pure.
+// The n-th repetition interval (from 0): `every` at first, shortening to 40 % of it. Pure.
 hal::Duration hold_interval(hal::Duration every, int n);
 
-// Threads: one at a time. Gestures are appended to `told`, oldest first. A time earlier than the
-// last one is taken as the last one. A gesture that is not bound is never reported.
+// Threads: one at a time. Gestures are appended to `told`, oldest first. Times before the last one
+// count as the last one. Unbound gestures are never reported.
 class GestureRecogniser {
 public:
   // At most one entry per set.
   GestureRecogniser(std::vector<SwitchBinding> bindings, GestureTimes times);
 
-  // A switch went down or up. Repeating its state changes nothing.
+  // A switch went down or up. Repeating its state has no effect.
   void handle(std::uint8_t switch_index, bool down, hal::TimePoint time,
               std::vector<Gesture>& told);
 
-  // Reports the gestures that time alone decides, up to `now`.
+  // Reports the gestures that become certain by time alone, up to `now`.
   void advance(hal::TimePoint now, std::vector<Gesture>& told);
 
-  // When advance() will report something if no switch moves before.
+  // When advance() will next report something, if no switch moves before.
   std::optional<hal::TimePoint> next_deadline() const;
 
   // A knob turns. Returns the held switches that modify it, 0 for none. These switches report no
   // gesture of their own until they are released.
   SwitchSet modify(hal::TimePoint time, std::vector<Gesture>& told);
 
-  // No switch is down, and no gesture under way.
+  // No switch is down and no gesture is in progress.
   bool idle() const;
 
 private:
   enum class Phase : std::uint8_t {
-    free,      // no stroke
-    gathering, // more switches may join it
+    free,      // unused
+    gathering, // more switches may join
     down,      // its switches are known, its gesture is not
-    between,   // released once: it may become a double press
+    between,   // released once: may become a double press
     holding,   // repeats
     spent,     // its gesture was reported
   };
-  // One set of switches that went down together. Once its gesture was reported, switches that come
-  // up leave the set.
+  // A set of switches that went down together. Once its gesture was reported, released switches
+  // leave the set.
   struct Stroke {
     Phase phase = Phase::free;
     SwitchSet switches = 0;
     hal::TimePoint began;
     SwitchBinding binding;                  // from Phase::down on
-    std::optional<hal::TimePoint> deadline; // when its phase ends by itself
+    std::optional<hal::TimePoint> deadline; // when its phase ends without an event
     int repetitions = 0;
   };
 
@@ -122,7 +120,7 @@ private:
 
   std::vector<SwitchBinding> bindings_;
   GestureTimes times_;
-  std::array<Stroke, most_switches> strokes_{}; // each has a switch of its own, so these suffice
+  std::array<Stroke, most_switches> strokes_{}; // enough: each has at least one switch of its own
   pipeline::HeldSwitches held_;
   hal::TimePoint last_; // the latest time given
 };

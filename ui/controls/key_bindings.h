@@ -1,4 +1,4 @@
-// What each key of a keyboard does.
+// What each key of the keyboard does.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct KeyBinding {
   bool repeats = false; // while the key is held down
 };
 
-// Of the action table, in its order; those of the same action are neighbours.
+// From the action table, in its order; bindings of the same action are adjacent.
 std::span<const KeyBinding> key_bindings();
 
 // Empty: the key does nothing.

@@ -1,4 +1,4 @@
-// Which keys stand for the simulated pedal and knob.
+// The keys that simulate the pedal and the knob.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace octascope::ui {
 
-// 1 2 3: the left, centre and right switch, down as long as the key is; comma and full stop: the
-// knob, one detent left and right. Empty for every other key. Pure; the host hands the event to the
-// twin of the pedal.
+// 1 2 3: the left, centre and right switch, down while the key is down; comma and full stop: the
+// knob, one detent left or right. Empty for all other keys. Pure; the host passes the event to the
+// simulated pedal.
 std::optional<hal::ControlEvent> simulated_control(const hal::DisplayEvent& event);
 
 } // namespace octascope::ui

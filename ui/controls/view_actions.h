@@ -12,11 +12,11 @@
 
 namespace octascope::ui {
 
-// What an event asks of the host, besides the new view.
+// Requests of an event to the host, beyond the new view.
 struct ControlRequests {
   bool quit = false;
   bool snapshot = false;
-  bool auto_window = false; // what suits the shown volume
+  bool auto_window = false; // fit the window to the shown volume
   bool record = false;
   bool keep_registration = false; // with the view's nudge
   bool operator==(const ControlRequests&) const = default;
@@ -35,47 +35,47 @@ enum class Done : std::uint8_t { pressed, turned };
 // Threads: one at a time. Pure: no clock.
 class ViewActions {
 public:
-  // `initial` is what reset_view goes back to; `b_scans` bounds the B-scan's position; `menu` is
-  // what next_parameter goes through, never empty.
+  // `initial` is the state that reset_view restores; `b_scans` limits the B-scan position; `menu`
+  // is what next_parameter goes through, never empty.
   ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu);
 
-  // The selected action stays selected if the new menu has it, else the menu's first is selected.
+  // Keeps the selected action if the new menu has it, else selects the menu's first.
   void change_menu(std::vector<Action> menu);
 
   const ViewState& state() const { return state_; }
 
-  // How often each action was done, by index_of(). What adjust did counts for both.
+  // How often each action was done, by index_of(). What `adjust` did counts for both actions.
   const std::array<std::uint64_t, action_count>& counts() const { return counts_; }
 
-  // What reset_view goes back to.
+  // The state that reset_view restores.
   const ViewState& initial() const { return initial_; }
-  // Replaces both views, with every value brought into its range: after restoring settings or
+  // Replaces both states, with every value clamped to its range: after restoring settings or
   // reloading the configuration.
   void replace(const ViewState& initial, const ViewState& state);
 
   void set_b_scans(int b_scans);
-  void set_window(float offset_db, float size_db); // also what reset_view goes back to
+  void set_window(float offset_db, float size_db); // also for reset_view
   void set_choices(ChoiceNames names);
   void set_vessels_loaded(bool loaded) { vessels_loaded_ = loaded; }
 
-  // The vessels' present place was kept as their registration: the nudge starts again from zero.
+  // The vessels' current placement was saved as their registration: the nudge restarts from zero.
   void forget_nudge();
 
-  // Does the action once. `amount`: detents of a continuous action, else steps, rounded towards 0.
-  // A toggle that is turned goes on to the right and off to the left.
+  // Does the action once. `amount`: detents for a continuous action, else steps, rounded towards 0.
+  // Turning a toggle right switches it on, left off.
   ControlRequests perform(Action action, double amount, Done done, hal::TimePoint time);
 
-  // A stick is pushed: begin_driving() counts the action once, drive() then changes its value a
-  // little every frame.
+  // While a stick is pushed: begin_driving() counts the action once, then drive() changes its value
+  // a little each frame.
   void begin_driving(Action action, hal::TimePoint time);
   void drive(Action action, double amount, hal::TimePoint time);
 
-  // Whether the legend shows the keys or the pedal.
+  // Whether the legend shows the keys instead of the pedal.
   void show_keys_in_legend(bool keys) { state_.legend_of_keys = keys; }
 
-  // Shows on the display what became of an action that the host did.
+  // Shows on the display the result of an action that the host did.
   void tell(Action action, std::string_view words, hal::TimePoint time);
-  // Sets the window that the host has found, and shows it.
+  // Sets the window that the host found, and shows it.
   void show_window(float offset_db, float size_db, hal::TimePoint time);
 
 private:
@@ -92,7 +92,7 @@ private:
   ViewState initial_;
   ViewState state_;
   int b_scans_;
-  double b_scan_rest_ = 0; // of a B-scan, turned so far
+  double b_scan_rest_ = 0; // fraction of a B-scan turned so far
   std::vector<Action> menu_;
   ChoiceNames names_;
   bool vessels_loaded_ = false;

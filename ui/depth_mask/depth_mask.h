@@ -1,9 +1,9 @@
-// Vessels inside a volume: where they end the rays, and what is behind what the rays have gathered.
+// Vessels inside a volume: where they end the rays.
 //
-// A technique that is given stops draws the volume up to the nearest vessel of each pixel, and
-// nothing behind it. The vessel's colour then goes under that: what is before a vessel veils it,
-// and it hides what is behind. So with a vessel's opacity of 1; with less, that picture is mixed
-// with the one of the volume alone.
+// With a mask, a technique draws the volume only up to the nearest vessel of each pixel. The
+// vessel's colour is then composited under that: the volume in front veils the vessel, and the
+// vessel hides what is behind it. If the vessels' opacity is less than 1, the result is mixed with
+// the picture of the volume alone.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,16 @@ namespace octascope::ui {
 
 // As large as the volume's picture. Borrowed for one drawing.
 struct DepthMask {
-  std::uint64_t version = 0; // no two pictures of vessels have the same
-  float opacity = 1;         // of vessels, more than 0
+  std::uint64_t version = 0; // unique for each picture of the vessels
+  float opacity = 1;         // of the vessels, more than 0
   // For GL, rows from the bottom; 0 where the processor draws the volume.
-  GLuint colour = 0; // RGBA: opaque or nothing
+  GLuint colour = 0; // RGBA: opaque or transparent
   GLuint depth = 0;  // by the camera's view_projection
-  // For the processor: null where GL draws the volume.
+  // For the processor; null where GL draws the volume.
   const DepthImage* image = nullptr;
 };
 
-// Sets what stops.glsl needs, for the current program; null: no vessel ends a ray. Takes texture
+// Sets the uniforms of stops.glsl in the current program. Null: no vessel ends a ray. Uses texture
 // unit 3.
 void set_depth_mask(const gl::Program& program, const DepthMask* stops, const Camera& camera);
 

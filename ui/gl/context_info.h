@@ -1,4 +1,4 @@
-// Which GL implementation draws: for doctor and reports.
+// Describes the GL implementation, for `doctor` and reports.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@ namespace octascope::ui::gl {
 struct ContextInfo {
   std::string renderer;  // "llvmpipe (LLVM 15.0.6, 256 bits)", "NVIDIA …"
   std::string version;   // "OpenGL ES 3.2 Mesa 22.3.6"
-  bool software = false; // the processor draws
+  bool software = false; // drawn by the CPU
 };
 
 // Of the context that is current on this thread.

@@ -1,14 +1,14 @@
-// The framebuffer that is bound.
+// Functions on the bound framebuffer.
 #pragma once
 
 #include "pipeline/files/png_image.h"
 
 namespace octascope::ui::gl {
 
-// Fills it, and the viewport with it, with black.
+// Fills it with black and sets the viewport to its size.
 void clear_to_black(int width, int height);
 
-// Waits until everything is drawn.
+// Waits until the GPU has finished drawing.
 void finish();
 
 // Its content, rows from the top; waits for the drawing. Allocates.

@@ -1,6 +1,6 @@
-// Ownership of GL names: one deleter per kind, moved and never copied.
+// Owners of GL names, movable but not copyable.
 //
-// Threads: made, used and destroyed on the thread whose context is current.
+// Threads: create, use and destroy on the thread whose context is current.
 #pragma once
 
 #include <utility>

@@ -17,20 +17,20 @@ class PicturePass {
 public:
   static hal::Result<PicturePass> create(std::string_view name, std::string_view fragment_source);
 
-  // Makes the program current, for its uniforms to be set; fill() then draws.
+  // Makes the program current, so that its uniforms can be set before fill() draws.
   void use() const { program_.use(); }
   GLint uniform(const char* name) const { return program_.uniform(name); }
   void fill(const Rect& rect, int target_height) const;
 
-  // Makes the program current and lays `picture`, premultiplied, over what is there. For shaders
-  // with a sampler `u_picture`.
+  // Makes the program current and blends `picture`, premultiplied, over the framebuffer. For
+  // shaders with a sampler `u_picture`.
   void blend(const Texture& picture, const Rect& rect, int target_height) const;
 
 private:
   explicit PicturePass(Program program)
       : program_{std::move(program)}, vertex_array_{VertexArray::make()} {}
   Program program_;
-  VertexArray vertex_array_; // empty: the vertices come from their index
+  VertexArray vertex_array_; // empty: vertices are computed from their index
 };
 
 } // namespace octascope::ui::gl

@@ -1,5 +1,5 @@
-// Pixel-buffer uploads: the caller copies into memory of the driver and goes on; the transfer to
-// the texture happens beside the drawing.
+// Pixel-buffer uploads: the caller copies into driver memory; the transfer to the texture runs
+// asynchronously.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace octascope::ui::gl {
 
-// Three buffers in turn, so that a transfer still under way is never waited for.
+// Cycles through three buffers, so that it never waits for a transfer in progress.
 //
 // Threads: as gl/objects.h. Allocates in create() only.
 class PixelUploader {

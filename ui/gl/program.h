@@ -13,8 +13,8 @@ namespace octascope::ui::gl {
 // Threads: as gl/objects.h.
 class Program {
 public:
-  // Both sources are without their #version line, which is ours to choose. The error names the
-  // program and has the compiler's own words.
+  // Sources without a #version line, which is added here. The error names the program and has the
+  // compiler's message.
   static hal::Result<Program> build(std::string_view name, std::string_view vertex_source,
                                     std::string_view fragment_source);
 

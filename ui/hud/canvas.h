@@ -1,7 +1,7 @@
-// What the heads-up display draws with: text, lines and plates, gathered and then drawn at once.
+// Collects the text, lines and plates of the heads-up display, to be drawn all at once.
 //
-// Dear ImGui's draw list and fonts without its context, so that nothing is global: the GL part is
-// ours. Positions are pixels from the top left corner of the target.
+// Uses Dear ImGui's draw list and fonts without its global context; the GL part is our own.
+// Positions are pixels from the top left corner of the target.
 #pragma once
 
 #include <array>
@@ -19,19 +19,18 @@ struct ImDrawListSharedData;
 
 namespace octascope::ui {
 
-// Threads: one at a time. Allocates only while a picture is richer than any before it.
+// Threads: one at a time. Allocates only when a picture has more elements than any before it.
 class Canvas {
 public:
   Canvas();
   ~Canvas();
 
-  // Forgets everything; what follows is for a target of that size. The fonts are borrowed until
-  // the next begin().
+  // Clears the canvas for a target of that size. The fonts are borrowed until the next begin().
   void begin(const Fonts& fonts, int width, int height);
 
-  // `position` is the left end of the base box: text is as high as its style. Returns its width.
+  // `position` is the upper left corner; the text is as high as its style. Returns its width.
   float text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words);
-  // With a dark rim, legible on any picture.
+  // With a dark outline, legible on any picture.
   void shadowed_text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words);
   float text_width(TextStyle style, std::string_view words) const;
   float text_height(TextStyle style) const;
@@ -39,16 +38,16 @@ public:
   void line(glm::vec2 from, glm::vec2 to, Colour colour, float width);
   void plate(const Rect& rect, Colour colour, float rounding = 0);
   void frame(const Rect& rect, Colour colour, float width, float rounding = 0);
-  // Between two corners that need not lie on pixels; those side by side leave no seam.
+  // Between two corners, not rounded to pixels; adjacent bars leave no gap.
   void bar(glm::vec2 top_left, glm::vec2 bottom_right, Colour colour);
-  // Filled; convex, the corners in their order.
+  // Filled and convex; the corners in order around it.
   void quad(const std::array<glm::vec2, 4>& corners, Colour colour);
   void dot(glm::vec2 centre, float radius, Colour colour);
   void ring(glm::vec2 centre, float radius, Colour colour, float width);
   // Diagonal stripes within the rectangle.
   void stripes(const Rect& rect, Colour colour, float pitch, float width);
 
-  // Within its life, what is drawn is cut at the rectangle.
+  // Clips drawing to the rectangle during its lifetime.
   class Clip {
   public:
     Clip(Canvas& canvas, const Rect& rect);

@@ -14,8 +14,8 @@ class CanvasRenderer {
 public:
   static hal::Result<CanvasRenderer> create();
 
-  // Into one eye's part of the bound framebuffer. The canvas was begun with the frame's width and
-  // height.
+  // Draws into one eye's part of the bound framebuffer. begin() of the canvas must have had the
+  // frame's width and height.
   void draw(const Canvas& canvas, const EyeFrame& frame, int target_height) const;
 
 private:

@@ -1,4 +1,4 @@
-// What a control just did, said on the display for a moment.
+// Shows for a moment what a control just did.
 #pragma once
 
 #include <string_view>
@@ -12,18 +12,18 @@ namespace octascope::ui {
 
 struct ParameterEcho {
   bool visible = false;
-  bool chosen = false; // the knob turns it from now on
+  bool chosen = false; // the knob has just been assigned to it
   std::string_view name;
   FixedText<48> value;
   bool ranged = false; // has a bar
-  float share = 0;     // of its range, 0…1
+  float share = 0;     // position in the range, 0…1
   bool operator==(const ParameterEcho&) const = default;
 };
 
-// `b_scans` of the shown volume. Pure.
+// `b_scans`: of the shown volume. Pure.
 ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scans);
 
-// At the foot of its place in the layout, as wide as its words need.
+// At the bottom of its place in the layout, as wide as its text.
 void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);
 
 } // namespace octascope::ui

@@ -1,4 +1,4 @@
-// The display's typeface (Inter), in the sizes that it needs, as one texture.
+// The display's typeface (Inter) in all required sizes, as one texture.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ struct ImFontAtlas;
 
 namespace octascope::ui {
 
-// What must be seen at once (badge) is at least 16 minutes of arc high for a surgeon who is two
-// metres from a 27-inch screen, what is looked up (the others) at least 10: the heights of capital
-// letters. Sources: ISO 9241-3 and NUREG-0700 (1.3.1-4) ask for 16′, the former for less where
-// reading is incidental; 10′ is twice the letter that an eye of normal acuity just reads.
+// Capital heights for a surgeon two metres from a 27-inch screen: at least 16 minutes of arc for
+// text that must be seen at once (badge), at least 10 for text that is looked up (the others).
+// Sources: ISO 9241-3 and NUREG-0700 (1.3.1-4) ask for 16′, the former for less where reading is
+// incidental; 10′ is twice the smallest letter that an eye of normal acuity can read.
 inline constexpr double viewing_distance_mm = 2000;
 inline constexpr double screen_diagonal_mm = 27 * 25.4;
 inline constexpr double glance_arcmin = 16;
@@ -25,20 +25,20 @@ inline constexpr double lookup_arcmin = 10;
 enum class TextStyle : std::uint8_t { label, body, value, badge };
 inline constexpr int text_style_count = 4;
 
-// Two weights of one typeface, each a file as FreeType reads it; borrowed while fonts are made of
-// them.
+// Two weights of one typeface, as font files that FreeType reads. Borrowed by Fonts::create().
 struct Typeface {
   std::span<const unsigned char> medium;
   std::span<const unsigned char> semi_bold;
 };
 
-// The display's, embedded in the program.
+// The built-in typeface, embedded in the program.
 Typeface inter();
 
 // Threads: as gl/objects.h.
 class Fonts {
 public:
-  // `unit` as in Layout. ErrorCode::unsupported: this GL takes no texture of that size.
+  // `unit` as in Layout. ErrorCode::unsupported: this GL does not support so large a texture.
+  // ErrorCode::system: FreeType cannot build the glyphs.
   static hal::Result<Fonts> create(float unit, const Typeface& typeface = inter());
 
   const ImFont& font(TextStyle style) const { return *fonts_[static_cast<int>(style)]; }
@@ -51,7 +51,7 @@ private:
   };
   Fonts();
 
-  std::unique_ptr<ImFontAtlas, Destroy> atlas_; // ImGui's header stays out of ours
+  std::unique_ptr<ImFontAtlas, Destroy> atlas_; // deleter: keeps ImGui's header out of this one
   ImFont* fonts_[text_style_count] = {};
   gl::Texture texture_;
 };

@@ -1,4 +1,4 @@
-// Lays the heads-up display out on a canvas.
+// Draws the heads-up display on a canvas.
 #pragma once
 
 #include <array>
@@ -16,27 +16,27 @@
 
 namespace octascope::ui {
 
-// What is on the screen: for scale bars, position lines and what is drawn into the volume's space.
-// Borrowed for one picture.
+// What is on the screen, for scale bars, position lines and markers in the volume's space. Borrowed
+// for one picture.
 struct HudScene {
   ShownPictures shown;
-  Camera camera{}; // of the eye whose picture it is
+  Camera camera{}; // of the eye being drawn
   glm::vec3 extents_mm{0};
   std::span<const pipeline::BScanState> states; // of the volume's B-scans
   std::optional<ScanField> scan_field;
-  const LevelShares* levels = nullptr; // of the volume; none: no histogram
+  const LevelShares* levels = nullptr; // of the volume; null: no histogram
 };
 
 // Plates of the panels and of the status bar, drawn before the pictures.
 void draw_hud_ground(Canvas& canvas, const Layout& layout);
-// The volume's plate, which may lie over the microscope's picture.
+// The volume's plate, which may cover part of the microscope picture.
 void draw_view_ground(Canvas& canvas, const Layout& layout);
 
 // Everything over the pictures.
 void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const ViewState& view,
               const HudScene& scene);
 
-// The parts of it; each in a file of its own.
+// The parts of the heads-up display, each in its own file.
 using BadgePlaces = std::array<Rect, HudText::most_badges>;
 BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_badges(Canvas& canvas, const Layout& layout, const HudText& text);
@@ -45,39 +45,39 @@ void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene);
 
-// What stands in the volume's space: the wire-frame box, the plane of the B-scan that the panel
-// shows, and where B-scans are missing or saturated. The parts before the volume go over its
-// picture, the others under it.
+// Markers in the volume's space: the wire-frame box, the plane of the panel's B-scan, and missing
+// or saturated B-scans. `in_front` selects the parts in front of the volume, drawn over its
+// picture; the others are drawn under it.
 void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
                     const HudScene& scene, bool in_front);
 
-// The wire-frame box alone, within `view`; the edges before the volume or those behind it.
+// Only the wire-frame box, within `view`: the edges in front of the volume or those behind it.
 void draw_wire_frame(Canvas& canvas, const Rect& view, const HudScene& scene, float unit,
                      bool in_front);
 
-// What the colours of vessels mean and, where it is asked for, where their segments went: over the
-// scale of a large volume.
+// The legend of the vessel colours and, if requested, the segment counts; above the scale of a
+// large volume.
 void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& marks);
 
-// How long a millimetre at the volume's centre is, at the view's lower left.
+// A scale bar valid at the volume's centre, at the view's lower left.
 void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene);
 
-// Which way the volume is turned: a cube with the surface side bright, a dot where the scan begins
+// The orientation of the volume: a cube with a bright surface side, a dot where the scan begins
 // (A-scan 0 of B-scan 0 at the surface), and the axes: x along a B-scan, y from B-scan to B-scan, z
 // with depth.
 void draw_orientation_cube(Canvas& canvas, const Rect& rect, const Camera& camera, float unit);
 
-// A bar of a round length (1, 2 or 5 times a power of ten of a millimetre), at most `most_pixels`
-// long, with its length; its left lower end is given. `medium`: medium_words() for lengths along
-// depth, else empty.
+// A scale bar with its length as text: 1, 2 or 5 times a power of ten of a millimetre, at most
+// `most_pixels` long. `left_bottom` is its lower left end. `medium`: medium_words() for lengths
+// along depth, else empty.
 void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, float most_pixels,
                     float unit, std::string_view medium = {});
 
-// The medium for which lengths along depth hold: "in air", "n 1.38", or "n ?" if the index is
-// unknown. Pure.
+// The medium assumed for lengths along depth: "in air", "n 1.38", or "n ?" if the index is unknown.
+// Pure.
 FixedText<8> medium_words(const std::optional<double>& refractive_index);
 
-// That length in mm. Pure.
+// The longest such round length up to `longest_mm`, in mm. Pure.
 double round_scale_length_mm(double longest_mm);
 
 } // namespace octascope::ui

@@ -1,5 +1,5 @@
 // The texts of the heads-up display. Pure: equal texts look the same, so the renderer compares them
-// to know whether anything must be drawn.
+// to decide whether to redraw.
 #pragma once
 
 #include <array>
@@ -53,13 +53,13 @@ struct Caption {
   bool operator==(const Caption&) const = default;
 };
 
-// What the colours of vessels mean, and where their segments went.
+// The legend of the vessel colours, and the segment counts.
 struct VesselMarks {
   bool shown = false;
   bool registered = false;
   VesselColouring colouring = VesselColouring::branch;
   std::array<bool, pipeline::vessel_branch_count> branches{};
-  std::optional<SegmentCounts> account; // where it is asked for
+  std::optional<SegmentCounts> account; // if requested
   bool operator==(const VesselMarks&) const = default;
 };
 
@@ -73,28 +73,28 @@ struct ShownPictures {
 };
 
 struct HudText {
-  // One a kind, and two incomplete; what is replayed is not recorded.
+  // One per kind, and two of kind incomplete; replay and recording exclude each other.
   static constexpr std::size_t most_badges = 8;
 
-  // Lines, frames and volumes a second: left out in this order where the bar has no room.
+  // Lines, frames and volumes per second: dropped in this order if the bar is too narrow.
   static constexpr std::array<std::size_t, 3> dispensable_cells{1, 2, 0};
 
   std::array<Badge, most_badges> badges;
   std::size_t badge_count = 0;
-  std::array<StatusCell, 8> cells; // one without a label is not there
-  Caption volume;                  // where it is not the large picture
+  std::array<StatusCell, 8> cells; // unused if the label is empty
+  Caption volume;                  // if it is not the large picture
   Caption b_scan;
   Caption en_face;
   Caption scope;
   bool scope_stale = false;
   Liveness liveness = Liveness::waiting;
   ParameterEcho echo;
-  bool window_changing = false;            // the echo is of the window
-  const Legend* legend = nullptr;          // null: hidden; the host's, see Status
-  Action selected = Action::window_offset; // what the knob turns, for the legend
+  bool window_changing = false;            // the echo is about the window
+  const Legend* legend = nullptr;          // null: hidden; owned by the host, see Status
+  Action selected = Action::window_offset; // what the knob controls, for the legend
   std::array<DeviceStatus, Status::most_devices> devices;
   std::size_t device_count = 0;
-  FixedText<64> reduced; // how finely the volume is drawn, and its vessels, if not fully
+  FixedText<64> reduced; // reduced quality of the volume or its vessels; empty: full quality
   VesselMarks vessels;
   FixedText<96> source;
   FixedText<160> notice;

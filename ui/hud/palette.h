@@ -24,22 +24,22 @@ inline constexpr Colour panel{18, 23, 28};     // under text
 inline constexpr Colour hairline{44, 53, 62};
 inline constexpr Colour text{233, 238, 242};
 inline constexpr Colour quiet_text{168, 179, 189};
-inline constexpr Colour box{104, 120, 134}; // the wire frame, before the volume
+inline constexpr Colour box{104, 120, 134}; // the wire frame, in front of the volume
 inline constexpr Colour box_behind{58, 69, 79};
 inline constexpr Colour cube_surface{150, 166, 180}; // the side of the orientation cube
 inline constexpr Colour histogram{120, 134, 148};
 inline constexpr Colour accent{102, 200, 255}; // positions and the knob's parameter
-// States. Colour-blind people can tell them apart, and no state is shown by colour alone.
+// Colours of states. Distinguishable for colour-blind people; no state is shown by colour alone.
 inline constexpr Colour good{90, 190, 160};
 inline constexpr Colour warning{255, 186, 74}; // STALE, missing, saturated, lost
 inline constexpr Colour alarm{255, 140, 106};  // no live picture, failed
 inline constexpr Colour frozen{175, 214, 255};
 inline constexpr Colour simulated{202, 152, 255};
-inline constexpr Colour replay = text;  // as a plate: no other is white
+inline constexpr Colour replay = text;  // as a plate: the only white one
 inline constexpr Colour ink{8, 11, 14}; // text on a filled badge, shadow of text on a picture
-inline constexpr Colour plate = panel.faded(242); // under text that lies over a picture
+inline constexpr Colour plate = panel.faded(242); // under text over a picture
 
-// Every text colour of the display with its background.
+// Every combination of text colour and background that the display uses.
 struct TextOnGround {
   Colour text;
   Colour ground;
@@ -57,7 +57,7 @@ inline constexpr std::array texts_on_grounds{
     TextOnGround{ink, alarm},          TextOnGround{ink, frozen},
     TextOnGround{ink, replay}};
 
-// What says in what state the picture or a device is.
+// Colours that show the state of the picture or of a device.
 inline constexpr std::array states{text, good, warning, alarm, frozen, simulated};
 
 } // namespace palette

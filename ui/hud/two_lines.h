@@ -1,4 +1,4 @@
-// Words on one line where they fit, else on two, broken between words.
+// Breaks text between words into two lines if it does not fit on one.
 #pragma once
 
 #include <string_view>
@@ -7,11 +7,11 @@ namespace octascope::ui {
 
 struct TwoLines {
   std::string_view first;
-  std::string_view second; // empty: one line does
+  std::string_view second; // empty: one line is enough
 };
 
-// Pure. `width` of a text, in the unit of `most`, grows with it. Where not even the first word
-// fits, and for what is too long for two lines, a line is wider than `most`.
+// Pure. `width` must grow with the text and use the unit of `most`. A line is wider than `most` if
+// the first word alone does not fit, or if the text is too long for two lines.
 template <class Width>
 TwoLines break_to_fit(std::string_view words, float most, const Width& width) {
   std::size_t end = words.size();

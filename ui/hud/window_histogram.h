@@ -1,4 +1,4 @@
-// How often each level occurs in the volume, and what the display's window makes of it.
+// The histogram of the volume's levels, with the display window.
 #pragma once
 
 #include <array>
@@ -9,11 +9,11 @@
 
 namespace octascope::ui {
 
-// Shares of the voxels, evenly over the range of levels (pipeline/volume/level_scale.h), the lowest first.
+// Shares of the voxels, lowest levels first, in equal bins (pipeline/volume/level_scale.h).
 using LevelShares = std::array<float, 128>;
 
-// A plate with the histogram, the window's opacity over it (0 below, a ramp, 1 above), and levels
-// in decibels under it. Heights are square roots of shares: noise would hide tissue otherwise.
+// A plate with the histogram, the window's opacity curve over it (0 below, a ramp, 1 above) and the
+// levels in decibels under it. Heights are square roots of shares: noise would dwarf tissue.
 void draw_window_histogram(Canvas& canvas, const Rect& rect, const LevelShares& shares,
                            const ViewState& view, float unit);
 

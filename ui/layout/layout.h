@@ -1,8 +1,8 @@
 // Where everything is on the screen. Pure.
 //
-// Sizes are for two metres of distance from a screen of 27 inches; ui/hud/fonts.h has the rule for
-// text. What the heads-up display may cover of the large picture lies in the outer quarters of its
-// stage: the middle half of its width and height is never covered but by the veil.
+// Sizes are for a 27-inch screen at a distance of two metres; see ui/hud/fonts.h for text. The
+// heads-up display may cover only the outer quarters of the large picture's stage: the middle half
+// of its width and height is never covered, except by the veil.
 #pragma once
 
 #include "ui/view/view_state.h"
@@ -22,7 +22,7 @@ struct Rect {
   bool operator==(const Rect&) const = default;
 };
 
-// Nothing of an empty panel is drawn.
+// A panel that is empty is not drawn.
 struct Panel {
   Rect frame;
   Rect title;   // in the frame, above the picture
@@ -31,7 +31,7 @@ struct Panel {
   bool shown() const { return !picture.empty(); }
 };
 
-// Physical width / height of the pictures.
+// Width / height of the pictures in physical units.
 struct PictureAspects {
   double b_scan = 1.6;
   double en_face = 1;
@@ -41,10 +41,10 @@ struct PictureAspects {
 };
 
 struct Layout {
-  LayoutKind kind = LayoutKind::volume; // what is laid out: see lay_out()
-  float unit = 1;  // pixels per pixel of a picture 720 high: all sizes of the display scale with it
-  Rect view;       // the volume
-  Rect view_frame; // around it where it has a plate and a title, else empty
+  LayoutKind kind = LayoutKind::volume; // the layout actually used: see lay_out()
+  float unit = 1;                       // scale of all sizes: 1 for a picture 720 pixels high
+  Rect view;                            // the volume
+  Rect view_frame;                      // around it if it has a plate and a title, else empty
   Rect view_title;
   bool inset = false; // the view lies over the microscope's picture, at its lower right corner
   Panel b_scan;
@@ -52,25 +52,25 @@ struct Layout {
   Panel scope;
   Rect status_bar;
 
-  Rect large; // the large picture; of four alike, the volume
-  Rect stage; // it and what is free around it, the picture in the middle
+  Rect large; // the large picture; in the quad layout, the volume
+  Rect stage; // the large picture centred in its free surroundings
 
-  // For the heads-up display; empty where there is no room.
+  // For the heads-up display; empty if there is no room.
   Rect marks;     // the badges, row by row from the left
   Rect notice;    // one line
   Rect echo;      // what a control just did: at the lower border of the stage
-  Rect legend;    // what each control does: in place of the small pictures beside the large one, of
-                  // the last of four alike, or at the side over a picture with an inset
+  Rect legend;    // what each control does: replaces the small pictures beside the large one or the
+                  // last of four alike, or lies at the side over a picture with an inset
   Rect histogram; // of the levels: in the stage's lower right corner
-  Rect cube;      // which way the volume is turned: in the view's upper right corner
+  Rect cube;      // the volume's orientation: in the view's upper right corner
 };
 
-// volume: the volume left, about 70 % of the width; the other pictures in a column right of it.
-// b_scan: the same with the B-scan left and the volume in the column. microscope: its picture at
-// the left; the volume, and where there is room the B-scan, beside it, or the volume as an inset.
-// quad: four alike. Pictures that are taller than wide get a row below in place of the column; the
-// status bar is at the bottom. Without a microscope picture the others share its room, and the
-// layout for it is that of the volume.
+// volume: the volume at the left, about 70 % of the width; the other pictures in a column at its
+// right. b_scan: the same, with the B-scan at the left and the volume in the column. microscope:
+// the microscope picture at the left; the volume, and the B-scan if there is room, beside it, or
+// the volume as an inset. quad: four of equal size. If pictures are taller than wide, a row below
+// replaces the column. The status bar is at the bottom. Without a microscope picture the others
+// share its room, and the microscope layout becomes that of the volume.
 Layout lay_out(int width, int height, const PictureAspects& aspects,
                LayoutKind kind = LayoutKind::volume);
 

@@ -1,8 +1,8 @@
-// Stereo displays: which part of the framebuffer each eye sees. Pure.
+// Stereo displays: the part of the framebuffer that each eye sees. Pure.
 //
-// Full-frame packing as heads-up 3D displays take it (HDMI 1.4a, "side-by-side (half)" and
-// "top-and-bottom"): each eye's whole picture at half the width or half the height, which the
-// display stretches again. The left eye's is at the left or at the top.
+// Full-frame packing for heads-up 3D displays (HDMI 1.4a, "side-by-side (half)" and
+// "top-and-bottom"): each eye's whole picture at half the width or height, which the display
+// stretches again. The left eye's picture is at the left or at the top.
 #pragma once
 
 #include <span>
@@ -13,17 +13,17 @@
 
 namespace octascope::ui {
 
-// The left one first; without stereo, StereoEye::centre.
+// Left eye first; without stereo, only StereoEye::centre.
 std::span<const StereoEye> eyes_of(StereoMode mode);
 
-// Where a picture that is laid out on width × height pixels goes in a framebuffer of that size.
+// Where a picture laid out on width × height pixels goes in a framebuffer of that size.
 struct EyeFrame {
   Rect target; // of the whole layout
   int width = 0;
   int height = 0;
 
-  // Where a rectangle of the layout lands; the same for both eyes but for the targets' distance.
-  // Never empty.
+  // Maps a rectangle of the layout into the target. For both eyes the same, relative to their
+  // targets. Never empty.
   Rect place(const Rect& rect) const;
 };
 

@@ -1,12 +1,12 @@
-// Chooses how finely the volume is drawn so that the frame rate holds. Pure: times are arguments.
+// Chooses the volume's drawing quality so that the frame rate holds. Pure: times are arguments.
 //
-// A frame's cost is a fixed part (panels, text, compositing) and a part that grows with the samples
-// taken. Both are learnt from the frames that are drawn anyway, for each technique and for each
-// step of the ladder of qualities, as medians of the last few: one interrupted frame changes
-// nothing. A finer quality is taken only where it is predicted to stay well below the budget, a
-// coarser one only where the budget is exceeded, and what a quality has cost is remembered: the
-// choice cannot swing between two neighbours. Where a quality takes but half of the budget, the
-// next finer one is tried once, whatever is predicted.
+// A frame's cost has a fixed part (panels, text, compositing) and a part that grows with the number
+// of samples. Both are learnt from ordinary frames, per technique and per step of the quality
+// ladder, as medians of the last few frames, so that one interrupted frame changes nothing. A finer
+// quality is chosen only if it is predicted to stay well below the budget, a coarser one only if
+// the budget is exceeded. Measured costs are remembered, so the choice does not oscillate between
+// two neighbours. If a quality takes only half of the budget, the next finer one is tried once,
+// whatever the prediction.
 #pragma once
 
 #include <array>
@@ -20,18 +20,18 @@
 
 namespace octascope::ui {
 
-// From full quality down, each step about three quarters of the one before it in cost.
+// From full quality down; each step costs about three quarters of the one before it.
 std::span<const DrawQuality> quality_ladder();
 
-// Of the samples that full quality takes; what a quality costs beyond the fixed part, relatively.
+// The share of the samples of full quality: the relative cost beyond the fixed part.
 double sample_share(const DrawQuality& quality);
 
-// That share where it is so small that one sees it, for the display to say so.
+// That share if the reduction is visible and the display should say so; else empty.
 std::optional<float> visible_reduction(const DrawQuality& quality);
 
 struct FrameBudget {
-  hal::Duration moving;  // while the view or the window changes: the rate of frames matters
-  hal::Duration resting; // while only volumes come: their latency matters
+  hal::Duration moving;  // while the view or the window changes: the frame rate matters
+  hal::Duration resting; // while only new volumes arrive: their latency matters
 };
 
 // Threads: one at a time. Allocates nothing.
@@ -44,49 +44,49 @@ public:
   struct Situation {
     hal::TimePoint now;
     Technique technique = Technique::rays;
-    bool moved = false; // what was asked for differs from the last frame's
-    bool live = true;   // volumes keep coming; else the picture is drawn once and may take its time
+    bool moved = false; // the request differs from the last frame's
+    bool live = true;   // volumes keep coming; else the picture is drawn once and may take longer
   };
 
-  // For the frame that begins now. At rest and not live, or where the budget allows it: full.
+  // For the frame that begins now. Full quality at rest without live volumes, or within budget.
   DrawQuality choose(const Situation& situation);
 
-  // What that frame cost, from its beginning until it was drawn.
+  // Reports the cost of that frame, from its beginning until it was drawn.
   void note(hal::Duration cost, bool volume_drawn);
 
-  // How long after the last movement the view counts as resting.
+  // The view counts as resting this long after the last movement.
   static constexpr hal::Duration rest_after = std::chrono::milliseconds{250};
 
 private:
   static constexpr std::size_t kept = 7;
   static constexpr std::size_t most_rungs = 16;
 
-  // Of the last few values.
+  // The median of the last few values.
   class Median {
   public:
     void add(double value) { values_[count_++ % kept] = value; }
     void clear() { count_ = 0; }
     bool empty() const { return count_ == 0; }
-    double value() const; // only where there is one
+    double value() const; // not to be called when empty
 
   private:
     std::array<double, kept> values_{};
     std::size_t count_ = 0;
   };
 
-  // What is known of a technique: cost = fixed + full · sample_share · correction.
+  // What is known about a technique: cost = fixed + full · sample_share · correction.
   struct Knowledge {
     Median full_ms;
     std::array<double, most_rungs> correction;
-    std::array<double, most_rungs> learnt_at_ms{}; // full_ms then; 0: never
+    std::array<double, most_rungs> learnt_at_ms{}; // full_ms at that time; 0: never
     bool compared = false;                         // more than one quality was drawn
     Knowledge() { correction.fill(1); }
   };
 
-  // Where one technique stands on the ladder in one situation.
+  // The position of one technique on the ladder, in one situation.
   struct Place {
-    std::size_t rung = 4;   // until something is known
-    std::size_t frames = 0; // drawn there since it came there
+    std::size_t rung = 4;   // initial guess
+    std::size_t frames = 0; // drawn since it moved to this rung
     Median sampling_ms;
     Median frame_ms;
   };
@@ -104,7 +104,7 @@ private:
   std::array<std::array<Place, 2>, all_techniques.size()> places_; // resting, moving
   hal::TimePoint still_since_{};
   bool moving_ = false;
-  bool still_ = false; // the frame is one that may take its time
+  bool still_ = false; // the frame may take longer
   std::size_t technique_ = 0;
 };
 

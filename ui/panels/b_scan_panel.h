@@ -1,5 +1,5 @@
-// The B-scan at the chosen position: fast axis to the right, depth downwards, first A-scan at the
-// left, depth 0 at the top.
+// The panel of the B-scan at the selected position: fast axis to the right, depth downwards; the
+// first A-scan is at the left, depth 0 at the top.
 #pragma once
 
 #include "hal/result.h"

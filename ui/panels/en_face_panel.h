@@ -1,5 +1,5 @@
-// The en-face picture: the volume from above, its mean along depth with automatic contrast; fast
-// axis to the right, B-scans downwards, the first at the top.
+// The en-face panel: the mean of the volume along depth, with automatic contrast; fast axis to the
+// right, B-scans downwards, the first at the top.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class EnFacePanel {
 public:
   static hal::Result<EnFacePanel> create();
 
-  // Projects on the CPU, one to two milliseconds for 300 × 80 × 512, and uploads the projection.
+  // Projects on the CPU (one to two milliseconds for 300 × 80 × 512) and uploads the projection.
   void show(const pipeline::Volume& volume);
 
   // Fills `rect` of the bound framebuffer; missing B-scans are hatched, saturated ones marked at

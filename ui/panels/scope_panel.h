@@ -1,4 +1,4 @@
-// The microscope's ambient-light picture.
+// The panel of the microscope's ambient-light picture.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ public:
   // Copies the frame before it returns.
   hal::Result<> show(const hal::ScopeFrame& frame, const std::optional<ScanField>& field);
 
-  // The picture in `rect`; darker where it is old.
+  // Draws the picture in `rect`, darker if stale.
   void draw(const Rect& rect, int target_height, bool stale) const;
 
   bool empty() const { return !picture_.texture(); }

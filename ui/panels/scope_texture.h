@@ -1,4 +1,4 @@
-// The microscope's picture as a texture, from the pixels that cameras send.
+// The microscope's picture as a texture, from camera frames.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,20 @@
 
 namespace octascope::ui {
 
-// RGB and RGBA are uploaded as they are; YUYV and NV12 are uploaded as they are and converted by
-// the GPU (BT.601, limited range, what USB and board cameras send).
+// Pixels are uploaded as they are; YUYV and NV12 are converted by the GPU (BT.601, limited range,
+// as USB and board cameras send).
 //
 // Threads: as gl/objects.h. Makes textures only when the picture's size or format changes.
 class ScopeTexture {
 public:
   static hal::Result<ScopeTexture> create();
 
-  // Copies the frame before it returns; the bound framebuffer stays bound. ErrorCode::bad_data: the
-  // frame is shorter than its format, size and stride say; the message has both lengths.
-  // ErrorCode::unsupported: larger than this GL's textures.
+  // Copies the frame before it returns; the framebuffer binding is kept. ErrorCode::bad_data: the
+  // frame is shorter than its format, size and stride require; the message has both lengths.
+  // ErrorCode::unsupported: larger than this GL's maximum texture size.
   hal::Result<> show(const hal::ScopeFrame& frame);
 
-  // Row 0 is the top; alpha is of no meaning.
+  // Row 0 is the top; alpha is meaningless.
   const gl::Texture& texture() const { return colour_; }
   int width() const { return width_; }
   int height() const { return height_; }
@@ -38,7 +38,7 @@ private:
     GLint luma, chroma, packed;
   } uniforms_;
   gl::Texture colour_;
-  gl::Texture luma_; // these two, and the framebuffer, for YUYV and NV12
+  gl::Texture luma_; // this, chroma_ and the framebuffer: for YUYV and NV12
   gl::Texture chroma_;
   gl::Framebuffer framebuffer_;
   std::optional<hal::PixelFormat> format_;

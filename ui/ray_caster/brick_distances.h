@@ -1,7 +1,7 @@
-// How far a ray can leap from a brick: the distance to bricks that are not empty.
+// How far a ray can leap from a brick: the distance to the nearest bricks that are not empty.
 //
-// One number a brick: its highest level in the upper 8 bits, below it the distance, 0 for bricks
-// that are not empty. Both kinds allocate when the number of bricks changes.
+// One number per brick: its highest level in the upper 8 bits, the distance in the lower 8 bits (0
+// for bricks that are not empty). Both classes allocate when the number of bricks changes.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace octascope::ui {
 
-// For rays of any direction: to the nearest brick that is not empty, in bricks along the axis where
-// it is farthest (Chebyshev), at most `most`. In the order [b][a][depth].
+// For rays of any direction: the Chebyshev distance to the nearest brick that is not empty, in
+// bricks, at most `most`. In the order [b][a][depth].
 class DistancesAround {
 public:
   static constexpr int most = 10;
@@ -30,30 +30,30 @@ private:
   std::vector<std::uint8_t> next_;
 };
 
-// For rays that go up or down each axis, an octant of directions: the edge of the largest cube of
-// empty bricks that begins with this one and lies ahead, in bricks, at most `most`; outside the
-// volume all is empty. A ray that leaves a surface gets a long distance at once; with one distance
-// for all directions it would take many short leaps.
+// For rays grouped by octant of directions: the edge, in bricks, of the largest cube of empty
+// bricks that starts with this brick and extends forwards, at most `most`; everything outside the
+// volume counts as empty. A ray that leaves a surface gets a long distance at once; with one
+// distance for all directions it would take many short leaps.
 //
-// Octant o holds the rays that go up depth (bit 0), the fast axis (bit 1), the slow one (bit 2).
+// Bits of the octant's index, set for rays that ascend: depth (0), fast axis (1), slow axis (2).
 class DistancesAhead {
 public:
   static constexpr int octants = 8;
   static constexpr int most = 255;
 
-  // The grid has changed.
+  // To be called when the grid has changed.
   void forget() { measured_ = 0; }
 
-  // Of the octants with a bit in `wanted`, those that are not known.
+  // Computes the octants with a bit in `wanted` that are not known yet.
   void measure(const BrickGrid& grid, unsigned wanted);
 
-  // In the order [octant][b][a][depth]; octants that were not wanted are undefined.
+  // In the order [octant][b][a][depth]; octants that were never wanted are undefined.
   const std::uint16_t* data() const { return numbers_.data(); }
 
 private:
   void measure_octant(const BrickGrid& grid, unsigned octant);
 
-  std::vector<std::uint16_t> numbers_; // one more than there are: kernels load two at a time
+  std::vector<std::uint16_t> numbers_; // with one element of padding: kernels load two at a time
   std::vector<std::uint8_t> distance_; // of one octant
   std::vector<std::uint8_t> line_;
   unsigned measured_ = 0;

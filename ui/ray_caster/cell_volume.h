@@ -1,5 +1,5 @@
-// The volume as the ray caster reads it: one 4-byte load brings the corners of a cell in one
-// B-scan.
+// The volume in the ray caster's memory layout: one 4-byte load fetches the four corners of a cell
+// in one B-scan.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 namespace octascope::ui {
 
 // Levels of two neighbouring A-scans interleaved, depth fastest: [b cell row][a cell][z][2]. Row r
-// holds B-scan r−1, the first and last are repeated; cells as pipeline/volume/occupancy.h numbers them.
-// Twice the volume's memory and one pass of copying, for half of the loads of every sample.
+// holds B-scan r−1; the first and last are repeated; for cells see pipeline/volume/occupancy.h.
+// Takes twice the volume's memory and one copying pass, and halves the loads of every sample.
 //
-// Threads: update() of different B-scans may run at the same time. Allocates when it is made.
+// Threads: update() of different B-scans may run concurrently. Allocates at construction.
 class CellVolume {
 public:
   CellVolume() = default;
   explicit CellVolume(const pipeline::VolumeGeometry& geometry);
 
-  // Offsets are 32 bits in the kernels.
+  // Whether the offsets fit in 32 bits, as the kernels require.
   static bool fits(const pipeline::VolumeGeometry& geometry);
 
   // Takes the levels [a][z] of one B-scan.

@@ -7,9 +7,8 @@
 
 namespace octascope::ui {
 
-// Zeroed bytes on pages of 2 MiB where the kernel gives them: with pages of 4 KiB, nearly every
-// load of a ray that crosses B-scans misses the translation cache, and a picture takes three times
-// as long. Without large pages it works as well, slower.
+// Zeroed bytes on pages of 2 MiB if the kernel grants them. With pages of 4 KiB, nearly every load
+// of a ray that crosses B-scans misses the TLB, and a picture takes three times as long.
 class LargeBuffer {
 public:
   LargeBuffer() = default;

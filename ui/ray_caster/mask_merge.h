@@ -1,4 +1,4 @@
-// Vessels laid into a volume's picture by the processor.
+// Merges vessels into a volume's picture, on the processor.
 #pragma once
 
 #include "ui/depth_mask/depth_image.h"
@@ -6,9 +6,9 @@
 
 namespace octascope::ui {
 
-// `image` is the volume up to the vessels. Where there is one, its colour goes under what is there;
-// and where it is not opaque, that is mixed with `alone`, the volume without vessels, which may be
-// null only where `opacity` is 1. What was drawn grows to hold all vessels. All are of one size.
+// Composites the vessels' colours under `image`, the volume up to the vessels. If `opacity` is less
+// than 1, mixes the result there with `alone`, the volume without vessels; else that may be null.
+// `image.drawn` grows to contain all vessels. All images have the same size.
 void merge_mask(RayImage& image, const DepthImage& vessels, float opacity, const RayImage* alone);
 
 } // namespace octascope::ui

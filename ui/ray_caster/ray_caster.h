@@ -1,8 +1,8 @@
-// Volume pictures on the processor: rays through the volume, front to back.
+// Draws volumes on the processor: ray casting, front to back.
 //
 // Source of the technique: M. Levoy, "Efficient ray tracing of volume data", ACM Transactions on
-// Graphics 9 (1990): early termination, and leaping over what is empty. Colour, opacity, blank
-// depths and dither are those of stack.frag, so that both draw the same settings.
+// Graphics 9 (1990): early termination and skipping of empty space. Colour, opacity, blank depths
+// and dither are those of stack.frag, so that both draw the same picture for the same settings.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ namespace octascope::ui {
 
 enum class RayMode : std::uint8_t {
   composite, // colour and opacity, front to back
-  shaded,    // the same, with light from the eye on slopes of the level, darker with distance
+  shaded,    // the same, lit from the eye by the level's gradient, darker with distance
   maximum    // the highest level along each ray, as opaque as it is bright
 };
 
@@ -37,39 +37,39 @@ struct RayImage {
   int height = 0;
   std::vector<std::uint32_t> rgba; // premultiplied; red in the lowest 8 bits
   std::vector<float> depth_mm;     // distance along the view to where half is hidden, or no_depth
-  Rect drawn;                      // everything outside is transparent, and so is its border, but
-                                   // where that is the image's
+  Rect drawn;                      // everything outside is transparent, and so is its border,
+                                   // except at the image's own border
 
   void make_room(int most_wide, int most_high); // resize() up to this then allocates nothing
   void resize(int new_width, int new_height);   // allocates only to grow; leaves it transparent
-  void draw_into(const Rect& rect);             // clears what was drawn and is not in it
+  void draw_into(const Rect& rect);             // clears what was drawn outside of `rect`
 };
 
 struct RaySettings {
   RayMode mode = RayMode::composite;
   float step_mm = 0;                 // along each ray
-  bool leap_empty = true;            // false changes no picture, only the time that it takes
-  const DepthImage* stops = nullptr; // of the same size: where vessels end the rays
+  bool leap_empty = true;            // affects only the drawing time, not the picture
+  const DepthImage* stops = nullptr; // of the image's size: where vessels end the rays
 };
 
-// Threads: bound to one, but for its own helpers. draw() allocates nothing but the image.
+// Threads: bound to one, except for its own helpers. draw() allocates only the image.
 class RayCaster {
 public:
-  // `helpers` threads beside the caller's. `isa` names an instruction set, else the widest is
-  // taken. ErrorCode::unsupported: this processor has none that is compiled in.
+  // `helpers`: threads besides the caller's. `isa` names an instruction set; by default the widest
+  // is used. ErrorCode::unsupported: none of the compiled ones is available on this processor.
   static hal::Result<RayCaster> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
                                        std::string_view isa = {});
 
   // Copies both. ErrorCode::unsupported: too large for 32-bit offsets. ErrorCode::invalid_argument:
-  // the occupancy is of another geometry. The last volume then stays.
+  // the occupancy has another geometry. On errors the previous volume stays.
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
 
-  // Shows in the next draw(). Compares, and forgets nothing when both are the same.
+  // Takes effect with the next draw(). Setting an equal table again costs only the comparison.
   void set_transfer(const TransferTable& transfer);
 
-  // The camera is that of ui/view/camera.h for the volume's extents. ErrorCode::invalid_argument:
-  // there is no volume, the image has no pixels, or the step is not a positive share of the box, or
-  // the stops are of another size.
+  // The camera must be that of ui/view/camera.h for the volume's extents.
+  // ErrorCode::invalid_argument: there is no volume, the image has no pixels, the step is not a
+  // positive share of the box, or the stops are of another size.
   hal::Result<> draw(const Camera& camera, const RaySettings& settings, RayImage& image);
 
   bool empty() const { return !cells_; }
@@ -91,7 +91,7 @@ private:
   std::unique_ptr<StepTable> steps_table_;
   BrickGrid bricks_;
   DistancesAhead distances_;
-  // What table and bricks were made for.
+  // The inputs of the current table and bricks.
   float steps_ = 0;
   Visibility visibility_ = Visibility::range;
   bool table_current_ = false;

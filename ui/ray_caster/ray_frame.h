@@ -1,4 +1,4 @@
-// What the ray-casting kernels are told about one picture.
+// The parameters of one picture for the ray-casting kernels.
 #pragma once
 
 #include <cstdint>
@@ -6,42 +6,42 @@
 
 namespace octascope::ui {
 
-// Depth of pixels whose rays meet less than half an opacity.
+// Depth of pixels whose rays accumulate less than half an opacity.
 inline constexpr float no_depth = std::numeric_limits<float>::infinity();
 
-// Below this transparency a ray ends, and what it would have met counts as of the same colour as
-// what it has: a picture errs by at most a 128th of the difference between the two.
+// A ray ends below this transparency. The remainder counts as having the colour accumulated so far,
+// so a picture errs by at most a 128th of the difference between the two colours.
 inline constexpr float opaque_transparency = 1.0F / 128;
 
 // Gradient lighting by a lamp at the eye. Where the gradient is weak there is no surface, and the
 // light does not depend on its direction.
 inline constexpr float ambient_light = 0.35F;
 inline constexpr float weak_gradient_counts = 8; // over the distance of gradient_mm()
-inline constexpr float depth_cue = 0.4F;         // what the far end of the box loses
+inline constexpr float depth_cue = 0.4F;         // brightness lost at the far end of the box
 
-// Of the polynomial that gives opacity from grey.
+// Of the polynomial from grey to opacity.
 inline constexpr int ramp_terms = 6;
 
-// Axes in the order depth, fast, slow; lengths along them in cells (pipeline/volume/occupancy.h),
-// so depth bin 0 has its middle at 0, A-scan 0 and B-scan 0 have theirs at 1. Pointers are
-// borrowed.
+// Axes in the order depth, fast, slow. Lengths along them are in cells
+// (pipeline/volume/occupancy.h), so the middle of depth bin 0 is at 0, the middles of A-scan 0 and
+// B-scan 0 are at 1. Pointers are borrowed.
 struct RayFrame {
   // The volume.
   const std::uint8_t* cells;
   std::int32_t column_bytes;
   std::int32_t row_bytes;
-  const std::uint16_t* bricks; // DistancesAhead's numbers
-  std::int32_t brick_row;      // bricks from one to the next along the fast axis
+  const std::uint16_t* bricks; // numbers of DistancesAhead
+  std::int32_t brick_row;      // stride in bricks along the fast axis
   std::int32_t brick_slab;     // … along the slow axis
-  std::int32_t brick_octant;   // … from one octant to the next
+  std::int32_t brick_octant;   // … between octants
   float lower[3];              // the box that is shown
   float upper[3];
 
   // The transfer function.
   const std::uint32_t* opacity_and_red;
   const std::uint32_t* green_and_blue;
-  // The same for a display window: grey = clamp(scale · level + offset), level as 1/2^22, and the
-  // opacity of one step as grey · (polynomial in grey), lowest power first.
+  // The same as a display window: grey = clamp(scale · level + offset), level as 1/2^22, and the
+  // opacity of one step is grey · (polynomial in grey), lowest power first.
   float ramp_scale;
   float ramp_offset;
   float ramp_opacity[ramp_terms];
@@ -67,8 +67,8 @@ struct RayFrame {
   int width;
   int height;
   std::uint32_t* rgba; // premultiplied, red in the lowest 8 bits
-  // Where rays end, pixel by pixel: the bits of a distance along the view in the upper half of each
-  // (ui/depth_mask/depth_image.h). Null: nowhere before the volume does.
+  // Where rays end, per pixel: the bits of a distance along the view, in the upper half of each
+  // (ui/depth_mask/depth_image.h). Null: only at the end of the volume.
   const std::uint64_t* stops;
   float* depth_mm; // along the view; no_depth where there is nothing
 };

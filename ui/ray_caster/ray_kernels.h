@@ -1,5 +1,5 @@
-// Rays through the volume, a packet of neighbouring pixels in the lanes of a register. Compiled for
-// every instruction set, chosen at run time.
+// Ray-casting kernels: each traces a packet of neighbouring pixels in the lanes of a register.
+// Compiled for every instruction set; the best is chosen at run time.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@
 
 namespace octascope::ui {
 
-// A part of the picture; x and y are multiples of tile_size.
+// A tile of the picture; x and y are multiples of tile_size.
 inline constexpr int tile_size = 32;
 struct Tile {
   int x;
   int y;
 };
 
-// How levels become light: through tables, in grey or in colour, or along a grey ramp.
+// How levels become colour and opacity: by tables, grey or coloured, or by a grey ramp.
 enum class Look : std::uint8_t { grey, coloured, ramp };
 
-// Functions of one instruction set. Each draws one tile and neither allocates nor locks.
+// The functions of one instruction set. Each draws one tile and neither allocates nor locks.
 struct RayKernels {
   using Draw = void (*)(const RayFrame& frame, Tile tile);
   const char* isa;
@@ -28,7 +28,7 @@ struct RayKernels {
   Draw maximum;
 };
 
-// The widest that this processor has, or the one named `isa`; nullptr where it has no such one.
+// The widest set that this processor has, or the one named `isa`; nullptr if it is not available.
 const RayKernels* ray_kernels(std::string_view isa = {});
 
 } // namespace octascope::ui

@@ -1,10 +1,11 @@
-// Levels between voxels, and the way through empty bricks. For one instruction set; see
-// ray_kernels.h.
+// Interpolates levels between voxels, and computes leaps over empty bricks. For one instruction
+// set; see ray_kernels.h.
 //
-// Positions are cells with 16 bits after the point. A gather brings the four corners of a cell in
-// one B-scan; interpolation is in integers of 16 bits: 8-bit weights along the slow axis, 16-bit
-// ones along the fast one, 15-bit ones along depth. Errors stay below a thirtieth of a level along
-// the last two and below half a 256th of the difference of two B-scans along the first.
+// Positions are in cells, fixed point with 16 fractional bits. A gather fetches the four corners of
+// a cell in one B-scan. Interpolation uses 16-bit integers: 8-bit weights along the slow axis,
+// 16-bit along the fast axis, 15-bit along depth. Errors stay below a thirtieth of a level along
+// the fast axis and depth, and below half a 256th of the difference of two B-scans along the slow
+// axis.
 #if defined(OCTASCOPE_RAY_SAMPLING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_RAY_SAMPLING_INL
 #undef OCTASCOPE_RAY_SAMPLING_INL
@@ -62,7 +63,7 @@ HWY_INLINE Int gather(const void* base, Int byte_offset) {
   return hn::GatherOffset(Ints{}, static_cast<const std::int32_t*>(base), byte_offset);
 }
 
-// Two products of neighbouring words, added.
+// The sum of two products of neighbouring words.
 HWY_INLINE Int dot_pairs(hn::Vec<Words> a, hn::Vec<Words> b, Int start) {
 #if HWY_ARCH_X86
   Int unused = hn::Zero(Ints{});
@@ -91,7 +92,7 @@ HWY_INLINE hn::Vec<UnsignedWords> fraction_twice(Int fixed) {
                                                            hn::LoadDup128(Bytes{}, order)));
 }
 
-// The eight corners of each lane's cell, and where in it the sample lies.
+// The eight corners of each lane's cell, and the sample's position in it.
 struct Cell {
   Int near, far; // one B-scan and the next: [depth][fast]
   hn::Vec<UnsignedWords> to_far, to_second, below;
@@ -107,7 +108,7 @@ HWY_INLINE Cell fetch_cell(const RayFrame& frame, const Position& p, IntMask val
           fraction_twice(p.a), hn::ShiftRight<1>(fraction_twice(p.z))};
 }
 
-// The interpolated level times 2^22, rounded half an entry of the transfer table upwards.
+// The interpolated level times 2^22, rounded up by half an entry of the transfer table.
 HWY_INLINE Int interpolate(const Cell& cell) {
   const UnsignedWords words;
   const auto near = hn::BitCast(words, cell.near);
@@ -131,11 +132,10 @@ HWY_INLINE Int table_entry(const std::uint32_t* table, Int level) {
                          hn::ShiftRight<entry_shift>(level));
 }
 
-// Steps that a ray can take without leaving an empty brick and those around it: what is needed of
-// it along one axis.
+// For leaping over empty bricks: a ray's step along one axis.
 struct BrickAxis {
-  Int step;      // cells a sample
-  Int towards;   // all ones for rays that go up this axis
+  Int step;      // cells per sample
+  Int towards;   // all ones for rays that ascend the axis
   Real per_step; // 1 / |step|
 };
 
@@ -148,7 +148,7 @@ HWY_INLINE BrickAxis make_brick_axis(Int step) {
   return axis;
 }
 
-// Samples until the far side of this brick and of `more` behind it.
+// Samples until the far side of this brick plus `more` bricks.
 template <int Shift>
 HWY_INLINE Real samples_to_side(const BrickAxis& axis, Int position, Int more) {
   const Int inside = hn::And(hn::Xor(position, axis.towards), whole((1 << Shift) - 1));
@@ -164,8 +164,8 @@ inline constexpr int brick_z_shift = 16 + pipeline::brick_depth_shift;
 inline constexpr int brick_a_shift = 16 + pipeline::brick_a_shift;
 inline constexpr int brick_b_shift = 16 + pipeline::brick_b_shift;
 
-// DistancesAhead's number for the brick that holds p, of an octant whose bricks begin there:
-// distance in bits 0–7, highest level in 8–15.
+// DistancesAhead's number for the brick that contains p; `octant` is the offset of the octant's
+// bricks. Distance in bits 0–7, highest level in bits 8–15.
 HWY_INLINE Int brick_at(const RayFrame& frame, Int octant, const Position& p, IntMask valid) {
   const Int index =
       hn::Add(hn::Add(hn::Mul(hn::ShiftRight<brick_b_shift>(p.b), whole(frame.brick_slab)),
@@ -174,13 +174,13 @@ HWY_INLINE Int brick_at(const RayFrame& frame, Int octant, const Position& p, In
   return gather(frame.bricks, hn::ShiftLeft<1>(hn::IfThenElseZero(valid, index)));
 }
 
-// To the first sample outside; at least one. The hundredth of a sample that is left to rounding
-// makes sure that no sample behind the side is missed: skipping does not change the picture.
+// Samples to the first one outside; at least one. The rounding leaves a margin of a hundredth of a
+// sample, so that no sample beyond the side is skipped: leaping does not change the picture.
 HWY_INLINE Int samples_to_leap(const BrickAxes& axes, const Position& p, Int more) {
   const Real samples = hn::Min(samples_to_side<brick_z_shift>(axes.z, p.z, more),
                                hn::Min(samples_to_side<brick_a_shift>(axes.a, p.a, more),
                                        samples_to_side<brick_b_shift>(axes.b, p.b, more)));
-  const Real bounded = hn::Min(samples, real(1 << 20)); // still a whole number as an integer
+  const Real bounded = hn::Min(samples, real(1 << 20)); // exactly representable as an integer
   return hn::Max(hn::ConvertTo(Ints{}, hn::Add(bounded, real(0.99F))), whole(1));
 }
 

@@ -1,4 +1,4 @@
-// A transfer function as the ray-casting kernels read it, for one length of step.
+// A transfer function for the ray-casting kernels, for one step length.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@
 
 namespace octascope::ui {
 
-// What the kernels read: one entry for each of TransferTable's.
+// One entry for each of TransferTable's.
 struct StepTable {
-  // Opacity of one step in the upper 16 bits, red or grey in the lower ones, both 65535 for 1.
+  // Opacity of one step in the upper 16 bits, red or grey in the lower ones; 65535 is 1.
   std::array<std::uint32_t, TransferTable::entries> opacity_and_red{};
   std::array<std::uint32_t, TransferTable::entries> green_and_blue{}; // upper and lower 16 bits
-  bool grey = true;                                                   // all channels are the same
+  bool grey = true;                                                   // all channels are equal
   VisibleLevels visible{};
 
-  // grey · polynomial(grey) instead of the tables, where that comes within 1e-4 of the opacity.
+  // grey · polynomial(grey), instead of the tables, if that is within 1e-4 of the opacity.
   struct Ramp {
     WindowRamp window;
     std::array<float, ramp_terms> opacity;

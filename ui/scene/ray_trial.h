@@ -1,4 +1,4 @@
-// Measures whether processor or shader casts rays faster on this machine.
+// Measures whether the processor or the shader casts rays faster on this machine.
 #pragma once
 
 #include "hal/clock.h"
@@ -16,9 +16,9 @@ struct RayTrial {
   }
 };
 
-// Draws a made-up volume with both, into textures of its own: about a tenth of a second where
-// GL is software. Bound to the thread and context that are current. ErrorCode::unsupported: one of
-// the two cannot draw here, so there is nothing to choose.
+// Draws a synthetic volume with both, into its own textures; takes about a tenth of a second with
+// software GL. Uses the current thread and context. ErrorCode::unsupported: one of the two cannot
+// draw here, so there is nothing to choose.
 hal::Result<RayTrial> try_ray_backends(const hal::Clock& clock);
 
 } // namespace octascope::ui

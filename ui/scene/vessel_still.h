@@ -1,4 +1,4 @@
-// A vessel tree alone, with a scale bar: for pictures that are kept.
+// A still picture of a vessel tree alone, with a scale bar.
 #pragma once
 
 #include <utility>
@@ -15,12 +15,12 @@ namespace octascope::ui {
 // Threads: as gl/objects.h.
 class VesselStill {
 public:
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<VesselStill> create();
 
-  // Over the whole of the bound framebuffer, of which the viewport is left as large as the scene:
-  // on the display's background, with a bar at the lower left that says how long a millimetre is
-  // where `mm_per_pixel` holds. Faults as VesselPicture::draw() and Fonts::create().
+  // Draws over the whole bound framebuffer, on the display's background, and leaves the viewport as
+  // large as the scene. The bar at the lower left shows a length in millimetres, which holds where
+  // `mm_per_pixel` does. Errors as VesselPicture::draw() and Fonts::create().
   hal::Result<SegmentCounts> draw(VesselMethod& method, const VesselScene& scene,
                                   float mm_per_pixel);
 

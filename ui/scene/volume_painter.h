@@ -1,5 +1,4 @@
-// The volume on the display: takes volumes, keeps one picture of them an eye, and lets GL or the
-// processor draw it.
+// Shows the volume: keeps one picture of it per eye, drawn by GL or by the processor.
 #pragma once
 
 #include <array>
@@ -22,65 +21,65 @@
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h, but for the ray caster's own helpers. Allocates when the size or the
-// geometry changes, or a technique, an eye or a backend is used for the first time.
+// Threads: as gl/objects.h, except for the ray caster's own helpers. Allocates when the size or the
+// geometry changes, or when a technique, an eye or a backend is first used.
 class VolumePainter {
 public:
-  // `threads` is called on each thread that is started here, at once or later: "rays" (several:
-  // the ray caster's helpers) and "surface" (the iso-surface's), and is kept.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // `threads` is kept and called on each thread started here, now or later: "rays" (several: the
+  // ray caster's helpers) and "surface" (the iso-surface's). ErrorCode::unsupported: this GL cannot
+  // compile the shaders.
   static hal::Result<VolumePainter> create(const TransferSet& transfers = {},
                                            const pipeline::ThreadSetup& threads = {});
 
-  // Copies the volume, and its occupancy where that is known already (without the blank depth
-  // bins); else works it out. ErrorCode::invalid_argument: the occupancy is of another geometry. On
-  // that and on the errors of VolumeTexture::upload(), the last volume stays.
+  // Copies the volume and its occupancy (without the blank depth bins); computes the occupancy if
+  // it is not given. ErrorCode::invalid_argument: the occupancy has another geometry. After that
+  // and after the errors of VolumeTexture::upload(), the previous volume stays.
   hal::Result<> show(const pipeline::Volume& volume);
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
 
-  // From the next update() on, where the view shows vessels. The tree stays borrowed until others
-  // are shown; an empty one shows none. `clock` outlives this. ErrorCode::unsupported: this
+  // From the next update() on, if the view shows vessels. The tree is borrowed until others are
+  // shown; an empty one shows none. `clock` must outlive the painter. ErrorCode::unsupported: this
   // processor cannot draw vessels.
   hal::Result<> show_vessels(const PlacedVessels& vessels, const hal::Clock& clock);
   const VesselOverlay* vessels() const { return vessels_ ? &*vessels_ : nullptr; }
 
-  // Has the processor ready to cast the rays of volumes that are shown from now on.
+  // Prepares the processor to cast the rays of all volumes shown from now on.
   void want_processor();
 
-  // Brings the eye's picture up to date; `camera` is that eye's, for the rectangle's aspect.
+  // Brings the eye's picture up to date; `camera` must be that eye's, with the rectangle's aspect.
   hal::Result<> update(StereoEye eye, const ViewState& view, const Camera& camera,
                        const DrawQuality& quality, const Rect& rect);
-  // Blends it over the bound framebuffer.
+  // Blends the eye's picture over the bound framebuffer.
   void composite(StereoEye eye, const Rect& rect, int target_height) const;
 
-  // The view needs data that was not computed for the shown volume: show() it again.
+  // Whether the view needs data that was not computed for the shown volume. If so, show() it again.
   bool wants_volume(const ViewState& view) const;
-  // update() would make another picture of the same volume and view: a mesh has been finished.
+  // Whether update() would redraw the same volume and view, because a mesh has been finished.
   bool has_newer(const ViewState& view) const;
-  // Waits until update() has all that it needs for the view at that quality (a mesh, the
-  // processor's copy of the volume): for commands and tests. `volume` is the one that was shown
-  // last.
+  // Waits until update() has everything for the view at that quality (a mesh, the processor's copy
+  // of the volume): for commands and tests. `volume` must be the one shown last.
   hal::Result<> finish(const pipeline::Volume& volume, const ViewState& view,
                        const DrawQuality& quality = {});
 
   bool empty() const { return texture_.empty(); }
   const VolumeTexture& texture() const { return texture_; }
-  std::uint64_t uploads() const { return uploads_; } // counts the volumes shown
+  std::uint64_t uploads() const { return uploads_; } // the number of volumes shown
 
-  // Counts the pictures that update() made; it makes none where nothing has changed.
+  // The number of pictures that update() drew; unchanged pictures are not redrawn.
   std::uint64_t drawings() const;
 
-  // Who casts rays with that quality. The processor does from the first volume on that is shown
-  // after it was first asked to, or where GL is software, always; but not volumes that are too
-  // large for the ray caster, nor where that knows no instruction set of the processor.
+  // What casts the rays at that quality: `quality.rays`, by default the processor if GL is software
+  // and else the shader. Always the shader until a volume was shown after the processor was first
+  // requested, for volumes that are too large for the ray caster, and if the ray caster supports
+  // none of the processor's instruction sets.
   RayBackend backend(const DrawQuality& quality) const;
 
 private:
   struct EyePictures {
     VolumePicture by_gl;
-    std::optional<VolumePicture> alone_by_gl; // where vessels are not opaque
+    std::optional<VolumePicture> alone_by_gl; // without vessels, if these are not opaque
     std::optional<RayCastPicture> by_processor;
-    bool processor_drew = false; // the last update()
+    bool processor_drew = false; // in the last update()
   };
 
   VolumePainter(bool software, const TransferSet& transfers, const pipeline::ThreadSetup& threads);
@@ -95,7 +94,7 @@ private:
   hal::Result<> cast_rays(EyePictures& pictures, const VolumeScene& scene,
                           const DrawQuality& quality, const Rect& rect);
 
-  // What the transfer function was made of.
+  // The inputs of the transfer function.
   struct TransferSource {
     float window_offset_db;
     float window_size_db;
@@ -110,14 +109,14 @@ private:
   pipeline::ThreadSetup threads_;
   VolumeTexture texture_;
   pipeline::Occupancy occupancy_;
-  pipeline::Occupancy own_occupancy_; // for volumes that come without
+  pipeline::Occupancy own_occupancy_; // for volumes that come without one
   std::uint64_t uploads_ = 0;
   std::unique_ptr<TransferTable> transfer_;
   TransferTexture transfer_texture_;
   std::optional<TransferSource> transfer_source_;
   VolumeTechniques techniques_;
-  std::optional<VesselOverlay> vessels_; // nothing until some are shown
-  std::optional<RayCaster> caster_;      // nothing until it is wanted
+  std::optional<VesselOverlay> vessels_; // empty until some are shown
+  std::optional<RayCaster> caster_;      // empty until requested
   bool caster_wanted_ = false;
   bool caster_shows_ = false; // the same volume as the texture
   bool surface_shows_ = false;

@@ -1,4 +1,4 @@
-// How live the picture is: the rule that nothing old ever looks live.
+// How live the picture is: old data must never look live.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 namespace octascope::ui {
 
 enum class Liveness : std::uint8_t {
-  waiting, // no volume has come yet
+  waiting, // no volume has arrived yet
   live,
-  stale,    // no fresh volume for more than one and a half volume periods
+  stale,    // no new volume for more than one and a half volume periods
   veiled,   // none for longer than the limit: the picture is covered
   frozen,   // by the surgeon
-  replayed, // what is shown was recorded: it is never live, and cannot become stale either
+  replayed, // from a recording: never live, and cannot become stale
 };
 
-// What is on the screen, as times.
+// The times of the shown volume.
 struct ShownVolume {
   hal::TimePoint last_line; // camera timestamp of the volume's last line: its age counts from here
   hal::TimePoint arrived;   // when it could be shown: its successor is due one period later
@@ -38,8 +38,8 @@ struct Freshness {
   bool operator==(const Freshness&) const = default;
 };
 
-// Pure. `frozen_since` is empty unless the surgeon has frozen the picture; freezing wins over
-// staleness, because a frozen picture says with its own badge that it does not move.
+// Pure. `frozen_since` is empty unless the surgeon has frozen the picture. Frozen takes precedence
+// over stale, because a frozen picture has its own badge.
 Freshness judge_freshness(const std::optional<ShownVolume>& shown, hal::TimePoint now,
                           const FreshnessLimits& limits,
                           const std::optional<hal::TimePoint>& frozen_since);

@@ -1,4 +1,4 @@
-// What the heads-up display shows about the machine. Plain data, filled in by the host.
+// The state of the machine for the heads-up display. Plain data, filled in by the host.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ namespace octascope::ui {
 
 struct DeviceStatus {
   pipeline::Device device{};
-  std::string_view backend; // "v4l2", "sim" …: a literal
+  std::string_view backend; // "v4l2", "sim" …: must be a literal
   hal::DeviceState state = hal::DeviceState::absent;
   bool operator==(const DeviceStatus&) const = default;
 };
@@ -34,36 +34,36 @@ struct Losses {
   bool operator==(const Losses&) const = default;
 };
 
-// The vessel tree that is shown in the volume.
+// The vessel tree shown in the volume.
 struct VesselStatus {
   enum class State : std::uint8_t { none, loading, shown, failed };
   State state = State::none;
-  float progress = 0;      // 0…1, while it is loaded
+  float progress = 0;      // of loading, 0…1
   bool registered = false; // to the volume; else its place in the picture has no meaning
-  std::array<bool, pipeline::vessel_branch_count> branches{}; // which ones it has
-  SegmentCounts account;                                      // of the newest frame that drew it
+  std::array<bool, pipeline::vessel_branch_count> branches{}; // the branches that it has
+  SegmentCounts account;                                      // of the last frame that drew it
   bool operator==(const VesselStatus&) const = default;
 };
 
-// Of a recording that is shown instead of the live volume.
+// A recording that is shown instead of the live volume.
 struct ReplayStatus {
-  std::string recorded; // local date and time of the shown volume; empty: none is shown yet
+  std::string recorded; // local date and time of the shown volume; empty: none shown yet
   std::string whose;    // eye and subject of the recording, or that they are unknown
   bool operator==(const ReplayStatus&) const = default;
 };
 
-// Whether the configuration is the one that was asked for.
+// Whether the configuration in use is the requested one.
 enum class ConfigurationState : std::uint8_t {
   own,
-  last_good, // an older one, because that one cannot be used
-  built_in,  // the program's own: scale and calibration may be another device's
+  last_good, // an older one, because the requested one is unusable
+  built_in,  // the program's own: scale and calibration may belong to another device
 };
 
-// Volumes are being kept.
+// A recording is in progress.
 struct RecordingStatus {
   bool on = false;
   hal::Duration lasted{};
-  std::uint64_t not_kept = 0; // volumes for which the disk was too slow
+  std::uint64_t not_kept = 0; // volumes dropped because the disk was too slow
   pipeline::Eye eye = pipeline::Eye::not_said;
   bool operator==(const RecordingStatus&) const = default;
 };
@@ -71,7 +71,7 @@ struct RecordingStatus {
 struct Status {
   static constexpr std::size_t most_devices = 8;
 
-  hal::TimePoint now; // of this frame; ages and echoes are judged against it
+  hal::TimePoint now; // of this frame; reference for ages and echoes
 
   double volumes_per_s = 0;
   double lines_per_s = 0;
@@ -82,31 +82,31 @@ struct Status {
   Losses losses;
 
   std::array<DeviceStatus, most_devices> devices;
-  std::size_t device_count = 0; // how many of `devices` are used
+  std::size_t device_count = 0; // used entries of `devices`
 
   std::optional<ReplayStatus> replay; // empty: the volumes are live
-  bool simulated = false;             // any part of the picture is not the patient's
+  bool simulated = false;             // any part of the picture is simulated
   std::string source_description;     // "phantom eye, loop of 2.3 s"; short
 
   ConfigurationState configuration = ConfigurationState::own;
-  bool another_camera = false; // the camera is not the one of the calibration
+  bool another_camera = false; // not the camera of the calibration
 
   Freshness freshness;
   int missing_b_scans = 0; // of the shown volume
   int saturated_lines = 0;
 
-  // Set while the volume is drawn more coarsely than it could be: the share of its full fineness.
+  // Set while the volume is drawn at reduced quality: the share of full quality.
   std::optional<float> reduced_quality;
 
   VesselStatus vessels;
 
   RecordingStatus recording;
 
-  // What pedal and knob do, and what keys do; null: nothing to show. They outlive every draw().
+  // Of pedal and knob, and of the keys; null: nothing to show. They must outlive every draw().
   const Legend* legend = nullptr;
   const Legend* key_legend = nullptr;
 
-  std::string notice; // one line that the surgeon should read; empty: none
+  std::string notice; // one line for the surgeon; empty: none
 };
 
 } // namespace octascope::ui

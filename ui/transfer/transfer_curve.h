@@ -8,7 +8,7 @@
 
 namespace octascope::ui {
 
-// At u, a place in the window: 0 at its offset, 1 at its upper end.
+// u is the position in the window: 0 at its offset, 1 at its upper end.
 struct CurvePoint {
   float u = 0;
   float opacity = 0;
@@ -20,13 +20,13 @@ public:
   static constexpr std::size_t most_points = 64;
   static constexpr std::size_t most_entries = 4096;
 
-  // The paper's formula (1): opacity = u.
+  // Formula (1) of the OCT paper: opacity = u.
   static TransferCurve ramp();
 
-  // 2 to 64 points, u rising, all within 0…1; ErrorCode::invalid_argument says which is not. Before
-  // the first and after the last point the opacity stays.
+  // 2 to 64 points, u rising, all values within 0…1; ErrorCode::invalid_argument names the
+  // offender. The opacity is constant before the first and after the last point.
   static hal::Result<TransferCurve> piecewise(std::span<const CurvePoint> points);
-  // A cubic Hermite spline that rises and falls only where its points do, so that it never leaves
+  // A monotone cubic Hermite spline: it rises and falls only where its points do and never leaves
   // their range (F. N. Fritsch, R. E. Carlson, "Monotone piecewise cubic interpolation", SIAM
   // Journal on Numerical Analysis 17, 1980).
   static hal::Result<TransferCurve> spline(std::span<const CurvePoint> points);

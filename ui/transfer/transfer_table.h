@@ -1,4 +1,4 @@
-// From a level to what it looks like.
+// Colour and opacity of each level.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace octascope::ui {
 
-// A transfer function, sampled at sixteenths of a level, so that interpolated levels can be looked
+// A transfer function sampled at sixteenths of a level, so that interpolated levels can be looked
 // up and narrow windows keep their ramp.
 struct TransferTable {
   static constexpr int entries_per_level = 16;
@@ -24,8 +24,8 @@ struct TransferTable {
   std::array<Colour, entries> colour{}; // 0…1, not premultiplied
   std::array<float, entries> opacity{}; // 0…1, over one reference step
 
-  // Where the table is nothing but a display window: sixteen samples are looked up one by one, but
-  // a ramp is computed for all at once.
+  // Set if the table is only a display window: kernels then compute the ramp for sixteen samples at
+  // once, instead of looking them up one by one.
   struct Window {
     WindowRamp ramp;
     float opacity;
@@ -33,7 +33,7 @@ struct TransferTable {
   std::optional<Window> window;
 };
 
-// The paper's formula (1), as the shaders have it: grey rises from 0 to 1 across the window, and
+// Formula (1) of the OCT paper, as in the shaders: grey rises from 0 to 1 across the window, and
 // opacity is grey · ViewState::opacity.
 void make_window_table(const ViewState& view, TransferTable& table);
 

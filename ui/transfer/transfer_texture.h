@@ -1,4 +1,4 @@
-// The transfer function as shaders sample it.
+// The transfer function as a texture for shaders.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace octascope::ui {
 
-// The table's entries one after the other in the rows of an RGBA32F texture: colour, and the
-// opacity of one reference step. Shaders fetch two neighbours and interpolate (transfer.glsl): GL
-// ES 3.0 promises to filter neighbours of 16 bits only, which is too few for what is nearly opaque,
-// and 2048 texels in a row, which is half a table.
+// An RGBA32F texture with the table's entries, row after row: colour, and the opacity of one
+// reference step. Shaders fetch two neighbours and interpolate (transfer.glsl), because GL ES 3.0
+// guarantees filtering only for 16-bit texels, which are too coarse for nearly opaque values, and
+// only 2048 texels per row, which is half a table.
 //
 // Threads: as gl/objects.h. update() allocates nothing.
 class TransferTexture {
@@ -25,16 +25,16 @@ public:
 
   TransferTexture();
 
-  // Uploads the table unless it is the same as the last one.
+  // Uploads the table if it differs from the last one.
   void update(const TransferTable& table);
 
   GLuint name() const { return texture_.name(); }
-  // Where the table is a display window, shaders compute it: looking it up costs a software
-  // rasteriser more.
+  // Set if the table is a display window: shaders then compute it, because a software rasteriser
+  // takes longer to look it up.
   const std::optional<TransferTable::Window>& window() const { return window_; }
-  // What shaders can see of it.
+  // The levels that are visible in shaders.
   const VisibleLevels& visible() const { return visible_; }
-  // Counts the uploads: 0 before the first.
+  // Counts the uploads; 0 before the first.
   std::uint64_t version() const { return version_; }
 
 private:

@@ -19,7 +19,7 @@ enum class Action : std::uint8_t {
   reset_view,
   next_parameter,
   previous_parameter,
-  adjust, // turns or does the action that was chosen with next_parameter
+  adjust, // turns or does the action selected with next_parameter
   freeze,
   technique,
   transfer,
@@ -31,14 +31,14 @@ enum class Action : std::uint8_t {
   vessels,
   vessel_opacity,
   vessel_colours,
-  vessel_shift_x, // in the volume's frame, x along a B-scan, y from B-scan to B-scan, z with depth
+  vessel_shift_x, // in the volume's frame: x along a B-scan, y from B-scan to B-scan, z with depth
   vessel_shift_y,
   vessel_shift_z,
   vessel_turn_x,
   vessel_turn_y,
   vessel_turn_z,
   vessel_account,
-  keep_registration,  // writes the shifted and turned registration to a file
+  keep_registration,  // saves the shifted and turned registration to a file
   reset_registration, // undoes shifts and turns
   box,
   snapshot,
@@ -61,16 +61,16 @@ constexpr std::array<Action, action_count> all_actions() {
 }
 
 enum class ActionKind : std::uint8_t {
-  continuous, // moves a value by so many detents
-  choice,     // one of several: a step chooses the next, a negative step the one before
+  continuous, // changes a value by detents
+  choice,     // one of several: a step selects the next, a negative step the previous
   toggle,     // a press switches over; a knob turned right switches on, left off
-  momentary,  // happens once; cannot be turned
-  deliberate, // happens once; turned, right does it
+  momentary,  // happens once; not for knobs
+  deliberate, // happens once; also when a knob is turned right
 };
 
 ActionKind kind_of(Action action);
 
-// Whether a knob can do it.
+// Whether a knob can trigger it.
 constexpr bool takes_detents(ActionKind kind) {
   return kind != ActionKind::momentary;
 }

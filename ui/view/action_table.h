@@ -1,8 +1,8 @@
-// One row an action: its names, its keys, and what it changes of the view, with range and words.
+// One row per action: names, keys, and the view value that it changes, with range and text.
 //
-// Help, legend, key bindings, report and settings are made from these rows. To add an action, add
-// its enumerator (action.h) and its row; if it does more than change the view's value, say what in
-// ViewActions (ui/controls/view_actions.h).
+// Help, legend, key bindings, report and settings are generated from these rows. To add an action,
+// add its enumerator (action.h) and its row; if it does more than change the view's value,
+// implement that in ViewActions (ui/controls/view_actions.h).
 #pragma once
 
 #include <array>
@@ -24,15 +24,15 @@ namespace octascope::ui {
 
 using ValueText = FixedText<48>;
 
-// A key of the keyboard; 0: none.
+// A key of the keyboard.
 struct ActionKey {
-  std::uint16_t key = 0; // hal::DisplayEvent::key
-  int step = 0;          // −1 or 1; 0: shift decides
+  std::uint16_t key = 0; // hal::DisplayEvent::key; 0: none
+  int step = 0;          // −1 or 1; 0: depends on shift
 };
 inline constexpr std::size_t most_keys = 5;
 
-// What an action changes of the view. Each kind of value copies itself from one view to another and
-// tells whether two views have the same.
+// What an action changes in the view. Each kind of value can be copied from one view to another and
+// compared between two views.
 
 struct NoValue {
   static void copy(const ViewState&, ViewState&) {}
@@ -43,8 +43,8 @@ inline constexpr float last_b_scan = std::numeric_limits<float>::infinity();
 
 struct NumberRange {
   float lowest;
-  float highest; // last_b_scan: whichever that is
-  float detent;  // what one click of the knob changes
+  float highest; // last_b_scan: the last B-scan of the volume
+  float detent;  // change per knob detent
 };
 
 // Exactly one of the three pointers is set.
@@ -52,13 +52,13 @@ struct Number {
   float ViewState::*number = nullptr;
   int ViewState::*index = nullptr;
   std::array<float, 3> VesselNudge::*nudge = nullptr;
-  std::size_t axis = 0; // of nudge
+  std::size_t axis = 0; // of the nudge
   NumberRange range{};
   ValueText (*words)(float value) = nullptr; // "36 dB"
-  bool cyclic = false;                       // the highest value is the lowest one, too
+  bool cyclic = false;                       // wraps around: highest equals lowest
 
   float of(const ViewState& view) const;
-  void set(ViewState& view, float value) const; // brought into the range
+  void set(ViewState& view, float value) const; // clamps to the range
   void copy(const ViewState& from, ViewState& to) const { set(to, of(from)); }
   bool same(const ViewState& a, const ViewState& b) const { return of(a) == of(b); }
 };
@@ -72,7 +72,7 @@ struct Flag {
   bool same(const ViewState& a, const ViewState& b) const { return a.*flag == b.*flag; }
 };
 
-// One of an enumeration.
+// A value of an enumeration.
 struct Choice {
   std::size_t (*of)(const ViewState& view);
   void (*set)(ViewState& view, std::size_t value);
@@ -82,7 +82,7 @@ struct Choice {
   bool same(const ViewState& a, const ViewState& b) const { return of(a) == of(b); }
 };
 
-// One of what the configuration names.
+// One of the entries named in the configuration.
 struct NamedChoice {
   int ViewState::*index;
   std::vector<std::string> ChoiceNames::*names;
@@ -93,11 +93,11 @@ struct NamedChoice {
 
 using ActionValue = std::variant<NoValue, Number, Flag, Choice, NamedChoice>;
 
-// What holds for an action, or'ed.
+// Properties of an action, combined with |.
 namespace trait {
 inline constexpr unsigned drawn = 1;          // its value changes the volume's picture
-inline constexpr unsigned home = 2;           // reset_view sets its value back
-inline constexpr unsigned kept = 4;           // its value is a setting, which outlives a run
+inline constexpr unsigned home = 2;           // reset_view resets its value
+inline constexpr unsigned kept = 4;           // its value is a setting, saved between runs
 inline constexpr unsigned needs_stereo = 8;   // next_parameter skips it unless in stereo
 inline constexpr unsigned needs_vessels = 16; // next_parameter skips it unless vessels are shown
 } // namespace trait
@@ -109,7 +109,7 @@ struct ActionRow {
   ActionKind kind;
   std::array<ActionKey, most_keys> keys;
   ActionValue value;
-  std::string_view key; // of the value in reports and settings; empty: in neither
+  std::string_view key; // of the value in reports and settings; empty: not in them
   unsigned traits = 0;
 
   bool has(unsigned trait) const { return (traits & trait) != 0; }
@@ -122,12 +122,12 @@ inline const ActionRow& row_of(Action action) {
   return action_table()[index_of(action)];
 }
 
-// The number that an action turns; null for all other actions.
+// The number that an action changes; null for all other actions.
 inline const Number* number_of(Action action) {
   return std::get_if<Number>(&row_of(action).value);
 }
 
-// With numbers for both ends; empty for an action that turns no number.
+// With resolved ends; empty for actions that change no number.
 NumberRange range_of(Action action, int b_scans = 1);
 
 // For std::visit.

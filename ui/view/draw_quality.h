@@ -1,4 +1,4 @@
-// How finely the volume is drawn. The governor (ui/pacing) sets it.
+// The drawing quality of the volume, set by the governor (ui/pacing).
 #pragma once
 
 #include <cstdint>
@@ -6,15 +6,14 @@
 
 namespace octascope::ui {
 
-// Who casts rays.
+// What casts the rays.
 enum class RayBackend : std::uint8_t { shader, processor };
 
 struct DrawQuality {
   float resolution = 1; // of the volume's picture, per display pixel and axis
-  int steps = 256;      // samples along the longest edge of the volume's box; planes of a stack
-                        // are as far apart
-  std::optional<RayBackend> rays{}; // else the processor where GL is software, and the shader where
-                                    // it is not
+  int steps = 256;      // samples along the longest edge of the volume's box; sets the distance of
+                        // the planes of a stack, too
+  std::optional<RayBackend> rays{}; // default: the processor if GL is software, else the shader
   float vessel_detail_px = 0;       // vessels of a smaller radius are merged (ui/vessels/splatter)
   bool operator==(const DrawQuality&) const = default;
 };

@@ -1,15 +1,15 @@
-// Where the segments of a vessel tree went.
+// How the segments of a vessel tree were drawn.
 #pragma once
 
 #include <cstdint>
 
 namespace octascope::ui {
 
-// Where the segments of one frame went; they add up to the tree's.
+// Counts for one frame; they add up to the tree's segments.
 struct SegmentCounts {
   std::uint64_t drawn = 0;    // by GL
   std::uint64_t splatted = 0; // by the processor, pixel by pixel
-  std::uint64_t merged = 0;   // represented by others that were drawn in their place
+  std::uint64_t merged = 0;   // represented by others drawn in their place
   std::uint64_t culled = 0;   // outside the picture
   std::uint64_t total() const { return drawn + splatted + merged + culled; }
   bool operator==(const SegmentCounts&) const = default;

@@ -11,8 +11,8 @@ namespace octascope::ui {
 enum class Technique : std::uint8_t {
   slices,  // object-aligned stack: the volume's own slices along the axis nearest to the view
   planes,  // view-aligned stack: planes perpendicular to the view through the 3D texture
-  rays,    // ray casting, front to back, ended early, leaping over empty bricks
-  shaded,  // the same, with gradient lighting and depth cue
+  rays,    // ray casting, front to back, with early termination and skipping of empty bricks
+  shaded,  // the same, with gradient lighting and a depth cue
   maximum, // maximum intensity projection
   surface, // iso-surface, shaded
 };

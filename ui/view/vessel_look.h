@@ -12,12 +12,12 @@ namespace octascope::ui {
 enum class VesselColouring : std::uint8_t {
   branch,     // RCA, LAD, LCX
   order,      // from capillaries to the main arteries
-  diagnostic, // red what GL drew, white what the processor did
+  diagnostic, // red: drawn by GL, white: by the processor
 };
 
-using VesselColour = std::array<float, 3>; // 0…1, as it is displayed
+using VesselColour = std::array<float, 3>; // 0…1, display-referred
 
-// By VesselBranch: told apart by lightness too, for those who see red and green alike.
+// By VesselBranch. They also differ in lightness, for red-green colour blindness.
 inline constexpr std::array<VesselColour, pipeline::vessel_branch_count> branch_colours{{
     {0.85F, 0.85F, 0.82F},
     {0.93F, 0.33F, 0.24F},
@@ -44,8 +44,8 @@ inline constexpr VesselColour drawn_by_processor{1, 1, 1};
 
 struct VesselLook {
   VesselColouring colouring = VesselColouring::branch;
-  // Brightness falls by this share from the near to the far end of the depth range of what is
-  // drawn; 0: no cue. Near and far are distances along the view, in mm.
+  // Depth cue: the share of brightness lost from the near to the far end of what is drawn; 0: none.
+  // Near and far are distances along the view, in mm.
   float depth_cue = 0.55F;
   float cue_near_mm = 0;
   float cue_far_mm = 1;
@@ -53,13 +53,13 @@ struct VesselLook {
   bool operator==(const VesselLook&) const = default;
 };
 
-// Light from the eye on a round vessel: `d` is the distance from its axis in radii (0…1).
+// Light from the eye on a round vessel. `d`: distance from the axis in radii (0…1).
 inline constexpr float vessel_ambient = 0.35F;
 inline float vessel_brightness(float d) {
   return vessel_ambient + (1 - vessel_ambient) * std::sqrt(std::fmax(0.0F, 1 - d * d));
 }
 
-// What a distance along the view leaves of the brightness.
+// The brightness that remains at a distance along the view.
 inline float vessel_fading(const VesselLook& look, float depth_mm) {
   const float share = (depth_mm - look.cue_near_mm) / (look.cue_far_mm - look.cue_near_mm);
   return 1 - look.depth_cue * std::fmin(std::fmax(share, 0.0F), 1.0F);

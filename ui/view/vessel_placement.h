@@ -1,4 +1,4 @@
-// Where a vessel tree lies in the volume. Pure.
+// The position of a vessel tree in the volume. Pure.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace octascope::ui {
 
-// By how much the surgeon has moved the tree, in the volume's frame (pipeline/vessels/
-// registration.h): first turned about the volume's centre, about x, then y, then z, then shifted.
+// How the surgeon has moved the tree, in the volume's frame (pipeline/vessels/registration.h):
+// turned about the volume's centre, about x, then y, then z, and then shifted.
 struct VesselNudge {
   std::array<float, 3> shift_mm{};
   std::array<float, 3> turn_deg{};
@@ -29,12 +29,12 @@ struct PlacedVessels {
   std::optional<pipeline::RigidTransform> volume_from_tree; // empty: not registered
 };
 
-// The tree's place in the volume's frame. What is not registered lies with its centre in the
-// volume's, unscaled and unturned.
+// From the tree's frame to the volume's. Without a registration the tree's centre lies in the
+// volume's centre, unscaled and unturned.
 pipeline::RigidTransform volume_from_tree(const PlacedVessels& vessels, const VesselNudge& nudge,
                                           const pipeline::VolumeGeometry& geometry);
 
-// The same, to the axes of pictures.
+// The same, but to world axes (ui/view/camera.h).
 glm::mat4 world_from_tree(const PlacedVessels& vessels, const VesselNudge& nudge,
                           const pipeline::VolumeGeometry& geometry);
 

@@ -1,6 +1,6 @@
-// What the surgeon has chosen: the direction of view, the display window, what is shown.
+// The surgeon's choices: view direction, display window, what is shown.
 //
-// A plain value with one writer, the render thread: ViewActions changes it at the head of a frame,
+// A plain value with one writer, the render thread: ViewActions changes it at the start of a frame,
 // and the frame is drawn from it.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace octascope::ui {
 
-// How the display is divided.
+// The arrangement of the display.
 enum class LayoutKind : std::uint8_t {
   volume,     // large 3D view, the other pictures in a column
   b_scan,     // large B-scan, the others small
@@ -26,57 +26,57 @@ enum class LayoutKind : std::uint8_t {
 // For displays that show one picture to each eye.
 enum class StereoMode : std::uint8_t { off, side_by_side, top_bottom };
 
-// What a control just did, for the display to say.
+// What a control just did, to be shown on the display.
 struct Echo {
   Action action = Action::window_offset;
-  bool chosen = false;    // the knob turns it from now on
+  bool chosen = false;    // the knob has just been assigned to it
   FixedText<48> words;    // the result; empty for a number, which the display formats itself
-  hal::TimePoint until{}; // shown until then
+  hal::TimePoint until{}; // end of display
 
   bool operator==(const Echo&) const = default;
 };
 
 struct ViewState {
-  // The camera always faces the centre of the volume. Yaw turns about the depth axis, tilt raises
-  // the eye; tilt 0 looks along the surface, 90 straight down onto it (en face).
+  // The camera always faces the centre of the volume. Yaw turns about the depth axis; tilt raises
+  // the eye: tilt 0 looks along the surface, 90 straight down onto it (en face).
   float yaw_deg = 35;
   float tilt_deg = 35;
   float distance = 3.1F; // from the centre, in half-diagonals of the volume's box
 
-  // Display window in decibels, the paper's formula (1): opacity is 0 below `offset`, rises to 1
-  // over `size`, and grey equals opacity.
+  // Display window in decibels, formula (1) of the OCT paper: opacity is 0 below `offset` and rises
+  // to 1 over `size`; grey equals opacity.
   float window_offset_db = 8;
   float window_size_db = 36;
 
   Technique technique = Technique::rays;
-  int transfer = 0;              // which of the loaded transfer functions; 0 is the window itself
-  int colour_map = 0;            // which of the colour maps; 0 is grey
+  int transfer = 0;              // index of the transfer function; 0 is the window itself
+  int colour_map = 0;            // index of the colour map; 0 is grey
   float opacity = 0.5F;          // of a voxel at the top of the window, per reference step
   bool box_visible = true;       // the wire-frame box
-  bool frozen = false;           // the volume stays, the view still moves
+  bool frozen = false;           // the volume stays; the view can still move
   hal::TimePoint frozen_since{}; // when `frozen` became true
   LayoutKind layout = LayoutKind::volume;
   StereoMode stereo = StereoMode::off;
   float parallax_deg = 3;      // between the two eyes, seen from the centre of the volume
-  bool vessels_visible = true; // the vessel tree, where one is loaded
+  bool vessels_visible = true; // the vessel tree, if one is loaded
   float vessel_opacity = 1;
   VesselColouring vessel_colouring = VesselColouring::branch;
-  VesselNudge vessel_nudge;    // since it was registered
-  bool vessel_account = false; // how many of its segments were drawn, and how
+  VesselNudge vessel_nudge;    // relative to the registration
+  bool vessel_account = false; // shows the segment counts
   bool legend_visible = false; // what each control does
-  bool legend_of_keys = false; // what each key does, in its place
-  int b_scan = 40;             // position of the B-scan panel, an index on the slow axis
+  bool legend_of_keys = false; // shows the keys instead
+  int b_scan = 40;             // index of the panel's B-scan on the slow axis
 
-  Action selected = Action::window_offset; // what the knob turns
+  Action selected = Action::window_offset; // what the knob controls
   Echo echo;
 
-  ViewState clamped() const; // every value brought into its range (action_table.h)
+  ViewState clamped() const; // with every value in its range (action_table.h)
 
   bool operator==(const ViewState&) const = default;
 };
 
-// Whether the volume's picture is the same in both: same place of the eye, same window, technique,
-// layout, vessels and so on (trait::drawn in action_table.h).
+// Whether the volume's picture is the same for both: same eye position, window, technique, layout,
+// vessels and so on (trait::drawn in action_table.h).
 bool same_sight(const ViewState& a, const ViewState& b);
 
 } // namespace octascope::ui

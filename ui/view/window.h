@@ -1,4 +1,4 @@
-// The display window as the shaders take it.
+// The display window in the form that shaders use.
 #pragma once
 
 #include "pipeline/volume/level_scale.h"
@@ -6,7 +6,7 @@
 
 namespace octascope::ui {
 
-// The paper's formula (1) on a normalised sample t = count / 255 of the volume:
+// Formula (1) of the OCT paper on a normalised sample t = count / 255 of the volume:
 // opacity = clamp(scale · t + offset, 0, 1).
 struct WindowRamp {
   float scale;

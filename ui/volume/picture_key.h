@@ -1,4 +1,4 @@
-// What a picture of the volume depends on. Pure.
+// Everything that a picture of the volume depends on. Pure.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct VolumePictureKey {
   float window_size_db = 0;
   float opacity = 0;
   Technique technique = Technique::rays;
-  std::uint64_t vessels = 0; // which picture of them; 0: none
+  std::uint64_t vessels = 0; // version of their picture; 0: none
   float vessel_opacity = 1;
   float step_mm = 0;
   int width = 0;
@@ -31,10 +31,10 @@ struct VolumePictureKey {
 VolumePictureKey volume_picture_key(const VolumeScene& scene, const DrawQuality& quality,
                                     const Rect& rect);
 
-// Of the volume's picture, for so many of the display.
+// The pixels of the volume's picture, for that many display pixels.
 int picture_pixels(const DrawQuality& quality, int display_pixels);
 
-// Between samples, where the longest edge of the volume's box has so many.
+// The distance between samples; the quality gives their number on the longest edge of the box.
 float step_mm(const DrawQuality& quality, const pipeline::VolumeGeometry& geometry);
 
 } // namespace octascope::ui

@@ -5,8 +5,8 @@
 
 namespace octascope::ui {
 
-// As many planes as the step asks for, spread evenly, half of their spacing from the borders of the
-// volume: ui/view/plane_box.h has the source.
+// As many planes as the step requires, evenly spaced, the outermost half a spacing from the
+// volume's borders; source: see ui/view/plane_box.h.
 //
 // Threads: as gl/objects.h. Allocates when it is made, never afterwards.
 class PlaneStack : public VolumeTechnique {

@@ -1,5 +1,5 @@
-// Draws parallel polygons through the volume, front to back: what plane stack and slice stack
-// share.
+// Draws parallel polygons through the volume, front to back; used by the plane stack and the slice
+// stack.
 #pragma once
 
 #include <vector>
@@ -22,14 +22,14 @@ public:
   static hal::Result<PolygonStack> create();
 
   void clear() { used_ = 0; }
-  void add(const PlanePolygon& polygon); // behind those before it; ignored where it is too many
+  void add(const PlanePolygon& polygon); // behind the previous ones; ignored if there are too many
 
   struct Spacing {
     glm::vec3 normal; // of the polygons, away from the eye, a unit vector
-    float mm;         // from one to the next along it
-    bool dithered;    // samples lie up to half of it before or behind the polygon
+    float mm;         // between polygons, along the normal
+    bool dithered;    // samples are moved along the normal by up to half of `mm`
   };
-  // With the "under" operator.
+  // Composites with the "under" operator.
   void draw(const VolumeScene& scene, const Spacing& spacing);
 
 private:

@@ -1,5 +1,5 @@
-// The volume as the processor's ray caster sees it, in a texture that GL composites: the twin of
-// ui/volume/volume_picture.h.
+// The volume drawn by the processor's ray caster, in a texture that GL composites: the counterpart
+// of ui/volume/volume_picture.h.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class RayCastPicture {
 public:
   static hal::Result<RayCastPicture> create();
 
-  // Casts and uploads if anything that the picture depends on has changed. `caster` shows the
+  // Casts and uploads if anything that the picture depends on has changed. `caster` must show the
   // scene's volume with its transfer function, and may be shared with other pictures.
   hal::Result<> update(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                        const DrawQuality& quality, const Rect& rect);
@@ -40,7 +40,7 @@ private:
   gl::PicturePass pass_;
   gl::Texture texture_;
   RayImage image_;
-  RayImage alone_; // the volume without vessels, where these are not opaque
+  RayImage alone_; // the volume without vessels, if these are not opaque
   std::optional<VolumePictureKey> alone_drawn_;
   RayMode alone_mode_ = RayMode::composite;
   std::optional<VolumePictureKey> drawn_;

@@ -1,5 +1,5 @@
-// Rays through the volume, in a fragment shader: the twin of ui/ray_caster/ray_caster.h, with the
-// same samples, constants and modes, so that both draw the same picture.
+// Ray casting in a fragment shader: the counterpart of ui/ray_caster/ray_caster.h, with the same
+// samples, constants and modes, so that both draw the same picture.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace octascope::ui {
 
-// Writes depth. Leaps over the bricks that occupancy and transfer function make empty, which
-// changes no picture, only the time that it takes.
+// Writes depth. Skips the bricks that occupancy and transfer function make empty; this changes only
+// the drawing time, not the picture.
 //
 // Threads: as gl/objects.h. draw() allocates when the volume's geometry changes.
 class RayCastTechnique : public VolumeTechnique {
@@ -32,12 +32,12 @@ private:
 
   RayMode mode_;
   TransferProgram program_;
-  gl::VertexArray vertex_array_; // empty: the vertices come from their index
+  gl::VertexArray vertex_array_; // empty: vertices are computed from their index
   BrickGrid bricks_;
   DistancesAround distances_;
   gl::Texture brick_texture_;
   pipeline::BrickCounts brick_counts_;
-  // What the bricks were made of.
+  // The inputs of the bricks.
   struct BrickSource {
     std::uint64_t upload;
     std::uint64_t transfer;

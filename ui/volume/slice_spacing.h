@@ -1,4 +1,4 @@
-// Which of the volume's own slices a stack of them is made of. Pure.
+// Which of the volume's slices a slice stack draws. Pure.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,17 +8,17 @@
 
 namespace octascope::ui {
 
-// Slices perpendicular to one of the volume's axes, from the eye on. Where the step is longer than
-// what lies between two slices of the volume, only every second, third … of them is drawn.
+// Slices perpendicular to one of the volume's axes, ordered away from the eye. If the step is
+// longer than the distance between slices, only every second, third … slice is drawn.
 struct SliceSpacing {
   int axis;         // of the world (ui/view/camera.h): 0 fast, 1 depth, 2 slow
   float direction;  // +1 or −1: away from the eye along that axis
-  int slices;       // of the volume along it
-  int drawn;        // how many of them
-  float spacing_mm; // between those drawn
+  int slices;       // of the volume along the axis
+  int drawn;        // the number of slices drawn
+  float spacing_mm; // between drawn slices
   float half_mm;    // half of the box's extent
 
-  // The i-th on the way from the eye, on the world's axis: the middle of a voxel.
+  // Position on the axis of the i-th drawn slice from the eye: the middle of a voxel.
   float offset_mm(int i) const;
 };
 

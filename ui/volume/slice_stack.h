@@ -5,9 +5,9 @@
 
 namespace octascope::ui {
 
-// The oldest of the techniques: each slice a rectangle with its own picture on it, nothing
-// interpolated between slices, so their number along the slow axis is the scan's and shows. When
-// the view turns past 45° the stack changes its axis.
+// The oldest technique: each slice is a rectangle with its own picture. Nothing is interpolated
+// between slices, so the spacing of the B-scans shows on the slow axis. When the view turns past
+// 45°, the stack changes its axis.
 //
 // Source: the stacks of 2D textures that the OCT paper describes before its plane stack.
 //

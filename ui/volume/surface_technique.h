@@ -1,4 +1,4 @@
-// The iso-surface: where the level rises through the middle of the display window, as a solid.
+// The iso-surface, as a solid: where the level passes the middle of the display window.
 #pragma once
 
 #include <cstddef>
@@ -14,34 +14,34 @@
 
 namespace octascope::ui {
 
-// The mesh is made beside the render thread (pipeline/surface/iso_surface_thread.h). While a new
-// one is being made, for a new volume or a turn of the window's knobs, the last one is drawn;
-// before the first, nothing. A picture depends on the number that prepare() returns, and has to be
-// drawn again when has_newer() turns true.
+// A separate thread makes the mesh (pipeline/surface/iso_surface_thread.h). Until a new mesh is
+// finished, for a new volume or a changed window, the last one is drawn; before the first, nothing.
+// A picture depends on the number that prepare() returns, and must be redrawn once has_newer() is
+// true.
 //
 // The framebuffer needs a depth attachment of at least 16 bits, which draw() clears; without one,
 // far parts are drawn over near ones.
 //
-// Threads: as gl/objects.h, but for the thread of its own. draw() allocates nothing of ours.
+// Threads: as gl/objects.h, apart from its own thread. draw() allocates nothing of its own.
 class SurfaceTechnique final : public VolumeTechnique {
 public:
   // `threads` is called on the thread that makes the meshes.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<std::unique_ptr<SurfaceTechnique>> create(TransferSet transfers = {},
                                                                pipeline::ThreadSetup threads = {});
 
   // Copies what it needs before it returns: two milliseconds for a live volume.
   void show(const pipeline::Volume& volume) { thread_.show(volume); }
 
-  // Asks for the view's surface of the newest volume, takes the newest mesh that is finished, and
-  // returns its number: draw() will draw that one. draw() does the same.
+  // Requests the view's surface of the newest volume, takes the newest finished mesh and returns
+  // its number. draw() does the same and draws that mesh.
   std::uint64_t prepare(const ViewState& view);
-  // Would prepare() take another mesh?
+  // Whether prepare() would take another mesh.
   bool has_newer() const { return thread_.has_newer(); }
   // Waits until draw() will show the view's surface of the newest volume: for commands and tests.
   void finish(const ViewState& view);
 
-  // Of the mesh that was taken last.
+  // Of the mesh taken last.
   std::size_t triangles() const { return corners_ / 3; }
 
 private:
@@ -58,7 +58,7 @@ private:
   gl::Buffer vertices_;
   gl::Buffer indices_;
   std::size_t corners_ = 0;
-  std::uint64_t mesh_ = 0;  // counts those taken
+  std::uint64_t mesh_ = 0;  // counts the meshes taken
   glm::vec3 extents_mm_{0}; // of the mesh's volume: fast, depth, slow
   struct {
     GLint view_projection, eye, forward, extents, colour, ambient, cue, cue_loss;

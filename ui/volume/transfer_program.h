@@ -1,4 +1,4 @@
-// Shaders that look levels up in the transfer function.
+// Shaders that apply the transfer function to levels.
 #pragma once
 
 #include <string_view>
@@ -12,20 +12,20 @@ namespace octascope::ui {
 struct VolumeShader {
   std::string_view name;
   std::string_view vertex;
-  std::string_view fragment;     // what follows ui/shaders/transfer.glsl
+  std::string_view fragment;     // without ui/shaders/transfer.glsl, which precedes it
   std::string_view defines = {}; // whole lines, for the fragment shader
 };
 
-// One program in two variants of the same source: one computes a display window, the other looks
-// everything up in a table.
+// One program in two variants from the same source: one computes a display window, the other uses a
+// look-up table.
 //
 // Threads: as gl/objects.h.
 class TransferProgram {
 public:
   static hal::Result<TransferProgram> create(const VolumeShader& shader);
 
-  // Makes the variant for `transfer` current, with its transfer function set; u_levels is texture
-  // unit 0, and units from 2 on are free.
+  // Makes the variant for `transfer` current and sets its transfer function. u_levels is texture
+  // unit 0; units from 2 on are free.
   const gl::Program& use(const TransferTexture& transfer) const;
 
 private:

@@ -1,4 +1,4 @@
-// The volume as one eye sees it, drawn by GL, kept until something that it depends on changes.
+// The volume as one eye sees it, drawn by GL and kept until something that it depends on changes.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,17 @@
 
 namespace octascope::ui {
 
-// Drawn into a texture of its own, in floating point where the GPU can, so that hundreds of faint
-// planes add up without rounding; composited from there, at any resolution.
+// Drawn into its own texture, in floating point if the GPU supports it, so that hundreds of faint
+// planes add up without rounding errors; then composited at any resolution.
 //
 // Threads: as gl/objects.h.
 class VolumePicture {
 public:
   static hal::Result<VolumePicture> create();
 
-  // Draws into the texture if the key has changed; the bound framebuffer stays bound.
-  // `techniques` may be shared with other pictures. `alone` is the same picture without vessels,
-  // and may be null where they are opaque. ErrorCode::system: this GL cannot render to a texture of
-  // that size.
+  // Draws into the texture if the key has changed; the framebuffer binding is kept. `techniques`
+  // may be shared with other pictures. `alone` is the same picture without vessels; it may be null
+  // if they are opaque. ErrorCode::system: this GL cannot render to a texture of that size.
   hal::Result<> update(VolumeTechniques& techniques, const VolumeScene& scene,
                        const DrawQuality& quality, const Rect& rect,
                        const VolumePicture* alone = nullptr);
@@ -32,11 +31,11 @@ public:
 
   std::uint64_t drawings() const { return drawings_; } // counts the pictures made
 
-  // Of the last update(), rows from the bottom; ours.
+  // Of the last update(), rows from the bottom; owned by the picture.
   GLuint colour_texture() const { return colour_.name(); } // premultiplied
-  // R32F: mm along the view to where half is hidden. Infinity where nothing is, and everywhere for
-  // techniques that write none (slices, planes). Vessels hide nothing here. 0, no texture, where GL
-  // renders no such format.
+  // R32F: distance in mm along the view at which half of the opacity is reached. Infinity where
+  // there is nothing, and everywhere for techniques that write none (slices, planes). Vessels do
+  // not count. 0 (no texture) if GL cannot render to this format.
   GLuint depth_texture() const { return depth_.name(); }
   int width() const { return width_; }
   int height() const { return height_; }
@@ -51,7 +50,7 @@ private:
   gl::PicturePass vessel_mix_;
   gl::Texture colour_;
   gl::Texture depth_;
-  gl::Texture nearest_; // for techniques that let GL find what is in front
+  gl::Texture nearest_; // depth attachment for techniques that use GL's depth test
   gl::Framebuffer framebuffer_;
   GLenum format_;
   bool depth_possible_;

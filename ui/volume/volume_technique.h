@@ -1,4 +1,4 @@
-// What every way of drawing the volume by GL does.
+// The interface of all techniques that draw the volume by GL.
 #pragma once
 
 #include <cstdint>
@@ -18,28 +18,28 @@ struct VolumeScene {
   const TransferTexture& transfer; // from levels to colour and opacity
   const Camera& camera;            // for the volume's extents and the target's aspect
   const ViewState& view;
-  float step_mm; // distance between samples along the view
-  const pipeline::Occupancy* occupancy =
-      nullptr;                        // of the volume; without it, nothing is leapt over
-  std::uint64_t upload = 0;           // counts the volumes shown
-  std::uint64_t mesh = 0;             // counts the iso-surfaces
-  const DepthMask* vessels = nullptr; // without them, no ray ends before its time
+  float step_mm;                                  // distance between samples along the view
+  const pipeline::Occupancy* occupancy = nullptr; // of the volume; null: nothing is skipped
+  std::uint64_t upload = 0;                       // counts the volumes shown
+  std::uint64_t mesh = 0;                         // counts the iso-surfaces
+  const DepthMask* vessels = nullptr;             // null: no vessel ends a ray
 };
 
-// Threads: as gl/objects.h. draw() allocates nothing after the first of a size.
+// Threads: as gl/objects.h. draw() allocates nothing after the first picture of a size.
 class VolumeTechnique {
 public:
   virtual ~VolumeTechnique() = default;
 
-  // Draws into the bound framebuffer and viewport, which have alpha and are cleared to zero:
-  // premultiplied colour and opacity come out. Lengths are physical, opacity is corrected for the
-  // step, samples are trilinear, and the transfer function is the scene's. Nothing is drawn behind
-  // the nearest vessel of a pixel; for these, the viewport begins in the framebuffer's corner.
+  // Draws into the bound framebuffer and viewport, which must have alpha and be cleared to zero,
+  // and produces premultiplied colour and opacity. Lengths are physical, opacity is corrected for
+  // the step, samples are trilinear, and the transfer function is the scene's. Nothing is drawn
+  // behind the nearest vessel of a pixel; with vessels, the viewport must begin in the
+  // framebuffer's corner.
   void draw(const VolumeScene& scene) { do_draw(scene); }
 
-  // Whether draw() also writes, into the second colour attachment, the distance along the view, in
-  // mm, to where half is hidden, or no_depth (ui/ray_caster/ray_frame.h). Otherwise that attachment
-  // must not be enabled.
+  // Whether draw() also writes the distance in mm along the view at which half is hidden, or
+  // no_depth (ui/ray_caster/ray_frame.h), into the second colour attachment. If not, that
+  // attachment must not be enabled.
   bool writes_depth() const { return do_writes_depth(); }
 
 private:

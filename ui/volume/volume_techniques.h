@@ -1,4 +1,4 @@
-// The ways of drawing the volume by GL, each made when it is first chosen.
+// The techniques that draw the volume by GL, each created when first used.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ public:
   explicit VolumeTechniques(TransferSet transfers, pipeline::ThreadSetup threads = {})
       : transfers_{std::move(transfers)}, threads_{std::move(threads)} {}
 
-  // Stays ours. ErrorCode::unsupported: this GL cannot compile its shaders.
+  // Owned by this object. ErrorCode::unsupported: this GL cannot compile the technique's shaders.
   hal::Result<VolumeTechnique*> get(Technique technique);
-  // Of Technique::surface, which lives on meshes of its own; null before it was first got.
+  // The technique of Technique::surface, which has meshes of its own; null before its first get().
   SurfaceTechnique* surface() const;
 
 private:

@@ -11,14 +11,14 @@
 namespace octascope::ui {
 
 // R8 texels in the volume's own order: s is depth, t the fast axis, r the slow axis; sample i of n
-// lies at (i + 0.5) / n. Two textures in turn: a volume is never written where the GPU may still
-// read the last one.
+// lies at (i + 0.5) / n. Alternates between two textures, so that it never writes one that the GPU
+// may still read.
 //
 // Threads: as gl/objects.h. Allocates only when the geometry changes.
 class VolumeTexture {
 public:
   // Copies the levels before it returns. ErrorCode::unsupported: larger than this GL's 3D textures.
-  // ErrorCode::bad_data: fewer voxels than the geometry says. The last volume then stays.
+  // ErrorCode::bad_data: fewer voxels than the geometry says. On errors the previous volume stays.
   hal::Result<> upload(const pipeline::Volume& volume);
 
   bool empty() const { return !textures_[front_]; }

@@ -1,5 +1,4 @@
-// A piece of muscle as a set of places spread evenly in it, and how it is divided between the
-// vessels that feed it.
+// A piece of muscle as a set of evenly spread places, and its division between vessels.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +11,21 @@ namespace octascope::sim {
 
 using Region = std::span<Vector3>;
 
-Vector3 centre_of(std::span<const Vector3> places); // of none: the origin
+Vector3 centre_of(std::span<const Vector3> places); // if empty: the origin
 
-// Unit vector along which the places extend most; at a right angle to `flat` unless that is zero.
+// The unit vector of the places' greatest extent, perpendicular to `flat` unless that is zero.
 Vector3 longest_axis(std::span<const Vector3> places, Vector3 centre, Vector3 flat);
 
-// Reorders the places so that the `count` with the lowest keys come first. Written out because the
-// standard leaves the order of the rest open, and with it the bits of every later sum.
+// Reorders the places so that the `count` with the lowest keys come first. Implemented here because
+// std::nth_element leaves the order of the others open, and with it the bits of all later sums.
 template <class Key> void lowest_first(Region places, std::size_t count, const Key& key) {
   std::size_t begin = 0;
   std::size_t end = places.size();
   while (count > begin && count < end && end - begin > 1) {
     const double pivot = key(places[begin + (end - begin) / 2]);
-    std::size_t lower = begin; // before it: below the pivot; up to `equal`: the pivot's
+    std::size_t lower = begin; // [begin, lower): below the pivot; [lower, equal): the pivot's
     std::size_t equal = begin;
-    std::size_t upper = end; // from it on: above the pivot
+    std::size_t upper = end; // [upper, end): above the pivot
     while (equal < upper) {
       const double k = key(places[equal]);
       if (k < pivot)
@@ -45,8 +44,8 @@ template <class Key> void lowest_first(Region places, std::size_t count, const K
   }
 }
 
-// Cuts a region across its longest axis and puts `count` places for a side branch first; what lies
-// further on in the direction of the vessel stays with the vessel.
+// Cuts a region across its longest axis and puts the `count` places of a side branch first. Places
+// further along the vessel's direction stay with the vessel.
 void divide(Region region, std::size_t count, Vector3 direction, Vector3 flat);
 
 } // namespace octascope::sim

@@ -1,7 +1,7 @@
-// GL draws what is wide and the processor what is thin, both at the same time and into one depth.
+// GL draws wide segments and the processor thin ones, at the same time and into one depth.
 //
-// The idea of sharing a vessel tree between both is the thesis's (docs/VESSELS.md); the split is by
-// the projected radius.
+// The idea of sharing a vessel tree between both is from the thesis (docs/VESSELS.md); here they
+// are split by projected radius.
 #pragma once
 
 #include <cstddef>
@@ -17,19 +17,19 @@
 
 namespace octascope::ui {
 
-// Threads: bound to the thread of its GL context, but for the splatter's helpers.
+// Threads: bound to the thread of its GL context, except for the splatter's helpers.
 class HybridMethod final : public VesselMethod {
 public:
-  // Where GL gets a share: segments of at least `gl_radius_px`.
+  // GL's share: segments of at least `gl_radius_px`.
   struct Share {
-    std::unique_ptr<GlShare> gl; // nullptr: the processor draws everything, as where GL is software
+    std::unique_ptr<GlShare> gl; // nullptr: the processor draws everything, as for software GL
     float gl_radius_px = 1.5F;
   };
 
   static hal::Result<HybridMethod> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
                                           Share share);
 
-  // For the frames that follow; see SplatShare::detail_px.
+  // For the following frames; see SplatShare::detail_px.
   void set_detail_px(float detail_px) { detail_px_ = detail_px; }
 
   // What the processor drew in the last frame, with distances.
@@ -44,7 +44,7 @@ private:
   SplatPicture picture_;
   Share share_;
   DepthImage image_;
-  VesselSplit split_; // empty without a share of GL's
+  VesselSplit split_; // empty if GL has no share
   float detail_px_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// GL's part of a vessel tree as quads, expanded from the packed nodes.
+// GL's share of a vessel tree as quads, expanded from the packed nodes.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace octascope::ui {
 // Threads: as gl/objects.h.
 class QuadsShare final : public GlShare {
 public:
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<std::unique_ptr<QuadsShare>> create(std::shared_ptr<NodeTexture> nodes);
 
 private:

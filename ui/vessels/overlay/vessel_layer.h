@@ -14,18 +14,18 @@
 
 namespace octascope::ui {
 
-// Who draws the volume, and so needs to know where vessels are.
+// What draws the volume and therefore reads the depth mask.
 enum class MaskReader : std::uint8_t { gl, processor };
 
-// Threads: as gl/objects.h. Allocates when the size changes, or GL is served for the first time.
+// Threads: as gl/objects.h. Allocates when the size changes, or on the first use by GL.
 class VesselLayer {
 public:
-  // `tree` counts the trees shown. ErrorCode::system: this GL cannot render to a picture of that
-  // size; other faults as Splatter::draw(). The bound framebuffer stays bound.
+  // `tree` is a counter of the trees shown. The framebuffer binding is kept. ErrorCode::system:
+  // this GL cannot render to a picture of that size; other errors as Splatter::draw().
   hal::Result<> update(Splatter& splatter, const VesselScene& scene, std::uint64_t tree,
                        float detail_px, MaskReader target);
 
-  // Of the last update(); `opacity` is handed on.
+  // The mask of the last update(), with that `opacity`.
   DepthMask stops(MaskReader target, float opacity) const;
 
   const SegmentCounts& account() const { return account_; }
@@ -50,14 +50,14 @@ private:
   SegmentCounts account_;
   std::optional<Key> drawn_;
   std::uint64_t drawings_ = 0;
-  // In GL.
+  // The GL side.
   std::optional<SplatPicture> picture_;
   gl::Framebuffer framebuffer_;
   gl::Texture colour_;
   gl::Texture depth_;
   int width_ = 0;
   int height_ = 0;
-  std::uint64_t laid_ = 0; // which drawing is in GL
+  std::uint64_t laid_ = 0; // the drawing that GL has
 };
 
 } // namespace octascope::ui

@@ -1,5 +1,5 @@
-// A vessel tree within the volume: keeps each eye's picture of it up to date, for the volume's rays
-// to end there.
+// A vessel tree within the volume: keeps each eye's picture of it up to date, as the depth mask at
+// which the volume's rays end.
 #pragma once
 
 #include <array>
@@ -17,16 +17,16 @@
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h, but for the splatter's helpers. Allocates when the size changes, or an
-// eye or a target is served for the first time.
+// Threads: as gl/objects.h, except for the splatter's helpers. Allocates when the size changes, or
+// on the first use of an eye or a target.
 class VesselOverlay {
 public:
-  // Costs are measured with `clock`, which outlives this. ErrorCode::unsupported: as
+  // `clock` measures costs and must outlive the overlay. ErrorCode::unsupported: as
   // Splatter::create().
   static hal::Result<VesselOverlay> create(const pipeline::ThreadSetup& threads,
                                            const hal::Clock& clock);
 
-  // The tree stays borrowed until the next show().
+  // The tree is borrowed until the next show().
   void show(const PlacedVessels& vessels);
 
   struct Request {
@@ -36,20 +36,20 @@ public:
     const pipeline::VolumeGeometry& geometry;
     int width; // of the volume's picture
     int height;
-    float detail_px; // SplatShare has what it means
+    float detail_px; // see SplatShare
     MaskReader target;
   };
-  // Brings the eye's picture up to date. Nothing: the view shows no vessels.
+  // Brings the eye's picture up to date. Empty if the view shows no vessels.
   hal::Result<std::optional<DepthMask>> update(const Request& request);
 
-  // Vessels are shown and nobody has said where they lie in the volume.
+  // Whether vessels are shown without a registration to the volume.
   bool shows_unregistered(const ViewState& view) const {
     return shows(view) && !vessels_.volume_from_tree;
   }
 
-  // Of the newest picture.
+  // Of the last picture.
   const SegmentCounts& account() const { return account_; }
-  // Since create(): of all drawings of vessels.
+  // The time spent on drawing vessels since create().
   hal::Duration spent() const { return spent_; }
 
 private:

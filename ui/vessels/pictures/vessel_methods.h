@@ -1,4 +1,4 @@
-// The ways of drawing a vessel tree, by name.
+// The methods of drawing a vessel tree, by name.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@ namespace octascope::ui {
 
 enum class VesselMethodKind : std::uint8_t {
   tubes_gpu, // triangles around each vessel, expanded by GL
-  tubes_cpu, // by the processor
+  tubes_cpu, // the same, expanded by the processor
   quads_gpu, // quads that face the eye, expanded by GL
-  quads_cpu, // by the processor
-  balanced,  // by both, whoever is free
-  hybrid,    // level of detail; the thinnest splatted by the processor
+  quads_cpu, // the same, expanded by the processor
+  balanced,  // quads expanded by both, whichever is free
+  hybrid,    // level of detail; the processor splats the thinnest
 };
 inline constexpr std::array all_vessel_methods{
     VesselMethodKind::tubes_gpu, VesselMethodKind::tubes_cpu, VesselMethodKind::quads_gpu,
@@ -33,15 +33,14 @@ std::string_view to_string(VesselMethodKind kind);
 std::optional<VesselMethodKind> vessel_method_named(std::string_view name);
 
 struct VesselMethodOptions {
-  ClusterChoice choice = ClusterChoice::visible; // `all` draws what cannot be seen, too
+  ClusterChoice choice = ClusterChoice::visible; // `all` also draws invisible clusters
   TubeShape tubes;
   pipeline::ThreadSetup threads; // called on each thread that a method starts
 };
 
-// `nodes` may be shared by methods that draw the same tree in the same context: its memory is the
-// tree's once more.
-// ErrorCode::unsupported: this GL cannot compile the shaders; of hybrid also: the splatter knows no
-// vector unit of this processor.
+// `nodes` may be shared by methods that draw the same tree in the same context; it takes as much
+// memory as the tree. ErrorCode::unsupported: this GL cannot compile the shaders or, for hybrid,
+// the splatter supports none of this processor's vector units.
 hal::Result<std::unique_ptr<VesselMethod>>
 make_vessel_method(VesselMethodKind kind, std::shared_ptr<NodeTexture> nodes,
                    const VesselMethodOptions& options = {});

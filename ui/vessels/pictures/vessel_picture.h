@@ -1,4 +1,4 @@
-// Where vessels are drawn: colour and depth, to be composited or read back.
+// A render target for vessels: colour and depth, to be composited or read back.
 #pragma once
 
 #include <utility>
@@ -13,19 +13,19 @@
 
 namespace octascope::ui {
 
-// 8-bit RGBA and 24 bits of depth, textures both.
+// Two textures: 8-bit RGBA and 24-bit depth.
 //
 // Threads: as gl/objects.h.
 class VesselPicture {
 public:
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<VesselPicture> create();
 
-  // Makes it so large, clears it and draws the scene; the bound framebuffer and the viewport stay.
-  // ErrorCode::system: this GL cannot render to a picture of that size. Other faults: the method's.
+  // Resizes, clears and draws the scene; keeps framebuffer binding and viewport. ErrorCode::system:
+  // this GL cannot render to a picture of that size. Other errors: the method's.
   hal::Result<SegmentCounts> draw(VesselMethod& method, const VesselScene& scene);
 
-  // Rows from the bottom. Opaque colours or none, and depths by the camera's view_projection.
+  // Rows from the bottom. Opaque or transparent colours; depths by the camera's view_projection.
   GLuint colour_texture() const { return colour_.name(); }
   GLuint depth_texture() const { return depth_.name(); }
   int width() const { return width_; }
@@ -33,7 +33,7 @@ public:
 
   // RGB on black, rows from the top. Waits for the drawing; allocates.
   pipeline::Image read_colour() const;
-  // Window depth, 0…1 from near to far plane, 1 where nothing is; rows from the top. As above.
+  // Window depth, 0…1 from near to far plane (1: empty), rows from the top. Waits; allocates.
   std::vector<float> read_depth() const;
 
 private:

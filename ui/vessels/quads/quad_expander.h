@@ -9,17 +9,17 @@
 
 namespace octascope::ui {
 
-// A corner; all of a segment's are alike, and shaders/vessel_quad_stream.vert moves each to its
-// place by its number.
+// A corner. All corners of a segment are equal; shaders/vessel_quad_stream.vert moves each to its
+// place by its index.
 struct QuadVertex {
   SegmentOutline outline;
-  std::uint32_t colour; // in the palette
+  std::uint32_t colour; // index in the palette
 };
 static_assert(sizeof(QuadVertex) == 36);
 
-// Writes quad_vertices(kind) of each segment that may cover a pixel's centre to `to`, which has
-// room for those of all, and returns the number of such segments. `nodes` are the tree's. Any
-// thread.
+// Writes quad_vertices(kind) vertices to `to` for each segment that may cover a pixel centre, and
+// returns the number of such segments. `to` must have room for all segments. `nodes` are the
+// tree's. Any thread.
 std::uint32_t expand_quads(const VesselFrame& frame, const PlacedCluster& cluster,
                            std::span<const pipeline::PackedNode> nodes, QuadKind kind,
                            QuadVertex* to);

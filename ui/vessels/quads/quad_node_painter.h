@@ -10,19 +10,19 @@
 
 namespace octascope::ui {
 
-// One instance a cluster: its record is the instance's attributes, for GLES has no base instance
-// and does not promise storage buffers in the vertex stage.
+// One instance per cluster: its record is the instance's attributes, because GLES has no base
+// instance and does not guarantee storage buffers in the vertex stage.
 //
 // Threads: as gl/objects.h. Allocates in create() only.
 class QuadNodePainter {
 public:
-  // `nodes` is shared by those who draw the same tree.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // `nodes` is shared by all painters of the same tree. ErrorCode::unsupported: this GL cannot
+  // compile the shaders.
   static hal::Result<QuadNodePainter> create(std::shared_ptr<NodeTexture> nodes);
 
-  // Then draw() draws clusters of that tree in that frame.
+  // Prepares draw() for clusters of that tree in that frame.
   hal::Result<> begin(const VesselFrame& frame, const pipeline::VesselClusters& tree);
-  // All of that kind. Returns when GL has taken the records.
+  // All clusters must be of that kind. Returns when GL has copied the records.
   void draw(std::span<const PlacedCluster> clusters, QuadKind kind) const;
 
 private:
@@ -35,8 +35,8 @@ private:
   std::array<gl::VertexArray, quad_kind_count> vertex_arrays_;
 };
 
-// Describes PlacedCluster records in the bound vertex array and GL_ARRAY_BUFFER as attributes 0 to
-// 4 of each instance (shaders/vessel_nodes.glsl).
+// Sets up PlacedCluster records in the bound vertex array and GL_ARRAY_BUFFER as instance
+// attributes 0 to 4 (shaders/vessel_nodes.glsl).
 void describe_placed_clusters();
 
 } // namespace octascope::ui

@@ -13,11 +13,11 @@
 
 namespace octascope::ui {
 
-// Whole clusters choose, by the largest radius that may be in them.
+// Chosen per cluster, by the largest radius that it may contain.
 enum class QuadKind : std::uint8_t {
-  thin,  // two triangles, whose depth is not flat at the round ends: nothing that a pixel shows
+  thin,  // two triangles; the depth is not flat at the round ends, which no pixel shows
   round, // six triangles, with the depth of the axis
-  near,  // two triangles; the surface's own depth is written, which costs the early depth test
+  near,  // two triangles; writes the surface's own depth, which prevents the early depth test
 };
 inline constexpr int quad_kind_count = 3;
 
@@ -27,14 +27,14 @@ constexpr QuadKind quad_kind(float largest_radius_px) {
                                                : QuadKind::near;
 }
 
-// Vertices and corners of triangles (3 a triangle) of a segment.
+// The vertices of a segment, and the corners of its triangles (3 per triangle).
 constexpr int quad_vertices(QuadKind kind) {
   return kind == QuadKind::round ? 8 : 4;
 }
 constexpr int quad_corners(QuadKind kind) {
   return kind == QuadKind::round ? 18 : 6;
 }
-// For so many segments of either number of vertices: within 16-bit indices.
+// The index buffer's capacity in segments, with either number of vertices: within 16-bit indices.
 inline constexpr int most_quads = 4096;
 std::vector<std::uint16_t> quad_indices(QuadKind kind, int segments);
 
@@ -42,7 +42,7 @@ std::vector<std::uint16_t> quad_indices(QuadKind kind, int segments);
 class QuadPrograms {
 public:
   // The vertex stage is `vertex_head`, shaders/vessel_quad.glsl and `vertex_main`.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<QuadPrograms> create(std::string_view name, std::string_view vertex_head,
                                           std::string_view vertex_main);
 

@@ -1,4 +1,4 @@
-// Segments as quads, expanded by the processor into buffers of GL.
+// Segments as quads, expanded by the processor into GL buffers.
 #pragma once
 
 #include "ui/vessels/quads/quad_expander.h"
@@ -6,20 +6,20 @@
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h, but for expand(). Allocates in create() only.
+// Threads: as gl/objects.h, except for expand(). Allocates in create() only.
 class QuadStreamPainter {
 public:
-  static constexpr std::uint32_t batch_clusters = 16; // most_quads hold all their segments
+  static constexpr std::uint32_t batch_clusters = 16; // most_quads can hold all their segments
 
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<QuadStreamPainter> create(std::uint32_t slots);
 
-  // Then slots may be expanded into. ErrorCode::system: the driver has no memory.
+  // Prepares slots for expand(). ErrorCode::system: the driver has no memory.
   hal::Result<> begin(const VesselFrame& frame);
-  // Any thread, one a slot; at most batch_clusters, all of that kind.
+  // Any thread, one per slot; at most batch_clusters, all of the same kind.
   void expand(std::uint32_t slot, const VesselFrame& frame, std::span<const PlacedCluster> clusters,
               std::span<const pipeline::PackedNode> nodes, QuadKind kind);
-  // Draws what was expanded, and readies the slot for the next.
+  // Draws what was expanded, and prepares the slot for the next batch.
   hal::Result<> draw(std::uint32_t slot, QuadKind kind);
 
 private:
@@ -27,7 +27,7 @@ private:
 
   QuadPrograms programs_;
   StreamSlots slots_;
-  std::vector<std::uint32_t> segments_; // by slot
+  std::vector<std::uint32_t> segments_; // per slot
   std::vector<gl::VertexArray> vertex_arrays_;
   std::array<gl::Buffer, quad_kind_count> indices_;
 };

@@ -1,4 +1,4 @@
-// Method 2 by GL alone: every vessel a quad that faces the eye, expanded from the packed nodes.
+// Method 2 by GL alone: every vessel as a quad that faces the eye, expanded from the packed nodes.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace octascope::ui {
 // Threads: as gl/objects.h.
 class QuadsMethod final : public VesselMethod {
 public:
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<std::unique_ptr<QuadsMethod>> create(std::shared_ptr<NodeTexture> nodes,
                                                           ClusterChoice choice);
 

@@ -1,4 +1,4 @@
-// Method 2 with the processor: it expands the quads and GL draws them, or both expand their part.
+// Method 2 with the processor: it expands the quads for GL, or shares the expansion with GL.
 #pragma once
 
 #include <optional>
@@ -13,21 +13,21 @@
 
 namespace octascope::ui {
 
-// Who has expanded how many of the segments that were drawn last.
+// How many of the last drawn segments each side expanded.
 struct VesselShares {
   std::uint64_t of_gl = 0;
   std::uint64_t of_processor = 0;
 };
 
-// The picture is that of QuadsMethod pixel for pixel, where GL rounds every step of the shaders
-// (segment_projection.h); the diagnostic colours apart.
+// The picture equals that of QuadsMethod pixel for pixel, except for the diagnostic colours, on a
+// GL that rounds every step of the shaders (segment_projection.h).
 //
-// Threads: as gl/objects.h, but for the helper of its own.
+// Threads: as gl/objects.h, except for its own helper.
 class StreamedQuadsMethod final : public VesselMethod {
 public:
-  // Without `nodes`, the processor expands everything: on two threads, of which one also feeds GL.
-  // With them, GL takes batches from the same cursor as the helper: balanced.
-  // `threads` is called on the helper. ErrorCode::unsupported: this GL cannot compile our shaders.
+  // Without `nodes`, the processor expands everything on two threads, one of which also feeds GL.
+  // With `nodes`, GL takes batches from the same cursor as the helper: balanced. `threads` is
+  // called on the helper. ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<std::unique_ptr<StreamedQuadsMethod>>
   create(std::shared_ptr<NodeTexture> nodes, ClusterChoice choice,
          const pipeline::ThreadSetup& threads);
@@ -59,7 +59,7 @@ private:
   std::array<std::vector<PlacedCluster>, quad_kind_count> placed_;
   std::vector<Batch> batches_;
   VesselShares shares_;
-  OrderedBatches order_; // last: its thread stops before the rest is gone
+  OrderedBatches order_; // last member: its thread stops before the others are destroyed
 };
 
 } // namespace octascope::ui

@@ -1,4 +1,4 @@
-// How far GL lags behind what was submitted to it.
+// Limits how far GL lags behind the submitted work.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace octascope::ui {
 
-// A GPU takes work without doing it: who submits all he can has given it everything before the
-// processor has begun. This holds the submitting thread back until the GPU has caught up but for
-// two portions.
+// A GPU queues work without executing it, so a fast submitter could hand it everything before the
+// processor has taken its share. This blocks the submitting thread until the GPU is at most two
+// portions of several batches behind.
 //
 // Threads: as gl/objects.h.
 class GpuPace {
@@ -20,8 +20,8 @@ public:
   GpuPace& operator=(const GpuPace&) = delete;
   ~GpuPace();
 
-  // A batch was submitted. Where the processor is the GPU, drawing has cost its time by now, and
-  // this does nothing.
+  // To be called after submitting a batch. Does nothing with software GL, where drawing is already
+  // done by then.
   void submitted();
 
 private:

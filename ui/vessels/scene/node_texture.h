@@ -1,4 +1,4 @@
-// A tree's nodes where shaders find them.
+// A tree's nodes in a texture for shaders.
 #pragma once
 
 #include "hal/result.h"
@@ -8,15 +8,15 @@
 
 namespace octascope::ui {
 
-// Eight bytes a node, in layers of one texture: GLES guarantees 2048 texels along a side and 256
-// layers, and neither buffer textures nor storage buffers in the vertex stage. Of 19 bits of a
-// node's index the lowest 11 are its column and the others its row; those above are its layer.
+// Eight bytes per node, in layers of one texture: GLES guarantees 2048 texels per side and 256
+// layers, but neither buffer textures nor storage buffers in the vertex stage. Of a node's index,
+// bits 0–10 are its column, bits 11–18 its row, and the higher bits its layer.
 //
 // Threads: as gl/objects.h.
 class NodeTexture {
 public:
-  // Copies the nodes when it has not shown them last: told by where and how many they are, and by a
-  // sample of them. ErrorCode::system: the driver has no room for them.
+  // Uploads the nodes unless they are the ones shown last, which is judged by their address, number
+  // and a sample. ErrorCode::system: the driver has no memory for them.
   hal::Result<> show(const pipeline::VesselClusters& tree);
 
   const TreeKey& shown() const { return key_; }

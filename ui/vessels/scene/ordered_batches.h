@@ -1,4 +1,4 @@
-// Numbered batches of drawing work, submitted to GL in their order, expanded by whoever is free.
+// Numbered batches of drawing work, submitted to GL in order, expanded by any free thread.
 #pragma once
 
 #include <atomic>
@@ -10,25 +10,25 @@
 
 namespace octascope::ui {
 
-// The calling thread owns GL and takes one batch after the other from the cursor. A helper works
-// ahead of it: it takes the first free batch some way in front of the cursor and expands it into a
-// slot, so that it is ready when the cursor comes there. How far in front is learnt: further each
-// time that the cursor had to wait. Equal depths are won by what is drawn first, so the order in
-// which batches reach GL must not depend on who was quicker.
+// The calling thread owns GL and processes one batch after the other at the cursor. A helper works
+// ahead: it takes the first free batch some distance ahead of the cursor and expands it into a
+// slot, so that it is ready when the cursor arrives. The distance adapts: it grows each time the
+// cursor had to wait. At equal depths the first segment drawn wins, so the order in which batches
+// reach GL must not depend on which thread was faster.
 //
-// Who has a batch is one atomic claim. The caller never waits for a helper that has not begun.
+// Batches are claimed atomically. The caller never waits for a batch that the helper has not begun.
 //
-// Threads: run() from one thread at a time. Allocates when it is made, never afterwards.
+// Threads: run() from one thread at a time. Allocates only at construction.
 class OrderedBatches {
 public:
   static constexpr std::uint32_t most_batches = 16384;
 
-  // The helper uses the slots 0 to slots − 1 in turn. Its role is "vessels".
+  // The helper uses the slots 0 to slots − 1 in turn. Its thread role is "vessels".
   OrderedBatches(std::uint32_t slots, const pipeline::ThreadSetup& setup);
 
-  // For each batch (at most most_batches) in order, on this thread: either own(batch), or
-  // submit(batch, slot) of what the helper has expanded with expand(batch, slot), on its own
-  // thread. A slot is in use from the beginning of expand() until submit() has returned.
+  // Processes the batches (at most most_batches) in order on this thread: either own(batch), or
+  // submit(batch, slot) for one that the helper has expanded with expand(batch, slot) on its own
+  // thread. A slot is in use from the start of expand() until submit() has returned.
   template <class Own, class Expand, class Submit>
   void run(std::uint32_t batches, const Own& own, const Expand& expand, const Submit& submit) {
     begin(
@@ -56,7 +56,7 @@ private:
   using Expand = void (*)(const void* work, std::uint32_t batch, std::uint32_t slot);
 
   void begin(std::uint32_t batches, Expand expand, const void* work);
-  bool claim(std::uint32_t batch); // for the caller
+  bool claim(std::uint32_t batch); // by the caller
   std::uint32_t await(std::uint32_t batch);
   void release();
   void end();
@@ -64,20 +64,20 @@ private:
   bool await_slot(std::uint32_t turn);
 
   std::uint32_t slots_;
-  std::vector<std::atomic<std::uint64_t>> claims_; // by batch: turn, slot, state
-  std::atomic<std::uint32_t> turn_{0};             // 0 while none runs
+  std::vector<std::atomic<std::uint64_t>> claims_; // per batch: turn, slot, state
+  std::atomic<std::uint32_t> turn_{0};             // 0 when idle
   std::uint32_t turns_ = 0;
-  // Read only by who has claimed a batch: the turn cannot end before that is submitted.
+  // Read only by the owner of a claimed batch: the turn cannot end before that is submitted.
   Expand expand_ = nullptr;
   const void* work_ = nullptr;
   std::atomic<std::uint32_t> cursor_{0};
-  std::atomic<std::uint32_t> lead_{2};     // batches in front of the cursor
-  std::uint32_t in_time_ = 0;              // batches since one was waited for
-  std::uint32_t filled_ = 0;               // slots so far, by the helper
-  std::atomic<std::uint32_t> released_{0}; // slots so far, by the caller
+  std::atomic<std::uint32_t> lead_{2};     // batches ahead of the cursor
+  std::uint32_t in_time_ = 0;              // batches since the caller last waited for one
+  std::uint32_t filled_ = 0;               // slots filled so far, by the helper
+  std::atomic<std::uint32_t> released_{0}; // slots released so far, by the caller
   pipeline::Wakeup slot_released_;
   pipeline::Wakeup batch_ready_;
-  pipeline::WorkerPool helper_; // last: its thread stops before the rest is gone
+  pipeline::WorkerPool helper_; // last member: its thread stops before the others are destroyed
 };
 
 } // namespace octascope::ui

@@ -1,9 +1,9 @@
 // A segment's outline on the screen, computed by the processor.
 //
-// Step by step what shaders/vessel_nodes.glsl and vessel_segment.glsl do, in single precision and
-// without fused multiplications, so that a GL that rounds each step (IEEE 754), as Mesa's software
-// renderer does, comes to the very same numbers. Where products and sums are fused, as on most
-// GPUs, they differ in the last bits. Files that use it are compiled with -ffp-contract=off.
+// Repeats shaders/vessel_nodes.glsl and vessel_segment.glsl step by step, in single precision and
+// without fused multiply-add, so that a GL that rounds each step (IEEE 754), such as Mesa's
+// software renderer, gets identical numbers. GPUs that fuse products and sums, as most do, differ
+// in the last bits. Files that include this header are compiled with -ffp-contract=off.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@
 
 namespace octascope::ui {
 
-// Pixels times distance, distance, pixels of radius times distance: place_of of the shader.
+// Homogeneous: pixels · distance, distance, radius in pixels · distance; the shader's place_of.
 struct PlacedNode {
   float across, up, along, radius;
 };
 
-// In the order in which vertex buffers have it; v_axis and v_shape of shaders/vessel_quad.glsl.
+// In the order of the vertex buffers: v_axis and v_shape of shaders/vessel_quad.glsl.
 struct SegmentOutline {
   float start_x, start_y; // pixels, rows from the bottom
   float ahead_x, ahead_y; // from there to the end
@@ -53,7 +53,7 @@ inline PlacedNode place_node(const PlacedCluster& c, pipeline::PackedNode node) 
           c.smallest_radius * power_of_two(c.log2_radius_step * static_cast<float>(node.radius()))};
 }
 
-// From `hidden`, which is nearer than the near plane, to the plane.
+// The point on the near plane between `hidden`, which is nearer, and `seen`.
 inline PlacedNode cut_near(const PlacedNode& hidden, const PlacedNode& seen, float near_mm) {
   const float share = (near_mm - hidden.along) * (1.0F / (seen.along - hidden.along));
   return {hidden.across + (seen.across - hidden.across) * share,
@@ -62,8 +62,8 @@ inline PlacedNode cut_near(const PlacedNode& hidden, const PlacedNode& seen, flo
           hidden.radius + (seen.radius - hidden.radius) * share};
 }
 
-// Gives the parent's place the radius with which the segment starts, and cuts off what is nearer
-// than the near plane. False where nothing is left.
+// Gives the parent's end the radius at which the segment starts, and cuts the segment at the near
+// plane. False if nothing remains.
 inline bool make_segment(PlacedNode& a, PlacedNode& b, float near_mm) {
   a.radius = pipeline::segment_start_radius(a.radius, b.radius);
   if (a.along < near_mm && b.along < near_mm)
@@ -75,13 +75,13 @@ inline bool make_segment(PlacedNode& a, PlacedNode& b, float near_mm) {
   return true;
 }
 
-// No narrower on the screen than so many pixels of radius. In front of the near plane only.
+// Enforces a minimum radius in pixels. Only beyond the near plane.
 inline void thicken(PlacedNode& node, float least_px) {
   node.radius = std::max(node.radius, least_px * node.along);
 }
 
-// From the parent's and the node's place, for which least_radius_px() is `least_px`; false where
-// nothing is before the near plane.
+// Projects the segment from the parent's to the node's place; `least_px` is the node's
+// least_radius_px(). False if nothing lies beyond the near plane.
 inline bool project_segment(PlacedNode a, PlacedNode b, float near_mm, float least_px,
                             SegmentOutline& outline) {
   if (!make_segment(a, b, near_mm))

@@ -1,4 +1,4 @@
-// One frame's camera, as the packed nodes of clusters meet it.
+// One frame's camera, in the form needed to project the packed nodes of clusters.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace octascope::ui {
 
-// A point of the tree (x, y, z in mm, 1) lies at the pixel (across / along, up / along), rows from
-// the bottom as GL has them, pixel centres at halves; `along` is its distance along the view in mm.
+// A point of the tree (x, y, z in mm, 1) projects to the pixel (across / along, up / along), rows
+// from the bottom as in GL, pixel centres at halves; `along` is its distance along the view in mm.
 struct VesselFrame {
   glm::dvec4 across;
   glm::dvec4 up;
@@ -19,12 +19,12 @@ struct VesselFrame {
   double pixels_per_unit = 0; // as VesselScene
   float near_mm = 0;
   float far_mm = 0;
-  // Normalised device depth is offset + scale / distance along the view.
+  // Normalised device depth is depth_offset + depth_scale / distance along the view.
   float depth_offset = 0;
   float depth_scale = 0;
   float width = 0;
   float height = 0;
-  // The pixel straight ahead of the eye: off the picture's middle for one eye of two.
+  // The pixel straight ahead of the eye; for stereo eyes not the picture's middle.
   float middle_x = 0;
   float middle_y = 0;
   VesselLook look;
@@ -32,7 +32,7 @@ struct VesselFrame {
 
 VesselFrame make_vessel_frame(const VesselScene& scene);
 
-// Where the colours of vessel_look.h are in the palette of the shaders.
+// Where the order colours of vessel_look.h start in the shaders' palette.
 inline constexpr std::uint32_t palette_of_orders = pipeline::vessel_branch_count;
 inline constexpr std::uint32_t palette_of_gl = palette_of_orders + pipeline::vessel_order_count;
 inline constexpr std::uint32_t palette_of_processor = palette_of_gl + 1;
@@ -40,9 +40,10 @@ inline constexpr std::size_t palette_size = palette_of_processor + 1;
 inline constexpr std::uint32_t colour_by_order = 0xFF;
 std::array<VesselColour, palette_size> vessel_palette();
 
-// A cluster in a frame: what its packed nodes are multiplied with. A record of a vertex buffer.
+// A cluster in a frame: the coefficients for its packed nodes. A record of a vertex buffer.
 struct PlacedCluster {
-  // Of a packed place: [0] + [1] · x + [2] · y + [3] · z is across, up and along of the frame.
+  // For a packed place (x, y, z): [0] + [1] · x + [2] · y + [3] · z gives the frame's across, up
+  // and along.
   std::array<float, 4> across;
   std::array<float, 4> up;
   std::array<float, 4> along;
@@ -50,16 +51,16 @@ struct PlacedCluster {
   float log2_radius_step;
   std::uint32_t first_node;
   std::uint32_t references;
-  std::uint32_t segments; // to be drawn: the first after the references
-  std::uint32_t colour;   // in the palette, or colour_by_order
+  std::uint32_t segments; // to be drawn: the first ones after the references
+  std::uint32_t colour;   // index in the palette, or colour_by_order
 };
 static_assert(sizeof(PlacedCluster) == 72);
 
-// Its colour is that of what GL expands.
+// With the colour for what GL expands.
 PlacedCluster place_cluster(const VesselFrame& frame, const pipeline::VesselCluster& cluster,
                             std::uint32_t segments);
 
-// In the palette: of a segment that the processor expands.
+// The palette index for a segment that the processor expands.
 std::uint32_t expanded_colour(const VesselFrame& frame, const PlacedCluster& cluster,
                               pipeline::PackedNode node);
 

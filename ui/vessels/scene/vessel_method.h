@@ -1,4 +1,4 @@
-// What every way of drawing a vessel tree does.
+// The interface of all methods of drawing a vessel tree.
 #pragma once
 
 #include "hal/result.h"
@@ -7,15 +7,15 @@
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h. draw() allocates nothing after the first of a tree and a size.
+// Threads: as gl/objects.h. draw() allocates nothing after the first picture of a tree and a size.
 class VesselMethod {
 public:
   virtual ~VesselMethod() = default;
 
-  // Draws into the bound framebuffer and viewport, which have 8-bit RGBA and at least 24 bits
-  // of depth, are cleared (colour 0, depth 1) and as large as the scene says. Out come opaque
-  // colours (alpha 1 where there is a vessel), and depths by the camera's view_projection. Every
-  // segment is accounted for.
+  // Draws into the bound framebuffer and viewport, which must have 8-bit RGBA and at least 24 bits
+  // of depth, be cleared (colour 0, depth 1) and have the scene's size. The result has opaque
+  // colours (alpha 1 where there is a vessel) and depths by the camera's view_projection. The
+  // counts include every segment.
   hal::Result<SegmentCounts> draw(const VesselScene& scene) { return do_draw(scene); }
 
 private:

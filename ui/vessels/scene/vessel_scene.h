@@ -1,18 +1,17 @@
-// A vessel tree to be drawn: what every method of drawing it shares.
+// A vessel tree to be drawn, and the shape that every drawing method must produce.
 //
-// One shape, whoever draws it. A segment runs from its parent's place (radius:
-// segment_start_radius()) to its own. On the screen, with a and b its ends and ra and rb their
-// radii in pixels (radius_mm · pixels_per_unit / distance along the view), it covers the pixels
-// whose centre p lies in the rounded trapezoid
+// A segment runs from its parent's place (radius: segment_start_radius()) to its own. On the
+// screen, with a and b its ends and ra and rb their radii in pixels (radius_mm · pixels_per_unit /
+// distance along the view), it covers the pixels whose centre p lies in the rounded trapezoid
 //   t = clamp(dot(p − a, b − a) / |b − a|², 0, 1),   |p − a − t(b − a)| ≤ ra + t(rb − ra);
-// t is 0 where a and b coincide, and the covering radius there is the larger: seen from its end, a
-// vessel is a disc. Its distance is that of the axis at t, 1 / lerp(1/za, 1/zb, t); where a segment
-// is wide on the screen (least_relief_px), that of the surface of the round cone through its ends,
-// so that wide vessels meet as bodies do. With d = |p − a − t(b − a)| / r, it is as bright as
-// vessel_brightness(). A pixel shows the nearest segment that covers its centre, however thin: so
-// what is thinner than a pixel covers, on the average, just what it should. Segments of order 5 and
-// above are the exception: they are never narrower than a pixel, so that a connected vessel stays a
-// connected line.
+// If a and b coincide, t is 0 and the larger radius counts: seen from its end, a vessel is a disc.
+// Its distance is that of the axis at t, 1 / lerp(1/za, 1/zb, t). For wide segments
+// (least_relief_px), it is that of the surface of the round cone through the ends, so that wide
+// vessels intersect like solids. With d = |p − a − t(b − a)| / r, its brightness is
+// vessel_brightness(). A pixel shows the nearest segment that covers its centre, however thin, so
+// segments thinner than a pixel cover the right area on average. Segments of order 5 and above are
+// the exception: they are never narrower than a pixel, so that a connected vessel stays a connected
+// line.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -23,17 +22,17 @@
 
 namespace octascope::ui {
 
-// A line one pixel wide has a pixel in every column, or row, that it passes.
+// A line one pixel wide has a pixel in every column or row that it crosses.
 inline constexpr float least_vessel_radius_px = 0.5F;
 inline constexpr unsigned least_order_kept_visible = 5;
 
 // Of the larger end, in pixels.
 inline constexpr float least_relief_px = 8;
-// A surface before the near plane is cut there. So that the nearest axis shows, the cut has this
-// much of its distance from the plane.
+// A surface in front of the near plane is cut there. So that the nearest axis stays visible, the
+// cut keeps this fraction of the axis's distance from the plane.
 inline constexpr float cut_relief = 0.002F;
 
-// Of a segment's ends; `order` is that of a node that makes one.
+// The minimum radius of a segment's ends; `order` is that of the node that makes it.
 constexpr float least_radius_px(unsigned order) {
   return order >= least_order_kept_visible ? least_vessel_radius_px : 0;
 }
@@ -42,12 +41,12 @@ constexpr float least_radius_px(unsigned order) {
 struct VesselScene {
   const pipeline::VesselClusters& tree;
   const Camera& camera;
-  glm::mat4 world_from_tree{1}; // rigid: lengths stay
+  glm::mat4 world_from_tree{1}; // rigid
   VesselLook look;
   int width = 0; // of the picture, in pixels
   int height = 0;
 
-  // Of what is 1 mm wide at 1 mm along the view.
+  // The size in pixels of 1 mm at 1 mm along the view.
   float pixels_per_unit() const {
     return 0.5F * static_cast<float>(height) / camera.tan_half_height;
   }

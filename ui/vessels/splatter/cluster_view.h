@@ -14,7 +14,7 @@ namespace octascope::ui {
 
 inline const float log2_widest_start = std::log2(pipeline::widest_start);
 
-// Before it is divided by its distance.
+// A position on the screen before the division by distance.
 struct ViewPlace {
   double column;
   double line;
@@ -42,7 +42,7 @@ public:
     const Range distance = range(distance_);
     const float radius = cluster.largest_radius_mm;
     nearest_ = distance.lower;
-    // Linear in the place, so that nothing is divided by a distance that may be 0.
+    // Linear in the position, to avoid dividing by a distance that may be 0.
     const float radius_px = std::max(radius * frame.pixels_per_unit,
                                      least_vessel_radius_px * std::max(distance.upper, 0.0F));
     const auto beyond = [&](const std::array<float, 4>& row, float last) {
@@ -59,17 +59,17 @@ public:
   }
 
   bool outside() const { return outside_; }
-  bool crosses_near() const { return crosses_near_; } // may: some of it is nearer
-  // Rows for a node's steps.
+  bool crosses_near() const { return crosses_near_; } // part of it may be nearer than near_mm
+  // Rows that apply to a node's packed position.
   const std::array<float, 4>& column() const { return column_; }
   const std::array<float, 4>& line() const { return line_; }
   const std::array<float, 4>& distance() const { return distance_; }
   float log2_smallest() const { return log2_smallest_; }
-  // No millimetre of a radius at a segment's end makes it wider than so many pixels. Only where it
-  // does not cross the near distance.
+  // An upper bound of a segment's half-width in pixels per mm of radius at its end. Valid only if
+  // the cluster does not cross the near distance.
   float widest_px_per_mm() const { return widest_px_per_mm_; }
 
-  // Of that node, were it in the cluster's middle: smooth in the camera.
+  // The radius of that node if it were in the cluster's middle: varies smoothly with the camera.
   float radius_px(pipeline::PackedNode node) const {
     return unpack(cluster_, node).radius_mm * pixels_per_unit_ / middle_;
   }

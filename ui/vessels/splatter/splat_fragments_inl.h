@@ -1,5 +1,5 @@
-// Pixels that a segment covers, on their way into the picture. For one instruction set; see
-// splat_kernels.h.
+// Shades the pixels that segments cover and writes them to the picture. For one instruction set;
+// see splat_kernels.h.
 #if defined(OCTASCOPE_SPLAT_FRAGMENTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_FRAGMENTS_INL
 #undef OCTASCOPE_SPLAT_FRAGMENTS_INL
@@ -42,12 +42,12 @@ HWY_INLINE Word word(std::uint32_t value) {
   return hn::Set(Words{}, value);
 }
 
-// Which lanes come first, by the bits of a mask. Highway 1.0.3 has such tables, too, but as local
-// constants, which GCC copies to the stack, two kilobytes, each time.
+// Tables for compressing lanes by a bit mask. Highway 1.0.3 has such tables too, but as local
+// constants, which GCC copies to the stack (two kilobytes) on each use.
 struct LaneOrders {
-  // By mask of eight lanes: four bits a lane, the first lowest.
+  // By mask of eight lanes: four bits per lane, the first in the lowest.
   std::array<std::uint32_t, 256> of_eight{};
-  // By mask of four lanes: the bytes of four lanes.
+  // By mask of four lanes: byte indices for the four lanes.
   alignas(16) std::array<std::array<std::uint8_t, 16>, 16> of_four{};
 
   constexpr LaneOrders() {
@@ -73,7 +73,7 @@ template <class M> HWY_INLINE std::size_t bits_of(M mask) {
   return bits[0];
 }
 
-// The lanes of `mask`, in their order, from `to` on; writes a whole register.
+// Stores the lanes of `mask` contiguously from `to` on; writes a whole register.
 template <class D, class V, class M>
 HWY_INLINE void store_lanes(D d, V v, M mask, hn::TFromD<D>* HWY_RESTRICT to) {
   const Word words = hn::BitCast(Words{}, v);
@@ -98,14 +98,14 @@ HWY_INLINE void store_lanes(D d, V v, M mask, hn::TFromD<D>* HWY_RESTRICT to) {
   hn::StoreU(hn::BitCast(d, packed), d, to);
 }
 
-// Covered pixels are collected, shaded together and then brought into the picture.
+// Collects covered pixels, shades them together and then writes them to the picture.
 class Fragments {
 public:
   explicit Fragments(const SplatFrame& frame) : frame_{frame} {}
   Fragments(const Fragments&) = delete;
   Fragments& operator=(const Fragments&) = delete;
 
-  // Of the lanes of `covered`: which pixel, 1 / distance, d² (see vessel_scene.h), base colour.
+  // For the lanes of `covered`: pixel index, 1 / distance, d² (see vessel_scene.h), base colour.
   HWY_INLINE void add(Int pixel, Real nearness, Real off_axis, Word colour, Mask covered) {
     store_lanes(Ints{}, pixel, hn::RebindMask(Ints{}, covered), pixels_ + count_);
     store_lanes(Floats{}, nearness, covered, nearness_ + count_);
@@ -130,7 +130,7 @@ private:
   static constexpr std::size_t most = 192;
   static constexpr std::size_t room = most + 2 * lanes;
 
-  // The smaller number stays, whatever other threads do.
+  // Atomic minimum: the smaller number stays, whatever other threads do.
   static HWY_INLINE void bring(DepthPixel& pixel, DepthPixel found) {
     std::atomic_ref<DepthPixel> shared{pixel};
     DepthPixel there = shared.load(std::memory_order_relaxed);
@@ -169,7 +169,7 @@ private:
   HWY_ALIGN float nearness_[room];
   HWY_ALIGN float off_axis_[room];
   HWY_ALIGN float distances_[room];
-  HWY_ALIGN std::uint32_t colours_[room]; // base colours, then what is shown
+  HWY_ALIGN std::uint32_t colours_[room]; // base colours, then shaded colours
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -1,4 +1,4 @@
-// What the kernels need to know of one picture.
+// The parameters of one picture for the splatting kernels.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@
 
 namespace octascope::ui {
 
-// Row of an affine map of the tree's frame: dot(xyz, place) + w.
+// A row of an affine map of the tree's frame: dot(xyz, place) + w.
 using AffineRow = std::array<double, 4>;
 
-// Base colours with 10 bits a channel, red lowest; the flag in the two bits above them tells that
-// the segment is to be at least least_vessel_radius_px.
+// A base colour with 10 bits per channel, red lowest. The flag above them marks segments that are
+// drawn with at least least_vessel_radius_px.
 using BaseColour = std::uint32_t;
 inline constexpr BaseColour kept_visible = 1U << 30U;
 
-// Where the segments went; see SegmentCounts.
+// What became of the segments; see SegmentCounts.
 struct SplatCounts {
   std::uint64_t splatted = 0;
   std::uint64_t merged = 0;
@@ -29,19 +29,19 @@ struct SplatCounts {
 
 struct SplatFrame {
   pipeline::VesselClusters tree;
-  // By cluster: so many of its first nodes, references included, make segments that somebody else
-  // draws. Empty: none.
+  // Per cluster: the number of first nodes, references included, whose segments are drawn
+  // elsewhere. Empty: none.
   std::span<const std::uint8_t> taken;
   float detail_px = 0; // see merged_order.h; 0: every segment is drawn
   DepthPixel* pixels = nullptr;
   int width = 0;
   int height = 0;
-  // Pixel centres are whole numbers, rows run from the top: column = column_row / distance_row.
+  // Pixel centres are at whole numbers, rows from the top: column = column_row / distance_row.
   AffineRow column_row{};
   AffineRow line_row{};
   AffineRow distance_row{}; // along the view, in mm
   float pixels_per_unit = 0;
-  float middle_column = 0; // straight ahead of the eye
+  float middle_column = 0; // the pixel straight ahead of the eye
   float middle_line = 0;
   float near_mm = 0;
   float far_mm = 0;

@@ -1,5 +1,5 @@
-// Segments into pixels, several segments in the lanes of a register. Compiled for every instruction
-// set, chosen at run time.
+// Kernels that draw segments into pixels, several segments in the lanes of a register. Compiled for
+// every instruction set; the best is chosen at run time.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace octascope::ui {
 
-// Functions of one instruction set. They neither allocate nor lock; several threads may draw
+// The functions of one instruction set. They neither allocate nor lock. Several threads may draw
 // different clusters into one picture.
 struct SplatKernels {
   using Splat = SplatCounts (*)(const SplatFrame& frame, std::uint32_t first_cluster,
@@ -18,7 +18,7 @@ struct SplatKernels {
   Splat splat;
 };
 
-// The widest that this processor has, or the one named `isa`; nullptr where it has no such one.
+// The widest set that this processor has, or the one named `isa`; nullptr if it is not available.
 const SplatKernels* splat_kernels(std::string_view isa = {});
 
 } // namespace octascope::ui

@@ -1,10 +1,10 @@
-// From packed nodes to segments that may cover a pixel's centre. For one instruction set; see
+// Selects the segments of packed nodes that may cover a pixel centre. For one instruction set; see
 // splat_kernels.h.
 //
-// Seen as a whole, a tree has millions of segments that are much thinner than a pixel and no longer
-// than one; nearly all of them cover no pixel's centre at all. So a cluster's nodes are projected
-// into arrays that stay in the first-level cache, and a first test of many segments at a time keeps
-// those whose bounding rectangle contains a centre.
+// In a view of the whole tree, millions of segments are much thinner than a pixel and no longer
+// than one; nearly all of them cover no pixel centre. So a cluster's nodes are projected into
+// arrays that fit the first-level cache, and a first test of many segments at a time keeps those
+// whose bounding rectangle contains a centre.
 #if defined(OCTASCOPE_SPLAT_KERNELS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_KERNELS_INL
 #undef OCTASCOPE_SPLAT_KERNELS_INL
@@ -90,7 +90,7 @@ private:
   static constexpr std::size_t nodes_a_cache_line = 8;
   static constexpr float kept_visible_reach = least_vessel_radius_px + 1e-3F;
 
-  // Segments of the cluster that are to be drawn, and then wait in a queue.
+  // The cluster's segments to be drawn, and the queue that they go to.
   struct Choice {
     explicit Choice(const SplatFrame& frame) : queue{frame} {}
 
@@ -112,7 +112,7 @@ private:
     HWY_ALIGN std::uint32_t indices[room + lanes];
   };
 
-  // Nodes of the cluster onto the screen.
+  // Projects the cluster's nodes onto the screen.
   HWY_INLINE void project(const pipeline::VesselCluster& cluster, const ClusterView& view,
                           const pipeline::PackedNode* nodes, std::size_t count) {
     const auto row = [](const std::array<float, 4>& r, Real x, Real y, Real z) {
@@ -139,8 +139,8 @@ private:
       const Real nearness = hn::Div(real(1), row(view.distance(), x, y, z));
       const Real column = hn::Mul(row(view.column(), x, y, z), nearness);
       const Real line = hn::Mul(row(view.line(), x, y, z), nearness);
-      // 2^v from above, at most 6 % too much: its fraction as it is. Half as wide again at its
-      // start at the most.
+      // 2^v, at most 6 % too large: the fraction is used linearly as the mantissa. The start of a
+      // segment is at most half as wide again (widest_px_per_mm()).
       const Real radius =
           hn::BitCast(Floats{}, hn::ConvertTo(Ints{}, hn::MulAdd(log2_radius, real(8388608.0F),
                                                                  real(127.0F * 8388608.0F))));
@@ -154,7 +154,7 @@ private:
     }
   }
 
-  // A loop of plain loads and stores: processors do gathers no faster, some much slower.
+  // Plain loads and stores: gathers are no faster on any processor, and much slower on some.
   HWY_INLINE void find_parents(const pipeline::VesselCluster& cluster) {
     const std::size_t end = cluster.nodes;
     const std::uint32_t* HWY_RESTRICT parents = parents_;
@@ -164,12 +164,12 @@ private:
       std::memcpy(places + 2 * i, ends + parents[i], 2 * sizeof(float));
   }
 
-  // Fewer segments for the same coverage: see merged_order.h. They and their parents are copied
-  // side by side first, so that no other node costs time.
+  // Draws fewer segments for the same coverage; see merged_order.h. First copies the drawn nodes
+  // and their parents side by side, so that the other nodes cost no time.
   HWY_NOINLINE void splat_merged(const pipeline::VesselCluster& cluster, const ClusterView& view,
                                  const pipeline::PackedNode* nodes, std::size_t taken,
                                  std::size_t thin) {
-    // Some nodes here, some there: processors do not foresee it. The next cluster lies behind.
+    // The access is too irregular for hardware prefetching; the next cluster is stored next.
     for (std::size_t i = 0; i < pipeline::largest_cluster; i += nodes_a_cache_line)
       __builtin_prefetch(nodes + cluster.nodes + i);
     drawn_ = 0;
@@ -207,8 +207,8 @@ private:
       widenings_[end - 1] = order.last_widening;
   }
 
-  // Wider, and so much shorter that the round ends cover no more than those of the segments that
-  // this one stands for: L′ = L − π/2 · (widening − 1) · r, but not less than nothing.
+  // Widens a segment and shortens it so that its round ends cover no more than those of the
+  // segments that it stands for: L′ = L − π/2 · (widening − 1) · r, but at least 0.
   HWY_INLINE void widen() {
     for (std::size_t i = 0; i < drawn_; i += lanes) {
       Real ax, ay, wa, la, bx, by, wb, lb;
@@ -218,7 +218,7 @@ private:
       const Real log2_widening = hn::Log2(Floats{}, widening);
       la = hn::Add(hn::Min(la, hn::Add(lb, real(log2_widest_start))), log2_widening);
       lb = hn::Add(lb, log2_widening);
-      // A reach is that of a start half as wide again.
+      // The reach belongs to the start, which is half as wide again.
       const Real reach = hn::Load(Floats{}, reaches_ + i);
       const Real by_px = hn::Mul(hn::Sub(widening, real(1)),
                                  hn::Mul(reach, real(0.7854F / pipeline::widest_start)));
@@ -256,8 +256,8 @@ private:
     return start;
   }
 
-  // Of the segments that end at the nodes from `begin` to before `end`, those that may cover a
-  // pixel's centre.
+  // Selects, among the segments that end at nodes [begin, end), those that may cover a pixel
+  // centre.
   HWY_INLINE void choose(std::size_t begin, std::size_t end, float least_reach) {
     const Real right = real(static_cast<float>(frame_.width) - 0.5F);
     const Real bottom = real(static_cast<float>(frame_.height) - 0.5F);
@@ -277,13 +277,13 @@ private:
                                   hn::And(hn::Ge(bottom_y, edge), hn::Le(top_y, bottom)));
       const Mask seen = hn::And(hn::FirstN(Floats{}, end - i), inside);
       in_picture += hn::CountTrue(Floats{}, seen);
-      // The rectangle's last pixel centre, and whether it is its only one.
+      // The rectangle's last pixel centre, and whether it is the only one.
       const Real x = hn::Floor(right_x);
       const Real y = hn::Floor(bottom_y);
       const Mask has_centre = hn::And(hn::Ge(x, left_x), hn::Ge(y, top_y));
       const Mask has_more =
           hn::Or(hn::Ge(hn::Sub(x, real(1)), left_x), hn::Ge(hn::Sub(y, real(1)), top_y));
-      // Off the line through the ends by no more than `reach`.
+      // No further than `reach` from the line through the ends.
       const Real dx = hn::Sub(bx, ax);
       const Real dy = hn::Sub(by, ay);
       const Real across = hn::MulSub(dx, hn::Sub(y, ay), hn::Mul(dy, hn::Sub(x, ax)));
@@ -298,7 +298,7 @@ private:
     counts_.culled += end - begin - in_picture;
   }
 
-  // Segments of which a part may lie before the near distance, one by one.
+  // Draws segments that may be partly nearer than the near distance, one by one.
   HWY_NOINLINE void splat_clipped(const pipeline::VesselCluster& cluster, const ClusterView& view,
                                   const pipeline::PackedNode* nodes, std::size_t taken) {
     const BaseColour* colours = frame_.colours[static_cast<std::size_t>(cluster.branch)].data();
@@ -322,16 +322,16 @@ private:
 
   const SplatFrame& frame_;
   SplatCounts counts_;
-  // Those with one pixel centre to look at go together: lanes wait for the slowest of them.
+  // Segments with a single candidate pixel are drawn together, because lanes wait for the slowest.
   Choice dots_;
   Choice lines_of_pixels_;
   HWY_ALIGN End ends_[room];
   HWY_ALIGN float columns_[room + lanes];
   HWY_ALIGN float lines_[room + lanes];
-  HWY_ALIGN float reaches_[room + lanes]; // no part of the segment is further from its axis
+  HWY_ALIGN float reaches_[room + lanes]; // bounds of a segment's half-width
   HWY_ALIGN float parent_places_[2 * (room + lanes)];
   HWY_ALIGN std::uint32_t parents_[room];
-  // Of a cluster of which some are merged, those that are drawn.
+  // The drawn segments of a cluster of which some are merged.
   std::size_t drawn_ = 0;
   HWY_ALIGN pipeline::PackedNode drawn_nodes_[room];
   HWY_ALIGN pipeline::PackedNode drawn_parents_[room];

@@ -1,5 +1,5 @@
-// Where rays meet the round cone of a wide segment: what ui/shaders/vessel_relief.glsl does, with
-// pixels of a row in the lanes. For one instruction set; see splat_kernels.h.
+// Intersects rays with the round cone of a wide segment, as ui/shaders/vessel_relief.glsl does; the
+// pixels of a row are in the lanes. For one instruction set; see splat_kernels.h.
 #if defined(OCTASCOPE_SPLAT_RELIEF_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_RELIEF_INL
 #undef OCTASCOPE_SPLAT_RELIEF_INL
@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {
 namespace splat {
 
-// One segment, its first end at a pixel and a nearness, the second so much further; radii in
+// One segment: pixel and nearness of its first end, and the differences to the second; radii in
 // pixels.
 struct WideSegment {
   float ax, ay, dx, dy;
@@ -35,13 +35,13 @@ public:
     k_ = ex_ * ex_ + ey_ * ey_ + ez_ * ez_ - growth_ * growth_;
   }
 
-  // 1 / distance along the view of the surface, at the pixel that is qx, qy from the first end and
-  // where the axis has that nearness; the axis's where the ray misses the cone.
+  // 1 / distance of the surface along the view at the pixel (qx, qy) from the first end, where the
+  // axis has `axis_nearness`; the axis's nearness if the ray misses the cone.
   HWY_INLINE Real nearness(Real qx, Real qy, Real axis_nearness) const {
     const Real z = hn::Div(real(1), axis_nearness);
     const Real px = hn::Add(qx, real(first_x_));
     const Real py = hn::Add(qy, real(first_y_));
-    // The ray moves by this and by 1 along the view; the first end as seen from the axis's place.
+    // The ray per mm along the view; the first end relative to the axis's point.
     const Vector ray{hn::Mul(px, real(per_px_)), hn::Mul(py, real(per_px_)), real(1)};
     const Vector a{hn::Mul(hn::NegMulAdd(px, z, real(first_x_ * za_)), real(per_px_)),
                    hn::Mul(hn::NegMulAdd(py, z, real(first_y_ * za_)), real(per_px_)),
@@ -61,13 +61,13 @@ private:
   }
   static HWY_INLINE Real root(Real v) { return hn::Sqrt(hn::Max(v, real(0))); }
 
-  // A share of the way to the second end.
+  // The point at that share of the way to the second end.
   HWY_INLINE Vector place(const Vector& a, Real share) const {
     return {hn::MulAdd(share, real(ex_), a.x), hn::MulAdd(share, real(ey_), a.y),
             hn::MulAdd(share, real(ez_), a.z)};
   }
 
-  // 0 where it misses.
+  // 0 if the ray misses it.
   HWY_INLINE Real enter_ball(const Vector& ray, const Vector& a, Real share) const {
     const Vector middle = place(a, share);
     const Real radius = hn::MulAdd(share, real(growth_), real(ra_));
@@ -82,7 +82,7 @@ private:
     return hn::Min(enter_ball(ray, a, real(0)), enter_ball(ray, a, real(1)));
   }
 
-  // 0 where it misses them.
+  // 0 if the ray misses them.
   HWY_INLINE Real enter_sides(const Vector& ray, const Vector& a) const {
     const Vector e{real(ex_), real(ey_), real(ez_)};
     const Real per_k = real(1 / k_);
@@ -93,7 +93,7 @@ private:
     const Real constant = hn::NegMulAdd(hn::Mul(m, m), per_k, hn::Sub(dot(a, a), real(ra_ * ra_)));
     const Real rest = hn::NegMulAdd(square, constant, hn::Mul(half_linear, half_linear));
     const Mask meets =
-        hn::And(hn::Ge(rest, real(0)), hn::Ge(hn::Abs(square), real(1e-9F))); // else along them
+        hn::And(hn::Ge(rest, real(0)), hn::Ge(hn::Abs(square), real(1e-9F))); // else parallel
     const Real divisor = hn::IfThenElse(meets, square, real(1));
     const auto met = [&](Real s) {
       const Real u = hn::Mul(hn::MulAdd(s, along, m), per_k);
@@ -105,10 +105,10 @@ private:
   }
 
   float near_;
-  float per_px_;            // mm of a pixel at 1 mm along the view
-  float first_x_, first_y_; // from the pixel straight ahead
+  float per_px_;            // mm per pixel at 1 mm along the view
+  float first_x_, first_y_; // relative to the pixel straight ahead
   float za_;
-  float ra_; // mm, like what follows
+  float ra_; // in mm, like the following
   float ex_ = 0, ey_ = 0, ez_ = 0;
   float growth_ = 0;
   float k_ = 0;

@@ -1,10 +1,10 @@
-// The rounded trapezoids of ui/vessels/scene/vessel_scene.h, pixel centre by pixel centre. For one
-// instruction set; see splat_kernels.h.
+// Draws the rounded trapezoids of ui/vessels/scene/vessel_scene.h, pixel centre by pixel centre.
+// For one instruction set; see splat_kernels.h.
 //
-// Small ones are drawn side by side, one in each lane: along the axis that they follow more, each
-// column has but a few candidates for pixel centres, within √2 radii of the line through the ends.
-// (A point of the shape is at most a radius off the line, or off one end and the line rises no
-// faster than 45 degrees.) Large ones are drawn one at a time, pixels of a row in the lanes.
+// Small ones are drawn in parallel, one per lane: each column along the segment's major axis has
+// only a few candidate pixel centres, within √2 radii of the line through the ends. (A point of the
+// shape is at most a radius off the line, or off one end, and the line is no steeper than 45
+// degrees.) Large ones are drawn one at a time, with the pixels of a row in the lanes.
 #if defined(OCTASCOPE_SPLAT_SHAPES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_SHAPES_INL
 #undef OCTASCOPE_SPLAT_SHAPES_INL
@@ -23,7 +23,7 @@ HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {
 namespace splat {
 
-// 2^v for −126 < v < 126, to about 2e-7 of it.
+// 2^v for −126 < v < 126, with a relative error of about 2e-7.
 HWY_INLINE Real exp2_of(Real v) {
   const Real nearest = hn::Round(v);
   const Real f = hn::Sub(v, nearest);
@@ -44,13 +44,13 @@ struct End {
 };
 static_assert(sizeof(End) == 16);
 
-// A segment in each lane.
+// One segment per lane.
 struct Shapes {
-  Real ax, ay, dx, dy; // first end and the way to the second
+  Real ax, ay, dx, dy; // first end and the difference to the second
   Real ra, dr;         // likewise, in pixels
   Real wa, dw;         // nearness
   Real widest;
-  Real inverse_length2; // 0: both ends in one place
+  Real inverse_length2; // 0: both ends coincide
   Word colour;
 };
 
@@ -66,10 +66,10 @@ public:
     colours_[count_] = colour;
     ++count_;
   }
-  // add() may be called so many times more before there must be a draw_full().
+  // How often add() may be called before draw_full() is needed.
   HWY_INLINE std::size_t space() const { return room - count_; }
 
-  // Draws what fills whole registers and keeps the rest.
+  // Draws the segments that fill whole registers and keeps the others.
   void draw_full() {
     std::size_t i = 0;
     for (; i + lanes <= count_; i += lanes)
@@ -81,7 +81,7 @@ public:
     count_ = rest;
   }
 
-  // Draws all, into the picture.
+  // Draws all remaining segments.
   void finish() {
     draw_full();
     if (count_ > 0) {
@@ -96,8 +96,8 @@ public:
 
 private:
   static constexpr std::size_t room = 320;
-  static constexpr float most_columns = 24; // of those drawn side by side
-  static constexpr float widest_small = 2;  // their radius
+  static constexpr float most_columns = 24; // of those drawn in parallel
+  static constexpr float widest_small = 2;  // their largest radius
 
   Shapes load(std::size_t i) const {
     Shapes s;
@@ -124,8 +124,8 @@ private:
     return s;
   }
 
-  // Those of the lanes `candidates` that cover the centre of the pixel that is qx, qy from their
-  // first end. shown(nearness) is the nearness of what is seen where the axis has that one.
+  // The lanes among `candidates` that cover the centre of the pixel at (qx, qy) from their first
+  // end. shown(nearness) maps the axis's nearness to that of what is visible.
   template <class Shown>
   HWY_INLINE void cover(const Shapes& s, Real qx, Real qy, Int pixel, Mask candidates,
                         const Shown& shown) {
@@ -159,7 +159,7 @@ private:
   }
 
   HWY_INLINE void draw_small(const Shapes& s, Mask drawn) {
-    // u along the axis that the segment follows more, v across.
+    // u runs along the segment's major axis, v across.
     const Mask steep = hn::Gt(hn::Abs(s.dy), hn::Abs(s.dx));
     const Real au = hn::IfThenElse(steep, s.ay, s.ax);
     const Real av = hn::IfThenElse(steep, s.ax, s.ay);
@@ -203,7 +203,7 @@ private:
   }
 
   HWY_NOINLINE void draw_large(const Shapes& all, Mask large) {
-    // By lane: what Shapes has, one after the other.
+    // Per lane: the members of Shapes one after the other.
     HWY_ALIGN float values[10][lanes];
     HWY_ALIGN std::uint32_t colours[lanes];
     const Real fields[] = {all.ax, all.ay, all.dx, all.dy,     all.ra,
@@ -220,7 +220,7 @@ private:
                    real(values[8][i]), real(values[9][i]), word(colours[i])});
   }
 
-  // The same segment in all lanes.
+  // Expects the same segment in all lanes.
   void draw_rows(const Shapes& s) {
     const auto one = [](Real v) { return hn::GetLane(v); };
     const float ax = one(s.ax), ay = one(s.ay), dx = one(s.dx), dy = one(s.dy);
@@ -243,7 +243,7 @@ private:
       const float qy = static_cast<float>(y) - ay;
       float left = lowest;
       float right = highest;
-      // Off the line through the ends by no more than r.
+      // Within r of the line through the ends.
       if (std::abs(dy) > 1e-3F * length) {
         const float middle = ax + qy * dx / dy;
         const float half = std::abs(r * length / dy) + 1e-3F * std::abs(qy);

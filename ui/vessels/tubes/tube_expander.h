@@ -12,15 +12,15 @@
 
 namespace octascope::ui {
 
-// In the eye's frame, mm: right, up, and along the view.
+// In the eye's frame, in mm: right, up and along the view.
 struct TubeVertex {
   glm::vec3 place;
-  std::array<std::int16_t, 3> normal; // any length
-  std::int16_t colour;                // in the palette
+  std::array<std::int16_t, 3> normal; // of any length
+  std::int16_t colour;                // index in the palette
 };
 static_assert(sizeof(TubeVertex) == 20);
 
-// What shaders/vessel_tube_nodes.vert does, in the same words. Any thread may use one of its own.
+// Computes the same as shaders/vessel_tube_nodes.vert. Each thread needs its own expander.
 class TubeExpander {
 public:
   explicit TubeExpander(const TubeShape& shape);
@@ -30,9 +30,9 @@ public:
     std::uint32_t caps = 0;
   };
 
-  // Adds a cluster's segments that may be in the picture: body_vertices() of each after those of
-  // counts.bodies before, cap_vertices() of each half ball after those of counts.caps. `passed` are
-  // the tree's passed_nodes(). There is room for one body and two half balls a segment.
+  // Appends a cluster's segments that may be in the picture: body_vertices() for each after the
+  // counts.bodies already there, cap_vertices() for each half ball after counts.caps. `passed` are
+  // the tree's passed_nodes(). There must be room for one body and two half balls per segment.
   void expand(const VesselFrame& frame, const PlacedCluster& cluster,
               std::span<const pipeline::PackedNode> nodes, std::span<const std::uint32_t> passed,
               bool with_caps, TubeVertex* bodies, TubeVertex* caps, Counts& counts) const;
@@ -42,12 +42,12 @@ private:
 
   void add_body(const Tube& tube, TubeVertex* to) const;
   void add_cap(const Tube& tube, bool at_end, TubeVertex* to) const;
-  // Out from the axis, at a sector's edge, counted from the side.
+  // The direction away from the axis at a sector's edge, counted from `side`.
   glm::vec3 around(const glm::vec3& axis, const glm::vec3& side, int sector) const;
 
   TubeShape shape_;
-  std::vector<glm::vec2> turns_; // cosine and sine, by sector
-  std::vector<glm::vec2> rises_; // of half balls, by ring
+  std::vector<glm::vec2> turns_; // cosine and sine, per sector
+  std::vector<glm::vec2> rises_; // of half balls, per ring
 };
 
 } // namespace octascope::ui

@@ -13,12 +13,12 @@ namespace octascope::ui {
 // Threads: as gl/objects.h. Allocates in create(), and in begin() for a new tree.
 class TubeNodePainter {
 public:
-  // `nodes` is shared by those who draw the same tree.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // `nodes` is shared by all painters of the same tree. ErrorCode::unsupported: this GL cannot
+  // compile the shaders.
   static hal::Result<TubeNodePainter> create(std::shared_ptr<NodeTexture> nodes,
                                              const TubeShape& shape);
 
-  // Then draw() draws clusters of that tree in that frame.
+  // Prepares draw() for clusters of that tree in that frame.
   hal::Result<> begin(const VesselFrame& frame, const pipeline::VesselClusters& tree);
   void draw(std::span<const PlacedCluster> clusters, bool caps) const;
 
@@ -27,7 +27,7 @@ private:
     gl::Program program;
     gl::VertexArray vertex_array;
     gl::Buffer indices;
-    int corners = 0; // of a segment
+    int corners = 0; // per segment
   };
 
   TubeNodePainter(std::shared_ptr<NodeTexture> nodes, const TubeShape& shape, gl::Program body,
@@ -40,7 +40,7 @@ private:
   Part body_;
   Part caps_;
   gl::Texture ends_;
-  TreeKey tree_; // whose ends these are
+  TreeKey tree_; // the tree of these ends
 };
 
 } // namespace octascope::ui

@@ -1,4 +1,4 @@
-// Segments as tubes, expanded by the processor into buffers of GL.
+// Segments as tubes, expanded by the processor into GL buffers.
 #pragma once
 
 #include <span>
@@ -9,28 +9,28 @@
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h, but for expand(). Allocates in create() only.
+// Threads: as gl/objects.h, except for expand(). Allocates in create() only.
 class TubeStreamPainter {
 public:
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<TubeStreamPainter> create(std::uint32_t slots, const TubeShape& shape);
 
   std::uint32_t batch_clusters() const { return batch_clusters_; }
 
-  // Then slots may be expanded into. ErrorCode::system: the driver has no memory.
+  // Prepares slots for expand(). ErrorCode::system: the driver has no memory.
   hal::Result<> begin(const VesselFrame& frame);
-  // Any thread, one a slot; at most batch_clusters(). `passed` are the tree's passed_nodes().
+  // Any thread, one per slot; at most batch_clusters(). `passed` are the tree's passed_nodes().
   void expand(std::uint32_t slot, const VesselFrame& frame, std::span<const PlacedCluster> clusters,
               std::span<const pipeline::PackedNode> nodes, std::span<const std::uint32_t> passed,
               bool caps);
-  // Draws what was expanded, and readies the slot for the next.
+  // Draws what was expanded, and prepares the slot for the next batch.
   hal::Result<> draw(std::uint32_t slot);
 
 private:
   struct Part {                                 // bodies, or half balls
-    std::vector<gl::VertexArray> vertex_arrays; // by slot
+    std::vector<gl::VertexArray> vertex_arrays; // per slot
     gl::Buffer indices;
-    int corners = 0; // of one
+    int corners = 0; // per body or half ball
   };
 
   TubeStreamPainter(gl::Program program, std::uint32_t slots, const TubeShape& shape);
@@ -40,9 +40,9 @@ private:
   gl::Program program_;
   TubeExpander expander_;
   std::uint32_t batch_clusters_;
-  std::size_t caps_at_; // in a slot, after the bodies: vertices
+  std::size_t caps_at_; // first vertex of the half balls in a slot, after the bodies
   StreamSlots slots_;
-  std::vector<TubeExpander::Counts> counts_; // by slot
+  std::vector<TubeExpander::Counts> counts_; // per slot
   Part bodies_;
   Part caps_;
 };

@@ -1,4 +1,4 @@
-// Where a vessel tree is densest.
+// Finds the densest part of a vessel tree.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -8,10 +8,10 @@
 
 namespace octascope::ui {
 
-// Of boxes `size_mm` along the axes (unit vectors at right angles, the columns), a quarter of their
-// size apart, with something in their first corner: the one that holds most segments, and of it the
-// mean place of its segments. A cluster's segments are taken to be in its middle. The origin for an
-// empty tree. For commands: allocates.
+// Among boxes of `size_mm` along `axes` (orthonormal columns), placed at a quarter of their size
+// and with something in their first corner, takes the one with the most segments, and returns the
+// mean position of its segments. A cluster's segments count as in its middle. The origin for an
+// empty tree. Allocates: for commands.
 glm::vec3 densest_place(const pipeline::VesselClusters& tree, const glm::mat3& axes,
                         const glm::vec3& size_mm);
 

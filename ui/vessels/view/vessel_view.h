@@ -1,4 +1,4 @@
-// Looking at a vessel tree.
+// Views of a vessel tree.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace octascope::ui {
 
-// The box, along the tree's axes, in which its clusters lie with their whole thickness.
+// The box, along the tree's axes, of its clusters with their full thickness.
 struct VesselBounds {
   glm::vec3 lower_mm{0};
   glm::vec3 upper_mm{0};
@@ -33,33 +33,33 @@ struct VesselView {
   bool operator==(const VesselView&) const = default;
 };
 
-// From that yaw and tilt, target and scale such that the box of every cluster is in the picture,
-// and one touches its margin. Of an empty tree: looks at the origin.
+// Keeps yaw and tilt and chooses target and scale so that the boxes of all clusters are in the
+// picture and one touches its margin. For an empty tree: looks at the origin.
 VesselView fit_whole_tree(VesselView view, const pipeline::VesselClusters& tree, int width,
                           int height);
 
-// Faces the target. Near and far plane enclose what can be seen of the bounds; what is nearer to
-// the eye than half the target's distance is cut away, else a close look would end at the next
+// Faces the target. Near and far plane enclose the visible part of the bounds. What is nearer to
+// the eye than half the target's distance is cut away; otherwise a close look would end at the next
 // trunk.
 Camera make_vessel_camera(const VesselView& view, const VesselBounds& bounds, int width,
                           int height);
 
-// The look's depth cue over what the camera shows of the bounds: at most over two heights of the
-// picture before and behind the target, so that a close look has depth, too.
+// Sets the look's depth cue to what the camera shows of the bounds, but at most to two picture
+// heights in front of and behind the target, so that a close look has depth too.
 VesselLook with_cue(VesselLook look, const VesselView& view, const VesselBounds& bounds, int width,
                     int height);
 
-// The views in which methods are measured; they depend on the tree and the picture's size alone.
+// The views for benchmarks; they depend only on the tree and the picture's size.
 enum class BenchmarkView : std::uint8_t {
   whole,  // the tree fills the picture
-  middle, // 20 µm a pixel, where most segments are to be seen: the hardest
-  close,  // 2 µm a pixel, among the capillaries, where they are densest
+  middle, // 20 µm per pixel, where most segments are visible: the hardest
+  close,  // 2 µm per pixel, among the capillaries, where they are densest
 };
 inline constexpr std::array all_benchmark_views{BenchmarkView::whole, BenchmarkView::middle,
                                                 BenchmarkView::close};
 std::string_view to_string(BenchmarkView view);
 
-// Of an empty tree: looks at the origin.
+// For an empty tree: looks at the origin.
 VesselView make_benchmark_view(BenchmarkView view, const pipeline::VesselClusters& tree, int width,
                                int height);
 
