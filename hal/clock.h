@@ -1,7 +1,8 @@
-// Time, injected: whatever waits or stamps takes a Clock, so that tests can own the time.
+// Injected time: code that waits or takes time stamps is given a Clock, so that tests can control
+// time.
 //
-// All time points of the program are on one monotonic axis (CLOCK_MONOTONIC on Linux), the axis on
-// which V4L2, GPIO and KMS stamp their events. Wall-clock time appears only in file names and logs.
+// All time points are on one monotonic axis (CLOCK_MONOTONIC on Linux), which V4L2, GPIO and KMS
+// also use for their events. Wall-clock time appears only in file names and logs.
 #pragma once
 
 #include <chrono>
@@ -32,20 +33,20 @@ constexpr Duration from_seconds(double s) {
   return Duration{static_cast<std::int64_t>(s * 1e9 + (s < 0 ? -0.5 : 0.5))};
 }
 
-// Thread-safe: any thread may ask or sleep.
+// Thread-safe.
 class Clock {
 public:
   virtual ~Clock() = default;
 
   TimePoint now() const { return do_now(); }
 
-  // Returns at or after `deadline`; at once when it has passed. Allocates nothing.
+  // Returns at or after `deadline`, immediately if it has passed. Does not allocate.
   void sleep_until(TimePoint deadline) { do_sleep_until(deadline); }
   void sleep_for(Duration duration) { do_sleep_until(do_now() + duration); }
 
-  // Returns at a post of `semaphore`, or at or after `deadline`; true for a post. Takes all posts
-  // made so far: whoever waits looks at everything that may have happened. One thread waits at a
-  // semaphore; neither locks nor allocates on a real clock.
+  // Waits for a post of `semaphore` until `deadline`; true for a post, false for a timeout. Takes
+  // all posts made so far, so the caller must check everything that may have been posted. Only one
+  // thread may wait on a semaphore. On a real clock it neither locks nor allocates.
   bool wait_until(Semaphore& semaphore, TimePoint deadline) {
     return do_wait_until(semaphore, deadline);
   }

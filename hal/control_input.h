@@ -1,6 +1,6 @@
-// Input devices of the surgeon: pedals, knobs, 6-axis pucks.
+// The surgeon's input devices: pedals, knobs, 6-axis pucks.
 //
-// An event says what the device did, not what it means; ui/controls binds events to actions.
+// An event says what the device did, not what it means; ui/controls maps events to actions.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ namespace octascope::hal {
 
 enum class ControlKind : std::uint8_t {
   pedal_switch, // value 1 pressed, 0 released; index 0 left, 1 centre, 2 right, …
-  knob,         // value is the detents turned since the last event, right is positive
+  knob,         // value is the detents turned since the last event, clockwise is positive
   axis,         // value −1000…1000; index 0–2 translation x y z, 3–5 rotation x y z
 };
 
@@ -27,23 +27,23 @@ struct ControlEvent {
   bool operator==(const ControlEvent&) const = default;
 };
 
-// Threads: one thread at a time (the control thread). state() is free.
+// Threads: one thread at a time (the control thread). state() may be called from any thread.
 class ControlInput : public Device {
 public:
   // absent → ready.
   Result<> open() { return do_open(); }
 
   // Waits at most `timeout` for events and writes up to events.size() of them, oldest first, with
-  // times that never decrease; returns their number, 0 when nothing happened. Contact bounce under
-  // 5 ms is already removed. A device that goes away in the middle of a press or a push first
-  // reports every pressed switch as released and every axis as centred (nobody else will), then
-  // ErrorCode::disconnected, and is `failed`; close() and open().
+  // times that never decrease. Returns their number, 0 if nothing happened. Contact bounce under
+  // 5 ms is already removed. When a device disappears, every pressed switch is first reported as
+  // released and every deflected axis as centred; then read() returns ErrorCode::disconnected and
+  // the state is `failed`: call close() and open().
   Result<std::size_t> read(std::span<ControlEvent> events, Duration timeout) {
     return do_read(events, timeout);
   }
 
-  // How many bounces were removed since construction; many mean worn contacts. 0 if the device
-  // removes them itself.
+  // Bounces removed since construction; many indicate worn contacts. 0 if the device debounces
+  // itself.
   std::uint64_t bounces() const { return do_bounces(); }
 
   // Any state → absent.

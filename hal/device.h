@@ -1,5 +1,4 @@
-// What every device has in common: backend, whether it is simulated, and a state for any thread to
-// read.
+// The base class of all devices: backend name, whether it is simulated, and state.
 #pragma once
 
 #include <atomic>
@@ -9,9 +8,8 @@
 namespace octascope::hal {
 
 // absent --open--> ready --start--> streaming --stop--> ready --close--> absent
-// Any state but absent can become `failed`; close() leads from there back to absent, and open()
-// may then be tried again. A device that has no stream (trigger, control input, display) works in
-// the state `ready`.
+// Any state except absent can become `failed`; close() then returns to absent, and open() may be
+// tried again. A device without a stream (trigger, control input, display) operates in `ready`.
 enum class DeviceState : std::uint8_t { absent, ready, streaming, failed };
 
 std::string_view to_string(DeviceState state);
@@ -26,10 +24,10 @@ public:
   // Thread-safe.
   DeviceState state() const { return state_.load(std::memory_order_acquire); }
 
-  // Which implementation this is ("v4l2", "sim", "offscreen" …): a literal, valid for ever.
+  // The implementation ("v4l2", "sim", "offscreen" …): a string literal.
   std::string_view backend() const { return do_backend(); }
 
-  // True for a twin: what it delivers is not the patient's. The display says so.
+  // True for a simulated device: its data are not the patient's, and the display says so.
   bool simulated() const { return do_simulated(); }
 
 protected:

@@ -1,6 +1,6 @@
-// Where the picture goes: a KMS output, a development window, or an offscreen surface.
+// An image output: a KMS output, a development window or an offscreen surface.
 //
-// A display brings a GLES 3 context of its own. It says nothing about what is drawn.
+// A display owns a GLES 3 context. It does not define what is drawn.
 #pragma once
 
 #include <cstddef>
@@ -15,23 +15,23 @@
 namespace octascope::hal {
 
 struct DisplayConfig {
-  int width = 1280; // of the drawn picture in pixels; a display with one mode only may ignore them
+  int width = 1280; // of the image in pixels; a display with only one mode may ignore these
   int height = 720;
-  double refresh_hz = 60; // a wish, as above
+  double refresh_hz = 60; // preferred, not guaranteed
   bool fullscreen = false;
   std::string title = "octascope";
 };
 
-// One picture reached the glass (or the memory, offscreen).
+// One image became visible on screen (or complete in memory, offscreen).
 struct Flip {
   TimePoint completed;
-  std::uint64_t sequence = 0; // counts completed flips since open()
+  std::uint64_t sequence = 0; // number of completed flips since open()
 };
 
 enum class DisplayEventKind : std::uint8_t { close_requested, resized, key_pressed, key_released };
 
-// Keys that have no ASCII code. Letters and digits are reported by their ASCII codes (lower case);
-// other keys are not reported.
+// Named keys. Letters and digits are reported by their ASCII codes (lower case); other keys are not
+// reported.
 enum class Key : std::uint16_t {
   escape = 27,
   space = 32,
@@ -51,33 +51,34 @@ enum class Key : std::uint16_t {
 struct DisplayEvent {
   DisplayEventKind kind = DisplayEventKind::close_requested;
   std::uint16_t key = 0; // a Key or an ASCII code, for key events
-  bool repeated = false; // a key held down
+  bool repeated = false; // auto-repeat of a held key
   bool shift = false;
   TimePoint time;
 };
 
-// Threads: bound to the thread that calls open() (the render thread). state() is free.
+// Threads: bound to the thread that calls open() (the render thread). state() may be called from
+// any thread.
 class Display : public Device {
 public:
-  // absent → ready, with the context current on the calling thread.
+  // absent → ready, with the GL context current on the calling thread.
   Result<> open(const DisplayConfig& config) { return do_open(config); }
 
-  // The drawable's size in pixels now. May change with a `resized` event.
+  // The drawable's current size in pixels. May change with a `resized` event.
   int width() const { return do_width(); }
   int height() const { return do_height(); }
 
-  // How often a new picture can be shown.
+  // The shortest time between two images.
   Duration refresh_period() const { return do_refresh_period(); }
 
-  // Makes what was drawn visible, waits until it is, and until the next may be drawn.
-  // ErrorCode::disconnected: the output is gone, the state is `failed` and the context lost: forget
-  // every GL name, close() and open() again.
+  // Shows what was drawn; waits until it is visible and the next image may be drawn.
+  // ErrorCode::disconnected: the output is gone, the state is `failed` and the GL context is lost
+  // with all its objects: close() and open() again.
   Result<Flip> present() { return do_present(); }
 
   // Never waits; returns the number of events written, oldest first.
   std::size_t poll_events(std::span<DisplayEvent> events) { return do_poll_events(events); }
 
-  // Any state → absent; the context is gone.
+  // Any state → absent; destroys the GL context.
   void close() { do_close(); }
 
 private:

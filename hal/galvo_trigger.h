@@ -1,8 +1,8 @@
 // The galvo trigger: one pulse starts the sweeps of one volume.
 //
-// User-space toggling jitters by tens of microseconds, a line lasts 4.65 µs: so the trigger starts
-// volumes and never clocks lines. A pulse that comes while the sweeps of the last one still run is
-// latched by the scanner, one deep, and starts right behind them; a second one is lost.
+// User-space toggling jitters by tens of microseconds and a line lasts 4.65 µs, so the trigger
+// starts volumes and never clocks lines. While sweeps are running, the scanner latches one further
+// pulse and starts its sweeps right after them; any more are lost.
 #pragma once
 
 #include "hal/clock.h"
@@ -15,17 +15,17 @@ struct GalvoTriggerConfig {
   Duration pulse_width = std::chrono::microseconds{50}; // > 0
 };
 
-// Threads: one thread at a time (the fixed-rate thread). state() is free.
+// Threads: one thread at a time (the fixed-rate thread). state() may be called from any thread.
 class GalvoTrigger : public Device {
 public:
-  // absent → ready; the line is held exclusively and at its safe (low) level.
+  // absent → ready; holds the line exclusively, at its safe (low) level.
   Result<> open(const GalvoTriggerConfig& config) { return do_open(config); }
 
-  // Makes one pulse and returns when its rising edge was made. Neither allocates nor locks when it
+  // Makes one pulse and returns the time of its rising edge. Neither allocates nor locks when it
   // succeeds. ErrorCode::disconnected: the line is gone, the state is `failed`; close() and open().
   Result<TimePoint> arm() { return do_arm(); }
 
-  // Back to the safe level; any state → absent.
+  // Any state → absent; sets the safe level.
   void close() { do_close(); }
 
 private:

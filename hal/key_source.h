@@ -1,4 +1,4 @@
-// Keys for a display on the console, where no window system delivers them.
+// Key events for a display on the console, where there is no window system to deliver them.
 #pragma once
 
 #include <cstddef>
@@ -13,11 +13,11 @@ class KeySource {
 public:
   virtual ~KeySource() = default;
 
-  // Whether keys belong to this display: true while it is open and its console is in front. On
-  // false, held keys are reported as released, and keys go to other programs from then on.
+  // Whether this display has the keyboard focus: true while it is open and its console is in the
+  // foreground. On false, held keys are reported as released, and later keys go to other programs.
   void attend(bool ours) { do_attend(ours); }
 
-  // As Display::poll_events(): never waits.
+  // Like Display::poll_events(): never waits.
   std::size_t poll_events(std::span<DisplayEvent> events) { return do_poll_events(events); }
 
 private:

@@ -1,8 +1,8 @@
 // The spectrometer's line-scan camera: delivers B-scans of raw spectra.
 //
-// One frame is one B-scan: all lines of one fast-axis sweep, the kept A-scans first and then the
-// fly-back lines, each line `samples_per_line` counts. The camera clocks its lines itself; the
-// galvo trigger tells it when a sweep begins, so no frames come while nothing is triggered.
+// One frame is one B-scan: all lines of one fast-axis sweep, first the A-scans that are kept, then
+// the fly-back lines, each of `samples_per_line` counts. The camera clocks its own lines; the galvo
+// trigger starts each sweep, so no frames arrive without a trigger.
 #pragma once
 
 #include <cstddef>
@@ -37,59 +37,59 @@ struct LineFormat {
 struct LineCameraConfig {
   LineFormat format;
   double line_rate_hz = 215e3;
-  int buffers = 96; // frames that may be on loan or waiting at once
+  int buffers = 96; // frames that may be borrowed or waiting at once
 };
 
-// What the driver knows about a frame. A frame that is not `good` is handed out all the same, so
-// that one place, the acquisition, decides and counts.
+// What the driver reports about a frame. Frames that are not `good` are delivered too: the
+// acquisition alone counts them and decides what to do.
 enum class FrameIntegrity : std::uint8_t {
   good,
   corrupted,  // the driver flagged an error
-  wrong_size, // `bytes` is shorter or longer than the format says
+  wrong_size, // `bytes` is shorter or longer than the format's frame_bytes()
 };
 
-// Borrowed from the camera until release(buffer) is called. Copying it copies the loan's address,
-// not the loan: it is released once.
+// Borrowed from the camera until release(buffer). Copies refer to the same buffer, which is
+// released once.
 struct LineFrame {
   int buffer = -1; // 0 ≤ buffer < LineCameraConfig::buffers
   std::span<const std::byte> bytes;
-  std::uint64_t sequence = 0; // counts every frame the hardware made, delivered or not
-  TimePoint first_line;       // exposure of the first and of the last line
+  std::uint64_t sequence = 0; // counts every frame the hardware produced, delivered or not
+  TimePoint first_line;       // exposure times of the first and the last line
   TimePoint last_line;
   FrameIntegrity integrity = FrameIntegrity::good;
 };
 
-// Threads: open, start, wait_frame, stop and close belong to one thread at a time (the camera
-// thread). release() may come from any thread while the camera is open. state() and identity() are
-// free.
+// Threads: open, start, wait_frame, stop and close from one thread at a time (the camera thread);
+// release() from any thread while the camera is open; state() and identity() from any thread.
 class LineCamera : public Device {
 public:
-  // absent → ready, or an Error and still absent. ErrorCode::absent means: try again later.
-  // ErrorCode::invalid_argument: the configuration is impossible, the message has found and
-  // expected.
+  // absent → ready; stays absent on an error. ErrorCode::absent: try again later.
+  // ErrorCode::invalid_argument: the configuration is impossible; the message says what was found
+  // and expected.
   Result<> open(const LineCameraConfig& config) { return do_open(config); }
 
-  // ready → streaming. Sequence numbers begin anew at each start.
+  // ready → streaming. Sequence numbers restart at each start.
   Result<> start() { return do_start(); }
 
-  // Waits for the next frame, at most `timeout`. Nothing in time (no trigger, no light, no cable):
-  // an empty optional, the stream goes on. ErrorCode::disconnected: the device is gone, the state
-  // is `failed`; loans stay readable until close(); then open() again.
+  // Waits at most `timeout` for the next frame. Returns an empty optional on a timeout (no trigger,
+  // no light, no cable); the stream continues. ErrorCode::disconnected: the device is gone and the
+  // state is `failed`; borrowed frames stay readable until close(), then open() again.
   Result<std::optional<LineFrame>> wait_frame(Duration timeout) { return do_wait_frame(timeout); }
 
-  // Gives a loan back; its bytes must not be read afterwards. Numbers that are not on loan are
-  // ignored. Neither allocates nor blocks.
+  // Returns a borrowed buffer; its bytes must not be read afterwards. Buffers that are not borrowed
+  // are ignored. Neither allocates nor blocks.
   void release(int buffer) { do_release(buffer); }
 
-  // streaming → ready; frames not yet fetched are discarded. Loans stay readable until release().
+  // streaming → ready; discards frames not yet fetched. Borrowed frames stay readable until
+  // release().
   void stop() { do_stop(); }
 
-  // Any state → absent. All loans must have been released, or never be read again.
+  // Any state → absent. Frames that are still borrowed must not be read afterwards.
   void close() { do_close(); }
 
-  // Which camera the last open() found, so that it can be told from another of its kind: the same
-  // after a replug, in another socket and in another machine. One line, for people to copy. Empty
-  // before the first open(), and where nothing can be known of it. Allocates.
+  // Identifies the camera that the last open() found, among others of the same model: unchanged
+  // after a replug, in another socket or on another machine. One line, for people to copy. Empty
+  // before the first open() and if the camera cannot be identified. Allocates.
   std::string identity() const { return do_identity(); }
 
 private:

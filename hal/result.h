@@ -1,8 +1,6 @@
-// Results that say what went wrong.
-//
-// Everything that can fail returns a Result. An Error carries a kind, for the code that decides
-// what to do next (retry, give up, ask), and a message, for the person who reads it: what was
-// found, what was expected, and what to do. Exceptions do not cross a module's border.
+// Everything that can fail returns a Result. An Error has a code, for the caller that decides what
+// to do next (retry, give up, ask), and a message for people: what was found, what was expected and
+// what to do. Exceptions do not cross module boundaries.
 #pragma once
 
 #include <string>
@@ -15,15 +13,15 @@
 namespace octascope::hal {
 
 enum class ErrorCode {
-  absent,           // the device or file is not there; it may come (back)
-  busy,             // somebody else holds it
+  absent,           // the device or file does not exist, but may appear (again) later
+  busy,             // in use by another program
   denied,           // missing permission
-  disconnected,     // it was there and went away in the middle
-  timed_out,        // it did not answer within its stated limit
-  bad_data,         // it answered with something that cannot be right
-  invalid_argument, // the caller asked for something that makes no sense
-  unsupported,      // it makes sense, but this device or build cannot do it
-  system,           // the operating system refused; the message has its words
+  disconnected,     // the device disappeared while in use
+  timed_out,        // no answer within the stated limit
+  bad_data,         // the data received cannot be right
+  invalid_argument, // the request makes no sense
+  unsupported,      // a valid request that this device or build cannot fulfil
+  system,           // the operating system refused; the message includes its error text
 };
 
 std::string_view to_string(ErrorCode code);
@@ -47,10 +45,10 @@ tl::unexpected<Error> fail(ErrorCode code, fmt::format_string<First, Rest...> pa
 
 } // namespace octascope::hal
 
-// Macros, because only a macro can return from the function that uses it; the arguments are
-// variadic so that they may hold commas.
+// Only a macro can return from the calling function. The arguments are variadic so that they may
+// contain commas.
 
-// HAL_TRY(const auto spectrum, read(file)): declares what a Result holds, or returns its error.
+// HAL_TRY(const auto spectrum, read(file)): declares the value of a Result, or returns its error.
 #define HAL_TRY(declaration, ...)                                                                  \
   HAL_TRY_NAMED(HAL_TRY_JOIN(hal_try_result_, __LINE__), declaration, __VA_ARGS__)
 #define HAL_TRY_NAMED(result, declaration, ...)                                                    \
@@ -61,7 +59,7 @@ tl::unexpected<Error> fail(ErrorCode code, fmt::format_string<First, Rest...> pa
 #define HAL_TRY_JOIN(a, b) HAL_TRY_JOIN_EXPANDED(a, b)
 #define HAL_TRY_JOIN_EXPANDED(a, b) a##b
 
-// HAL_CHECK(write(file)): returns the error of a Result that holds nothing of interest.
+// HAL_CHECK(write(file)): returns the error of a Result, and ignores its value.
 #define HAL_CHECK(...)                                                                             \
   if (auto hal_check_result = __VA_ARGS__; !hal_check_result)                                      \
   return tl::make_unexpected(std::move(hal_check_result).error())

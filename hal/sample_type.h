@@ -1,4 +1,5 @@
-// What one sample of a raw spectrum is: little-endian counts of a camera, or numbers of a file.
+// The type of one sample of a raw spectrum: little-endian counts from a camera, or values from a
+// file.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +10,8 @@ namespace octascope::hal {
 
 enum class SampleType : std::uint8_t {
   u8,
-  u16, // samples of 10, 12 and 14 bits, too
-  f32, // from files alone: no camera has it
+  u16, // also samples of 10, 12 and 14 bits
+  f32, // only from files
 };
 
 constexpr std::size_t bytes_per_sample(SampleType type) {

@@ -1,4 +1,4 @@
-// The ambient-light camera that looks through the microscope.
+// The microscope camera, which images the field in ambient light.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 namespace octascope::hal {
 
 struct ScopeCameraConfig {
-  int width = 640; // wishes: the frames say what the camera really gives
+  int width = 640; // preferences: the frames tell what the camera delivers
   int height = 480;
   double frames_per_s = 30;
 };
 
 enum class PixelFormat : std::uint8_t { rgb8, rgba8, yuyv, nv12 };
 
-// Borrowed from the camera until release(buffer). Row 0 is the top of the picture.
+// Borrowed from the camera until release(buffer). Row 0 is the top of the image.
 struct ScopeFrame {
   int buffer = -1;
   int width = 0;
@@ -32,15 +32,15 @@ struct ScopeFrame {
   TimePoint time;
 };
 
-// Threads: open, start, wait_frame, stop and close belong to one thread at a time. release() may
-// come from any thread. state() is free.
+// Threads: open, start, wait_frame, stop and close from one thread at a time; release() and state()
+// from any thread.
 class ScopeCamera : public Device {
 public:
   // absent → ready.
   Result<> open(const ScopeCameraConfig& config) { return do_open(config); }
   // ready → streaming.
   Result<> start() { return do_start(); }
-  // As LineCamera::wait_frame.
+  // Like LineCamera::wait_frame.
   Result<std::optional<ScopeFrame>> wait_frame(Duration timeout) { return do_wait_frame(timeout); }
   void release(int buffer) { do_release(buffer); }
   // streaming → ready.

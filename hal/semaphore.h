@@ -1,13 +1,12 @@
-// Wakes a thread that waits; a post that comes before the wait is not lost.
+// Wakes a waiting thread; a post made before the wait is not lost.
 #pragma once
 
 #include <semaphore.h>
 
 namespace octascope::hal {
 
-// A POSIX semaphore: posting is one atomic instruction while nobody waits, and a futex call
-// otherwise; it neither locks nor allocates. To wait for a post until some time, ask the clock
-// that the time is of: Clock::wait_until().
+// A POSIX semaphore: a post is one atomic instruction while no thread waits, a futex call
+// otherwise; it neither locks nor allocates. To wait with a deadline, use Clock::wait_until().
 class Semaphore {
 public:
   Semaphore() { sem_init(&semaphore_, 0, 0); }
@@ -18,13 +17,13 @@ public:
   // Any thread.
   void post() { sem_post(&semaphore_); }
 
-  // Returns at a post, and takes this one only.
+  // Waits for one post and takes it.
   void wait() {
-    while (sem_wait(&semaphore_) != 0) { // a signal came
+    while (sem_wait(&semaphore_) != 0) { // interrupted by a signal
     }
   }
 
-  // Takes all posts made so far, and tells how many they were. Does not wait.
+  // Takes all posts made so far and returns their number. Does not wait.
   int take_all() {
     int count = 0;
     while (sem_trywait(&semaphore_) == 0)
@@ -32,7 +31,7 @@ public:
     return count;
   }
 
-  // For clocks.
+  // For implementations of Clock.
   sem_t& native() { return semaphore_; }
 
 private:

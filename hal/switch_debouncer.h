@@ -1,10 +1,10 @@
-// Takes the bounce out of one switch contact.
+// Debounces one switch contact.
 //
-// A change counts when the contact has rested at its new level for the settling time; whatever is
-// shorter, a bounce or a spike of interference, is never seen. The price is that a press is told
-// one settling time after the last bounce; its time stamp says when the contact came to rest.
+// A change is reported once the contact has kept its new level for the settling time; shorter
+// changes (bounces, interference) are suppressed. A press is therefore reported one settling time
+// after the last bounce; its time stamp is when the contact came to rest.
 //
-// Pure logic over explicit times, for twins and real pedals alike. Not thread-safe.
+// Pure logic over explicit times, for simulated and real pedals. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace octascope::hal {
 
 struct SwitchChange {
-  TimePoint time; // when the contact reached the level at which it then stayed
+  TimePoint time; // when the contact reached the level it then kept
   bool closed = false;
 };
 
@@ -24,8 +24,8 @@ public:
   explicit SwitchDebouncer(Duration settling = std::chrono::milliseconds{5})
       : settling_(settling) {}
 
-  // The contact's level from `t` on. Call settle(t) first, with times that do not decrease.
-  // Repeating the same level changes nothing.
+  // Sets the contact's level from `t` on; repeating a level has no effect. Call settle(t) first.
+  // Times must not decrease.
   void contact(TimePoint t, bool closed) {
     if (closed == contact_)
       return;
@@ -35,7 +35,7 @@ public:
     since_ = t;
   }
 
-  // The change that is certain by `now`, once.
+  // Returns, once, the change that has settled by `now`.
   std::optional<SwitchChange> settle(TimePoint now) {
     const auto certain = due();
     if (!certain || *certain > now)
@@ -44,20 +44,20 @@ public:
     return SwitchChange{since_, closed_};
   }
 
-  // When settle() will have something to say if the contact stays as it is.
+  // When settle() will return a change if the contact keeps its level.
   std::optional<TimePoint> due() const {
     if (contact_ == closed_)
       return std::nullopt;
     return since_ + settling_;
   }
 
-  // As last told by settle().
+  // The level last returned by settle().
   bool closed() const { return closed_; }
 
-  // How often a change did not last for the settling time, ever.
+  // Changes since construction that did not last for the settling time.
   std::uint64_t bounces() const { return bounces_; }
 
-  // To an open contact, with nothing to tell.
+  // To an open contact, with no pending change.
   void reset() { contact_ = closed_ = false; }
 
 private:

@@ -1,4 +1,4 @@
-// CLOCK_MONOTONIC, with absolute sleeps and waits.
+// A Clock on CLOCK_MONOTONIC, with absolute sleeps and waits.
 #pragma once
 
 #include "hal/clock.h"

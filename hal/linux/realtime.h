@@ -1,4 +1,4 @@
-// Real-time scheduling and locked memory, where the system allows them.
+// Real-time scheduling and locked memory, if the system allows them.
 #pragma once
 
 #include <string_view>
@@ -12,25 +12,25 @@ namespace octascope::hal::linux_backend {
 void name_this_thread(std::string_view name);
 
 // SCHED_FIFO for the calling thread. `priority` 1…49: below the kernel's threaded interrupts (50),
-// which feed us. ErrorCode::denied with the remedy in the message where the privilege is missing.
+// which deliver the data. ErrorCode::denied: the privilege is missing; the message has the remedy.
 Result<> make_this_thread_realtime(int priority);
 
-// The cores that the process may use, in order: what taskset, cgroups and the service unit leave.
+// The cores that taskset, cgroups and the service unit allow the process, in ascending order.
 std::vector<int> allowed_cores();
 
-// The calling thread runs on this core and no other. ErrorCode::invalid_argument: there is no such
-// core, or it is not allowed.
+// Pins the calling thread to one core. ErrorCode::invalid_argument: the core does not exist or is
+// not allowed.
 Result<> pin_this_thread(int core);
 
-// SCHED_IDLE-like: nice 19, for background work that may take as long as it likes.
+// Nice 19 for the calling thread: for background work without a deadline.
 void make_this_thread_background();
 
-// Keeps all memory of the process, now and later, out of the swap.
+// Locks all present and future memory of the process, so that none is swapped out.
 Result<> lock_memory();
 
-// Blocks of a MiB and more are mappings of their own from now on, and go back to the system when
-// they are freed. Of itself the allocator puts them into its heap once one was freed, where each
-// display that is opened again leaves gaps. At the start, before there are any.
+// Makes malloc map blocks of 1 MiB and more separately and return them to the system when they are
+// freed. By default, glibc moves such blocks to its heap once one was freed, and reopening a
+// display then fragments the heap. Call it at start-up, before the first such block.
 void keep_large_blocks_apart();
 
 } // namespace octascope::hal::linux_backend

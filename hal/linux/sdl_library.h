@@ -1,5 +1,5 @@
-// SDL2's functions, loaded when a window is asked for: an appliance on the console has none, and is
-// spared SDL and the thirty libraries for sound and desktops that it brings into a program.
+// SDL2's functions, loaded only when a window is requested: an appliance on the console needs
+// neither SDL nor the thirty sound and desktop libraries it depends on.
 #pragma once
 
 #include <SDL.h>
@@ -8,10 +8,10 @@
 
 namespace octascope::hal::linux_backend {
 
-// Copied at will: what was loaded stays to the program's end, as neither SDL nor the GL drivers
-// that it loads bear to be taken out. Threads: as SDL's.
+// Copyable: the library stays loaded until the program ends, because neither SDL nor the GL drivers
+// it loads can be unloaded safely. Threads: as for SDL.
 struct SdlLibrary {
-  // ErrorCode::unsupported: it is not installed, or is not SDL2.
+  // ErrorCode::unsupported: `file` is not installed or is not SDL2.
   static Result<SdlLibrary> load(const char* file = "libSDL2-2.0.so.0");
 
   decltype(&SDL_InitSubSystem) init_sub_system = nullptr;

@@ -9,11 +9,11 @@
 
 namespace octascope::hal::linux_backend {
 
-// Vertical synchronisation paces the frames where the window system has it; where flips complete at
-// once (virtual outputs), the injected clock does.
+// Frames are paced by vertical synchronisation, or by the injected clock if the window system
+// completes flips immediately (virtual outputs).
 class WindowDisplay final : public Display {
 public:
-  // The clock is borrowed, must outlive the display and be the one of the control inputs.
+  // The clock is borrowed, must outlive the display and must also be the control inputs' clock.
   explicit WindowDisplay(Clock& clock);
   ~WindowDisplay() override;
 
@@ -22,8 +22,8 @@ private:
 
   std::string_view do_backend() const override { return "window"; }
   bool do_simulated() const override { return false; }
-  // ErrorCode::absent: no X11 or Wayland display to be found. ErrorCode::unsupported: no GLES 3
-  // there.
+  // ErrorCode::absent: no X11 or Wayland display was found. ErrorCode::unsupported: it has no
+  // GLES 3.
   Result<> do_open(const DisplayConfig& config) override;
   int do_width() const override;
   int do_height() const override;

@@ -1,11 +1,10 @@
-// The galvo trigger on a GPIO line, by libgpiod.
+// The galvo trigger on a GPIO line, using libgpiod.
 //
-// Safe level. The line is driven low when it is taken and before it is released. What level a
-// released line then has is up to the chip's driver: most leave it as it is or make it an input, so
-// a pull-down resistor at the scanner belongs to the wiring. A process that ends in the middle of a
-// pulse leaves the line to the driver, too: make_safe() may be called from the handler of a fatal
-// signal; after SIGKILL nothing in the process can act, and the line is low again when the program
-// is started again and takes it.
+// Safe level. The line is driven low when it is acquired and before it is released. The level of a
+// released line depends on the chip's driver: most leave it as it is or make it an input, so the
+// wiring needs a pull-down resistor at the scanner. The same holds if the process ends during a
+// pulse: call make_safe() from the handlers of fatal signals. After SIGKILL nothing can be done;
+// the line goes low when the program next acquires it.
 #pragma once
 
 #include <array>
@@ -25,38 +24,38 @@ inline constexpr const char* default_trigger_line = "octascope-trigger";
 
 struct GpioTriggerSettings {
   std::string line = default_trigger_line; // a line's name, or "gpiochip0:17"
-  std::string sync_line = {};              // what the scanner answers on; empty: it does not
-  int sync_edges_per_pulse = 1;            // 1 to 16, what the kernel keeps between two pulses
+  std::string sync_line = {};              // the scanner's answer; empty: not connected
+  int sync_edges_per_pulse = 1;            // 1 to 16, the kernel's buffer
 };
 
 struct GpioTriggerCounters {
-  std::uint64_t pulses = 0; // since the trigger was made, as all of these
+  std::uint64_t pulses = 0; // all counts are since construction
   std::uint64_t sync_edges = 0;
-  std::uint64_t missed_edges = 0;     // that a pulse should have brought; told at the next pulse
+  std::uint64_t missed_edges = 0;     // expected but not seen; updated at the next pulse
   std::uint64_t unexpected_edges = 0; // noise on the sync line, or a second source
-  bool sync_works = false;            // a sync line is there and can be read
+  bool sync_works = false;            // a sync line is configured and can be read
   Duration sync_delay{};              // from the last answered pulse to its first edge; 0: none
-  TimePoint last_sync_edge{};         // to be compared with the camera's times; 0: none
+  TimePoint last_sync_edge{};         // comparable with the camera's times; 0: none
 };
 
-// Threads: as hal::GalvoTrigger; counters() and make_safe() are free. While the device is open with
-// pulses longer than `longest_wait`, a thread of its own ends them.
+// Threads: as hal::GalvoTrigger; counters() and make_safe() from any thread. While the device is
+// open with pulses longer than `longest_wait`, a thread of this class ends them.
 class GpioGalvoTrigger final : public GalvoTrigger {
 public:
-  // Pulses up to this width are made within arm(); longer ones end beside the caller.
+  // arm() waits for the end of pulses up to this width; longer ones end after it has returned.
   static constexpr Duration longest_wait = std::chrono::microseconds{200};
 
-  // `clock` outlives the trigger and keeps to CLOCK_MONOTONIC.
+  // `clock` is borrowed, must outlive the trigger and must run on CLOCK_MONOTONIC.
   explicit GpioGalvoTrigger(Clock& clock, GpioTriggerSettings settings = {});
   ~GpioGalvoTrigger() override;
 
   GpioTriggerCounters counters() const;
 
-  // Drives the line low, whatever goes on; it can be armed again. Async-signal-safe.
+  // Drives the line low in any state; arm() still works afterwards. Async-signal-safe.
   void make_safe() noexcept;
 
 private:
-  // Who sees `high` first makes it `falling`, sets the line and makes it `low`.
+  // The first thread to change `high` to `falling` drives the line low and then stores `low`.
   enum class Level : std::uint8_t { low, high, falling };
 
   std::string_view do_backend() const override { return "gpio"; }

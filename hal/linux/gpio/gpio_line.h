@@ -1,7 +1,6 @@
-// One GPIO line, held exclusively under the consumer name "octascope", and what chips and lines
-// there are. The narrow part of libgpiod that octascope needs, in front of its two incompatible
-// APIs: gpio_line_v1.cpp (1.4 … 1.6) and gpio_line_v2.cpp (2.x); CMake takes the one that fits, the
-// bench of virtual hardware runs both.
+// One GPIO line, held exclusively under the consumer name "octascope", and the description of a
+// GPIO chip. Wraps the two incompatible APIs of libgpiod: gpio_line_v1.cpp (1.4 … 1.6) and
+// gpio_line_v2.cpp (2.x). CMake chooses the matching one; the virtual bench tests both.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +19,7 @@ inline constexpr const char* gpio_consumer = "octascope";
 struct GpioLineInfo {
   unsigned offset = 0;
   std::string name;     // given by device tree, firmware or driver; often empty
-  std::string consumer; // who holds it, where it is used
+  std::string consumer; // the holder, if it is used
   bool used = false;    // by the kernel or by another program
 };
 
@@ -30,30 +29,31 @@ struct GpioChipInfo {
   std::vector<GpioLineInfo> lines;
 };
 
-// ErrorCode::denied, absent …: why the chip cannot be asked.
+// ErrorCode::denied, absent …: why the chip cannot be queried.
 Result<GpioChipInfo> describe_gpio_chip(const std::string& node);
 
-// Threads: set() from one thread at a time, and from a signal handler; the rest from one thread.
+// Threads: set() from one thread at a time and from a signal handler; everything else from one
+// thread.
 class GpioLine {
 public:
-  // As an output at low level. `node` is the chip's, as "/dev/gpiochip0".
+  // Acquires an output at low level. `node` is the chip's, such as "/dev/gpiochip0".
   static Result<GpioLine> output(const std::string& node, unsigned offset);
-  // As an input whose rising edges are told.
+  // Acquires an input that detects rising edges.
   static Result<GpioLine> rising_edges(const std::string& node, unsigned offset);
 
   GpioLine(GpioLine&&) noexcept;
   GpioLine& operator=(GpioLine&&) noexcept;
-  ~GpioLine(); // releases the line; its level is then up to the chip's driver
+  ~GpioLine(); // releases the line; its level then depends on the chip's driver
 
-  // 0, or errno. One system call, no allocation, no lock: async-signal-safe.
+  // Returns 0 or errno. One system call, no allocation, no lock: async-signal-safe.
   int set(bool high) noexcept;
 
-  // The rising edges that have not been read yet, oldest first, at most edges.size() of them; does
-  // not wait. Their number, or −errno. No allocation. The times are of CLOCK_MONOTONIC.
+  // Reads at most edges.size() pending rising edges, oldest first, without waiting. Returns their
+  // number, or −errno. The times are of CLOCK_MONOTONIC. Does not allocate.
   int read_edges(std::span<TimePoint> edges) noexcept;
 
-  // The kernel keeps so many edges. What is lost of more until they are read: the newest with
-  // libgpiod 1.x, the oldest with 2.x.
+  // The number of unread edges that the kernel keeps. On overflow, libgpiod 1.x loses the newest,
+  // 2.x the oldest.
   static constexpr std::size_t kernel_buffer = 16;
 
 private:

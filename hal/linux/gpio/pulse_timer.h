@@ -1,4 +1,4 @@
-// Ends long pulses beside the caller: a thread that sleeps until the pulse is over.
+// Ends long pulses asynchronously, on a thread that sleeps until the pulse is over.
 #pragma once
 
 #include <functional>
@@ -10,19 +10,19 @@
 
 namespace octascope::hal::linux_backend {
 
-// Threads: one thread at a time. `end` runs on a thread of this, which has the scheduling of the
-// one that called start().
+// Threads: one thread at a time. `end` runs on the timer's own thread, which inherits the
+// scheduling of the thread that called start().
 class PulseTimer {
 public:
   ~PulseTimer() { stop(); }
 
   Result<> start(std::function<void()> end);
 
-  // Calls `end` once at `time` of CLOCK_MONOTONIC; an earlier wish is replaced. 0, or errno. One
-  // system call, no allocation, no lock.
+  // Has `end` called once at `time` (CLOCK_MONOTONIC), replacing an earlier request. Returns 0 or
+  // errno. One system call, no allocation, no lock.
   int end_at(TimePoint time) noexcept;
 
-  // When it returns, `end` does not run and will not.
+  // After it returns, `end` is not running and will not run.
   void stop();
 
 private:

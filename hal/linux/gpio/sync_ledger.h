@@ -1,8 +1,9 @@
-// Did the scanner answer each trigger pulse? Compares the sync line's rising edges with the pulses.
+// Checks that the scanner answers each trigger pulse, by comparing the sync line's rising edges
+// with the pulses.
 //
-// Every pulse is to bring `expected` edges before the next pulse. Pure logic over times, one
-// thread; pulses and edges are told in any order, each kind with times that never decrease, all
-// edges up to a pulse before the pulse itself.
+// Each pulse must be followed by `expected` edges before the next pulse. Report all edges up to a
+// pulse before the pulse itself; the times of pulses, and those of edges, must not decrease. Pure
+// logic over times, for one thread.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@ public:
 
   void edge(TimePoint t) {
     ++edges_;
-    if (!pulse_) { // of a sweep that nobody here started
+    if (!pulse_) { // from a sweep that this trigger did not start
       ++unexpected_;
       return;
     }
@@ -34,16 +35,16 @@ public:
       delay_ = t - *pulse_;
   }
 
-  // The pulse before a pause is not asked about any more.
+  // Before a pause: no more edges are expected for the last pulse.
   void forget_pulse() {
     pulse_.reset();
     since_pulse_ = 0;
   }
 
   std::uint64_t edges() const { return edges_; }
-  // That should have come for a pulse and did not; told at the next pulse.
+  // Expected edges that did not arrive; updated at the next pulse.
   std::uint64_t missed() const { return missed_; }
-  // More than expected: noise on the line, or a second source.
+  // Edges beyond those expected: noise on the line, or a second source.
   std::uint64_t unexpected() const { return unexpected_; }
   // From the last answered pulse to its first edge.
   std::optional<Duration> delay() const { return delay_; }

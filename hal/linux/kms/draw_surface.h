@@ -1,5 +1,5 @@
-// Where EGL draws and KMS reads: a GBM surface with its EGL context, and its buffers as frame
-// buffers of the card.
+// A GBM surface into which EGL draws, its EGL context, and its buffers as frame buffers that KMS
+// can show.
 #pragma once
 
 #include <cstdint>
@@ -12,36 +12,36 @@ struct gbm_bo;
 
 namespace octascope::hal::linux_backend::kms {
 
-// A picture that is drawn and may be shown.
+// A drawn image that can be shown.
 struct DrawnPicture {
   gbm_bo* buffer = nullptr;
   std::uint32_t framebuffer = 0;
-  FileDescriptor fence; // signalled when the drawing is done; none: the kernel knows by itself
+  FileDescriptor fence; // signalled when the drawing is done; none: the kernel tracks it
 };
 
 struct DrawSurfaceSetup {
   int width = 0;
   int height = 0;
   const Card& card;
-  const Plane* plane = nullptr; // null: nothing is known of it
-  bool modifiers = true;        // let the driver choose a layout from those that the plane can show
+  const Plane* plane = nullptr; // null: unknown
+  bool modifiers = true;        // let the driver choose among the layouts that the plane can show
 };
 
-// Threads: bound to the one that makes it, where its context is current.
+// Threads: bound to the thread that creates it, where its context is current.
 class DrawSurface {
 public:
-  // ErrorCode::unsupported: no EGL for this card, or no format that both can.
+  // ErrorCode::unsupported: no EGL for this card, or no format that both support.
   static Result<std::unique_ptr<DrawSurface>> create(const FileDescriptor& card,
                                                      const DrawSurfaceSetup& setup);
   DrawSurface(const DrawSurface&) = delete;
   DrawSurface& operator=(const DrawSurface&) = delete;
   ~DrawSurface();
 
-  // Was a layout chosen that needs a modifier to be named?
+  // Whether the buffers' layout is given by a modifier.
   bool uses_modifiers() const;
 
-  // What was drawn since the last time, with a fence if asked for and the driver can. The buffer is
-  // the caller's until release().
+  // Ends the image that was being drawn and returns it, with a fence if requested and supported.
+  // The buffer belongs to the caller until release().
   Result<DrawnPicture> take_picture(bool with_fence);
   void release(gbm_bo* buffer);
 

@@ -1,5 +1,5 @@
-// Whether the graphics processor was reset. What is drawn is lost then, and a program that does not
-// ask goes on to show buffers into which nobody draws any more.
+// Detects a reset of the graphics processor. After one, drawing has no effect any more, and a
+// program that does not check would keep showing stale buffers.
 //
 // Source: EGL_EXT_create_context_robustness, GL_EXT_robustness and GL_KHR_robustness (Khronos).
 #pragma once
@@ -13,22 +13,22 @@
 
 namespace octascope::hal::linux_backend::kms {
 
-// Asked on the thread where the context is current. Allocates nothing.
+// Threads: the one where the context is current. cause() does not allocate.
 class GraphicsReset {
 public:
-  // What contexts of GLES 3 are to be created with, the best first: one that tells of resets, where
-  // this display has it, then one that does not.
+  // Attributes with which to create a GLES 3 context, best first: with reset notification, if
+  // `display` supports it, then without.
   static std::vector<std::vector<EGLint>> context_attributes(EGLDisplay display);
 
-  // Of the context that is current now. Without one that tells, none is ever known.
+  // For the current context. If it has no reset notification, no reset is ever reported.
   static GraphicsReset of_current_context();
 
-  // After a reset: what caused it, in words. The context cannot be used any more.
+  // After a reset: its cause, as text; the context is then unusable. Else empty.
   std::optional<std::string_view> cause() const;
 
 private:
   using Status = unsigned (*)(); // glGetGraphicsResetStatus
-  Status status_ = nullptr;      // null: the driver cannot tell
+  Status status_ = nullptr;      // null: the context has no reset notification
 };
 
 } // namespace octascope::hal::linux_backend::kms

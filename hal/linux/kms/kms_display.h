@@ -1,10 +1,9 @@
-// A monitor on the bare console, without a window system: kernel mode setting (libdrm) shows what
-// EGL has drawn into GBM buffers.
+// A monitor on the console, without a window system: kernel mode setting (libdrm) shows what EGL
+// has drawn into GBM buffers.
 //
-// The output is chosen by output_choice.h (first monitor, its preferred mode), pictures are shown
-// by atomic commits where the driver has them, each present() waits for its flip, and what the
-// console showed before comes back at close(). Sources: docs.kernel.org/gpu/drm-kms.html,
-// drm-uapi.html.
+// output_choice.h chooses the output (by default the first monitor, in its preferred mode). Images
+// are shown with atomic commits if the driver has them; each present() waits for its flip; close()
+// restores the console. Sources: docs.kernel.org/gpu/drm-kms.html, drm-uapi.html.
 #pragma once
 
 #include <memory>
@@ -21,24 +20,24 @@ namespace octascope::hal::linux_backend {
 struct KmsConfig {
   enum class SeatUse {
     automatic, // managed, else plain
-    managed,   // seatd or logind grant the card, and pause us when another console is in front
-    plain,     // --no-seat: the card is opened and taken; for root and for test benches
+    managed,   // seatd or logind grants the card, and revokes it for another console
+    plain,     // --no-seat: the card is opened directly; for root and for test benches
   };
 
   std::string connector; // "HDMI-A-1", "card1:HDMI-A-1"; empty: the first with a monitor
-  std::string mode;      // "1920x1080@60" and more (mode_choice.h); empty: what the monitor prefers
+  std::string mode;      // "1920x1080@60" and more (mode_choice.h); empty: the preferred mode
   kms::Overscan overscan;
   SeatUse seat = SeatUse::automatic;
-  bool atomic = true; // false: the older calls, for drivers whose atomic ones fail
+  bool atomic = true; // false: the legacy calls, for drivers whose atomic commits fail
 };
 
-// The mode is KmsConfig's: width, height, refresh_hz, fullscreen and title of DisplayConfig are
-// checked but have no meaning here. poll_events() tells what `keys` tells, which is listened to
-// while the display is open and its console in front; without one it tells nothing.
+// KmsConfig gives the mode: DisplayConfig is checked but otherwise ignored. poll_events() returns
+// the events of `keys`, which has the keyboard focus while the display is open and its console in
+// the foreground; without `keys` there are none.
 //
-// While another console is in front, or another program has taken the card, present() shows nothing
-// and returns after 100 ms a Flip whose sequence has not moved; the first picture after that comes
-// with the mode.
+// While another console is in the foreground, or another program has taken the card, present()
+// shows nothing and returns after 100 ms with an unchanged sequence; the next image that is shown
+// sets the mode again.
 class KmsDisplay final : public Display {
 public:
   // The clock is borrowed and must outlive the display.
@@ -53,8 +52,8 @@ private:
 
   std::string_view do_backend() const override { return "kms"; }
   bool do_simulated() const override { return false; }
-  // ErrorCode::absent: no monitor, no card. ErrorCode::denied: the card must not be opened.
-  // ErrorCode::busy: another program shows on it. ErrorCode::unsupported: no such mode, no GLES 3.
+  // ErrorCode::absent: no monitor, no card. ErrorCode::denied: this user may not open the card.
+  // ErrorCode::busy: another program uses it. ErrorCode::unsupported: no such mode, no GLES 3.
   Result<> do_open(const DisplayConfig& config) override;
   int do_width() const override;
   int do_height() const override;

@@ -1,4 +1,4 @@
-// One output in use: shows pictures on it, waits for their flips, notices when it is gone.
+// One output in use: shows images on it, waits for their flips, detects when it is gone.
 #pragma once
 
 #include <cstdint>
@@ -20,26 +20,26 @@ namespace octascope::hal::linux_backend::kms {
 // Threads: one at a time.
 class Output {
 public:
-  // Everything is borrowed and outlives the Output.
+  // All arguments are borrowed and must outlive the Output.
   Output(Clock& clock, Seat& seat, const SeatDevice& device, const Card& card,
          const OutputChoice& choice);
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
-  // The output is as it was before; pictures shown may be released.
+  // Restores what the output showed before; afterwards the images shown may be released.
   ~Output();
 
   bool takes_fences() const { return scanout_->takes_fences(); }
   const std::string& name() const { return name_; } // "/dev/dri/card0 HDMI-A-1"
 
-  // ErrorCode::disconnected: the monitor is gone. Hears of a link that must be trained again: the
-  // next picture then comes with the mode.
+  // ErrorCode::disconnected: the monitor is gone. If the link must be trained again, calls
+  // want_mode().
   Result<> check();
 
-  // The next picture comes with the mode, whatever the output shows by then.
+  // The next show() sets the mode again.
   void want_mode() { mode_wanted_ = true; }
 
-  // Returns when the picture is shown. Empty: the card is not ours now, nothing was shown.
-  // ErrorCode::disconnected, timed_out, unsupported, system: open everything anew.
+  // Returns when the image is visible. Empty: nothing was shown, because another console or program
+  // has the card. ErrorCode::disconnected, timed_out, unsupported, system: reopen everything.
   Result<std::optional<FlipTimes>> show(const DrawnPicture& picture);
 
 private:

@@ -1,6 +1,6 @@
-// The right to use a display and keyboards: granted by the seat's manager (seatd, logind) through
-// libseat, which takes it back while another console is in front; or taken directly where no
-// manager runs and the user may (root, a test bench).
+// Access to the display and keyboards. A seat manager (seatd, logind) grants it through libseat and
+// revokes it while another console is in the foreground. Without a manager, the devices are opened
+// directly, if the user may (root, a test bench).
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace octascope::hal::linux_backend::kms {
 
 struct SeatDevice {
   FileDescriptor file;
-  int id = -1; // the seat's name for it
+  int id = -1; // libseat's device id
 };
 
 // Threads: one thread at a time.
@@ -28,19 +28,20 @@ public:
   virtual Result<SeatDevice> open_device(const std::string& node) = 0;
   virtual void close_device(SeatDevice device) = 0;
 
-  // Makes an open card ours to set modes on. ErrorCode::busy: another program has it.
+  // Makes this process the master of an open card, so that it may set modes. ErrorCode::busy:
+  // another program is.
   virtual Result<> take_card(const SeatDevice& card) = 0;
 
-  // Handles the manager's messages, without waiting. False while another console is in front:
-  // devices must not be used then. Also false once if one was in front since the last call, because
-  // the devices' settings may be lost.
+  // Handles the manager's messages without waiting. False while another console is in the
+  // foreground: the devices must not be used then. Also false once if one was since the last call,
+  // because the devices' settings may be lost.
   virtual bool active() = 0;
 
-  // Sleeps until the manager says something, at most `timeout`.
+  // Waits at most `timeout` for a message of the manager.
   virtual void wait(Duration timeout) = 0;
 };
 
-// Waits up to two seconds for the console to be ours. ErrorCode::absent: no manager answers.
+// Waits up to two seconds for access to the console. ErrorCode::absent: no manager answers.
 Result<std::unique_ptr<Seat>> open_managed_seat();
 std::unique_ptr<Seat> open_plain_seat();
 

@@ -1,4 +1,4 @@
-// One camera of libcamera's, configured, with its buffers mapped: what the scope camera is made of.
+// One configured libcamera camera with its buffers mapped, for LibcameraScopeCamera.
 #pragma once
 
 #include <cstddef>
@@ -28,9 +28,9 @@ struct LibcameraSession::Chosen {
   CameraNodes nodes;
 };
 
-// Puts the signals of cameras into the queue. A signal of libcamera's must not be disconnected
-// while its thread may be emitting it, so each camera is connected once, for as long as it lives;
-// after that the queue takes signals of the current camera alone.
+// Forwards the cameras' signals to the queue. A libcamera signal must not be disconnected while
+// libcamera's thread may be emitting it, so each camera is connected once, for its lifetime; the
+// queue accepts only the current camera's signals.
 class SignalListener {
 public:
   void listen_to(const std::shared_ptr<libcamera::Camera>& camera);
@@ -42,19 +42,20 @@ private:
   std::vector<std::weak_ptr<libcamera::Camera>> connected_;
 };
 
-// Threads: one at a time. Its destructor stops the camera and gives it back.
+// Threads: one at a time. The destructor stops and releases the camera.
 //
-// But libcamera 0.0.3 can neither stop nor drop a streaming camera that is gone, unless it noticed
-// itself (it does for USB cameras, and tells the queue), nor one that gave up a request: it ends
-// the program. Such a camera is abandoned, and the session is to be restarted: its objects, some
-// descriptors (those of its nodes lead nowhere then) and a sleeping thread stay until the program
-// ends.
+// But libcamera 0.0.3 ends the program on stopping or destroying a streaming camera that has
+// cancelled a request, or that is gone without libcamera having noticed (it notices for USB
+// cameras, and tells the queue). Such a camera is abandoned and the session must be restarted: its
+// objects, some descriptors (those of its nodes lead nowhere) and a sleeping thread remain until
+// the program ends.
 class CameraLink {
 public:
-  // ErrorCode::busy: another program has it. ErrorCode::unsupported: no format that can be drawn.
+  // ErrorCode::busy: another program uses it. ErrorCode::unsupported: it has no format that can be
+  // drawn.
   static Result<std::unique_ptr<CameraLink>> open(const LibcameraSession::Chosen& chosen,
                                                   const ScopeCameraConfig& config);
-  // Nobody has it, in this program or in another one that uses libcamera.
+  // False if this program or another one that uses libcamera has acquired it.
   static bool is_free(const LibcameraSession::Chosen& chosen);
   CameraLink(const CameraLink&) = delete;
   CameraLink& operator=(const CameraLink&) = delete;
@@ -65,32 +66,33 @@ public:
   std::size_t buffers() const;
 
   Result<> start(Duration period);
-  // Returns when no request is under way any more; all that were are in the queue. Call it with as
-  // few under way as can be waited for: should the camera vanish in this very moment, libcamera
-  // 0.0.3 ends the program if there is one.
+  // Returns when no request is pending; all that were are in the queue. First wait for as many
+  // requests as possible to complete: if the camera vanishes during stop() while one is pending,
+  // libcamera 0.0.3 ends the program.
   void stop();
-  // False: it was unplugged.
+  // False if it was unplugged.
   bool present() const;
-  bool can_be_stopped() const;    // false: it is or was gone, or gave up a request
-  bool will_be_abandoned() const; // when this is destroyed; the session is restarted before
-  // Of one that will be abandoned, when the session was restarted and has not begun anew: its
-  // nodes, which it would hold and stream on for ever, are for others to open. Loans stay readable.
+  bool can_be_stopped() const;    // false: it is or was gone, or has cancelled a request
+  bool will_be_abandoned() const; // on destruction; the session must be restarted before
+  // For a camera that will be abandoned, after the session's restart() and before its next use:
+  // closes the camera's nodes, which it would otherwise hold and stream from for ever, so that
+  // others can open them. Borrowed frames stay readable.
   void shut_nodes();
   bool watched() const; // CameraNodes::watched
-  // Libcamera noticed that the camera is gone, and has stopped it by itself.
+  // To be called when libcamera has noticed that the camera is gone, and so has stopped it.
   void stopped_by_itself();
-  // Gives the camera a buffer to fill. Allocates nothing of ours; libcamera allocates a message to
-  // its thread.
+  // Gives the camera a buffer to fill. Allocates nothing itself, but libcamera allocates a message
+  // to its thread.
   Result<> queue(std::size_t buffer);
 
-  // Of each request that the queue brings while it streams: whether the camera gave it up. From
-  // the first such on it cannot be stopped any more.
+  // Call it for each request from the queue while streaming: whether the camera cancelled it. After
+  // the first one that it did, the camera can no longer be stopped.
   bool given_up(std::size_t buffer);
 
-  // Of one that it did not give up. `bytes` stay readable until queue(buffer): the picture, or the
-  // JPEG.
+  // A request that was not cancelled. `bytes`, the image or the JPEG, stay readable until
+  // queue(buffer).
   struct Completed {
-    bool good = false; // else the driver flagged it, and `bytes` is empty
+    bool good = false; // false: the driver flagged an error, and `bytes` is empty
     FrameStamp stamp;
     std::span<const std::byte> bytes;
   };

@@ -1,4 +1,4 @@
-// The device nodes that a camera is made of: whether it is still plugged in.
+// The device nodes of a camera, which tell whether it is still plugged in.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ public:
   CameraNodes() = default;
   explicit CameraNodes(std::vector<dev_t> nodes);
 
-  // The kernel has all of them. A node that is held open keeps its number, so another device that
-  // comes meanwhile is not taken for it. Allocates nothing.
+  // Whether the kernel still has all of them. An open node keeps its number, so a device that is
+  // plugged in later is not mistaken for it. Does not allocate.
   bool present() const;
   bool include(dev_t node) const;
-  // Closes what this process has open of them, in such a way that their numbers are not given to
-  // other files: whoever still names one finds nothing behind it.
+  // Redirects this process's descriptors of these nodes to /dev/null. The nodes are closed, but the
+  // descriptor numbers are not reused while libcamera still refers to them.
   void shut() const;
-  // Libcamera notices by itself when this camera goes: it does for those of the driver uvcvideo.
+  // Whether libcamera itself notices when this camera is unplugged: only with the driver uvcvideo.
   bool watched() const { return watched_; }
 
 private:

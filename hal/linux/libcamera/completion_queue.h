@@ -1,5 +1,5 @@
-// What a camera's own thread tells the thread that waits for frames: which requests are done, and
-// that the camera is gone.
+// From libcamera's thread to the thread that waits for frames: which requests have completed, and
+// whether the camera is gone.
 #pragma once
 
 #include <array>
@@ -15,10 +15,11 @@ namespace octascope::hal::linux_backend {
 constexpr std::size_t most_buffers = 32;
 
 // Bounded: a request is in it at most once, so `most_buffers` places are enough.
-// Threads: add() and close() belong to the camera's, the rest to the waiting one.
+// Threads: add() and close() from libcamera's thread, the rest from the waiting thread.
 class CompletionQueue {
 public:
-  // From now on only messages of this camera count. The previous camera must have been stopped.
+  // Empties the queue and accepts only this camera's messages from now on. The previous camera must
+  // have been stopped.
   void listen_to(const void* camera) {
     while (next())
       ;
@@ -43,7 +44,7 @@ public:
     semaphore_.post();
   }
 
-  // The oldest request that is done.
+  // Takes the oldest completed request.
   std::optional<std::size_t> next() {
     const std::uint32_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == end_.load(std::memory_order_acquire))
@@ -53,7 +54,7 @@ public:
     return request;
   }
   bool gone() const { return gone_.load(std::memory_order_acquire); }
-  // Posted with all that is new.
+  // Posted by each add() and close().
   Semaphore& semaphore() { return semaphore_; }
 
 private:

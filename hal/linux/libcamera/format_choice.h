@@ -1,4 +1,4 @@
-// Which of a camera's formats to ask for. Pure: no camera is needed to try it.
+// Chooses which of a camera's formats to request. Pure: can be tested without a camera.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace octascope::hal::linux_backend {
 
-// What pixels come as. All but motion_jpeg go to the display as they are.
+// How the camera delivers pixels. All but motion_jpeg go to the display unchanged.
 enum class Encoding : std::uint8_t { nv12, yuyv, rgb8, rgba8, motion_jpeg };
 
 struct PictureSize {
@@ -23,7 +23,7 @@ struct PictureSize {
 struct OfferedFormat {
   std::uint32_t fourcc = 0;
   std::vector<PictureSize> sizes;
-  // Where the camera scales: any size between the two.
+  // If the camera scales: any size between the two.
   struct Range {
     PictureSize smallest;
     PictureSize largest;
@@ -37,25 +37,26 @@ struct FormatWish {
   PictureSize size;
 };
 
-// Empty for what the display cannot draw.
+// Empty for formats that the display cannot draw.
 std::optional<Encoding> encoding_of(std::uint32_t fourcc);
 
-// What the display draws, the best first: its size nearest to the wish, then the fewest bytes.
-// Motion JPEG costs processor time and sharpness, so it comes last; unless raw pictures would be
-// more than a USB 2 cable carries, at which cameras quietly fall to a few frames a second.
+// The formats that the display can draw, best first: nearest to the requested size, then with the
+// fewest bytes. Motion JPEG costs processor time and sharpness, so it comes after the raw formats,
+// except those that need more bandwidth than USB 2 has: cameras then silently deliver only a few
+// frames per second.
 std::vector<FormatWish> choose_formats(const std::vector<OfferedFormat>& offered,
                                        const ScopeCameraConfig& config);
 
-// What frames of this encoding are called at our interface.
+// The format of the frames that ScopeCamera delivers for this encoding.
 PixelFormat pixel_format(Encoding encoding);
 
-// The least that a row of so many pixels takes; 0 for motion_jpeg.
+// The least number of bytes for a row of `width` pixels; 0 for motion_jpeg.
 std::size_t row_bytes(Encoding encoding, int width);
 
-// All rows of a picture: those of NV12's chroma included.
+// The number of rows of an image, including NV12's chroma rows.
 std::size_t row_count(Encoding encoding, int height);
 
-// "NV12", for messages; "0x00000001" where it is no text.
+// For messages: "NV12", or "0x00000001" if it is not printable.
 std::string format_name(std::uint32_t fourcc);
 
 } // namespace octascope::hal::linux_backend

@@ -1,4 +1,4 @@
-// Sequence numbers and times that rise, from what drivers say. Pure.
+// Makes increasing sequence numbers and times from those of the driver. Pure.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,22 @@
 
 namespace octascope::hal::linux_backend {
 
-// What is known of a frame when it arrives. Times in ns since the machine's start; 0 or empty where
-// the driver gives none.
+// What is known about a frame when it arrives. Times are in ns since boot; 0 or empty if the driver
+// gives none.
 struct FrameStamp {
   std::uint32_t sequence = 0;
   std::optional<std::int64_t> exposed_ns; // by the sensor
   std::uint64_t filled_ns = 0;            // by the driver that filled the buffer
 };
 
-// One stream. The driver's sequence wraps at 32 bits, may start anywhere and, in some drivers,
-// stands still; times may be those of another clock (libcamera's sensor time goes by
-// CLOCK_BOOTTIME, which runs ahead of CLOCK_MONOTONIC after the machine has slept).
+// For one stream. The driver's sequence wraps at 32 bits, may start anywhere and, with some
+// drivers, never changes. Its times may be of another clock: libcamera's sensor times are of
+// CLOCK_BOOTTIME, which is ahead of CLOCK_MONOTONIC after the machine was suspended.
 class FrameOrder {
 public:
   struct Place {
-    std::uint64_t sequence; // from 0, gaps are lost frames
-    TimePoint time;         // rising, never after `arrival`
+    std::uint64_t sequence; // starts at 0; gaps are lost frames
+    TimePoint time;         // increases, but is never after `arrival`
   };
   Place place(const FrameStamp& stamp, TimePoint arrival);
 

@@ -1,4 +1,4 @@
-// The scope camera by libcamera: USB cameras and those on a board's camera connector alike.
+// The microscope camera through libcamera: a USB camera or one on a board's camera connector.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,25 @@
 namespace octascope::hal::linux_backend {
 
 struct LibcameraScopeOptions {
-  std::string camera;                   // its id or model, or a part; empty: the first that is free
-  std::vector<std::string> taken_nodes; // "/dev/video0": the line camera's
+  std::string camera;                   // its id or model, or part of it; empty: first free one
+  std::vector<std::string> taken_nodes; // of the line camera, such as "/dev/video0"
 };
 
-// Pixels are handed out where the camera's driver wrote them (NV12, YUYV, RGB, RGBA); motion JPEG
-// is decoded into buffers of ours, and an NV12 picture whose planes lie apart is put together. A
-// wait hands out the newest frame; older ones that nobody fetched go back to the camera and show as
-// a gap in the sequence, like those that arrive broken. A camera that fills no buffer for three
-// seconds, with buffers to fill, has failed: ErrorCode::timed_out. The camera is asked for the
-// wished rate, but some have one of their own.
+// NV12, YUYV, RGB and RGBA pixels are delivered in place, without a copy; motion JPEG is decoded
+// into a separate buffer, and NV12 with separate planes is copied into one piece. wait_frame()
+// returns the newest frame; older frames that were not fetched go back to the camera and show as a
+// gap in the sequence, as do broken ones. A camera that has buffers but fills none for three
+// seconds has failed: ErrorCode::timed_out. Some cameras ignore the requested frame rate.
 //
-// Threads as hal::ScopeCamera. libcamera's thread puts completed requests into a bounded queue.
-// Nothing here allocates or locks once it streams; libcamera itself does both for each frame.
+// Threads: as hal::ScopeCamera. libcamera's thread puts completed requests into a bounded queue.
+// While streaming, this class neither allocates nor locks; libcamera does both for each frame.
 class LibcameraScopeCamera final : public hal::ScopeCamera {
 public:
-  // The session and the clock (CLOCK_MONOTONIC's) outlive this.
+  // The session and the clock (on CLOCK_MONOTONIC) are borrowed and must outlive the camera.
   LibcameraScopeCamera(LibcameraSession& session, LibcameraScopeOptions options, Clock& clock);
   ~LibcameraScopeCamera() override;
 
-  // Since open(): frames that the driver flagged, JPEGs that could not be decoded. Threads: any.
+  // Since open(): frames that the driver flagged, JPEGs that could not be decoded. Any thread.
   struct Losses {
     std::uint64_t broken = 0;
     std::uint64_t undecodable = 0;

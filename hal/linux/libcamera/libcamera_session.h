@@ -1,4 +1,5 @@
-// libcamera itself: one a process, with a thread of its own that watches cameras come and go.
+// libcamera's camera manager: one per process. Its own thread watches cameras being plugged in and
+// unplugged.
 #pragma once
 
 #include <memory>
@@ -10,32 +11,33 @@
 
 namespace octascope::hal::linux_backend {
 
-// Made once, in the composition root; outlives the cameras that borrow it. What libcamera writes
-// to stderr is silenced, unless the environment has LIBCAMERA_LOG_LEVELS: our Errors say it.
+// Created once, in the composition root; must outlive the cameras that borrow it. libcamera's
+// output to stderr is silenced unless LIBCAMERA_LOG_LEVELS is set: our Errors say the same.
 //
-// libcamera notices by itself that a USB camera goes, and no other kind: a camera that is gone
-// stays listed, and should it come back, ends the program for its double name. So whoever finds
-// that a camera is gone calls restart().
+// libcamera notices only when USB cameras are unplugged. Any other kind stays listed, and libcamera
+// ends the program over the duplicate name if it comes back. So call restart() when a camera is
+// found to be gone.
 //
-// Threads: any.
+// Thread-safe.
 class LibcameraSession {
 public:
-  // libcamera begins at the first question, in whose thread it is asked: it opens each media device
-  // for a moment, some tens of ms. ErrorCode::busy: this process has a session already (libcamera
-  // would end the program). No camera is no error.
+  // libcamera itself starts at the first cameras() or choose(), on the calling thread: it briefly
+  // opens each media device, which takes some tens of ms. ErrorCode::busy: this process already has
+  // a session (libcamera would end the program). Finding no camera is not an error.
   static Result<std::unique_ptr<LibcameraSession>> start();
   LibcameraSession(const LibcameraSession&) = delete;
   LibcameraSession& operator=(const LibcameraSession&) = delete;
   ~LibcameraSession();
 
-  // What is plugged in now. `taken_nodes` ("/dev/video0") are the line camera's.
+  // The cameras that are plugged in. `taken_nodes` are the line camera's, such as "/dev/video0".
   std::vector<LibcameraFound> cameras(const std::vector<std::string>& taken_nodes = {});
 
-  // The one that serves (choose_camera), or the Error that says why none does.
+  // The camera to use (see choose_camera), or an Error that says why there is none.
   struct Chosen; // for LibcameraScopeCamera: camera_link.h
   Result<Chosen> choose(const std::string& wish, const std::vector<std::string>& taken_nodes);
 
-  // Begins anew at the next question; cameras that are held meanwhile are of no use any more.
+  // libcamera starts again at the next cameras() or choose(). Cameras that are still held become
+  // useless.
   void restart();
 
 private:

@@ -1,4 +1,4 @@
-// A picture's memory, shared by the camera, as bytes that the processor reads.
+// Maps a buffer shared by the camera, so that the processor can read the image.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@
 
 namespace octascope::hal::linux_backend {
 
-// Owns the mappings, borrows the descriptors: they outlive it. Threads: one at a time.
+// Owns the mappings; borrows the descriptors, which must outlive it. Threads: one at a time.
 class MappedPicture {
 public:
-  // `device` is named in the Error. `bytes` is the whole picture's size, for one in pieces.
+  // `device` is named in the Error. `bytes` is the size of the whole image, for one in pieces.
   static Result<MappedPicture> map(const PlanePlan& plan, std::size_t bytes,
                                    std::string_view device);
 
-  // Between the two the processor sees what the device wrote. Pieces that lie apart are put
-  // together here, in memory of ours; else nothing is copied. Allocates nothing.
+  // Between these two calls the processor sees what the device wrote. An image in pieces is copied
+  // into one; otherwise nothing is copied. Does not allocate.
   std::span<const std::byte> begin_reading();
   void end_reading();
 
@@ -37,9 +37,9 @@ private:
   MappedPicture() = default;
   void synchronise(std::uint64_t flags);
 
-  std::vector<Mapping> mappings_; // one a file of the plan
+  std::vector<Mapping> mappings_; // one per file of the plan
   std::vector<PlanePlan::Piece> pieces_;
-  std::vector<std::byte> gathered_; // empty for a picture in one piece
+  std::vector<std::byte> gathered_; // empty for an image in one piece
   bool reading_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Pictures of motion JPEG, by libjpeg-turbo.
+// Decodes motion JPEG, with libjpeg-turbo.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace octascope::hal::linux_backend {
 // Threads: one at a time.
 class MotionJpegDecoder {
 public:
-  // ErrorCode::system: no memory.
+  // ErrorCode::system: out of memory.
   static Result<MotionJpegDecoder> make();
 
-  // One picture into `rgb`, rows of 3 · width bytes from the top. Cameras leave out the Huffman
-  // tables and put a few bytes too many between segments: both are fine. ErrorCode::bad_data: it is
-  // broken off, damaged, or not of this size; `rgb` then holds no picture.
+  // Decodes one image into `rgb`, rows of 3 · width bytes from the top. Accepts images without
+  // Huffman tables or with a few extra bytes between segments, as cameras send them.
+  // ErrorCode::bad_data: truncated, damaged or not of this size; `rgb` is then unspecified.
   Result<> decode(std::span<const std::byte> jpeg, PictureSize size, std::span<std::byte> rgb);
 
 private:

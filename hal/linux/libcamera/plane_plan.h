@@ -1,4 +1,4 @@
-// Where a picture's bytes lie in the files that a camera shares. Pure.
+// Where an image's bytes are in the dma-bufs that a camera shares. Pure.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct BufferPlane {
 struct PictureLayout {
   Encoding encoding = Encoding::nv12;
   PictureSize size;
-  std::size_t stride = 0; // bytes from row to row; of no meaning for motion_jpeg
+  std::size_t stride = 0; // bytes from row to row; meaningless for motion_jpeg
 
   // From the first byte of the first row to the last of the last row; 0 for motion_jpeg.
   std::size_t bytes() const {
@@ -30,21 +30,21 @@ struct PictureLayout {
 };
 
 struct PlanePlan {
-  struct File { // mapped from its beginning
+  struct File { // mapped from offset 0
     int descriptor = -1;
     std::size_t length = 0;
   };
-  struct Piece {          // of the picture, from the top
+  struct Piece {          // of the image, from the top
     std::size_t file = 0; // in `files`
     std::size_t offset = 0;
     std::size_t length = 0;
-    std::size_t place = 0; // where it belongs in the picture
+    std::size_t place = 0; // offset in the image
   };
   std::vector<File> files;
-  std::vector<Piece> pieces; // one: the picture lies in one piece. Two: luma, chroma of NV12
+  std::vector<Piece> pieces; // one for a contiguous image, two for NV12's luma and chroma
 };
 
-// ErrorCode::bad_data: the planes cannot hold such a picture; the message has both sizes.
+// ErrorCode::bad_data: the planes cannot hold such an image; the message has both sizes.
 Result<PlanePlan> plan_planes(const std::vector<BufferPlane>& planes, const PictureLayout& layout);
 
 } // namespace octascope::hal::linux_backend

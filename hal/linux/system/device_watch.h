@@ -1,5 +1,5 @@
-// Tells when devices of one kind come and go, without asking again and again: the kernel's events
-// by libudev.
+// Reports when devices of one subsystem are added, removed or changed, without polling: uses the
+// kernel's events through libudev.
 #pragma once
 
 #include <memory>
@@ -13,24 +13,24 @@ namespace octascope::hal::linux_backend {
 
 struct DeviceChange {
   enum class Kind { added, removed, changed } kind = Kind::changed;
-  std::string node; // "/dev/video0"; empty for what has none
+  std::string node; // "/dev/video0"; empty if the device has none
   std::string path; // in /sys
 };
 
 // Threads: one thread at a time.
 class DeviceWatch {
 public:
-  // `subsystem` as in /sys/class: "video4linux", "hidraw", "gpio", "drm", "input". The events come
-  // from udevd, when the node's permissions are set; where no udevd runs, from the kernel.
+  // `subsystem` as in /sys/class: "video4linux", "hidraw", "gpio", "drm", "input". Events come from
+  // udevd, after it has set the node's permissions, or from the kernel if udevd does not run.
   static Result<DeviceWatch> on(const char* subsystem);
   DeviceWatch(DeviceWatch&&) noexcept;
   DeviceWatch& operator=(DeviceWatch&&) noexcept;
   ~DeviceWatch();
 
-  // The next change, waiting at most `timeout`; 0 never waits.
+  // Waits at most `timeout` for the next change; with 0 it does not wait.
   std::optional<DeviceChange> next(Duration timeout);
 
-  // Readable when next(0) has something to tell: for a poll together with other files.
+  // Becomes readable when next(0) has a change; to be polled together with other files.
   int descriptor() const;
 
 private:

@@ -1,4 +1,4 @@
-// A file descriptor that is closed once, and an ioctl that signals cannot break off.
+// An owned file descriptor, and an ioctl that is retried after a signal.
 #pragma once
 
 #include <cerrno>
@@ -30,7 +30,7 @@ public:
   explicit operator bool() const { return descriptor_ >= 0; }
 
   void reset() {
-    // Linux frees the number whatever close() says: it must not be tried again.
+    // Linux frees the descriptor even if close() fails: never close it twice.
     if (descriptor_ >= 0)
       ::close(std::exchange(descriptor_, -1));
   }
@@ -39,7 +39,7 @@ private:
   int descriptor_ = -1;
 };
 
-// As ioctl(2), begun again where a signal broke it off; errno says why it is −1.
+// Like ioctl(2), but retried after EINTR. On −1, errno has the reason.
 template <class Argument>
 int control(const FileDescriptor& file, unsigned long request, Argument* argument) {
   int result = -1;

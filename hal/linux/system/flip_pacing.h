@@ -1,4 +1,4 @@
-// When a flip was completed and when the next picture may follow. Pure: times in, times out.
+// When a flip was completed and when the next image may follow. Pure: times in, times out.
 #pragma once
 
 #include <optional>
@@ -7,28 +7,28 @@
 
 namespace octascope::hal::linux_backend {
 
-// What is known of one flip.
+// What is known about one flip.
 struct FlipTimes {
   TimePoint submitted;            // handed to the kernel
-  std::optional<TimePoint> stamp; // of its event, by the driver; none where it cannot tell
+  std::optional<TimePoint> stamp; // the driver's, from its event; empty if it has none
   TimePoint received;             // when its event was read
 };
 
-// Real outputs flip once a refresh and stamp it. Virtual ones may flip at once, late, or with a
-// stamp of their own making: then the clock paces.
+// Real outputs flip once per refresh, with a correct time stamp. Virtual ones may flip immediately,
+// late, or with a wrong time stamp: then the clock paces the images.
 class FlipPacer {
 public:
   FlipPacer() = default;
-  // `shown`: when the first picture came with the mode.
+  // `shown`: when the mode was set, with the first image.
   FlipPacer(Duration period, TimePoint shown)
       : period_{period}, completed_{shown}, next_allowed_{shown} {}
 
-  // When the flip reached the glass: the driver's stamp where it can be true (the start of scan-out
-  // may lie a little ahead of the event), else when the event came. Never before the one before.
+  // When the flip became visible: the driver's time stamp if it is plausible (the start of scan-out
+  // may be a little after the event), else when the event was read. Never decreases.
   TimePoint completed(const FlipTimes& flip);
 
-  // Wait until then before the next picture: in the past for an output that paces itself, one
-  // period after the last time for one that flips at once.
+  // When the next image may be drawn: not in the future for an output that paces itself, one period
+  // after the last one for an output that flips immediately.
   TimePoint next_allowed() const { return next_allowed_; }
 
 private:

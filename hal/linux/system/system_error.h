@@ -1,4 +1,4 @@
-// From errno to an Error that says what to do.
+// Turns errno into an Error that says what to do.
 #pragma once
 
 #include <filesystem>
@@ -10,21 +10,21 @@
 
 namespace octascope::hal::linux_backend {
 
-// ENODEV and its like: the device was there and is gone. ENOENT: it is not there. EBUSY: somebody
-// has it. EACCES, EPERM: not allowed. ETIMEDOUT: no answer. EINVAL, ENOTTY …: cannot do it.
+// ENODEV, EIO …: disconnected. ENOENT …: absent. EBUSY: busy. EACCES, EPERM …: denied. ETIMEDOUT:
+// timed_out. EINVAL, ENOTTY …: unsupported. All others: system.
 ErrorCode error_code_of(int error_number);
 
 // "/dev/video0: opening failed: Permission denied; <remedy>". If `remedy` is empty, the usual one
-// for such a fault is given (which group, who holds it).
+// for the error is given (how to join the group, how to find the program that has the device).
 tl::unexpected<Error> system_failure(std::string_view device, std::string_view action,
                                      int error_number, std::string_view remedy = {});
 
-// While the machine starts, or something was plugged in: until udev has gone through a device it
-// belongs to root alone. Looks at `root`/run.
+// Whether udev is still processing devices, at boot or after something was plugged in. Until it has
+// processed a device, only root may open it. Looks in `root`/run.
 bool udev_is_at_work(const std::filesystem::path& root = "/");
 
-// Opens with O_CLOEXEC; the Error's message has the device and what fixes it. ErrorCode::absent,
-// not denied, where udev may be about to allow it.
+// Opens with O_CLOEXEC; the Error's message names the device and the remedy. If access is denied
+// while udev is at work, returns ErrorCode::absent, because udev may be about to grant it.
 Result<FileDescriptor> open_device(const std::string& node, int flags);
 
 } // namespace octascope::hal::linux_backend

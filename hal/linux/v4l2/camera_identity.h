@@ -1,7 +1,7 @@
-// Which camera of its kind it is: what a calibration is compared with.
+// Identifies the individual camera, so that a calibration can be matched to it.
 //
-// A V4L2 driver tells a camera's make and its socket, and neither differs between two machines of
-// one kind. What differs is the serial number that USB cameras have; the kernel shows it in sysfs.
+// A V4L2 driver reports a camera's make and socket, which may be the same on two machines. The
+// serial number differs; USB cameras have one, and the kernel shows it in sysfs.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +12,14 @@
 
 namespace octascope::hal::linux_backend {
 
-// "/sys/dev/char/81:0/device" of an open device node; what it points to need not be there.
+// "/sys/dev/char/81:0/device" for an open device node; the path need not exist.
 std::filesystem::path sysfs_folder(const FileDescriptor& node);
 
-// That of the USB device to which the folder belongs; empty where it belongs to none, or has none.
+// The serial number of the USB device to which `folder` belongs; empty if there is none.
 std::string usb_serial_number(const std::filesystem::path& folder);
 
-// "MAKE MODEL, serial 0123", or "MAKE MODEL, no serial number". Without the socket: it is the same
-// camera in another one. What would end a text in TOML is replaced. Pure.
+// "MAKE MODEL, serial 0123", or "MAKE MODEL, no serial number". The socket is left out, since the
+// camera may be moved. Characters that would end a TOML string are replaced. Pure.
 std::string camera_identity(std::string_view card, std::string_view serial_number);
 
 } // namespace octascope::hal::linux_backend

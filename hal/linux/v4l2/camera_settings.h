@@ -1,4 +1,4 @@
-// Exposure, gain and line rate, checked against what the camera's controls can take.
+// Exposure, gain and line rate, checked against the ranges of the camera's controls.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace octascope::hal::linux_backend {
 
 struct NamedSetting {
-  std::string name; // as the driver calls it: `v4l2-ctl --list-ctrls` without underscores
+  std::string name; // the driver's: as in `v4l2-ctl --list-ctrls`, without underscores
   std::int64_t value = 0;
 };
 
@@ -23,27 +23,26 @@ struct CameraSettings {
   std::vector<NamedSetting> others = {};
 };
 
-// What a control takes. Pure.
+// The values that a control accepts.
 struct SettingRange {
   std::string name;
   std::int64_t least = 0, most = 0, step = 1;
   bool settable = true; // to a number
 };
 
-// The value that the control takes for the wanted one: on its steps, the nearest. Pure.
-// ErrorCode::invalid_argument with found and expected outside its range; ErrorCode::unsupported for
-// one that cannot be set.
+// The value on the control's steps that is nearest to `wanted`. Pure. ErrorCode::invalid_argument,
+// with found and expected: outside the range. ErrorCode::unsupported: the control cannot be set.
 Result<std::int64_t> fit_setting(const SettingRange& range, std::int64_t wanted);
 
-// How long a sensor pauses after each line for a line rate, in pixels (kernel documentation,
-// "Image Source Control Reference": line rate = pixel rate / (width + horizontal blanking)). Pure.
-// ErrorCode::unsupported with the rates that are possible.
+// The horizontal blanking, in pixels, for a line rate (kernel documentation, "Image Source Control
+// Reference": line rate = pixel rate / (width + horizontal blanking)). Pure.
+// ErrorCode::unsupported: not possible; the message has the possible rates.
 Result<std::int64_t> blanking_for(double line_rate_hz, std::int64_t pixel_rate_hz, int width,
                                   const SettingRange& blanking);
 
-// Sets all of them, exposure and gain after ending the camera's automatic of it; says in words what
-// was set, and what the camera does not have. An Error for what was asked for explicitly and cannot
-// be had. Line rate: where the camera has such a control.
+// Applies all settings; first turns off automatic exposure and gain if they are to be set. Sets the
+// line rate only if the camera has such a control. Returns, as text, what was set and what the
+// camera does not have; an Error if an explicit setting is not possible.
 Result<std::vector<std::string>> apply_settings(const FileDescriptor& file, std::string_view node,
                                                 const CameraSettings& settings, double line_rate_hz,
                                                 int width);

@@ -1,4 +1,4 @@
-// The driver's buffers, mapped: who has each of them, and their way through the driver's queue.
+// The driver's mapped buffers: who has each of them, and queueing them to the driver.
 #pragma once
 
 #include <array>
@@ -17,28 +17,28 @@
 
 namespace octascope::hal::linux_backend {
 
-// A frame as the driver handed it over.
+// A frame as the driver delivered it.
 struct FetchedFrame {
   int buffer = -1;
   std::uint32_t bytes_used = 0;
   std::uint32_t sequence = 0;
-  bool flagged = false; // the driver says that its bytes are wrong
+  bool flagged = false; // the driver flagged its data as wrong
   FrameStamp stamp;
 };
 
-// Threads: one thread at a time, but give_back(), which any thread may call. After the making,
+// Threads: one thread at a time, except give_back(), which any thread may call. After map(),
 // nothing here allocates or locks unless it fails.
 class CaptureBuffers {
 public:
   static constexpr int most = 64;
 
-  // Asks for `wanted` buffers of at least `bytes` and takes what the driver has, `least` or more.
-  // `file` outlives the buffers; `node` is for messages. On failure nothing is left behind.
+  // Requests `wanted` buffers of at least `bytes` and accepts what the driver gives, if `least` or
+  // more. `file` must outlive the buffers; `node` is for messages. On failure all are freed.
   static Result<std::unique_ptr<CaptureBuffers>> map(const FileDescriptor& file,
                                                      const std::string& node, int wanted, int least,
                                                      std::size_t bytes);
 
-  // Unmaps and frees them; the bytes of no frame can be read any more.
+  // Unmaps and frees the buffers; no frame's bytes may be read afterwards.
   ~CaptureBuffers();
   CaptureBuffers(const CaptureBuffers&) = delete;
   CaptureBuffers& operator=(const CaptureBuffers&) = delete;
@@ -48,29 +48,29 @@ public:
     return mapped_[static_cast<std::size_t>(buffer)];
   }
 
-  // Queues all that are not on loan and starts the stream; frames that lay in the driver from
-  // before are thrown away.
+  // Queues all buffers that are not borrowed and starts the stream; discards older frames that are
+  // still in the driver.
   Result<> start();
 
-  // Takes all back that are not on loan.
+  // Stops the stream and takes back all buffers that are not borrowed.
   void stop();
 
-  // 0, or why not: EAGAIN when no frame waits. The frame is on loan from then on.
+  // Returns 0 or an errno: EAGAIN if no frame waits. The frame is then borrowed until give_back().
   int fetch(FetchedFrame& frame);
 
-  // Waits for a frame, at most `timeout`; 0, or why the wait failed. It may end early. EAGAIN:
-  // there is nothing to wait for, because the driver has no buffer or is gone; fetch() knows which.
+  // Waits at most `timeout` for a frame, and may return early. Returns 0 or an errno: EAGAIN if
+  // there is nothing to wait for, because the driver has no buffer or is gone; fetch() tells which.
   int wait(Duration timeout) const;
 
-  // Queues a loan again; numbers that are none are ignored. False when the driver did not take it:
-  // then it waits for retry_strays().
+  // Queues a borrowed buffer again; ignores others. False if the driver did not accept it: it is
+  // then left to retry_strays().
   bool give_back(int buffer);
 
-  // Buffers that could not be queued again are tried once more here. Cheap when there are none.
+  // Retries the buffers that could not be queued again. Cheap if there are none.
   void retry_strays();
 
 private:
-  // ours: neither in the driver's queue nor on loan.
+  // ours: neither in the driver's queue nor borrowed.
   enum class Place : std::uint8_t { none, ours, queued, lent };
 
   CaptureBuffers(const FileDescriptor& file, std::string node)

@@ -1,4 +1,4 @@
-// One video node, opened: what it is, what it offers, and the format it is set to.
+// One open video node: its identity, the formats it offers, and the format it is set to.
 #pragma once
 
 #include <cstdint>
@@ -15,17 +15,17 @@ namespace octascope::hal::linux_backend {
 
 struct NodeIdentity {
   std::string node;        // "/dev/video0"
-  std::string card;        // what the maker calls it
-  std::string driver;      // what drives it
-  std::string bus;         // where it is plugged in: the same after a replug into the same socket
-  std::string camera = {}; // which one it is, wherever it is plugged in (camera_identity.h)
+  std::string card;        // the manufacturer's name for it
+  std::string driver;      // the kernel driver
+  std::string bus;         // where it is plugged in: unchanged by a replug into the same socket
+  std::string camera = {}; // the individual camera, independent of the socket (camera_identity.h)
 };
 
 // Threads: one thread at a time. Errors name the node.
 class CaptureNode {
 public:
-  // Opened without blocking. ErrorCode::unsupported for a node that brings no pictures by mapped
-  // buffers: an output, metadata, a memory-to-memory converter.
+  // Opens the node in non-blocking mode. ErrorCode::unsupported: it does not capture images into
+  // mapped buffers (an output, metadata, a memory-to-memory converter).
   static Result<CaptureNode> open(const std::string& node);
 
   const NodeIdentity& identity() const { return identity_; }
@@ -33,15 +33,15 @@ public:
 
   Result<std::vector<OfferedFormat>> formats() const;
 
-  // The first of the ranked formats that the driver would give; asks, and sets nothing.
+  // The first of the ranked formats that the driver accepts; only tries, sets nothing.
   Result<FormatRequest> choose_format(const LineFormat& wanted) const;
 
-  // What the driver gave, checked against the request.
+  // Sets the format and returns what the driver gave, checked against the request.
   Result<GivenFormat> set_format(const FormatRequest& request) const;
 
   Result<> select_input(int input) const;
 
-  // Exactly this window, or an Error with what the driver made of it.
+  // Sets exactly this window, or returns an Error with the one that the driver chose.
   Result<> set_window(const SensorWindow& window) const;
 
 private:

@@ -1,7 +1,7 @@
-// Which of the formats that a driver offers brings B-scans as they are wanted, and whether what it
-// then gave is that. Pure: numbers in, numbers or words out; whatever a driver says does no harm.
+// Chooses among the formats that a driver offers the one for the wanted B-scans, and checks the
+// format that the driver then gave. Pure; safe with any answers of a driver.
 //
-// A B-scan is a picture of samples_per_line × lines_per_frame pixels.
+// A B-scan is an image of samples_per_line × lines_per_frame pixels.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 namespace octascope::hal::linux_backend {
 
 struct SizeSpan {
-  std::uint32_t least = 0, most = 0, step = 1; // least == most: that one size
+  std::uint32_t least = 0, most = 0, step = 1; // least == most: a single size
   bool operator==(const SizeSpan&) const = default;
 };
 
@@ -25,7 +25,7 @@ struct OfferedSize {
 
 struct OfferedFormat {
   std::uint32_t code = 0;
-  std::vector<OfferedSize> sizes; // empty: the driver does not tell
+  std::vector<OfferedSize> sizes; // empty: the driver lists none
 };
 
 struct FormatRequest {
@@ -35,7 +35,7 @@ struct FormatRequest {
   bool operator==(const FormatRequest&) const = default;
 };
 
-// As the driver answers. Its fields are the kernel's: 0 any, 1 progressive, others interlaced.
+// The driver's answer. `field` is the kernel's: 0 any, 1 progressive, others interlaced.
 struct GivenFormat {
   std::uint32_t code = 0;
   std::uint32_t width = 0, height = 0;
@@ -43,22 +43,22 @@ struct GivenFormat {
   std::uint32_t field = 0;
 };
 
-// ErrorCode::invalid_argument for what no camera can bring: sizes that are not positive, or of more
-// than 2 GB, more bits than the sample holds.
+// ErrorCode::invalid_argument for what no camera can deliver: sizes that are not positive or exceed
+// 2 GB, more bits than the sample holds.
 Result<> check_wish(const LineFormat& wanted);
 
-// What to ask the driver for, best first; never empty. ErrorCode::absent: nothing is offered (yet).
-// ErrorCode::unsupported: nothing fits, the message has what is offered and what is expected.
-// Sizes between a driver's steps are asked for all the same: not every driver means its steps.
+// The formats to request from the driver, best first; never empty. ErrorCode::absent: nothing is
+// offered (yet). ErrorCode::unsupported: nothing fits; the message has what is offered and what is
+// expected. Sizes between a driver's steps are requested too: not all drivers insist on their steps.
 Result<std::vector<FormatRequest>> rank_formats(std::span<const OfferedFormat> offered,
                                                 const LineFormat& wanted);
 
-// ErrorCode::unsupported with found and expected where lines or samples would not lie where they
-// are read: another format or size, padded lines, interlaced lines, too small a picture.
+// ErrorCode::unsupported, with found and expected, if the memory layout is not the one requested:
+// another format or size, padded lines, interlaced lines, an image that is too small.
 Result<> check_given(const FormatRequest& asked, const GivenFormat& given);
 
-// "GREY 320×180 to 4096×2160, Y12 and 20 other formats": what is offered, for messages. Those that
-// can be read come by name, with their sizes.
+// "GREY 320×180 to 4096×2160, Y12 and 20 other formats": what is offered, for messages. Only
+// formats that can be read are named, with their sizes.
 std::string words(std::span<const OfferedFormat> offered);
 
 // "379 lines of 1024 samples, 12 bits in u16, shift 0"

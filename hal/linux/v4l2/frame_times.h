@@ -1,7 +1,7 @@
-// When a frame's first and last lines were exposed, from what the driver stamped. Pure.
+// The exposure times of a frame's first and last lines, from the driver's time stamp. Pure.
 //
-// V4L2 stamps a frame with its end (the last pixel received) or with the start of its exposure, on
-// the monotonic clock or on one that it does not name (kernel documentation, "Buffer Flags").
+// A V4L2 time stamp is of a frame's end (the last pixel received) or of the start of its exposure,
+// on the monotonic clock or an unspecified one (kernel documentation, "Buffer Flags").
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,17 @@ struct FrameStamp {
 struct ExposureTimes {
   TimePoint first_line;
   TimePoint last_line;
-  bool own_clock = false; // the stamp was of no use: `now` was taken for the frame's end
+  bool own_clock = false; // the stamp was unusable: `now` was taken as the frame's end
 };
 
-// True where the wall clock is far enough from the monotonic one for a stamp to tell which of both
-// it was made with; not so on a machine without a real-time clock that has just started.
+// Whether the wall clock and the monotonic clock differ enough to tell from a stamp which one it is
+// of. They do not on a machine without a real-time clock that has just booted.
 bool tells_clocks_apart(TimePoint monotonic, Duration wall_clock_since_1970);
 
-// `now`: when the frame was fetched. A stamp is taken when it lies on the monotonic clock: it says
-// so, or, of an unnamed clock, it is at most 2 s old and `clocks_differ`. One that cannot be right
-// (after `now`, by more than drivers are known to stamp ahead, or a minute old) is not taken.
-// No line is later than `now`.
+// `now`: when the frame was fetched. A stamp is used if it is of the monotonic clock and plausible:
+// at most 100 ms ahead of `now`, as some drivers stamp, and at most a minute old. A stamp of an
+// unnamed clock is taken as monotonic if `clocks_differ` and it is at most 2 s old. No line is
+// later than `now`.
 ExposureTimes exposure_times(const FrameStamp& stamp, TimePoint now, bool clocks_differ, int lines,
                              double line_rate_hz);
 

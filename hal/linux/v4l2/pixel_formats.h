@@ -1,5 +1,5 @@
-// The pixel formats in which a line camera's spectra may come, and what is wrong with the others.
-// Names and layouts: the kernel's list of grey-scale formats, linux/videodev2.h. Pure.
+// The pixel formats that can be read as a line camera's spectra, and why others cannot. Names and
+// layouts: the kernel's list of grey-scale formats, linux/videodev2.h. Pure.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ constexpr std::uint32_t fourcc(char a, char b, char c, char d) {
 
 constexpr std::uint32_t big_endian_mark = 1U << 31;
 
-// Samples of `bits` bits, low-justified in a `type`. If `bits` is the whole type, the camera may
+// Samples of `bits` bits, right-justified in a `type`. If `bits` is the whole type, the camera may
 // use fewer, also left-justified.
 struct LinePixelFormat {
   std::uint32_t code;
@@ -30,10 +30,10 @@ struct LinePixelFormat {
 
 std::span<const LinePixelFormat> line_pixel_formats();
 
-// Null for what cannot be read without a conversion.
+// Null for formats that cannot be read without a conversion.
 const LinePixelFormat* line_pixel_format(std::uint32_t code);
 
-// "Y12", "Y16 (big-endian)"; bytes that are no letters as \x00.
+// "Y12", "Y16 (big-endian)"; bytes that are not printable as \x00.
 std::string fourcc_text(std::uint32_t code);
 
 // Why a format that is not in the list cannot be used.

@@ -1,4 +1,4 @@
-// The part of a sensor that is read out.
+// The region of a sensor that is read out.
 #pragma once
 
 namespace octascope::hal::linux_backend {

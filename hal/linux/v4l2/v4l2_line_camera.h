@@ -1,17 +1,17 @@
-// The line camera behind a V4L2 node: a sensor, or a frame grabber with such a driver.
+// The line camera on a V4L2 node: a sensor, or a frame grabber with a V4L2 driver.
 //
-// B-scans are read where the driver puts them: nothing is copied up to the reconstruction. The
-// format is negotiated at each open(): samples of 8 bits as GREY; of 10, 12 or 14 bits by that name
-// (Y10, Y12, Y14) or in a Y16; lines without padding, not interlaced.
+// B-scans are read in the driver's buffers; nothing is copied before the reconstruction. The format
+// is negotiated at each open(): 8-bit samples as GREY; 10, 12 or 14 bits as Y10, Y12, Y14 or in
+// Y16; lines without padding, not interlaced.
 //
-// Faults, beyond those of hal::LineCamera:
-// - The driver flags a frame as wrong: FrameIntegrity::corrupted, and the frame is handed out.
-// - The driver stamps frames with a clock that is not ours: they are stamped when they are fetched,
-//   which is less exact, and counted (tally()).
-// - A buffer cannot be queued again: it is tried at every wait_frame(), and counted.
-// - An error of the stream that does not pass: the state is `failed`; close() and open() again.
+// Faults, in addition to those of hal::LineCamera:
+// - The driver flags a frame as wrong: it is delivered as FrameIntegrity::corrupted.
+// - The driver's time stamps are of another clock: frames get the time when they were fetched,
+//   which is less exact, and are counted (tally()).
+// - A buffer cannot be queued again: it is retried at every wait_frame(), and counted.
+// - A persistent stream error: the state is `failed`; close() and open() again.
 // - No frames although the camera is triggered: wait_frame() cannot know. The fixed-rate thread
-//   tells ("missed_pulse"), and the picture is marked as stale.
+//   reports it ("missed_pulse"), and the image is marked as stale.
 #pragma once
 
 #include <atomic>
@@ -36,31 +36,30 @@ class CaptureNode;
 struct FetchedFrame;
 
 struct V4l2CameraOptions {
-  // "/dev/video2". Empty: the first node that suits, looked for at every open, so that a camera
-  // that comes back under another number is found; where several suit, the one on the bus of the
-  // last time.
+  // "/dev/video2". Empty: the first suitable node, searched at every open, so that a camera that
+  // returns under another number is found; if several are suitable, the one on the bus used before.
   std::string node = {};
-  std::optional<int> input = {};           // of a frame grabber with several; none: leave it
-  std::optional<SensorWindow> window = {}; // none: leave it
+  std::optional<int> input = {};           // of a frame grabber; empty: unchanged
+  std::optional<SensorWindow> window = {}; // empty: unchanged
   CameraSettings settings = {};
 };
 
-struct V4l2CameraTally {            // since the camera was made
-  std::uint64_t own_stamps = 0;     // frames with the time of their fetching
-  std::uint64_t failed_returns = 0; // buffers that were not queued again at once
+struct V4l2CameraTally {            // since construction
+  std::uint64_t own_stamps = 0;     // frames stamped when fetched
+  std::uint64_t failed_returns = 0; // buffers that could not be queued again immediately
 };
 
 class V4l2LineCamera final : public LineCamera {
 public:
-  // Fewer buffers than this, or than were configured, do not do: one is written to, one waits, and
-  // two are with the pipeline. Kernels give up to 32, whatever is asked for.
+  // The driver must give at least this many buffers (or the configured number, if smaller): one
+  // being written, one waiting and two in the pipeline. Most kernels give at most 32.
   static constexpr int least_buffers = 4;
 
-  // `clock` outlives the camera and is the monotonic one.
+  // `clock` is borrowed, must outlive the camera and must run on CLOCK_MONOTONIC.
   V4l2LineCamera(V4l2CameraOptions options, Clock& clock);
   ~V4l2LineCamera() override;
 
-  // What open() found and set, in words, one fact a line; empty while absent. Any thread.
+  // What open() found and set, as text, one fact per line; empty while absent. Any thread.
   std::vector<std::string> notes() const;
 
   // Any thread.
@@ -91,7 +90,7 @@ private:
   std::unique_ptr<CaptureNode> node_;
   std::unique_ptr<CaptureBuffers> buffers_; // unmapped before the node is closed
   std::string bus_;                         // of the last open
-  std::size_t image_bytes_ = 0;             // of a frame, with what the driver puts behind it
+  std::size_t image_bytes_ = 0;             // of a frame, including what the driver appends
   bool clocks_differ_ = false;
   SequenceCounter sequence_;
   Error failure_; // in the state `failed`

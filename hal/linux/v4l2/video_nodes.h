@@ -1,5 +1,5 @@
-// Which video nodes there are, and which of them can serve as the line camera: for `devices`, for
-// `doctor`, and for the choice between the camera and its twin.
+// Lists the video nodes and those that can serve as the line camera: for `devices`, for `doctor`,
+// and for choosing between the real and the simulated camera.
 #pragma once
 
 #include <filesystem>
@@ -14,26 +14,26 @@
 namespace octascope::hal::linux_backend {
 
 struct LineCameraCandidate {
-  NodeIdentity identity; // card, driver and bus are empty where the node could not be asked
-  std::string formats;   // "Y12 320×180 to 4096×2160, GREY": what it offers, for people
-  bool captures = false; // it brings pictures at all
-  std::optional<Error> unsuitable; // nothing: it can serve; else why not
+  NodeIdentity identity; // card, driver and bus are empty if the node could not be queried
+  std::string formats;   // "Y12 320×180 to 4096×2160, GREY": the formats offered, for people
+  bool captures = false; // it is a capture device
+  std::optional<Error> unsuitable; // why it cannot serve as the line camera; empty: it can
 
   bool suits() const { return !unsuitable.has_value(); }
 };
 
-// "/dev/video0", "/dev/video2" …, by their numbers.
+// "/dev/video0", "/dev/video2" …, by number.
 std::vector<std::string> video_nodes(const std::filesystem::path& dev = "/dev");
 
-// Opens the node and asks; changes nothing, and disturbs no stream.
+// Opens and queries the node; changes nothing and does not disturb a running stream.
 LineCameraCandidate assess_line_camera(const std::string& node, const LineFormat& wanted);
 
-// All of them. Allocates, takes milliseconds; any thread.
+// All video nodes, assessed. Allocates, takes milliseconds; any thread.
 std::vector<LineCameraCandidate> line_camera_candidates(const LineFormat& wanted);
 
-// The one to open: the first that suits, one on `bus` before others (empty: no preference).
-// ErrorCode::denied where nodes could not be opened for want of permission, else ErrorCode::absent;
-// the message has each camera and why it does not serve. Pure.
+// The node to open: the first suitable one, preferably on `bus` (empty: no preference). If there is
+// none: ErrorCode::denied if nodes could not be opened for lack of permission, else
+// ErrorCode::absent; the message lists each camera and why it is unsuitable. Pure.
 Result<std::string> pick_line_camera(const std::vector<LineCameraCandidate>& candidates,
                                      const std::string& bus, const LineFormat& wanted);
 

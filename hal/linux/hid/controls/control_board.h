@@ -1,9 +1,9 @@
-// Combines the readings of all plugged controls: numbers their switches and knobs, removes bounce,
-// and returns events in the order of their times.
+// Combines the readings of all controls: numbers their switches and knobs, debounces, and returns
+// the events in order of time.
 //
-// The leading device has the first numbers, so that its profile fits; the next one's switches and
-// knobs follow: a pedal without a knob is completed by a knob beside it. Axes keep their numbers.
-// Pure logic over explicit times, one thread; no allocation.
+// The leading device has the first numbers, so that its profile fits; the switches and knobs of the
+// other devices follow, so a separate knob complements a pedal without one. Axes keep their
+// numbers. Pure logic over explicit times, one thread; no allocation.
 #pragma once
 
 #include <array>
@@ -23,39 +23,39 @@ class ControlBoard {
 public:
   static constexpr std::size_t most_devices = 8, most_ports = 16, most_knobs = 8;
 
-  // Where a device is on the board.
+  // The numbers of a device's switches and knobs.
   struct Place {
     int first_switch = 0, switches = 0;
     int first_knob = 0, knobs = 0;
   };
 
-  // Removes all devices. Events that wait to be taken stay.
+  // Removes all devices, but not the waiting events.
   void vacate();
-  // Removes the waiting events, too. Times still never decrease.
+  // Also removes the waiting events. Times still never decrease.
   void clear();
 
-  // The device's number; empty if the board is full. Switches and knobs beyond the limits are
-  // ignored.
+  // Returns the device's number; empty if the board is full. Switches and knobs beyond the limits
+  // are ignored.
   std::optional<std::size_t> add_device(int switches, int knobs);
-  // A device may speak through several files: a switch is down when any of them says so.
+  // A device may have several ports (files): a switch is down if any of them reports it.
   std::optional<std::size_t> add_port(std::size_t device);
   Place place(std::size_t device) const { return devices_[device]; }
 
-  // Call settle(now) first, with times that do not decrease; and only while has_room().
+  // Call settle(now) first, and only while has_room(). Times must not decrease.
   void note(std::size_t port, const HidReading& reading, TimePoint now);
   void settle(TimePoint now);
   // Reports every pressed switch as released and every axis as centred.
   void release_all(TimePoint now);
 
   bool has_room() const { return waiting_ + most_at_once <= events_.size(); }
-  // When settle() will report something if nothing else happens.
+  // When settle() will report a change if nothing else happens.
   std::optional<TimePoint> due() const;
-  // Takes the oldest events; returns how many.
+  // Takes the oldest events; returns their number.
   std::size_t take(std::span<ControlEvent> events);
   std::uint64_t bounces() const;
 
 private:
-  // One reading and a settling, or a release of everything.
+  // The events of one note() and settle(), or of one release_all().
   static constexpr std::size_t most_at_once = most_switches + control_axes + 1;
 
   void report(TimePoint t, ControlKind kind, std::size_t index, std::int32_t value);

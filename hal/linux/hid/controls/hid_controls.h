@@ -1,9 +1,9 @@
-// Pedals, knobs and pucks: every known one that is plugged in, on one board (control_board.h).
+// All known pedals, knobs and pucks that are plugged in, combined by control_board.h.
 //
-// The device that leads (the first of known_controls()) is the one whose profile fits. A control
-// that is plugged in while the others are in use joins them at once: what is pressed is released,
-// and the numbers are given anew. When one is pulled out, the contract of hal::ControlInput holds
-// for all of them; after close() and open() the rest serves on.
+// The leading device, the first of known_controls(), determines the profile. A control that is
+// plugged in later is added immediately: pressed switches are reported as released, and all
+// switches and knobs are renumbered. When one is unplugged, all of them fail as
+// hal::ControlInput::read() says; after close() and open() the remaining ones work again.
 #pragma once
 
 #include <atomic>
@@ -25,22 +25,22 @@ namespace octascope::hal::linux_backend {
 // A control in use.
 struct ServingControl {
   PluggedControl control;
-  ControlBoard::Place place; // its switches and knobs on the board
+  ControlBoard::Place place; // the numbers of its switches and knobs
 };
 
-// Threads: as hal::ControlInput; serving(), complaints() and changes() are free.
+// Threads: as hal::ControlInput; serving(), complaints() and changes() from any thread.
 class HidControls final : public ControlInput {
 public:
-  // `clock` outlives this and keeps to CLOCK_MONOTONIC. `models`: which devices are opened, in the
-  // order of precedence; learned ones may be put before the listed ones.
+  // `clock` is borrowed, must outlive this and must run on CLOCK_MONOTONIC. `models`: the devices
+  // to open, in order of precedence; learned models may precede the listed ones.
   explicit HidControls(Clock& clock, std::vector<ControlModel> models = listed_control_models());
   ~HidControls() override;
 
-  // The leading control first; empty while none is open. For the choice of a profile.
+  // The leading control first; empty while none is open. For choosing a profile.
   std::vector<ServingControl> serving() const;
-  // One for each known control that is plugged in and could not be opened: why, and the remedy.
+  // One for each known control that is plugged in but could not be opened: reason and remedy.
   std::vector<std::string> complaints() const;
-  // Grows whenever serving() changes.
+  // Increases whenever serving() changes.
   std::uint64_t changes() const { return changes_.load(std::memory_order_acquire); }
 
 private:
@@ -76,11 +76,11 @@ private:
   std::optional<DeviceWatch> hidraw_watch_, input_watch_;
   std::vector<Port> ports_;
   ControlBoard board_;
-  bool held_back_ = false;    // there was no room for all that could be read
-  std::optional<Error> lost_; // told when all that came before it has been taken
-  bool released_ = false;     // after it was lost, everything that was pressed
+  bool held_back_ = false;    // there was no room for everything that could be read
+  std::optional<Error> lost_; // returned after all earlier events
+  bool released_ = false;     // after the loss, everything was reported as released
 
-  mutable std::mutex serving_guard_; // never taken while nothing is plugged or pulled
+  mutable std::mutex serving_guard_; // locked by read() only when something is plugged in
   std::vector<ServingControl> serving_;
   std::vector<std::string> complaints_;
   std::atomic<std::uint64_t> changes_{0};

@@ -1,5 +1,5 @@
-// Pedals whose first byte has a bit a switch: VEC Infinity (0x01 left, 0x02 centre, 0x04 right) and
-// Philips (bits 0–3: rewind, play, forward, end).
+// Pedals whose first byte has one bit per switch: VEC Infinity (0x01 left, 0x02 centre, 0x04 right)
+// and Philips (bits 0–3: rewind, play, forward, end).
 #pragma once
 
 #include "hal/linux/hid/decoders/hid_decoder.h"
@@ -20,7 +20,7 @@ private:
   std::uint32_t mask_;
 };
 
-// Any bits of a device that was learned.
+// Any bits of a learned device.
 class MappedDecoder final : public HidDecoder {
 public:
   MappedDecoder(std::vector<SwitchBit> bits, std::optional<std::uint8_t> report_id)

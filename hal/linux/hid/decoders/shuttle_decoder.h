@@ -5,8 +5,8 @@
 
 namespace octascope::hal::linux_backend {
 
-// The jog's position is unknown before the first report, so a turn in that report is not reported.
-// The device itself swallows the first tick when the jog turns about.
+// The jog's position is unknown before the first report, so that report gives no detents. The
+// device itself drops the first detent after the jog changes direction.
 class ShuttleDecoder final : public HidDecoder {
 public:
   ShuttleDecoder(int switches, unsigned first_button)

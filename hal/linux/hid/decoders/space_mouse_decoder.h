@@ -1,5 +1,5 @@
-// 3Dconnexion pucks: report 1 has three translations, or all six axes; report 2 three rotations;
-// report 3 buttons. i16le, ±350 at the stops.
+// 3Dconnexion pucks: report 1 has three translations or all six axes, report 2 three rotations,
+// report 3 the buttons. i16le, ±350 at the stops.
 #pragma once
 
 #include "hal/linux/hid/decoders/hid_decoder.h"

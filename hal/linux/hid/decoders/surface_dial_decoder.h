@@ -1,11 +1,12 @@
-// Microsoft Surface Dial: report 1; byte 0 bit 0 pressed, i16le turn, 3600 a revolution.
+// Microsoft Surface Dial: report 1; byte 1, bit 0: pressed; bytes 2–3: rotation, i16le, 3600 counts
+// per revolution.
 #pragma once
 
 #include "hal/linux/hid/decoders/hid_decoder.h"
 
 namespace octascope::hal::linux_backend {
 
-// Ten counts are a detent; what is left over is kept for the next.
+// Ten counts are one detent; the remainder is kept for the next report.
 class SurfaceDialDecoder final : public HidDecoder {
 private:
   std::optional<HidReading> do_decode(std::span<const std::uint8_t> report) override {

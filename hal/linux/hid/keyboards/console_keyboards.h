@@ -1,6 +1,6 @@
-// Keyboards at a console, where no window system reads them: those that the configuration lists by
-// vendor and product, and no other, since a strange keyboard must not steer the microscope. Each is
-// taken for octascope alone, so that it does not type into the console as well.
+// Keyboards on the console, without a window system: only those that the configuration lists by
+// vendor and product, since an unknown keyboard must not control the microscope. Each is grabbed,
+// so that it does not type into the console as well.
 #pragma once
 
 #include <deque>
@@ -16,17 +16,16 @@
 
 namespace octascope::hal::linux_backend {
 
-// A keyboard that is plugged in while the display is open serves at once; when it is pulled out,
-// what was held on it is told as released. One that cannot be opened is tried again every two
-// seconds.
+// A keyboard that is plugged in while the display is open works immediately. When it is unplugged,
+// its held keys are reported as released. One that cannot be opened is retried every two seconds.
 class ConsoleKeyboards final : public KeySource {
 public:
-  // `clock` outlives this. `listed`: "046d:c31c", in lower case.
+  // `clock` is borrowed and must outlive this. `listed`: "046d:c31c", in lower case.
   ConsoleKeyboards(Clock& clock, std::vector<std::string> listed);
 
-  // The nodes that are read.
+  // The nodes that are being read.
   std::vector<std::string> serving() const;
-  // One for each listed keyboard that is plugged in and could not be opened: why, and the remedy.
+  // One for each listed keyboard that is plugged in but could not be opened: reason and remedy.
   const std::vector<std::string>& complaints() const { return complaints_; }
 
 private:
@@ -49,7 +48,7 @@ private:
   bool ours_ = false;
   std::optional<DeviceWatch> watch_;
   std::vector<Keyboard> keyboards_;
-  std::deque<DisplayEvent> told_; // and not yet taken
+  std::deque<DisplayEvent> told_; // not yet polled
   std::vector<std::string> complaints_;
   TimePoint looked_;
 };

@@ -1,4 +1,4 @@
-// From the events of a keyboard's input device to what a display tells of keys. Pure.
+// Turns the events of a keyboard's input device into a display's key events. Pure.
 #pragma once
 
 #include <bitset>
@@ -11,17 +11,17 @@
 
 namespace octascope::hal::linux_backend {
 
-// The hal::Key or ASCII code of a key (linux/input-event-codes.h), by its place on a US keyboard;
-// 0: not reported. The console's layout is not used, because it may not be the keyboard's.
+// The hal::Key or ASCII code of a key (linux/input-event-codes.h) by its place on a US keyboard; 0:
+// not reported. The console's layout is ignored, because it may not be the keyboard's.
 std::uint16_t key_of_keyboard(std::uint16_t code);
 
-// Threads: one at a time. No allocation.
+// Threads: one at a time. Does not allocate.
 class KeyboardDecoder {
 public:
-  // Empty: a key that is not reported, or one that was pressed before we listened.
+  // Empty for a key that is not reported, or whose press was not received.
   std::optional<DisplayEvent> decode(const KeyEvent& event, TimePoint time);
 
-  // One of the keys that are down, as if it were let go; nothing: none is.
+  // Reports one of the pressed keys as released; empty if none is pressed.
   std::optional<DisplayEvent> release_one(TimePoint time);
 
 private:

@@ -1,5 +1,5 @@
-// Finds out what a control that nobody knows sends, from somebody who presses its switches one
-// after the other. Pure.
+// Learns what an unknown control sends while the user presses its switches one after the other.
+// Pure.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +15,19 @@
 
 namespace octascope::hal::linux_backend {
 
-// A switch is a bit that rises and falls alone; a byte of which several bits change at once is a
-// value (an axis, a wheel, a key's number), and none of its bits is a switch.
+// A switch is a bit that is set and cleared alone. A byte of which several bits change at once is a
+// value (an axis, a wheel, a key code), and none of its bits is a switch.
 class ControlLearner {
 public:
-  // `numbered`: its reports begin with an ID.
+  // `numbered`: the reports begin with an ID.
   explicit ControlLearner(bool numbered) : numbered_(numbered) {}
 
-  // What has changed, for people; empty: nothing.
+  // Returns what has changed, for people; empty if nothing.
   std::string note(std::span<const std::uint8_t> report);
   std::string note(const KeyEvent& event);
 
-  // What was learned so far: in the order of their first presses. A control that types is known by
-  // its keys, else by its bits. Nothing: no switch was pressed and let go yet.
+  // The model learned so far, with switches in the order of their first presses: keys if the
+  // control sent any, else bits. Empty until a key has been pressed, or a bit set and cleared.
   std::optional<ControlModel> model(std::uint16_t vendor, std::uint16_t product,
                                     std::string name) const;
 
@@ -49,7 +49,7 @@ private:
   std::vector<std::uint16_t> keys_;
 };
 
-// Does a report descriptor number its reports?
+// Whether a report descriptor uses report IDs.
 bool has_report_ids(std::span<const std::uint8_t> descriptor);
 
 } // namespace octascope::hal::linux_backend

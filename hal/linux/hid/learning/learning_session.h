@@ -1,4 +1,4 @@
-// Listens to one device with all its files, whatever it is, and learns (control_learner.h).
+// Learns any device by listening on all its nodes (control_learner.h).
 #pragma once
 
 #include <memory>
@@ -19,11 +19,11 @@ namespace octascope::hal::linux_backend {
 // Threads: one at a time.
 class LearningSession {
 public:
-  // Of the device, all of `nodes` that can be opened; one that types is grabbed meanwhile.
+  // Opens all of the device's `nodes` that can be opened; input devices are grabbed meanwhile.
   static Result<LearningSession> listen_to(std::vector<HidNode> nodes);
 
-  // What has been sent, a line for each report that changes something; waits at most `timeout` for
-  // the first. ErrorCode::disconnected: it was pulled out.
+  // Returns one line for each report that changed something; waits at most `timeout` for the first.
+  // ErrorCode::disconnected: the device was unplugged.
   Result<std::vector<std::string>> listen(Duration timeout);
 
   std::optional<ControlModel> learned() const;
@@ -32,7 +32,7 @@ private:
   struct File {
     HidNode node;
     ControlLearner learner;
-    FileDescriptor input = {}; // of an input device; else it is a raw one, with its reader
+    FileDescriptor input = {}; // for an input device; a raw device has a reader instead
     std::unique_ptr<RawDevice> device = {};
     std::unique_ptr<ReportReader> reader = {};
   };

@@ -1,5 +1,5 @@
-// Which pedals, knobs and pucks octascope knows. Only these are opened: a strange keyboard must not
-// steer the microscope.
+// The known pedals, knobs and pucks. Only these are opened: an unknown keyboard must not control
+// the microscope.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@ namespace octascope::hal::linux_backend {
 
 enum class HidFamily : std::uint8_t {
   vec_pedal,     // byte 0, bit n: switch n
-  philips_pedal, // likewise
+  philips_pedal, // as vec_pedal
   shuttle,       // ring, jog wheel, buttons
   space_mouse,   // six axes, two buttons
   surface_dial,
   mapped,    // a learned device: any bits of its reports
-  powermate, // by evdev: the kernel's driver keeps the bytes to itself
-  keyboard,  // by evdev, grabbed: what it types must not reach the console
+  powermate, // read through evdev, because the kernel's driver hides the raw reports
+  keyboard,  // read through evdev and grabbed, so that it does not type into the console
 };
 
-// Where a learned switch is in a report; byte 0 is the report's ID where there is one.
+// A learned switch's bit in a report; byte 0 is the report's ID if it has one.
 struct SwitchBit {
   std::size_t byte = 0;
   std::uint8_t mask = 0;
@@ -30,15 +30,15 @@ struct SwitchBit {
 
 struct ControlModel {
   std::uint16_t vendor = 0, product = 0;
-  std::string model; // stable, for the choice of a profile: "vec_infinity"
+  std::string model; // stable, for choosing a profile: "vec_infinity"
   std::string name;  // for people
   HidFamily family = HidFamily::mapped;
   int switches = 0;
   int knobs = 0;
-  std::string product_has = {};               // what tells models of one vendor:product apart
-  std::vector<std::uint16_t> keys = {};       // keyboard: of switch n; empty: any is switch 0
-  std::vector<SwitchBit> bits = {};           // mapped: of switch n
-  std::optional<std::uint8_t> report_id = {}; // mapped: of the reports that have the bits
+  std::string product_has = {};               // distinguishes models with the same vendor:product
+  std::vector<std::uint16_t> keys = {};       // keyboard: the key of switch n; empty: any, switch 0
+  std::vector<SwitchBit> bits = {};           // mapped: the bit of switch n
+  std::optional<std::uint8_t> report_id = {}; // mapped: the report that has the bits
   unsigned first_button = 0;                  // shuttle: the bit of switch 0
   bool operator==(const ControlModel&) const = default;
 
@@ -47,8 +47,8 @@ struct ControlModel {
 
 inline constexpr int most_switches = 32; // of all devices together
 
-// In the order of precedence: the first that is plugged in is the leading one, pedals before knobs
-// before pucks. Vendor, product and bytes: docs/DEVICES.md.
+// In order of precedence, pedals before knobs before pucks: the first that is plugged in leads.
+// Vendors, products and report bytes: docs/DEVICES.md.
 std::vector<ControlModel> listed_control_models();
 
 // "05f3:00ff", as in a control profile's list of devices.

@@ -1,4 +1,4 @@
-// One open file of a control: a device with raw reports or an input device.
+// One open node of a control: a device with raw reports, or an input device.
 #pragma once
 
 #include <memory>
@@ -16,22 +16,24 @@ class ControlPort {
 public:
   virtual ~ControlPort() = default;
 
-  // ErrorCode::denied, busy, absent …; a keyboard is grabbed, so that it types nowhere else.
+  // ErrorCode::denied, busy, absent …; a keyboard is grabbed, so that it does not type elsewhere.
   static Result<std::unique_ptr<ControlPort>> open(const HidNode& node, const ControlModel& model);
 
-  // From now on it is listened to, once, and its lamp is lit, where it has one, until this is
-  // destroyed. What a lamp does not do is nobody's fault.
+  // Starts reading; call it once. Lights the device's lamp, if it has one, until destruction;
+  // a lamp that fails is not an error.
   Result<> start() { return do_start(); }
 
-  // Once started: readable when read() has something to tell.
+  // The following are for a started port.
+
+  // Readable when read() has something to return.
   int descriptor() const { return do_descriptor(); }
 
-  // Once started: whether there was an event or a report; what it says is in `reading`, which stays
-  // empty for one that says nothing. Does not wait; no allocation unless the device is gone.
+  // Whether there was an event or a report; `reading` has its contents, or is empty if it has none
+  // of interest. Does not wait; allocates only if the device is gone.
   Result<bool> read(std::optional<HidReading>& reading) { return do_read(reading); }
 
-  // Once started: nothing more is read. Does not wait, where destroying may: with all that are to
-  // go at once, it waits but once.
+  // Stops reading. Does not wait, but destruction may: first call finish() on all ports that are to
+  // be destroyed, so that their waits overlap.
   void finish() { do_finish(); }
 
 private:
@@ -41,7 +43,7 @@ private:
   virtual void do_finish() {}
 };
 
-// What to do about a control that may not be opened or is held by somebody.
+// The remedy for a control that may not be opened or is used by another program.
 std::string remedy_of_control(const std::string& node, ErrorCode fault);
 
 } // namespace octascope::hal::linux_backend

@@ -23,8 +23,8 @@ public:
   const std::string& node() const { return node_; }
   bool has_key(std::uint16_t code) const;
 
-  // The next event; empty: there is none now. Does not wait, and allocates nothing unless the
-  // device is gone. After an overflow of the kernel's buffer come the changes that were missed.
+  // The next event; empty if there is none now. Does not wait; allocates only if the device is
+  // gone. After an overflow of the kernel's buffer, returns the changes that were missed.
   Result<std::optional<KeyEvent>> next();
 
 private:

@@ -1,4 +1,4 @@
-// An input device, by libevdev: a pedal that types, or a PowerMate.
+// An input device, through libevdev: a pedal that acts as a keyboard, or a PowerMate.
 #pragma once
 
 #include "hal/linux/hid/ports/control_port.h"

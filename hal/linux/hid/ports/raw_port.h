@@ -1,4 +1,4 @@
-// A control with raw reports, by hidapi.
+// A control with raw reports, through hidapi.
 #pragma once
 
 #include "hal/linux/hid/ports/control_port.h"

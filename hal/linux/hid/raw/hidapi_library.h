@@ -1,13 +1,13 @@
-// hidapi as a whole: begun by its first user, ended by its last.
+// Initialises hidapi for its first user and ends it after its last.
 #pragma once
 
 #include <mutex>
 
 namespace octascope::hal::linux_backend {
 
-// A user of hidapi. hidapi guards nothing itself: what it keeps for the process, its last error
-// above all, is written by whoever begins it, ends it, lists devices or opens one. A device's own
-// calls need no lock.
+// A user of hidapi. hidapi's global state, in particular its last error, is not thread-safe: it is
+// written when hidapi is initialised or ended and when devices are listed or opened. The calls on
+// an open device need no lock.
 class HidapiLibrary {
 public:
   HidapiLibrary();
@@ -15,7 +15,7 @@ public:
   HidapiLibrary(const HidapiLibrary&) = delete;
   HidapiLibrary& operator=(const HidapiLibrary&) = delete;
 
-  // Held around hid_enumerate(), hid_open_path() and hid_error() without a device.
+  // To be held during hid_enumerate(), hid_open_path() and hid_error() without a device.
   [[nodiscard]] std::unique_lock<std::mutex> lock() const;
 };
 

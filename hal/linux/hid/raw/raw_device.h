@@ -1,4 +1,4 @@
-// A device that speaks in raw reports, listed, opened, read and written through hidapi.
+// A device with raw reports, listed, opened, read and written through hidapi.
 #pragma once
 
 #include <chrono>
@@ -21,10 +21,10 @@ struct RawNode {
   bool operator==(const RawNode&) const = default;
 };
 
-// All that are plugged in, in the order of their numbers; nothing is opened. Any thread.
+// All that are plugged in, by number; opens nothing. Any thread.
 std::vector<RawNode> list_raw_nodes();
 
-// Threads: one at a time; opening on any.
+// Threads: one at a time; open() on any.
 class RawDevice {
 public:
   // ErrorCode::denied, busy, absent …
@@ -32,14 +32,15 @@ public:
 
   const std::string& node() const { return node_; }
 
-  // The size of the next report, which begins with its ID where the device numbers its reports; 0:
-  // none came within `timeout`. ErrorCode::disconnected. No allocation unless the device is gone.
+  // Returns the size of the next report, or 0 if none arrives within `timeout`. The report begins
+  // with its ID if the device uses report IDs. ErrorCode::disconnected: the device is gone; nothing
+  // is allocated otherwise.
   Result<std::size_t> read(std::span<std::uint8_t> report, std::chrono::milliseconds timeout);
 
-  // An output report, its ID in front; whether it was sent.
+  // Sends an output report, which begins with its ID; false if it was not sent.
   bool write(std::span<const std::uint8_t> report);
 
-  // Empty: the kernel does not tell.
+  // Empty if it is not available.
   std::vector<std::uint8_t> report_descriptor() const;
 
 private:

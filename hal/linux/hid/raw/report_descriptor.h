@@ -1,5 +1,4 @@
-// What a device says its reports are made of. The only place that knows how hidapi's versions
-// differ in it.
+// Reads a device's report descriptor. Hides the differences between hidapi's versions.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,7 @@ struct hid_device_;
 
 namespace octascope::hal::linux_backend {
 
-// Of an open device, which is `node` ("/dev/hidraw0"). Empty: it is not told.
+// `device` is the open `node` ("/dev/hidraw0"). Empty if the descriptor is not available.
 std::vector<std::uint8_t> report_descriptor_of(hid_device_* device, const std::string& node);
 
 } // namespace octascope::hal::linux_backend

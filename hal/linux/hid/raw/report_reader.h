@@ -1,5 +1,5 @@
-// Reads a raw device on a thread of its own, blocked in hidapi, and makes of it what others can
-// wait for beside other files: a descriptor.
+// Reads a raw device on its own thread, which blocks in hidapi, and provides a descriptor that can
+// be polled together with other files.
 #pragma once
 
 #include <array>
@@ -18,25 +18,25 @@
 
 namespace octascope::hal::linux_backend {
 
-// Threads: one at a time; the device is the reader's own until this is destroyed. The thread has
-// the priority of the one that started it.
+// Threads: one at a time. Only the reader may use the device while it exists. Its thread inherits
+// the priority of the one that called start().
 class ReportReader {
 public:
-  // What may wait here to be taken; more waits in the kernel, which keeps as many.
+  // The reports that can wait here; further ones wait in the kernel, which keeps as many.
   static constexpr std::size_t most_reports = 64;
 
-  // `device` outlives this.
+  // `device` is borrowed and must outlive this.
   static Result<std::unique_ptr<ReportReader>> start(RawDevice& device);
-  ~ReportReader(); // waits for the thread, at most as long as one look at the device takes (20 ms)
+  ~ReportReader(); // waits for the thread, at most for one read's timeout (20 ms)
 
-  // Readable when take() has something to tell.
+  // Readable when take() has a report or an error.
   int descriptor() const { return news_.get(); }
 
-  // The oldest report that was not taken yet, until the next call; empty: there is none. The error
-  // with which reading ended comes after all reports. No allocation but then.
+  // Takes the oldest waiting report, which is valid until the next call; empty if there is none.
+  // After all reports, returns the error that ended reading. Allocates only then.
   Result<std::span<const std::uint8_t>> take();
 
-  // Soon nothing more is read; does not wait.
+  // Asks the thread to end; does not wait for it.
   void finish();
 
 private:
@@ -55,9 +55,9 @@ private:
   std::counting_semaphore<most_reports + 1> room_{most_reports};
   std::atomic<std::size_t> written_{0};
   std::size_t taken_ = 0;
-  bool lent_ = false; // the report that was taken last
+  bool lent_ = false; // the report taken last is still in use
   std::optional<Error> end_;
-  std::atomic<bool> ended_{false}; // end_ is told
+  std::atomic<bool> ended_{false}; // end_ is set
   std::atomic<bool> finishing_{false};
   std::thread thread_;
 };

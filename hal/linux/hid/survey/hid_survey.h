@@ -1,5 +1,5 @@
-// Which HID devices are plugged in: those with raw reports as hidapi lists them, input devices by
-// what the kernel lists in /sys; nothing is opened. And which of them octascope knows.
+// Lists the HID devices that are plugged in, without opening them (those with raw reports from
+// hidapi, input devices from /sys), and those of them that octascope knows.
 #pragma once
 
 #include <filesystem>
@@ -10,28 +10,28 @@
 
 namespace octascope::hal::linux_backend {
 
-// A file through which a device speaks; a device may have several.
+// A device node. A device may have several.
 struct HidNode {
   std::string node; // "/dev/hidraw0", "/dev/input/event3"
   bool evdev = false;
   std::uint16_t vendor = 0, product = 0;
-  std::string name;   // what the device calls itself
-  std::string device; // the same for all nodes of one device, where the kernel knows
+  std::string name;   // as reported by the device
+  std::string device; // the same for all nodes of one device, if the kernel knows
   bool operator==(const HidNode&) const = default;
 };
 
-// Raw nodes, then event nodes, each in the order of their numbers. `root` is "/" but for tests,
-// which lay out a folder like /sys.
+// Raw nodes, then event nodes, each by number. `root` differs from "/" only in tests, which provide
+// a folder like /sys.
 std::vector<HidNode> survey_hid(const std::filesystem::path& root = "/");
 
-// A device that octascope knows, with its files.
+// A known device with its nodes.
 struct PluggedControl {
   ControlModel model;
-  std::vector<HidNode> nodes; // of the kind that the model speaks through; not empty
+  std::vector<HidNode> nodes; // of the kind that the model uses; not empty
   bool operator==(const PluggedControl&) const = default;
 };
 
-// In the order of `models`; equal ones in that of their nodes. Pure.
+// In the order of `models`; devices of the same model in the order of their nodes. Pure.
 std::vector<PluggedControl> known_controls(const std::vector<HidNode>& nodes,
                                            const std::vector<ControlModel>& models);
 

@@ -1,4 +1,4 @@
-// What display hardware is there: for the choice of an output, and for `devices` and `doctor`.
+// Lists the display hardware, for choosing an output and for `devices` and `doctor`.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace octascope::hal::linux_backend::kms {
 
-// "/dev/dri/card0", … by number; empty where there is none.
+// "/dev/dri/card0", … by number.
 std::vector<std::string> card_nodes();
 
-// Asks every connector anew, which may take a tenth of a second each. Needs no special right on the
-// open file. A card that shows nothing (a render-only one) has its `problem` set.
+// Probes every connector, which may take 0.1 s each. Does not need to be the card's master. A card
+// without outputs (render-only) has its `problem` set.
 Card read_card(const FileDescriptor& file, const std::string& node);
 
-// Opens every card for a moment. A card that must not be opened has its `problem` set. For a
-// verdict in words: choose_output() of the result, whose Error says what is missing.
+// Briefly opens every card. A card that cannot be opened has its `problem` set. To explain what is
+// missing, use the Error of choose_output() for the result.
 std::vector<Card> survey();
 
 } // namespace octascope::hal::linux_backend::kms

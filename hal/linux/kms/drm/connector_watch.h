@@ -1,5 +1,5 @@
-// Is the monitor still there? By the kernel's hot-plug events, and by the connector's status in
-// /sys for drivers that send none.
+// Detects when the monitor is disconnected: from the kernel's hot-plug events, and from the
+// connector's status in /sys for drivers that send none.
 #pragma once
 
 #include <optional>
@@ -14,13 +14,13 @@ namespace octascope::hal::linux_backend::kms {
 // Threads: one at a time.
 class ConnectorWatch {
 public:
-  // Works as far as it can where there is no /sys or no event socket.
+  // Without /sys or without an event socket, it uses the other one.
   ConnectorWatch(const Card& card, const Connector& connector);
 
-  // The monitor was there and is gone. Allocates nothing, waits for nothing.
+  // The monitor was connected at construction and no longer is. Neither allocates nor waits.
   bool disconnected() const;
 
-  // Has the card said since the last time that something about its outputs changed?
+  // Whether the card has reported a change of its outputs since the last call.
   bool changed();
 
 private:

@@ -1,4 +1,4 @@
-// libdrm's objects, freed once. Inside this folder only.
+// Owning pointers to libdrm's objects. Internal to hal/linux/kms.
 #pragma once
 
 #include <memory>

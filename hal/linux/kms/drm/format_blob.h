@@ -1,4 +1,4 @@
-// The kernel's list of which pixel formats a plane can show in which layouts. Pure.
+// Decodes the kernel's list of the pixel formats and layouts that a plane can show. Pure.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +9,9 @@
 
 namespace octascope::hal::linux_backend::kms {
 
-// Of the property IN_FORMATS (struct drm_format_modifier_blob, drm_mode.h): a header, fourccs, and
-// modifiers that say by a mask of 64 to which fourccs, from an offset on, they belong. What lies
-// beyond the bytes is passed over.
+// Decodes the property IN_FORMATS (struct drm_format_modifier_blob, drm_mode.h): a header, fourccs,
+// and modifiers, each with a 64-bit mask of the fourccs, from an offset on, to which it applies.
+// Skips what lies beyond the end of `blob`.
 std::vector<FormatModifier> decode_formats(std::span<const std::byte> blob);
 
 } // namespace octascope::hal::linux_backend::kms

@@ -1,4 +1,4 @@
-// The named properties of a KMS object (plane, CRTC, connector), by which atomic commits speak.
+// The named properties of a KMS object (plane, CRTC, connector), which atomic commits set.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ namespace octascope::hal::linux_backend::kms {
 class ObjectProperties {
 public:
   ObjectProperties() = default;
-  // `kind`: DRM_MODE_OBJECT_…. Empty where the card tells nothing.
+  // `kind`: DRM_MODE_OBJECT_…. Has no properties if the card returns none.
   ObjectProperties(const FileDescriptor& card, std::uint32_t object, std::uint32_t kind);
 
-  // 0: it has no such property.
+  // 0 if there is no such property.
   std::uint32_t id(std::string_view name) const;
-  // At the time of construction.
+  // The value at construction.
   std::optional<std::uint64_t> value(std::string_view name) const;
 
 private:

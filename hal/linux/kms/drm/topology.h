@@ -1,8 +1,8 @@
-// What the kernel says about its display devices, as plain values: read once by card_survey, chosen
-// from by output_choice, shown by `devices` and `doctor`.
+// The kernel's description of its display devices, as plain values: read by card_survey, used by
+// output_choice, shown by `devices` and `doctor`.
 //
-// A card has connectors (sockets), CRTCs (which send one picture each, at one mode) and planes
-// (from which a CRTC takes pixels). Names and ids are the kernel's (drm-kms, docs.kernel.org).
+// A card has connectors (sockets), CRTCs (each sends one image in one mode) and planes (from which
+// a CRTC takes pixels). Names and ids are the kernel's (drm-kms, docs.kernel.org).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace octascope::hal::linux_backend::kms {
 
-// As the kernel's drm_mode_modeinfo: positions in pixels and lines from the start of the picture.
+// Like the kernel's drm_mode_modeinfo: positions in pixels and lines from the start of the image.
 struct Mode {
   std::string name; // "1920x1080"
   std::uint32_t clock_khz = 0;
@@ -24,7 +24,7 @@ struct Mode {
   std::uint32_t type = 0;  // DRM_MODE_TYPE_…
 };
 
-// Of whole pictures; 0 where the timings make no sense.
+// Full frames per second; 0 if the timings are invalid.
 double refresh_hz(const Mode& mode);
 bool is_preferred(const Mode& mode);
 bool is_interlaced(const Mode& mode);
@@ -38,8 +38,8 @@ struct Connector {
   std::string name; // "HDMI-A-1"
   ConnectionStatus status = ConnectionStatus::unknown;
   bool writeback = false;           // sends to memory, not to a socket
-  bool link_good = true;            // false: the link has to be trained again by setting the mode
-  std::string monitor;              // from its EDID; empty where it says nothing
+  bool link_good = true;            // false: set the mode again, to retrain the link
+  std::string monitor;              // its name from the EDID; may be empty
   std::uint32_t current_crtc = 0;   // an id; 0: none
   std::uint32_t possible_crtcs = 0; // bit i: the card's crtcs[i]
   std::vector<Mode> modes;          // the monitor's order, preferred ones first
@@ -56,24 +56,24 @@ struct Plane {
   std::uint32_t id = 0;
   PlaneKind kind = PlaneKind::unknown;
   std::uint32_t current_crtc = 0;
-  std::uint32_t possible_crtcs = 0;      // as of a connector
+  std::uint32_t possible_crtcs = 0;      // as for a connector
   std::vector<std::uint32_t> formats;    // fourcc
-  std::vector<FormatModifier> modifiers; // empty: the driver tells none
+  std::vector<FormatModifier> modifiers; // empty: the driver lists none
 };
 
 struct Card {
   std::string node;             // "/dev/dri/card0"
   std::string driver;           // "i915"
-  std::optional<Error> problem; // why it cannot be used; the rest is empty then
-  bool atomic = false;          // changes are commits of many properties at once
+  std::optional<Error> problem; // why it cannot be used; the following is empty then
+  bool atomic = false;          // supports atomic commits
   bool modifiers = false;       // frame buffers may be added with a layout modifier
-  bool monotonic = false;       // flips are stamped by CLOCK_MONOTONIC
+  bool monotonic = false;       // flips have time stamps of CLOCK_MONOTONIC
   std::vector<Connector> connectors;
   std::vector<std::uint32_t> crtcs; // ids
   std::vector<Plane> planes;        // of all kinds
 };
 
-// "card0" of "/dev/dri/card0"
+// "card0" for "/dev/dri/card0"
 std::string card_name(const Card& card);
 
 } // namespace octascope::hal::linux_backend::kms

@@ -1,5 +1,5 @@
-// Which card, connector, CRTC, plane and mode show the picture. Pure: topologies in, a choice or
-// words out.
+// Chooses the card, connector, CRTC, plane and mode that show the image. Pure: topologies in, a
+// choice or an Error out.
 #pragma once
 
 #include <cstddef>
@@ -15,29 +15,29 @@ namespace octascope::hal::linux_backend::kms {
 struct OutputWish {
   std::string connector; // "HDMI-A-1" or "card1:HDMI-A-1"; empty: the first that is connected
   ModeWish mode;
-  bool atomic = true; // false: the older calls, even where there are atomic ones
+  bool atomic = true; // false: the legacy calls, even if the driver has atomic commits
 };
 
 struct OutputChoice {
-  std::size_t card = 0;      // in the list that was given
-  std::size_t connector = 0; // in that card
-  std::uint32_t crtc = 0;    // ids from here
-  std::uint32_t plane = 0;   // 0: the CRTC's own, which older drivers do not list
+  std::size_t card = 0;      // index into `cards`
+  std::size_t connector = 0; // index into the card's connectors
+  std::uint32_t crtc = 0;    // an id
+  std::uint32_t plane = 0;   // an id; 0: the CRTC's own plane, which older drivers do not list
   bool atomic = false;
   Mode mode;
 };
 
-// ErrorCode::absent: nothing is connected (it may come). ErrorCode::denied: cards there are, but
-// they must not be opened. ErrorCode::unsupported: the mode is not to be had, or no CRTC can reach
-// the connector.
+// ErrorCode::absent: nothing is connected yet. ErrorCode::denied: there are cards, but they may not
+// be opened. ErrorCode::unsupported: the mode is not available, or no CRTC can drive the connector.
 Result<OutputChoice> choose_output(std::span<const Card> cards, const OutputWish& wish);
 
-// Pixel formats that both the plane can show and EGL can draw, best first: 8 bits a colour without
-// alpha before with. `plane` may be null (nothing known: any card can show XRGB8888).
+// Pixel formats that the plane can show and EGL can draw, best first: 8 bits per colour, without
+// alpha before with alpha. If `plane` is null (unknown), only XRGB8888, which any card can show.
 std::vector<std::uint32_t> common_formats(const Plane* plane,
                                           std::span<const std::uint32_t> drawable);
 
-// Of one format, without DRM_FORMAT_MOD_INVALID, which means "unknown" and must not be passed.
+// The plane's modifiers for one format, without DRM_FORMAT_MOD_INVALID, which means "unknown" and
+// must not be passed on.
 std::vector<std::uint64_t> usable_modifiers(const Card& card, const Plane* plane,
                                             std::uint32_t format);
 

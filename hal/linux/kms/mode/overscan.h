@@ -1,4 +1,4 @@
-// The part of the screen that a monitor with overscan shows. Pure.
+// The visible part of the screen on a monitor with overscan. Pure.
 #pragma once
 
 #include "hal/result.h"
@@ -21,7 +21,7 @@ struct Rectangle {
   bool operator==(const Rectangle&) const = default;
 };
 
-// ErrorCode::invalid_argument: a margin that makes no sense.
+// ErrorCode::invalid_argument: a margin is out of range.
 Result<Rectangle> visible_part(int width, int height, const Overscan& overscan);
 
 } // namespace octascope::hal::linux_backend::kms

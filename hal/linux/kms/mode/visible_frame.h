@@ -1,5 +1,5 @@
-// The picture without the margins that the monitor cuts off: drawn into a framebuffer of its own,
-// copied into the middle of the screen's.
+// The image without the margins that the monitor cuts off: drawn into its own framebuffer, then
+// copied to the visible part of the screen's.
 #pragma once
 
 #include <cstdint>
@@ -8,16 +8,16 @@
 
 namespace octascope::hal::linux_backend::kms {
 
-// Threads: bound to the GL context's. The context must be current wherever this is called.
+// Threads: the one where the GL context is current.
 class VisibleFrame {
 public:
-  // Binds what the picture is drawn into: the screen itself where there are no margins. Black.
+  // Binds the framebuffer to draw into, cleared to black: the screen's if there are no margins.
   // ErrorCode::system: no framebuffer of that size.
   Result<> create(int screen_width, int screen_height, const Rectangle& part);
-  // Before the context goes.
+  // Call it before the context is destroyed.
   void destroy();
 
-  // What was drawn is on the screen's framebuffer, and the picture's is bound again.
+  // Copies what was drawn to the screen's framebuffer, and binds the image's again.
   void copy_to_screen() const;
 
   int width() const { return part_.width; }

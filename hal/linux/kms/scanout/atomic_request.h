@@ -1,5 +1,5 @@
-// Properties of several objects, changed in one commit. libdrm's own request allocates and sorts
-// anew at every commit; this one keeps its memory.
+// Changes properties of several objects in one commit. libdrm's own request allocates and sorts at
+// every commit; this one keeps its memory.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ class AtomicRequest {
 public:
   AtomicRequest();
   void clear();
-  // What follows belongs to `object`. An object is named once.
+  // The following set() calls are for `object`. Call it once per object.
   void object(std::uint32_t object);
-  // Nothing happens where `property` is 0: the object does not have it.
+  // Does nothing if `property` is 0: the object does not have it.
   void set(std::uint32_t property, std::uint64_t value);
-  // 0 or an errno. `number` comes back with the event, where the flags ask for one.
+  // Returns 0 or an errno. If the flags request an event, it carries `number`.
   int commit(const FileDescriptor& card, std::uint32_t flags, std::uint64_t number) const;
 
 private:

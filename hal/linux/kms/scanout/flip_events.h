@@ -1,4 +1,4 @@
-// What a card writes into its file when flips are completed. Pure: bytes in, events out.
+// Decodes the events that a card sends when flips complete. Pure: bytes in, events out.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 namespace octascope::hal::linux_backend::kms {
 
 struct FlipEvent {
-  std::uint64_t number = 0; // as it was given with the flip
+  std::uint64_t number = 0; // as given to Scanout::flip()
   TimePoint stamp;          // on the card's clock
 };
 
-// The first completed flip in the bytes of a read (struct drm_event, drm.h); `bytes` is moved
-// behind it. Other events are passed over; a broken one ends the walk.
+// The first completed flip in the bytes read from the card's file (struct drm_event, drm.h);
+// advances `bytes` past it. Skips other events and stops at a malformed one.
 std::optional<FlipEvent> take_flip(std::span<const std::byte>& bytes);
 
 } // namespace octascope::hal::linux_backend::kms

@@ -1,5 +1,5 @@
-// Modes and flips on one output: by atomic commits, or by the older calls where the driver has no
-// atomic ones.
+// Sets modes and flips on one output: with atomic commits, or with the legacy calls if the driver
+// does not support them.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace octascope::hal::linux_backend::kms {
 
-// What is shown where. The card's file and description outlive the Scanout.
+// The output and its mode. All references must outlive the Scanout.
 struct ScanoutTarget {
   const FileDescriptor& file;
   const Card& card;
@@ -28,13 +28,13 @@ public:
   Scanout& operator=(const Scanout&) = delete;
   virtual ~Scanout() = default;
 
-  // Sets the mode and shows `framebuffer` (of the mode's size) alone: no cursor, no other plane, no
-  // other connector, colours unchanged on their way. Returns when it is shown.
+  // Sets the mode and shows only `framebuffer` (of the mode's size): no cursor, no other plane or
+  // connector, no colour conversion. Returns when it is visible.
   virtual int set_mode(std::uint32_t framebuffer) = 0;
 
-  // Shows `framebuffer` from the next refresh on and returns at once; the card's file then says so
-  // with an event that carries `number`. EBUSY: the flip before is not done yet. `fence`: shown not
-  // before it is signalled; −1 for none.
+  // Shows `framebuffer` from the next refresh on, but not before `fence` (−1: none) is signalled.
+  // Returns immediately; when it is visible, the card sends an event with `number`. EBUSY: the
+  // previous flip is still pending.
   virtual int flip(std::uint32_t framebuffer, int fence, std::uint64_t number) = 0;
 
   virtual bool takes_fences() const { return false; }
@@ -43,12 +43,12 @@ public:
 std::unique_ptr<Scanout> make_atomic_scanout(ScanoutTarget target);
 std::unique_ptr<Scanout> make_legacy_scanout(ScanoutTarget target);
 
-// What a CRTC showed before us, so that the console comes back.
+// What a CRTC showed before, in order to restore the console.
 class SavedCrtc {
 public:
   SavedCrtc() = default;
   SavedCrtc(const FileDescriptor& file, const Card& card, std::uint32_t crtc);
-  // As it was; where that cannot be, the output is off.
+  // Restores it; if that fails, turns the output off.
   void restore(const FileDescriptor& file);
 
 private:
