@@ -26,8 +26,9 @@ struct ScanLagStatus {
   double significance = 0;
 };
 
-// There is one DownsampledSweep: the volume thread borrows it for a volume, its workers fill it, and
-// it is returned when the volume is finished. While it is borrowed or analysed, volumes are skipped.
+// There is one DownsampledSweep: the volume thread borrows it for a volume, its workers fill it,
+// and it returns when the volume is finished. While it is borrowed or analysed, volumes are
+// skipped.
 // At first every volume is analysed, later one every half second: a mirror's lag changes slowly.
 class ScanLagThread {
 public:

@@ -8,8 +8,8 @@
 
 namespace octascope::pipeline {
 
-// Pure logic, one thread. An unconvincing estimate changes nothing. One near the lag in use moves it
-// half-way, which averages noise and follows drift. One farther off counts only when the next
+// Pure logic, one thread. An unconvincing estimate changes nothing. One near the lag in use moves
+// it half-way, which averages noise and follows drift. One farther off counts only when the next
 // convincing one agrees: a single wrong estimate cannot make the picture jump.
 class ScanLagTracker {
 public:
