@@ -20,9 +20,9 @@ struct SweepSlot {
 };
 
 // Pure logic, one thread. A volume's sweeps start at the trigger pulse or, if that was latched,
-// when the previous volume's sweeps end. If the scanner missed the previous pulse, nothing was latched:
-// the time of the first frame shows this. Each placed frame corrects the estimated start by a
-// quarter of its deviation, so the camera's clock may drift against ours.
+// when the previous volume's sweeps end. If the scanner missed the previous pulse, nothing was
+// latched: the time of the first frame shows this. Each placed frame corrects the estimated start
+// by a quarter of its deviation, so the camera's clock may drift against ours.
 class SweepTracker {
 public:
   explicit SweepTracker(const ScanPlan& plan)
