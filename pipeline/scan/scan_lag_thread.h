@@ -33,7 +33,7 @@ struct ScanLagStatus {
 class ScanLagThread {
 public:
   // `clock` and `faults` outlive this. If the plan is not to be searched, nothing is allocated or
-  // started, and sketch() is always null.
+  // started, and borrow() always returns null.
   ScanLagThread(const ScanPlan& plan, hal::Clock& clock, FaultLog& faults);
   ~ScanLagThread();
 
