@@ -35,9 +35,9 @@ private:
 
 // The running mean of BackgroundMode::running.
 //
-// It depends on the order of the B-scans, and workers finish them in any order. So it is not the
-// workers' business: the one thread that hands B-scans out calls add() for each of them, in order,
-// and hands the mean as it is then out with the B-scan. No lock and no waiting is needed, the
+// It depends on the order of the B-scans, but workers finish them in any order. So the one thread
+// that distributes B-scans calls add() for each of them, in order, and passes the current mean on
+// with the B-scan. No lock and no waiting is needed, the
 // result is the same for any number of workers, the first B-scan has a background already, and no
 // work is done twice, as the workers need not sum the lines any more. Keeping a mean for each
 // worker (which B-scans it sees is chance), a mean for each B-scan position (it would take still
@@ -65,7 +65,7 @@ private:
   std::vector<float> values_;
 };
 
-// The running background of every frame that is in work, kept by the number of its camera buffer.
+// The running background of every frame being processed, indexed by its camera buffer.
 // The thread that hands frames out calls take() for each of them, in order and before it hands the
 // frame out; whoever got the frame calls of() until the frame is given back to the camera. Handing
 // over and giving back order the two; nothing allocates or locks.

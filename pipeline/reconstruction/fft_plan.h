@@ -11,8 +11,7 @@
 
 namespace octascope::pipeline {
 
-// FFTW's planner keeps its knowledge in globals of its own, so whoever plans holds this lock;
-// executing a plan does not touch them.
+// FFTW's planner uses globals, so planning needs this lock; executing a plan does not.
 inline std::mutex& fft_planner_mutex() {
   static std::mutex mutex;
   return mutex;
@@ -43,8 +42,8 @@ inline fftwf_complex* as_complex(float* floats) {
 // candidates, for a second at most, unless wisdom knows the answer. nullptr: FFTW has no plan.
 FftPlan plan_line_transform(int length, bool complex_input, bool keep_input);
 
-// What the planner has learnt in this process, as a text that another start can take. The text of
-// another FFTW or a broken one is refused: false, and nothing changes.
+// The planner's wisdom as text, for later runs. Import returns false and changes nothing where the
+// text is damaged or from another FFTW.
 std::string export_fft_wisdom();
 bool import_fft_wisdom(const std::string& wisdom);
 

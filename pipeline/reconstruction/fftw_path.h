@@ -1,4 +1,4 @@
-// FFTW's path of the reconstruction: whole B-scans, a line at a time, in steps that can be read.
+// The FFTW path of the reconstruction: whole B-scans, line by line, in separate readable steps.
 //
 // It takes any number of samples and every type, and alone does what needs the complex A-scans or
 // a longer transform: removal of the fixed pattern, zero-padding.

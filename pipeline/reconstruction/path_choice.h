@@ -1,4 +1,4 @@
-// Which of the reconstruction's paths is taken, why, and what is remembered of it.
+// Which reconstruction path is chosen, why, and the stored timings.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace octascope::pipeline {
 enum class ReconstructionPath : std::uint8_t {
   automatic, // the faster one
   fftw,
-  fused, // where it does not apply: FFTW's
+  fused, // falls back to fftw where it does not apply
 };
 
 // Time of one line on either path.

@@ -29,8 +29,8 @@ struct SpectraShape {
   bool operator==(const SpectraShape&) const = default;
 };
 
-// Read-only and memory-mapped: B-scans are read from the disk when they are touched, so that a file
-// may be larger than the memory. Thread-safe. The file must not be shortened while it is open.
+// Read-only and memory-mapped: B-scans are read from disk on first access, so a file may
+// exceed memory. Thread-safe. The file must not be shortened while it is open.
 class SpectraFile {
 public:
   // The size must be exactly B × A × N × bytes; else the message has found and expected.

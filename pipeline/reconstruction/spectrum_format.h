@@ -1,4 +1,4 @@
-// What raw spectra are made of: type, bits and length of a line.
+// The format of raw spectra: sample type, significant bits and line length.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace octascope::pipeline {
 
-// Little-endian samples, lines without gaps. Shift and full scale mean nothing to f32. Cameras of
+// Little-endian samples, lines without gaps. Shift and full scale do not apply to f32. Cameras of
 // 10, 12 or 14 bits are u16 with so many significant bits, shifted where they are left-justified.
 struct SpectrumFormat {
   int samples = 1024;

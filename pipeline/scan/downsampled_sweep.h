@@ -1,5 +1,4 @@
-// A volume's sweeps in coarse strokes: enough to see how they lie to each other, small enough to
-// keep beside the volume.
+// The sweeps of a volume at low depth resolution, for estimating how they are displaced.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +10,17 @@
 
 namespace octascope::pipeline {
 
-// Of each sweep the levels of all its converted lines, in the order of time, averaged over bands of
-// neighbouring depths: [sweep][line][band]. Made by the workers (each its own sweeps), read by one
-// thread when all are done; whoever hands it over orders the two.
+// Levels of all converted lines of each sweep, in time order, averaged over bands of neighbouring
+// depths: [sweep][line][band]. Workers write it (each its own sweeps); one thread reads it when all
+// are done. The caller must synchronise the hand-over.
 class DownsampledSweep {
 public:
   static constexpr int bands = 32;
 
-  // Allocates all that it will need.
+  // Allocates all memory.
   explicit DownsampledSweep(const ScanPlan& plan);
 
-  // No sweep has come.
+  // Marks all sweeps as not received.
   void clear();
   // `levels` [line][z] of a sweep. Allocates nothing.
   void draw(int sweep, std::span<const std::uint8_t> levels) noexcept;
@@ -29,7 +28,7 @@ public:
   int sweeps() const { return static_cast<int>(came_.size()); }
   int lines() const { return lines_; }
   bool came(int sweep) const { return came_[static_cast<std::size_t>(sweep)] != 0; }
-  // bands values each; where there are fewer depths than bands the rest are 0.
+  // `bands` values; with fewer depths than bands, the remainder are 0.
   std::span<const std::uint8_t> line(int sweep, int line) const {
     return std::span{strokes_}.subspan(
         static_cast<std::size_t>(sweep * lines_ + line) * static_cast<std::size_t>(bands), bands);
@@ -39,7 +38,7 @@ private:
   int lines_;
   std::size_t depths_;
   std::vector<std::uint8_t> strokes_;
-  std::vector<std::uint8_t> came_; // by sweep; bytes, as workers write neighbours
+  std::vector<std::uint8_t> came_; // by sweep; not bool: workers write neighbours
 };
 
 } // namespace octascope::pipeline

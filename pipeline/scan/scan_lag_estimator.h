@@ -1,9 +1,9 @@
-// Finds by how much a bidirectional scan's mirror lags, from the picture alone.
+// Estimates the mirror lag of a bidirectional scan from the image alone.
 //
 // Line l of a forward sweep and line l' of the backward sweep beside it show the same place where
 // l + l' = A − 1 + 2p (sweep_alignment.h): the mirror symmetry of neighbouring sweeps. So one is
 // correlated with the other reversed, over a range of sums c = l + l', and the peak of the
-// normalised correlation gives p = (c − A + 1)/2, between the whole numbers by a parabola.
+// normalised correlation gives p = (c − A + 1)/2, refined below whole lines by a parabola.
 //
 // What is correlated is the slope along the fast axis: what does not change from line to line
 // (fixed artefacts, a level that falls with depth) has none. The products and energies of many
@@ -26,16 +26,16 @@ namespace octascope::pipeline {
 
 struct ScanLagEstimate {
   double scan_lag_a_scans = 0; // p
-  // What speaks for it, of the weaker group: the peak of the correlation, −1 … 1; the same in
-  // standard deviations of what noise alone would give; and the next best elsewhere, as a share of
-  // it. And how far apart the peaks of the two groups are, in A-scans between neighbours.
+  // Of the weaker group: the correlation peak, −1 … 1; the same in standard deviations of pure
+  // noise; and the next best peak elsewhere, as a fraction of it. The disagreement is the distance
+  // between the peaks of the two groups, in A-scans between neighbours.
   double correlation = 0;
   double significance = 0;
   double rival = 1;
   double disagreement_a_scans = 0;
   int pairs = 0;
 
-  // Is there anything to be seen that has a place? The limits hold off noise with room to spare:
+  // Whether the image shows a localised structure. The limits reject noise with a margin:
   // tests/pipeline/scan/scan_lag_estimator_test.cpp.
   bool convincing() const;
 };
@@ -78,8 +78,8 @@ private:
 
   ScanPlan plan_;
   int lines_;
-  int first_sum_; // the least c that is tried
-  int sums_;      // how many are
+  int first_sum_; // the lowest c tried
+  int sums_;      // how many are tried
   Slopes forward_;
   Slopes backward_;
   std::array<Group, 2> groups_;

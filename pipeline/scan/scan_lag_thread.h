@@ -1,5 +1,5 @@
-// Follows the phase offset of a bidirectional scan beside the hot path: an ordinary thread that
-// looks at a sketch of a volume now and then, for as long as it takes.
+// Tracks the scan lag of a bidirectional scan off the hot path: an ordinary thread that analyses a
+// downsampled volume from time to time.
 #pragma once
 
 #include <atomic>
@@ -16,32 +16,33 @@
 
 namespace octascope::pipeline {
 
-// For the report. The last estimate's figures, whether it was used or not.
+// For the report. The figures are those of the last estimate, used or not.
 struct ScanLagStatus {
   double in_use_a_scans = 0;
-  bool automatic = false; // else it is the configured one for ever
+  bool automatic = false; // false: the configured lag is always used
   std::uint64_t used = 0;
   std::uint64_t refused = 0;
   double correlation = 0;
   double significance = 0;
 };
 
-// One sketch goes round: the volume thread borrows it for a volume, its workers draw, and it comes
-// back when the volume is finished. While it is away or looked at, volumes are not sketched. At
-// first every volume is, then one in half a second: a mirror's lag changes slowly.
+// There is one DownsampledSweep: the volume thread borrows it for a volume, its workers fill it,
+// and it returns when the volume is finished. While it is borrowed or analysed, volumes are
+// skipped.
+// At first every volume is analysed, later one every half second: a mirror's lag changes slowly.
 class ScanLagThread {
 public:
   // `clock` and `faults` outlive this. If the plan is not to be searched, nothing is allocated or
-  // started, and sketch() is always null.
+  // started, and borrow() always returns null.
   ScanLagThread(const ScanPlan& plan, hal::Clock& clock, FaultLog& faults);
   ~ScanLagThread();
 
   void start(const ThreadSetup& setup);
   void stop();
 
-  // The volume thread. None allocates or waits.
-  DownsampledSweep* borrow(); // cleared; null while there is none to be had
-  void finished();            // the borrowed one is drawn: to be looked at
+  // Called by the volume thread. None allocates or waits.
+  DownsampledSweep* borrow(); // cleared; null while unavailable
+  void finished();            // the borrowed one is complete and can be analysed
   double in_use_a_scans() const { return in_use_a_scans_.load(std::memory_order_acquire); }
 
   // Any thread.

@@ -1,4 +1,4 @@
-// The phase offset in use, and what it takes to move it.
+// The scan lag in use, and when estimates change it.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,16 @@
 
 namespace octascope::pipeline {
 
-// Pure logic, one thread. An estimate that does not convince changes nothing. One that lies near
-// the offset in use draws it half-way there, so that noise is averaged and a drift followed. One
-// that lies farther off counts only when the next convincing one says the same: a single wrong
-// estimate, however convincing, cannot make the picture jump.
+// Pure logic, one thread. An unconvincing estimate changes nothing. One near the lag in use moves
+// it half-way, which averages noise and follows drift. One farther off counts only when the next
+// convincing one agrees: a single wrong estimate cannot make the picture jump.
 class ScanLagTracker {
 public:
   static constexpr double near_a_scans = 0.5;
 
   explicit ScanLagTracker(double start_a_scans) : in_use_a_scans_(start_a_scans) {}
 
-  // True when the offset in use changed.
+  // True when the lag in use changed.
   bool update(const ScanLagEstimate& estimate);
 
   double in_use_a_scans() const { return in_use_a_scans_; }
@@ -28,9 +27,9 @@ public:
 
 private:
   double in_use_a_scans_;
-  std::optional<double> far_a_scans_; // what the last estimate said, if it was far off
+  std::optional<double> far_a_scans_; // the last estimate, if it was far off
   std::uint64_t used_ = 0;
-  std::uint64_t refused_ = 0; // not convincing, or far off and alone
+  std::uint64_t refused_ = 0; // unconvincing, or far off and unconfirmed
 };
 
 } // namespace octascope::pipeline

@@ -1,7 +1,7 @@
-// How the beam moves, and so how a stream of camera frames becomes a volume.
+// How the beam moves, and thus how camera frames form a volume.
 //
-// A sweep is the beam's way along the fast axis, and one frame of the camera. Each B-scan is swept
-// `repeats` times, one behind the other. One-directional sweeps all run from the first A-scan to
+// A sweep is one pass of the beam along the fast axis: one camera frame. Each B-scan is swept
+// `repeats` times in succession. One-directional sweeps all run from the first A-scan to
 // the last and end with the fly-back. Bidirectional ones run there and back by turns: every second
 // sweep of a volume runs backwards, nothing flies back, and a few lines remain in which the mirror
 // turns.
@@ -31,7 +31,7 @@ struct ScanPlan {
   double depth_spacing_um = 3.5;
   double a_spacing_um = 10;
   double b_spacing_um = 37.5;
-  std::optional<double> refractive_index{}; // in which depth_spacing_um holds; empty: nobody said
+  std::optional<double> refractive_index{}; // in which depth_spacing_um holds; empty: unknown
 
   bool bidirectional = false;
   int turn_around_lines = 8; // bidirectional: at the end of each frame; best no fewer than the lag

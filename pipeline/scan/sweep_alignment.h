@@ -1,4 +1,4 @@
-// Makes bidirectional sweeps agree: which lines of each are kept, in which order.
+// Aligns bidirectional sweeps: which lines of each are kept, and in which order.
 //
 // The mirror lags behind its command by p lines. Line l of a forward sweep then shows the place
 // l − p, line l of a backward one A − 1 − l + p. Neighbours agree when the kept lines of forward
@@ -25,12 +25,11 @@ public:
   SweepAlignment(const ScanPlan& plan, double scan_lag_a_scans);
 
   // `lines` [line][z], plan.converted_lines() of them, of one sweep; `a_scans` [a][z] in the order
-  // of the tissue. Where the kept lines reach beyond those that there are, the outermost one is
-  // repeated. Allocates nothing.
+  // of the tissue. Kept lines outside the sweep repeat its outermost line. Allocates nothing.
   void apply(std::span<const std::uint8_t> lines, bool backwards,
              std::span<std::uint8_t> a_scans) const noexcept;
 
-  // Where, in lines, the kept ones of a sweep begin: between two, as a rule.
+  // Where the kept lines of a sweep begin, in lines; usually fractional.
   double first_line(bool backwards) const {
     const Shift& shift = backwards ? backward_ : forward_;
     return shift.line + shift.next_weight / double{one};

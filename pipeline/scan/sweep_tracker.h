@@ -19,11 +19,10 @@ struct SweepSlot {
   int sweep = 0; // of the volume, from 0: repeats and backward sweeps count like any other
 };
 
-// Pure logic, one thread. Follows the scanner: a volume's sweeps start at the trigger's pulse or,
-// when that was latched, at the end of those before. Where those never came, as the scanner missed
-// their pulse, nothing was latched: the first frame tells by its time. Each frame placed corrects
-// the estimated start by a quarter of its deviation, so the clock of the camera may drift against
-// ours.
+// Pure logic, one thread. A volume's sweeps start at the trigger pulse or, if that was latched,
+// when the previous volume's sweeps end. If the scanner missed the previous pulse, nothing was
+// latched: the time of the first frame shows this. Each placed frame corrects the estimated start
+// by a quarter of its deviation, so the camera's clock may drift against ours.
 class SweepTracker {
 public:
   explicit SweepTracker(const ScanPlan& plan)

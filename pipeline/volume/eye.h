@@ -18,7 +18,7 @@ constexpr std::string_view to_string(Eye eye) {
   return "not said";
 }
 
-// Empty for another word than "left" and "right".
+// Empty for any word other than "left" and "right".
 constexpr std::optional<Eye> eye_named(std::string_view word) {
   for (const Eye eye : {Eye::left, Eye::right}) {
     if (to_string(eye) == word)

@@ -1,5 +1,5 @@
-// Where in a volume there is something: the highest and the lowest level in each brick of it, built
-// B-scan by B-scan as they arrive, so that a renderer can leap over what its window makes empty.
+// The highest and lowest level in each brick of a volume, built as B-scans arrive, so that a
+// renderer can skip bricks that its window makes empty.
 //
 // Interpolation happens in cells, the spaces between voxels, so bricks are made of cells, and a
 // brick's levels are those of every voxel that touches one of its cells: an interpolated level
@@ -44,7 +44,7 @@ BrickCounts count_bricks(const VolumeGeometry& geometry);
 class Occupancy {
 public:
   Occupancy() = default;
-  // Depth bins before `first_depth` count for nothing: no renderer shows them.
+  // Depth bins before `first_depth` are ignored: no renderer shows them.
   Occupancy(const VolumeGeometry& geometry, int first_depth);
 
   // Takes the levels [a][z] of one B-scan. They must be final: averaging with neighbours comes

@@ -15,7 +15,7 @@ struct PatientEye {
   bool operator==(const PatientEye&) const = default;
 };
 
-// False where both say something, and not the same.
+// False where the subject or the eye is known in both and differs.
 inline bool may_be_same(const PatientEye& a, const PatientEye& b) {
   const bool subjects = a.subject.empty() || b.subject.empty() || a.subject == b.subject;
   const bool eyes = a.eye == Eye::not_said || b.eye == Eye::not_said || a.eye == b.eye;

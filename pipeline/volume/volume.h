@@ -14,9 +14,9 @@
 namespace octascope::pipeline {
 
 enum class BScanState : std::uint8_t {
-  missing, // never came: its voxels are 0, the display hatches it
+  missing, // not received: its voxels are 0, the display hatches it
   good,
-  saturated, // came with saturated lines: shown, and marked
+  saturated, // has saturated lines: shown and marked
 };
 
 // Levels are 8-bit counts (level_scale.h has the decibels), in the order [b][a][z], depth fastest.
@@ -42,7 +42,7 @@ struct Volume {
   VolumeGeometry geometry;
   std::vector<std::uint8_t> levels;
   std::vector<BScanState> b_scan_states;
-  // Where there is something. Volumes of the pipeline bring it; empty() where nobody has built it.
+  // Set in volumes from the pipeline; empty() where it was not built.
   Occupancy occupancy;
   VolumeMetadata metadata;
 };

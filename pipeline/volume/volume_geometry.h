@@ -6,7 +6,7 @@
 
 namespace octascope::pipeline {
 
-// Refractive indices of whatever is looked into, from air on.
+// Accepted refractive indices of the imaged medium, from air upwards.
 inline constexpr double least_refractive_index = 1.0;
 inline constexpr double most_refractive_index = 2.0;
 
@@ -18,7 +18,7 @@ struct VolumeGeometry {
   double depth_spacing_um = 1; // of one depth bin, in the medium
   double a_spacing_um = 1;
   double b_spacing_um = 1;
-  std::optional<double> refractive_index{}; // of that medium: 1 is air; empty: nobody said
+  std::optional<double> refractive_index{}; // of that medium: 1 is air; empty: unknown
 
   std::size_t b_scan_voxels() const {
     return static_cast<std::size_t>(depths) * static_cast<std::size_t>(a_scans);
@@ -33,9 +33,9 @@ struct VolumeGeometry {
   bool operator==(const VolumeGeometry&) const = default;
 };
 
-// Around zero delay there is what the background left behind, blurred over two bins by the spectral
-// window: a bright lid over the tissue. Pictures of the volume leave these bins out; B-scans and
-// exports show them.
+// The background residue around zero delay, blurred over two bins by the spectral window, would
+// cover the tissue like a bright lid. Volume renderings omit these bins; B-scans and exports show
+// them.
 inline constexpr int blank_depth_bins = 2;
 
 } // namespace octascope::pipeline

@@ -1,4 +1,4 @@
-// The history of one volume, from the trigger to the glass, and what was lost on the way.
+// The history of one volume, from the trigger to the display, and its losses.
 #pragma once
 
 #include <cstdint>
