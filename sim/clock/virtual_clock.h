@@ -1,4 +1,4 @@
-// Time on command: it stands still until somebody sleeps or advances it.
+// A clock that stands still until somebody sleeps or advances it.
 #pragma once
 
 #include <atomic>
@@ -10,24 +10,23 @@
 
 namespace octascope::sim {
 
-// Starts at 1 s, so that tests can look back without negative times. A sleep takes no real time:
-// it moves the clock forward to its deadline, which makes single-threaded tests exact and fast.
-// Who waits for a post or a time moves nothing: it is woken by the post, or when others have moved
-// the clock to its deadline. Thread-safe; with several sleepers, time is where the latest deadline
-// was.
+// Starts at 1 s, so that tests can look back without negative times. A sleep takes no real time: it
+// moves the clock to its deadline, which makes single-threaded tests exact and fast. A wait for a
+// post or a time moves nothing: it ends with the post, or when others have moved the clock to its
+// deadline. Thread-safe; with several sleepers, the latest deadline counts.
 class VirtualClock final : public hal::Clock {
 public:
   void advance(hal::Duration by);
 
-  // Returns as soon as a thread waits for a post or a time that has not come: the earliest such
-  // time. That thread has done all that it was told before it began to wait.
+  // Returns as soon as a thread waits for a post or a time that has not come, with the earliest
+  // such time. That thread has finished everything it was told to do before.
   hal::TimePoint await_waiter();
 
 private:
   struct Waiter {
     hal::Semaphore& semaphore;
     hal::TimePoint deadline;
-    bool due = false; // the clock has posted
+    bool due = false; // already posted by the clock
   };
 
   hal::TimePoint do_now() const override {
@@ -35,7 +34,7 @@ private:
   }
   void do_sleep_until(hal::TimePoint deadline) override;
   bool do_wait_until(hal::Semaphore& semaphore, hal::TimePoint deadline) override;
-  void move_to(hal::TimePoint time); // with the mutex held
+  void move_to(hal::TimePoint time); // call with the mutex held
 
   std::atomic<std::int64_t> now_ns_{1'000'000'000};
   std::mutex mutex_; // of all that moves the clock, and of the waiters

@@ -1,16 +1,14 @@
-// The arteries of a pig's heart, drawn by lot from what was measured on casts.
-//
+// The arteries of a pig's heart, generated at random from measurements of casts.
 // Orders, connectivity, diameters and lengths follow sim/coronary_tree/morphometry.h; the shape of
-// the heart is sim/coronary_tree/heart/heart_wall.h. Layout after Kaimovitz, Lanir, Kassab (Ann Biomed
-// Eng 33, 2005): orders 11 to 9 upon the heart, 8 to 5 through its wall, 4 to 0 filling it. The
-// space is filled by dividing the muscle from the trunk to the twigs, each vessel heading for the
-// middle of its own piece.
-//
+// the heart is sim/coronary_tree/heart/heart_wall.h. Layout after Kaimovitz, Lanir, Kassab (Ann
+// Biomed Eng 33, 2005): orders 11 to 9 upon the heart, 8 to 5 through its wall, 4 to 0 filling it.
+// The space is filled by dividing the muscle from the trunk to the twigs, each vessel heading for
+// the middle of its own piece.
 // The same seed and number of segments give the same bits, whatever the number of threads, on every
-// machine with IEEE 754 double and single precision: there is no arithmetic but sums, products,
-// quotients and square roots, no contraction of them, no random number but hashes, and no order
-// that the standard library leaves open. The same seed gives the same large vessels (orders 11 to
-// 5) at every number of segments that has them.
+// machine with IEEE 754 double and single precision: the only arithmetic is sums, products,
+// quotients and square roots, never contracted; random numbers are hashes; and no order is left to
+// the standard library. The same seed gives the same large vessels (orders 11 to 5) at every number
+// of segments that includes them.
 #pragma once
 
 #include <cstdint>
@@ -28,20 +26,20 @@ inline constexpr std::uint32_t most_coronary_segments = 20'000'000;
 struct CoronaryTreeRequest {
   std::uint32_t segments = fewest_coronary_segments;
   std::uint64_t seed = 1;
-  std::size_t threads = 1; // the caller's is one of them
+  std::size_t threads = 1; // including the caller's
 };
 
 struct CoronaryTree {
-  // Exactly the segments asked for; three roots more nodes, one each for RCA, LAD and LCX. Depth
-  // first: parents before children, neighbours in space mostly neighbours in the file. The frame is
+  // Exactly the segments asked for; three more nodes, the roots of RCA, LAD and LCX. Depth first:
+  // parents before children, and neighbours in space mostly close in the file. The frame is
   // heart_wall.h's.
   pipeline::VesselTree tree;
-  LowOrders low;                // what was cut or added of orders 4 to 0
-  std::size_t lowest_order = 0; // that is there, perhaps in part
+  LowOrders low;                // how orders 4 to 0 were cut or extended
+  std::size_t lowest_order = 0; // the lowest present, perhaps in part
 };
 
-// `progress` is called by this thread with numbers from 0 to 1; may be empty. Fails for a number of
-// segments or threads out of range.
+// `progress` is called on this thread with 0 to 1; may be empty. Fails if the number of segments or
+// threads is out of range.
 hal::Result<CoronaryTree> generate_coronary_tree(const CoronaryTreeRequest& request,
                                                  const std::function<void(double)>& progress = {});
 

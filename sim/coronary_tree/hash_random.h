@@ -1,4 +1,4 @@
-// Numbers drawn by lot that a key repeats exactly, on every machine.
+// Random numbers that are reproducible from a key on every machine.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace octascope::sim {
 
-// The n-th number is a hash of the key and n. Two keys give unrelated numbers.
+// The n-th number is a hash of the key and n. Different keys give unrelated numbers.
 class HashRandom {
 public:
   explicit HashRandom(std::uint64_t key) : key_{key} {}
@@ -30,7 +30,7 @@ public:
     return static_cast<std::size_t>(unit() * static_cast<double>(count));
   }
 
-  // Nearly normal, mean 0, variance 1, within ±3.5: the sum of four even ones.
+  // Nearly normal, mean 0, variance 1, within ±3.5: the sum of four uniform numbers.
   double normal() {
     const std::uint64_t b = bits();
     const std::uint64_t sum =
@@ -39,8 +39,8 @@ public:
     return (static_cast<double>(sum) / 65535.0 - 2) * sqrt_3;
   }
 
-  // Positive, with this mean and deviation (at most 1.2 times the mean), skewed as lengths are:
-  // the square of a normal number, whose moments are known in closed form.
+  // Positive, with this mean and deviation (at most 1.2 times the mean), skewed like lengths: the
+  // square of a normal number, whose moments are known in closed form.
   double positive(MeanAndDeviation wanted) {
     const double relative = wanted.deviation / wanted.mean;
     const double spread = 1 - std::sqrt(1 - relative * relative / 2);
@@ -48,7 +48,7 @@ public:
     return wanted.mean * root * root;
   }
 
-  // One of the two whole numbers around a positive one, right on average.
+  // One of the two integers around a positive value, with the right mean.
   std::size_t rounded(double value) { return static_cast<std::size_t>(value + unit()); }
 
   template <class T> void shuffle(std::span<T> items) {

@@ -1,10 +1,8 @@
-// Where the large vessels (orders 11 to 5) run, and which piece of muscle each feeds.
-//
-// Each element has a region of muscle, as large as its weight. At each fork the region is divided
-// between what springs off and what goes on; the vessel goes towards the middle of what is left. So
+// The courses of the large vessels (orders 11 to 5), and the piece of muscle that each feeds.
+// Each element has a region of muscle as large as its weight. At each fork the region is divided
+// between the side branch and the vessel itself, which heads for the middle of the remainder. So
 // the muscle is divided down to the smallest vessels without gap or overlap. Orders 11 to 9 run
-// upon the heart (in the septum, where there is no outside, within it), the others through the
-// wall.
+// upon the heart (inside the septum, which has no outside), the others through the wall.
 #pragma once
 
 #include <span>
@@ -23,7 +21,7 @@ struct TrunkNode {
 
 // Beside each planned element. Those of low orders have no nodes.
 struct GrownElement {
-  std::size_t first_node = 0; // one a segment
+  std::size_t first_node = 0; // one per segment
   std::size_t first_cell = 0; // its region
   std::size_t cells = 0;
   Vector3 start;
@@ -38,8 +36,8 @@ struct GrownTrunk {
   std::vector<GrownElement> elements;
 };
 
-// Reorders the cells so that each element's lie together. May also change at which joints the
-// daughters of the artery itself spring off: where the muscle is that they feed.
+// Reorders the cells so that each element's are contiguous. May also change the joints from which
+// the artery's own daughters spring, to suit the muscle that they feed.
 GrownTrunk grow_trunk(const BranchMorphometry& branch, TrunkPlan& plan, const Course& course,
                       Region cells, std::uint64_t key);
 

@@ -1,4 +1,4 @@
-// What large and small vessels do alike at each fork: their diameters, lengths and angles.
+// Rules shared by large and small vessels at each fork: diameters, lengths and angles.
 #pragma once
 
 #include "sim/coronary_tree/hash_random.h"
@@ -10,7 +10,7 @@ namespace octascope::sim {
 // The diameters of an element's segments, from the first to the last.
 class Calibre {
 public:
-  // Not wider than the mother.
+  // No wider than the mother.
   Calibre(const BranchMorphometry& branch, std::size_t order, std::size_t segments,
           double mother_um, HashRandom& draws);
 
@@ -24,18 +24,18 @@ private:
   double most_um_;
 };
 
-// A segment's length: of four drawn from the published distribution the one nearest to what the
-// vessel needs on its way. Most need more than the mean, so that lengths come out at about one
-// deviation above it; with less the published number of vessels would not reach all of the muscle.
+// A segment's length: of four drawn from the published distribution, the one nearest to the length
+// needed. Most segments need more than the mean, so lengths come out about one deviation above it;
+// shorter ones would not let the published number of vessels reach all of the muscle.
 double segment_length_mm(const OrderMorphometry& order, double needed_mm, HashRandom& draws);
 
-// The direction of a daughter that wants to go to `target` (unit vectors): at about the angle to
-// its mother that costs the least work to maintain and perfuse (Murray, J Gen Physiol 9, 1926),
-// which follows from the three diameters.
+// The direction of a daughter heading for `target` (unit vectors): at about the angle to its mother
+// that minimises the work of maintenance and perfusion (Murray, J Gen Physiol 9, 1926), which
+// follows from the three diameters.
 Vector3 daughter_direction(Vector3 mother, Vector3 target, double mother_um, double daughter_um,
                            double sister_um);
 
-// Onwards towards `target`, turning no further than this cosine, and winding a little.
+// Continues towards `target`, with at least this cosine to the old direction, winding a little.
 Vector3 onward_direction(Vector3 direction, Vector3 target, double least_cosine, double winding,
                          HashRandom& draws);
 

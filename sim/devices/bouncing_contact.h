@@ -1,7 +1,6 @@
-// One switch contact of the simulated pedal, with all that can be wrong with it.
-//
-// The foot presses; the contact follows: at once, with a burst of bounces, or not at all while it
-// is stuck. Pure logic over explicit times.
+// One switch contact of the simulated pedal, with its faults.
+// The contact follows the foot at once, with a burst of bounces, or not at all while stuck. Pure
+// logic over explicit times.
 #pragma once
 
 #include <optional>
@@ -15,25 +14,25 @@ namespace octascope::sim {
 class BouncingContact {
 public:
   // The foot goes down or up at `t`. With a `bounce` fault the contact then opens and closes that
-  // often, in even steps over the fault's time, before it rests; a new move ends an older burst.
+  // often, evenly over the fault's time, before it settles; a new move ends an older burst.
   void foot(hal::TimePoint t, bool pressed, const ScriptedFault* bounce);
 
-  // From `t` on the contact is stuck at a level, or follows the foot again (nothing).
+  // From `t` on the contact is stuck at `level`; empty: it follows the foot again.
   void stick(hal::TimePoint t, std::optional<bool> level);
 
-  // When something happens next if the foot does not move: a bounce, or a change that is certain.
+  // The time of the next event if the foot does not move: a bounce, or a confirmed change.
   std::optional<hal::TimePoint> next_time() const;
 
-  // Plays on to `t`, which is next_time() or earlier; returns the change that is certain by then.
+  // Advances to `t`, at most next_time(); returns the change confirmed by then.
   std::optional<hal::SwitchChange> play_to(hal::TimePoint t);
 
-  // As the device last reported it.
+  // The state last reported.
   bool reported() const { return debouncer_.closed(); }
 
-  // That the debouncer took out, ever.
+  // Total number of bounces removed by the debouncer.
   std::uint64_t bounces() const { return debouncer_.bounces(); }
 
-  // Foot up, nothing pending, nothing to report.
+  // Foot up, nothing pending.
   void reset();
 
 private:
@@ -43,7 +42,7 @@ private:
   hal::SwitchDebouncer debouncer_;
   bool foot_ = false;
   std::optional<bool> stuck_;
-  int bounces_left_ = 0; // an odd number: the contact is away from where the foot wants it
+  int bounces_left_ = 0; // odd: the contact is opposite to the foot
   hal::Duration bounce_step_{};
   hal::TimePoint next_bounce_{};
 };

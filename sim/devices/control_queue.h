@@ -1,7 +1,6 @@
-// A bounded queue of control events, from any thread to one.
-//
-// Lock-free: each place carries a turn number that says whose move it is, writer's or reader's
-// (D. Vyukov's bounded queue, with a single reader). Allocates nothing.
+// A bounded queue of control events, many writers to one reader.
+// Lock-free: each slot carries a turn number that says whether the writer or the reader is next (D.
+// Vyukov's bounded queue, with a single reader). Allocates nothing.
 #pragma once
 
 #include <array>

@@ -31,12 +31,12 @@
 
 namespace octascope::sim {
 
-// The controls of the simulated device.
+// The number of controls of the simulated device.
 inline constexpr int switch_count = 3;
 inline constexpr int knob_count = 1;
 inline constexpr int axis_count = 6;
 
-// Whether the simulated device has such a control and it can take such a value.
+// Whether the simulated device has such a control, and the value is in its range.
 bool is_plausible(const hal::ControlEvent& event);
 
 struct ScriptedControl {
@@ -47,22 +47,22 @@ struct ScriptedControl {
 };
 
 struct ControlScript {
-  std::vector<ScriptedControl> events; // in the order of their times
+  std::vector<ScriptedControl> events; // ordered by time
   hal::Duration repeat{};              // 0: played once; else longer than the last event's time
 
   static hal::Result<ControlScript> load(const std::filesystem::path& file);
   static hal::Result<ControlScript> parse(std::string_view text, const std::filesystem::path& name);
 };
 
-// The place in a script that is being played. Pure; borrows the script.
+// A position in a script that is being played. Pure; borrows the script.
 class ControlScriptCursor {
 public:
   explicit ControlScriptCursor(const ControlScript& script) : script_(script) {}
 
-  // When the next event is due, since time zero; nothing when the script is over.
+  // When the next event is due, since time zero; empty at the script's end.
   std::optional<hal::Duration> next_time() const;
 
-  // Only while there is a next event.
+  // Only if there is a next event.
   const ScriptedControl& take();
 
 private:

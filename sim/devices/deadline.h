@@ -1,4 +1,4 @@
-// Deadlines of waits whose timeout the caller chose.
+// Deadlines of waits with a timeout chosen by the caller.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // Which of a camera twin's buffers are free, reserved for a waiting frame, or on loan.
-//
-// One thread (the camera's) reserves and lends; any thread gives back. Lock-free, no allocation.
+// The camera's thread reserves and lends; any thread gives back. Lock-free, no allocation.
 #pragma once
 
 #include <array>
@@ -16,13 +15,13 @@ public:
 
   FrameLoans() { void_all(); }
 
-  // With every buffer free; 1 ≤ buffers ≤ most_buffers.
+  // Makes every buffer free; 1 ≤ buffers ≤ most_buffers.
   void reset(int buffers) {
     void_all();
     buffers_ = buffers;
   }
 
-  // A free buffer, or nothing.
+  // Reserves a free buffer; empty if there is none.
   std::optional<int> reserve() {
     for (int tried = 0; tried < buffers_; ++tried) {
       const int buffer = (newest_ + 1 + tried) % buffers_;
@@ -41,7 +40,7 @@ public:
   // From reserved to on loan.
   void lend(int buffer) { state(buffer).store(lent_state, std::memory_order_release); }
 
-  // From on loan to free; false when it is not on loan. Any thread.
+  // From on loan to free; false if it is not on loan. Any thread.
   bool give_back(int buffer) {
     if (buffer < 0 || buffer >= most_buffers)
       return false;
@@ -49,7 +48,7 @@ public:
     return state(buffer).compare_exchange_strong(expected, free_state, std::memory_order_acq_rel);
   }
 
-  // Every loan ends.
+  // Ends every loan.
   void void_all() {
     for (std::atomic<int>& s : states_)
       s.store(free_state, std::memory_order_release);

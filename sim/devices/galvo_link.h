@@ -1,7 +1,6 @@
-// The scanner between the twin of the trigger and the twin of the camera: pulses in, sweeps out.
-//
-// One pulse starts the sweeps of one volume. A pulse during the sweeps of another is latched, one
-// deep, and starts right behind them; a further one is lost and counted (hal/galvo_trigger.h).
+// The scanner between the trigger's twin and the camera's twin: pulses in, sweeps out.
+// One pulse starts the sweeps of one volume. A pulse during another volume's sweeps is latched, one
+// deep, and starts right after them; a further one is lost and counted (hal/galvo_trigger.h).
 #pragma once
 
 #include <array>
@@ -18,20 +17,20 @@ enum class PulseFate : std::uint8_t { started, latched, lost };
 // Lock-free. One thread sends pulses; any thread reads.
 class GalvoLink {
 public:
-  // How many of the newest sweeps are remembered.
+  // Number of sweeps that are remembered.
   static constexpr std::uint64_t memory = 64;
 
-  // Of all B-scans of a volume together (ScanPlan::sweep_duration), > 0.
+  // Duration of all B-scans of a volume together (ScanPlan::sweep_duration), > 0.
   explicit GalvoLink(hal::Duration sweep_duration) : sweep_duration_(sweep_duration) {}
 
-  // The trigger's thread, with times that do not decrease.
+  // Called by the trigger's thread, with times that do not decrease.
   PulseFate pulse(hal::TimePoint rising_edge);
 
-  // Volumes swept so far, with the one that runs and the one that is latched.
+  // Number of volumes swept so far, including the running one and the latched one.
   std::uint64_t sweeps() const { return sweeps_.load(std::memory_order_acquire); }
 
-  // When volume sweep number `index` (from 0) started or will start. Nothing when there is no such
-  // sweep, or when it is no longer remembered.
+  // When volume sweep number `index` (from 0) started or will start. Empty if there is no such
+  // sweep, or it is no longer remembered.
   std::optional<hal::TimePoint> start_of(std::uint64_t index) const;
 
   hal::Duration sweep_duration() const { return sweep_duration_; }
@@ -39,7 +38,7 @@ public:
 
 private:
   const hal::Duration sweep_duration_;
-  hal::TimePoint newest_start_{}; // of the pulsing thread alone
+  hal::TimePoint newest_start_{}; // used by the pulsing thread only
   std::array<std::atomic<std::int64_t>, memory> starts_ns_{};
   std::atomic<std::uint64_t> sweeps_{0};
   std::atomic<std::uint64_t> lost_pulses_{0};

@@ -1,7 +1,7 @@
 // The display's twin: draws into memory, without a screen, a window system or a GPU.
-//
-// A surfaceless EGL context (any Mesa brings one) and a framebuffer of the asked size, bound as the
-// draw target. Refreshes are ticks of the injected clock, so that frames are paced as on glass.
+// A surfaceless EGL context (any Mesa provides one) and a framebuffer of the requested size, bound
+// as the draw target. Refreshes are ticks of the injected clock, so that frames are paced as on a
+// monitor.
 #pragma once
 
 #include <atomic>
@@ -18,9 +18,9 @@ public:
   explicit OffscreenDisplay(hal::Clock& clock);
   ~OffscreenDisplay() override;
 
-  // The fault of a display whose cable is pulled: present() fails with ErrorCode::disconnected, and
-  // open() with ErrorCode::absent, until restore(). However short the loss, the context is gone
-  // with it. Thread-safe.
+  // Simulates a pulled cable: present() fails with ErrorCode::disconnected, and open() with
+  // ErrorCode::absent, until restore(). However short the loss, the context is lost with it.
+  // Thread-safe.
   void lose() {
     lost_.store(true, std::memory_order_release);
     context_lost_.store(true, std::memory_order_release);
@@ -32,8 +32,8 @@ private:
 
   std::string_view do_backend() const override { return "offscreen"; }
   bool do_simulated() const override { return true; }
-  // ErrorCode::unsupported: this machine has no EGL that can draw GLES 3 without a window.
-  // ErrorCode::invalid_argument: a size or a rate that makes no sense.
+  // ErrorCode::unsupported: no EGL here can draw GLES 3 without a window.
+  // ErrorCode::invalid_argument: size or rate out of range.
   hal::Result<> do_open(const hal::DisplayConfig& config) override;
   int do_width() const override { return width_; }
   int do_height() const override { return height_; }

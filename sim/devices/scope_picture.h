@@ -11,7 +11,7 @@
 
 namespace octascope::sim {
 
-// A rectangle in parts of the picture's width and height; (0, 0) is its upper left corner.
+// A rectangle as fractions of the picture's width and height; (0, 0) is its upper left corner.
 struct PictureRectangle {
   double x = 0;
   double y = 0;
@@ -19,12 +19,12 @@ struct PictureRectangle {
   double height = 0;
 };
 
-// The view from above: x to the right, y down, the scan field's centre in the picture's middle.
-// Lit by a ring of lamps at the objective: soft shade from the surface's slope, their mirror image
-// where it is glossy, darker towards the corners.
+// The view from above: x to the right, y down, the scan field's centre in the middle of the
+// picture. Lit by a ring of lamps at the objective: soft shading from the surface's slope, mirror
+// images of the lamps on glossy places, darker towards the corners.
 class ScopePicture {
 public:
-  // Draws what stands still, once: about 0.1 s at 640×480. Borrows the phantom.
+  // Draws the static parts once: about 0.1 s at 640×480. Borrows the phantom.
   ScopePicture(const Phantom& phantom, int width, int height);
 
   std::size_t bytes() const { return still_.size(); }
@@ -32,7 +32,7 @@ public:
   // The whole picture at a phase of the loop, rgb8, rows without gaps; `pixels` has bytes() bytes.
   void draw(double phase, std::span<std::uint8_t> pixels) const;
 
-  // Where a field of this size, centred, lies.
+  // The place of a centred field of this size.
   PictureRectangle field(double a_mm, double b_mm) const;
 
 private:

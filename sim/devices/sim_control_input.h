@@ -1,9 +1,8 @@
 // The twin of pedal and knob: three switches, a knob and a 6-axis puck, moved by a script and by
-// whoever injects events (the host, for keys).
-//
-// Scripted moves and faults happen at their own times, however late read() is called: what it
-// returns is a function of the script, the schedule and the injected events. Switches pass through
-// a contact that may bounce or stick, and through the debouncer, so a press is told 5 ms after it.
+// injected events (the host's, for keys).
+// Scripted moves and faults happen at their own times, however late read() is called: its result is
+// a function of the script, the schedule and the injected events. Switches pass through a contact
+// that may bounce or stick, and through the debouncer, so a press is reported 5 ms late.
 #pragma once
 
 #include <array>
@@ -21,15 +20,15 @@ namespace octascope::sim {
 
 class SimControlInput final : public hal::ControlInput {
 public:
-  // The clock and the schedule outlive the input; `faults` may be null. The script's time zero is
-  // the first open(); it goes on while the device is unplugged, unseen.
+  // The clock and the schedule must outlive the input; `faults` may be null. The script's time zero
+  // is the first open(); it continues unseen while the device is unplugged.
   explicit SimControlInput(hal::Clock& clock, ControlScript script = {},
                            const FaultSchedule* faults = nullptr);
 
-  // Any thread, any state; lock-free. A switch, knob or axis moves as if by hand, at event.time or
-  // when it is noticed, within 1 ms. False, and nothing happens, when the device has no such
-  // control or value, or when more than ControlQueue::capacity events wait to be read. What is
-  // injected while the device is not open is lost, like a press on an unplugged pedal.
+  // Any thread, any state; lock-free. Moves a switch, knob or axis as if by hand, at event.time or
+  // when it is noticed, within 1 ms. False, without effect, if the device has no such control or
+  // value, or more than ControlQueue::capacity events wait to be read. What is injected while the
+  // device is not open is lost, like a press on an unplugged pedal.
   bool inject(const hal::ControlEvent& event);
 
 private:
@@ -55,8 +54,8 @@ private:
   bool has_room() const { return reported_ + most_reports_at_once <= outbox_.size(); }
   std::size_t fetch(std::span<hal::ControlEvent> events);
 
-  // One moment can report every switch, a scripted and an injected event; a pull after it, every
-  // switch and axis once more.
+  // One moment can report every switch, a scripted and an injected event, and then, if unplugged,
+  // every switch and axis once more.
   static constexpr std::size_t most_reports_at_once = switch_count + 2 + switch_count + axis_count;
 
   hal::Clock& clock_;
@@ -64,7 +63,7 @@ private:
   ControlScriptCursor cursor_;
   FaultProbe probe_;
   ControlQueue injected_;
-  std::optional<hal::ControlEvent> next_injected_; // already out of the queue
+  std::optional<hal::ControlEvent> next_injected_; // already taken from the queue
 
   std::optional<hal::TimePoint> zero_; // of the script
   hal::TimePoint played_to_;
@@ -73,7 +72,7 @@ private:
   std::array<std::int32_t, axis_count> axes_{}; // as reported
   bool pulled_out_ = false;
 
-  std::array<hal::ControlEvent, 64> outbox_{}; // reported, not yet read; a ring
+  std::array<hal::ControlEvent, 64> outbox_{}; // ring of reported events that were not read yet
   std::size_t oldest_ = 0;
   std::size_t reported_ = 0;
 };

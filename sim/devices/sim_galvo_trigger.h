@@ -1,4 +1,4 @@
-// The twin of the galvo trigger: its pulses reach the scanner of a GalvoLink.
+// The twin of the galvo trigger: pulses the scanner of a GalvoLink.
 #pragma once
 
 #include "hal/galvo_trigger.h"
@@ -9,7 +9,7 @@ namespace octascope::sim {
 
 class SimGalvoTrigger final : public hal::GalvoTrigger {
 public:
-  // All that is borrowed outlives the trigger; `faults` may be null.
+  // Everything borrowed must outlive the trigger; `faults` may be null.
   SimGalvoTrigger(GalvoLink& link, hal::Clock& clock, const FaultSchedule* faults = nullptr);
 
 private:
@@ -23,7 +23,7 @@ private:
   hal::Clock& clock_;
   FaultProbe probe_;
   hal::GalvoTriggerConfig config_;
-  hal::TimePoint line_is_low_; // from then on: the falling edge of the last pulse
+  hal::TimePoint line_is_low_; // from this time on: the falling edge of the last pulse
 };
 
 } // namespace octascope::sim

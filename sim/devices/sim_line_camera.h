@@ -1,15 +1,12 @@
-// The twin of the line camera: B-scans of a SpectraSource, at the true line rate, whenever the twin
-// of the galvo trigger was pulsed.
-//
+// The twin of the line camera: B-scans of a SpectraSource, at the true line rate, after each pulse
+// of the trigger's twin.
 // Frame f of a sweep that starts at T is exposed from T + f·L/rate to T + (f+1)·L/rate (L lines a
-// frame) and handed out no earlier than its end. A frame belongs to the stream when its exposure
-// began at or after start(): a camera started in the middle of a sweep begins in its middle.
-//
-// The driver is modelled too: it keeps config.buffers frames, on loan or waiting; what comes when
-// all are taken is dropped and shows as a gap in the sequence. It looks at the buffers when
-// wait_frame() is called, so one given back before the call counts as free.
-//
-// Bytes are not copied, they point into the source, unless a fault alters them.
+// frame) and delivered no earlier than its end. A frame belongs to the stream if its exposure began
+// at or after start(): a camera started during a sweep begins in its middle.
+// The driver is modelled, too: it has config.buffers frames, on loan or waiting; frames that find
+// none free are dropped and show as a gap in the sequence. Buffers are checked when wait_frame() is
+// called, so one given back before the call counts as free.
+// Bytes are not copied but point into the source, unless a fault alters them.
 #pragma once
 
 #include <atomic>
@@ -30,22 +27,22 @@
 
 namespace octascope::sim {
 
-// What the twin did since it was made, to compare with what the program noticed.
+// What the twin has done, to compare with what the program noticed.
 struct LineCameraTally {
-  std::uint64_t made = 0;      // frames that the hardware made while streaming
+  std::uint64_t made = 0;      // frames exposed while streaming
   std::uint64_t delivered = 0; // frames handed out
   std::uint64_t dropped_by_fault = 0;
   std::uint64_t dropped_without_buffer = 0;
-  std::uint64_t altered = 0; // handed out corrupted, in the wrong size, or saturated
+  std::uint64_t altered = 0; // delivered corrupted, with a wrong size, or saturated
 };
 
-// identity() of the twin that nothing was said about.
+// Default identity() of the twin.
 inline constexpr std::string_view simulated_camera = "simulated spectrometer";
 
 class SimLineCamera final : public hal::LineCamera {
 public:
-  // All that is borrowed outlives the camera; `faults` may be null. `identity`: which camera it is
-  // until the fault script puts another one in its place; empty where nobody knows.
+  // Everything borrowed must outlive the camera; `faults` may be null. `identity`: which camera it
+  // is until the fault script replaces it; empty: unknown.
   SimLineCamera(const SpectraSource& source, GalvoLink& link, hal::Clock& clock,
                 const FaultSchedule* faults = nullptr, ScanMotion motion = {},
                 std::string identity = std::string{simulated_camera});
@@ -54,14 +51,14 @@ public:
   LineCameraTally tally() const;
 
 private:
-  // A frame that the driver holds until somebody fetches it.
+  // A frame held by the driver until it is fetched.
   struct WaitingFrame {
     int buffer = -1;
-    std::span<const std::byte> bytes; // of the source
+    std::span<const std::byte> bytes; // in the source
     std::uint64_t sequence = 0;
     hal::TimePoint first_line;
     hal::TimePoint last_line;
-    hal::TimePoint ready; // when the driver hands it out
+    hal::TimePoint ready; // when the driver delivers it
     std::uint64_t noise_seed = 0;
     const ScriptedFault* corrupted = nullptr;
     const ScriptedFault* wrong_size = nullptr;
@@ -71,7 +68,7 @@ private:
   // The frame that the hardware exposes next.
   struct Exposure {
     std::uint64_t sweep = 0;
-    int in_volume = 0; // which of its frames
+    int in_volume = 0; // index of the frame in it
     hal::TimePoint begin;
     hal::TimePoint end;
   };
@@ -113,17 +110,17 @@ private:
   std::vector<WaitingFrame> waiting_; // a ring of config_.buffers places
   std::size_t oldest_waiting_ = 0;
   std::size_t waiting_count_ = 0;
-  std::size_t scratch_bytes_ = 0; // of one buffer; 0 without faults that alter bytes
+  std::size_t scratch_bytes_ = 0; // of one buffer; 0 unless faults alter bytes
   std::unique_ptr<std::byte[]> scratch_;
 
   hal::TimePoint started_;
   std::uint64_t next_sweep_ = 0;
   int next_in_volume_ = 0;
   std::uint64_t next_sequence_ = 0;
-  std::uint64_t shown_sequence_ = 0; // of the newest frame, as the driver told it
+  std::uint64_t shown_sequence_ = 0; // of the newest frame, as reported by the driver
 
-  std::string plugged_in_;            // which camera
-  mutable std::mutex identity_mutex_; // taken by open() and whoever asks
+  std::string plugged_in_;            // the camera that is plugged in
+  mutable std::mutex identity_mutex_; // guards the identity
   std::string identity_;
 
   std::atomic<std::uint64_t> made_{0};

@@ -1,4 +1,4 @@
-// Twin of the camera that looks through the microscope: sees the phantom from above.
+// The twin of the microscope's camera: sees the phantom from above.
 #pragma once
 
 #include <array>
@@ -18,27 +18,27 @@ namespace octascope::sim {
 
 struct SimScopeCameraOptions {
   std::string phantom = "anterior_eye";
-  std::uint64_t seed = 1;                              // that of the volume loop: the same phantom
-  pipeline::VolumeGeometry field;                      // what the OCT scans, for scan_field()
-  hal::Duration loop = std::chrono::milliseconds{850}; // once round the phantom's motion
-  int width = 640;                                     // of its pictures, whatever open() wishes
+  std::uint64_t seed = 1;                              // the volume loop's, for the same phantom
+  pipeline::VolumeGeometry field;                      // the volume that the OCT scans, for
+                                                       // scan_field()
+  hal::Duration loop = std::chrono::milliseconds{850}; // one period of the phantom's motion
+  int width = 640;                                     // picture width, whatever open() asks for
   int height = 480;
 };
 
-// Pictures, 30 for each second of the loop, are drawn when they are first shown, and handed out
-// where they lie: from the second time round streaming costs nothing to speak of. Frame n is
-// exposed n periods after start(). Frames that nobody fetched, or that found all four buffers on
-// loan, are lost, and their sequence numbers with them.
-//
-// Threads as hal::ScopeCamera; unplug(), replug() and scan_field() may come from any.
+// Pictures, 30 for each second of the loop, are drawn when first shown and lent in place, so that
+// from the second loop on streaming costs almost nothing. Frame n is exposed n periods after
+// start(). Frames that are not fetched, or that find all four buffers on loan, are lost, with their
+// sequence numbers.
+// Threads as hal::ScopeCamera; unplug(), replug() and scan_field() may be called from any.
 class SimScopeCamera final : public hal::ScopeCamera {
 public:
-  // Draws what stands still in them: a tenth of a second. Borrows the clock.
+  // Draws the static parts, which takes a tenth of a second. Borrows the clock.
   static hal::Result<std::unique_ptr<SimScopeCamera>> make(const SimScopeCameraOptions& options,
                                                            hal::Clock& clock);
 
-  // Pulls the cable; a wait that is on returns within a frame's time. The state becomes `failed`
-  // when the camera's thread notices.
+  // Pulls the cable; a running wait returns within a frame's time. The state becomes `failed` when
+  // the camera's thread notices.
   void unplug() { plugged_.store(false, std::memory_order_release); }
   void replug() { plugged_.store(true, std::memory_order_release); }
 
@@ -77,7 +77,7 @@ private:
   std::array<std::atomic<bool>, 4> on_loan_{};
   hal::Duration period_{};
   hal::TimePoint started_;
-  std::int64_t next_ = 0; // the first frame that was not yet handed out
+  std::int64_t next_ = 0; // the first frame not delivered yet
 };
 
 } // namespace octascope::sim

@@ -1,4 +1,4 @@
-// Numbers that look random and are a function of what goes in: faults repeat exactly.
+// Pseudo-random numbers that are functions of their input, so that faults repeat exactly.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ constexpr std::uint64_t mixed(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// From all 64-bit numbers evenly to [0, 1).
+// Maps 64-bit numbers uniformly to [0, 1).
 constexpr double even_number(std::uint64_t x) {
   return static_cast<double>(x >> 11) * 0x1.0p-53;
 }

@@ -1,8 +1,7 @@
 // When which fault strikes: pure logic over a FaultScript and explicit times.
-//
-// Immutable but for its zero of time, so any thread may ask, at any moment, without a lock or an
-// allocation. Twins that know only "is it there?" (scope camera, display) need no more than
-// active(); the twins that count frames or pulses look through a FaultProbe.
+// Immutable but for its time zero, so any thread may ask at any time, without a lock or an
+// allocation. Twins that only need to know whether they are plugged in (scope camera, display) use
+// active(); those that count frames or pulses use a FaultProbe.
 #pragma once
 
 #include <atomic>
@@ -16,14 +15,14 @@
 
 namespace octascope::sim {
 
-// A fault that begins or ends; for reports. Points into the schedule.
+// The beginning or end of a fault; for reports. Points into the schedule.
 struct FaultEdge {
   hal::TimePoint time;
   const ScriptedFault* fault = nullptr;
   bool begins = true;
 };
 
-// One of the times that a fault comes round.
+// One repetition of a fault.
 struct FaultOccurrence {
   std::uint64_t index = 0;
   hal::TimePoint began;
@@ -40,28 +39,28 @@ public:
 
   std::span<const ScriptedFault> faults() const { return script_.faults; }
 
-  // The occurrence of one of faults() that runs at time `t`. One that only a count ends runs until
-  // the next begins: whoever counts knows when it is spent.
+  // The occurrence of one of faults() at time `t`. One that is ended only by a count lasts until
+  // the next begins: the counter knows when it is spent.
   std::optional<FaultOccurrence> occurrence(const ScriptedFault& fault, hal::TimePoint t) const;
 
-  // Is a fault of this kind running at time `t`?
+  // Whether a fault of this kind is active at time `t`.
   bool active(pipeline::Fault kind, hal::TimePoint t) const {
     return find_active(kind, t) != nullptr;
   }
-  // The first in the script that is, or null. With a switch_index from 0: only faults of that
-  // switch and of all switches.
+  // The first active one in the script, or null. With switch_index ≥ 0: only faults of that switch
+  // or of all switches.
   const ScriptedFault* find_active(pipeline::Fault kind, hal::TimePoint t,
                                    int switch_index = -1) const;
 
   // The first beginning or end of such a fault later than `after`.
   std::optional<hal::TimePoint> next_edge(pipeline::Fault kind, hal::TimePoint after) const;
 
-  // Has a fault of this kind begun later than `after` and not later than `until`? For the twin that
-  // was not looking while a short one came and went.
+  // Whether a fault of this kind began after `after` and no later than `until`: for a twin that did
+  // not look while a short one came and went.
   bool began_within(pipeline::Fault kind, hal::TimePoint after, hal::TimePoint until) const;
 
-  // Every beginning and end, of all devices, later than `after` and not later than `until`, oldest
-  // first; returns the number written. When `edges` is full, ask again from the last one's time.
+  // Every beginning and end, of all devices, after `after` and no later than `until`, oldest first;
+  // returns the number written. If `edges` is full, ask again from the last one's time.
   std::size_t edges_within(hal::TimePoint after, hal::TimePoint until,
                            std::span<FaultEdge> edges) const;
 

@@ -24,17 +24,18 @@
 
 namespace octascope::sim {
 
-// A fault is scripted as what the program reports when it notices it.
+// A fault is scripted under the name with which the program reports it.
 struct ScriptableFault {
   pipeline::Fault fault;
-  std::string_view kind; // in scripts: it stays
-  bool counted;          // frame by frame or pulse by pulse: `every`, `probability`, `seed` choose
+  std::string_view kind; // name in scripts; must not change
+  bool counted;          // counted in frames or pulses, chosen by `every`, `probability`, `seed`
 };
 
-// All of them, device by device. What each does stands beside its row in fault_script.cpp.
+// All scriptable faults, by device. Their effects are described beside their rows in
+// fault_script.cpp.
 std::span<const ScriptableFault> scriptable_faults();
 
-// A device that is out of its socket, or a display that is lost.
+// The fault of an unplugged device or a lost display.
 constexpr pipeline::Fault gone(pipeline::Device device) {
   return fault_of(device, hal::ErrorCode::disconnected);
 }
@@ -42,23 +43,24 @@ constexpr pipeline::Fault gone(pipeline::Device device) {
 struct ScriptedFault {
   pipeline::Fault kind = gone(pipeline::Device::line_camera);
   hal::Duration at{};       // since the schedule's start
-  hal::Duration duration{}; // 0: only `count` ends it
-  std::uint64_t count = 0;  // 0: only `duration` ends it
+  hal::Duration duration{}; // 0: ended by `count` only
+  std::uint64_t count = 0;  // 0: ended by `duration` only
   hal::Duration repeat{};   // 0: happens once; else longer than the duration
 
-  // Which frames or pulses it hits: every n-th, and of those each with this probability.
+  // Which frames or pulses it hits: every n-th, each of those with this probability.
   int every = 1;
   double probability = 1;
   std::uint64_t seed = 1;
 
-  std::string comes_back_as;     // gone line camera: its identity then; empty: as it was
+  std::string comes_back_as;     // unplugged line camera: its identity when it returns; empty:
+                                 // unchanged
   hal::Duration late_by{};       // late_frame
-  double size_share = 0.5;       // wrong_size: 0 … 2 of a frame's bytes, but not 1
+  double size_share = 0.5;       // wrong_size: fraction of a frame's bytes, 0 … 2, not 1
   double line_share = 0.25;      // saturation
-  int switch_index = -1;         // bounce: −1 is all; stuck_switch
+  int switch_index = -1;         // stuck_switch, and bounce, where −1 is all
   bool stuck_pressed = true;     // stuck_switch
-  int bounces = 6;               // bounce: extra openings and closings before a contact rests
-  hal::Duration bounce_spread{}; // bounce: the time that they take together
+  int bounces = 6;               // bounce: extra openings and closings before the contact settles
+  hal::Duration bounce_spread{}; // bounce: their total duration
 };
 
 // For people and reports: "line_camera unplug at 5 s for 2 s".

@@ -1,9 +1,8 @@
-// Phantoms: scenes in millimetres that the twins of the spectrometer and of the microscope's camera
-// both look at.
-//
-// Axes: x along the fast axis a, y along the slow axis b, both from the centre of the scan field;
-// z is depth below the first depth bin. Time is a phase: 0 … 1 is once round the scene's loop,
-// and any two phases that differ by a whole number are the same moment.
+// Phantoms: scenes in millimetres seen by the twins of the spectrometer and of the microscope's
+// camera.
+// Axes: x along the fast axis a, y along the slow axis b, both from the centre of the scan field; z
+// is depth below the first depth bin. Time is a phase: 0 … 1 is one period of the scene's loop, and
+// phases that differ by an integer are the same moment.
 #pragma once
 
 #include <array>
@@ -26,42 +25,43 @@ constexpr Rgb mix(const Rgb& a, const Rgb& b, float t) {
   return {a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
 }
 
-// How a place looks from above.
+// The appearance of a place from above.
 struct Look {
   Rgb colour;
-  float height_mm = 0; // towards the microscope, for the shading; any zero
-  float gloss = 0;     // 0 … 1: strength of the lamp's mirror image
+  float height_mm = 0; // towards the microscope, for shading; from any origin
+  float gloss = 0;     // 0 … 1: strength of the lamps' mirror image
 };
 
 class Instrument;
 
-// Immutable, so thread-safe. Nothing here allocates but the making.
+// Immutable, so thread-safe. Allocates only when made.
 class Phantom {
 public:
   virtual ~Phantom() = default;
 
-  virtual std::string_view name() const = 0;  // as make_phantom() takes it
+  virtual std::string_view name() const = 0;  // as accepted by make_phantom()
   virtual std::string_view title() const = 0; // for people
 
-  // The plan whose spacings show the scene best.
+  // The plan whose spacings suit the scene best.
   virtual pipeline::ScanPlan suggested_plan() const = 0;
 
-  // Replaces what is in `column`.
+  // Overwrites `column`.
   virtual void fill(Column& column, double phase, float x_mm, float y_mm) const = 0;
 
-  // For the microscope's picture: its width on the tissue and the look of a place, instrument
-  // left out.
+  // For the microscope's picture: its width on the tissue and the appearance of a place, without
+  // the instrument.
   virtual float picture_width_mm() const = 0;
   virtual Look look(float x_mm, float y_mm) const = 0;
 
-  // What moves through the scene; null where nothing does. Lives as long as the phantom.
+  // The instrument that moves through the scene; null if there is none. Lives as long as the
+  // phantom.
   virtual const Instrument* instrument() const = 0;
 };
 
 inline constexpr std::array<std::string_view, 3> phantom_names = {"anterior_eye", "nail_fold",
                                                                   "cap"};
 
-// ErrorCode::invalid_argument for another name. The same seed makes the same phantom.
+// ErrorCode::invalid_argument: unknown name. The same seed makes the same phantom.
 hal::Result<std::unique_ptr<Phantom>> make_phantom(std::string_view name, std::uint64_t seed);
 
 } // namespace octascope::sim

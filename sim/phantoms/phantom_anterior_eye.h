@@ -8,10 +8,10 @@
 
 namespace octascope::sim {
 
-// Sizes are those of an adult human eye, from the textbooks: radii of the cornea 7.8 and 6.9 mm,
-// 0.54 mm thick at its apex, chamber 3 mm deep, limbus at 5.5 mm, pupil of 4 mm, lens front of
-// 10 mm radius. The eye looks a little to the left, so that the limbus comes into the field at the
-// right, where the instrument enters.
+// Dimensions of an adult human eye, from textbooks: radii of the cornea 7.8 and 6.9 mm, 0.54 mm
+// thick at its apex, chamber 3 mm deep, limbus at 5.5 mm, pupil of 4 mm, lens front of 10 mm
+// radius. The eye looks a little to the left, so that the limbus enters the field at the right,
+// where the instrument does.
 class AnteriorEye final : public Phantom {
 public:
   explicit AnteriorEye(std::uint64_t seed);

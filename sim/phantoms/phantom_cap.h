@@ -1,5 +1,5 @@
 // A plastic cap: a domed shell with grip ribs outside, a cross of walls inside, and a thin network
-// of channels in its wall, through which a scattering fluid runs.
+// of channels in its wall, filled with a flowing, scattering fluid.
 #pragma once
 
 #include "sim/phantoms/phantom.h"

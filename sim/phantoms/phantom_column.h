@@ -9,7 +9,7 @@
 
 namespace octascope::sim {
 
-// How the scattering varies inside a layer.
+// How the scattering varies within a layer.
 enum class Grain : std::uint8_t {
   none,
   lamellae, // thin sheets that follow the layer's top
@@ -20,27 +20,27 @@ struct Layer {
   float top_mm = 0;
   float bottom_mm = 0;
   float backscatter_counts = 0; // rms fringe amplitude of one depth bin's scatterers
-  float attenuation_per_mm = 0; // of amplitude, there and back
+  float attenuation_per_mm = 0; // of amplitude, round trip
   Grain grain = Grain::none;
-  float grain_strength = 0; // 0 … 1: variation of the backscatter, relative
-  bool flowing = false;     // its scatterers have moved on when the beam comes back
+  float grain_strength = 0; // 0 … 1: relative variation of the backscatter
+  bool flowing = false;     // its scatterers have moved when the beam returns
 };
 
-// A smooth surface: reflects at an exact depth and lets a part of the light through.
+// A smooth surface: reflects at an exact depth and transmits part of the light.
 struct Surface {
   float depth_mm = 0;
   float amplitude_counts = 0;
-  float transmission = 1; // of amplitude, there and back; 0 casts a full shadow
+  float transmission = 1; // of amplitude, round trip; 0 casts a full shadow
 };
 
-// Fixed room, so that columns are refilled without an allocation; what does not fit is dropped.
+// Fixed capacity, so that columns are refilled without allocating; what does not fit is dropped.
 class Column {
 public:
   static constexpr std::size_t most_layers = 32;
   static constexpr std::size_t most_surfaces = 12;
 
   void clear() { layers_ = surfaces_ = 0; }
-  // Later layers replace earlier ones where they overlap: a vessel goes on top of its tissue.
+  // Later layers replace earlier ones where they overlap: add a vessel after its tissue.
   void add(const Layer& layer) {
     if (layer.bottom_mm > layer.top_mm && layers_ < most_layers)
       layer_room_[layers_++] = layer;

@@ -15,31 +15,31 @@ struct Point3 {
 };
 
 struct InstrumentPath {
-  Point3 hinge; // the shaft turns about this point: the incision, outside the field
-  Point3 tip;   // the tip's mean place
-  Point3 reach; // half axes of the closed path that the tip follows
+  Point3 hinge; // the point about which the shaft turns: the incision, outside the field
+  Point3 tip;   // the tip's mean position
+  Point3 reach; // half axes of the tip's closed path
   float shaft_radius_mm = 0.2F;
   float prong_radius_mm = 0.07F;
   float prong_length_mm = 1.4F;
-  float opening_mm = 0.5F; // between the prongs' ends, at most
+  float opening_mm = 0.5F; // greatest distance between the prongs' ends
 };
 
-// Immutable, thread-safe. The path is a closed curve in the phase, which the prongs open and close
-// along once.
+// Immutable, thread-safe. The path is a closed curve in the phase; the prongs open and close once
+// along it.
 class Instrument {
 public:
   explicit Instrument(const InstrumentPath& path) : path_(path) {}
 
   struct Top {
     float depth_mm;
-    float facing; // cosine between the metal's normal and the beam: 1 looks straight up
+    float facing; // cosine between the metal's normal and the beam: 1 faces straight up
   };
-  // A moment of the instrument; work one out and ask it for many places.
+  // The instrument at one moment; compute it once for many places.
   class Pose {
   public:
-    // Its upper side at (x, y), where it is there at all.
+    // Its upper side at (x, y); empty if it is not there.
     std::optional<Top> top_at(float x_mm, float y_mm) const;
-    // Everything of it lies within: lower x, lower y, upper x, upper y.
+    // Bounding box: lower x, lower y, upper x, upper y.
     std::array<float, 4> bounds_mm() const;
 
   private:

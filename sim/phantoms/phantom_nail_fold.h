@@ -1,5 +1,5 @@
-// Skin at a nail fold: the skin's layers, the nail that comes out from under it, its root, and
-// the loops of capillaries along the fold.
+// Skin at a nail fold: the skin's layers, the nail emerging from under it, its root, and the loops
+// of capillaries along the fold.
 #pragma once
 
 #include "sim/phantoms/phantom.h"
@@ -7,7 +7,7 @@
 
 namespace octascope::sim {
 
-// The finger lies along y: skin at y < fold_y, nail plate beyond. Sizes of an adult's finger.
+// The finger lies along y: skin at y < fold_y, nail plate beyond. Dimensions of an adult's finger.
 class NailFold final : public Phantom {
 public:
   explicit NailFold(std::uint64_t seed);

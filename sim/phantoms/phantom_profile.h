@@ -1,5 +1,5 @@
 // From a column of layers and surfaces to the amplitudes that the spectrometer sees: scatterers,
-// their speckle, and what is left of the light below.
+// their speckle, and the attenuated light below.
 #pragma once
 
 #include <array>
@@ -15,19 +15,18 @@
 
 namespace octascope::sim {
 
-// Speckle is a circular Gaussian number for each voxel, a hash of its place: a tissue that stands
-// still keeps its speckle for ever. Neighbouring A-scans share half of it, as beams that overlap
-// do. In a flowing layer the hash takes in the visit: between two visits of the beam (B-scans,
-// about 2 ms) blood moves by more than a resolution cell, so nothing of its speckle is left.
-//
+// Speckle is a circular Gaussian number for each voxel, a hash of its position: static tissue keeps
+// its speckle. Neighbouring A-scans share half of it, as overlapping beams do. In a flowing layer
+// the hash includes the visit: between two visits of the beam (B-scans, about 2 ms) blood moves by
+// more than a resolution cell, so its speckle is entirely new.
 // Immutable, so thread-safe; each thread has its own Profile.
 class ProfileMaker {
 public:
   struct Profile {
-    std::vector<std::complex<float>> scatterers; // one a depth bin
+    std::vector<std::complex<float>> scatterers; // one per depth bin
     std::vector<Reflector> surfaces;
 
-    std::vector<float> amplitude; // work space, one a depth bin
+    std::vector<float> amplitude; // work space, one per depth bin
     std::vector<float> transmission;
     std::vector<std::uint8_t> flowing;
   };
@@ -36,8 +35,8 @@ public:
 
   Profile make_profile() const;
 
-  // The profile of `column` at the given place (mm from the field's centre). `visit` counts how
-  // often the beam came by. Allocates nothing.
+  // The profile of `column` at the given place (mm from the field's centre). `visit` counts the
+  // beam's visits. Allocates nothing.
   void fill(Profile& profile, const Column& column, float x_mm, float y_mm,
             std::uint64_t visit) const;
 

@@ -12,7 +12,7 @@ namespace octascope::sim {
 struct VesselPoint {
   float x_mm = 0;
   float y_mm = 0;
-  float depth_mm = 0; // below the tissue's surface, which the vessels so follow
+  float depth_mm = 0; // below the tissue's surface, which vessels follow
 };
 
 struct VesselSegment {
@@ -21,25 +21,23 @@ struct VesselSegment {
   float radius_mm = 0;
 };
 
-// A tree that begins at `root` and runs towards `heading_rad` (0: along x), winding, and forks
-// until its branches are thinner than a third of `radius_mm`. At a fork the radii obey Murray's
-// law.
+// A tree that begins at `root`, winds towards `heading_rad` (0: along x), and forks until its
+// branches are thinner than a third of `radius_mm`. At a fork the radii obey Murray's law.
 std::vector<VesselSegment> grow_vessels(VesselPoint root, float heading_rad, float radius_mm,
                                         float length_mm, std::uint64_t seed);
 
-// Segments in a grid of cells, so that a column finds those above it at once. Immutable,
-// thread-safe.
+// Segments in a grid of cells, so that those at a column are found quickly. Immutable, thread-safe.
 class VesselBed {
 public:
   VesselBed() = default;
   explicit VesselBed(std::vector<VesselSegment> segments);
 
-  // Adds the lumens at (x, y) to a column whose tissue begins at `surface_mm`: flowing layers like
-  // `blood`, whose depths are ignored. Nothing below `deepest_mm`.
+  // Adds the lumens at (x, y) to a column whose tissue begins at `surface_mm`, as flowing layers
+  // like `blood`, whose depths are ignored. Nothing below `deepest_mm`.
   void fill(Column& column, float x_mm, float y_mm, float surface_mm, float deepest_mm,
             const Layer& blood) const;
 
-  // For the view from above: how much of a vessel is at (x, y), 0 … 1, fainter the deeper.
+  // For the view from above: the visibility of vessels at (x, y), 0 … 1, fainter with depth.
   float visibility(float x_mm, float y_mm, float sight_mm) const;
 
 private:

@@ -10,12 +10,12 @@ struct BeamPlace {
   float y_mm = 0;
 };
 
-// One-directional sweeps go from the first A-scan to the last evenly, and half a cosine swings the
+// One-directional sweeps go evenly from the first A-scan to the last, and half a cosine swings the
 // beam back. Bidirectional ones go evenly there and back; in the turn-around lines the command
 // overshoots, slows down, stops and comes back as a parabola that continues both speeds. The
-// mirrors do what the command said `lag_lines` earlier: the picture of a backward sweep is shifted
-// by twice that against that of a forward one. (One-directional, a lag would only delay
-// everything, and acquisition is taken to start with the mirror.)
+// mirrors lag the command by `lag_lines`: a backward sweep's picture is shifted by twice that
+// against a forward one's. (One-directional, a lag would only delay everything, and acquisition is
+// taken to start with the mirror.)
 class BeamPath {
 public:
   BeamPath(const pipeline::ScanPlan& plan, double lag_lines)

@@ -1,4 +1,4 @@
-// A recording of raw spectra, played for ever as if a camera delivered it.
+// A recording of raw spectra, played in a loop as if a camera delivered it.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 namespace octascope::sim {
 
-// One volume of raw spectra in the order [sweep][line][sample] (B-scan and A-scan, of a plain
+// One volume of raw spectra in the order [sweep][line][sample] (B-scan and A-scan, in a plain
 // scan), 16-bit counts in the machine's (little-endian) order. The caller opens the file;
-// `keep_alive` holds what `samples` points into.
+// `keep_alive` owns the memory of `samples`.
 struct SpectraRecording {
   std::span<const std::uint16_t> samples;
   int b_scans = 0;
@@ -27,10 +27,10 @@ struct SpectraRecording {
 
 class RecordedSpectra final : public SpectraSource {
 public:
-  // A recording has no fly-back. With fly_back_lines > 0 each frame gets that many lines behind its
-  // A-scans, taken from these backwards as the returning beam would meet them; that costs a copy of
-  // the recording, while without them its samples are used where they are.
-  // ErrorCode::invalid_argument: counts and the number of samples do not fit together.
+  // A recording has no fly-back. With fly_back_lines > 0 each frame gets that many lines after its
+  // A-scans, taken from these backwards as the returning beam would see them; this copies the
+  // recording, which is otherwise used in place. ErrorCode::invalid_argument: counts and the number
+  // of samples do not match.
   static hal::Result<std::unique_ptr<RecordedSpectra>> make(SpectraRecording recording,
                                                             int fly_back_lines = 0);
 
@@ -45,8 +45,8 @@ private:
 
   SpectraRecording recording_;
   hal::LineFormat format_;
-  std::vector<std::uint16_t> with_fly_back_;     // empty without
-  std::span<const std::uint16_t> frame_samples_; // all frames, one behind the other
+  std::vector<std::uint16_t> with_fly_back_;     // empty without fly-back
+  std::span<const std::uint16_t> frame_samples_; // all frames, one after the other
 };
 
 } // namespace octascope::sim

@@ -1,5 +1,4 @@
-// Where the twin of the line camera takes its frames from: a phantom's precomputed loop or a
-// recording.
+// The source of the line camera twin's frames: a phantom's precomputed loop or a recording.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +10,23 @@
 
 namespace octascope::sim {
 
-// Thread-safe once made; frame() neither waits nor allocates, so that the twin costs next to
-// nothing while it streams.
+// Thread-safe once made; frame() neither waits nor allocates, so that streaming costs almost
+// nothing.
 class SpectraSource {
 public:
   virtual ~SpectraSource() = default;
 
   virtual const hal::LineFormat& format() const = 0;
   virtual int sweeps() const = 0; // of a volume, repeats counted
-  // The beam makes sweeps alike that are so many apart: same direction, same repeat of a B-scan.
+  // The distance between sweeps of the same direction and the same repeat of a B-scan.
   virtual int alike_every() const { return 1; }
   virtual int sweeps_per_b_scan() const { return 1; }
 
-  // All lines of one sweep, fly-back or turn-around included, format().frame_bytes() long, valid as
-  // long as the source lives. Volumes count from 0 for ever; the source loops.
+  // All lines of one sweep, including fly-back or turn-around, format().frame_bytes() long, valid
+  // as long as the source. Volumes count from 0 without end; the source loops.
   virtual std::span<const std::byte> frame(std::uint64_t volume, int sweep) const = 0;
 
-  // For people: what this is and how long its loop lasts.
+  // For people: what this is and the length of its loop.
   virtual std::string description() const = 0;
 };
 

@@ -1,4 +1,4 @@
-// Volumes of raw spectra of a phantom, made in advance and played round and round.
+// Volumes of raw spectra of a phantom, made in advance and played in a loop.
 #pragma once
 
 #include <atomic>
@@ -27,24 +27,24 @@ struct VolumeLoopConfig {
   int volumes = 6; // of the loop; each takes plan.sweeps() frames of memory
   std::uint64_t seed = 1;
   double galvo_lag_us = 25; // of the mirror behind its command, bidirectional: what drivers leave
-  SpectrometerConfig spectrometer; // its `samples` is overruled by the plan's
+                            // uncorrected
+  SpectrometerConfig spectrometer; // its `samples` is overridden by the plan's
 
   hal::Result<> validate() const;
 };
 
-// The phantom with the plan that it suggests. ErrorCode::invalid_argument for a name that is none.
+// The phantom with its suggested plan. ErrorCode::invalid_argument: unknown name.
 hal::Result<VolumeLoopConfig> suggested_loop(std::string_view phantom);
 
 // Line l of sweep s of volume v shows the scene at the phase (v + (s + l/lines)/sweeps)/volumes:
 // instruments move along their path once a loop, flowing scatterers are new at each visit, tissue
-// keeps its speckle, noise differs from line to line. The beam looks where the mirrors point
-// (beam_path.h): at A-scan a, x = (a − (a_scans − 1)/2)·a_spacing; B-scan b lies at
-// y = (b − (b_scans − 1)/2)·b_spacing, each of its repeats with fly-back or turn-around.
-//
-// The first volume is made by make(), on all cores. The others follow one by one in a background
-// thread at the lowest priority; until they are there, frame() loops over
-// those that are ready, and a volume's number keeps its place while its B-scans are read in turn.
-// The destructor ends the work within a line.
+// keeps its speckle, noise differs from line to line. The beam is where the mirrors point
+// (beam_path.h): at A-scan a, x = (a − (a_scans − 1)/2)·a_spacing; B-scan b lies at y = (b −
+// (b_scans − 1)/2)·b_spacing, each of its repeats with fly-back or turn-around.
+// make() computes the first volume on all cores. The others follow one by one in a background
+// thread at the lowest priority; until they are ready, frame() loops over those that are, and a
+// volume number maps to the same volume while its B-scans are read in turn. The destructor stops
+// the work within a line.
 class VolumeLoop final : public SpectraSource {
 public:
   // Plans an FFT (see SpectrumSynthesis) and takes some tenths of a second.
@@ -87,7 +87,7 @@ private:
   ProfileMaker profiles_;
   std::vector<std::unique_ptr<std::uint16_t[]>> ring_; // the first ready_ of them are made
   std::atomic<int> ready_{0};
-  // The volume that was asked for last and its place in the ring: (volume + 1)·256 + place.
+  // The volume requested last and its place in the ring: (volume + 1)·256 + place.
   mutable std::atomic<std::uint64_t> served_{0};
   std::jthread background_; // last: it ends before what it works on
 };

@@ -1,7 +1,6 @@
-// Randomness that a seed repeats exactly: hashes, a table of Gaussian numbers, smooth noise.
-//
-// Nothing here keeps a state, so that any line of any volume can be made on its own, by any thread,
-// in any order, and comes out the same.
+// Randomness reproducible from a seed: hashes, a table of Gaussian numbers, smooth noise.
+// Nothing here keeps state, so any line of any volume can be made by any thread, in any order, with
+// the same result.
 #pragma once
 
 #include <cstddef>
@@ -42,8 +41,8 @@ public:
   // Runs may be up to `longest_run` numbers long.
   GaussianTable(std::uint64_t seed, int size_log2, std::size_t longest_run);
 
-  // `count` ≤ longest_run numbers; the same key gives the same numbers. Runs of different keys
-  // overlap where the table's size makes them: it is to be much larger than a run.
+  // `count` ≤ longest_run numbers; the same key gives the same numbers. Runs of different keys may
+  // overlap, so the table should be much larger than a run.
   std::span<const float> run(std::uint64_t key, std::size_t count) const {
     return std::span{values_}.subspan(static_cast<std::size_t>(hash(key)) & mask_, count);
   }

@@ -47,7 +47,7 @@ struct SpectrometerConfig {
   double read_noise_counts = 2; // rms
   std::uint64_t seed = 1;
 
-  // The message names the first value that makes no sense, with what was found and expected.
+  // The message names the first invalid value, with what was found and expected.
   hal::Result<> validate() const;
 };
 
@@ -82,11 +82,11 @@ public:
   // R(d).
   double roll_off(double depth_bin) const;
 
-  // mean[p] of some mirrors, by the formula as it stands, in double precision.
+  // mean[p] for some mirrors, by the formula, in double precision.
   std::vector<double> mean_counts(std::span<const Reflector> reflectors) const;
 
-  // Level of a mirror's peak, 20·log10(|Y|/N) at its depth after the chain of linearisation,
-  // window w[m] (N weights) and dispersion: a·R(d)/2 · (1/N)·Σ w[m]·E(r[m]).
+  // Level of a mirror's peak, 20·log10(|Y|/N) at its depth after the chain of linearisation, window
+  // w[m] (N weights) and dispersion: a·R(d)/2 · (1/N)·Σ w[m]·E(r[m]).
   double mirror_level_db(const Reflector& mirror, std::span<const double> window) const;
 
 private:

@@ -1,4 +1,4 @@
-// The calibration that fits a simulated spectrometer, as a file.
+// Writes the calibration of a simulated spectrometer to a file.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace octascope::sim {
 
-// Writes `file` (TOML) and, beside it, the curves that went in, true to the last digit:
-// <stem>_k_linear.txt and <stem>_dispersion_rad.txt. Spacings are the plan's. Existing files are
-// replaced. ErrorCode::system when a file cannot be written, with its path and the system's words.
+// Writes `file` (TOML) and, beside it, the true curves in full precision: <stem>_k_linear.txt and
+// <stem>_dispersion_rad.txt. Spacings are the plan's. Existing files are replaced.
+// ErrorCode::system if a file cannot be written, with its path and the system's message.
 hal::Result<> write_calibration(const Spectrometer& spectrometer, const pipeline::ScanPlan& plan,
                                 const std::filesystem::path& file);
 

@@ -1,8 +1,9 @@
-// Loops that the compiler vectorises, compiled once for each generation of the processor and
-// chosen when the program is loaded.
+// Loops that the compiler vectorises, compiled for each generation of the processor and chosen when
+// the program is loaded.
 #pragma once
 
-// The choice is made before a sanitizer's run-time is ready, and other architectures have no need.
+// Not for sanitizers, whose run-time is not ready when the choice is made, nor for other
+// architectures, which do not need it.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(OCTASCOPE_SANITIZED)
 #define OCTASCOPE_VECTOR_LOOP __attribute__((target_clones("avx512f", "avx2", "default")))
 #else

@@ -1,12 +1,11 @@
 // The spectrometer's forward model, fast: whole A-scans of tissue, a line in microseconds.
-//
 // Tissue is a complex amplitude in every depth bin, a surface a Reflector at any fraction of a bin.
-// One inverse FFT makes the sum of their fringes on a grid uniform in k (shifted to the middle of
-// the depth range, so that the grid oversamples it twice), and a Kaiser-Bessel kernel of 4 taps
-// reads it at each pixel's own position; the kernel's weight in depth is divided out beforehand
-// (a non-uniform FFT of the second kind: Fessler and Sutton, IEEE Trans. Signal Process. 51, 2003).
-// Envelope, gain and dispersion are folded into the taps. The error against the closed form is
-// below 0.3 % of an amplitude.
+// One inverse FFT sums their fringes on a grid uniform in k (shifted to the middle of the depth
+// range, so that the grid oversamples it twice), and a Kaiser-Bessel kernel of 4 taps reads it at
+// each pixel's position; the kernel's weight in depth is divided out beforehand (a non-uniform FFT
+// of the second kind: Fessler and Sutton, IEEE Trans. Signal Process. 51, 2003). Envelope, gain and
+// dispersion are folded into the taps. The error against the closed form is below 0.3 % of an
+// amplitude.
 #pragma once
 
 #include <complex>
@@ -19,9 +18,9 @@
 
 namespace octascope::sim {
 
-// Immutable once made: any number of threads may work with one, each with a Workspace of its own.
-// Making one plans an FFT, and FFTW's planner is not thread-safe: make it where no other thread
-// plans, that is while the program is put together.
+// Immutable once made: any number of threads may share one, each with its own Workspace. The
+// constructor plans an FFT, and FFTW's planner is not thread-safe: make it where no other thread
+// plans, that is during start-up.
 class SpectrumSynthesis {
 public:
   class Workspace {
@@ -37,7 +36,7 @@ public:
     std::unique_ptr<Buffers> buffers_;
   };
 
-  // Borrows nothing: the spectrometer's curves are copied into tables.
+  // Borrows nothing: copies the spectrometer's curves into tables.
   explicit SpectrumSynthesis(const Spectrometer& spectrometer);
   ~SpectrumSynthesis();
   SpectrumSynthesis(const SpectrumSynthesis&) = delete;

@@ -1,4 +1,4 @@
-// The profiles that the program brings with it: ui/controls/profiles/*.toml.
+// The built-in control profiles: ui/controls/profiles/*.toml.
 #pragma once
 
 #include <optional>
@@ -19,10 +19,10 @@ struct BuiltInProfile {
 };
 std::span<const BuiltInProfile> built_in_profiles();
 
-// ErrorCode::invalid_argument: there is none of that name; the message lists those that there are.
+// ErrorCode::invalid_argument: unknown name; the message lists the known ones.
 hal::Result<ControlProfile> built_in_profile(std::string_view name);
 
-// The profile made for the device "05f3:00ff". Models with one pedal and with three share an id: of
+// The profile for the device "05f3:00ff". Models with one pedal and with three share an id: of
 // several profiles, the one with that number of switches. Empty if there is none.
 std::optional<ControlProfile> built_in_profile_for(std::string_view usb_id, int switches);
 

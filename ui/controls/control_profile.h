@@ -92,15 +92,15 @@ struct ControlProfile {
   static hal::Result<ControlProfile> parse(std::string_view text,
                                            const std::filesystem::path& name);
 
-  // Whether this device alone can do the action: it is bound to a control, or can be chosen from
-  // the menu and then done.
+  // Whether the device can do the action: it is bound to a control, or can be selected from the
+  // menu and then performed.
   bool reaches(Action action) const;
 
-  // What the recogniser must tell apart.
+  // The gestures that the recogniser must tell apart.
   std::vector<SwitchBinding> switch_bindings() const;
 };
 
-// Whether a menu may hold the action: all but those that go through the menu.
+// Whether a menu may hold the action: all but those that operate the menu.
 bool fits_menu(Action action);
 
 // "x" … "rz".

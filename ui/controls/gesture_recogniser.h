@@ -32,26 +32,26 @@ using pipeline::SwitchSet;
 enum class GestureKind : std::uint8_t { press, long_press, double_press, hold };
 
 struct GestureTimes {
-  hal::Duration chord = std::chrono::milliseconds{80};         // within which all must be down
-  hal::Duration long_press = std::chrono::milliseconds{600};   // down for so long
+  hal::Duration chord = std::chrono::milliseconds{80};         // within which all must go down
+  hal::Duration long_press = std::chrono::milliseconds{600};   // minimum time down
   hal::Duration double_press = std::chrono::milliseconds{300}; // from up to down
   hal::Duration hold_delay = std::chrono::milliseconds{400};
   hal::Duration hold_every = std::chrono::milliseconds{100};
 };
 
-// What is bound to one set of switches. To several switches only `press` and `modifies` can be
-// bound.
+// The gestures bound to one set of switches. Sets of several switches can have only `press` and
+// `modifies`.
 struct SwitchBinding {
   SwitchSet switches = 0;
   bool press = false;
   bool long_press = false;
   bool double_press = false;
   bool hold = false;     // not together with long_press or modifies
-  bool modifies = false; // a knob turned meanwhile means something else
+  bool modifies = false; // a knob turned meanwhile has another meaning
 };
 
 struct Gesture {
-  hal::TimePoint time; // at which it was certain, not at which advance() found it
+  hal::TimePoint time; // when it was certain, not when advance() found it
   GestureKind kind = GestureKind::press;
   SwitchSet switches = 0;
   bool operator==(const Gesture&) const = default;
@@ -72,30 +72,30 @@ public:
   void handle(std::uint8_t switch_index, bool down, hal::TimePoint time,
               std::vector<Gesture>& told);
 
-  // Reports the gestures that time alone decides, up to `now`.
+  // Reports the gestures decided by time alone, up to `now`.
   void advance(hal::TimePoint now, std::vector<Gesture>& told);
 
-  // When advance() will report something if no switch moves before.
+  // When advance() will next report something if no switch moves.
   std::optional<hal::TimePoint> next_deadline() const;
 
-  // A knob turns. Returns the held switches that modify it, 0 for none. These switches report no
-  // gesture of their own until they are released.
+  // A knob turns. Returns the held switches that modify it, 0 for none. These then report no
+  // gesture of their own until released.
   SwitchSet modify(hal::TimePoint time, std::vector<Gesture>& told);
 
-  // No switch is down, and no gesture under way.
+  // Whether no switch is down and no gesture is in progress.
   bool idle() const;
 
 private:
   enum class Phase : std::uint8_t {
-    free,      // no stroke
+    free,      // unused
     gathering, // more switches may join it
     down,      // its switches are known, its gesture is not
     between,   // released once: it may become a double press
     holding,   // repeats
     spent,     // its gesture was reported
   };
-  // One set of switches that went down together. Once its gesture was reported, switches that come
-  // up leave the set.
+  // One set of switches that went down together. Once its gesture was reported, released switches
+  // leave the set.
   struct Stroke {
     Phase phase = Phase::free;
     SwitchSet switches = 0;
@@ -123,7 +123,7 @@ private:
 
   std::vector<SwitchBinding> bindings_;
   GestureTimes times_;
-  std::array<Stroke, most_switches> strokes_{}; // each has a switch of its own, so these suffice
+  std::array<Stroke, most_switches> strokes_{}; // each owns at least one switch, so these suffice
   pipeline::HeldSwitches held_;
   hal::TimePoint last_; // the latest time given
 };

@@ -19,7 +19,7 @@ struct KeyBinding {
   bool repeats = false; // while the key is held down
 };
 
-// Of the action table, in its order; those of the same action are neighbours.
+// From the action table, in its order; keys of the same action are adjacent.
 std::span<const KeyBinding> key_bindings();
 
 // Empty: the key does nothing.

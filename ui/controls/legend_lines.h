@@ -19,10 +19,10 @@ struct Legend {
   std::vector<LegendLine> lines;
 };
 
-// Of the profile's device; in the profile's order.
+// The legend of the profile's device, in the profile's order.
 Legend make_legend(const ControlProfile& profile);
 
-// Of the keyboard, one line an action.
+// The legend of the keyboard, one line per action.
 Legend make_key_legend();
 
 } // namespace octascope::ui

@@ -1,4 +1,4 @@
-// Which bindings of a control profile contradict each other.
+// Checks for contradictory bindings in a control profile.
 #pragma once
 
 #include "pipeline/files/config_document.h"
@@ -6,12 +6,12 @@
 
 namespace octascope::ui {
 
-// Complains about `table`, a [[bind]], if it contradicts a binding read before it.
+// Reports an error on `table`, a [[bind]], if it contradicts a binding read before it.
 void check(pipeline::ConfigTable& table, const ControlProfile& before, const SwitchAction& bound);
 void check(pipeline::ConfigTable& table, const ControlProfile& before, const KnobAction& bound);
 void check(pipeline::ConfigTable& table, const ControlProfile& before, const AxisAction& bound);
 
-// Complains about `root` if the profile as a whole has actions that could never be reached.
+// Reports an error on `root` if the profile as a whole has actions that can never be reached.
 void check_whole(pipeline::ConfigTable& root, const ControlProfile& profile);
 
 } // namespace octascope::ui

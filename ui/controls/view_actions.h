@@ -12,13 +12,13 @@
 
 namespace octascope::ui {
 
-// What an event asks of the host, besides the new view.
+// What an event asks of the host, besides changing the view.
 struct ControlRequests {
   bool quit = false;
   bool snapshot = false;
-  bool auto_window = false; // what suits the shown volume
+  bool auto_window = false; // choose the window for the shown volume
   bool record = false;
-  bool keep_registration = false; // with the view's nudge
+  bool keep_registration = false; // including the view's nudge
   bool operator==(const ControlRequests&) const = default;
 
   void add(const ControlRequests& more) {
@@ -44,25 +44,25 @@ public:
 
   const ViewState& state() const { return state_; }
 
-  // How often each action was done, by index_of(). What adjust did counts for both.
+  // How often each action was performed, by index_of(). What `adjust` did counts for both.
   const std::array<std::uint64_t, action_count>& counts() const { return counts_; }
 
-  // What reset_view goes back to.
+  // The view that reset_view goes back to.
   const ViewState& initial() const { return initial_; }
-  // Replaces both views, with every value brought into its range: after restoring settings or
-  // reloading the configuration.
+  // Replaces both views, clamping every value: after restoring settings or reloading the
+  // configuration.
   void replace(const ViewState& initial, const ViewState& state);
 
   void set_b_scans(int b_scans);
-  void set_window(float offset_db, float size_db); // also what reset_view goes back to
+  void set_window(float offset_db, float size_db); // also for reset_view
   void set_choices(ChoiceNames names);
   void set_vessels_loaded(bool loaded) { vessels_loaded_ = loaded; }
 
-  // The vessels' present place was kept as their registration: the nudge starts again from zero.
+  // The vessels' present place was saved as their registration: the nudge restarts from zero.
   void forget_nudge();
 
-  // Does the action once. `amount`: detents of a continuous action, else steps, rounded towards 0.
-  // A toggle that is turned goes on to the right and off to the left.
+  // Performs the action once. `amount`: detents for a continuous action, else steps, rounded
+  // towards 0. A toggle turns on to the right and off to the left.
   ControlRequests perform(Action action, double amount, Done done, hal::TimePoint time);
 
   // A stick is pushed: begin_driving() counts the action once, drive() then changes its value a
@@ -73,9 +73,9 @@ public:
   // Whether the legend shows the keys or the pedal.
   void show_keys_in_legend(bool keys) { state_.legend_of_keys = keys; }
 
-  // Shows on the display what became of an action that the host did.
+  // Shows the result of an action that the host performed.
   void tell(Action action, std::string_view words, hal::TimePoint time);
-  // Sets the window that the host has found, and shows it.
+  // Sets the window found by the host, and shows it.
   void show_window(float offset_db, float size_db, hal::TimePoint time);
 
 private:
@@ -92,7 +92,7 @@ private:
   ViewState initial_;
   ViewState state_;
   int b_scans_;
-  double b_scan_rest_ = 0; // of a B-scan, turned so far
+  double b_scan_rest_ = 0; // fraction of a B-scan turned so far
   std::vector<Action> menu_;
   ChoiceNames names_;
   bool vessels_loaded_ = false;

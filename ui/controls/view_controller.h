@@ -1,4 +1,4 @@
-// Turns what hands and feet do into view states. Pure: no clock, no device, no thread of its own.
+// Turns input into view states. Pure: no clock, no device, no thread of its own.
 #pragma once
 
 #include <array>
@@ -25,8 +25,7 @@ public:
   // `initial` is what reset_view goes back to; `b_scans` bounds the B-scan's position.
   ViewController(const ViewState& initial, int b_scans, ControlProfile profile);
 
-  // The profile of another device, which leads from now on. The view stays; no switch counts as
-  // held.
+  // Switches to the profile of another leading device. The view stays; no switch counts as held.
   void change_profile(ControlProfile profile);
 
   const ViewState& state() const { return actions_.state(); }
@@ -39,15 +38,15 @@ public:
   ControlRequests handle(const hal::ControlEvent& event);
   ControlRequests advance(hal::TimePoint now);
 
-  // When advance() will do something if no event comes before. (While a stick is pushed, advance()
-  // changes the view every frame.)
+  // When advance() must be called if no event comes before. (While a stick is pushed, call it every
+  // frame.)
   std::optional<hal::TimePoint> next_deadline() const { return recogniser_.next_deadline(); }
 
 private:
   struct Knob {
     KnobMotion motion;
     std::optional<Action> action; // that it turned last
-    double rest = 0;              // units beyond the whole ones
+    double rest = 0;              // fractional units
   };
 
   ControlRequests perform_told();
@@ -61,7 +60,7 @@ private:
   GestureRecogniser recogniser_;
   std::vector<Gesture> told_;
   std::array<Knob, most_knobs> knobs_{};
-  std::array<std::int32_t, axis_count> axes_{}; // how far each is pushed
+  std::array<std::int32_t, axis_count> axes_{}; // deflection of each
   std::optional<hal::TimePoint> advanced_;
 };
 

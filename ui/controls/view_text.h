@@ -1,4 +1,4 @@
-// Values of the view in words, as the display says them.
+// Values of the view as text, as on the display.
 #pragma once
 
 #include <string_view>
@@ -7,8 +7,8 @@
 
 namespace octascope::ui {
 
-// The state of an action's value: "shaded rays", "frozen". Empty for a number (Number::words
-// formats it) and for actions without a state. Valid as long as `names`.
+// The state of an action's value: "shaded rays", "frozen". Empty for numbers, which Number::words
+// formats, and for actions without a state. Valid as long as `names`.
 std::string_view words_of(const ViewState& view, const ChoiceNames& names, Action action);
 
 } // namespace octascope::ui

@@ -1,4 +1,4 @@
-// What the splatter draws into: the nearest vessel of each pixel, its distance and its colour.
+// What the splatter draws into: for each pixel the nearest vessel's distance and colour.
 #pragma once
 
 #include <bit>
@@ -10,9 +10,9 @@
 namespace octascope::ui {
 
 // A pixel is one number: the bits of its distance along the view (float, mm, > 0) above its colour
-// (red in the lowest 8 bits, alpha 255). Positive floats are ordered as their bits are, so the
-// smallest number is the nearest vessel, whichever thread comes first; where two are at one
-// distance, the one of the smaller colour.
+// (red in the lowest 8 bits, alpha 255). Positive floats are ordered as their bits, so the smallest
+// number is the nearest vessel, whichever thread comes first; at equal distances the smaller colour
+// wins.
 using DepthPixel = std::uint64_t;
 
 inline constexpr DepthPixel depth_pixel(float distance_mm, std::uint32_t rgba) {
@@ -28,7 +28,7 @@ struct DepthImage {
   int height = 0;
   std::vector<DepthPixel> pixels;
 
-  // Allocates only to grow. What is in the pixels is left as it is.
+  // Allocates only to grow. Pixels keep whatever they hold.
   void resize(int new_width, int new_height) {
     width = new_width;
     height = new_height;

@@ -5,7 +5,7 @@
 
 namespace octascope::ui::gl {
 
-// Fills it, and the viewport with it, with black.
+// Clears it, and the viewport of this size, to black.
 void clear_to_black(int width, int height);
 
 // Waits until everything is drawn.

@@ -1,4 +1,4 @@
-// Puts back the framebuffer that was bound.
+// Restores the framebuffer that was bound.
 #pragma once
 
 #include <GLES3/gl3.h>

@@ -17,13 +17,13 @@ class PicturePass {
 public:
   static hal::Result<PicturePass> create(std::string_view name, std::string_view fragment_source);
 
-  // Makes the program current, for its uniforms to be set; fill() then draws.
+  // Makes the program current so that uniforms can be set; fill() then draws.
   void use() const { program_.use(); }
   GLint uniform(const char* name) const { return program_.uniform(name); }
   void fill(const Rect& rect, int target_height) const;
 
-  // Makes the program current and lays `picture`, premultiplied, over what is there. For shaders
-  // with a sampler `u_picture`.
+  // Makes the program current and blends `picture`, premultiplied, over the framebuffer. For
+  // shaders with a sampler `u_picture`.
   void blend(const Texture& picture, const Rect& rect, int target_height) const;
 
 private:

@@ -1,5 +1,5 @@
-// Pixel-buffer uploads: the caller copies into memory of the driver and goes on; the transfer to
-// the texture happens beside the drawing.
+// Pixel-buffer uploads: the caller copies into the driver's memory and goes on; the transfer to the
+// texture overlaps with drawing.
 #pragma once
 
 #include <array>
@@ -12,8 +12,7 @@
 
 namespace octascope::ui::gl {
 
-// Three buffers in turn, so that a transfer still under way is never waited for.
-//
+// Three buffers in turn, so that no pending transfer is waited for.
 // Threads: as gl/objects.h. Allocates in create() only.
 class PixelUploader {
 public:

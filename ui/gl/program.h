@@ -12,8 +12,8 @@ namespace octascope::ui::gl {
 // Threads: as gl/objects.h.
 class Program {
 public:
-  // Both sources are without their #version line, which is ours to choose. The error names the
-  // program and has the compiler's own words.
+  // Sources come without their #version line, which is added here. The error names the program and
+  // quotes the compiler.
   static hal::Result<Program> build(std::string_view name, std::string_view vertex_source,
                                     std::string_view fragment_source);
 
@@ -24,7 +24,7 @@ public:
   ~Program();
 
   void use() const { glUseProgram(name_); }
-  // −1, which GL ignores, for a uniform that the compiler has optimised away.
+  // −1, which GL ignores, for a uniform that the compiler optimised away.
   GLint uniform(const char* name) const { return glGetUniformLocation(name_, name); }
 
 private:

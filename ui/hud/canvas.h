@@ -1,6 +1,5 @@
-// What the heads-up display draws with: text, lines and plates, gathered and then drawn at once.
-//
-// Dear ImGui's draw list and fonts without its context, so that nothing is global: the GL part is
+// What the heads-up display draws with: text, lines and plates, collected and then drawn at once.
+// Dear ImGui's draw list and fonts without its context, so that nothing is global; the GL part is
 // ours. Positions are pixels from the top left corner of the target.
 #pragma once
 
@@ -19,14 +18,13 @@ struct ImDrawListSharedData;
 
 namespace octascope::ui {
 
-// Threads: one at a time. Allocates only while a picture is richer than any before it.
+// Threads: one at a time. Allocates only if a picture has more content than any before it.
 class Canvas {
 public:
   Canvas();
   ~Canvas();
 
-  // Forgets everything; what follows is for a target of that size. The fonts are borrowed until
-  // the next begin().
+  // Clears the canvas for a target of that size. The fonts are borrowed until the next begin().
   void begin(const Fonts& fonts, int width, int height);
 
   // `position` is the left end of the base box: text is as high as its style. Returns its width.
@@ -39,7 +37,7 @@ public:
   void line(glm::vec2 from, glm::vec2 to, Colour colour, float width);
   void plate(const Rect& rect, Colour colour, float rounding = 0);
   void frame(const Rect& rect, Colour colour, float width, float rounding = 0);
-  // Between two corners that need not lie on pixels; those side by side leave no seam.
+  // Between two corners that need not lie on pixels; adjacent bars leave no seam.
   void bar(glm::vec2 top_left, glm::vec2 bottom_right, Colour colour);
   // Filled; convex, the corners in their order.
   void quad(const std::array<glm::vec2, 4>& corners, Colour colour);
@@ -48,7 +46,7 @@ public:
   // Diagonal stripes within the rectangle.
   void stripes(const Rect& rect, Colour colour, float pitch, float width);
 
-  // Within its life, what is drawn is cut at the rectangle.
+  // While it lives, drawing is clipped to the rectangle.
   class Clip {
   public:
     Clip(Canvas& canvas, const Rect& rect);

@@ -1,4 +1,4 @@
-// What a control just did, said on the display for a moment.
+// What a control just did, shown on the display for a moment.
 #pragma once
 
 #include <string_view>
@@ -23,7 +23,7 @@ struct ParameterEcho {
 // `b_scans` of the shown volume. Pure.
 ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scans);
 
-// At the foot of its place in the layout, as wide as its words need.
+// At its place in the layout, as wide as its text needs.
 void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);
 
 } // namespace octascope::ui

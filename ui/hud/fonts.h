@@ -12,10 +12,10 @@ struct ImFontAtlas;
 
 namespace octascope::ui {
 
-// What must be seen at once (badge) is at least 16 minutes of arc high for a surgeon who is two
-// metres from a 27-inch screen, what is looked up (the others) at least 10: the heights of capital
+// What must be seen at once (badge) is at least 16 minutes of arc high for a surgeon two metres
+// from a 27-inch screen, the other styles, which are looked up, at least 10: the heights of capital
 // letters. Sources: ISO 9241-3 and NUREG-0700 (1.3.1-4) ask for 16′, the former for less where
-// reading is incidental; 10′ is twice the letter that an eye of normal acuity just reads.
+// reading is incidental; 10′ is twice the smallest letter that an eye of normal acuity can read.
 inline constexpr double viewing_distance_mm = 2000;
 inline constexpr double screen_diagonal_mm = 27 * 25.4;
 inline constexpr double glance_arcmin = 16;

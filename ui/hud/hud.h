@@ -16,8 +16,8 @@
 
 namespace octascope::ui {
 
-// What is on the screen: for scale bars, position lines and what is drawn into the volume's space.
-// Borrowed for one picture.
+// What is on the screen: for scale bars, position lines and marks in the volume's space. Borrowed
+// for one picture.
 struct HudScene {
   ShownPictures shown;
   Camera camera{}; // of the eye whose picture it is
@@ -36,7 +36,7 @@ void draw_view_ground(Canvas& canvas, const Layout& layout);
 void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const ViewState& view,
               const HudScene& scene);
 
-// The parts of it; each in a file of its own.
+// Its parts, each in a file of its own.
 using BadgePlaces = std::array<Rect, HudText::most_badges>;
 BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_badges(Canvas& canvas, const Layout& layout, const HudText& text);
@@ -45,9 +45,9 @@ void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene);
 
-// What stands in the volume's space: the wire-frame box, the plane of the B-scan that the panel
-// shows, and where B-scans are missing or saturated. The parts before the volume go over its
-// picture, the others under it.
+// Marks in the volume's space: the wire-frame box, the plane of the B-scan in the panel, and where
+// B-scans are missing or saturated. Parts before the volume are drawn over its picture, the others
+// under it.
 void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
                     const HudScene& scene, bool in_front);
 
@@ -55,21 +55,21 @@ void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
 void draw_wire_frame(Canvas& canvas, const Rect& view, const HudScene& scene, float unit,
                      bool in_front);
 
-// What the colours of vessels mean and, where it is asked for, where their segments went: over the
-// scale of a large volume.
+// The vessels' colour key and, if requested, where their segments went: above the scale of a large
+// volume.
 void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& marks);
 
 // How long a millimetre at the volume's centre is, at the view's lower left.
 void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene);
 
-// Which way the volume is turned: a cube with the surface side bright, a dot where the scan begins
+// The volume's orientation: a cube with the surface side bright, a dot where the scan begins
 // (A-scan 0 of B-scan 0 at the surface), and the axes: x along a B-scan, y from B-scan to B-scan, z
 // with depth.
 void draw_orientation_cube(Canvas& canvas, const Rect& rect, const Camera& camera, float unit);
 
 // A bar of a round length (1, 2 or 5 times a power of ten of a millimetre), at most `most_pixels`
-// long, with its length; its left lower end is given. `medium`: medium_words() for lengths along
-// depth, else empty.
+// long, labelled with its length; `left_bottom` is its lower left end. `medium`: medium_words() for
+// lengths along depth, else empty.
 void draw_scale_bar(Canvas& canvas, glm::vec2 left_bottom, double mm_per_pixel, float most_pixels,
                     float unit, std::string_view medium = {});
 

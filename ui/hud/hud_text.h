@@ -1,5 +1,5 @@
 // The texts of the heads-up display. Pure: equal texts look the same, so the renderer compares them
-// to know whether anything must be drawn.
+// to decide whether to redraw.
 #pragma once
 
 #include <array>
@@ -73,15 +73,15 @@ struct ShownPictures {
 };
 
 struct HudText {
-  // One a kind, and two incomplete; what is replayed is not recorded.
+  // One per kind, and two for incomplete volumes; a replay is never recorded.
   static constexpr std::size_t most_badges = 8;
 
-  // Lines, frames and volumes a second: left out in this order where the bar has no room.
+  // Lines, frames and volumes a second: dropped in this order if the bar has no room.
   static constexpr std::array<std::size_t, 3> dispensable_cells{1, 2, 0};
 
   std::array<Badge, most_badges> badges;
   std::size_t badge_count = 0;
-  std::array<StatusCell, 8> cells; // one without a label is not there
+  std::array<StatusCell, 8> cells; // one without a label is absent
   Caption volume;                  // where it is not the large picture
   Caption b_scan;
   Caption en_face;
@@ -90,11 +90,11 @@ struct HudText {
   Liveness liveness = Liveness::waiting;
   ParameterEcho echo;
   bool window_changing = false;            // the echo is of the window
-  const Legend* legend = nullptr;          // null: hidden; the host's, see Status
+  const Legend* legend = nullptr;          // null: hidden; owned by the host, see Status
   Action selected = Action::window_offset; // what the knob turns, for the legend
   std::array<DeviceStatus, Status::most_devices> devices;
   std::size_t device_count = 0;
-  FixedText<64> reduced; // how finely the volume is drawn, and its vessels, if not fully
+  FixedText<64> reduced; // the reduced level of detail of the volume and its vessels; empty: full
   VesselMarks vessels;
   FixedText<96> source;
   FixedText<160> notice;

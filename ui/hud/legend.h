@@ -7,9 +7,9 @@
 
 namespace octascope::ui {
 
-// A panel at the right border of the picture, over the small pictures, so that the volume's centre
-// stays in sight. Controls left, actions right; `selected` is named where the knob turns it. Lines
-// for which there is no room are left out, and their number is shown.
+// A panel at the right border, over the small pictures, so that the volume's centre stays visible.
+// Controls left, actions right; `selected` is named where the knob turns it. Lines without room are
+// left out, and their number is shown.
 void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Action selected);
 
 } // namespace octascope::ui

@@ -1,4 +1,4 @@
-// Words on one line where they fit, else on two, broken between words.
+// Fits words on one line, else breaks them into two between words.
 #pragma once
 
 #include <string_view>
@@ -7,11 +7,11 @@ namespace octascope::ui {
 
 struct TwoLines {
   std::string_view first;
-  std::string_view second; // empty: one line does
+  std::string_view second; // empty: one line suffices
 };
 
-// Pure. `width` of a text, in the unit of `most`, grows with it. Where not even the first word
-// fits, and for what is too long for two lines, a line is wider than `most`.
+// Pure. `width` of a text, in the unit of `most`, must grow with it. A line is wider than `most` if
+// not even the first word fits, or if two lines are too short.
 template <class Width>
 TwoLines break_to_fit(std::string_view words, float most, const Width& width) {
   std::size_t end = words.size();

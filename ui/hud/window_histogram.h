@@ -1,4 +1,4 @@
-// How often each level occurs in the volume, and what the display's window makes of it.
+// How often each level occurs in the volume, and the effect of the display window.
 #pragma once
 
 #include <array>

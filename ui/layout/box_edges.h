@@ -1,4 +1,4 @@
-// The wire-frame box, with the edges behind the volume told from those before it. Pure.
+// The wire-frame box, with edges behind the volume distinguished from those in front. Pure.
 #pragma once
 
 #include <array>

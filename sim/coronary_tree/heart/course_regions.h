@@ -1,4 +1,4 @@
-// How the muscle on both sides of an artery's course is divided along it.
+// Divides the muscle on both sides of an artery along its course.
 #pragma once
 
 #include <vector>
@@ -9,18 +9,18 @@
 namespace octascope::sim {
 
 // Hands out the cells of a region from the beginning of a course to its end, always from the side
-// that lags behind. What has been handed out lies at the front of the region.
+// that lags behind. Cells handed out lie at the front of the region.
 class CourseRegions {
 public:
   CourseRegions(Region region, const Course& course);
 
-  // Cells that lie before this distance along the course, handed out or not.
+  // Number of cells before this distance along the course, handed out or not.
   std::size_t before(double along_mm) const;
 
   std::size_t handed_out() const { return handed_out_; }
 
-  // The next so many cells of one side, and of the other one if there are no more. They have been
-  // written to the region after those handed out before.
+  // Hands out the next `count` cells of one side, or of the other if it runs out, into the region
+  // behind those handed out before.
   void hand_out(std::size_t count);
 
 private:

@@ -1,5 +1,4 @@
-// The wall that the vessels feed: a pig's left ventricle and the right one around a part of it.
-//
+// The wall that the vessels feed: a pig's left ventricle, with the right one around part of it.
 // The left ventricle is a prolate spheroid, the right one a second, thinner spheroid beside it;
 // both are cut off at the base. The tree's frame, in millimetres: y from the apex to the base, z to
 // the front (anterior), x to the animal's left; the origin on the left ventricle's axis, 60 mm
@@ -17,7 +16,7 @@ struct Spheroid {
   double radius_mm;      // across
   double half_length_mm; // along y
 
-  // About the distance to the surface, negative inside: exact on it.
+  // Approximate distance to the surface, negative inside; exact on it.
   double distance_mm(Vector3 p) const;
   Vector3 outward(Vector3 p) const;
   double radius_at_mm(double y) const; // of the circle at that height; 0 beyond the ends
@@ -28,7 +27,7 @@ inline constexpr Spheroid left_inside{{0, 0, 0}, 19.5, 52};
 inline constexpr Spheroid right_outside{{-13.5, 6, 12}, 26.5, 47};
 inline constexpr Spheroid right_inside{{-13.5, 6, 12}, 23, 43.5};
 
-// Below the outer surface of the heart (epicardium), negative outside.
+// Depth below the outer surface of the heart (epicardium), negative outside.
 double depth_mm(Vector3 p);
 
 // Unit vector away from the heart at its outer surface.
@@ -37,10 +36,10 @@ Vector3 epicardium_outward(Vector3 p);
 // Whether a place is muscle: not in a ventricle, not outside, not above the base.
 bool in_muscle(Vector3 p);
 
-// How far a place is from muscle at most; 0 in it.
+// Upper bound of the distance to muscle; 0 inside.
 double outside_muscle_mm(Vector3 p);
 
-// The place itself where it is in the muscle, else one nearby that is.
+// The place itself if it is in the muscle, else one nearby that is.
 Vector3 held_in_muscle(Vector3 p);
 
 // The nearest place at that depth below the epicardium (negative: in the fat upon it).

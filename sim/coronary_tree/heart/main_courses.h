@@ -1,6 +1,5 @@
-// Where the three arteries run: from the root of the aorta along the grooves of the heart.
-//
-// The right one (RCA) round the right side in the groove below the atrium, and down the groove
+// The courses of the three arteries, from the root of the aorta along the grooves of the heart.
+// The right one (RCA) runs round the right side in the groove below the atrium, and down the groove
 // between the ventricles at the back; the left anterior descending (LAD) down that groove in front
 // to the apex; the circumflex (LCX) round the left side.
 #pragma once
@@ -13,7 +12,7 @@
 
 namespace octascope::sim {
 
-// A curve with places at equal distances.
+// A curve with points at equal distances.
 class Course {
 public:
   static constexpr double spacing_mm = 1;
@@ -22,7 +21,7 @@ public:
 
   double length_mm() const { return spacing_mm * static_cast<double>(places_.size() - 1); }
 
-  // At a distance along it; straight on beyond its end.
+  // The point at a distance along it; straight on beyond its end.
   Vector3 at(double along_mm) const;
   Vector3 direction(double along_mm) const;
 
@@ -36,7 +35,7 @@ private:
   std::vector<Vector3> places_;
 };
 
-// Gently winding, each seed otherwise.
+// Winds gently, depending on the seed.
 Course main_course(pipeline::VesselBranch branch, std::uint64_t seed);
 
 } // namespace octascope::sim

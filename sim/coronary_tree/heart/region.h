@@ -1,5 +1,5 @@
-// A piece of muscle as a set of places spread evenly in it, and how it is divided between the
-// vessels that feed it.
+// A piece of muscle as a set of evenly spread places, and its division between the vessels that
+// feed it.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@ namespace octascope::sim {
 
 using Region = std::span<Vector3>;
 
-Vector3 centre_of(std::span<const Vector3> places); // of none: the origin
+Vector3 centre_of(std::span<const Vector3> places); // of no places: the origin
 
-// Unit vector along which the places extend most; at a right angle to `flat` unless that is zero.
+// Unit vector along which the places extend most; perpendicular to `flat` unless that is zero.
 Vector3 longest_axis(std::span<const Vector3> places, Vector3 centre, Vector3 flat);
 
-// Reorders the places so that the `count` with the lowest keys come first. Written out because the
-// standard leaves the order of the rest open, and with it the bits of every later sum.
+// Reorders the places so that the `count` with the lowest keys come first. Not std::nth_element,
+// since the standard leaves the order of the rest open, and with it the bits of every later sum.
 template <class Key> void lowest_first(Region places, std::size_t count, const Key& key) {
   std::size_t begin = 0;
   std::size_t end = places.size();
@@ -45,8 +45,8 @@ template <class Key> void lowest_first(Region places, std::size_t count, const K
   }
 }
 
-// Cuts a region across its longest axis and puts `count` places for a side branch first; what lies
-// further on in the direction of the vessel stays with the vessel.
+// Cuts a region across its longest axis and puts `count` places for a side branch first; the vessel
+// keeps the places further along its direction.
 void divide(Region region, std::size_t count, Vector3 direction, Vector3 flat);
 
 } // namespace octascope::sim

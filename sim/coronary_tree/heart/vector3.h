@@ -1,6 +1,6 @@
-// Places and directions. Only sums, products, quotients and square roots, so that every machine
-// with IEEE 754 numbers gives the same bits (this folder is compiled without contraction to fused
-// multiply-add).
+// Points and directions. Only sums, products, quotients and square roots, so that every machine
+// with IEEE 754 arithmetic gives the same bits (this folder is compiled without contraction to
+// fused multiply-add).
 #pragma once
 
 #include <algorithm>
@@ -33,24 +33,24 @@ inline double length(Vector3 a) {
   return std::sqrt(dot(a, a));
 }
 
-// `otherwise` for what has no direction.
+// `otherwise` if the vector has no direction.
 inline Vector3 unit(Vector3 a, Vector3 otherwise) {
   const double size = length(a);
   return size > 1e-9 ? (1 / size) * a : otherwise;
 }
 
-// What is left of `a` without its part along the unit vector `axis`.
+// `a` without its part along the unit vector `axis`.
 inline Vector3 across(Vector3 a, Vector3 axis) {
   return a - dot(a, axis) * axis;
 }
 
-// Some unit vector at a right angle to a unit vector.
+// Any unit vector perpendicular to a unit vector.
 inline Vector3 any_across(Vector3 axis) {
   const Vector3 least = std::abs(axis.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
   return unit(across(least, axis), {0, 0, 1});
 }
 
-// From `from` towards `to` (unit vectors) as far as the angle between has a cosine in the range.
+// Turns from `from` towards `to` (unit vectors), keeping the cosine of the angle within the range.
 inline Vector3 turned(Vector3 from, Vector3 to, double least_cosine, double most_cosine) {
   const double cosine = std::clamp(dot(from, to), least_cosine, most_cosine);
   const Vector3 side = unit(across(to, from), any_across(from));
