@@ -1,5 +1,4 @@
-// Draws the whole display: volume, panels and heads-up display, into the framebuffer that is
-// bound.
+// Draws the whole display into the bound framebuffer: volume, panels and heads-up display.
 #pragma once
 
 #include <memory>
@@ -24,75 +23,75 @@
 namespace octascope::ui {
 
 // Threads: bound to the thread and the GLES 3 context that were current in create(); destroyed
-// there too. When the context is lost (Display::present() says disconnected), destroy it, open the
+// there too. If the context is lost (Display::present() says disconnected), destroy it, open the
 // display again and create a new one.
 //
-// A volume's picture is kept and drawn again only when the volume, the view or the window changes,
-// so a frame that changes nothing but the heads-up display costs little. After the first frame of a
-// size nothing of ours is allocated.
+// A volume's picture is kept and redrawn only when the volume, the view or the window changes, so a
+// frame that changes only the heads-up display costs little. After the first frame of a size, only
+// the GL driver allocates.
 class Renderer {
 public:
-  // `threads` sets up the threads that help drawing: VolumePainter::create() names them.
-  // The typeface stays borrowed. ErrorCode::unsupported: this GL cannot compile our shaders.
+  // `threads` sets up the threads that help drawing, named in VolumePainter::create(). The typeface
+  // stays borrowed. ErrorCode::unsupported: this GL cannot compile our shaders.
   static hal::Result<std::unique_ptr<Renderer>> create(const TransferSet& transfers = {},
                                                        const pipeline::ThreadSetup& threads = {},
                                                        const Typeface& typeface = inter());
   ~Renderer();
 
-  // Copies the volume before it returns and shows it from the next draw() on. On an error the last
-  // volume stays: VolumeTexture::upload() lists them.
+  // Copies the volume before it returns and shows it from the next draw() on. On an error (see
+  // VolumeTexture::upload()) the last volume stays.
   hal::Result<> show_volume(const pipeline::Volume& volume);
 
-  // Copies the frame before it returns. `field` outlines what the OCT scans. The picture is marked
-  // stale by its time.
+  // Copies the frame before it returns. `field` is the outline of the OCT scan. The picture is
+  // marked stale by its time.
   hal::Result<> show_scope_picture(const hal::ScopeFrame& frame,
                                    const std::optional<ScanField>& field);
-  // From the next draw() on, in the volume. The tree stays borrowed until another is shown or the
-  // renderer is destroyed; `clock`, which measures what drawing it costs, outlives the renderer.
-  // ErrorCode::unsupported: this processor cannot draw vessels.
+  // Shows vessels in the volume from the next draw() on. The tree stays borrowed until another is
+  // shown or the renderer is destroyed; `clock`, which measures the cost of drawing it, outlives
+  // the renderer. ErrorCode::unsupported: this processor cannot draw vessels.
   hal::Result<> show_vessels(const PlacedVessels& vessels, const hal::Clock& clock);
   // Of the last draw().
   struct VesselReport {
     SegmentCounts account;
-    hal::Duration cost{}; // 0: no picture of them was made
+    hal::Duration cost{}; // 0: they were not drawn
   };
   VesselReport vessel_report() const;
 
-  void forget_scope_picture(); // the camera is gone
+  void forget_scope_picture(); // when the camera is gone
 
-  // Shown while the window is being changed: how often each level occurs in the volume.
+  // The histogram of levels in the volume, shown while the window is changed.
   void show_levels(const LevelShares& shares);
 
   // Draws everything into the bound framebuffer of width × height pixels.
   hal::Result<> draw(const ViewState& view, const Status& status, int width, int height,
                      const DrawQuality& quality = {});
 
-  // Draws the volume alone over the whole of the bound framebuffer: with a scale bar, and with
-  // the wire-frame box where the view has it. ErrorCode::invalid_argument: no volume was shown, or
-  // the size is nothing.
+  // Draws the volume alone over the whole of the bound framebuffer, with a scale bar and, if the
+  // view has it, the wire-frame box. ErrorCode::invalid_argument: no volume was shown, or the size
+  // is empty.
   hal::Result<> draw_volume_alone(const ViewState& view, int width, int height,
                                   const DrawQuality& quality = full_quality);
 
-  // Waits until everything that a picture of that view and quality needs is ready, such as a mesh.
-  // (The running display does not wait.) `volume` is the one that was shown last.
+  // Waits until everything needed for a picture of that view and quality is ready, such as a mesh.
+  // (The running display does not wait.) `volume` is the one shown last.
   hal::Result<> prepare(const pipeline::Volume& volume, const ViewState& view,
                         const DrawQuality& quality = full_quality);
 
-  // Whether the last draw() made the volume's picture anew, which is most of what a frame costs.
+  // Whether the last draw() redrew the volume's picture, which is most of a frame's cost.
   bool drew_volume() const;
 
   // Waits until everything is drawn.
   void finish() const;
 
-  // Whether the processor casts the volume's rays with that quality; from the first volume on.
-  // Other techniques than rays are drawn by GL.
+  // Whether the processor casts the volume's rays at that quality; valid from the first volume on.
+  // GL draws all other techniques.
   bool casts_rays(const DrawQuality& quality = {}) const;
 
-  // False when draw() would make the picture that it made last, to the pixel.
+  // False if draw() would repeat its last picture to the pixel.
   bool needs_redraw(const ViewState& view, const Status& status, int width, int height,
                     const DrawQuality& quality = {}) const;
 
-  // The view needs data that was not computed for the shown volume: call show_volume() with it
+  // Whether the view needs data not computed for the shown volume: then call show_volume() with it
   // again.
   bool wants_volume(const ViewState& view) const;
 

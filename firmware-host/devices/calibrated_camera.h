@@ -1,4 +1,5 @@
 // Whether the open line camera is the one that the calibration was made with.
+//
 // Spectrometers of one kind have equally many samples, so another one's calibration fits but blurs,
 // and depths are wrong by some per cent without any visible sign. The picture is therefore marked.
 // It is not refused: an interrupted picture is the greater hazard.

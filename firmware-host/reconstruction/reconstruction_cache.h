@@ -1,5 +1,6 @@
 // What a start learns about reconstruction on this machine, kept for the next one: the times of
 // both paths, and FFTW's wisdom.
+//
 // One JSON file in the user's or the service's cache folder, valid for one build on one processor:
 // another version, build or processor starts afresh. Nothing depends on it: what is missing, broken
 // or unwritable is measured again.

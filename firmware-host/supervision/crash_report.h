@@ -21,6 +21,7 @@ crash_reports(const std::filesystem::path& folder); // oldest first
 // While it lives, SIGSEGV, SIGABRT (also the watchdog's), SIGBUS, SIGFPE and SIGILL write a report
 // and then end the program as usual. Everything is prepared beforehand: the handler neither
 // allocates nor locks. Signal handlers belong to the process, so make only one at a time.
+//
 // The report: version, time, signal, thread, where it was (module+offset, for addr2line -e), the
 // last status, the configuration's file and text.
 class CrashReport {

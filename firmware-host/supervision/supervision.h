@@ -36,6 +36,7 @@ struct SupervisionSetup {
 
 // Its own ordinary thread looks ten times a second, more often before the first picture. It never
 // blocks the render thread, which passes it counters and, once a second, a copy behind a lock.
+//
 // Begins with start(). Must outlive all threads that it watches.
 class Supervision {
 public:

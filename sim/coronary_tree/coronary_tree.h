@@ -1,9 +1,11 @@
 // The arteries of a pig's heart, generated at random from measurements of casts.
+//
 // Orders, connectivity, diameters and lengths follow sim/coronary_tree/morphometry.h; the shape of
 // the heart is sim/coronary_tree/heart/heart_wall.h. Layout after Kaimovitz, Lanir, Kassab (Ann
 // Biomed Eng 33, 2005): orders 11 to 9 upon the heart, 8 to 5 through its wall, 4 to 0 filling it.
 // The space is filled by dividing the muscle from the trunk to the twigs, each vessel heading for
 // the middle of its own piece.
+//
 // The same seed and number of segments give the same bits, whatever the number of threads, on every
 // machine with IEEE 754 double and single precision: the only arithmetic is sums, products,
 // quotients and square roots, never contracted; random numbers are hashes; and no order is left to

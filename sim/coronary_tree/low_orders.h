@@ -1,4 +1,5 @@
 // The number of small vessels (orders 4 to 0) in a tree of a given size.
+//
 // The published tables make a tree of 5.9 million segments. A smaller one is cut from below: whole
 // orders are left out, and part of the lowest remaining one. In a larger one each element of orders
 // 4 to 1 has `growth` times as many daughters, so that the number of elements grows by growth at

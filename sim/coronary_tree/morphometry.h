@@ -1,8 +1,10 @@
 // Measurements of casts of pig hearts: how many vessels of which size, and how they join.
+//
 // Kassab, Rider, Tang, Fung: Morphometry of pig coronary arterial trees, Am J Physiol 265 (1993),
 // H350–H365, tables 1–3 (segments), 5 (segments per element), 6–8 (connectivity), 9 (totals). A
 // segment lies between two forks; an element is a run of segments of one order. Orders 1 to 3 of
 // LAD and LCX were measured together.
+//
 // Not in those tables, and assumed here: order 0, the first segment of a capillary, has a diameter
 // of 6.2 ± 1.1 µm, a length of 52 ± 32 µm, and one segment an element.
 #pragma once

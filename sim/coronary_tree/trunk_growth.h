@@ -1,4 +1,5 @@
 // The courses of the large vessels (orders 11 to 5), and the piece of muscle that each feeds.
+//
 // Each element has a region of muscle as large as its weight. At each fork the region is divided
 // between the side branch and the vessel itself, which heads for the middle of the remainder. So
 // the muscle is divided down to the smallest vessels without gap or overlap. Orders 11 to 9 run

@@ -1,5 +1,6 @@
 // Which large vessels there are and how they connect: the elements of orders 5 and higher of one
 // artery, and the elements of lower orders that spring from them, where the small vessels begin.
+//
 // The published numbers of elements and connections are met, not only on average: each order has
 // exactly its published number of elements, each pair of orders its published number of joints up
 // to rounding, each order its mean of segments per element. Only the assignment is random. Where

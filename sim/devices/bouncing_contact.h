@@ -1,4 +1,5 @@
 // One switch contact of the simulated pedal, with its faults.
+//
 // The contact follows the foot at once, with a burst of bounces, or not at all while stuck. Pure
 // logic over explicit times.
 #pragma once

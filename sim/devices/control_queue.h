@@ -1,4 +1,5 @@
 // A bounded queue of control events, many writers to one reader.
+//
 // Lock-free: each slot carries a turn number that says whether the writer or the reader is next (D.
 // Vyukov's bounded queue, with a single reader). Allocates nothing.
 #pragma once

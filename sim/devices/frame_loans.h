@@ -1,4 +1,5 @@
 // Which of a camera twin's buffers are free, reserved for a waiting frame, or on loan.
+//
 // The camera's thread reserves and lends; any thread gives back. Lock-free, no allocation.
 #pragma once
 

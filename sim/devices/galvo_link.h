@@ -1,4 +1,5 @@
 // The scanner between the trigger's twin and the camera's twin: pulses in, sweeps out.
+//
 // One pulse starts the sweeps of one volume. A pulse during another volume's sweeps is latched, one
 // deep, and starts right after them; a further one is lost and counted (hal/galvo_trigger.h).
 #pragma once

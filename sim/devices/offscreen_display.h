@@ -1,4 +1,5 @@
 // The display's twin: draws into memory, without a screen, a window system or a GPU.
+//
 // A surfaceless EGL context (any Mesa provides one) and a framebuffer of the requested size, bound
 // as the draw target. Refreshes are ticks of the injected clock, so that frames are paced as on a
 // monitor.

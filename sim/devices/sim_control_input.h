@@ -1,5 +1,6 @@
 // The twin of pedal and knob: three switches, a knob and a 6-axis puck, moved by a script and by
 // injected events (the host's, for keys).
+//
 // Scripted moves and faults happen at their own times, however late read() is called: its result is
 // a function of the script, the schedule and the injected events. Switches pass through a contact
 // that may bounce or stick, and through the debouncer, so a press is reported 5 ms late.

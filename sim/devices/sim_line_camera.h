@@ -1,11 +1,14 @@
 // The twin of the line camera: B-scans of a SpectraSource, at the true line rate, after each pulse
 // of the trigger's twin.
+//
 // Frame f of a sweep that starts at T is exposed from T + f·L/rate to T + (f+1)·L/rate (L lines a
 // frame) and delivered no earlier than its end. A frame belongs to the stream if its exposure began
 // at or after start(): a camera started during a sweep begins in its middle.
+//
 // The driver is modelled, too: it has config.buffers frames, on loan or waiting; frames that find
 // none free are dropped and show as a gap in the sequence. Buffers are checked when wait_frame() is
 // called, so one given back before the call counts as free.
+//
 // Bytes are not copied but point into the source, unless a fault alters them.
 #pragma once
 

@@ -30,6 +30,7 @@ struct SimScopeCameraOptions {
 // from the second loop on streaming costs almost nothing. Frame n is exposed n periods after
 // start(). Frames that are not fetched, or that find all four buffers on loan, are lost, with their
 // sequence numbers.
+//
 // Threads as hal::ScopeCamera; unplug(), replug() and scan_field() may be called from any.
 class SimScopeCamera final : public hal::ScopeCamera {
 public:

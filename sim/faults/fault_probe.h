@@ -1,4 +1,5 @@
 // One twin's view of the fault schedule: remembers what it has seen and counted.
+//
 // Not thread-safe: belongs to the twin's thread. Allocates only when made.
 #pragma once
 

@@ -1,4 +1,5 @@
 // When which fault strikes: pure logic over a FaultScript and explicit times.
+//
 // Immutable but for its time zero, so any thread may ask at any time, without a lock or an
 // allocation. Twins that only need to know whether they are plugged in (scope camera, display) use
 // active(); those that count frames or pulses use a FaultProbe.

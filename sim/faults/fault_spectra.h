@@ -1,4 +1,5 @@
 // The effect of faults on a frame's bytes.
+//
 // All functions write whole frames to the caller's memory, allocate nothing and depend only on
 // their arguments.
 #pragma once

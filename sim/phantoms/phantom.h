@@ -1,5 +1,6 @@
 // Phantoms: scenes in millimetres seen by the twins of the spectrometer and of the microscope's
 // camera.
+//
 // Axes: x along the fast axis a, y along the slow axis b, both from the centre of the scan field; z
 // is depth below the first depth bin. Time is a phase: 0 … 1 is one period of the scene's loop, and
 // phases that differ by an integer are the same moment.

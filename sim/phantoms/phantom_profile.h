@@ -19,6 +19,7 @@ namespace octascope::sim {
 // its speckle. Neighbouring A-scans share half of it, as overlapping beams do. In a flowing layer
 // the hash includes the visit: between two visits of the beam (B-scans, about 2 ms) blood moves by
 // more than a resolution cell, so its speckle is entirely new.
+//
 // Immutable, so thread-safe; each thread has its own Profile.
 class ProfileMaker {
 public:

@@ -41,6 +41,7 @@ hal::Result<VolumeLoopConfig> suggested_loop(std::string_view phantom);
 // keeps its speckle, noise differs from line to line. The beam is where the mirrors point
 // (beam_path.h): at A-scan a, x = (a − (a_scans − 1)/2)·a_spacing; B-scan b lies at y = (b −
 // (b_scans − 1)/2)·b_spacing, each of its repeats with fly-back or turn-around.
+//
 // make() computes the first volume on all cores. The others follow one by one in a background
 // thread at the lowest priority; until they are ready, frame() loops over those that are, and a
 // volume number maps to the same volume while its B-scans are read in turn. The destructor stops

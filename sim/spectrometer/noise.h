@@ -1,4 +1,5 @@
 // Randomness reproducible from a seed: hashes, a table of Gaussian numbers, smooth noise.
+//
 // Nothing here keeps state, so any line of any volume can be made by any thread, in any order, with
 // the same result.
 #pragma once

@@ -1,4 +1,5 @@
 // The spectrometer's forward model, fast: whole A-scans of tissue, a line in microseconds.
+//
 // Tissue is a complex amplitude in every depth bin, a surface a Reflector at any fraction of a bin.
 // One inverse FFT sums their fringes on a grid uniform in k (shifted to the middle of the depth
 // range, so that the grid oversamples it twice), and a Kaiser-Bessel kernel of 4 taps reads it at

@@ -1,4 +1,5 @@
 // Vessels inside a volume: where they end the rays, and the colour behind what the rays gathered.
+//
 // A technique given such a mask draws the volume up to the nearest vessel of each pixel, and
 // nothing behind it. The vessel's colour is then composited under that: tissue in front of a vessel
 // veils it, and the vessel hides what is behind it. With a vessel opacity below 1, that picture is

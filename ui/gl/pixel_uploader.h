@@ -13,6 +13,7 @@
 namespace octascope::ui::gl {
 
 // Three buffers in turn, so that no pending transfer is waited for.
+//
 // Threads: as gl/objects.h. Allocates in create() only.
 class PixelUploader {
 public:

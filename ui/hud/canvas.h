@@ -1,4 +1,5 @@
 // What the heads-up display draws with: text, lines and plates, collected and then drawn at once.
+//
 // Dear ImGui's draw list and fonts without its context, so that nothing is global; the GL part is
 // ours. Positions are pixels from the top left corner of the target.
 #pragma once

@@ -1,8 +1,8 @@
 // Where everything is on the screen. Pure.
 //
-// Sizes are for two metres of distance from a screen of 27 inches; ui/hud/fonts.h has the rule for
-// text. What the heads-up display may cover of the large picture lies in the outer quarters of its
-// stage: the middle half of its width and height is never covered but by the veil.
+// Sizes are for a viewing distance of two metres from a 27-inch screen; ui/hud/fonts.h has the rule
+// for text. The heads-up display may cover only the outer quarters of the large picture's stage:
+// nothing but the veil covers the middle half of its width and height.
 #pragma once
 
 #include "ui/view/view_state.h"
@@ -22,7 +22,7 @@ struct Rect {
   bool operator==(const Rect&) const = default;
 };
 
-// Nothing of an empty panel is drawn.
+// Empty panels are not drawn.
 struct Panel {
   Rect frame;
   Rect title;   // in the frame, above the picture
@@ -41,8 +41,8 @@ struct PictureAspects {
 };
 
 struct Layout {
-  LayoutKind kind = LayoutKind::volume; // what is laid out: see lay_out()
-  float unit = 1;  // pixels per pixel of a picture 720 high: all sizes of the display scale with it
+  LayoutKind kind = LayoutKind::volume; // as laid out; see lay_out()
+  float unit = 1;  // scale of all sizes of the display: pixels per pixel of a picture 720 high
   Rect view;       // the volume
   Rect view_frame; // around it where it has a plate and a title, else empty
   Rect view_title;
@@ -52,25 +52,25 @@ struct Layout {
   Panel scope;
   Rect status_bar;
 
-  Rect large; // the large picture; of four alike, the volume
-  Rect stage; // it and what is free around it, the picture in the middle
+  Rect large; // the large picture; among four alike, the volume
+  Rect stage; // the large picture, centred, with the free space around it
 
-  // For the heads-up display; empty where there is no room.
+  // For the heads-up display; empty if there is no room.
   Rect marks;     // the badges, row by row from the left
   Rect notice;    // one line
   Rect echo;      // what a control just did: at the lower border of the stage
-  Rect legend;    // what each control does: in place of the small pictures beside the large one, of
-                  // the last of four alike, or at the side over a picture with an inset
+  Rect legend;    // what each control does: replaces the small pictures beside the large one, or
+                  // the last of four alike, or lies at the side over a picture with an inset
   Rect histogram; // of the levels: in the stage's lower right corner
-  Rect cube;      // which way the volume is turned: in the view's upper right corner
+  Rect cube;      // the volume's orientation: in the view's upper right corner
 };
 
 // volume: the volume left, about 70 % of the width; the other pictures in a column right of it.
-// b_scan: the same with the B-scan left and the volume in the column. microscope: its picture at
-// the left; the volume, and where there is room the B-scan, beside it, or the volume as an inset.
-// quad: four alike. Pictures that are taller than wide get a row below in place of the column; the
-// status bar is at the bottom. Without a microscope picture the others share its room, and the
-// layout for it is that of the volume.
+// b_scan: the same with the B-scan left and the volume in the column. microscope: its picture left;
+// beside it the volume and, where there is room, the B-scan, or the volume as an inset. quad: four
+// alike. Pictures taller than wide get a row below instead of the column; the status bar is at the
+// bottom. Without a microscope picture the others share its room, and its layout becomes that of
+// the volume.
 Layout lay_out(int width, int height, const PictureAspects& aspects,
                LayoutKind kind = LayoutKind::volume);
 

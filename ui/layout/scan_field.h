@@ -5,8 +5,8 @@
 
 namespace octascope::ui {
 
-// Corners in their order around the field, as shares of the picture's width and height from its top
-// left corner. The first is where the scan begins: A-scan 0 of B-scan 0; the second ends B-scan 0.
+// Corners in order around the field, as shares of the picture's width and height from its top left
+// corner. The scan begins at the first (A-scan 0 of B-scan 0); B-scan 0 ends at the second.
 struct ScanField {
   struct Corner {
     float x = 0;

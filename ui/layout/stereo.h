@@ -13,16 +13,16 @@
 
 namespace octascope::ui {
 
-// The left one first; without stereo, StereoEye::centre.
+// Left first; without stereo, StereoEye::centre.
 std::span<const StereoEye> eyes_of(StereoMode mode);
 
-// Where a picture that is laid out on width × height pixels goes in a framebuffer of that size.
+// Maps a picture laid out on width × height pixels into a framebuffer of that size.
 struct EyeFrame {
   Rect target; // of the whole layout
   int width = 0;
   int height = 0;
 
-  // Where a rectangle of the layout lands; the same for both eyes but for the targets' distance.
+  // The place of a rectangle of the layout; the same for both eyes but for the targets' offset.
   // Never empty.
   Rect place(const Rect& rect) const;
 };

@@ -1,12 +1,12 @@
 // Chooses how finely the volume is drawn so that the frame rate holds. Pure: times are arguments.
 //
 // A frame's cost is a fixed part (panels, text, compositing) and a part that grows with the samples
-// taken. Both are learnt from the frames that are drawn anyway, for each technique and for each
-// step of the ladder of qualities, as medians of the last few: one interrupted frame changes
-// nothing. A finer quality is taken only where it is predicted to stay well below the budget, a
-// coarser one only where the budget is exceeded, and what a quality has cost is remembered: the
-// choice cannot swing between two neighbours. Where a quality takes but half of the budget, the
-// next finer one is tried once, whatever is predicted.
+// taken. Both are learnt from drawn frames, for each technique and each step of the quality ladder,
+// as medians of the last few, so that one interrupted frame changes nothing. A finer quality is
+// chosen only if predicted to stay well below the budget, a coarser one only if the budget is
+// exceeded; since past costs are remembered, the choice cannot oscillate between two neighbours.
+// Where a quality takes only half of the budget, the next finer one is tried once, whatever is
+// predicted.
 #pragma once
 
 #include <array>
@@ -20,18 +20,18 @@
 
 namespace octascope::ui {
 
-// From full quality down, each step about three quarters of the one before it in cost.
+// From full quality down; each step costs about three quarters of the one before.
 std::span<const DrawQuality> quality_ladder();
 
-// Of the samples that full quality takes; what a quality costs beyond the fixed part, relatively.
+// Share of the samples at full quality: the relative cost of a quality beyond the fixed part.
 double sample_share(const DrawQuality& quality);
 
-// That share where it is so small that one sees it, for the display to say so.
+// That share if it is visibly reduced, for the display to say so; else empty.
 std::optional<float> visible_reduction(const DrawQuality& quality);
 
 struct FrameBudget {
-  hal::Duration moving;  // while the view or the window changes: the rate of frames matters
-  hal::Duration resting; // while only volumes come: their latency matters
+  hal::Duration moving;  // while the view or the window changes: the frame rate matters
+  hal::Duration resting; // while only volumes arrive: their latency matters
 };
 
 // Threads: one at a time. Allocates nothing.
@@ -44,20 +44,22 @@ public:
   struct Situation {
     hal::TimePoint now;
     Technique technique = Technique::rays;
-    bool moved = false; // what was asked for differs from the last frame's
-    bool live = true;   // volumes keep coming; else the picture is drawn once and may take its time
+    bool moved = false; // the request differs from the last frame's
+    bool live = true;   // volumes keep arriving; else the picture is drawn once and may take its
+                        // time
   };
 
-  // For the frame that begins now. At rest and not live, or where the budget allows it: full.
+  // The quality for the frame that begins now. Full if at rest and not live, or if the budget
+  // allows.
   DrawQuality choose(const Situation& situation);
 
-  // What that frame cost, from its beginning until it was drawn.
+  // The cost of that frame, from its beginning until it was drawn.
   void note(hal::Duration cost, bool volume_drawn);
 
   // How long after the last movement the view counts as resting.
   static constexpr hal::Duration rest_after = std::chrono::milliseconds{250};
 
-  // What a frame would cost now; 0 while nothing is known of the technique.
+  // The predicted cost of a frame; 0 while the technique is unknown.
   hal::Duration predict(Technique technique, const DrawQuality& quality) const;
 
 private:
@@ -70,26 +72,26 @@ private:
     void add(double value) { values_[count_++ % kept] = value; }
     void clear() { count_ = 0; }
     bool empty() const { return count_ == 0; }
-    double value() const; // only where there is one
+    double value() const; // undefined if empty
 
   private:
     std::array<double, kept> values_{};
     std::size_t count_ = 0;
   };
 
-  // What is known of a technique: cost = fixed + full · sample_share · correction.
+  // The model of a technique: cost = fixed + full · sample_share · correction.
   struct Knowledge {
     Median full_ms;
     std::array<double, most_rungs> correction;
-    std::array<double, most_rungs> learnt_at_ms{}; // full_ms then; 0: never
-    bool compared = false;                         // more than one quality was drawn
+    std::array<double, most_rungs> learnt_at_ms{}; // full_ms at that time; 0: never
+    bool compared = false;                         // more than one quality has been drawn
     Knowledge() { correction.fill(1); }
   };
 
-  // Where one technique stands on the ladder in one situation.
+  // A technique's place on the ladder in one situation.
   struct Place {
     std::size_t rung = 4;   // until something is known
-    std::size_t frames = 0; // drawn there since it came there
+    std::size_t frames = 0; // frames drawn since it moved there
     Median sampling_ms;
     Median frame_ms;
   };
@@ -107,7 +109,7 @@ private:
   std::array<std::array<Place, 2>, all_techniques.size()> places_; // resting, moving
   hal::TimePoint still_since_{};
   bool moving_ = false;
-  bool still_ = false; // the frame is one that may take its time
+  bool still_ = false; // the frame may take its time
   std::size_t technique_ = 0;
 };
 

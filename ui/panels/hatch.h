@@ -1,4 +1,4 @@
-// The hatching of missing data, the same in every panel.
+// The hatching of missing data, shared by all panels.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@
 
 namespace octascope::ui {
 
-// The fragment shader with the function hatch() before its main program.
+// The fragment shader with the function hatch() inserted before its main program.
 inline std::string with_hatch(std::string_view fragment_source) {
   return "precision highp float;\n" + std::string{shaders::hatch_glsl} +
          std::string{fragment_source};
 }
 
-// Sets the uniform that says where the hatching of a picture in `rect` begins and how fine it is:
-// sixty stripes on a target's height.
+// Sets the hatching's origin and pitch for a picture in `rect`: sixty stripes over the target's
+// height.
 inline void set_hatch(GLint uniform, const Rect& rect, int target_height) {
   glUniform3f(uniform, static_cast<float>(rect.x),
               static_cast<float>(target_height - rect.bottom()),

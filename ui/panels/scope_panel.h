@@ -21,7 +21,7 @@ public:
   // Copies the frame before it returns.
   hal::Result<> show(const hal::ScopeFrame& frame, const std::optional<ScanField>& field);
 
-  // The picture in `rect`; darker where it is old.
+  // Draws the picture into `rect`, darkened if stale.
   void draw(const Rect& rect, int target_height, bool stale) const;
 
   bool empty() const { return !picture_.texture(); }

@@ -1,4 +1,4 @@
-// The microscope's picture as a texture, from the pixels that cameras send.
+// The microscope's picture as a texture, converted from the camera's pixel format.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace octascope::ui {
 
-// RGB and RGBA are uploaded as they are; YUYV and NV12 are uploaded as they are and converted by
-// the GPU (BT.601, limited range, what USB and board cameras send).
+// RGB and RGBA are uploaded unchanged; YUYV and NV12 are converted on the GPU (BT.601, limited
+// range, as USB and board cameras send).
 //
 // Threads: as gl/objects.h. Makes textures only when the picture's size or format changes.
 class ScopeTexture {
@@ -20,11 +20,11 @@ public:
   static hal::Result<ScopeTexture> create();
 
   // Copies the frame before it returns; the bound framebuffer stays bound. ErrorCode::bad_data: the
-  // frame is shorter than its format, size and stride say; the message has both lengths.
+  // frame is shorter than its format, size and stride require; the message has both lengths.
   // ErrorCode::unsupported: larger than this GL's textures.
   hal::Result<> show(const hal::ScopeFrame& frame);
 
-  // Row 0 is the top; alpha is of no meaning.
+  // Row 0 is the top; alpha is unspecified.
   const gl::Texture& texture() const { return colour_; }
   int width() const { return width_; }
   int height() const { return height_; }

@@ -1,7 +1,7 @@
-// How far a ray can leap from a brick: the distance to bricks that are not empty.
+// How far a ray can leap from a brick: the distance to non-empty bricks.
 //
-// One number a brick: its highest level in the upper 8 bits, below it the distance, 0 for bricks
-// that are not empty. Both kinds allocate when the number of bricks changes.
+// One number a brick: its highest level in the upper 8 bits, below it the distance, 0 for non-empty
+// bricks. Both classes allocate when the number of bricks changes.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace octascope::ui {
 
-// For rays of any direction: to the nearest brick that is not empty, in bricks along the axis where
-// it is farthest (Chebyshev), at most `most`. In the order [b][a][depth].
+// For rays of any direction: the Chebyshev distance to the nearest non-empty brick, in bricks, at
+// most `most`. In the order [b][a][depth].
 class DistancesAround {
 public:
   static constexpr int most = 10;
@@ -30,10 +30,10 @@ private:
   std::vector<std::uint8_t> next_;
 };
 
-// For rays that go up or down each axis, an octant of directions: the edge of the largest cube of
+// For rays of one octant of directions (up or down each axis): the edge of the largest cube of
 // empty bricks that begins with this one and lies ahead, in bricks, at most `most`; outside the
-// volume all is empty. A ray that leaves a surface gets a long distance at once; with one distance
-// for all directions it would take many short leaps.
+// volume all is empty. A ray that leaves a surface gets a long distance at once, where a distance
+// for all directions would need many short leaps.
 //
 // Octant o holds the rays that go up depth (bit 0), the fast axis (bit 1), the slow one (bit 2).
 class DistancesAhead {
@@ -41,10 +41,10 @@ public:
   static constexpr int octants = 8;
   static constexpr int most = 255;
 
-  // The grid has changed.
+  // Call when the grid has changed.
   void forget() { measured_ = 0; }
 
-  // Of the octants with a bit in `wanted`, those that are not known.
+  // Computes the octants with a bit in `wanted` that are not known yet.
   void measure(const BrickGrid& grid, unsigned wanted);
 
   // In the order [octant][b][a][depth]; octants that were not wanted are undefined.
@@ -53,7 +53,7 @@ public:
 private:
   void measure_octant(const BrickGrid& grid, unsigned octant);
 
-  std::vector<std::uint16_t> numbers_; // one more than there are: kernels load two at a time
+  std::vector<std::uint16_t> numbers_; // one more than needed: kernels load two at a time
   std::vector<std::uint8_t> distance_; // of one octant
   std::vector<std::uint8_t> line_;
   unsigned measured_ = 0;

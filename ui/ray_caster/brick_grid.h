@@ -1,4 +1,4 @@
-// Which bricks of a volume a picture can leap over.
+// Which bricks of a volume a ray can leap over.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace octascope::ui {
 
-// What the picture shows, as far as emptiness is concerned.
+// What makes a brick empty, given what the picture shows.
 enum class Visibility : std::uint8_t {
-  range,     // a brick is empty where none of the levels in it can be seen
-  maximum,   // … where no level up to its highest can be seen: for the maximum along a ray
+  range,     // empty if none of its levels is visible
+  maximum,   // empty if no level up to its highest is visible: for the maximum along a ray
   everything // no brick is empty
 };
 

@@ -1,5 +1,4 @@
-// The volume as the ray caster reads it: one 4-byte load brings the corners of a cell in one
-// B-scan.
+// The volume in the ray caster's layout: one 4-byte load fetches a cell's corners in one B-scan.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +10,8 @@
 namespace octascope::ui {
 
 // Levels of two neighbouring A-scans interleaved, depth fastest: [b cell row][a cell][z][2]. Row r
-// holds B-scan r−1, the first and last are repeated; cells as pipeline/volume/occupancy.h numbers them.
-// Twice the volume's memory and one pass of copying, for half of the loads of every sample.
+// holds B-scan r−1, the first and last are repeated; cells as pipeline/volume/occupancy.h numbers
+// them. Costs twice the volume's memory and a copy, and halves the loads of every sample.
 //
 // Threads: update() of different B-scans may run at the same time. Allocates when it is made.
 class CellVolume {
@@ -20,10 +19,10 @@ public:
   CellVolume() = default;
   explicit CellVolume(const pipeline::VolumeGeometry& geometry);
 
-  // Offsets are 32 bits in the kernels.
+  // Whether the kernels' 32-bit offsets suffice.
   static bool fits(const pipeline::VolumeGeometry& geometry);
 
-  // Takes the levels [a][z] of one B-scan.
+  // Copies the levels [a][z] of one B-scan.
   void update(int b, std::span<const std::uint8_t> levels) noexcept;
 
   const pipeline::VolumeGeometry& geometry() const { return geometry_; }

@@ -7,9 +7,9 @@
 
 namespace octascope::ui {
 
-// Zeroed bytes on pages of 2 MiB where the kernel gives them: with pages of 4 KiB, nearly every
-// load of a ray that crosses B-scans misses the translation cache, and a picture takes three times
-// as long. Without large pages it works as well, slower.
+// Zeroed bytes on pages of 2 MiB where the kernel provides them: with 4 KiB pages nearly every load
+// of a ray that crosses B-scans misses the translation cache, and a picture takes three times as
+// long. Works without large pages, more slowly.
 class LargeBuffer {
 public:
   LargeBuffer() = default;

@@ -1,4 +1,4 @@
-// Vessels laid into a volume's picture by the processor.
+// Composites vessels into a volume's picture on the processor.
 #pragma once
 
 #include "ui/depth_mask/depth_image.h"
@@ -6,9 +6,9 @@
 
 namespace octascope::ui {
 
-// `image` is the volume up to the vessels. Where there is one, its colour goes under what is there;
-// and where it is not opaque, that is mixed with `alone`, the volume without vessels, which may be
-// null only where `opacity` is 1. What was drawn grows to hold all vessels. All are of one size.
+// `image` is the volume up to the vessels. A vessel's colour is composited under it; if vessels are
+// not opaque, the result is mixed with `alone`, the volume without vessels, which may be null only
+// if `opacity` is 1. The drawn rectangle grows to hold all vessels. All images have the same size.
 void merge_mask(RayImage& image, const DepthImage& vessels, float opacity, const RayImage* alone);
 
 } // namespace octascope::ui

@@ -1,8 +1,8 @@
 // Volume pictures on the processor: rays through the volume, front to back.
 //
-// Source of the technique: M. Levoy, "Efficient ray tracing of volume data", ACM Transactions on
-// Graphics 9 (1990): early termination, and leaping over what is empty. Colour, opacity, blank
-// depths and dither are those of stack.frag, so that both draw the same settings.
+// Source: M. Levoy, "Efficient ray tracing of volume data", ACM Transactions on Graphics 9 (1990):
+// early termination, and leaping over empty space. Colour, opacity, blank depths and dither are
+// those of stack.frag, so that both draw the same settings.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ namespace octascope::ui {
 
 enum class RayMode : std::uint8_t {
   composite, // colour and opacity, front to back
-  shaded,    // the same, with light from the eye on slopes of the level, darker with distance
+  shaded,    // the same, lit from the eye on slopes of the level, darker with distance
   maximum    // the highest level along each ray, as opaque as it is bright
 };
 
@@ -36,40 +36,41 @@ struct RayImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint32_t> rgba; // premultiplied; red in the lowest 8 bits
-  std::vector<float> depth_mm;     // distance along the view to where half is hidden, or no_depth
-  Rect drawn;                      // everything outside is transparent, and so is its border, but
-                                   // where that is the image's
+  std::vector<float> depth_mm;     // distance along the view at which half is hidden, or no_depth
+  Rect drawn;                      // transparent outside; its border is transparent, too, unless it
+                                   // is the image's
 
-  void make_room(int most_wide, int most_high); // resize() up to this then allocates nothing
-  void resize(int new_width, int new_height);   // allocates only to grow; leaves it transparent
-  void draw_into(const Rect& rect);             // clears what was drawn and is not in it
+  void make_room(int most_wide, int most_high); // up to this size, resize() then allocates nothing
+  void resize(int new_width, int new_height);   // allocates only to grow; leaves the image
+                                                // transparent
+  void draw_into(const Rect& rect);             // sets `drawn` and clears what was drawn outside it
 };
 
 struct RaySettings {
   RayMode mode = RayMode::composite;
   float step_mm = 0;                 // along each ray
-  bool leap_empty = true;            // false changes no picture, only the time that it takes
+  bool leap_empty = true;            // affects only speed, not the picture
   const DepthImage* stops = nullptr; // of the same size: where vessels end the rays
 };
 
 // Threads: bound to one, but for its own helpers. draw() allocates nothing but the image.
 class RayCaster {
 public:
-  // `helpers` threads beside the caller's. `isa` names an instruction set, else the widest is
-  // taken. ErrorCode::unsupported: this processor has none that is compiled in.
+  // `helpers` threads besides the caller's. `isa` names an instruction set; empty: the widest.
+  // ErrorCode::unsupported: none that this processor has is compiled in.
   static hal::Result<RayCaster> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
                                        std::string_view isa = {});
 
   // Copies both. ErrorCode::unsupported: too large for 32-bit offsets. ErrorCode::invalid_argument:
-  // the occupancy is of another geometry. The last volume then stays.
+  // the occupancy is of another geometry. After an error the last volume stays.
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
 
-  // Shows in the next draw(). Compares, and forgets nothing when both are the same.
+  // Takes effect in the next draw(). Does nothing if the table is unchanged.
   void set_transfer(const TransferTable& transfer);
 
   // The camera is that of ui/view/camera.h for the volume's extents. ErrorCode::invalid_argument:
-  // there is no volume, the image has no pixels, or the step is not a positive share of the box, or
-  // the stops are of another size.
+  // no volume, an image without pixels, a step that is not a positive share of the box, or stops of
+  // another size.
   hal::Result<> draw(const Camera& camera, const RaySettings& settings, RayImage& image);
 
   bool empty() const { return !cells_; }

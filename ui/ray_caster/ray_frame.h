@@ -1,4 +1,4 @@
-// What the ray-casting kernels are told about one picture.
+// The ray-casting kernels' input for one picture.
 #pragma once
 
 #include <cstdint>
@@ -6,25 +6,24 @@
 
 namespace octascope::ui {
 
-// Depth of pixels whose rays meet less than half an opacity.
+// Depth of pixels whose rays reach less than half opacity.
 inline constexpr float no_depth = std::numeric_limits<float>::infinity();
 
-// Below this transparency a ray ends, and what it would have met counts as of the same colour as
-// what it has: a picture errs by at most a 128th of the difference between the two.
+// Below this transparency a ray ends, and the remainder is taken to have the colour gathered so
+// far: the error is at most a 128th of the difference between the two.
 inline constexpr float opaque_transparency = 1.0F / 128;
 
-// Gradient lighting by a lamp at the eye. Where the gradient is weak there is no surface, and the
-// light does not depend on its direction.
+// Gradient lighting by a lamp at the eye. A weak gradient means no surface, so there the light does
+// not depend on its direction.
 inline constexpr float ambient_light = 0.35F;
 inline constexpr float weak_gradient_counts = 8; // over the distance of gradient_mm()
-inline constexpr float depth_cue = 0.4F;         // what the far end of the box loses
+inline constexpr float depth_cue = 0.4F;         // loss of brightness at the far end of the box
 
-// Of the polynomial that gives opacity from grey.
+// Of the polynomial from grey to opacity.
 inline constexpr int ramp_terms = 6;
 
 // Axes in the order depth, fast, slow; lengths along them in cells (pipeline/volume/occupancy.h),
-// so depth bin 0 has its middle at 0, A-scan 0 and B-scan 0 have theirs at 1. Pointers are
-// borrowed.
+// so depth bin 0 is centred at 0, A-scan 0 and B-scan 0 at 1. Pointers are borrowed.
 struct RayFrame {
   // The volume.
   const std::uint8_t* cells;
@@ -34,7 +33,7 @@ struct RayFrame {
   std::int32_t brick_row;      // bricks from one to the next along the fast axis
   std::int32_t brick_slab;     // … along the slow axis
   std::int32_t brick_octant;   // … from one octant to the next
-  float lower[3];              // the box that is shown
+  float lower[3];              // the visible box
   float upper[3];
 
   // The transfer function.
@@ -67,10 +66,10 @@ struct RayFrame {
   int width;
   int height;
   std::uint32_t* rgba; // premultiplied, red in the lowest 8 bits
-  // Where rays end, pixel by pixel: the bits of a distance along the view in the upper half of each
-  // (ui/depth_mask/depth_image.h). Null: nowhere before the volume does.
+  // Where rays end, per pixel: the bits of a distance along the view in the upper half of each
+  // (ui/depth_mask/depth_image.h). Null: rays end only with the volume.
   const std::uint64_t* stops;
-  float* depth_mm; // along the view; no_depth where there is nothing
+  float* depth_mm; // along the view; no_depth if nothing is there
 };
 
 } // namespace octascope::ui

@@ -1,5 +1,5 @@
-// Rays through the volume, a packet of neighbouring pixels in the lanes of a register. Compiled for
-// every instruction set, chosen at run time.
+// Casts rays through the volume, a packet of neighbouring pixels in the lanes of a register.
+// Compiled for every instruction set, chosen at run time.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Tile {
   int y;
 };
 
-// How levels become light: through tables, in grey or in colour, or along a grey ramp.
+// How levels become light: by tables, in grey or in colour, or by a grey ramp.
 enum class Look : std::uint8_t { grey, coloured, ramp };
 
 // Functions of one instruction set. Each draws one tile and neither allocates nor locks.
@@ -28,7 +28,7 @@ struct RayKernels {
   Draw maximum;
 };
 
-// The widest that this processor has, or the one named `isa`; nullptr where it has no such one.
+// The widest that this processor has, or the one named `isa`; nullptr if there is none.
 const RayKernels* ray_kernels(std::string_view isa = {});
 
 } // namespace octascope::ui

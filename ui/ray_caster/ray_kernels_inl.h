@@ -10,7 +10,7 @@
 
 #include "ui/ray_caster/ray_kernels.h"
 
-#if HWY_TARGET == HWY_SCALAR // no permutations of bytes: GL draws on such processors
+#if HWY_TARGET == HWY_SCALAR // no byte permutations: GL draws on such processors
 
 HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {
@@ -34,13 +34,13 @@ namespace octascope::ui::HWY_NAMESPACE {
 
 inline constexpr int square_size = 16; // pixels whose packets take turns
 static_assert(tile_size % square_size == 0 && square_size % packet_height == 0);
-inline constexpr int samples_per_check = 4; // between two looks at the bricks
+inline constexpr int samples_per_check = 4; // between two brick look-ups
 
-// What the lanes of a packet have become.
+// The light gathered in each lane.
 struct Light {
   Real red, green, blue; // premultiplied, 0…65535
   Real transparency;
-  Int half_opaque; // the sample that made it so
+  Int half_opaque; // the sample at which it became so
 
   HWY_INLINE static Light none() {
     return {hn::Zero(Floats{}), hn::Zero(Floats{}), hn::Zero(Floats{}), real(1), hn::Zero(Ints{})};
@@ -56,8 +56,8 @@ HWY_INLINE Real upper_16_bits(Int v) {
                        hn::BitCast(Ints{}, hn::ShiftRight<16>(hn::BitCast(Unsigned{}, v))));
 }
 
-// By how much light from the eye is weakened by the slope of the surface, if there is one. The
-// gradient comes from four samples at the corners of a tetrahedron.
+// Attenuation of light from the eye by the slope of the surface, if there is one. The gradient
+// comes from four samples at the corners of a tetrahedron.
 HWY_INLINE Real shade(const RayFrame& frame, const Rays& rays, const Position& p, IntMask valid) {
   const auto bound = [&](int axis, Int p) {
     const auto fixed = [](float cells) { return static_cast<std::int32_t>(cells * one_cell); };
@@ -97,7 +97,7 @@ HWY_INLINE Real fade_with_depth(const RayFrame& frame, const Rays& rays, Int sam
   return hn::NegMulAdd(hn::Min(hn::Max(share, real(0)), real(1)), real(depth_cue), real(1));
 }
 
-// What one sample is: opacity 0…1, colours 0…65535.
+// One sample: opacity 0…1, colours 0…65535.
 struct Substance {
   Real opacity, red, green, blue;
 };
@@ -110,7 +110,7 @@ template <Look How> HWY_INLINE Substance classify(const RayFrame& frame, Int lev
                                  real(frame.ramp_offset - rounded_up * frame.ramp_scale));
     const Real inside = hn::Min(hn::Max(ramp, real(0)), real(1));
     const Real grey = hn::IfThenElseZero(hn::RebindMask(Floats{}, valid), inside);
-    // In pairs: half as many operations wait for each other.
+    // In pairs, to shorten the chain of dependent operations.
     const auto pair = [&](int power) {
       return hn::MulAdd(grey, real(frame.ramp_opacity[power + 1]), real(frame.ramp_opacity[power]));
     };
@@ -130,7 +130,7 @@ template <Look How> HWY_INLINE Substance classify(const RayFrame& frame, Int lev
   }
 }
 
-// A sample whose loads are under way.
+// A sample whose loads are in flight.
 struct Sample {
   Position position;
   Int number;
@@ -167,7 +167,7 @@ HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, const Sample
   }
 }
 
-// Where the packet's first ray is in tissue, most others are: not worth asking for each.
+// If the packet's first ray is in tissue, so are most others: looking each up does not pay.
 HWY_INLINE bool first_ray_in_tissue(const RayFrame& frame, const Rays& rays) {
   if (hn::GetLane(rays.next) >= hn::GetLane(rays.end))
     return false;
@@ -178,8 +178,8 @@ HWY_INLINE bool first_ray_in_tissue(const RayFrame& frame, const Rays& rays) {
   return (frame.bricks[brick] & 0xFF) == 0;
 }
 
-// Moves active lanes out of empty bricks for as long as half of them are in one; the few that are
-// left take samples of what is empty, which changes nothing.
+// Moves active lanes out of empty bricks as long as half of them are in one; the other lanes then
+// sample empty space, which changes nothing.
 HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
   if (first_ray_in_tissue(frame, rays))
     return;
@@ -197,14 +197,14 @@ HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
   }
 }
 
-// Some samples farther; false when all rays have ended.
+// Advances by some samples; false once all rays have ended.
 template <bool Shaded, Look How>
 HWY_INLINE bool advance(const RayFrame& frame, Rays& rays, Light& light) {
   leap_empty_bricks(frame, rays);
   if (hn::AllFalse(Ints{}, rays.active()))
     return false;
-  // The loads of a sample are under way while the one before it is worked on: the processor does
-  // not see far enough ahead to begin them by itself.
+  // Loads a sample while the one before it is processed: the processor does not look far enough
+  // ahead to begin the loads by itself.
   Light result = light;
   Sample sample = begin_sample(frame, rays, rays.position, rays.next);
   for (int i = 1; i < samples_per_check; ++i) {
@@ -234,7 +234,7 @@ template <Look How> HWY_INLINE void complete(Light& light) {
   light.blue = How == Look::coloured ? hn::Div(light.blue, share) : light.red;
 }
 
-// Moves active lanes on until each is in a brick with a level above `highest`.
+// Advances active lanes until each is in a brick with a level above `highest`.
 HWY_INLINE void leap_lower_bricks(const RayFrame& frame, Rays& rays, Int highest) {
   const Int highest_level = hn::ShiftRight<level_shift>(highest);
   while (true) {
@@ -251,7 +251,7 @@ HWY_INLINE void leap_lower_bricks(const RayFrame& frame, Rays& rays, Int highest
   }
 }
 
-// The highest level along each ray and where it was.
+// The highest level along each ray and where it occurred.
 struct Highest {
   Int level;
   Int sample;
@@ -319,8 +319,8 @@ HWY_INLINE void for_each_packet(const RayFrame& frame, Tile tile, DrawPacket dra
     }
 }
 
-// Packets of a square take turns: what one has brought into the first-level cache, its neighbours
-// use while it is there.
+// The packets of a square take turns, so that neighbours use what one has loaded into the
+// first-level cache.
 template <bool Shaded, Look How> void draw_square(const RayFrame& frame, int left, int top) {
   constexpr int across = square_size / packet_width;
   constexpr int packets = across * (square_size / packet_height);

@@ -25,12 +25,12 @@ inline constexpr int packet_height = lanes / packet_width;
 struct Rays {
   Position position; // of the sample `next`
   BrickAxes axes;
-  Int octant;           // where its bricks begin
+  Int octant;           // where the bricks of its octant begin
   RealVector direction; // mm per mm
   Real first_mm;
-  Real cosine; // between ray and view
+  Real cosine; // of the angle between ray and view
   Int next;
-  Int end; // behind the last sample
+  Int end; // after the last sample
 
   HWY_INLINE IntMask active() const { return hn::Lt(next, end); }
   HWY_INLINE void step() {
@@ -64,15 +64,15 @@ HWY_INLINE void clip(Interval& interval, float lower, float upper, float eye, Re
   interval.to = hn::Min(interval.to, hn::Max(at_lower, at_upper));
 }
 
-// 0…1, evenly spread over any small neighbourhood: transfer.glsl has the source.
+// 0…1, evenly spread over any small neighbourhood; source in transfer.glsl.
 HWY_INLINE Real dither(Real x, Real y_from_bottom) {
   const auto fraction = [](Real v) { return hn::Sub(v, hn::Floor(v)); };
   const Real sum = hn::MulAdd(x, real(0.06711056F), hn::Mul(y_from_bottom, real(0.00583715F)));
   return fraction(hn::Mul(fraction(sum), real(52.9829189F)));
 }
 
-// Distances along the view; x and y are the packet's first pixel. What is beyond the picture takes
-// those of its border.
+// Distances along the view; x and y are the packet's first pixel. Pixels beyond the picture take
+// the border's values.
 HWY_INLINE Real stops_of(const RayFrame& frame, int x, int y) {
   alignas(64) float distances[lanes];
   for (int i = 0; i < lanes; ++i) {
@@ -122,7 +122,7 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
   if (frame.stops != nullptr)
     inside.to = hn::Min(inside.to, hn::Mul(stops_of(frame, x, y), length));
 
-  // Samples of all rays lie on the same shells around the eye, moved by each pixel's dither.
+  // Samples of all rays lie on the same shells around the eye, shifted by each pixel's dither.
   const Real shift = dither(px, hn::Sub(real(static_cast<float>(frame.height)), py));
   const Real step = real(frame.step_mm);
   const Real per_step = real(1 / frame.step_mm);

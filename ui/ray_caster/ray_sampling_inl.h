@@ -1,10 +1,10 @@
-// Levels between voxels, and the way through empty bricks. For one instruction set; see
+// Interpolates levels between voxels and leaps over empty bricks. For one instruction set; see
 // ray_kernels.h.
 //
-// Positions are cells with 16 bits after the point. A gather brings the four corners of a cell in
-// one B-scan; interpolation is in integers of 16 bits: 8-bit weights along the slow axis, 16-bit
-// ones along the fast one, 15-bit ones along depth. Errors stay below a thirtieth of a level along
-// the last two and below half a 256th of the difference of two B-scans along the first.
+// Positions are cells with 16 fractional bits. A gather fetches the four corners of a cell in one
+// B-scan; interpolation is in 16-bit integers: 8-bit weights along the slow axis, 16-bit ones along
+// the fast one, 15-bit ones along depth. Errors stay below a thirtieth of a level along the last
+// two and below half a 256th of the difference of two B-scans along the first.
 #if defined(OCTASCOPE_RAY_SAMPLING_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_RAY_SAMPLING_INL
 #undef OCTASCOPE_RAY_SAMPLING_INL
@@ -62,12 +62,12 @@ HWY_INLINE Int gather(const void* base, Int byte_offset) {
   return hn::GatherOffset(Ints{}, static_cast<const std::int32_t*>(base), byte_offset);
 }
 
-// Two products of neighbouring words, added.
+// Sums of two products of neighbouring words.
 HWY_INLINE Int dot_pairs(hn::Vec<Words> a, hn::Vec<Words> b, Int start) {
 #if HWY_ARCH_X86
   Int unused = hn::Zero(Ints{});
   return hn::ReorderWidenMulAccumulate(Ints{}, a, b, start, unused);
-#else // elsewhere that adds up other pairs
+#else // elsewhere it adds up other pairs
   const Int a_both = hn::BitCast(Ints{}, a);
   const Int b_both = hn::BitCast(Ints{}, b);
   const auto low = [](Int v) { return hn::ShiftRight<16>(hn::ShiftLeft<16>(v)); };
@@ -131,8 +131,7 @@ HWY_INLINE Int table_entry(const std::uint32_t* table, Int level) {
                          hn::ShiftRight<entry_shift>(level));
 }
 
-// Steps that a ray can take without leaving an empty brick and those around it: what is needed of
-// it along one axis.
+// Per axis: what is needed to compute how many steps a ray can take without leaving empty bricks.
 struct BrickAxis {
   Int step;      // cells a sample
   Int towards;   // all ones for rays that go up this axis
@@ -164,8 +163,8 @@ inline constexpr int brick_z_shift = 16 + pipeline::brick_depth_shift;
 inline constexpr int brick_a_shift = 16 + pipeline::brick_a_shift;
 inline constexpr int brick_b_shift = 16 + pipeline::brick_b_shift;
 
-// DistancesAhead's number for the brick that holds p, of an octant whose bricks begin there:
-// distance in bits 0–7, highest level in 8–15.
+// DistancesAhead's number for the brick that holds p, where `octant` is the start of the octant's
+// bricks: distance in bits 0–7, highest level in 8–15.
 HWY_INLINE Int brick_at(const RayFrame& frame, Int octant, const Position& p, IntMask valid) {
   const Int index =
       hn::Add(hn::Add(hn::Mul(hn::ShiftRight<brick_b_shift>(p.b), whole(frame.brick_slab)),
@@ -174,8 +173,8 @@ HWY_INLINE Int brick_at(const RayFrame& frame, Int octant, const Position& p, In
   return gather(frame.bricks, hn::ShiftLeft<1>(hn::IfThenElseZero(valid, index)));
 }
 
-// To the first sample outside; at least one. The hundredth of a sample that is left to rounding
-// makes sure that no sample behind the side is missed: skipping does not change the picture.
+// To the first sample outside; at least one. A hundredth of a sample is kept for rounding, so that
+// no sample behind the side is missed: skipping does not change the picture.
 HWY_INLINE Int samples_to_leap(const BrickAxes& axes, const Position& p, Int more) {
   const Real samples = hn::Min(samples_to_side<brick_z_shift>(axes.z, p.z, more),
                                hn::Min(samples_to_side<brick_a_shift>(axes.a, p.a, more),

@@ -1,4 +1,4 @@
-// A transfer function as the ray-casting kernels read it, for one length of step.
+// A transfer function in the ray-casting kernels' format, for one step length.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace octascope::ui {
 
-// What the kernels read: one entry for each of TransferTable's.
+// One entry for each of TransferTable's.
 struct StepTable {
   // Opacity of one step in the upper 16 bits, red or grey in the lower ones, both 65535 for 1.
   std::array<std::uint32_t, TransferTable::entries> opacity_and_red{};
@@ -20,7 +20,7 @@ struct StepTable {
   bool grey = true;                                                   // all channels are the same
   VisibleLevels visible{};
 
-  // grey · polynomial(grey) instead of the tables, where that comes within 1e-4 of the opacity.
+  // grey · polynomial(grey) instead of the tables, if within 1e-4 of the opacity.
   struct Ramp {
     WindowRamp window;
     std::array<float, ramp_terms> opacity;

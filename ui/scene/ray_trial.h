@@ -16,9 +16,9 @@ struct RayTrial {
   }
 };
 
-// Draws a made-up volume with both, into textures of its own: about a tenth of a second where
-// GL is software. Bound to the thread and context that are current. ErrorCode::unsupported: one of
-// the two cannot draw here, so there is nothing to choose.
+// Draws a synthetic volume with both, into its own textures: about a tenth of a second with
+// software GL. Bound to the thread and context that are current. ErrorCode::unsupported: one of the
+// two cannot draw here, so there is no choice.
 hal::Result<RayTrial> try_ray_backends(const hal::Clock& clock);
 
 } // namespace octascope::ui

@@ -1,4 +1,4 @@
-// A vessel tree alone, with a scale bar: for pictures that are kept.
+// A vessel tree alone, with a scale bar: for saved pictures.
 #pragma once
 
 #include <utility>
@@ -18,9 +18,9 @@ public:
   // ErrorCode::unsupported: this GL cannot compile our shaders.
   static hal::Result<VesselStill> create();
 
-  // Over the whole of the bound framebuffer, of which the viewport is left as large as the scene:
-  // on the display's background, with a bar at the lower left that says how long a millimetre is
-  // where `mm_per_pixel` holds. Faults as VesselPicture::draw() and Fonts::create().
+  // Draws over the whole of the bound framebuffer, on the display's background, with a bar at the
+  // lower left that is one millimetre where `mm_per_pixel` holds. Leaves the viewport as large as
+  // the scene. Errors as VesselPicture::draw() and Fonts::create().
   hal::Result<SegmentCounts> draw(VesselMethod& method, const VesselScene& scene,
                                   float mm_per_pixel);
 

@@ -1,5 +1,5 @@
-// The volume on the display: takes volumes, keeps one picture of them an eye, and lets GL or the
-// processor draw it.
+// The volume on the display: takes volumes, keeps one picture per eye, and has GL or the processor
+// draw it.
 #pragma once
 
 #include <array>
@@ -23,28 +23,28 @@
 namespace octascope::ui {
 
 // Threads: as gl/objects.h, but for the ray caster's own helpers. Allocates when the size or the
-// geometry changes, or a technique, an eye or a backend is used for the first time.
+// geometry changes, or a technique, an eye or a backend is first used.
 class VolumePainter {
 public:
-  // `threads` is called on each thread that is started here, at once or later: "rays" (several:
-  // the ray caster's helpers) and "surface" (the iso-surface's), and is kept.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // `threads` is kept and called on each thread that is started here, now or later: "rays"
+  // (several: the ray caster's helpers) and "surface" (the iso-surface's). ErrorCode::unsupported:
+  // this GL cannot compile our shaders.
   static hal::Result<VolumePainter> create(const TransferSet& transfers = {},
                                            const pipeline::ThreadSetup& threads = {});
 
-  // Copies the volume, and its occupancy where that is known already (without the blank depth
-  // bins); else works it out. ErrorCode::invalid_argument: the occupancy is of another geometry. On
-  // that and on the errors of VolumeTexture::upload(), the last volume stays.
+  // Copies the volume and, if known already (without the blank depth bins), its occupancy, which is
+  // otherwise computed. ErrorCode::invalid_argument: the occupancy is of another geometry. After
+  // this or an error of VolumeTexture::upload() the last volume stays.
   hal::Result<> show(const pipeline::Volume& volume);
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
 
-  // From the next update() on, where the view shows vessels. The tree stays borrowed until others
-  // are shown; an empty one shows none. `clock` outlives this. ErrorCode::unsupported: this
+  // From the next update() on, if the view shows vessels. The tree stays borrowed until another is
+  // shown; an empty one shows none. `clock` must outlive this. ErrorCode::unsupported: this
   // processor cannot draw vessels.
   hal::Result<> show_vessels(const PlacedVessels& vessels, const hal::Clock& clock);
   const VesselOverlay* vessels() const { return vessels_ ? &*vessels_ : nullptr; }
 
-  // Has the processor ready to cast the rays of volumes that are shown from now on.
+  // Prepares the processor to cast the rays of volumes shown from now on.
   void want_processor();
 
   // Brings the eye's picture up to date; `camera` is that eye's, for the rectangle's aspect.
@@ -53,13 +53,13 @@ public:
   // Blends it over the bound framebuffer.
   void composite(StereoEye eye, const Rect& rect, int target_height) const;
 
-  // The view needs data that was not computed for the shown volume: show() it again.
+  // Whether the view needs data not computed for the shown volume: then show() it again.
   bool wants_volume(const ViewState& view) const;
-  // update() would make another picture of the same volume and view: a mesh has been finished.
+  // Whether update() would make another picture of the same volume and view: a mesh has been
+  // finished.
   bool has_newer(const ViewState& view) const;
-  // Waits until update() has all that it needs for the view at that quality (a mesh, the
-  // processor's copy of the volume): for commands and tests. `volume` is the one that was shown
-  // last.
+  // Waits until update() has everything for the view at that quality (a mesh, the processor's copy
+  // of the volume): for commands and tests. `volume` is the one shown last.
   hal::Result<> finish(const pipeline::Volume& volume, const ViewState& view,
                        const DrawQuality& quality = {});
 
@@ -67,20 +67,20 @@ public:
   const VolumeTexture& texture() const { return texture_; }
   std::uint64_t uploads() const { return uploads_; } // counts the volumes shown
 
-  // Counts the pictures that update() made; it makes none where nothing has changed.
+  // Counts the pictures that update() made; none if nothing changed.
   std::uint64_t drawings() const;
 
-  // Who casts rays with that quality. The processor does from the first volume on that is shown
-  // after it was first asked to, or where GL is software, always; but not volumes that are too
-  // large for the ray caster, nor where that knows no instruction set of the processor.
+  // Which backend casts rays at that quality. The processor always if GL is software, else from the
+  // first volume shown after it was first requested; never for volumes too large for the ray
+  // caster, or on a processor that it does not support.
   RayBackend backend(const DrawQuality& quality) const;
 
 private:
   struct EyePictures {
     VolumePicture by_gl;
-    std::optional<VolumePicture> alone_by_gl; // where vessels are not opaque
+    std::optional<VolumePicture> alone_by_gl; // if vessels are not opaque
     std::optional<RayCastPicture> by_processor;
-    bool processor_drew = false; // the last update()
+    bool processor_drew = false; // in the last update()
   };
 
   VolumePainter(bool software, const TransferSet& transfers, const pipeline::ThreadSetup& threads);
@@ -116,10 +116,10 @@ private:
   TransferTexture transfer_texture_;
   std::optional<TransferSource> transfer_source_;
   VolumeTechniques techniques_;
-  std::optional<VesselOverlay> vessels_; // nothing until some are shown
-  std::optional<RayCaster> caster_;      // nothing until it is wanted
+  std::optional<VesselOverlay> vessels_; // empty until some are shown
+  std::optional<RayCaster> caster_;      // empty until it is wanted
   bool caster_wanted_ = false;
-  bool caster_shows_ = false; // the same volume as the texture
+  bool caster_shows_ = false; // it holds the same volume as the texture
   bool surface_shows_ = false;
   std::array<std::optional<EyePictures>, 2> pictures_; // the second is the right eye's
 };

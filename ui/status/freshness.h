@@ -9,18 +9,18 @@
 namespace octascope::ui {
 
 enum class Liveness : std::uint8_t {
-  waiting, // no volume has come yet
+  waiting, // no volume has arrived yet
   live,
   stale,    // no fresh volume for more than one and a half volume periods
   veiled,   // none for longer than the limit: the picture is covered
   frozen,   // by the surgeon
-  replayed, // what is shown was recorded: it is never live, and cannot become stale either
+  replayed, // the volume was recorded: never live, never stale
 };
 
-// What is on the screen, as times.
+// The volume on the screen, as times.
 struct ShownVolume {
   hal::TimePoint last_line; // camera timestamp of the volume's last line: its age counts from here
-  hal::TimePoint arrived;   // when it could be shown: its successor is due one period later
+  hal::TimePoint arrived;   // when it could first be shown: its successor is due one period later
   bool replayed = false;    // from a recording
   bool operator==(const ShownVolume&) const = default;
 };
@@ -38,8 +38,8 @@ struct Freshness {
   bool operator==(const Freshness&) const = default;
 };
 
-// Pure. `frozen_since` is empty unless the surgeon has frozen the picture; freezing wins over
-// staleness, because a frozen picture says with its own badge that it does not move.
+// Pure. `frozen_since` is empty unless the surgeon has frozen the picture; freezing takes
+// precedence over staleness, since a frozen picture is marked by its own badge.
 Freshness judge_freshness(const std::optional<ShownVolume>& shown, hal::TimePoint now,
                           const FreshnessLimits& limits,
                           const std::optional<hal::TimePoint>& frozen_since);

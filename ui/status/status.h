@@ -38,32 +38,32 @@ struct Losses {
 struct VesselStatus {
   enum class State : std::uint8_t { none, loading, shown, failed };
   State state = State::none;
-  float progress = 0;      // 0…1, while it is loaded
+  float progress = 0;      // 0…1, while loading
   bool registered = false; // to the volume; else its place in the picture has no meaning
-  std::array<bool, pipeline::vessel_branch_count> branches{}; // which ones it has
+  std::array<bool, pipeline::vessel_branch_count> branches{}; // those present
   SegmentCounts account;                                      // of the newest frame that drew it
   bool operator==(const VesselStatus&) const = default;
 };
 
-// Of a recording that is shown instead of the live volume.
+// The recording that is shown instead of live volumes.
 struct ReplayStatus {
   std::string recorded; // local date and time of the shown volume; empty: none is shown yet
   std::string whose;    // eye and subject of the recording, or that they are unknown
   bool operator==(const ReplayStatus&) const = default;
 };
 
-// Whether the configuration is the one that was asked for.
+// Whether the configuration is the requested one.
 enum class ConfigurationState : std::uint8_t {
   own,
-  last_good, // an older one, because that one cannot be used
-  built_in,  // the program's own: scale and calibration may be another device's
+  last_good, // an older one, because the requested one cannot be used
+  built_in,  // the program's own: scale and calibration may not match the devices
 };
 
 // Volumes are being kept.
 struct RecordingStatus {
   bool on = false;
   hal::Duration lasted{};
-  std::uint64_t not_kept = 0; // volumes for which the disk was too slow
+  std::uint64_t not_kept = 0; // volumes lost because the disk was too slow
   pipeline::Eye eye = pipeline::Eye::not_said;
   bool operator==(const RecordingStatus&) const = default;
 };
@@ -76,7 +76,7 @@ struct Status {
   double volumes_per_s = 0;
   double lines_per_s = 0;
   double frames_per_s = 0;
-  // Camera timestamp of a volume's last line → first frame that shows it. Empty: none measured.
+  // Camera timestamp of a volume's last line → first frame that shows it. Empty: not measured.
   std::optional<double> latency_p50_ms;
   std::optional<double> latency_p95_ms;
   Losses losses;
@@ -95,14 +95,14 @@ struct Status {
   int missing_b_scans = 0; // of the shown volume
   int saturated_lines = 0;
 
-  // Set while the volume is drawn more coarsely than it could be: the share of its full fineness.
+  // Set while the volume is drawn with reduced quality: the share of full quality.
   std::optional<float> reduced_quality;
 
   VesselStatus vessels;
 
   RecordingStatus recording;
 
-  // What pedal and knob do, and what keys do; null: nothing to show. They outlive every draw().
+  // What pedal and knob do, and what keys do; null: nothing to show. Must outlive every draw().
   const Legend* legend = nullptr;
   const Legend* key_legend = nullptr;
 

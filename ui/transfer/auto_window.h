@@ -1,4 +1,4 @@
-// A window that suits a volume, from its histogram.
+// Suggests a window for a volume, from its histogram.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ struct DisplayWindow {
   float size_db = 1;
 };
 
-// The lowest high peak of a volume's histogram is the noise floor, and what is below the peak shows
-// how far the noise spreads. The window begins above nearly all of the noise and
-// ends where but a few voxels are brighter. Empty when no B-scan is there. Pure.
+// The lowest high peak of a volume's histogram is taken as the noise floor, and the slope below it
+// as the spread of the noise. The window begins above nearly all of the noise and ends where only a
+// few voxels are brighter. Empty if no B-scan is present. Pure.
 std::optional<DisplayWindow> suggest_window(const LevelHistogram& histogram);
 std::optional<DisplayWindow> suggest_window(const pipeline::Volume& volume);
 

@@ -1,4 +1,4 @@
-// Colours for what lies at a place in the display window.
+// Colours by place in the display window.
 #pragma once
 
 #include <string>
@@ -14,14 +14,14 @@ public:
   // At least two colours, evenly spread over the window; linear between them.
   ColourMap(std::string name, std::vector<TransferTable::Colour> samples);
 
-  // Black to white: grey = u, as the paper's formula (1) has it.
+  // Black to white: grey = u, the paper's formula (1).
   static ColourMap grey();
   // Made in OKLab (ui/transfer/oklab.h): lightness rises linearly with u, so that equal steps of
-  // the level look alike and brighter is always more, in black and white and to the colour-blind,
-  // too.
+  // the level look alike and brighter always means more, also in black and white and to the
+  // colour-blind.
   static ColourMap amber();      // one hue, warm
   static ColourMap blue_green(); // one hue, cool
-  static ColourMap dawn();       // violet, red, yellow: tells the most levels apart
+  static ColourMap dawn();       // violet, red, yellow: distinguishes the most levels
 
   const std::string& name() const { return name_; }
   // u is clamped to 0…1.

@@ -13,16 +13,16 @@ namespace octascope::ui {
 struct LevelHistogram {
   std::array<std::uint32_t, 256> counts{};
 
-  // For drawing: 128 bars, a decibel each from lowest_level_db on, 1 for the highest. The share of
-  // a bar is the square root of its count's, so that the few bright voxels can be seen beside the
+  // For drawing: 128 bars of one decibel each from lowest_level_db on, 1 for the highest. A bar's
+  // height is the square root of its count, so that the few bright voxels are visible beside the
   // noise. Level 0, where nothing was measured, is left out. All 0 for an empty histogram.
   static constexpr std::size_t bars = 128;
   std::array<float, bars> shares() const;
 };
 
-// Of A-scans spread evenly over the volume, at most about half a million voxels: less than a
-// millisecond, and the same for the same volume. Leaves out missing B-scans and the first two depth
-// bins, which hold what the background left behind. Pure.
+// Counts A-scans spread evenly over the volume, at most about half a million voxels: takes less
+// than a millisecond and is deterministic. Leaves out missing B-scans and the first two depth bins,
+// which hold residual background. Pure.
 LevelHistogram make_level_histogram(const pipeline::Volume& volume);
 
 } // namespace octascope::ui

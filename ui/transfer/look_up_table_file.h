@@ -13,7 +13,7 @@ namespace octascope::ui {
 // 2 to 4096 entries, evenly spread over the display window from its offset to its upper end.
 struct LookUpTable {
   std::vector<float> opacities;                                   // 0…1
-  std::optional<std::vector<TransferTable::Colour>> colours = {}; // as many
+  std::optional<std::vector<TransferTable::Colour>> colours = {}; // of the same number
 };
 
 // Reads, by the name's ending:

@@ -1,6 +1,6 @@
-// The colour space OKLab: equal distances look alike, and L is the lightness that is seen.
-// Source: B. Ottosson, "A perceptual color space for image processing" (2020); sRGB's transfer
-// curve from IEC 61966-2-1.
+// The colour space OKLab: equal distances look alike, and L is the perceived lightness. Source: B.
+// Ottosson, "A perceptual color space for image processing" (2020); sRGB's transfer curve from IEC
+// 61966-2-1.
 #pragma once
 
 #include "ui/transfer/transfer_table.h"
@@ -14,7 +14,7 @@ struct Oklab {
   float b = 0;
 };
 
-// Colours are sRGB as the display takes it. Those outside of sRGB come out beyond 0…1.
+// Colours are sRGB as the display takes it; those outside its gamut lie beyond 0…1.
 TransferTable::Colour to_srgb(const Oklab& lab);
 Oklab to_oklab(const TransferTable::Colour& srgb);
 

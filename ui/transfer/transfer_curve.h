@@ -24,12 +24,12 @@ public:
   // The paper's formula (1): opacity = u.
   static TransferCurve ramp();
 
-  // 2 to 64 points, u rising, all within 0…1; ErrorCode::invalid_argument says which is not. Before
-  // the first and after the last point the opacity stays.
+  // 2 to 64 points, u rising, all within 0…1; otherwise ErrorCode::invalid_argument. Constant
+  // before the first and after the last point.
   static hal::Result<TransferCurve> piecewise(std::span<const CurvePoint> points);
-  // A cubic Hermite spline that rises and falls only where its points do, so that it never leaves
-  // their range (F. N. Fritsch, R. E. Carlson, "Monotone piecewise cubic interpolation", SIAM
-  // Journal on Numerical Analysis 17, 1980).
+  // A cubic Hermite spline that is monotone between its points, so that it never leaves their range
+  // (F. N. Fritsch, R. E. Carlson, "Monotone piecewise cubic interpolation", SIAM Journal on
+  // Numerical Analysis 17, 1980).
   static hal::Result<TransferCurve> spline(std::span<const CurvePoint> points);
   // 2 to 4096 opacities, evenly spread over the window; linear between them.
   static hal::Result<TransferCurve> table(std::span<const float> opacities);

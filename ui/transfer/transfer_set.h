@@ -17,23 +17,23 @@
 
 namespace octascope::ui {
 
-// What a level looks like is decided by its place u in the display window, so that the window's two
-// knobs steer every transfer function: u = clamp((level − offset) / size, 0, 1).
+// A level is looked up by its place u in the display window, so that the window's two knobs steer
+// every transfer function: u = clamp((level − offset) / size, 0, 1).
 struct TransferFunction {
   std::string name;
   TransferCurve curve;              // opacity over one reference step, times ViewState::opacity
-  std::optional<ColourMap> colours; // its own, else grey
+  std::optional<ColourMap> colours; // its own; empty: grey
 };
 
-// Immutable, and copies share what they hold, so a copy is cheap and may go to any thread.
+// Immutable; copies share their content, so they are cheap and may be used on any thread.
 class TransferSet {
 public:
-  // What is built in. Functions: "window", the paper's formula (1); "smooth", a gentle S that calms
-  // noise and keeps bright tissue apart; "surface", opaque where tissue begins and clearer below.
-  // Colour maps: "grey", "amber", "blue-green", "dawn".
+  // The built-in ones. Functions: "window", the paper's formula (1); "smooth", a gentle S that
+  // calms noise and keeps bright tissue apart; "surface", opaque where tissue begins and clearer
+  // below. Colour maps: "grey", "amber", "blue-green", "dawn".
   TransferSet();
 
-  // These after the built-in ones. ErrorCode::invalid_argument: a name that is there already.
+  // Adds these after the built-in ones. ErrorCode::invalid_argument: a name that exists already.
   hal::Result<TransferSet> with(std::vector<TransferFunction> functions) const;
 
   // In the order of ViewState::transfer and ViewState::colour_map.
@@ -43,8 +43,8 @@ public:
   std::optional<int> function_named(std::string_view name) const;
   std::optional<int> colour_map_named(std::string_view name) const;
 
-  // What the view has chosen; the first where there is no such index. The first colour map stands
-  // for the function's own colours, where it has any.
+  // What the view has chosen; the first if there is no such index. The first colour map means the
+  // function's own colours, if it has any.
   const TransferFunction& function(const ViewState& view) const;
   const ColourMap& colours(const ViewState& view) const;
 
@@ -58,7 +58,7 @@ private:
   std::shared_ptr<const Contents> contents_;
 };
 
-// Samples what the view has chosen. Allocates nothing; some ten microseconds.
+// Samples what the view has chosen. Allocates nothing; takes some ten microseconds.
 void make_transfer_table(const ViewState& view, const TransferSet& set, TransferTable& table);
 
 } // namespace octascope::ui

@@ -24,8 +24,8 @@ struct TransferTable {
   std::array<Colour, entries> colour{}; // 0…1, not premultiplied
   std::array<float, entries> opacity{}; // 0…1, over one reference step
 
-  // Where the table is nothing but a display window: sixteen samples are looked up one by one, but
-  // a ramp is computed for all at once.
+  // Set if the table is only a display window: sixteen samples are looked up one by one, but a ramp
+  // is computed for all at once.
   struct Window {
     WindowRamp ramp;
     float opacity;
@@ -33,8 +33,8 @@ struct TransferTable {
   std::optional<Window> window;
 };
 
-// The paper's formula (1), as the shaders have it: grey rises from 0 to 1 across the window, and
-// opacity is grey · ViewState::opacity.
+// The paper's formula (1), as in the shaders: grey rises from 0 to 1 across the window, and opacity
+// is grey · ViewState::opacity.
 void make_window_table(const ViewState& view, TransferTable& table);
 
 } // namespace octascope::ui

@@ -11,10 +11,10 @@
 
 namespace octascope::ui {
 
-// The table's entries one after the other in the rows of an RGBA32F texture: colour, and the
-// opacity of one reference step. Shaders fetch two neighbours and interpolate (transfer.glsl): GL
-// ES 3.0 promises to filter neighbours of 16 bits only, which is too few for what is nearly opaque,
-// and 2048 texels in a row, which is half a table.
+// The table's entries in the rows of an RGBA32F texture: colour, and the opacity of one reference
+// step. Shaders fetch two neighbours and interpolate (transfer.glsl), since GL ES 3.0 guarantees
+// filtering of 16 bits only, too few for what is nearly opaque, and 2048 texels in a row, half a
+// table.
 //
 // Threads: as gl/objects.h. update() allocates nothing.
 class TransferTexture {
@@ -29,10 +29,10 @@ public:
   void update(const TransferTable& table);
 
   GLuint name() const { return texture_.name(); }
-  // Where the table is a display window, shaders compute it: looking it up costs a software
-  // rasteriser more.
+  // If the table is a display window, shaders compute it: a look-up is slower in a software
+  // rasteriser.
   const std::optional<TransferTable::Window>& window() const { return window_; }
-  // What shaders can see of it.
+  // The visible levels.
   const VisibleLevels& visible() const { return visible_; }
   // Counts the uploads: 0 before the first.
   std::uint64_t version() const { return version_; }

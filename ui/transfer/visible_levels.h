@@ -9,9 +9,9 @@
 namespace octascope::ui {
 
 struct VisibleLevels {
-  // How many entries of the table that can be seen lie before each: a range without any is empty.
+  // The number of visible entries before each entry: a range without any is empty.
   std::array<std::uint16_t, TransferTable::entries + 1> before{};
-  // Entries to either side that count as well, for who interpolates between entries.
+  // Adjacent entries that count as well, for users that interpolate between entries.
   int margin = 0;
 
   bool empty(int lowest_level, int highest_level) const;

@@ -63,7 +63,7 @@ constexpr std::array<Action, action_count> all_actions() {
 enum class ActionKind : std::uint8_t {
   continuous, // moves a value by so many detents
   choice,     // one of several: a step chooses the next, a negative step the one before
-  toggle,     // a press switches over; a knob turned right switches on, left off
+  toggle,     // a press toggles; a knob turned right switches on, left off
   momentary,  // happens once; cannot be turned
   deliberate, // happens once; turned, right does it
 };

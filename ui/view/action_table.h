@@ -1,8 +1,8 @@
-// One row an action: its names, its keys, and what it changes of the view, with range and words.
+// One row per action: its names, its keys, and what it changes in the view, with range and words.
 //
 // Help, legend, key bindings, report and settings are made from these rows. To add an action, add
-// its enumerator (action.h) and its row; if it does more than change the view's value, say what in
-// ViewActions (ui/controls/view_actions.h).
+// its enumerator (action.h) and its row; if it does more than change the view's value, implement
+// that in ViewActions (ui/controls/view_actions.h).
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@ struct ActionKey {
 };
 inline constexpr std::size_t most_keys = 5;
 
-// What an action changes of the view. Each kind of value copies itself from one view to another and
-// tells whether two views have the same.
+// What an action changes in the view. Each kind of value can copy itself between views and compare
+// itself in two views.
 
 struct NoValue {
   static void copy(const ViewState&, ViewState&) {}
@@ -43,8 +43,8 @@ inline constexpr float last_b_scan = std::numeric_limits<float>::infinity();
 
 struct NumberRange {
   float lowest;
-  float highest; // last_b_scan: whichever that is
-  float detent;  // what one click of the knob changes
+  float highest; // last_b_scan: the index of the last B-scan
+  float detent;  // change per click of the knob
 };
 
 // Exactly one of the three pointers is set.
@@ -55,10 +55,10 @@ struct Number {
   std::size_t axis = 0; // of nudge
   NumberRange range{};
   ValueText (*words)(float value) = nullptr; // "36 dB"
-  bool cyclic = false;                       // the highest value is the lowest one, too
+  bool cyclic = false;                       // the highest value equals the lowest
 
   float of(const ViewState& view) const;
-  void set(ViewState& view, float value) const; // brought into the range
+  void set(ViewState& view, float value) const; // clamps to the range
   void copy(const ViewState& from, ViewState& to) const { set(to, of(from)); }
   bool same(const ViewState& a, const ViewState& b) const { return of(a) == of(b); }
 };
@@ -82,7 +82,7 @@ struct Choice {
   bool same(const ViewState& a, const ViewState& b) const { return of(a) == of(b); }
 };
 
-// One of what the configuration names.
+// One of a list that the configuration defines.
 struct NamedChoice {
   int ViewState::*index;
   std::vector<std::string> ChoiceNames::*names;
@@ -93,10 +93,10 @@ struct NamedChoice {
 
 using ActionValue = std::variant<NoValue, Number, Flag, Choice, NamedChoice>;
 
-// What holds for an action, or'ed.
+// Properties of an action, or'ed.
 namespace trait {
 inline constexpr unsigned drawn = 1;          // its value changes the volume's picture
-inline constexpr unsigned home = 2;           // reset_view sets its value back
+inline constexpr unsigned home = 2;           // reset_view resets its value
 inline constexpr unsigned kept = 4;           // its value is a setting, which outlives a run
 inline constexpr unsigned needs_stereo = 8;   // next_parameter skips it unless in stereo
 inline constexpr unsigned needs_vessels = 16; // next_parameter skips it unless vessels are shown
@@ -127,7 +127,7 @@ inline const Number* number_of(Action action) {
   return std::get_if<Number>(&row_of(action).value);
 }
 
-// With numbers for both ends; empty for an action that turns no number.
+// With numbers for both ends; empty for an action without a number.
 NumberRange range_of(Action action, int b_scans = 1);
 
 // For std::visit.

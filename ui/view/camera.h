@@ -23,9 +23,9 @@ inline constexpr float field_of_view_deg = 36; // along the shorter side of the 
 enum class StereoEye : std::uint8_t { centre, left, right };
 
 // The two eyes of a stereo picture look in the same direction, side by side, and their pictures are
-// moved so that the volume's centre is in the middle of both: off-axis projection, which unlike
-// turning the eyes towards each other gives no vertical parallax. Source: P. Bourke, "Calculating
-// stereo pairs" (1999).
+// shifted so that the volume's centre is in the middle of both: off-axis projection, which, unlike
+// converging eyes, gives no vertical parallax. Source: P. Bourke, "Calculating stereo pairs"
+// (1999).
 struct Camera {
   glm::vec3 eye;
   glm::vec3 forward; // unit vectors
@@ -51,8 +51,8 @@ struct Camera {
 // (fast, depth, slow) extents of the volume's box.
 glm::vec3 box_extents_mm(const pipeline::VolumeGeometry& geometry);
 
-// `aspect` is width / height of the picture as the eye sees it, whatever its pixels are. The eyes
-// are ViewState::parallax_deg apart, seen from the volume's centre.
+// `aspect` is width / height of the picture as the eye sees it, whatever the shape of its pixels.
+// The eyes are ViewState::parallax_deg apart, seen from the volume's centre.
 Camera make_camera(const ViewState& view, const glm::vec3& extents_mm, float aspect,
                    StereoEye eye = StereoEye::centre);
 

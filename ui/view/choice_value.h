@@ -1,4 +1,4 @@
-// What there is to choose from, in the order of each enumeration.
+// The available choices, in the order of each enumeration.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ inline constexpr std::array vessel_colouring_values{ChoiceValue{"branch", "main 
                                                     ChoiceValue{"order", "orders"},
                                                     ChoiceValue{"diagnostic", "who drew them"}};
 
-// Names of what the configuration adds to; never empty.
+// Names of a list that the configuration extends; never empty.
 struct ChoiceNames {
   std::vector<std::string> transfers{"window"};
   std::vector<std::string> colours{"grey"};

@@ -1,4 +1,4 @@
-// A short text in place: formatting it allocates nothing.
+// A short text stored in place: formatting allocates nothing.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace octascope::ui {
 
-// Longer text is cut at N bytes, at the border of a UTF-8 character.
+// Longer text is cut at N bytes, at a UTF-8 character boundary.
 template <std::size_t N> class FixedText {
 public:
   FixedText() = default;

@@ -1,11 +1,11 @@
-// Where the segments of a vessel tree went.
+// What became of a vessel tree's segments.
 #pragma once
 
 #include <cstdint>
 
 namespace octascope::ui {
 
-// Where the segments of one frame went; they add up to the tree's.
+// Counts of one frame; they add up to the tree's segments.
 struct SegmentCounts {
   std::uint64_t drawn = 0;    // by GL
   std::uint64_t splatted = 0; // by the processor, pixel by pixel

@@ -17,7 +17,7 @@ enum class VesselColouring : std::uint8_t {
 
 using VesselColour = std::array<float, 3>; // 0…1, as it is displayed
 
-// By VesselBranch: told apart by lightness too, for those who see red and green alike.
+// By VesselBranch; they differ in lightness too, for red-green colour blindness.
 inline constexpr std::array<VesselColour, pipeline::vessel_branch_count> branch_colours{{
     {0.85F, 0.85F, 0.82F},
     {0.93F, 0.33F, 0.24F},
@@ -44,8 +44,8 @@ inline constexpr VesselColour drawn_by_processor{1, 1, 1};
 
 struct VesselLook {
   VesselColouring colouring = VesselColouring::branch;
-  // Brightness falls by this share from the near to the far end of the depth range of what is
-  // drawn; 0: no cue. Near and far are distances along the view, in mm.
+  // Brightness falls by this share from the near to the far end of the depth range drawn; 0: no
+  // cue. Near and far are distances along the view, in mm.
   float depth_cue = 0.55F;
   float cue_near_mm = 0;
   float cue_far_mm = 1;
@@ -59,7 +59,7 @@ inline float vessel_brightness(float d) {
   return vessel_ambient + (1 - vessel_ambient) * std::sqrt(std::fmax(0.0F, 1 - d * d));
 }
 
-// What a distance along the view leaves of the brightness.
+// Brightness factor at a distance along the view.
 inline float vessel_fading(const VesselLook& look, float depth_mm) {
   const float share = (depth_mm - look.cue_near_mm) / (look.cue_far_mm - look.cue_near_mm);
   return 1 - look.depth_cue * std::fmin(std::fmax(share, 0.0F), 1.0F);

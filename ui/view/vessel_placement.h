@@ -29,12 +29,12 @@ struct PlacedVessels {
   std::optional<pipeline::RigidTransform> volume_from_tree; // empty: not registered
 };
 
-// The tree's place in the volume's frame. What is not registered lies with its centre in the
-// volume's, unscaled and unturned.
+// The tree's place in the volume's frame. An unregistered tree is centred in the volume, unscaled
+// and unturned.
 pipeline::RigidTransform volume_from_tree(const PlacedVessels& vessels, const VesselNudge& nudge,
                                           const pipeline::VolumeGeometry& geometry);
 
-// The same, to the axes of pictures.
+// The same, in world axes (ui/view/camera.h).
 glm::mat4 world_from_tree(const PlacedVessels& vessels, const VesselNudge& nudge,
                           const pipeline::VolumeGeometry& geometry);
 

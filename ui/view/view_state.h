@@ -58,7 +58,7 @@ struct ViewState {
   LayoutKind layout = LayoutKind::volume;
   StereoMode stereo = StereoMode::off;
   float parallax_deg = 3;      // between the two eyes, seen from the centre of the volume
-  bool vessels_visible = true; // the vessel tree, where one is loaded
+  bool vessels_visible = true; // the vessel tree, if one is loaded
   float vessel_opacity = 1;
   VesselColouring vessel_colouring = VesselColouring::branch;
   VesselNudge vessel_nudge;    // since it was registered
@@ -75,8 +75,8 @@ struct ViewState {
   bool operator==(const ViewState&) const = default;
 };
 
-// Whether the volume's picture is the same in both: same place of the eye, same window, technique,
-// layout, vessels and so on (trait::drawn in action_table.h).
+// Whether the volume's picture is the same in both: same camera, window, technique, layout, vessels
+// and so on (trait::drawn in action_table.h).
 bool same_sight(const ViewState& a, const ViewState& b);
 
 } // namespace octascope::ui

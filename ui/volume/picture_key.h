@@ -34,7 +34,7 @@ VolumePictureKey volume_picture_key(const VolumeScene& scene, const DrawQuality&
 // Of the volume's picture, for so many of the display.
 int picture_pixels(const DrawQuality& quality, int display_pixels);
 
-// Between samples, where the longest edge of the volume's box has so many.
+// Distance between samples, given the number along the box's longest edge.
 float step_mm(const DrawQuality& quality, const pipeline::VolumeGeometry& geometry);
 
 } // namespace octascope::ui

@@ -5,10 +5,10 @@
 
 namespace octascope::ui {
 
-// As many planes as the step asks for, spread evenly, half of their spacing from the borders of the
-// volume: ui/view/plane_box.h has the source.
+// As many planes as the step requires, evenly spaced, half a spacing from the borders of the
+// volume; source in ui/view/plane_box.h.
 //
-// Threads: as gl/objects.h. Allocates when it is made, never afterwards.
+// Threads: as gl/objects.h. Allocates only when made.
 class PlaneStack : public VolumeTechnique {
 public:
   static hal::Result<PlaneStack> create();

@@ -14,7 +14,7 @@
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h. Allocates when it is made, never afterwards.
+// Threads: as gl/objects.h. Allocates only when made.
 class PolygonStack {
 public:
   static constexpr int most_polygons = 2048;
@@ -22,7 +22,7 @@ public:
   static hal::Result<PolygonStack> create();
 
   void clear() { used_ = 0; }
-  void add(const PlanePolygon& polygon); // behind those before it; ignored where it is too many
+  void add(const PlanePolygon& polygon); // behind those before it; ignored if there are too many
 
   struct Spacing {
     glm::vec3 normal; // of the polygons, away from the eye, a unit vector

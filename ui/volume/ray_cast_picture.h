@@ -18,8 +18,8 @@ class RayCastPicture {
 public:
   static hal::Result<RayCastPicture> create();
 
-  // Casts and uploads if anything that the picture depends on has changed. `caster` shows the
-  // scene's volume with its transfer function, and may be shared with other pictures.
+  // Casts and uploads if anything that the picture depends on has changed. `caster` must hold the
+  // scene's volume and transfer function, and may be shared with other pictures.
   hal::Result<> update(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                        const DrawQuality& quality, const Rect& rect);
   // Blends the picture over the bound framebuffer.

@@ -14,8 +14,8 @@
 
 namespace octascope::ui {
 
-// Writes depth. Leaps over the bricks that occupancy and transfer function make empty, which
-// changes no picture, only the time that it takes.
+// Writes depth. Leaps over bricks that are empty under the transfer function, which affects only
+// speed.
 //
 // Threads: as gl/objects.h. draw() allocates when the volume's geometry changes.
 class RayCastTechnique : public VolumeTechnique {

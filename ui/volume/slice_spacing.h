@@ -1,4 +1,4 @@
-// Which of the volume's own slices a stack of them is made of. Pure.
+// Which of the volume's own slices a stack is made of. Pure.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,8 +8,8 @@
 
 namespace octascope::ui {
 
-// Slices perpendicular to one of the volume's axes, from the eye on. Where the step is longer than
-// what lies between two slices of the volume, only every second, third … of them is drawn.
+// Slices perpendicular to one of the volume's axes, from the eye on. If the step is longer than the
+// volume's spacing, only every second, third … slice is drawn.
 struct SliceSpacing {
   int axis;         // of the world (ui/view/camera.h): 0 fast, 1 depth, 2 slow
   float direction;  // +1 or −1: away from the eye along that axis

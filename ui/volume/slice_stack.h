@@ -5,13 +5,13 @@
 
 namespace octascope::ui {
 
-// The oldest of the techniques: each slice a rectangle with its own picture on it, nothing
-// interpolated between slices, so their number along the slow axis is the scan's and shows. When
-// the view turns past 45° the stack changes its axis.
+// The oldest technique: each slice is a rectangle with its own picture, without interpolation
+// between slices, so along the slow axis the scan's B-scans are visible. When the view turns past
+// 45° the stack changes its axis.
 //
 // Source: the stacks of 2D textures that the OCT paper describes before its plane stack.
 //
-// Threads: as gl/objects.h. Allocates when it is made, never afterwards.
+// Threads: as gl/objects.h. Allocates only when made.
 class SliceStack : public VolumeTechnique {
 public:
   static hal::Result<SliceStack> create();

@@ -15,14 +15,14 @@
 namespace octascope::ui {
 
 // The mesh is made beside the render thread (pipeline/surface/iso_surface_thread.h). While a new
-// one is being made, for a new volume or a turn of the window's knobs, the last one is drawn;
-// before the first, nothing. A picture depends on the number that prepare() returns, and has to be
-// drawn again when has_newer() turns true.
+// one is made, for a new volume or a changed window, the last one is drawn; before the first,
+// nothing. A picture depends on the number that prepare() returns, and must be redrawn when
+// has_newer() turns true.
 //
 // The framebuffer needs a depth attachment of at least 16 bits, which draw() clears; without one,
 // far parts are drawn over near ones.
 //
-// Threads: as gl/objects.h, but for the thread of its own. draw() allocates nothing of ours.
+// Threads: as gl/objects.h, but for its own thread. draw() allocates nothing of ours.
 class SurfaceTechnique final : public VolumeTechnique {
 public:
   // `threads` is called on the thread that makes the meshes.
@@ -33,10 +33,10 @@ public:
   // Copies what it needs before it returns: two milliseconds for a live volume.
   void show(const pipeline::Volume& volume) { thread_.show(volume); }
 
-  // Asks for the view's surface of the newest volume, takes the newest mesh that is finished, and
-  // returns its number: draw() will draw that one. draw() does the same.
+  // Requests the view's surface of the newest volume, takes the newest finished mesh, and returns
+  // its number: draw() will draw that one. draw() does the same.
   std::uint64_t prepare(const ViewState& view);
-  // Would prepare() take another mesh?
+  // Whether prepare() would take another mesh.
   bool has_newer() const { return thread_.has_newer(); }
   // Waits until draw() will show the view's surface of the newest volume: for commands and tests.
   void finish(const ViewState& view);

@@ -12,7 +12,7 @@
 
 namespace octascope::ui {
 
-// Drawn into a texture of its own, in floating point where the GPU can, so that hundreds of faint
+// Drawn into a texture of its own, in floating point if the GPU can, so that hundreds of faint
 // planes add up without rounding; composited from there, at any resolution.
 //
 // Threads: as gl/objects.h.
@@ -34,9 +34,9 @@ public:
 
   // Of the last update(), rows from the bottom; ours.
   GLuint colour_texture() const { return colour_.name(); } // premultiplied
-  // R32F: mm along the view to where half is hidden. Infinity where nothing is, and everywhere for
-  // techniques that write none (slices, planes). Vessels hide nothing here. 0, no texture, where GL
-  // renders no such format.
+  // R32F: mm along the view at which half is hidden. Infinity where nothing is, and everywhere for
+  // techniques that write no depth (slices, planes). Ignores vessels. 0, no texture, if GL cannot
+  // render this format.
   GLuint depth_texture() const { return depth_.name(); }
   int width() const { return width_; }
   int height() const { return height_; }
@@ -51,7 +51,7 @@ private:
   gl::PicturePass vessel_mix_;
   gl::Texture colour_;
   gl::Texture depth_;
-  gl::Texture nearest_; // for techniques that let GL find what is in front
+  gl::Texture nearest_; // for techniques that use GL's depth test
   gl::Framebuffer framebuffer_;
   GLenum format_;
   bool depth_possible_;

@@ -23,7 +23,7 @@ struct VolumeScene {
       nullptr;                        // of the volume; without it, nothing is leapt over
   std::uint64_t upload = 0;           // counts the volumes shown
   std::uint64_t mesh = 0;             // counts the iso-surfaces
-  const DepthMask* vessels = nullptr; // without them, no ray ends before its time
+  const DepthMask* vessels = nullptr; // null: no ray ends early
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first of a size.
@@ -31,14 +31,15 @@ class VolumeTechnique {
 public:
   virtual ~VolumeTechnique() = default;
 
-  // Draws into the bound framebuffer and viewport, which have alpha and are cleared to zero:
-  // premultiplied colour and opacity come out. Lengths are physical, opacity is corrected for the
-  // step, samples are trilinear, and the transfer function is the scene's. Nothing is drawn behind
-  // the nearest vessel of a pixel; for these, the viewport begins in the framebuffer's corner.
+  // Draws into the bound framebuffer and viewport, which must have alpha and be cleared to zero;
+  // the result is premultiplied colour and opacity. Lengths are physical, opacity is corrected for
+  // the step, samples are trilinear, and the transfer function is the scene's. Nothing is drawn
+  // behind a pixel's nearest vessel; with vessels, the viewport must begin in the framebuffer's
+  // corner.
   void draw(const VolumeScene& scene) { do_draw(scene); }
 
   // Whether draw() also writes, into the second colour attachment, the distance along the view, in
-  // mm, to where half is hidden, or no_depth (ui/ray_caster/ray_frame.h). Otherwise that attachment
+  // mm, at which half is hidden, or no_depth (ui/ray_caster/ray_frame.h). If not, that attachment
   // must not be enabled.
   bool writes_depth() const { return do_writes_depth(); }
 

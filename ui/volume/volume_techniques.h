@@ -20,9 +20,9 @@ public:
   explicit VolumeTechniques(TransferSet transfers, pipeline::ThreadSetup threads = {})
       : transfers_{std::move(transfers)}, threads_{std::move(threads)} {}
 
-  // Stays ours. ErrorCode::unsupported: this GL cannot compile its shaders.
+  // Owned by this. ErrorCode::unsupported: this GL cannot compile its shaders.
   hal::Result<VolumeTechnique*> get(Technique technique);
-  // Of Technique::surface, which lives on meshes of its own; null before it was first got.
+  // For Technique::surface, which draws its own meshes; null before it was first requested.
   SurfaceTechnique* surface() const;
 
 private:

@@ -18,7 +18,7 @@ namespace octascope::ui {
 class VolumeTexture {
 public:
   // Copies the levels before it returns. ErrorCode::unsupported: larger than this GL's 3D textures.
-  // ErrorCode::bad_data: fewer voxels than the geometry says. The last volume then stays.
+  // ErrorCode::bad_data: fewer voxels than the geometry says. After an error the last volume stays.
   hal::Result<> upload(const pipeline::Volume& volume);
 
   bool empty() const { return !textures_[front_]; }

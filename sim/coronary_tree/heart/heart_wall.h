@@ -1,4 +1,5 @@
 // The wall that the vessels feed: a pig's left ventricle, with the right one around part of it.
+//
 // The left ventricle is a prolate spheroid, the right one a second, thinner spheroid beside it;
 // both are cut off at the base. The tree's frame, in millimetres: y from the apex to the base, z to
 // the front (anterior), x to the animal's left; the origin on the left ventricle's axis, 60 mm

@@ -1,4 +1,5 @@
 // The courses of the three arteries, from the root of the aorta along the grooves of the heart.
+//
 // The right one (RCA) runs round the right side in the groove below the atrium, and down the groove
 // between the ventricles at the back; the left anterior descending (LAD) down that groove in front
 // to the apex; the circumflex (LCX) round the left side.

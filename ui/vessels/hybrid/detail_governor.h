@@ -1,12 +1,12 @@
 // Chooses how many vessels are merged so that the frame rate holds. Pure: costs are arguments.
 //
-// The radius in pixels below which segments are merged (merged_order.h) is a number without steps,
-// so nothing pops. The number of segments drawn, and so the cost, falls at most as that radius
-// grows. That is why it never swings: raised by no more than the cost exceeds the budget, it does
-// not bring the cost below the budget; lowered, while the cost is well below, by no more than is to
-// spare, it does not bring it above. That the first vessels to be merged cost more than they spare
-// changes nothing about it: as long as the cost is too much the radius goes on rising, and on its
-// way back it stays where the cost comes near the budget.
+// The radius in pixels below which segments are merged (merged_order.h) is continuous, so nothing
+// pops. The number of drawn segments, and so the cost, falls at most as fast as that radius grows.
+// So the control cannot oscillate: raising the radius by no more than the excess of the cost does
+// not bring it below the budget; lowering it, while the cost is well below, by no more than the
+// spare does not bring it above. That the first merged vessels cost more than they save does not
+// matter: the radius rises as long as the cost is too high, and stops on its way back where the
+// cost nears the budget.
 #pragma once
 
 #include <array>
@@ -27,11 +27,11 @@ public:
   // frame may take its time and is drawn in full.
   float detail_px(bool at_rest) const { return at_rest ? 0 : detail_px_; }
 
-  // What a frame with that detail cost. Frames at rest are not to be told.
+  // The cost of a frame with that detail. Do not report frames at rest.
   void note(hal::Duration cost);
 
 private:
-  static constexpr std::size_t judged = 5; // frames: two that were interrupted change nothing
+  static constexpr std::size_t judged = 5; // frames: two interrupted ones change nothing
 
   double budget_ms_;
   float detail_px_ = 0;

@@ -13,8 +13,8 @@ class GlShare {
 public:
   virtual ~GlShare() = default;
 
-  // Submits the segments that `split` gives to GL, under the conditions of VesselMethod, and does
-  // not wait for them. The account is of these alone: drawn and culled.
+  // Submits the segments that `split` gives to GL, under the conditions of VesselMethod, without
+  // waiting for them. Counts these alone: drawn and culled.
   hal::Result<SegmentCounts> draw(const VesselScene& scene, const VesselSplit& split) {
     return do_draw(scene, split);
   }

@@ -1,7 +1,7 @@
-// GL draws what is wide and the processor what is thin, both at the same time and into one depth.
+// GL draws wide vessels and the processor thin ones, at the same time and into one depth.
 //
-// The idea of sharing a vessel tree between both is the thesis's (docs/VESSELS.md); the split is by
-// the projected radius.
+// The idea of sharing a vessel tree is the thesis's (docs/VESSELS.md); the split is by projected
+// radius.
 #pragma once
 
 #include <cstddef>
@@ -22,9 +22,9 @@ namespace octascope::ui {
 // Threads: bound to the thread of its GL context, but for the splatter's helpers.
 class HybridMethod final : public VesselMethod {
 public:
-  // Where GL gets a share: segments of at least `gl_radius_px`.
+  // GL's share: segments of at least `gl_radius_px`.
   struct Share {
-    std::unique_ptr<GlShare> gl; // nullptr: the processor draws everything, as where GL is software
+    std::unique_ptr<GlShare> gl; // nullptr: the processor draws everything, as with software GL
     float gl_radius_px = 1.5F;
   };
 
@@ -37,19 +37,18 @@ public:
     detail_px_ = detail_px;
   }
 
-  // From now on vessels are merged as far as it takes, and no further, for frames to cost no more
-  // than that, by what note_cost() is told; see DetailGovernor. May be told anew at any time.
+  // Merges vessels only as far as needed to keep the cost of frames, as reported by note_cost(),
+  // within the target; see DetailGovernor. May be called again at any time.
   void hold_frame_time(hal::Duration target);
-  // Of the whole last frame, whatever else was in it.
+  // The cost of the whole last frame, whatever else was in it.
   void note_cost(hal::Duration cost);
   // Where nothing moves, a frame may take its time and shows every vessel.
   void set_at_rest(bool at_rest) { at_rest_ = at_rest; }
 
-  // The radius below which vessels were merged in the last frame, to be shown beside the picture.
-  // 0: all were drawn as they are.
+  // The radius below which vessels were merged in the last frame, for display. 0: none were merged.
   float shown_detail_px() const { return shown_detail_px_; }
 
-  // What the processor drew in the last frame, with distances.
+  // The processor's part of the last frame, with distances.
   const DepthImage& splats() const { return image_; }
 
 private:
@@ -61,7 +60,7 @@ private:
   SplatPicture picture_;
   Share share_;
   DepthImage image_;
-  VesselSplit split_; // empty without a share of GL's
+  VesselSplit split_; // empty if GL has no share
   std::optional<DetailGovernor> governor_;
   bool at_rest_ = false;
   float detail_px_ = 0;

@@ -1,4 +1,4 @@
-// The vessels as one eye sees them, kept until something that they depend on changes.
+// The vessels as seen by one eye, kept until something that they depend on changes.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@
 
 namespace octascope::ui {
 
-// Who draws the volume, and so needs to know where vessels are.
+// Who draws the volume, and so reads the mask.
 enum class MaskReader : std::uint8_t { gl, processor };
 
-// Threads: as gl/objects.h. Allocates when the size changes, or GL is served for the first time.
+// Threads: as gl/objects.h. Allocates when the size changes, or GL is first served.
 class VesselLayer {
 public:
   // `tree` counts the trees shown. ErrorCode::system: this GL cannot render to a picture of that
-  // size; other faults as Splatter::draw(). The bound framebuffer stays bound.
+  // size; other errors as Splatter::draw(). The bound framebuffer stays bound.
   hal::Result<> update(Splatter& splatter, const VesselScene& scene, std::uint64_t tree,
                        float detail_px, MaskReader target);
 
-  // Of the last update(); `opacity` is handed on.
+  // From the last update(); `opacity` is passed on.
   DepthMask stops(MaskReader target, float opacity) const;
 
   const SegmentCounts& account() const { return account_; }
@@ -57,7 +57,7 @@ private:
   gl::Texture depth_;
   int width_ = 0;
   int height_ = 0;
-  std::uint64_t laid_ = 0; // which drawing is in GL
+  std::uint64_t laid_ = 0; // the drawing uploaded to GL
 };
 
 } // namespace octascope::ui

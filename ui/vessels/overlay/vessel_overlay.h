@@ -1,5 +1,5 @@
-// A vessel tree within the volume: keeps each eye's picture of it up to date, for the volume's rays
-// to end there.
+// A vessel tree within the volume: keeps each eye's picture of it up to date, so that the volume's
+// rays end there.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@
 namespace octascope::ui {
 
 // Threads: as gl/objects.h, but for the splatter's helpers. Allocates when the size changes, or an
-// eye or a target is served for the first time.
+// eye or a target is first served.
 class VesselOverlay {
 public:
   // Costs are measured with `clock`, which outlives this. ErrorCode::unsupported: as
@@ -37,20 +37,20 @@ public:
     const pipeline::VolumeGeometry& geometry;
     int width; // of the volume's picture
     int height;
-    float detail_px; // SplatShare has what it means
+    float detail_px; // as SplatShare::detail_px
     MaskReader target;
   };
-  // Brings the eye's picture up to date. Nothing: the view shows no vessels.
+  // Brings the eye's picture up to date. Empty: the view shows no vessels.
   hal::Result<std::optional<DepthMask>> update(const Request& request);
 
-  // Vessels are shown and nobody has said where they lie in the volume.
+  // Whether vessels are shown without a known place in the volume.
   bool shows_unregistered(const ViewState& view) const {
     return shows(view) && !vessels_.volume_from_tree;
   }
 
   // Of the newest picture.
   const SegmentCounts& account() const { return account_; }
-  // Since create(): of all drawings of vessels.
+  // Time spent since create() on all drawings of vessels.
   hal::Duration spent() const { return spent_; }
 
 private:

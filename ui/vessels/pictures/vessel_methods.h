@@ -21,7 +21,7 @@ enum class VesselMethodKind : std::uint8_t {
   tubes_cpu, // by the processor
   quads_gpu, // quads that face the eye, expanded by GL
   quads_cpu, // by the processor
-  balanced,  // by both, whoever is free
+  balanced,  // by both, whichever is free
   hybrid,    // level of detail; the thinnest splatted by the processor
 };
 inline constexpr std::array all_vessel_methods{
@@ -33,15 +33,14 @@ std::string_view to_string(VesselMethodKind kind);
 std::optional<VesselMethodKind> vessel_method_named(std::string_view name);
 
 struct VesselMethodOptions {
-  ClusterChoice choice = ClusterChoice::visible; // `all` draws what cannot be seen, too
+  ClusterChoice choice = ClusterChoice::visible; // `all` also draws what cannot be seen
   TubeShape tubes;
   pipeline::ThreadSetup threads; // called on each thread that a method starts
 };
 
-// `nodes` may be shared by methods that draw the same tree in the same context: its memory is the
-// tree's once more.
-// ErrorCode::unsupported: this GL cannot compile the shaders; of hybrid also: the splatter knows no
-// vector unit of this processor.
+// `nodes` may be shared by methods that draw the same tree in the same context: it takes as much
+// memory as the tree. ErrorCode::unsupported: this GL cannot compile the shaders, or, for hybrid,
+// the splatter does not support this processor's vector unit.
 hal::Result<std::unique_ptr<VesselMethod>>
 make_vessel_method(VesselMethodKind kind, std::shared_ptr<NodeTexture> nodes,
                    const VesselMethodOptions& options = {});

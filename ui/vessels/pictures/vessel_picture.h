@@ -1,4 +1,4 @@
-// Where vessels are drawn: colour and depth, to be composited or read back.
+// A render target for vessels: colour and depth, to be composited or read back.
 #pragma once
 
 #include <utility>
@@ -21,8 +21,9 @@ public:
   // ErrorCode::unsupported: this GL cannot compile our shaders.
   static hal::Result<VesselPicture> create();
 
-  // Makes it so large, clears it and draws the scene; the bound framebuffer and the viewport stay.
-  // ErrorCode::system: this GL cannot render to a picture of that size. Other faults: the method's.
+  // Resizes and clears the picture and draws the scene; the bound framebuffer and the viewport
+  // stay. ErrorCode::system: this GL cannot render to a picture of that size. Other errors: the
+  // method's.
   hal::Result<SegmentCounts> draw(VesselMethod& method, const VesselScene& scene);
 
   // Rows from the bottom. Opaque colours or none, and depths by the camera's view_projection.

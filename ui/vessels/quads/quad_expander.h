@@ -9,17 +9,17 @@
 
 namespace octascope::ui {
 
-// A corner; all of a segment's are alike, and shaders/vessel_quad_stream.vert moves each to its
-// place by its number.
+// A corner; all corners of a segment are equal, and shaders/vessel_quad_stream.vert moves each to
+// its place by its number.
 struct QuadVertex {
   SegmentOutline outline;
   std::uint32_t colour; // in the palette
 };
 static_assert(sizeof(QuadVertex) == 36);
 
-// Writes quad_vertices(kind) of each segment that may cover a pixel's centre to `to`, which has
-// room for those of all, and returns the number of such segments. `nodes` are the tree's. Any
-// thread.
+// Writes quad_vertices(kind) vertices for each segment that may cover a pixel's centre to `to`,
+// which must have room for all, and returns the number of such segments. `nodes` are the tree's.
+// Any thread.
 std::uint32_t expand_quads(const VesselFrame& frame, const PlacedCluster& cluster,
                            std::span<const pipeline::PackedNode> nodes, QuadKind kind,
                            QuadVertex* to);

@@ -10,17 +10,17 @@
 
 namespace octascope::ui {
 
-// One instance a cluster: its record is the instance's attributes, for GLES has no base instance
-// and does not promise storage buffers in the vertex stage.
+// One instance per cluster, with its record as instance attributes: GLES has no base instance and
+// does not guarantee storage buffers in the vertex stage.
 //
 // Threads: as gl/objects.h. Allocates in create() only.
 class QuadNodePainter {
 public:
-  // `nodes` is shared by those who draw the same tree.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // `nodes` is shared by all painters of the same tree. ErrorCode::unsupported: this GL cannot
+  // compile our shaders.
   static hal::Result<QuadNodePainter> create(std::shared_ptr<NodeTexture> nodes);
 
-  // Then draw() draws clusters of that tree in that frame.
+  // Afterwards draw() draws clusters of that tree in that frame.
   hal::Result<> begin(const VesselFrame& frame, const pipeline::VesselClusters& tree);
   // All of that kind. Returns when GL has taken the records.
   void draw(std::span<const PlacedCluster> clusters, QuadKind kind) const;

@@ -13,9 +13,9 @@
 
 namespace octascope::ui {
 
-// Whole clusters choose, by the largest radius that may be in them.
+// Chosen per cluster, by the largest radius that may be in it.
 enum class QuadKind : std::uint8_t {
-  thin,  // two triangles, whose depth is not flat at the round ends: nothing that a pixel shows
+  thin,  // two triangles; depth is not flat at the round ends, too little to see
   round, // six triangles, with the depth of the axis
   near,  // two triangles; the surface's own depth is written, which costs the early depth test
 };
@@ -27,14 +27,14 @@ constexpr QuadKind quad_kind(float largest_radius_px) {
                                                : QuadKind::near;
 }
 
-// Vertices and corners of triangles (3 a triangle) of a segment.
+// Vertices and triangle corners (3 per triangle) of a segment.
 constexpr int quad_vertices(QuadKind kind) {
   return kind == QuadKind::round ? 8 : 4;
 }
 constexpr int quad_corners(QuadKind kind) {
   return kind == QuadKind::round ? 18 : 6;
 }
-// For so many segments of either number of vertices: within 16-bit indices.
+// Segments per draw of either number of vertices: within 16-bit indices.
 inline constexpr int most_quads = 4096;
 std::vector<std::uint16_t> quad_indices(QuadKind kind, int segments);
 

@@ -9,17 +9,17 @@ namespace octascope::ui {
 // Threads: as gl/objects.h, but for expand(). Allocates in create() only.
 class QuadStreamPainter {
 public:
-  static constexpr std::uint32_t batch_clusters = 16; // most_quads hold all their segments
+  static constexpr std::uint32_t batch_clusters = 16; // so that most_quads hold all their segments
 
   // ErrorCode::unsupported: this GL cannot compile our shaders.
   static hal::Result<QuadStreamPainter> create(std::uint32_t slots);
 
-  // Then slots may be expanded into. ErrorCode::system: the driver has no memory.
+  // Afterwards slots may be expanded into. ErrorCode::system: the driver has no memory.
   hal::Result<> begin(const VesselFrame& frame);
-  // Any thread, one a slot; at most batch_clusters, all of that kind.
+  // Any thread, one per slot; at most batch_clusters, all of that kind.
   void expand(std::uint32_t slot, const VesselFrame& frame, std::span<const PlacedCluster> clusters,
               std::span<const pipeline::PackedNode> nodes, QuadKind kind);
-  // Draws what was expanded, and readies the slot for the next.
+  // Draws what was expanded, and frees the slot.
   hal::Result<> draw(std::uint32_t slot, QuadKind kind);
 
 private:

@@ -13,21 +13,21 @@
 
 namespace octascope::ui {
 
-// Who has expanded how many of the segments that were drawn last.
+// How many of the last drawn segments each side expanded.
 struct VesselShares {
   std::uint64_t of_gl = 0;
   std::uint64_t of_processor = 0;
 };
 
-// The picture is that of QuadsMethod pixel for pixel, where GL rounds every step of the shaders
-// (segment_projection.h); the diagnostic colours apart.
+// The picture equals QuadsMethod's pixel for pixel if GL rounds every step of the shaders
+// (segment_projection.h), except for the diagnostic colours.
 //
-// Threads: as gl/objects.h, but for the helper of its own.
+// Threads: as gl/objects.h, but for its own helper.
 class StreamedQuadsMethod final : public VesselMethod {
 public:
-  // Without `nodes`, the processor expands everything: on two threads, of which one also feeds GL.
-  // With them, GL takes batches from the same cursor as the helper: balanced.
-  // `threads` is called on the helper. ErrorCode::unsupported: this GL cannot compile our shaders.
+  // Without `nodes`, the processor expands everything on two threads, one of which also feeds GL.
+  // With them, GL takes batches from the same cursor as the helper: balanced. `threads` is called
+  // on the helper. ErrorCode::unsupported: this GL cannot compile our shaders.
   static hal::Result<std::unique_ptr<StreamedQuadsMethod>>
   create(std::shared_ptr<NodeTexture> nodes, ClusterChoice choice,
          const pipeline::ThreadSetup& threads);
@@ -45,7 +45,8 @@ private:
   StreamedQuadsMethod(std::optional<QuadNodePainter> gl, QuadStreamPainter processor,
                       ClusterChoice choice, const pipeline::ThreadSetup& threads);
   hal::Result<SegmentCounts> do_draw(const VesselScene& scene) override;
-  std::uint64_t prepare(const VesselScene& scene, const VesselFrame& frame); // returns the culled
+  std::uint64_t prepare(const VesselScene& scene, const VesselFrame& frame); // returns the number
+                                                                             // culled
   void add_batches(QuadKind kind);
   std::span<const PlacedCluster> clusters_of(const Batch& batch) const;
   hal::Result<> draw_batches(std::span<const Batch> batches, const VesselScene& scene,
@@ -59,7 +60,7 @@ private:
   std::array<std::vector<PlacedCluster>, quad_kind_count> placed_;
   std::vector<Batch> batches_;
   VesselShares shares_;
-  OrderedBatches order_; // last: its thread stops before the rest is gone
+  OrderedBatches order_; // last: its thread stops before the other members are destroyed
 };
 
 } // namespace octascope::ui

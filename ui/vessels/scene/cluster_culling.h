@@ -8,22 +8,21 @@
 
 namespace octascope::ui {
 
-// A cluster that is to be drawn: the first so many of its segments.
+// A cluster to be drawn: this many of its first segments.
 struct ClusterPart {
   std::uint32_t cluster;
   std::uint32_t segments;
-  // Nothing of the cluster that is in front of the near plane has a larger radius on the screen.
+  // Upper bound of radii on the screen of what is in front of the near plane.
   float largest_radius_px;
 };
 
-// How much is drawn: what may be seen, or everything, to measure against. Both make the same
-// picture.
+// What is drawn: only what may be seen or, for comparison, everything. Both make the same picture.
 enum class ClusterChoice : std::uint8_t { visible, all };
 
-// Adds to `parts`, in the order of the tree, the clusters of which a pixel may be in the picture:
-// their boxes, as wide as their thickest vessel more, against the sides of the picture and the near
-// and far plane. Returns how many segments the others have: they are culled. Allocates where
-// `parts` must grow.
+// Appends to `parts`, in the order of the tree, the clusters that may touch the picture: their
+// boxes, widened by their thickest vessel, against the sides of the picture and the near and far
+// plane. Returns the number of segments of the others, which are culled. Allocates if `parts` must
+// grow.
 std::uint64_t choose_clusters(const VesselFrame& frame, const pipeline::VesselClusters& tree,
                               ClusterChoice choice, std::vector<ClusterPart>& parts);
 

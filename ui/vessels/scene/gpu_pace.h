@@ -1,4 +1,4 @@
-// How far GL lags behind what was submitted to it.
+// How far GL lags behind the submitted work.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace octascope::ui {
 
-// A GPU takes work without doing it: who submits all he can has given it everything before the
-// processor has begun. This holds the submitting thread back until the GPU has caught up but for
-// two portions.
+// A GPU queues work without doing it, so an unrestrained submitter would give it everything before
+// the processor has begun. This holds the submitting thread back until at most two portions of
+// batches are outstanding.
 //
 // Threads: as gl/objects.h.
 class GpuPace {
@@ -20,8 +20,8 @@ public:
   GpuPace& operator=(const GpuPace&) = delete;
   ~GpuPace();
 
-  // A batch was submitted. Where the processor is the GPU, drawing has cost its time by now, and
-  // this does nothing.
+  // Call after submitting a batch. Does nothing where the processor is the GPU: drawing has then
+  // taken its time already.
   void submitted();
 
 private:

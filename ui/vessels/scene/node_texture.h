@@ -1,4 +1,4 @@
-// A tree's nodes where shaders find them.
+// A tree's nodes in a texture for shaders.
 #pragma once
 
 #include "hal/result.h"
@@ -9,14 +9,14 @@
 namespace octascope::ui {
 
 // Eight bytes a node, in layers of one texture: GLES guarantees 2048 texels along a side and 256
-// layers, and neither buffer textures nor storage buffers in the vertex stage. Of 19 bits of a
-// node's index the lowest 11 are its column and the others its row; those above are its layer.
+// layers, but neither buffer textures nor storage buffers in the vertex stage. In a node's index
+// the lowest 11 bits are its column, the next 8 its row, the higher ones its layer.
 //
 // Threads: as gl/objects.h.
 class NodeTexture {
 public:
-  // Copies the nodes when it has not shown them last: told by where and how many they are, and by a
-  // sample of them. ErrorCode::system: the driver has no room for them.
+  // Copies the nodes unless they are the last ones shown, recognised by address, number and a
+  // sample. ErrorCode::system: the driver has no memory for them.
   hal::Result<> show(const pipeline::VesselClusters& tree);
 
   const TreeKey& shown() const { return key_; }

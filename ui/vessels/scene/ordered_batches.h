@@ -1,4 +1,5 @@
-// Numbered batches of drawing work, submitted to GL in their order, expanded by whoever is free.
+// Numbered batches of drawing work, submitted to GL in order and expanded by whichever thread is
+// free.
 #pragma once
 
 #include <atomic>
@@ -11,14 +12,15 @@
 namespace octascope::ui {
 
 // The calling thread owns GL and takes one batch after the other from the cursor. A helper works
-// ahead of it: it takes the first free batch some way in front of the cursor and expands it into a
-// slot, so that it is ready when the cursor comes there. How far in front is learnt: further each
-// time that the cursor had to wait. Equal depths are won by what is drawn first, so the order in
-// which batches reach GL must not depend on who was quicker.
+// ahead of it: it takes the first free batch some distance in front of the cursor and expands it
+// into a slot, so that it is ready when the cursor arrives. The distance is learnt: it grows each
+// time the cursor had to wait. At equal depths the first drawn wins, so the order in which batches
+// reach GL must not depend on timing.
 //
-// Who has a batch is one atomic claim. The caller never waits for a helper that has not begun.
+// A batch is claimed by one atomic operation. The caller never waits for a helper that has not
+// begun.
 //
-// Threads: run() from one thread at a time. Allocates when it is made, never afterwards.
+// Threads: run() from one thread at a time. Allocates only when made.
 class OrderedBatches {
 public:
   static constexpr std::uint32_t most_batches = 16384;
@@ -27,8 +29,8 @@ public:
   OrderedBatches(std::uint32_t slots, const pipeline::ThreadSetup& setup);
 
   // For each batch (at most most_batches) in order, on this thread: either own(batch), or
-  // submit(batch, slot) of what the helper has expanded with expand(batch, slot), on its own
-  // thread. A slot is in use from the beginning of expand() until submit() has returned.
+  // submit(batch, slot) of what the helper has expanded with expand(batch, slot) on its own thread.
+  // A slot is in use from the beginning of expand() until submit() has returned.
   template <class Own, class Expand, class Submit>
   void run(std::uint32_t batches, const Own& own, const Expand& expand, const Submit& submit) {
     begin(
@@ -67,17 +69,17 @@ private:
   std::vector<std::atomic<std::uint64_t>> claims_; // by batch: turn, slot, state
   std::atomic<std::uint32_t> turn_{0};             // 0 while none runs
   std::uint32_t turns_ = 0;
-  // Read only by who has claimed a batch: the turn cannot end before that is submitted.
+  // Read only by the owner of a claimed batch: the turn cannot end before that is submitted.
   Expand expand_ = nullptr;
   const void* work_ = nullptr;
   std::atomic<std::uint32_t> cursor_{0};
   std::atomic<std::uint32_t> lead_{2};     // batches in front of the cursor
-  std::uint32_t in_time_ = 0;              // batches since one was waited for
-  std::uint32_t filled_ = 0;               // slots so far, by the helper
-  std::atomic<std::uint32_t> released_{0}; // slots so far, by the caller
+  std::uint32_t in_time_ = 0;              // batches since one had to be waited for
+  std::uint32_t filled_ = 0;               // slots filled by the helper so far
+  std::atomic<std::uint32_t> released_{0}; // slots released by the caller so far
   pipeline::Wakeup slot_released_;
   pipeline::Wakeup batch_ready_;
-  pipeline::WorkerPool helper_; // last: its thread stops before the rest is gone
+  pipeline::WorkerPool helper_; // last: its thread stops before the other members are destroyed
 };
 
 } // namespace octascope::ui

@@ -1,9 +1,9 @@
 // A segment's outline on the screen, computed by the processor.
 //
-// Step by step what shaders/vessel_nodes.glsl and vessel_segment.glsl do, in single precision and
-// without fused multiplications, so that a GL that rounds each step (IEEE 754), as Mesa's software
-// renderer does, comes to the very same numbers. Where products and sums are fused, as on most
-// GPUs, they differ in the last bits. Files that use it are compiled with -ffp-contract=off.
+// Repeats shaders/vessel_nodes.glsl and vessel_segment.glsl step by step, in single precision and
+// without fused multiplications, so that a GL that rounds each step (IEEE 754), such as Mesa's
+// software renderer, gives identical numbers. GPUs that fuse products and sums, as most do, differ
+// in the last bits. Files that use it are compiled with -ffp-contract=off.
 #pragma once
 
 #include <algorithm>
@@ -62,8 +62,8 @@ inline PlacedNode cut_near(const PlacedNode& hidden, const PlacedNode& seen, flo
           hidden.radius + (seen.radius - hidden.radius) * share};
 }
 
-// Gives the parent's place the radius with which the segment starts, and cuts off what is nearer
-// than the near plane. False where nothing is left.
+// Gives the parent's place the segment's start radius, and cuts off what is nearer than the near
+// plane. False if nothing is left.
 inline bool make_segment(PlacedNode& a, PlacedNode& b, float near_mm) {
   a.radius = pipeline::segment_start_radius(a.radius, b.radius);
   if (a.along < near_mm && b.along < near_mm)
@@ -75,13 +75,13 @@ inline bool make_segment(PlacedNode& a, PlacedNode& b, float near_mm) {
   return true;
 }
 
-// No narrower on the screen than so many pixels of radius. In front of the near plane only.
+// At least this many pixels of radius on the screen. Only in front of the near plane.
 inline void thicken(PlacedNode& node, float least_px) {
   node.radius = std::max(node.radius, least_px * node.along);
 }
 
-// From the parent's and the node's place, for which least_radius_px() is `least_px`; false where
-// nothing is before the near plane.
+// From the parent's and the node's place, with least_radius_px() as `least_px`; false if nothing is
+// in front of the near plane.
 inline bool project_segment(PlacedNode a, PlacedNode b, float near_mm, float least_px,
                             SegmentOutline& outline) {
   if (!make_segment(a, b, near_mm))

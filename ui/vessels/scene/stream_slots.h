@@ -9,19 +9,19 @@
 
 namespace octascope::ui {
 
-// Each slot's memory is the driver's. Once handed to GL it is exchanged for fresh memory, so that
-// what GL still draws from is never waited for.
+// The slots' memory is the driver's. Once handed to GL, a slot gets fresh memory, so that GL's
+// drawing is never waited for.
 //
-// Threads: as gl/objects.h; the memory of a slot may be written by any.
+// Threads: as gl/objects.h; any thread may write a slot's memory.
 class StreamSlots {
 public:
   StreamSlots() = default;
   StreamSlots(std::size_t slots, std::size_t bytes);
 
-  // ErrorCode::system: the driver has no memory. Does nothing for a slot that is open.
+  // ErrorCode::system: the driver has no memory. Does nothing if the slot is open.
   hal::Result<> open(std::size_t slot);
   std::byte* memory(std::size_t slot) const { return memory_[slot]; }
-  // Ends the writing and leaves the buffer bound to GL_ARRAY_BUFFER, to be drawn from.
+  // Ends writing and leaves the buffer bound to GL_ARRAY_BUFFER for drawing.
   void close(std::size_t slot);
 
   std::size_t count() const { return buffers_.size(); }

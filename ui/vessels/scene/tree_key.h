@@ -1,4 +1,4 @@
-// Tells trees apart that were prepared for drawing.
+// Identifies trees that were prepared for drawing.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace octascope::ui {
 
-// By where the nodes are, how many, and a sample of them, for memory is used again.
+// The nodes' address, their number, and a sample of them, since addresses are reused.
 struct TreeKey {
   const pipeline::PackedNode* nodes = nullptr;
   std::size_t count = 0;

@@ -1,4 +1,4 @@
-// One frame's camera, as the packed nodes of clusters meet it.
+// One frame's camera, in terms of the clusters' packed nodes.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct VesselFrame {
   float depth_scale = 0;
   float width = 0;
   float height = 0;
-  // The pixel straight ahead of the eye: off the picture's middle for one eye of two.
+  // The pixel straight ahead of the eye: not the picture's middle for one of two eyes.
   float middle_x = 0;
   float middle_y = 0;
   VesselLook look;
@@ -32,7 +32,7 @@ struct VesselFrame {
 
 VesselFrame make_vessel_frame(const VesselScene& scene);
 
-// Where the colours of vessel_look.h are in the palette of the shaders.
+// Index of vessel_look.h's colours in the shaders' palette.
 inline constexpr std::uint32_t palette_of_orders = pipeline::vessel_branch_count;
 inline constexpr std::uint32_t palette_of_gl = palette_of_orders + pipeline::vessel_order_count;
 inline constexpr std::uint32_t palette_of_processor = palette_of_gl + 1;
@@ -40,7 +40,7 @@ inline constexpr std::size_t palette_size = palette_of_processor + 1;
 inline constexpr std::uint32_t colour_by_order = 0xFF;
 std::array<VesselColour, palette_size> vessel_palette();
 
-// A cluster in a frame: what its packed nodes are multiplied with. A record of a vertex buffer.
+// A cluster in a frame: the factors for its packed nodes. A record of a vertex buffer.
 struct PlacedCluster {
   // Of a packed place: [0] + [1] · x + [2] · y + [3] · z is across, up and along of the frame.
   std::array<float, 4> across;
@@ -50,16 +50,16 @@ struct PlacedCluster {
   float log2_radius_step;
   std::uint32_t first_node;
   std::uint32_t references;
-  std::uint32_t segments; // to be drawn: the first after the references
+  std::uint32_t segments; // to be drawn: this many after the references
   std::uint32_t colour;   // in the palette, or colour_by_order
 };
 static_assert(sizeof(PlacedCluster) == 72);
 
-// Its colour is that of what GL expands.
+// The colour is that for GL's expansion.
 PlacedCluster place_cluster(const VesselFrame& frame, const pipeline::VesselCluster& cluster,
                             std::uint32_t segments);
 
-// In the palette: of a segment that the processor expands.
+// Palette index of a segment that the processor expands.
 std::uint32_t expanded_colour(const VesselFrame& frame, const PlacedCluster& cluster,
                               pipeline::PackedNode node);
 

@@ -1,4 +1,4 @@
-// What every way of drawing a vessel tree does.
+// The interface of all ways of drawing a vessel tree.
 #pragma once
 
 #include "hal/result.h"
@@ -12,10 +12,10 @@ class VesselMethod {
 public:
   virtual ~VesselMethod() = default;
 
-  // Draws into the bound framebuffer and viewport, which have 8-bit RGBA and at least 24 bits
-  // of depth, are cleared (colour 0, depth 1) and as large as the scene says. Out come opaque
-  // colours (alpha 1 where there is a vessel), and depths by the camera's view_projection. Every
-  // segment is accounted for.
+  // Draws into the bound framebuffer and viewport, which must have 8-bit RGBA and at least 24 bits
+  // of depth, be cleared (colour 0, depth 1) and be as large as the scene says. The result is
+  // opaque colours (alpha 1 where there is a vessel), and depths by the camera's view_projection.
+  // Every segment is counted.
   hal::Result<SegmentCounts> draw(const VesselScene& scene) { return do_draw(scene); }
 
 private:

@@ -31,7 +31,7 @@ inline constexpr unsigned least_order_kept_visible = 5;
 
 // Of the larger end, in pixels.
 inline constexpr float least_relief_px = 8;
-// A surface before the near plane is cut there. So that the nearest axis shows, the cut has this
+// A surface before the near plane is cut there. To keep the nearest axis visible, the cut has this
 // much of its distance from the plane.
 inline constexpr float cut_relief = 0.002F;
 

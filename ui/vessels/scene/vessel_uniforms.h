@@ -1,4 +1,4 @@
-// What the shaders of all vessels have in common.
+// Code and uniforms shared by all vessel shaders.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@
 
 namespace octascope::ui {
 
-// Goes before every shader: precision and the constants of vessel_frame.h.
+// Prepended to every shader: precision and the constants of vessel_frame.h.
 std::string vessel_shader_head();
 
 // Makes the program current and sets those of its uniforms that depend on the frame.
 void set_vessel_uniforms(const gl::Program& program, const VesselFrame& frame);
 
-// Nearest first, opaque; puts back what the rest of the display expects: no depth test.
+// Nearest first, opaque; the destructor restores what the rest of the display expects: no depth
+// test.
 class VesselDrawState {
 public:
   VesselDrawState();

@@ -42,7 +42,7 @@ public:
     const Range distance = range(distance_);
     const float radius = cluster.largest_radius_mm;
     nearest_ = distance.lower;
-    // Linear in the place, so that nothing is divided by a distance that may be 0.
+    // Linear in the place, to avoid dividing by a distance that may be 0.
     const float radius_px = std::max(radius * frame.pixels_per_unit,
                                      least_vessel_radius_px * std::max(distance.upper, 0.0F));
     const auto beyond = [&](const std::array<float, 4>& row, float last) {
@@ -65,11 +65,11 @@ public:
   const std::array<float, 4>& line() const { return line_; }
   const std::array<float, 4>& distance() const { return distance_; }
   float log2_smallest() const { return log2_smallest_; }
-  // No millimetre of a radius at a segment's end makes it wider than so many pixels. Only where it
-  // does not cross the near distance.
+  // Upper bound of pixels per millimetre of radius at a segment's end. Only if the cluster does not
+  // cross the near distance.
   float widest_px_per_mm() const { return widest_px_per_mm_; }
 
-  // Of that node, were it in the cluster's middle: smooth in the camera.
+  // Of that node if it were in the cluster's middle: smooth in the camera.
   float radius_px(pipeline::PackedNode node) const {
     return unpack(cluster_, node).radius_mm * pixels_per_unit_ / middle_;
   }
@@ -125,7 +125,7 @@ private:
   const pipeline::VesselCluster& cluster_;
 };
 
-// The part of a segment that is no nearer than the near distance, if any of it is in the picture.
+// The part of a segment beyond the near distance, if any of it is in the picture.
 std::optional<ScreenSegment> clip_to_near(const SplatFrame& frame, const ViewPlace& parent,
                                           const ViewPlace& end);
 

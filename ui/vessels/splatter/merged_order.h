@@ -6,22 +6,21 @@
 
 namespace octascope::ui {
 
-// So many of a cluster's segments of one order are drawn, in their order, which was drawn by lot:
-// the first `whole` of them wider by `widening`, then one by `last_widening` (0: none).
+// How many of a cluster's segments of one order are drawn, in their (random) order: the first
+// `whole` of them wider by `widening`, then one by `last_widening` (0: none).
 struct MergedOrder {
   std::uint32_t whole;
   float widening;
   float last_widening;
 };
 
-// No segment stands for more than so many.
+// The most segments that one can stand for.
 inline constexpr float most_merged = 16;
 
-// Segments thinner than `detail_px` (radius) are drawn with about that radius, and in that
-// proportion fewer of them, so that they cover as much of the picture as all would, in expectation.
-// The last one's width takes what is over, so all changes smoothly with both radii. Source: R. L.
-// Cook, J. Halstead, M. Planck, D. Ryu, "Stochastic simplification of aggregate detail", ACM
-// Transactions on Graphics 26 (2007).
+// Segments thinner than `detail_px` (radius) are drawn with about that radius and proportionally
+// fewer of them, so that the expected coverage stays the same. The last one's width takes the
+// remainder, so everything is continuous in both radii. Source: R. L. Cook, J. Halstead, M. Planck,
+// D. Ryu, "Stochastic simplification of aggregate detail", ACM Transactions on Graphics 26 (2007).
 inline MergedOrder merged_order(float radius_px, float detail_px, std::uint32_t segments) {
   if (radius_px >= detail_px)
     return {segments, 1, 0};

@@ -1,5 +1,5 @@
-// Pixels that a segment covers, on their way into the picture. For one instruction set; see
-// splat_kernels.h.
+// Collects the pixels that segments cover and writes them to the picture. For one instruction set;
+// see splat_kernels.h.
 #if defined(OCTASCOPE_SPLAT_FRAGMENTS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_FRAGMENTS_INL
 #undef OCTASCOPE_SPLAT_FRAGMENTS_INL
@@ -42,8 +42,8 @@ HWY_INLINE Word word(std::uint32_t value) {
   return hn::Set(Words{}, value);
 }
 
-// Which lanes come first, by the bits of a mask. Highway 1.0.3 has such tables, too, but as local
-// constants, which GCC copies to the stack, two kilobytes, each time.
+// Lane order by mask bits. Highway 1.0.3 has such tables, too, but as local constants, which GCC
+// copies to the stack, two kilobytes, each time.
 struct LaneOrders {
   // By mask of eight lanes: four bits a lane, the first lowest.
   std::array<std::uint32_t, 256> of_eight{};
@@ -73,7 +73,7 @@ template <class M> HWY_INLINE std::size_t bits_of(M mask) {
   return bits[0];
 }
 
-// The lanes of `mask`, in their order, from `to` on; writes a whole register.
+// Stores the lanes of `mask`, in order, from `to` on; writes a whole register.
 template <class D, class V, class M>
 HWY_INLINE void store_lanes(D d, V v, M mask, hn::TFromD<D>* HWY_RESTRICT to) {
   const Word words = hn::BitCast(Words{}, v);
@@ -98,14 +98,14 @@ HWY_INLINE void store_lanes(D d, V v, M mask, hn::TFromD<D>* HWY_RESTRICT to) {
   hn::StoreU(hn::BitCast(d, packed), d, to);
 }
 
-// Covered pixels are collected, shaded together and then brought into the picture.
+// Covered pixels are collected, shaded together and then written to the picture.
 class Fragments {
 public:
   explicit Fragments(const SplatFrame& frame) : frame_{frame} {}
   Fragments(const Fragments&) = delete;
   Fragments& operator=(const Fragments&) = delete;
 
-  // Of the lanes of `covered`: which pixel, 1 / distance, d² (see vessel_scene.h), base colour.
+  // For the lanes of `covered`: pixel, 1 / distance, d² (see vessel_scene.h), base colour.
   HWY_INLINE void add(Int pixel, Real nearness, Real off_axis, Word colour, Mask covered) {
     store_lanes(Ints{}, pixel, hn::RebindMask(Ints{}, covered), pixels_ + count_);
     store_lanes(Floats{}, nearness, covered, nearness_ + count_);
@@ -130,7 +130,7 @@ private:
   static constexpr std::size_t most = 192;
   static constexpr std::size_t room = most + 2 * lanes;
 
-  // The smaller number stays, whatever other threads do.
+  // Keeps the smaller number, whatever other threads do.
   static HWY_INLINE void bring(DepthPixel& pixel, DepthPixel found) {
     std::atomic_ref<DepthPixel> shared{pixel};
     DepthPixel there = shared.load(std::memory_order_relaxed);
@@ -169,7 +169,7 @@ private:
   HWY_ALIGN float nearness_[room];
   HWY_ALIGN float off_axis_[room];
   HWY_ALIGN float distances_[room];
-  HWY_ALIGN std::uint32_t colours_[room]; // base colours, then what is shown
+  HWY_ALIGN std::uint32_t colours_[room]; // base colours, then final ones
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -1,4 +1,4 @@
-// What the kernels need to know of one picture.
+// The splatting kernels' input for one picture.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace octascope::ui {
 // Row of an affine map of the tree's frame: dot(xyz, place) + w.
 using AffineRow = std::array<double, 4>;
 
-// Base colours with 10 bits a channel, red lowest; the flag in the two bits above them tells that
-// the segment is to be at least least_vessel_radius_px.
+// Base colours with 10 bits a channel, red lowest; the flag in the two bits above marks segments to
+// be drawn at least least_vessel_radius_px wide.
 using BaseColour = std::uint32_t;
 inline constexpr BaseColour kept_visible = 1U << 30U;
 
@@ -29,8 +29,8 @@ struct SplatCounts {
 
 struct SplatFrame {
   pipeline::VesselClusters tree;
-  // By cluster: so many of its first nodes, references included, make segments that somebody else
-  // draws. Empty: none.
+  // Per cluster, the number of its first nodes, references included, whose segments are drawn
+  // elsewhere. Empty: none.
   std::span<const std::uint8_t> taken;
   float detail_px = 0; // see merged_order.h; 0: every segment is drawn
   DepthPixel* pixels = nullptr;

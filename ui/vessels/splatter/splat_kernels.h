@@ -1,5 +1,5 @@
-// Segments into pixels, several segments in the lanes of a register. Compiled for every instruction
-// set, chosen at run time.
+// Draws segments into pixels, several segments in the lanes of a register. Compiled for every
+// instruction set, chosen at run time.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct SplatKernels {
   Splat splat;
 };
 
-// The widest that this processor has, or the one named `isa`; nullptr where it has no such one.
+// The widest that this processor has, or the one named `isa`; nullptr if there is none.
 const SplatKernels* splat_kernels(std::string_view isa = {});
 
 } // namespace octascope::ui

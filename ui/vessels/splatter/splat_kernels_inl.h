@@ -1,10 +1,10 @@
 // From packed nodes to segments that may cover a pixel's centre. For one instruction set; see
 // splat_kernels.h.
 //
-// Seen as a whole, a tree has millions of segments that are much thinner than a pixel and no longer
-// than one; nearly all of them cover no pixel's centre at all. So a cluster's nodes are projected
-// into arrays that stay in the first-level cache, and a first test of many segments at a time keeps
-// those whose bounding rectangle contains a centre.
+// Seen as a whole, a tree has millions of segments much thinner than a pixel and no longer than
+// one; nearly all of them cover no pixel's centre. So a cluster's nodes are projected into arrays
+// that stay in the first-level cache, and a first test of many segments at a time keeps those whose
+// bounding rectangle contains a centre.
 #if defined(OCTASCOPE_SPLAT_KERNELS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_KERNELS_INL
 #undef OCTASCOPE_SPLAT_KERNELS_INL
@@ -90,7 +90,7 @@ private:
   static constexpr std::size_t nodes_a_cache_line = 8;
   static constexpr float kept_visible_reach = least_vessel_radius_px + 1e-3F;
 
-  // Segments of the cluster that are to be drawn, and then wait in a queue.
+  // Queue of the cluster's segments that are to be drawn.
   struct Choice {
     explicit Choice(const SplatFrame& frame) : queue{frame} {}
 
@@ -112,7 +112,7 @@ private:
     HWY_ALIGN std::uint32_t indices[room + lanes];
   };
 
-  // Nodes of the cluster onto the screen.
+  // Projects nodes of the cluster onto the screen.
   HWY_INLINE void project(const pipeline::VesselCluster& cluster, const ClusterView& view,
                           const pipeline::PackedNode* nodes, std::size_t count) {
     const auto row = [](const std::array<float, 4>& r, Real x, Real y, Real z) {
@@ -139,8 +139,8 @@ private:
       const Real nearness = hn::Div(real(1), row(view.distance(), x, y, z));
       const Real column = hn::Mul(row(view.column(), x, y, z), nearness);
       const Real line = hn::Mul(row(view.line(), x, y, z), nearness);
-      // 2^v from above, at most 6 % too much: its fraction as it is. Half as wide again at its
-      // start at the most.
+      // Upper bound of 2^v, at most 6 % too large: its fraction taken as it is. At the start, at
+      // most half as wide again.
       const Real radius =
           hn::BitCast(Floats{}, hn::ConvertTo(Ints{}, hn::MulAdd(log2_radius, real(8388608.0F),
                                                                  real(127.0F * 8388608.0F))));
@@ -164,12 +164,12 @@ private:
       std::memcpy(places + 2 * i, ends + parents[i], 2 * sizeof(float));
   }
 
-  // Fewer segments for the same coverage: see merged_order.h. They and their parents are copied
-  // side by side first, so that no other node costs time.
+  // Fewer segments for the same coverage: see merged_order.h. They and their parents are first
+  // copied side by side, so that other nodes cost no time.
   HWY_NOINLINE void splat_merged(const pipeline::VesselCluster& cluster, const ClusterView& view,
                                  const pipeline::PackedNode* nodes, std::size_t taken,
                                  std::size_t thin) {
-    // Some nodes here, some there: processors do not foresee it. The next cluster lies behind.
+    // Prefetches the next cluster: the processor does not predict this scattered access.
     for (std::size_t i = 0; i < pipeline::largest_cluster; i += nodes_a_cache_line)
       __builtin_prefetch(nodes + cluster.nodes + i);
     drawn_ = 0;
@@ -207,8 +207,8 @@ private:
       widenings_[end - 1] = order.last_widening;
   }
 
-  // Wider, and so much shorter that the round ends cover no more than those of the segments that
-  // this one stands for: L′ = L − π/2 · (widening − 1) · r, but not less than nothing.
+  // Wider, and shortened so that the round ends cover no more than those of the segments that this
+  // one stands for: L′ = L − π/2 · (widening − 1) · r, but not below 0.
   HWY_INLINE void widen() {
     for (std::size_t i = 0; i < drawn_; i += lanes) {
       Real ax, ay, wa, la, bx, by, wb, lb;
@@ -256,8 +256,8 @@ private:
     return start;
   }
 
-  // Of the segments that end at the nodes from `begin` to before `end`, those that may cover a
-  // pixel's centre.
+  // Chooses, of the segments that end at nodes in [begin, end), those that may cover a pixel's
+  // centre.
   HWY_INLINE void choose(std::size_t begin, std::size_t end, float least_reach) {
     const Real right = real(static_cast<float>(frame_.width) - 0.5F);
     const Real bottom = real(static_cast<float>(frame_.height) - 0.5F);
@@ -283,7 +283,7 @@ private:
       const Mask has_centre = hn::And(hn::Ge(x, left_x), hn::Ge(y, top_y));
       const Mask has_more =
           hn::Or(hn::Ge(hn::Sub(x, real(1)), left_x), hn::Ge(hn::Sub(y, real(1)), top_y));
-      // Off the line through the ends by no more than `reach`.
+      // Whether it is within `reach` of the line through the ends.
       const Real dx = hn::Sub(bx, ax);
       const Real dy = hn::Sub(by, ay);
       const Real across = hn::MulSub(dx, hn::Sub(y, ay), hn::Mul(dy, hn::Sub(x, ax)));
@@ -298,7 +298,7 @@ private:
     counts_.culled += end - begin - in_picture;
   }
 
-  // Segments of which a part may lie before the near distance, one by one.
+  // Handles one by one the segments that may lie partly before the near distance.
   HWY_NOINLINE void splat_clipped(const pipeline::VesselCluster& cluster, const ClusterView& view,
                                   const pipeline::PackedNode* nodes, std::size_t taken) {
     const BaseColour* colours = frame_.colours[static_cast<std::size_t>(cluster.branch)].data();
@@ -322,7 +322,7 @@ private:
 
   const SplatFrame& frame_;
   SplatCounts counts_;
-  // Those with one pixel centre to look at go together: lanes wait for the slowest of them.
+  // Segments with a single candidate pixel are drawn together: lanes wait for the slowest of them.
   Choice dots_;
   Choice lines_of_pixels_;
   HWY_ALIGN End ends_[room];

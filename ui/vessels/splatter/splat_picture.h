@@ -1,5 +1,5 @@
-// A DepthImage in GL: laid into the bound framebuffer with its depth, so that what GL draws and
-// what the processor has drawn hide each other as they should.
+// A DepthImage in GL: drawn into the bound framebuffer with its depth, so that GL's and the
+// processor's parts occlude each other correctly.
 #pragma once
 
 #include "hal/result.h"
@@ -16,8 +16,8 @@ class SplatPicture {
 public:
   static hal::Result<SplatPicture> create();
 
-  // Over the whole viewport, which is as large as the image, with GL_LESS: where there is no
-  // vessel, what is there stays. Leaves the depth test off.
+  // Over the whole viewport, which is as large as the image, with GL_LESS: pixels without a vessel
+  // stay. Leaves the depth test off.
   hal::Result<> draw(const DepthImage& image, const Camera& camera);
 
 private:

@@ -1,5 +1,5 @@
-// Where rays meet the round cone of a wide segment: what ui/shaders/vessel_relief.glsl does, with
-// pixels of a row in the lanes. For one instruction set; see splat_kernels.h.
+// Intersects rays with the round cone of a wide segment, as ui/shaders/vessel_relief.glsl does,
+// with pixels of a row in the lanes. For one instruction set; see splat_kernels.h.
 #if defined(OCTASCOPE_SPLAT_RELIEF_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_RELIEF_INL
 #undef OCTASCOPE_SPLAT_RELIEF_INL
@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {
 namespace splat {
 
-// One segment, its first end at a pixel and a nearness, the second so much further; radii in
+// One segment: the first end's pixel and nearness, and the differences to the second; radii in
 // pixels.
 struct WideSegment {
   float ax, ay, dx, dy;
@@ -35,8 +35,8 @@ public:
     k_ = ex_ * ex_ + ey_ * ey_ + ez_ * ez_ - growth_ * growth_;
   }
 
-  // 1 / distance along the view of the surface, at the pixel that is qx, qy from the first end and
-  // where the axis has that nearness; the axis's where the ray misses the cone.
+  // 1 / distance of the surface along the view, at the pixel (qx, qy) from the first end where the
+  // axis has that nearness; the axis's own if the ray misses the cone.
   HWY_INLINE Real nearness(Real qx, Real qy, Real axis_nearness) const {
     const Real z = hn::Div(real(1), axis_nearness);
     const Real px = hn::Add(qx, real(first_x_));
@@ -67,7 +67,7 @@ private:
             hn::MulAdd(share, real(ez_), a.z)};
   }
 
-  // 0 where it misses.
+  // 0 if it misses.
   HWY_INLINE Real enter_ball(const Vector& ray, const Vector& a, Real share) const {
     const Vector middle = place(a, share);
     const Real radius = hn::MulAdd(share, real(growth_), real(ra_));
@@ -82,7 +82,7 @@ private:
     return hn::Min(enter_ball(ray, a, real(0)), enter_ball(ray, a, real(1)));
   }
 
-  // 0 where it misses them.
+  // 0 if it misses them.
   HWY_INLINE Real enter_sides(const Vector& ray, const Vector& a) const {
     const Vector e{real(ex_), real(ey_), real(ez_)};
     const Real per_k = real(1 / k_);

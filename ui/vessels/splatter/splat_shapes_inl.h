@@ -1,10 +1,10 @@
-// The rounded trapezoids of ui/vessels/scene/vessel_scene.h, pixel centre by pixel centre. For one
-// instruction set; see splat_kernels.h.
+// Draws the rounded trapezoids of ui/vessels/scene/vessel_scene.h, by testing pixel centres. For
+// one instruction set; see splat_kernels.h.
 //
-// Small ones are drawn side by side, one in each lane: along the axis that they follow more, each
-// column has but a few candidates for pixel centres, within √2 radii of the line through the ends.
-// (A point of the shape is at most a radius off the line, or off one end and the line rises no
-// faster than 45 degrees.) Large ones are drawn one at a time, pixels of a row in the lanes.
+// Small ones are drawn side by side, one in each lane: along their major axis, each column has only
+// a few candidate pixel centres, within √2 radii of the line through the ends. (A point of the
+// shape is at most a radius off the line, or off one end and the line rises no faster than 45
+// degrees.) Large ones are drawn one at a time, pixels of a row in the lanes.
 #if defined(OCTASCOPE_SPLAT_SHAPES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_SHAPES_INL
 #undef OCTASCOPE_SPLAT_SHAPES_INL
@@ -50,7 +50,7 @@ struct Shapes {
   Real ra, dr;         // likewise, in pixels
   Real wa, dw;         // nearness
   Real widest;
-  Real inverse_length2; // 0: both ends in one place
+  Real inverse_length2; // 0: both ends coincide
   Word colour;
 };
 
@@ -66,7 +66,7 @@ public:
     colours_[count_] = colour;
     ++count_;
   }
-  // add() may be called so many times more before there must be a draw_full().
+  // How many more add() calls are possible before draw_full().
   HWY_INLINE std::size_t space() const { return room - count_; }
 
   // Draws what fills whole registers and keeps the rest.
@@ -124,8 +124,8 @@ private:
     return s;
   }
 
-  // Those of the lanes `candidates` that cover the centre of the pixel that is qx, qy from their
-  // first end. shown(nearness) is the nearness of what is seen where the axis has that one.
+  // The lanes of `candidates` that cover the centre of the pixel (qx, qy) from their first end.
+  // shown(nearness) is the nearness of the visible surface where the axis has that one.
   template <class Shown>
   HWY_INLINE void cover(const Shapes& s, Real qx, Real qy, Int pixel, Mask candidates,
                         const Shown& shown) {
@@ -159,7 +159,7 @@ private:
   }
 
   HWY_INLINE void draw_small(const Shapes& s, Mask drawn) {
-    // u along the axis that the segment follows more, v across.
+    // u along the major axis, v across.
     const Mask steep = hn::Gt(hn::Abs(s.dy), hn::Abs(s.dx));
     const Real au = hn::IfThenElse(steep, s.ay, s.ax);
     const Real av = hn::IfThenElse(steep, s.ax, s.ay);
@@ -203,7 +203,7 @@ private:
   }
 
   HWY_NOINLINE void draw_large(const Shapes& all, Mask large) {
-    // By lane: what Shapes has, one after the other.
+    // By lane: the members of Shapes, in order.
     HWY_ALIGN float values[10][lanes];
     HWY_ALIGN std::uint32_t colours[lanes];
     const Real fields[] = {all.ax, all.ay, all.dx, all.dy,     all.ra,

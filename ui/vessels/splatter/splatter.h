@@ -1,6 +1,7 @@
-// Vessel trees drawn by the processor: each segment's rounded trapezoid
-// (ui/vessels/scene/vessel_scene.h) in the pixels whose centres it covers, the nearest in front. No
-// order of drawing matters, so threads share one picture and the result is the same to the bit.
+// Draws vessel trees on the processor: each segment's rounded trapezoid
+// (ui/vessels/scene/vessel_scene.h) in the pixels whose centres it covers, the nearest in front.
+// The result does not depend on the drawing order, so threads share one picture and it is the same
+// to the bit.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +21,8 @@
 namespace octascope::ui {
 
 struct SplatShare {
-  // By cluster: so many of its first nodes, references included, make segments that somebody else
-  // draws. Empty: all are drawn here.
+  // Per cluster, the number of its first nodes, references included, whose segments are drawn
+  // elsewhere. Empty: all are drawn here.
   std::span<const std::uint8_t> taken;
   // Segments with a smaller radius in pixels are merged (merged_order.h), but none of order
   // least_order_kept_visible and above. 0: none.
@@ -31,14 +32,14 @@ struct SplatShare {
 // Threads: bound to one, but for its own helpers. draw() allocates nothing but the image.
 class Splatter {
 public:
-  // `helpers` threads beside the caller's. `isa` names an instruction set, else the widest is
-  // taken. ErrorCode::unsupported: this processor has none that is compiled in.
+  // `helpers` threads besides the caller's. `isa` names an instruction set; empty: the widest.
+  // ErrorCode::unsupported: none that this processor has is compiled in.
   static hal::Result<Splatter> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
                                       std::string_view isa = {});
 
-  // Draws into `image`, which becomes as large as the scene says. The account is of the
-  // segments that are not taken. ErrorCode::invalid_argument: the scene has no pixels, or `taken`
-  // is not as long as there are clusters.
+  // Draws into `image`, resized to the scene's size. Counts the segments that are not taken.
+  // ErrorCode::invalid_argument: the scene has no pixels, or `taken` has another length than there
+  // are clusters.
   hal::Result<SegmentCounts> draw(const VesselScene& scene, DepthImage& image,
                                   const SplatShare& share = {});
 

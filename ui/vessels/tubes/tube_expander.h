@@ -20,7 +20,7 @@ struct TubeVertex {
 };
 static_assert(sizeof(TubeVertex) == 20);
 
-// What shaders/vessel_tube_nodes.vert does, in the same words. Any thread may use one of its own.
+// The same as shaders/vessel_tube_nodes.vert, on the processor. One object per thread.
 class TubeExpander {
 public:
   explicit TubeExpander(const TubeShape& shape);
@@ -30,9 +30,9 @@ public:
     std::uint32_t caps = 0;
   };
 
-  // Adds a cluster's segments that may be in the picture: body_vertices() of each after those of
-  // counts.bodies before, cap_vertices() of each half ball after those of counts.caps. `passed` are
-  // the tree's passed_nodes(). There is room for one body and two half balls a segment.
+  // Appends a cluster's segments that may be in the picture: body_vertices() of each after
+  // counts.bodies earlier ones, cap_vertices() of each half ball after counts.caps. `passed` are
+  // the tree's passed_nodes(). There must be room for one body and two half balls a segment.
   void expand(const VesselFrame& frame, const PlacedCluster& cluster,
               std::span<const pipeline::PackedNode> nodes, std::span<const std::uint32_t> passed,
               bool with_caps, TubeVertex* bodies, TubeVertex* caps, Counts& counts) const;

@@ -13,12 +13,12 @@ namespace octascope::ui {
 // Threads: as gl/objects.h. Allocates in create(), and in begin() for a new tree.
 class TubeNodePainter {
 public:
-  // `nodes` is shared by those who draw the same tree.
-  // ErrorCode::unsupported: this GL cannot compile our shaders.
+  // `nodes` is shared by all painters of the same tree. ErrorCode::unsupported: this GL cannot
+  // compile our shaders.
   static hal::Result<TubeNodePainter> create(std::shared_ptr<NodeTexture> nodes,
                                              const TubeShape& shape);
 
-  // Then draw() draws clusters of that tree in that frame.
+  // Afterwards draw() draws clusters of that tree in that frame.
   hal::Result<> begin(const VesselFrame& frame, const pipeline::VesselClusters& tree);
   void draw(std::span<const PlacedCluster> clusters, bool caps) const;
 

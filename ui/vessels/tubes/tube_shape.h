@@ -12,7 +12,8 @@
 
 namespace octascope::ui {
 
-// A segment is a strip of triangles between two rings, and half balls where it does not go on.
+// A segment is a strip of triangles between two rings, with a half ball at each end where it does
+// not go on.
 struct TubeShape {
   int sectors = 8; // around the axis; even, so that two edges lie on the outline. 4 to 32
 
@@ -21,17 +22,16 @@ struct TubeShape {
   int cap_vertices() const { return (cap_rings() + 1) * sectors; }
 };
 
-// Strips, joined by triangles without area, of so many bodies or half balls with their vertices one
-// after the other, and the number of indices of one.
+// Strips of that many bodies or half balls, joined by degenerate triangles, with their vertices one
+// after the other; and the number of indices of one.
 std::vector<std::uint32_t> tube_body_indices(const TubeShape& shape, int segments);
 std::vector<std::uint32_t> tube_cap_indices(const TubeShape& shape, int caps);
 int tube_body_corners(const TubeShape& shape);
 int tube_cap_corners(const TubeShape& shape);
 
-// Half balls smaller than this cannot be seen and are not drawn: of clusters in which none is
-// larger.
+// Half balls smaller than this are invisible and not drawn, in clusters that have no larger one.
 inline constexpr float smallest_cap_px = 0.35F;
-// Of a bend without a half ball, this much of the outline may be missing.
+// How much of the outline a bend without a half ball may lack.
 inline constexpr float straight_px = 0.25F;
 
 // ErrorCode::unsupported: this GL cannot compile our shaders.

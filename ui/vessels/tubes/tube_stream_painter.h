@@ -17,13 +17,13 @@ public:
 
   std::uint32_t batch_clusters() const { return batch_clusters_; }
 
-  // Then slots may be expanded into. ErrorCode::system: the driver has no memory.
+  // Afterwards slots may be expanded into. ErrorCode::system: the driver has no memory.
   hal::Result<> begin(const VesselFrame& frame);
-  // Any thread, one a slot; at most batch_clusters(). `passed` are the tree's passed_nodes().
+  // Any thread, one per slot; at most batch_clusters(). `passed` are the tree's passed_nodes().
   void expand(std::uint32_t slot, const VesselFrame& frame, std::span<const PlacedCluster> clusters,
               std::span<const pipeline::PackedNode> nodes, std::span<const std::uint32_t> passed,
               bool caps);
-  // Draws what was expanded, and readies the slot for the next.
+  // Draws what was expanded, and frees the slot.
   hal::Result<> draw(std::uint32_t slot);
 
 private:

@@ -14,10 +14,10 @@
 
 namespace octascope::ui {
 
-// A frame's clusters, by whether half balls can be seen of them.
+// A frame's clusters, divided by whether their half balls are visible.
 class TubeClusters {
 public:
-  // Returns how many segments are culled. Allocates for a new tree only.
+  // Returns the number of culled segments. Allocates for a new tree only.
   std::uint64_t place(const VesselScene& scene, const VesselFrame& frame, ClusterChoice choice);
   std::span<const PlacedCluster> get(bool caps) const { return placed_[caps ? 1 : 0]; }
 
@@ -43,9 +43,9 @@ private:
   TubeClusters clusters_;
 };
 
-// On two threads, of which one also feeds GL.
+// Expands on two threads, one of which also feeds GL.
 //
-// Threads: as gl/objects.h, but for the helper of its own.
+// Threads: as gl/objects.h, but for its own helper.
 class StreamedTubesMethod final : public VesselMethod {
 public:
   // `threads` is called on the helper. ErrorCode::unsupported: this GL cannot compile our shaders.
@@ -63,7 +63,7 @@ private:
   ClusterChoice choice_;
   TubeClusters clusters_;
   TreeEnds ends_;
-  OrderedBatches order_; // last: its thread stops before the rest is gone
+  OrderedBatches order_; // last: its thread stops before the other members are destroyed
 };
 
 } // namespace octascope::ui

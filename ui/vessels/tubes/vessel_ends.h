@@ -1,4 +1,4 @@
-// Which nodes are passed by a vessel, and at which it ends.
+// At which nodes a vessel continues, and at which it ends.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,19 @@
 
 namespace octascope::ui {
 
-// Does the child go on with its parent's whole thickness? As segment_start_radius().
+// Whether the child continues with its parent's whole thickness, as in segment_start_radius().
 inline bool goes_on(float parent_radius, float radius) {
   return parent_radius <= pipeline::widest_start * radius;
 }
 
-// A bit a node, 32 a word from the lowest: set where another segment of its cluster goes on from
-// it. Where one of another cluster does, the node counts as an end, too: its half ball is hidden
-// within.
+// A bit per node, 32 a word from the lowest: set if another segment of its cluster continues from
+// it. A node continued only in another cluster counts as an end: its half ball is hidden inside.
 std::vector<std::uint32_t> passed_nodes(const pipeline::VesselClusters& tree);
 
 // Those of the tree that was shown last.
 class TreeEnds {
 public:
-  // Allocates for a tree that it has not shown last.
+  // Allocates unless the tree is the last one shown.
   void show(const pipeline::VesselClusters& tree);
   const std::vector<std::uint32_t>& passed() const { return passed_; }
 

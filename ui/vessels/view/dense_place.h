@@ -8,10 +8,10 @@
 
 namespace octascope::ui {
 
-// Of boxes `size_mm` along the axes (unit vectors at right angles, the columns), a quarter of their
-// size apart, with something in their first corner: the one that holds most segments, and of it the
-// mean place of its segments. A cluster's segments are taken to be in its middle. The origin for an
-// empty tree. For commands: allocates.
+// Of boxes of `size_mm` along the axes (perpendicular unit vectors, the columns), placed a quarter
+// of their size apart wherever their first corner holds something: takes the one with the most
+// segments and returns their mean place. A cluster's segments count at its middle. The origin for
+// an empty tree. For commands: allocates.
 glm::vec3 densest_place(const pipeline::VesselClusters& tree, const glm::mat3& axes,
                         const glm::vec3& size_mm);
 

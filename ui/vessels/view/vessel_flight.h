@@ -1,5 +1,5 @@
-// A flight through a vessel tree, along which methods are compared: what is still right from frame
-// to frame, and not in three pictures alone.
+// A flight through a vessel tree, to compare methods from frame to frame instead of in three
+// pictures only.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,13 @@
 
 namespace octascope::ui {
 
-// From the whole tree to a close look, 4 µm a pixel: to the mouth of the LAD (of the longest vessel
-// where no branch is named so) and along its longest way down to the last vessel of order 5, half
-// turned around it meanwhile. The nearer, the slower: a step of t moves the picture by about as
-// many pixels anywhere, and makes it larger by the same factor. It depends on the tree and the
-// picture's size alone.
+// From the whole tree to a close view of 4 µm a pixel: to the mouth of the LAD (of the longest
+// vessel if no branch has that name) and along its longest path down to the last vessel of order 5,
+// turning half around it. A step of t moves the picture by about the same number of pixels
+// everywhere, and magnifies it by the same factor. Depends only on the tree and the picture's size.
 class VesselFlight {
 public:
-  // `tree` with its sources; without, and without vessels of order 5, it comes close where it
+  // `tree` with its sources; without them, or without vessels of order 5, it zooms in where it
   // begins. For commands: allocates.
   VesselFlight(const pipeline::VesselClusters& tree, int width, int height);
 
@@ -26,14 +25,14 @@ public:
   VesselView at(float t) const;
 
   float length_mm() const { return reached_mm_.back(); }
-  // By how many pixels the picture moves from beginning to end: its middle, or, where there is
-  // nothing to fly along, its edge.
+  // How many pixels the picture moves from beginning to end: its middle or, if there is no path,
+  // its edge.
   float pixels() const;
 
 private:
   void fly_to(const glm::vec3& place_mm);
   glm::vec3 place(float reached_mm) const;
-  float closer() const; // the picture's scale at the end, of that at the beginning
+  float closer() const; // the final scale relative to the initial one
 
   VesselView whole_;
   int height_;

@@ -1,4 +1,4 @@
-// Looking at a vessel tree.
+// Views of a vessel tree.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace octascope::ui {
 
-// The box, along the tree's axes, in which its clusters lie with their whole thickness.
+// The box, along the tree's axes, that contains its clusters with their whole thickness.
 struct VesselBounds {
   glm::vec3 lower_mm{0};
   glm::vec3 upper_mm{0};
@@ -33,23 +33,22 @@ struct VesselView {
   bool operator==(const VesselView&) const = default;
 };
 
-// From that yaw and tilt, target and scale such that the box of every cluster is in the picture,
-// and one touches its margin. Of an empty tree: looks at the origin.
+// Keeps yaw and tilt and sets target and scale so that the box of every cluster is in the picture,
+// with one touching its margin. For an empty tree: looks at the origin.
 VesselView fit_whole_tree(VesselView view, const pipeline::VesselClusters& tree, int width,
                           int height);
 
-// Faces the target. Near and far plane enclose what can be seen of the bounds; what is nearer to
-// the eye than half the target's distance is cut away, else a close look would end at the next
-// trunk.
+// Faces the target. Near and far plane enclose the visible part of the bounds; anything nearer to
+// the eye than half the target's distance is cut away, or a close view would end at the next trunk.
 Camera make_vessel_camera(const VesselView& view, const VesselBounds& bounds, int width,
                           int height);
 
-// The look's depth cue over what the camera shows of the bounds: at most over two heights of the
-// picture before and behind the target, so that a close look has depth, too.
+// Sets the look's depth cue for the visible part of the bounds: at most two heights of the picture
+// before and behind the target, so that a close view has depth, too.
 VesselLook with_cue(VesselLook look, const VesselView& view, const VesselBounds& bounds, int width,
                     int height);
 
-// The views in which methods are measured; they depend on the tree and the picture's size alone.
+// The views in which methods are measured; they depend only on the tree and the picture's size.
 enum class BenchmarkView : std::uint8_t {
   whole,  // the tree fills the picture
   middle, // 20 µm a pixel, where most segments are to be seen: the hardest
@@ -59,7 +58,7 @@ inline constexpr std::array all_benchmark_views{BenchmarkView::whole, BenchmarkV
                                                 BenchmarkView::close};
 std::string_view to_string(BenchmarkView view);
 
-// Of an empty tree: looks at the origin.
+// For an empty tree: looks at the origin.
 VesselView make_benchmark_view(BenchmarkView view, const pipeline::VesselClusters& tree, int width,
                                int height);
 
