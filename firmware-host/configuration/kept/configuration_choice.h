@@ -32,7 +32,7 @@ hal::Result<ChosenConfiguration>
 choose_configuration(const RunOptions& options,
                      const std::optional<std::filesystem::path>& state_folder);
 
-// The next choice after `chosen`, which could not be used because of `reason`; empty after the
+// The next choice after `chosen`, which could not be used for the reason `refusal`; empty after the
 // last.
 std::optional<ChosenConfiguration> next_choice(const ChosenConfiguration& chosen,
                                                const std::string& refusal,
