@@ -18,7 +18,7 @@
 
 namespace octascope::firmware_host {
 
-// What run, record and replay take alike, as text, the way CLI11 collects it.
+// Options that run, record and replay share, as text, the way CLI11 collects them.
 struct ShowArguments {
   std::string configuration, display = "auto", size, vessels, registration, snapshot, report;
   double duration_s = 0;
@@ -27,23 +27,23 @@ struct ShowArguments {
 void add_show_options(CLI::App& command, ShowArguments& arguments);
 hal::Result<> read_show_options(const ShowArguments& arguments, RunOptions& options);
 
-// Empty where nothing was said.
+// Empty for empty text.
 std::optional<std::filesystem::path> path_of(const std::string& text);
 
-// Says what went wrong; the exit status. Complaints about what was asked for are wrong use, what
-// fails on the way is a failure.
+// Prints the error and returns the exit status: wrong use for errors in what was asked for, else
+// failure.
 int complain(std::string_view command, const hal::Error& error);
 
 // "1280x720": width and height, each 1 to 16384.
 hal::Result<std::array<int, 2>> parse_size(std::string_view text);
 
-// The whole text as a number of the range; "nan" is in none.
+// Parses the whole text as a number within the range; NaN is in no range.
 bool read_number(std::string_view text, float& value, const ui::NumberRange& range);
 
 // "8,36": the level in dB where the display window begins, and its size in dB.
 hal::Result<ui::DisplayWindow> parse_window(std::string_view text);
 
-// Of the volumes of a recording, counted from 0.
+// Volumes of a recording, counted from 0.
 struct VolumeRange {
   std::size_t first = 0;
   std::optional<std::size_t> last; // empty: the recording's

@@ -1,5 +1,5 @@
-// The subcommands of the program. Each adds itself to the command line and leaves its exit status
-// behind when it was called: 0 done, 1 failed, 2 wrong use.
+// The subcommands of the program. Each adds itself to the command line and, when called, stores its
+// exit status: 0 done, 1 failed, 2 wrong use.
 #pragma once
 
 #include <CLI/App.hpp>

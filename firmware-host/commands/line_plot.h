@@ -1,4 +1,4 @@
-// Curves on axes, drawn plainly into an RGB picture, with small capital letters.
+// Plots curves on axes into an RGB picture, labelled in small capital letters.
 #pragma once
 
 #include <array>
@@ -34,7 +34,8 @@ struct Box {
   int height = 0;
 };
 
-// Frame, grid with numbers, curves and their names inside `box`, which lies in the picture.
+// Draws frame, grid with numbers, curves and their names inside `box`, which must lie in the
+// picture.
 void draw_panel(pipeline::Image& image, const Box& box, const PlotPanel& panel);
 
 // One line of text from (x, y), its upper left corner; letters are 8 pixels apart and 10 high.

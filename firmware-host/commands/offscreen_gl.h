@@ -1,4 +1,4 @@
-// GL without a screen, for commands that draw pictures or measure how long that takes.
+// GL without a screen, for commands that draw pictures or measure drawing.
 #pragma once
 
 #include <memory>
@@ -9,11 +9,11 @@
 
 namespace octascope::firmware_host {
 
-// A context is current on the thread that opened it as long as this lives; none may be before, and
-// GL's objects must be gone when it ends.
+// Keeps a context current on the opening thread while it lives. None may be current before, and all
+// GL objects must be destroyed first.
 class OffscreenGl {
 public:
-  // With a framebuffer of that size bound. Faults: OffscreenDisplay's.
+  // Binds a framebuffer of that size. Errors: OffscreenDisplay's.
   static hal::Result<std::unique_ptr<OffscreenGl>> open(int width, int height);
 
   hal::Clock& clock() { return clock_; }

@@ -1,4 +1,4 @@
-// Sizes of files in words: "69.8 MB", "4.21 GB".
+// File sizes as text: "69.8 MB", "4.21 GB".
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The options with which a vessel tree is read, for every command that takes one.
+// Options for reading a vessel tree, shared by every command that takes one.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The appliance's configuration file: one TOML, refused as a whole when anything in it is wrong.
+// The appliance's configuration file: one TOML, refused as a whole if anything in it is wrong.
 #pragma once
 
 #include <cstddef>
@@ -24,31 +24,33 @@ namespace octascope::firmware_host {
 struct Configuration {
   // [scan]; empty: the phantom's or the recording's own plan
   std::optional<pipeline::ScanPlan> plan;
-  bool depth_spacing_said = false; // in [scan]; else a real camera's calibration says it
+  bool depth_spacing_said = false; // by [scan]; else a real camera's calibration gives it
   // [calibration], or the objective's
   std::optional<std::filesystem::path> calibration;
   // [[objective]] and [microscope]
   std::vector<Objective> objectives;
-  std::optional<Objective> objective; // the one that is on the microscope
+  std::optional<Objective> objective; // the one mounted on the microscope
   // [pipeline]
-  std::size_t workers = 0;                      // 0: one a core
-  std::vector<int> worker_cores;                // taken in turns; empty: spread over the allowed
-  pipeline::NeighbourWeights neighbour_weights; // each B-scan's share in its picture
+  std::size_t workers = 0;                      // 0: one per core
+  std::vector<int> worker_cores;                // assigned in turn; empty: spread over the allowed
+                                                // cores
+  pipeline::NeighbourWeights neighbour_weights; // weights of neighbouring B-scans in each B-scan's
+                                                // picture
   // [devices]
   DeviceConfig devices;
   // [display]
   int width = 1280;
   int height = 720;
   bool fullscreen = false;
-  std::optional<ui::DisplayWindow> window; // empty: what suits the first volume; the objective's
+  std::optional<ui::DisplayWindow> window; // empty: the objective's, or chosen for the first volume
   hal::Duration veil_after = std::chrono::seconds{5};
   // [[transfer]] and [display]
   LookConfiguration look;
   // [controls]
-  std::optional<std::string> control_profile; // one that the program brings; empty: as plugged in
-  std::optional<std::filesystem::path> control_file; // in its place
+  std::optional<std::string> control_profile;        // built in; empty: chosen by the device
+  std::optional<std::filesystem::path> control_file; // instead of a built-in profile
   // [observation]
-  std::optional<std::filesystem::path> metrics; // written anew every ten seconds
+  std::optional<std::filesystem::path> metrics; // rewritten every ten seconds
   // [recordings]
   std::optional<std::filesystem::path> recording_folder;
   // [sim]
@@ -59,8 +61,8 @@ struct Configuration {
   std::optional<std::filesystem::path> controls;
 };
 
-// The file that a run is configured by: --config, else the machine's where there is one; not for a
-// simulation, which is the same on every machine.
+// The configuration of a run: --config, else the machine's if present. Simulations ignore the
+// machine's, so that they are the same everywhere.
 inline constexpr const char* machine_configuration = "/etc/octascope/octascope.toml";
 std::optional<std::filesystem::path> configuration_file(const RunOptions& options);
 
@@ -68,18 +70,17 @@ std::optional<std::filesystem::path> configuration_file(const RunOptions& option
 hal::Result<Configuration> load_configuration(const std::filesystem::path& file);
 hal::Result<Configuration> read_configuration(const pipeline::ConfigDocument& document);
 
-// That file, read; without one the defaults.
+// Loads that file; without one, the defaults.
 hal::Result<Configuration> configuration_of(const RunOptions& options);
 
-// What the objective says of the scan, and then the command line, come before what anything else
-// says.
+// Applies the objective's scan size and then the command line, which take precedence over all else.
 void override_plan(const RunOptions& options, const Configuration& configuration,
                    pipeline::ScanPlan& plan);
 
-// How the beam moves, by configuration and command line.
+// The scan plan from configuration and command line.
 pipeline::ScanPlan plan_of(const RunOptions& options, const Configuration& configuration);
 
-// What pedals and knobs do, from where the configuration says; else the default profile.
+// The control profile that the configuration names, else the default one.
 hal::Result<ui::ControlProfile> load_controls(const Configuration& configuration);
 
 } // namespace octascope::firmware_host

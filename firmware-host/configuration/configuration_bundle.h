@@ -1,4 +1,4 @@
-// A configuration with every file that it names, held together.
+// A configuration and every file that it names, held in memory.
 #pragma once
 
 #include <filesystem>
@@ -10,23 +10,22 @@
 
 namespace octascope::firmware_host {
 
-// Files by their names in one flat folder; the texts name each other as they lie there.
+// Files by name in one flat folder; references in the texts are rewritten to match.
 class ConfigurationBundle {
 public:
   static constexpr const char* main_file = "octascope.toml";
 
-  // As the files are now. An Error for a configuration that is refused, or a file that cannot be
-  // read.
+  // Reads the files as they are now. Error: the configuration is refused, or a file cannot be read.
   static hal::Result<ConfigurationBundle> gather(const std::filesystem::path& configuration);
 
-  // A calibration with its tables alone.
+  // The same for a calibration and its tables alone.
   static hal::Result<ConfigurationBundle>
   gather_calibration(const std::filesystem::path& calibration);
 
-  // What lies in such a folder; an Error where it holds anything but files.
+  // Reads such a folder; an Error if it holds anything but files.
   static hal::Result<ConfigurationBundle> read(const std::filesystem::path& folder);
 
-  // Into an existing folder; all of it is on the disk when this returns.
+  // Into an existing folder; everything is on disk when this returns.
   hal::Result<> write(const std::filesystem::path& folder) const;
 
   const std::map<std::string, std::string>& files() const { return files_; }

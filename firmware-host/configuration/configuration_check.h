@@ -1,4 +1,4 @@
-// Whether a configuration can be run on, with every file that it names.
+// Whether a configuration is usable, with every file that it names.
 #pragma once
 
 #include <filesystem>
@@ -11,17 +11,16 @@
 
 namespace octascope::firmware_host {
 
-// Reads every file that the configuration names, those of objectives that are not on the microscope
-// included, and compares what must agree. The first that is wrong, with file, line, what was found
+// Reads every file that the configuration names, including those of objectives not on the
+// microscope, and checks that they agree. Returns the first error, with file, line, what was found
 // and what was expected.
 hal::Result<> check_named_files(const Configuration& configuration, const RunOptions& options = {});
 
-// load_configuration(), and that.
+// load_configuration() followed by check_named_files().
 hal::Result<Configuration> load_whole_configuration(const std::filesystem::path& file,
                                                     const RunOptions& options = {});
 
-// Everything that is wrong with the file and with what it names, for people who fix it; empty: it
-// can be run on.
+// Everything wrong with the file and the files it names, for people who fix it; empty: usable.
 std::vector<std::string> configuration_complaints(const std::filesystem::path& file);
 
 } // namespace octascope::firmware_host

@@ -27,15 +27,15 @@ load_control_device(const std::filesystem::path& file);
 hal::Result<hal::linux_backend::ControlModel>
 parse_control_device(std::string_view text, const std::filesystem::path& name);
 
-// The controls that may be opened: the learned one, where there is a file of one that can be read,
-// before the listed ones.
+// The controls that may be opened: the learned one first, if its file can be read, then the listed
+// ones.
 std::vector<hal::linux_backend::ControlModel>
 control_models(const std::optional<std::filesystem::path>& learned);
 
 std::string control_device_text(const hal::linux_backend::ControlModel& model);
 
-// A control profile to begin with (ui/controls/control_profile.h): the first switch freezes, the
-// last goes through the functions, and a long press does the chosen one.
+// An initial control profile (ui/controls/control_profile.h): the first switch freezes, the last
+// steps through the functions, and a long press performs the selected one.
 std::string first_profile_text(const hal::linux_backend::ControlModel& model);
 
 } // namespace octascope::firmware_host

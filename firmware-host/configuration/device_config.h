@@ -12,7 +12,7 @@
 namespace octascope::firmware_host {
 
 struct DeviceConfig {
-  // Whatever serves: the real device where one is plugged in, else the twin.
+  // The real device if one is plugged in, else the twin.
   static constexpr std::string_view automatic = "auto";
   static constexpr std::string_view twin = "sim";
   static constexpr std::string_view nothing = "none";
@@ -23,21 +23,22 @@ struct DeviceConfig {
   std::string sync_line;                          // likewise; empty: none
   hal::Duration pulse_width = std::chrono::microseconds{50};
   std::string control_input{automatic}; // auto, sim, hid (waited for)
-  // Of a control that `devices --learn` has learned; it leads before the listed ones.
+  // Of a control learned with `devices --learn`; takes precedence over the listed ones.
   std::optional<std::filesystem::path> control_device;
-  // Of the console display: vendor:product of each keyboard whose keys count; no other is opened.
+  // For the console display: vendor:product of each keyboard that is read; no other is opened.
   std::vector<std::string> keyboards;
   std::string scope_camera{automatic}; // auto, sim, none, libcamera (waited for), or a camera's id
   std::string connector;               // of the console display: "HDMI-A-1"; empty: the first
   std::string mode;                    // "1920x1080@60"; empty: what the monitor prefers
-  double overscan_percent = 0;         // of width and height that the monitor's frame hides
-  bool seat = true;                    // ask the seat daemon for the console; else as root
+  double overscan_percent = 0;         // share of width and height hidden by the monitor's frame
+  bool seat = true;                    // ask the seat daemon for the console; false: open it as
+                                       // root
 
-  std::optional<double> exposure_us; // of the line camera; empty: as it is
+  std::optional<double> exposure_us; // of the line camera; empty: unchanged
   std::optional<int> gain;           // likewise, in the camera's own steps
-  std::optional<int> camera_input;   // of a frame grabber with several connectors
+  std::optional<int> camera_input;   // for a frame grabber with several connectors
 
-  // How the camera packs its samples; empty: as its pixel format says.
+  // How the camera packs its samples; empty: by its pixel format.
   std::optional<int> significant_bits;
   int right_shift = 0;
 

@@ -8,16 +8,16 @@
 
 namespace octascope::firmware_host {
 
-// How the display begins; the defaults are the view's.
+// How the display begins; the defaults are ViewState's.
 struct LookConfiguration {
   ui::TransferSet transfers; // the built-in ones and those of [[transfer]]
-  int transfer = 0;          // indices into it
+  int transfer = 0;          // indices into `transfers`
   int colour_map = 0;
   ui::Technique technique = ui::ViewState{}.technique;
   float opacity = ui::ViewState{}.opacity;
 };
 
-// Complains to the document about what is wrong. Reads the files of look-up tables.
+// Reports errors to the document. Reads the files of look-up tables.
 LookConfiguration read_look(pipeline::ConfigTable root, pipeline::ConfigTable display);
 
 } // namespace octascope::firmware_host

@@ -1,4 +1,4 @@
-// What a user asked `octascope run` or `octascope replay` for.
+// What a user asked of `octascope run` or `octascope replay`.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct RecordingOptions {
   pipeline::SpectraShape shape;
 };
 
-// Of `octascope replay`: volumes come from a file, and no camera takes part.
+// For `octascope replay`: volumes come from a file and no camera is used.
 struct ReplayOptions {
   std::filesystem::path file;
   double rate = 1;
@@ -32,7 +32,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> configuration;
   DisplayChoice display = DisplayChoice::automatic;
   std::optional<std::array<int, 2>> size; // width, height
-  bool simulate = false;                  // twins even where there is a real device
+  bool simulate = false;                  // twins even where a real device is present
   std::optional<double> duration_s;
   std::optional<std::uint64_t> volumes;
   std::optional<RecordingOptions> recording;
@@ -44,10 +44,10 @@ struct RunOptions {
   std::optional<std::filesystem::path> controls; // what the pedal's twin does, and when
   std::optional<std::string> phantom;
   std::optional<std::filesystem::path> vessels;      // a tree, shown in the volume
-  std::optional<std::filesystem::path> registration; // of it to the volume
-  bool bidirectional = false;                        // whatever the plan says otherwise
+  std::optional<std::filesystem::path> registration; // from the tree to the volume
+  bool bidirectional = false;                        // overrides the plan
   std::optional<std::filesystem::path> record_to;    // all volumes, from the first on
-  std::string subject;                               // of recordings; empty: not said
+  std::string subject;                               // of recordings; empty: not given
   pipeline::Eye eye = pipeline::Eye::not_said;       // likewise
   std::optional<int> repeats;                        // likewise
 };

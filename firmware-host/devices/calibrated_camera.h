@@ -1,9 +1,8 @@
-// Whether the line camera that is open is the one that the calibration was made with.
+// Whether the open line camera is the one that the calibration was made with.
 //
-// Spectrometers of one kind have as many samples, so another one's calibration fits and only blurs:
-// depths are wrong by some per cent, and nothing in the picture tells. So the picture is marked for
-// as long as it is so. It is not refused: an interrupted picture is a hazard, too, and the greater
-// one.
+// Spectrometers of one kind have equally many samples, so another one's calibration fits but blurs,
+// and depths are wrong by some per cent without any visible sign. The picture is therefore marked.
+// It is not refused: an interrupted picture is the greater hazard.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@
 namespace octascope::firmware_host {
 
 enum class CameraVerdict : std::uint8_t {
-  unknown, // the calibration names no camera, or the one that is open tells nothing of itself
+  unknown, // the calibration names no camera, or the open one does not identify itself
   same,
   another,
 };
@@ -26,10 +25,10 @@ enum class CameraVerdict : std::uint8_t {
 // "unknown", "same", "another".
 std::string_view to_string(CameraVerdict verdict);
 
-// Of both, by their names. Pure.
+// Compares them by name. Pure.
 CameraVerdict compare_cameras(std::string_view calibrated, std::string_view open);
 
-// For the log and the doctor, where a calibration names no camera: that it cannot be compared, and
+// For the log and the doctor, when a calibration names no camera: that it cannot be compared, and
 // what to do. Pure.
 std::string words_on_unnamed_camera(const std::filesystem::path& calibration);
 
@@ -39,9 +38,8 @@ public:
   // `calibrated`: Calibration::camera. `faults` outlives this.
   CalibratedCamera(std::string calibrated, pipeline::FaultLog& faults);
 
-  // At every turn of the loop. Another camera is a fault, counted once when it comes, whatever is
-  // unplugged until the next one does; while none is open the verdict on the last one stays, as its
-  // picture does.
+  // Call at every turn of the loop. Another camera is a fault, counted once when it appears. While
+  // none is open, the verdict on the last one stays, as its picture does.
   void look(const hal::LineCamera& camera, hal::TimePoint now);
 
   CameraVerdict verdict() const { return verdict_; }

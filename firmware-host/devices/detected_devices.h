@@ -1,4 +1,4 @@
-// What real devices could serve: found by asking them (real_devices.h), or laid out by a test.
+// What the real devices could serve: found by asking them (real_devices.h), or set by a test.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace octascope::firmware_host {
 
 struct DeviceFinding {
   bool usable = false;
-  std::string what; // for people: the device that would serve, or what is missing and how to fix it
+  std::string what; // for people: the device, or what is missing and how to fix it
 };
 
 struct DetectedDevices {

@@ -1,4 +1,4 @@
-// Which backend serves each device, and why: the one place that decides between a real device and
+// Which backend serves each device, and why: the only place that chooses between a real device and
 // its twin. `run` follows it, `devices` prints it.
 #pragma once
 
@@ -31,13 +31,14 @@ struct DeviceChoices {
   }
 };
 
-// A twin never stands beside a real line camera in what the picture shows: where the spectra are
-// the patient's, the microscope's picture is, too, or there is none. A real line camera is
-// triggered by a real line, a simulated one by its twin; a pedal serves with either.
+// No twin contributes to the picture beside a real line camera: where the spectra are the
+// patient's, so is the microscope's picture, or there is none. A real line camera is triggered by a
+// real line, a simulated one by its twin; a pedal works with either.
 DeviceChoices choose_devices(const DetectedDevices& detected, const RunOptions& options,
                              const DeviceConfig& config = {});
 
-// The line camera's twin serves for want of a real one: one that comes later is wanted, too.
+// Whether the line camera's twin serves only because no real one was found: one plugged in later is
+// then used.
 bool camera_may_come(const DeviceChoices& choices, const RunOptions& options,
                      const DeviceConfig& config);
 

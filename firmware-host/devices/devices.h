@@ -27,18 +27,18 @@ namespace octascope::firmware_host {
 class Devices {
 public:
   // The display alone, so that something can be shown while the rest is made. `real` is what the
-  // choices were made from. No real device is opened yet, neither here nor below.
+  // choices were made from. No real device is opened by this or the functions below.
   Devices(std::unique_ptr<RealDevices> real, const DeviceChoices& choices, hal::Clock& clock);
 
-  // What is there now, as RealDevices::find_for(): before make_others() alone.
+  // What is present now, as RealDevices::find_for(); only before make_others().
   DetectedDevices find_again(const RunOptions& options) { return real_->find_for(options); }
 
-  // All others: the twins' files are read and their loop is made.
+  // Makes all other devices: reads the twins' files and makes their loop.
   hal::Result<> make_others(const DeviceChoices& choices, const RunOptions& options,
                             const Configuration& configuration, hal::Clock& clock);
 
-  // Instead of it, for a replay: pedal and knob. There are no cameras and no trigger then, and
-  // what is asked about them and about the plan has no answer.
+  // For a replay, instead of make_others(): pedal and knob only. There are then no cameras and no
+  // trigger; do not ask about them or the plan.
   hal::Result<> make_controls(const DeviceChoices& choices, const RunOptions& options,
                               const Configuration& configuration, hal::Clock& clock);
 
@@ -51,7 +51,7 @@ public:
   hal::ControlInput& control_input() const {
     return control_input_ ? *control_input_ : *twins_.control_input;
   }
-  // Null where there is none: a recording had none, and beside a real line camera no twin serves.
+  // Null if there is none: recordings have none, and no twin serves beside a real line camera.
   hal::ScopeCamera* scope_camera() const {
     return scope_camera_ ? scope_camera_.get() : twins_.scope_camera.get();
   }
@@ -60,13 +60,13 @@ public:
   const pipeline::ScanPlan& plan() const { return plan_; }
   const pipeline::Calibration& calibration() const { return calibration_; }
   const hal::LineFormat& format() const { return format_; }
-  const std::string& source() const { return source_; } // for people: what is seen
+  const std::string& source() const { return source_; } // for people: what is imaged
   const std::optional<ui::ScanField>& scan_field() const { return twins_.scan_field; }
 
-  // Is any part of the picture not the patient's?
+  // Whether any part of the picture is not the patient's.
   bool simulated() const;
 
-  // What the keyboard says in the pedal's place; null: the real pedal serves.
+  // For keys that stand in for the pedal; null: the real pedal serves.
   sim::SimControlInput* simulated_controls() const {
     return control_input_ ? nullptr : twins_.control_input.get();
   }
@@ -83,7 +83,7 @@ public:
   // As RealDevices::make_trigger_safe().
   void make_trigger_safe() noexcept { real_->make_trigger_safe(); }
 
-  // The fault script's clock begins; at every turn of the render loop it is told the time.
+  // Starts the fault script's clock.
   void start_faults(hal::TimePoint now) { twins_.faults->start(now); }
   void apply_faults(hal::TimePoint now) { twins_.apply_faults(now, offscreen_.get()); }
 
@@ -94,7 +94,7 @@ private:
   hal::Result<> make_real_spectra(const DeviceChoices& choices, const RunOptions& options,
                                   const Configuration& configuration, hal::Clock& clock);
 
-  std::unique_ptr<RealDevices> real_; // what it made borrows from it
+  std::unique_ptr<RealDevices> real_; // borrowed by the devices it made
   Twins twins_;
   std::unique_ptr<hal::LineCamera> line_camera_;
   std::unique_ptr<hal::GalvoTrigger> galvo_trigger_;
@@ -108,7 +108,7 @@ private:
   std::string source_;
 };
 
-// The picture's size: of the command line, else of the configuration.
+// The picture's size: from the command line, else from the configuration.
 hal::DisplayConfig display_config(const RunOptions& options, const Configuration& configuration);
 
 } // namespace octascope::firmware_host

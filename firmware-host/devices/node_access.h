@@ -1,4 +1,4 @@
-// Whether a user may open a device node, who has it open, and the command that fixes it.
+// Whether a user may open a device node, who holds it open, and the command that fixes it.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ extern const char* const start_udev_command;
 // Sets usable, why_not and remedy of `device` by its node under `root`.
 void judge_access(FoundDevice& device, const std::filesystem::path& root, const Person& person);
 
-// Which programs have which nodes open, by `root`/proc: "/dev/video0" → "pipewire (812)". Of other
-// users' programs only root sees any.
+// Which programs hold which nodes open, from `root`/proc: "/dev/video0" → "pipewire (812)". Only
+// root sees other users' programs.
 std::map<std::string, std::string> holders_of_nodes(const std::filesystem::path& root);
 
 } // namespace octascope::firmware_host

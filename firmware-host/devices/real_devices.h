@@ -1,4 +1,4 @@
-// The real devices: what is there, and how each is made.
+// Finds the real devices and makes them.
 #pragma once
 
 #include <memory>
@@ -26,23 +26,24 @@
 
 namespace octascope::firmware_host {
 
-// Asks once and remembers; whoever wants to know anew makes another. What it makes borrows from it.
+// Asks once and remembers; make another to ask again. What it makes borrows from it.
 class RealDevices {
 public:
-  // `plan` says which frames a line camera has to deliver. `clock` outlives this.
+  // `plan` sets which frames a line camera has to deliver. `clock` outlives this.
   RealDevices(DeviceConfig config, const pipeline::ScanPlan& plan, hal::Clock& clock);
 
-  // All that there are.
+  // Looks for all devices.
   DetectedDevices find();
 
-  // What decides over a run: a display alone where all else is simulated; and libcamera, which
-  // takes its time, only beside a real line camera, and where its camera is not asked for anyway.
+  // Looks only for what decides a run: the display alone if all else is simulated. libcamera, which
+  // is slow, is asked only beside a real line camera, and not if its camera is explicitly
+  // requested.
   DetectedDevices find_for(const RunOptions& options);
 
   // The line camera alone.
   DeviceFinding find_line_camera();
 
-  // What the line camera's frames are: as it offers them where one is found, else as it is asked.
+  // The line camera's frame format: the offered one if a camera is found, else the requested one.
   hal::LineFormat line_format() const { return format_; }
 
   std::unique_ptr<hal::LineCamera> make_line_camera();
@@ -51,17 +52,17 @@ public:
   hal::Result<std::unique_ptr<hal::ScopeCamera>> make_scope_camera();
   std::unique_ptr<hal::Display> make_display();
 
-  // What the leading control does, told once each time that another one leads; the default profile
-  // where the leading one has none of its own, or none is there.
+  // The leading control's profile, returned once whenever another control takes the lead; the
+  // default profile if it has none of its own or there is no control.
   std::optional<ui::ControlProfile> new_control_profile();
 
-  // Why a keyboard that the configuration lists cannot be read at the console, told once.
+  // Why a configured keyboard cannot be read at the console; returned once.
   std::optional<std::string> new_keyboard_complaint();
 
-  // Pulses that the scanner has not answered on its sync line, told once each.
+  // Pulses not answered by the scanner on its sync line since the last call.
   std::uint64_t new_missed_answers();
 
-  // The trigger's line to its safe level, where a real one is held. Async-signal-safe.
+  // Sets the trigger's line to its safe level if a real one is held. Async-signal-safe.
   void make_trigger_safe() noexcept;
 
 private:
@@ -77,16 +78,16 @@ private:
   hal::LineFormat format_;
   std::string line_node_; // of the line camera; empty: none found yet
   std::unique_ptr<hal::linux_backend::LibcameraSession> libcamera_;
-  hal::linux_backend::GpioGalvoTrigger* trigger_ = nullptr; // made here, owned by who asked
+  hal::linux_backend::GpioGalvoTrigger* trigger_ = nullptr; // made here, owned by the caller
   std::uint64_t missed_answers_ = 0;
   const hal::linux_backend::HidControls* controls_ = nullptr;       // likewise
-  std::uint64_t control_changes_ = 0;                               // that were told
+  std::uint64_t control_changes_ = 0;                               // already reported
   const hal::linux_backend::ConsoleKeyboards* keyboards_ = nullptr; // likewise
-  std::string keyboard_complaint_;                                  // that was told
+  std::string keyboard_complaint_;                                  // already reported
 };
 
-// What `octascope run` would choose with these options, with every device looked for; an Error for
-// a configuration that it would refuse.
+// What `octascope run` would choose with these options, with every device looked for; an Error if
+// it would refuse the configuration.
 hal::Result<DeviceChoices> choices_of_run(const RunOptions& options, hal::Clock& clock);
 
 } // namespace octascope::firmware_host

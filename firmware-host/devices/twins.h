@@ -1,4 +1,4 @@
-// The simulated devices of a run, and the faults that they suffer.
+// The simulated devices of a run and their faults.
 #pragma once
 
 #include <memory>
@@ -23,41 +23,44 @@
 
 namespace octascope::firmware_host {
 
-// Members are in the order in which they need each other. Where the line camera is a real one,
-// those from `plan` on are empty but for `faults` and `control_input`.
+// Members are ordered by dependency. With a real line camera, those from `plan` on are empty but
+// for `faults` and `control_input`.
 struct Twins {
   pipeline::ScanPlan plan;
   pipeline::Calibration calibration;
   hal::LineFormat format;
-  std::string source; // for people: what is seen, and how long its loop is
+  std::string source; // for people: what is imaged, and how long its loop is
 
-  std::unique_ptr<sim::FaultSchedule> faults; // without --faults an empty one
+  std::unique_ptr<sim::FaultSchedule> faults; // empty without --faults
   std::unique_ptr<sim::SpectraSource> spectra;
   std::unique_ptr<sim::GalvoLink> link;
   std::unique_ptr<sim::SimLineCamera> line_camera;
   std::unique_ptr<sim::SimGalvoTrigger> galvo_trigger;
   std::unique_ptr<sim::SimControlInput> control_input;
-  std::unique_ptr<sim::SimScopeCamera> scope_camera; // null for a recording: nobody looked on
+  std::unique_ptr<sim::SimScopeCamera> scope_camera; // null for a recording, which has no
+                                                     // microscope picture
   std::optional<ui::ScanField> scan_field;
 
-  // Does the fault script touch the display?
+  // Whether the fault script affects the display.
   bool concern_display() const;
 
-  // Scope camera and display know only "unplugged" and "there": this tells them, at every turn of
-  // the render loop.
+  // Scope camera and display know only "unplugged" and "plugged in": this sets it. Call at every
+  // turn of the render loop.
   void apply_faults(hal::TimePoint now, sim::OffscreenDisplay* display);
 };
 
-// The refractive index in which the plan's depths hold: the calibration's, where they are its own,
-// else nobody's. Pure.
+// The refractive index for which the plan's depths hold: the calibration's if they come from it,
+// else unknown. Pure.
 std::optional<double> medium_of(const pipeline::ScanPlan& plan,
                                 const pipeline::Calibration& calibration);
 
-// What no line camera is needed for: the fault script, and the pedal with its script.
+// What is needed even without a simulated line camera: the fault script, and the pedal with its
+// script.
 hal::Result<Twins> make_script_twins(const RunOptions& options, const Configuration& configuration,
                                      hal::Clock& clock);
 
-// Reads the recording or makes the phantom, the calibration and the scripts that the options name.
+// Reads the recording or makes the phantom, and reads the calibration and the scripts that the
+// options name.
 hal::Result<Twins> make_twins(const RunOptions& options, const Configuration& configuration,
                               hal::Clock& clock);
 

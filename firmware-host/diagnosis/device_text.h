@@ -1,4 +1,4 @@
-// What is plugged in and what serves, in words and as JSON: what `devices` prints.
+// What is plugged in and what serves, as text and as JSON: the output of `devices`.
 #pragma once
 
 #include <string>

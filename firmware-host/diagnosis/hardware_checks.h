@@ -1,5 +1,4 @@
-// What the survey of the hardware means for the appliance: the part of `doctor` that concerns
-// devices. Pure.
+// What the hardware survey means for the appliance: the device part of `doctor`. Pure.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What a machine lacks to run the appliance well, and how to fix it.
+// What keeps this machine from running the appliance well, and how to fix it.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace octascope::firmware_host {
 
 enum class Verdict : std::uint8_t {
   good,
-  limited, // it runs, with less
-  fails,   // it does not run
+  limited, // runs, with restrictions
+  fails,   // does not run
 };
 
 struct HealthCheck {
@@ -24,11 +24,11 @@ struct HealthCheck {
   std::string remedy; // empty when good
 };
 
-// Tries everything for real, on threads and contexts of its own; takes under two seconds.
+// Tries everything for real, on its own threads and contexts; takes under two seconds.
 std::vector<HealthCheck> check_health(hal::Clock& clock);
 
-// One a complaint about the configuration file, or one that says which is used. Without `file` the
-// machine's, where there is one.
+// One entry per error in the configuration file, or one that says which file is used. Without
+// `file`: the machine's, if present.
 std::vector<HealthCheck>
 check_configuration(const std::optional<std::filesystem::path>& file = std::nullopt);
 

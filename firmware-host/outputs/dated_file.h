@@ -1,4 +1,4 @@
-// Names for files that are kept one beside the other.
+// Names for files that are kept side by side.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,7 @@
 
 namespace octascope::firmware_host {
 
-// FOLDER/PREFIX-20261121-171903EXTENSION, by local time; a number is added where that is there
-// already, so that two of one second both stay.
+// FOLDER/PREFIX-20261121-171903EXTENSION, in local time, with a number added if that name is taken.
 std::filesystem::path free_dated_name(const std::filesystem::path& folder, std::string_view prefix,
                                       std::string_view extension);
 

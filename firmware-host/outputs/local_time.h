@@ -1,4 +1,4 @@
-// A wall-clock time for people.
+// Wall-clock times for people.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 namespace octascope::firmware_host {
 
-// "2026-11-22 12:10:03", local time, of nanoseconds since 1970 (UTC). "time not said" for what no
-// clock says: 0, what is before, and years of more than four digits.
+// "2026-11-22 12:10:03", local time, from nanoseconds since 1970 (UTC). "time not said" for 0,
+// negative times, and years of more than four digits.
 std::string local_date_and_time(std::int64_t wall_clock_ns);
 
 } // namespace octascope::firmware_host

@@ -1,4 +1,4 @@
-// Writes pictures that the surgeon asked for, beside the running display.
+// Writes the pictures that the surgeon takes, beside the running display.
 #pragma once
 
 #include <filesystem>
@@ -11,16 +11,16 @@
 
 namespace octascope::firmware_host {
 
-// One thread asks; a thread of its own compresses and writes, one picture at a time.
+// Call from one thread; a thread of its own compresses and writes, one picture at a time.
 class PictureWriter {
 public:
-  // Pictures go into `folder`, named by date and time; they show a patient, so that nobody but
-  // their owner may read them.
+  // Pictures go into `folder`, named by date and time. They show a patient, so only their owner may
+  // read them.
   PictureWriter(std::filesystem::path folder, hal::Clock& clock, pipeline::FaultLog& faults)
       : folder_(std::move(folder)), clock_(clock), faults_(faults) {}
 
-  // Returns at once. A picture that is asked for while the last is still being written is not kept,
-  // and that is recorded; false.
+  // Returns at once. False if the last picture is still being written: this one is dropped, and a
+  // fault is recorded.
   bool keep(pipeline::Image picture);
 
 private:

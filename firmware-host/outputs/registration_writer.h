@@ -1,4 +1,4 @@
-// Writes registrations that the surgeon has made with the knob, beside the running display.
+// Writes registrations made with the knob, beside the running display.
 #pragma once
 
 #include <filesystem>
@@ -10,18 +10,19 @@
 
 namespace octascope::firmware_host {
 
-// One thread asks; a thread of its own writes, one file at a time.
+// Call from one thread; a thread of its own writes, one file at a time.
 class RegistrationWriter {
 public:
-  // Files go into `folder`, named by date and time: none is ever overwritten.
+  // Files go into `folder`, named by date and time; none is overwritten.
   explicit RegistrationWriter(std::filesystem::path folder) : folder_{std::move(folder)} {}
 
-  // Where the tree lies now, and whose vessels they are. `source`, for people: what it was before
-  // it was moved. Returns at once; false while the last one is still being written.
+  // The tree's present place and the patient's eye it belongs to. `source`, for people: the
+  // registration before it was moved. Returns at once; false while the last one is still being
+  // written.
   bool keep(const pipeline::RigidTransform& volume_from_tree, pipeline::PatientEye whose,
             std::string source);
 
-  // The file, or why there is none; once for each keep().
+  // The file or the error; once for each keep().
   std::optional<hal::Result<std::filesystem::path>> take() { return writing_.take(); }
 
 private:

@@ -1,4 +1,4 @@
-// The recordings of a run: where they go, whose they are, and what the screen says of them.
+// The recordings of a run: destination, patient and eye, and their status for the screen.
 #pragma once
 
 #include <filesystem>
@@ -18,9 +18,9 @@
 namespace octascope::firmware_host {
 
 struct RecordingSetup {
-  std::filesystem::path folder;              // of those that a pedal begins; made when it is needed
-  std::optional<std::filesystem::path> file; // one from the first volume on, until the end
-  pipeline::RecordingFacts facts;            // but for when it was begun
+  std::filesystem::path folder;              // for recordings begun by pedal; made when needed
+  std::optional<std::filesystem::path> file; // a recording from the first volume to the end
+  pipeline::RecordingFacts facts;            // complete but for the start time
 };
 
 struct KeptRecording {
@@ -29,28 +29,28 @@ struct KeptRecording {
   std::uint64_t not_kept = 0;
 };
 
-// One thread, the render thread; the recorder's own threads are said there.
+// Bound to the render thread; the recorder documents its own threads.
 class RunRecorder {
 public:
   RunRecorder(RecordingSetup setup, hal::Clock& clock, pipeline::FaultLog& faults,
               pipeline::Wakeup& news);
 
-  // Could the file of the setup be made? Leaves nothing behind.
+  // Checks that the setup's file could be made; leaves nothing behind.
   hal::Result<> check() const;
 
-  // Begins with the file of the setup, if there is one, and waits until volumes are taken.
+  // Starts the recording into the setup's file, if any, and waits until volumes are accepted.
   hal::Result<> start(const pipeline::ThreadSetup& setup);
   void stop();
 
-  // Begins one, or ends the one that is on; what to say of it.
+  // Begins a recording or ends the present one; returns the text to show.
   std::string_view toggle();
 
   ui::RecordingStatus status(hal::TimePoint now) const;
 
-  // Once it was stopped: every recording of the run, in their order.
+  // After stop(): every recording of the run, in order.
   const std::vector<KeptRecording>& kept() const { return kept_; }
 
-  // For the fixed-rate thread.
+  // To be called on the fixed-rate thread.
   void offer(const pipeline::Volume& volume) { recorder_.offer(volume); }
 
 private:

@@ -1,5 +1,5 @@
-// What turns a run's frames into levels: the reconstructor that is the faster one here, room for
-// each worker, and the backgrounds that run along with the frames.
+// What turns a run's frames into levels: the reconstructor that is faster here, a workspace per
+// worker, and the running backgrounds.
 #pragma once
 
 #include <memory>
@@ -18,15 +18,16 @@
 
 namespace octascope::firmware_host {
 
-// Outlives the volumes' thread, whose workers use it.
+// Must outlive the volumes' thread, whose workers use it.
 class Reconstruction {
 public:
-  // Measures what the cache does not remember, which takes some tenths of a second, and keeps that.
-  // The devices' cameras and plan are made.
+  // Measures what the cache does not hold, which takes some tenths of a second, and stores it. The
+  // devices' cameras and plan must exist.
   static hal::Result<std::unique_ptr<Reconstruction>>
   make(const Devices& devices, const Configuration& configuration, ReconstructionCache& cache);
 
-  // The volumes' thread, as far as it is concerned. `camera_buffers`: frames that may be under way.
+  // The parts of the volumes' thread's setup that concern reconstruction. `camera_buffers`: frames
+  // that may be in flight.
   pipeline::VolumeThreadSetup volume_thread_setup(const pipeline::ScanPlan& plan,
                                                   int camera_buffers);
 

@@ -1,9 +1,9 @@
-// What a start learns about the reconstruction on this machine, kept for the next one: the times of
+// What a start learns about reconstruction on this machine, kept for the next one: the times of
 // both paths, and FFTW's wisdom.
 //
-// One JSON file in the user's or the service's cache folder. It belongs to one program on one
-// processor: another version, build or processor begins afresh. Nothing depends on it: what is
-// missing, broken or cannot be written is measured again.
+// One JSON file in the user's or the service's cache folder, valid for one build on one processor:
+// another version, build or processor starts afresh. Nothing depends on it: what is missing, broken
+// or unwritable is measured again.
 #pragma once
 
 #include <filesystem>
@@ -18,32 +18,32 @@
 namespace octascope::firmware_host {
 
 // $CACHE_DIRECTORY (a systemd service's), else $XDG_CACHE_HOME/octascope, else ~/.cache/octascope;
-// nothing where none of the three is set. Relative paths do not count, as the XDG specification
-// wants it; of several folders in $CACHE_DIRECTORY the first is taken.
+// empty if none of the three is set. Relative paths are ignored, as the XDG specification demands;
+// of several folders in $CACHE_DIRECTORY the first is taken.
 std::optional<std::filesystem::path> cache_folder();
 
 // The processor's model as the kernel names it.
 std::string processor_name();
 
-// What a cache must have been written by: the program's version, the date and size of its file, and
-// the processor.
+// What the cache is valid for: the program's version, the date and size of its file, and the
+// processor.
 std::string machine_fingerprint();
 
-// For one thread, at start-up. Make it before the first Reconstructor, call save() after the last.
+// One thread, at start-up. Make it before the first Reconstructor, call save() after the last.
 class ReconstructionCache final : public pipeline::PathMemory {
 public:
-  // Reads the file and gives FFTW its wisdom. Empty folder: nothing is kept.
+  // Reads the file and passes FFTW its wisdom. Empty folder: nothing is kept.
   explicit ReconstructionCache(const std::optional<std::filesystem::path>& folder = cache_folder(),
                                std::string fingerprint = machine_fingerprint());
 
   std::optional<pipeline::PathTimes> recall(std::string_view line_case) override;
   void remember(std::string_view line_case, const pipeline::PathTimes& times) override;
 
-  // Writes what is new, whole or not at all, and makes the folder if need be. An Error is for the
-  // doctor to tell; everything works without.
+  // Writes new results, whole or not at all, making the folder if needed. An Error concerns only
+  // the doctor; everything works without the file.
   hal::Result<> save();
 
-  // Empty where there is no folder.
+  // Empty if there is no folder.
   const std::filesystem::path& file() const { return file_; }
 
 private:

@@ -1,4 +1,4 @@
-// The one line of the display that says what is wrong just now.
+// The display's notice line: what is wrong just now.
 #pragma once
 
 #include <span>
@@ -10,10 +10,9 @@
 
 namespace octascope::firmware_host {
 
-// Pure; returns a literal, empty when nothing is wrong. A device that went away is named for as
-// long as it is away, a restart after a crash for a minute, any other fault until two seconds after
-// it last struck. Of several the gravest is named, not the newest, so that the line does not
-// flicker between them.
+// Pure; returns a literal, empty if nothing is wrong. A lost device is named as long as it is lost,
+// a restart after a crash for a minute, any other fault until two seconds after it last struck. Of
+// several faults the gravest is named rather than the newest, so that the line does not flicker.
 std::string_view compose_notice(std::span<const pipeline::FaultRecord> faults,
                                 std::span<const ui::DeviceStatus> devices, hal::TimePoint now);
 

@@ -1,4 +1,4 @@
-// How far a long task is, on a terminal.
+// Progress of a long task, on a terminal.
 #pragma once
 
 #include <chrono>
@@ -6,8 +6,8 @@
 
 namespace octascope::firmware_host {
 
-// Silent where stderr is no terminal, and for tasks of less than half a second. One thread. The
-// line is gone when the object is.
+// Silent if stderr is no terminal, and for tasks of less than half a second. One thread. The
+// destructor clears the line.
 class ProgressLine {
 public:
   explicit ProgressLine(std::string task);

@@ -1,4 +1,4 @@
-// Events per second over the last moments, for the display and the status line.
+// Events per second over the last two seconds or so, for the display and the status line.
 #pragma once
 
 #include <array>
@@ -9,14 +9,14 @@
 
 namespace octascope::firmware_host {
 
-// One thread. Fed with a running total; the rate is over the last two seconds or so.
+// One thread. Fed with a running total.
 class RateMeter {
 public:
   void update(std::uint64_t total, hal::TimePoint now);
   double per_second() const { return rate_; }
 
 private:
-  static constexpr std::size_t window = 9; // samples, a quarter of a second apart
+  static constexpr std::size_t window = 9; // a quarter of a second apart
   static constexpr hal::Duration spacing = std::chrono::milliseconds{250};
 
   struct Sample {

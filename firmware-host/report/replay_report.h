@@ -1,4 +1,4 @@
-// The report of a replay: its keys stay, tools read them.
+// The report of a replay. Its keys are a contract: tools read them.
 #pragma once
 
 #include <filesystem>

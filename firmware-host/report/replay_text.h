@@ -1,4 +1,4 @@
-// What a recording says of itself, for the screen. Pure.
+// A recording's description of itself, for the screen. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace octascope::firmware_host {
 
-// "left eye, subject 4711"; "eye not said, subject not said". The eye comes first: of a long
-// subject there is room for its beginning only.
+// "left eye, subject 4711"; "eye not said, subject not said". The eye comes first, since a long
+// subject may be cut.
 std::string recording_patient(const pipeline::RecordingFacts& facts);
 
 // "eye.h5, volume 12 of 240, at rate 2: phantom eye". `position` counts from 0.

@@ -1,4 +1,4 @@
-// The report of a run: its keys stay, tools read them.
+// The report of a run. Its keys are a contract: tools read them.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@
 
 namespace octascope::firmware_host {
 
-// What the display said at the end: the snapshot shows the same.
+// What the display showed at the end, as in the snapshot.
 struct ShownPicture {
   ui::Freshness freshness;
   std::string notice;      // empty: none
@@ -47,14 +47,14 @@ struct RunReport {
   pipeline::ScanLagStatus phase;
   std::vector<int> worker_cores; // by worker; −1 where the system chooses
 
-  RunCounters counters; // once the threads have ended: the books balance
+  RunCounters counters; // complete once the threads have ended
   double duration_s = 0;
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, control;
   std::optional<ui::RayTrial> rays;
   std::optional<double> first_picture_s; // since the process began
   ShownPicture picture;
-  ui::ViewState view;                                    // as it was left
-  std::array<std::uint64_t, ui::action_count> actions{}; // how often each was done
+  ui::ViewState view;                                    // at the end of the run
+  std::array<std::uint64_t, ui::action_count> actions{}; // times each was performed
   std::vector<pipeline::FaultRecord> faults;
   hal::TimePoint started; // fault times are relative to it
 };

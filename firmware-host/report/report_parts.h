@@ -1,4 +1,4 @@
-// What the reports of runs and of replays have in common.
+// Parts shared by the reports of runs and replays.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace octascope::firmware_host {
 
-// Their times are relative to `started`.
+// Times are relative to `started`.
 inline ReportJson to_json(const std::vector<pipeline::FaultRecord>& faults,
                           hal::TimePoint started) {
   ReportJson json = ReportJson::array();

@@ -1,4 +1,4 @@
-// What a run leaves behind beside its report.
+// What a run writes besides its report.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 
 namespace octascope::firmware_host {
 
-// What cannot be written is found out now, not after the run; nothing stays behind.
+// Checks before the run that outputs can be written; leaves nothing behind.
 hal::Result<> check_outputs(const RunOptions& options);
 
-// Prints a report, and writes it where that was asked for.
+// Prints a report, and writes it if requested.
 template <class Report>
 hal::Result<> leave_report(const Report& report, const RunOptions& options) {
   fmt::print("{}", to_text(report));
@@ -25,8 +25,8 @@ hal::Result<> leave_report(const Report& report, const RunOptions& options) {
   return {};
 }
 
-// Writes the last picture where one was asked for, and prints where it is. `picture` is empty where
-// the display was gone.
+// Writes the last picture if requested, and prints its path. `picture` is empty if the display was
+// gone.
 hal::Result<> leave_snapshot(const RunOptions& options,
                              const std::optional<pipeline::Image>& picture);
 

@@ -1,4 +1,4 @@
-// One calm line a second on a terminal while the appliance runs.
+// One line a second on a terminal while the appliance runs.
 #pragma once
 
 #include "firmware-host/supervision/run_counters.h"
@@ -12,11 +12,11 @@ class StatusLine {
 public:
   explicit StatusLine(hal::TimePoint started);
 
-  // A second has passed since the last line.
+  // Whether a second has passed since the last line.
   bool due(hal::TimePoint now) const { return terminal_ && now >= next_; }
   void print(const ui::Status& shown, const RunCounters& counters);
 
-  // Leaves the line, so that what follows starts on a fresh one.
+  // Ends the line, so that further output starts on a fresh one.
   void finish();
 
 private:

@@ -1,5 +1,5 @@
-// A line camera that serves after all, once its twin does: plugged in late, or given to its group
-// by udev when the program had looked already.
+// Notices a line camera that becomes available while its twin serves: plugged in late, or given its
+// permissions by udev only after the program had looked.
 #pragma once
 
 #include <atomic>
@@ -11,15 +11,15 @@
 
 namespace octascope::firmware_host {
 
-// Looks in a thread of its own: at once, since the camera may have come meanwhile, then whenever a
-// video device comes or changes. Ends looking when there is one.
+// Looks on its own thread: at once, since a camera may have appeared meanwhile, then whenever a
+// video device appears or changes. Stops once one is found.
 class CameraHotplug {
 public:
-  // `serves` opens the video devices and asks, in that thread alone. Without the kernel's events it
-  // looks once.
+  // `serves` opens the video devices and asks, on that thread only. Without kernel events it looks
+  // once.
   explicit CameraHotplug(std::function<bool()> serves);
 
-  // Never waits; any thread.
+  // Never blocks; any thread.
   bool came() const { return came_.load(std::memory_order_relaxed); }
 
 private:

@@ -1,5 +1,5 @@
-// The configuration while the appliance runs: kept when it has proved itself, read anew when it is
-// written, with the settings of pedal and knob over it, and told on the screen.
+// The configuration while the appliance runs: kept once it has proved itself, reloaded when its
+// file is written, overlaid with the settings of pedal and knob, and reported on the screen.
 #pragma once
 
 #include <cstdint>
@@ -25,29 +25,29 @@ namespace octascope::firmware_host {
 // Bound to the render thread; files are read and written on threads of their own.
 class LiveConfiguration {
 public:
-  // `chosen` is what the run begins with. Without a `state_folder` nothing is kept. `clock` and
+  // `chosen` is the initial configuration. Without a `state_folder` nothing is kept. `clock` and
   // `faults` outlive it.
   LiveConfiguration(const ChosenConfiguration& chosen, const RunOptions& options,
                     const std::optional<std::filesystem::path>& state_folder, hal::Clock& clock,
                     pipeline::FaultLog& faults);
 
-  // What the view begins with, by the configuration and by what was kept of an earlier run.
+  // Sets the initial view, from the configuration and the settings of an earlier run.
   void configure(RenderLoopSetup& setup);
 
-  // From now on changes are followed.
+  // Follows changes from now on.
   void follow(std::unique_ptr<ConfigurationWatch> watch);
 
-  // The leading device's profile, which serves where the configuration names none.
+  // Sets the leading device's profile, which applies where the configuration names none.
   void lead_with(ui::ControlProfile profile, RenderLoop& loop);
 
-  // Every turn.
+  // Call every turn.
   void advance(RenderLoop& loop);
-  // At the end: what was set is kept.
+  // Call at the end: saves the settings.
   void finish(RenderLoop& loop);
 
   ui::ConfigurationState state() const { return chosen_.state; }
 
-  // One line for the surgeon while there is something to say; empty: nothing.
+  // One line for the surgeon; empty: nothing to say.
   std::string_view notice() const { return said_ ? *said_ : standing_; }
 
 private:
@@ -59,20 +59,20 @@ private:
   ConfiguredView configured_view(const RenderLoop& loop) const;
 
   ChosenConfiguration chosen_;
-  const Configuration started_; // what cannot be changed in a running appliance is as it has it
-  Configuration used_;          // what can is as this has it
+  const Configuration started_; // what needs a restart is as in this one
+  Configuration used_;          // what can change is as in this one
   const RunOptions options_;
   hal::Clock& clock_;
   pipeline::FaultLog& faults_;
   std::optional<ConfigurationBundle> started_calibration_;
   std::optional<ui::ControlProfile> device_profile_;
   std::optional<LastGoodStore> last_good_;
-  std::uint64_t displayed_before_ = 0; // volumes, when the configuration in use began
+  std::uint64_t displayed_before_ = 0; // volumes displayed before the configuration in use began
   std::optional<SettingsStore> settings_;
   std::unique_ptr<ConfigurationWatch> watch_;
   std::optional<ConfigurationReload> reload_;
-  std::string standing_;            // for as long as it holds
-  std::optional<std::string> said_; // for a while, before it
+  std::string standing_;            // shown as long as it holds
+  std::optional<std::string> said_; // shown for a while, instead of it
   hal::TimePoint said_until_{};
 };
 

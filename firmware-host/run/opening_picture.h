@@ -1,4 +1,4 @@
-// What the display shows from the first moment on, until there is a picture.
+// What the display shows until the first picture.
 #pragma once
 
 #include "hal/clock.h"
@@ -6,10 +6,10 @@
 
 namespace octascope::firmware_host {
 
-// Finding the faster reconstruction and making the twins' loop take seconds: meanwhile the display
-// says what is starting, and stays open. `may_come_late`: one that is absent is waited for,
-// shortly, as a service may be started before the graphics driver is loaded or the monitor is
-// awake. What fails here fails again, and is told, when the render loop opens the display.
+// Choosing the reconstruction and making the twins' loop take seconds; meanwhile the display says
+// what is starting, and stays open. `may_come_late`: an absent display is waited for briefly, as a
+// service may start before the graphics driver is loaded or the monitor is awake. Errors are
+// ignored here: they recur, and are reported, when the render loop opens the display.
 void show_opening_picture(hal::Display& display, const hal::DisplayConfig& config,
                           bool may_come_late, hal::Clock& clock);
 

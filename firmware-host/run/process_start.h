@@ -1,12 +1,12 @@
-// When this process was started, on the clock's axis.
+// When this process started, on the clock's axis.
 #pragma once
 
 #include "hal/clock.h"
 
 namespace octascope::firmware_host {
 
-// As the kernel noted it: before the loader, to a hundredth of a second. Where the kernel does not
-// say, now. The clock's axis is CLOCK_MONOTONIC's.
+// As recorded by the kernel, to a hundredth of a second: before the loader ran. If unknown, now.
+// The clock must be on CLOCK_MONOTONIC's axis.
 hal::TimePoint process_start(const hal::Clock& clock);
 
 } // namespace octascope::firmware_host

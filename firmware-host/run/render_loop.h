@@ -1,4 +1,5 @@
-// The render thread's work: newest volume → texture → frame → flip, and what hands and feet did.
+// The render thread's work: newest volume → texture → frame → flip, and the input of pedal, knob
+// and keys.
 #pragma once
 
 #include <cstdint>
@@ -34,42 +35,42 @@
 
 namespace octascope::firmware_host {
 
-// Everything is borrowed and outlives the loop.
+// Everything is borrowed and must outlive the loop.
 struct RenderLoopParts {
   hal::Display& display;
   hal::Clock& clock;
   pipeline::VolumeFeed& volumes;
-  const pipeline::Acquisition* acquisition; // null: the volumes come from no camera
-  pipeline::ScopeThread* scope;             // null: there is no scope camera
+  const pipeline::Acquisition* acquisition; // null: the volumes do not come from a camera
+  pipeline::ScopeThread* scope;             // null: there is no microscope camera
   pipeline::ControlThread& controls;
   pipeline::FaultLog& faults;
   pipeline::Wakeup& news; // posted by the three threads above
-  // A picture that the surgeon asked for; called on the render thread, so it must not take long.
-  // False: it could not be kept.
+  // Keeps a picture that the surgeon took. Called on the render thread, so it must be quick. False:
+  // it could not be kept.
   std::function<bool(pipeline::Image)> keep_picture;
-  // Begins a recording or ends the one that is on; what to say of it. Empty: there are none.
+  // Begins a recording or ends the present one; returns the text to show. Empty: no recordings.
   std::function<std::string_view()> record = {};
   // Keys that stand for the simulated pedal; empty where the pedal is real.
   std::function<void(const hal::ControlEvent&)> simulated_control;
-  pipeline::ThreadSetup threads;    // of those that help drawing
+  pipeline::ThreadSetup threads;    // for threads that help drawing
   VesselDisplay* vessels = nullptr; // null: no vessels
-  PictureProof* proof = nullptr;    // null: nobody asks whether the picture is true
+  PictureProof* proof = nullptr;    // null: nobody asks for proof
 };
 
 struct RenderLoopSetup {
   hal::DisplayConfig display;
   ui::ViewState view;
-  ui::TransferSet transfers; // what view.transfer and view.colour_map choose from
+  ui::TransferSet transfers; // indexed by view.transfer and view.colour_map
   ui::ControlProfile controls;
   bool window_from_first_volume = true; // else the view's
-  // What an earlier run had set; reset_view goes back to `view`.
+  // Settings of an earlier run; reset_view goes back to `view`.
   std::optional<ui::ViewState> restored_view;
-  bool window_restored = false; // so the first volume decides only over what to go back to
+  bool window_restored = false; // the first volume then sets only what reset_view goes back to
   ui::FreshnessLimits freshness;
   int b_scans = 80;
   int lines_per_frame = 379;
   std::optional<ui::ScanField> scan_field;
-  HostStatus host; // to begin with
+  HostStatus host; // initial
 };
 
 struct FrameStatistics {
@@ -79,10 +80,10 @@ struct FrameStatistics {
   pipeline::DurationStatistics control; // pedal or knob → end of the first frame that shows it
   std::uint64_t frames_drawn = 0;
   std::uint64_t frames_missed = 0;
-  std::uint64_t volumes_taken = 0;             // out of the triple buffer
-  std::uint64_t volumes_displayed = 0;         // of those, in a frame that reached the glass
-  std::optional<hal::TimePoint> first_picture; // of a volume
-  std::optional<ui::RayTrial> rays;            // where there was something to choose
+  std::uint64_t volumes_taken = 0;             // from the triple buffer
+  std::uint64_t volumes_displayed = 0;         // of those, shown in a frame that reached the glass
+  std::optional<hal::TimePoint> first_picture; // that showed a volume
+  std::optional<ui::RayTrial> rays;            // if there was a choice
 };
 
 // Bound to one thread, the render thread. The display may vanish and return at any time.
@@ -91,43 +92,42 @@ public:
   RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup);
   ~RenderLoop();
 
-  // Opens the display unless it is open; an Error here is final (there is nothing to show anything
-  // on).
+  // Opens the display unless it is open. An Error is final: there is nothing to show anything on.
   hal::Result<> open();
 
-  // One round: input, newest volume, a frame if something changed. Waits at most one refresh.
-  // False once somebody asked to quit.
+  // One round: input, newest volume, and a frame if something changed. Waits at most one refresh.
+  // False once quitting is requested.
   bool turn();
 
-  // Has the newest volume that was published been in a frame?
+  // Whether the newest published volume has been in a frame.
   bool shows_newest() const {
     return volume_ != nullptr && !undisplayed_last_line_ && !parts_.volumes.has_newer();
   }
 
-  // Draws the newest state and returns the picture. Empty when the display is gone.
+  // Draws the newest state and returns the picture; empty if the display is gone.
   std::optional<pipeline::Image> picture();
 
   const ui::ViewActions& actions() const { return controller_.actions(); }
   const FrameStatistics& statistics() const { return statistics_; }
   const ui::Status& status() const { return status_writer_.status(); }
   RunCounters counters() const; // up to now
-  // Once all threads have ended: with what is never taken any more, and rates over all of the run.
+  // After all threads have ended: includes volumes never taken, with rates over the whole run.
   RunCounters final_counters(hal::Duration lasted) const;
 
-  // What the display says of it from the next frame on.
+  // Sets what the display says about the host from the next frame on.
   void tell(const HostStatus& host) { status_writer_.tell(host); }
 
   ui::ViewActions& editable_actions() { return controller_.actions(); }
 
-  // Other functions and colour maps to choose from; the picture is drawn anew. The view's indices
-  // are the caller's to bring into line.
+  // Replaces the functions and colour maps to choose from and redraws. The caller adapts the view's
+  // indices.
   void change_transfers(ui::TransferSet transfers);
   void change_veil(hal::Duration veil_after) { setup_.freshness.veil_after = veil_after; }
 
-  // Another pedal or knob leads.
+  // Replaces the profile when another pedal or knob leads.
   void change_controls(ui::ControlProfile profile);
 
-  // Of the newest frame's volume.
+  // Of the newest frame's volume picture.
   const ui::DrawQuality& quality() const { return quality_; }
 
 private:
@@ -160,23 +160,23 @@ private:
   StatusWriter status_writer_{legend_, key_legend_};
   ui::ViewController controller_;
   std::unique_ptr<ui::Renderer> renderer_; // null while the display is gone
-  bool software_ = false;                  // the processor draws
+  bool software_ = false;                  // GL draws on the processor
   ui::Governor governor_;
   ui::DrawQuality quality_;
   bool rays_tried_ = false;
-  std::optional<ui::RayBackend> rays_; // the faster one, once it is known
-  std::uint64_t levels_of_ = 0;        // of which volume the histogram is
+  std::optional<ui::RayBackend> rays_; // the faster one, once known
+  std::uint64_t levels_of_ = 0;        // the volume that the histogram is of
   std::optional<ui::ViewState> drawn_view_;
   ui::Liveness drawn_liveness_ = ui::Liveness::waiting;
-  const pipeline::Volume* volume_ = nullptr;          // the newest taken, ours until the next take
+  const pipeline::Volume* volume_ = nullptr;          // the newest taken, valid until the next take
   const hal::ScopeFrame* scope_picture_ = nullptr;    // likewise
-  std::optional<hal::TimePoint> undisplayed_control_; // of the oldest event not shown yet
-  std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume that no frame has shown yet
-  bool volume_undisplayed_ = false;         // no frame has shown volume_ yet, however long it takes
-  std::uint64_t last_flip_ = 0;             // its number, of this opening of the display
-  std::optional<hal::TimePoint> presented_; // last time, whether it was seen or not
-  std::optional<hal::TimePoint> display_lost_; // empty while it is there
-  bool picture_wanted_ = false;                // by a key or a pedal: the next frame is kept
+  std::optional<hal::TimePoint> undisplayed_control_; // time of the oldest event not shown yet
+  std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume not shown yet
+  bool volume_undisplayed_ = false;                     // volume_ has not been in a frame yet
+  std::uint64_t last_flip_ = 0;                // its number since this opening of the display
+  std::optional<hal::TimePoint> presented_;    // time of the last presentation, seen or not
+  std::optional<hal::TimePoint> display_lost_; // empty while it is present
+  bool picture_wanted_ = false;                // by key or pedal: keep the next frame
   pipeline::RetryDelay retry_;
   FrameStatistics statistics_;
 };

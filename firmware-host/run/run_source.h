@@ -1,5 +1,5 @@
-// Where the volumes of a run come from, and what comes with them: the devices of a live run, or a
-// recording. All the rest is the same for both, and is put together in appliance.cpp.
+// Where the volumes of a run come from, with what belongs to it: the devices of a live run, or a
+// recording. The rest is the same for both and is put together in appliance.cpp.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ namespace octascope::firmware_host {
 class CrashReport;
 struct ChosenConfiguration;
 
-// Everything outlives the source.
+// Everything must outlive the source.
 struct RunContext {
   const RunOptions& options;
   const Configuration& configuration;
@@ -35,7 +35,7 @@ struct RunContext {
   pipeline::Wakeup& news; // for the render thread
 };
 
-// As in RenderLoopParts; they live as long as the source.
+// As in RenderLoopParts; valid as long as the source.
 struct SourceParts {
   pipeline::VolumeFeed& volumes;
   const pipeline::Acquisition* acquisition = nullptr;
@@ -44,14 +44,14 @@ struct SourceParts {
   PictureProof* proof = nullptr;
 };
 
-// Bound to the render thread. The calls come in this order.
+// Bound to the render thread. Call in the order given.
 class RunSource {
 public:
   virtual ~RunSource() = default;
 
-  // Reads the files that it needs, before any device is looked for.
+  // Reads the needed files, before any device is looked for.
   virtual hal::Result<> open() { return {}; }
-  // Makes the devices beside the display, and what makes volumes; starts none of it. `devices`
+  // Makes the devices besides the display, and what makes volumes; starts nothing. `devices` must
   // outlive the source.
   virtual hal::Result<> prepare(Devices& devices, DeviceChoices choices) = 0;
   virtual pipeline::PatientEye whose() const = 0;
@@ -64,7 +64,7 @@ public:
 
   // At every turn of the render loop.
   virtual void describe(HostStatus& host, hal::TimePoint now) = 0;
-  // Before what the configuration has to say; empty: nothing.
+  // Takes precedence over the configuration's notice; empty: nothing.
   virtual std::string_view notice(hal::TimePoint) const { return {}; }
   virtual void advance(const RenderLoop& loop) = 0; // the display has been told
   virtual bool done(const RenderLoop& loop) const = 0;
@@ -86,12 +86,12 @@ protected:
   pipeline::Wakeup& news_;
 };
 
-// What is plugged in and simulated, under supervision. `crash_report` outlives it.
+// Real and simulated devices, under supervision. `crash_report` must outlive it.
 std::unique_ptr<RunSource> make_live_source(const RunContext& run,
                                             const ChosenConfiguration& chosen,
                                             CrashReport& crash_report);
 
-// The recording that the options name; no camera, no trigger, no supervision.
+// The recording that the options name; no camera, trigger or supervision.
 std::unique_ptr<RunSource> make_replay_source(const RunContext& run);
 
 } // namespace octascope::firmware_host

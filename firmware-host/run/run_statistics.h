@@ -1,4 +1,4 @@
-// What a run did so far, gathered from its parts: for the report, and for `octascope status`.
+// What a run has done so far, gathered from its parts: for the report and `octascope status`.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ class Devices;
 class RenderLoop;
 class WorkerCores;
 
-// Everything is borrowed, for the call alone.
+// Everything is borrowed for the call only.
 struct RunStatistics {
   const Devices& devices;
   const pipeline::Reconstructor& reconstructor;
@@ -36,7 +36,7 @@ struct RunTimes {
   hal::TimePoint process_start, started, ended;
 };
 
-// Once the threads have ended: before, the books need not balance.
+// After the threads have ended: before, the counts need not balance.
 RunReport report_on(const RunStatistics& run, const RunTimes& times,
                     std::vector<pipeline::FaultRecord> faults);
 

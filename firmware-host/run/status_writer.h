@@ -1,4 +1,4 @@
-// Writes what the display tells about the machine: nobody else does.
+// The only writer of the display's status.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace octascope::firmware_host {
 
-// What the host knows, and the render loop does not.
+// What the host knows but the render loop does not.
 struct HostStatus {
   std::array<ui::DeviceStatus, ui::Status::most_devices> devices;
   std::size_t device_count = 0;
@@ -45,10 +45,10 @@ public:
 
   void tell(const HostStatus& host);
 
-  // This volume is in the picture from now on.
+  // Call when this volume enters the picture.
   void show(const pipeline::Volume& volume);
 
-  // The time of the next frame, and what was counted until then.
+  // Sets the time of the next frame and the counts so far.
   void count(const RunCounters& counters, hal::TimePoint now);
   void judge(const ui::FreshnessLimits& limits, const std::optional<hal::TimePoint>& frozen_since);
   void reduce_quality(const std::optional<float>& share) { status_.reduced_quality = share; }

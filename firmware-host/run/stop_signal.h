@@ -1,11 +1,10 @@
-// SIGINT and SIGTERM as something that can be asked, without a signal handler.
+// SIGINT and SIGTERM, polled without a signal handler.
 #pragma once
 
 namespace octascope::firmware_host {
 
-// Make it before any thread starts: the signals are blocked in all threads from then on and wait
-// in a descriptor. One thread asks. A second signal after the first was seen ends the program at
-// once, for those whose patience is over.
+// Make it before any thread starts: the signals are then blocked in all threads and queued on a
+// descriptor. One thread asks. A second signal after the first was seen ends the program at once.
 class StopSignal {
 public:
   StopSignal();
@@ -13,7 +12,7 @@ public:
   StopSignal(const StopSignal&) = delete;
   StopSignal& operator=(const StopSignal&) = delete;
 
-  // Never waits. True once a signal came, and ever after.
+  // Never blocks. True from the first signal on.
   bool requested();
 
 private:

@@ -1,4 +1,4 @@
-// One volume, for commands that draw or measure: from a file, from spectra, or of a phantom.
+// Loads one volume for commands that draw or measure: from a file, from spectra, or of a phantom.
 #pragma once
 
 #include <filesystem>
@@ -23,12 +23,12 @@ struct VolumeRequest {
 
 struct LoadedVolume {
   pipeline::Volume volume;
-  pipeline::PatientEye whose; // as its recording says; what is no recording says nothing
+  pipeline::PatientEye whose; // from the recording; otherwise not said
 };
 
-// As the running appliance would have shown it: the same calibration, reconstruction and averaging
-// of neighbours for spectra and phantoms; a file's levels as they are. ErrorCode::invalid_argument
-// for what a user can put right on the command line.
+// As the running appliance would show it: the same calibration, reconstruction and averaging of
+// neighbours for spectra and phantoms; a file's levels unchanged. ErrorCode::invalid_argument for
+// what a user can correct on the command line.
 hal::Result<LoadedVolume> load_volume(const VolumeRequest& request);
 
 } // namespace octascope::firmware_host

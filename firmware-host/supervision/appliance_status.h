@@ -1,4 +1,4 @@
-// What `octascope status` and the metrics file tell of a running appliance.
+// What `octascope status` and the metrics file report about a running appliance.
 #pragma once
 
 #include <cstdint>
@@ -20,12 +20,12 @@ namespace octascope::firmware_host {
 
 // Which camera the calibration is of, and which one is open.
 struct CalibrationAccount {
-  std::string camera;              // that the calibration names; empty: none
-  std::string line_camera;         // that was opened last; empty: it tells nothing of itself
+  std::string camera;              // named by the calibration; empty: none
+  std::string line_camera;         // opened last; empty: it does not identify itself
   std::string verdict = "unknown"; // CameraVerdict's name
 };
 
-// What the render thread knows; plain data, told once a second.
+// What the render thread knows; plain data, passed once a second.
 struct PictureStatus {
   struct DeviceLine {
     std::string name;    // "camera", "trigger" …
@@ -43,7 +43,7 @@ struct PictureStatus {
   CalibrationAccount calibration{};
 };
 
-// What is known beside it.
+// The render thread's status and what is known besides.
 struct ApplianceStatus {
   hal::TimePoint now;
   double uptime_s = 0;
@@ -59,7 +59,7 @@ struct ApplianceStatus {
 std::string_view to_string(ui::Liveness liveness);
 std::string_view to_string(ui::ConfigurationState state);
 
-// One JSON object in one line. Its keys stay, tools read them.
+// One JSON object on one line. Its keys are a contract: tools read them.
 std::string to_json(const ApplianceStatus& status);
 
 // Prometheus' text format, version 0.0.4.

@@ -1,4 +1,4 @@
-// The keys under which reports and `octascope status` tell the same figures.
+// The keys shared by reports and `octascope status`.
 #pragma once
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace octascope::firmware_host {
 
 using ReportJson = nlohmann::ordered_json;
 
-// Three digits after the point are a microsecond of a millisecond: more would be noise.
+// Three digits after the point: a microsecond of a millisecond. More would be noise.
 inline double rounded(double value) {
   return std::round(value * 1000.0) / 1000.0;
 }

@@ -1,4 +1,4 @@
-// Faults into the system's journal, without flooding it.
+// Writes faults to the system's journal without flooding it.
 #pragma once
 
 #include <array>
@@ -20,15 +20,15 @@ struct JournalEntry {
   int priority = 6; // as syslog(3) counts
   std::string message;
   std::optional<pipeline::Fault> fault{}; // OCTASCOPE_DEVICE, OCTASCOPE_FAULT
-  std::uint64_t count = 0; // OCTASCOPE_COUNT: so many faults of the kind since the last message
+  std::uint64_t count = 0; // OCTASCOPE_COUNT: faults of the kind since the last message
 };
 
 // "PRIORITY=4", "MESSAGE=…" …
 std::vector<std::string> to_fields(const JournalEntry& entry);
 void send_to_journal(const JournalEntry& entry);
 
-// Each kind of fault is told when it first strikes, and after that every ten seconds at most, with
-// how many there were. One thread.
+// Each kind of fault is logged when it first strikes and then at most every ten seconds, with its
+// count. One thread.
 class FaultJournal {
 public:
   using Sink = std::function<void(const JournalEntry&)>;

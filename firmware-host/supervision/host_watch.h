@@ -1,5 +1,4 @@
-// What befalls the machine below the program: a full disk, a jump of the clock, little memory,
-// heat.
+// Trouble of the machine itself: a full disk, a jump of the clock, little memory, heat.
 #pragma once
 
 #include <chrono>
@@ -15,25 +14,25 @@
 
 namespace octascope::firmware_host {
 
-// What a machine says of itself just now; empty: it does not say.
+// What a machine reports about itself; empty: not reported.
 struct HostFindings {
   std::optional<std::uint64_t> available_bytes; // of memory, without swapping (proc_meminfo(5))
   std::optional<double> memory_stall_percent;   // "full avg10" of the kernel's pressure stalls
   std::optional<std::uint64_t> resident_bytes;  // of this process
   std::optional<double> temperature_c;          // of the hottest thermal zone
   std::optional<std::uint64_t> throttlings;     // of the processor since the boot, by its own count
-  bool beyond_trip = false; // a zone is as hot as where the kernel begins to slow things down
+  bool beyond_trip = false; // a zone is at the temperature where the kernel starts throttling
 };
 
-// Reads /proc and /sys below `root`. Pure but for what it reads.
+// Reads /proc and /sys below `root`; otherwise pure.
 HostFindings find_out_about_host(const std::filesystem::path& root = "/");
 
 struct DiskSpace {
   std::uint64_t free_bytes = 0; // for this user
 };
 
-// Each condition is one kind of fault of the host, counted once a look for as long as it
-// lasts; nothing is done about it but to tell, and to go on. One thread.
+// Each condition is one kind of host fault, counted once a look while it lasts; it is reported,
+// nothing else. One thread.
 class HostWatch {
 public:
   struct Setup {
@@ -44,18 +43,18 @@ public:
     std::function<std::chrono::nanoseconds()> wall_clock{}; // since 1970
   };
 
-  // Below these it is told.
+  // Reported below these.
   static constexpr std::uint64_t least_disk_bytes = 32ULL << 20U;
   static constexpr std::uint64_t least_memory_bytes = 96ULL << 20U;
   static constexpr double most_stall_percent = 10;
   static constexpr hal::Duration largest_jump = std::chrono::seconds{1};
 
-  // An empty function of the setup is the machine's own.
+  // Empty functions in the setup mean the machine's own.
   explicit HostWatch(Setup setup);
 
   void look(pipeline::FaultLog& faults, hal::TimePoint now);
 
-  // As found at the last look.
+  // From the last look.
   const HostFindings& findings() const { return findings_; }
 
 private:

@@ -1,4 +1,4 @@
-// Which module an address lies in, found from the handler of a fatal signal.
+// Which module an address lies in; usable in the handler of a fatal signal.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace octascope::firmware_host {
 
-// The process's own list of mappings (proc_pid_maps(5)), read into memory that was there before.
-// read() and find() are async-signal-safe; one thread. Large: static, or within something static.
+// The process's mappings (proc_pid_maps(5)), read into preallocated memory. read() and find() are
+// async-signal-safe; one thread. Large: make it static or part of something static.
 class ModuleMap {
 public:
   struct Place {
@@ -17,7 +17,7 @@ public:
     std::uint64_t offset = 0; // from where the module begins, as addr2line -e wants it
   };
 
-  // What does not fit is left out.
+  // Mappings that do not fit are left out.
   void read(const char* file = "/proc/self/maps");
   Place find(std::uint64_t address) const;
 

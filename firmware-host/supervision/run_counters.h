@@ -1,5 +1,5 @@
-// What a run or a replay has counted so far: gathered in one place, for display, status line,
-// report, `octascope status` and metrics.
+// What a run or replay has counted so far, gathered in one place for display, status line, report,
+// `octascope status` and metrics.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct RunCounters {
   pipeline::VolumeCounters volumes;
   std::uint64_t displayed = 0;   // volumes in a frame that reached the glass
   std::uint64_t undisplayed = 0; // taken, and then the display failed: "lost" of the volumes
-  std::uint64_t lines = 0;       // of all frames that came, fly-back among them
+  std::uint64_t lines = 0;       // of all frames received, fly-back included
   std::uint64_t frames_drawn = 0, frames_missed = 0;
   std::uint64_t hot_path_allocations = 0;
   RunRates rates;                    // over the last two seconds; in a report, over the whole run

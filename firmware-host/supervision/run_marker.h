@@ -1,24 +1,24 @@
-// Remembers, from one run to the next, whether the last one ended in good order.
+// Remembers whether the previous run ended in good order.
 #pragma once
 
 #include <filesystem>
 
 namespace octascope::firmware_host {
 
-// A file "running" in the folder for as long as the object lives; it names the boot. What is left
-// of an earlier run says how that one ended.
+// A file "running" in the folder exists as long as the object; it names the boot. A file left by an
+// earlier run tells how that one ended.
 class RunMarker {
 public:
   enum class LastRun {
     orderly,   // or there was none
-    crashed,   // crashed or killed, since the machine was started
-    power_lost // with the machine: it was switched off, or it hung
+    crashed,   // crashed or killed, during this boot
+    power_lost // ended with the machine: switched off or hung
   };
 
-  // `boot_id` names this boot of the machine. What cannot be read or written is as if not there.
+  // `boot_id` names this boot. A file that cannot be read or written is treated as absent.
   RunMarker(const std::filesystem::path& folder,
             const std::filesystem::path& boot_id = "/proc/sys/kernel/random/boot_id");
-  ~RunMarker(); // this run ended in good order
+  ~RunMarker(); // marks this run as ended in good order
   RunMarker(const RunMarker&) = delete;
   RunMarker& operator=(const RunMarker&) = delete;
 

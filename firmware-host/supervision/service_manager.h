@@ -1,4 +1,4 @@
-// What systemd and the program tell each other: folders, readiness, watchdog.
+// The protocol between systemd and the program: folders, readiness, watchdog.
 #pragma once
 
 #include <filesystem>
@@ -11,32 +11,32 @@
 namespace octascope::firmware_host {
 
 // Where a service may write: $STATE_DIRECTORY and $RUNTIME_DIRECTORY, as systemd sets them for a
-// unit. Empty: nobody gave a folder, and nothing is written there.
+// unit. Empty: no folder, and nothing is written.
 struct ServiceFolders {
   std::optional<std::filesystem::path> state;
   std::optional<std::filesystem::path> runtime;
 };
 ServiceFolders service_folders();
 
-// Does stderr go to the journal? As sd_journal says it: $JOURNAL_STREAM names stderr's own device
-// and inode, so that somebody who redirects it gets text.
+// Whether stderr goes to the journal: $JOURNAL_STREAM must name stderr's own device and inode, as
+// sd_journal documents, so that redirected output is text.
 bool stderr_is_journal();
 
-// Tells systemd; silent where $NOTIFY_SOCKET names none. One thread at a time.
+// Notifies systemd; silent if $NOTIFY_SOCKET is not set. One thread at a time.
 class ServiceManager {
 public:
   ServiceManager();
 
-  // The unit's WatchdogSec, if it has one and it is meant for this process.
+  // The unit's WatchdogSec, if set and meant for this process.
   std::optional<hal::Duration> watchdog_interval() const { return watchdog_interval_; }
 
-  // Did systemd start this process, and does it wait for ready()?
+  // Whether systemd started this process and waits for ready().
   bool there() const { return there_; }
 
-  // A step on the way to the picture begins: it may take as long as the whole start otherwise.
+  // A step towards the picture begins; it may take as long as the whole start otherwise could.
   void starting(std::string_view step) const;
-  void ready() const; // the picture is there
-  // Where there is a watchdog, it waits so long from now on.
+  void ready() const; // there is a picture
+  // Sets the watchdog's timeout from now on, if there is one.
   void set_watchdog(hal::Duration interval) const;
   void kick() const;     // the watchdog
   void stopping() const; // in good order

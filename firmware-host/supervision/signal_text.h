@@ -1,5 +1,5 @@
-// Writing from the handler of a fatal signal, where nothing of the standard library may be called:
-// no allocation, no lock, no locale. Everything here is async-signal-safe (signal-safety(7)).
+// Writing from the handler of a fatal signal, where the standard library must not be used: no
+// allocation, no lock, no locale. Everything here is async-signal-safe (signal-safety(7)).
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace octascope::firmware_host {
 
-// Gathers and writes; what cannot be written is lost, there is nobody to tell. Without a descriptor
-// it gathers only, up to a kilobyte.
+// Buffers and writes; write errors are ignored. Without a descriptor it only buffers, up to a
+// kilobyte.
 class SignalText {
 public:
   explicit SignalText(int descriptor = -1) : descriptor_{descriptor} {}
@@ -30,7 +30,7 @@ public:
   SignalText& number(std::uint64_t value, int digits = 1) { return in_base(value, 10, digits); }
   SignalText& hex(std::uint64_t value) { return text("0x").in_base(value, 16, 1); }
 
-  // 20261121-231500, of UTC: the local time needs files.
+  // 20261121-231500, in UTC: local time would need files.
   SignalText& time(std::time_t seconds) {
     const Civil c = civil_of(seconds / 86400);
     const auto of_day = static_cast<std::uint64_t>(seconds % 86400);

@@ -1,4 +1,4 @@
-// Answers `octascope status` on a local socket; nothing is ever reached from a network.
+// Answers `octascope status` on a local socket; not reachable over a network.
 #pragma once
 
 #include <atomic>
@@ -18,20 +18,19 @@ namespace octascope::firmware_host {
 
 inline constexpr std::string_view status_socket_name = "status.sock"; // in the runtime folder
 
-// Who connects gets the answer and the end; what he says is not read. A thread of its own serves; a
-// client that does not read is hung up on after a second, and of more than eight at once the one
-// that has waited longest, so that nobody can keep others out.
+// Each client gets the answer and is disconnected; its input is ignored. Served by a thread of its
+// own. A client that does not read is dropped after a second; of more than eight at once, the one
+// that has waited longest is, so that nobody can keep others out.
 class StatusServer {
 public:
   using Answer = std::function<std::string()>;
 
-  // Listens on `socket`, which owner and group may use; what an ended program left there is
-  // replaced. `answer` is called on the server's thread and outlives it.
-  // ErrorCode::busy: another program listens there. ErrorCode::invalid_argument: the path is too
-  // long.
+  // Listens on `socket`, which owner and group may use; one left by an ended program is replaced.
+  // `answer` is called on the server's thread and must outlive it. ErrorCode::busy: another program
+  // listens there. ErrorCode::invalid_argument: the path is too long.
   static hal::Result<std::unique_ptr<StatusServer>> start(const std::filesystem::path& socket,
                                                           Answer answer);
-  ~StatusServer(); // the socket is gone then
+  ~StatusServer(); // removes the socket
   StatusServer(const StatusServer&) = delete;
   StatusServer& operator=(const StatusServer&) = delete;
 
@@ -48,7 +47,7 @@ private:
                Answer answer);
   void run();
   void welcome();
-  static bool serve(Client& client); // false: done with it
+  static bool serve(Client& client); // false: done with this client
 
   std::filesystem::path path_;
   FileDescriptor listener_;
@@ -58,9 +57,8 @@ private:
   std::thread thread_;
 };
 
-// The answer of an appliance that listens there. ErrorCode::absent: none does. ErrorCode::denied:
-// this user may not ask. ErrorCode::timed_out: it has not answered within two seconds, or too many
-// ask.
+// The answer of the appliance listening there. ErrorCode::absent: none does. ErrorCode::denied:
+// this user may not ask. ErrorCode::timed_out: no answer within two seconds, or too many clients.
 hal::Result<std::string> ask_status(const std::filesystem::path& socket);
 
 } // namespace octascope::firmware_host

@@ -1,5 +1,5 @@
-// Watches the running appliance and tells about it: to systemd, to `octascope status`, to the
-// journal, to a metrics file, and, when it crashes, to whoever fixes it.
+// Watches the running appliance and reports to systemd, `octascope status`, the journal, a metrics
+// file and, after a crash, to whoever fixes it.
 #pragma once
 
 #include <atomic>
@@ -30,37 +30,36 @@ struct SupervisionSetup {
   ServiceFolders folders;
   std::optional<std::filesystem::path> configuration; // the file in use
   ui::ConfigurationState configuration_state = ui::ConfigurationState::own;
-  std::optional<std::filesystem::path> metrics; // else metrics.prom in the runtime folder
+  std::optional<std::filesystem::path> metrics; // empty: metrics.prom in the runtime folder
   bool journal = false;                         // faults go there, too
 };
 
-// Its own ordinary thread looks ten times a second, and more often for the first picture. It never
-// waits for the render thread nor holds it up: what that says is counters and, once a second, a
-// copy behind a lock.
+// Its own ordinary thread looks ten times a second, more often before the first picture. It never
+// blocks the render thread, which passes it counters and, once a second, a copy behind a lock.
 //
-// Begins with start(). Outlives all threads that it watches.
+// Begins with start(). Must outlive all threads that it watches.
 class Supervision {
 public:
-  // The references outlive this.
+  // The references must outlive this.
   Supervision(SupervisionSetup setup, CrashReport& crash_report, hal::Clock& clock,
               pipeline::FaultLog& faults);
-  ~Supervision(); // in good order: the next run hears of no crash
+  ~Supervision(); // in good order: the next run finds no crash
 
-  // Before start(): systemd is told which step of it has begun, and waits for that one.
+  // Before start(): tells systemd which start-up step has begun.
   bool is_service() const { return manager_.there(); } // of systemd
   void starting(std::string_view step) const { manager_.starting(step); }
 
   // `process_start` is when the program began.
   void start(hal::TimePoint process_start);
 
-  // systemd is told that the end was asked for. The watchdog is not kicked any more.
+  // Tells systemd that the end was requested. The watchdog is no longer kicked.
   void stop();
 
   ThreadWatch& threads() { return threads_; }
   PictureProof& picture() { return picture_; }
   CrashReport& crash_report() { return crash_report_; }
 
-  // The render thread: tells how things are, at most once a second.
+  // The render thread passes its status at most once a second.
   bool wants_status(hal::TimePoint now) const { return now >= next_status_; }
   void tell(PictureStatus status);
 
@@ -87,7 +86,7 @@ private:
   hal::TimePoint next_status_{};
   hal::TimePoint next_look_{}, next_metrics_{};
   bool ready_ = false;
-  bool volume_told_ = false; // the journal, that there is one
+  bool volume_told_ = false; // the journal was told that there is one
 
   mutable std::mutex mutex_;
   std::optional<PictureStatus> told_; // by the render thread

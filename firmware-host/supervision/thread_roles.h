@@ -14,8 +14,8 @@
 
 namespace octascope::firmware_host {
 
-// Which worker runs on which core. With `configured` cores, on those in turns; else one on each of
-// the `allowed` ones, and where there are fewer of them than workers, wherever the system wants.
+// Which worker runs on which core. `configured` cores are used in turn; else each worker gets one
+// of the `allowed` cores or, if there are too few, the system chooses.
 class WorkerCores {
 public:
   WorkerCores(std::size_t workers, std::span<const int> configured, std::span<const int> allowed);
@@ -23,8 +23,7 @@ public:
   // Empty: the system chooses.
   std::optional<int> planned(std::size_t worker) const;
 
-  // Any thread: a worker says where it is pinned; what all of them said, −1 where the system
-  // chooses.
+  // Any thread: a worker reports its core, or all reports are read; −1: the system chooses.
   void set_pinned(std::size_t worker, int core);
   std::vector<int> pinned() const;
 
@@ -33,10 +32,10 @@ private:
   std::vector<std::atomic<int>> pinned_;
 };
 
-// What the pipeline's and the display's threads call first. Camera and volume threads come before
-// the workers, the workers before everything else; the iso-surface comes last. Where the system
-// refuses, that is one record in `faults` (which like `cores` outlives the threads) and the
-// appliance goes on. `watch`, which outlives them too, notices those that hang; null: nobody does.
+// Called first by each of the pipeline's and the display's threads. Camera and volume threads take
+// precedence over the workers, the workers over everything else; the iso-surface comes last. If the
+// system refuses, that is one record in `faults`, and the appliance goes on. `watch` notices hung
+// threads; null: nobody does. All three references outlive the threads.
 pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& faults,
                                         WorkerCores& cores, ThreadWatch* watch = nullptr);
 

@@ -1,4 +1,4 @@
-// Notices a thread that makes no steps any more.
+// Notices threads that make no progress.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace octascope::firmware_host {
 struct ThreadState {
   std::string name;        // "camera", "worker 1"
   bool stuck = false;      // no step for longer than its limit
-  hal::Duration silence{}; // since its last step; 0 while nothing is due
+  hal::Duration silence{}; // since its last step; 0 while none is due
 };
 
 // Thread-safe. Outlives the threads that it watches.
@@ -27,14 +27,14 @@ public:
   ThreadWatch(const ThreadWatch&) = delete;
   ThreadWatch& operator=(const ThreadWatch&) = delete;
 
-  // Gives the calling thread its heartbeat, from when on its first step is due; nothing for a role
-  // that nobody need watch: one that the render thread waits for is watched by the watchdog, one
-  // that works beside everything else and for as long as it likes has no step that is due.
+  // Gives the calling thread its heartbeat; its first step is due from `now` on. Nothing for roles
+  // that need no watching: a thread that the render thread waits for is covered by the watchdog,
+  // and one that works in the background for as long as it likes has no step that is due.
   void enlist(const pipeline::ThreadRole& role, hal::TimePoint now);
 
   std::vector<ThreadState> states(hal::TimePoint now) const;
 
-  // One fault for each thread that is stuck just now, of the device or part that it serves.
+  // Reports one fault per stuck thread, for the device or part that it serves.
   void complain(pipeline::FaultLog& faults, hal::TimePoint now) const;
 
 private:

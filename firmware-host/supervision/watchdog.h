@@ -1,4 +1,4 @@
-// When systemd's watchdog is kicked: only when the picture has proved itself since the last time.
+// When systemd's watchdog is kicked: only if the picture has proved itself since the last kick.
 #pragma once
 
 #include <cstdint>
@@ -8,18 +8,18 @@
 
 namespace octascope::firmware_host {
 
-// How long systemd shall wait for a kick until a machine has settled: its first pictures of a
-// volume make the graphics driver compile, for tens of seconds where the processor is slow or
-// emulated. A restart would only begin that anew.
+// How long systemd waits for a kick until the machine has settled: the first pictures of a volume
+// make the graphics driver compile, for tens of seconds on a slow or emulated processor. A restart
+// would only begin that anew.
 inline constexpr hal::Duration patience_before_settled = std::chrono::seconds{60};
 
-// Pure but for what it remembers.
+// Pure but for its own state.
 class Watchdog {
 public:
-  // `interval` is the unit's WatchdogSec; empty: nobody watches, and nothing is ever due.
+  // `interval` is the unit's WatchdogSec; empty: no watchdog, nothing is ever due.
   explicit Watchdog(std::optional<hal::Duration> interval) : interval_{interval} {}
 
-  // Is a kick due, with PictureProof's steps as they are now? Four times an interval at most.
+  // Whether a kick is due, given PictureProof's steps now. At most four times an interval.
   bool due(std::uint64_t steps, hal::TimePoint now) {
     if (!interval_ || steps == steps_ || now < next_)
       return false;
@@ -28,8 +28,8 @@ public:
     return true;
   }
 
-  // With PictureProof's frames that showed a volume, as they are now. True once: these have come
-  // for a whole interval, without a pause of half of it.
+  // Given PictureProof's frames that showed a volume. True once: when these have come for a whole
+  // interval without a pause of half of it.
   bool settles(std::uint64_t volume_frames, hal::TimePoint now) {
     if (!interval_ || settled_ || volume_frames == volume_frames_)
       return false;

@@ -1,5 +1,5 @@
-// The vessel tree of the running display: loaded beside it, placed in the volume, drawn no more
-// finely than frames allow, moved by the knob and kept.
+// The vessel tree of the running display: loads it, places it in the volume, limits its detail to
+// what the frame rate allows, moves it with the knob and saves its registration.
 #pragma once
 
 #include <filesystem>
@@ -23,22 +23,22 @@ namespace octascope::firmware_host {
 struct VesselDisplaySetup {
   std::filesystem::path file;
   std::optional<std::filesystem::path> registration_file;
-  std::optional<pipeline::Registration> registration; // none: the tree's place is not known
+  std::optional<pipeline::Registration> registration; // none: the tree is not registered
   pipeline::PatientEye operated;                      // the eye in the picture
 };
 
 class VesselDisplay;
 struct RunOptions;
 
-// The tree that the options name, loaded beside the display; null where they name none. A tree in a
-// wrong place would mislead: without its registration, where one is named, an Error. So would
-// another patient's tree: ErrorCode::invalid_argument where its registration says another subject
-// or eye than `operated`. Everything borrowed outlives it.
+// The tree that the options name, loaded beside the display; null if they name none. An Error if a
+// named registration cannot be used, since a tree in the wrong place would mislead.
+// ErrorCode::invalid_argument if the registration names another subject or eye than `operated`.
+// Everything borrowed must outlive it.
 hal::Result<std::unique_ptr<VesselDisplay>>
 make_vessel_display(const RunOptions& options, pipeline::PatientEye operated, hal::Clock& clock,
                     pipeline::FaultLog& faults, pipeline::Wakeup& news);
 
-// Bound to the render thread. Everything borrowed outlives it.
+// Bound to the render thread. Everything borrowed must outlive it.
 class VesselDisplay {
 public:
   VesselDisplay(VesselDisplaySetup setup, hal::Clock& clock, pipeline::FaultLog& faults,
@@ -47,20 +47,21 @@ public:
   // Takes what was loaded or written meanwhile; `renderer` is null while the display is gone.
   void advance(ui::Renderer* renderer, ui::ViewActions& actions);
 
-  // A new renderer shows what the lost one did.
+  // Shows the tree again with a new renderer.
   hal::Result<> show_again(ui::Renderer& renderer);
 
-  // Keeps where the tree lies with the view's nudge; says so when it is written.
+  // Saves the tree's place including the view's nudge; reports when it is written.
   void keep_registration(const pipeline::VolumeGeometry& geometry, ui::ViewActions& actions);
 
-  // How finely to draw the frame that begins now; `moved`: the view differs from the last frame's.
+  // The level of detail for the frame that begins now; `moved`: the view differs from the last
+  // frame's.
   float detail_px(hal::TimePoint now, bool moved);
-  // After a frame; a share of `budget` is the vessels'.
+  // Call after each frame; the vessels get a share of `budget`.
   void note(const ui::Renderer::VesselReport& report, hal::Duration budget);
 
   const ui::VesselStatus& status() const { return status_; }
 
-  // One line for the surgeon while there is something to say; empty: nothing.
+  // One line for the surgeon; empty: nothing to say.
   const std::string& notice(hal::TimePoint now) const;
 
 private:
@@ -78,7 +79,7 @@ private:
   std::optional<LoadedVessels> loaded_;
   RegistrationWriter keeper_{"."};
   pipeline::RigidTransform kept_; // what is being written
-  ui::VesselNudge kept_nudge_;    // which made it
+  ui::VesselNudge kept_nudge_;    // the nudge included in it
   ui::DetailGovernor governor_{{}};
   std::optional<hal::TimePoint> moved_at_;
   bool at_rest_ = true;

@@ -1,4 +1,4 @@
-// Vessel trees to files, in the format that the name asks for.
+// Writes vessel trees in the format given by the file's name.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace octascope::firmware_host {
 
 // ".swc": SWC in micrometres; any other name: our own format. The file appears complete or not at
-// all. `provenance` is where the tree came from, for people (our format keeps it). Faults as
+// all. `provenance`, for people, says where the tree came from; only our format keeps it. Errors as
 // write_swc() and write_cluster_file().
 hal::Result<> write_tree(const std::filesystem::path& file, const pipeline::VesselTree& tree,
                          std::string provenance, const std::function<void(double)>& progress = {});

@@ -12,18 +12,18 @@
 
 namespace octascope::firmware_host {
 
-// One thread of its own loads; another asks.
+// A thread of its own loads; call from one other thread.
 class VesselLoader {
 public:
   // Begins at once. `news`, which outlives this, is posted at each hundredth and at the end.
   VesselLoader(std::filesystem::path file, pipeline::Wakeup& news);
-  // Breaks it off: reading ends within a tenth of a second or so.
+  // Cancels the loading, within about a tenth of a second.
   ~VesselLoader() = default;
 
   const std::filesystem::path& file() const { return file_; }
   float progress() const { return progress_.load(std::memory_order_relaxed); } // 0…1
 
-  // What came of it, once.
+  // The outcome, once.
   std::optional<hal::Result<LoadedVessels>> take();
 
 private:
@@ -32,9 +32,9 @@ private:
   std::filesystem::path file_;
   pipeline::Wakeup& news_;
   std::atomic<float> progress_{0};
-  std::optional<hal::Result<LoadedVessels>> loaded_; // the thread's until `done_`
+  std::optional<hal::Result<LoadedVessels>> loaded_; // owned by the thread until `done_`
   std::atomic<bool> done_{false};
-  std::jthread thread_; // its end asks for the stop, and waits
+  std::jthread thread_; // last: its destructor stops and joins it
 };
 
 } // namespace octascope::firmware_host

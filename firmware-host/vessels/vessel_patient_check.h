@@ -1,4 +1,4 @@
-// Vessels of another patient, or of the other eye, must not be drawn into a picture.
+// Refuses to draw vessels of another patient or of the other eye into a picture.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@ namespace octascope::firmware_host {
 // "subject 4711, left eye".
 std::string in_words(const pipeline::PatientEye& whose);
 
-// ErrorCode::invalid_argument, with what each says, where the registration is another eye's than
-// the picture. What nobody said contradicts nothing.
+// ErrorCode::invalid_argument, with both values, if the registration is for another subject or eye
+// than the picture. Unknown values match anything.
 hal::Result<> check_vessel_patient(const std::filesystem::path& registration,
                                    const pipeline::PatientEye& vessels,
                                    const pipeline::PatientEye& picture);

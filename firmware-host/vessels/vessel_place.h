@@ -1,4 +1,4 @@
-// A loaded tree with what is known of its place in the volume.
+// A loaded tree with its place in the volume, if known.
 #pragma once
 
 #include <cstddef>

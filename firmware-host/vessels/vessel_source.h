@@ -1,4 +1,5 @@
-// One vessel tree as clusters, for commands that draw or measure: from a file of any kind.
+// One vessel tree as clusters, for commands that draw or measure: from a file of any supported
+// format.
 #pragma once
 
 #include <cstddef>
@@ -13,17 +14,17 @@
 
 namespace octascope::firmware_host {
 
-// Owns what the clusters are in: a mapped file or arrays. Reading from it is safe from any thread.
+// Owns the clusters' memory: a mapped file or arrays. Reading is safe from any thread.
 class LoadedVessels {
 public:
   explicit LoadedVessels(pipeline::ClusterFile file) : owner_{std::move(file)} {}
   LoadedVessels(pipeline::ClusterArrays arrays, pipeline::VesselFacts facts)
       : owner_{Built{std::move(arrays), std::move(facts)}} {}
 
-  // What the spans lie in is valid as long as this object, or the one that it was moved to.
+  // The spans are valid as long as this object, or the one it was moved to.
   pipeline::VesselClusters clusters() const;
   const pipeline::VesselFacts& facts() const;
-  std::size_t bytes() const; // of clusters, nodes and sources, in use
+  std::size_t bytes() const; // of clusters, nodes and sources
   bool is_mapped() const;    // else packed from SWC or VTP
 
 private:
@@ -35,9 +36,8 @@ private:
   std::variant<pipeline::ClusterFile, Built> owner_;
 };
 
-// Maps our own format as it is; reads and packs SWC and VTP by `options`, for which
-// options.progress is called, 0 to 1, and options.stop obeyed. Faults as tree_file.h and
-// cluster_file.h have them.
+// Maps our own format; reads and packs SWC and VTP by `options`, calling options.progress with 0 to
+// 1 and obeying options.stop. Errors as in tree_file.h and cluster_file.h.
 hal::Result<LoadedVessels> load_vessels(const std::filesystem::path& file,
                                         const pipeline::TreeReadOptions& options = {});
 

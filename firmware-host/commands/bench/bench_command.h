@@ -5,8 +5,8 @@
 
 namespace octascope::firmware_host {
 
-// Adds "bench" with its subcommands, and returns it for those of other rooms; see add_run_command()
-// for `exit_status`.
+// Adds "bench" and returns it, so that other folders can add subcommands; `exit_status` as in
+// add_run_command().
 CLI::App& add_bench_command(CLI::App& program, int& exit_status);
 
 // One subcommand each.

@@ -1,5 +1,5 @@
-// octascope bench display: how long each technique takes for the volume's picture on this machine,
-// that the pictures are right, and what the whole appliance makes of it.
+// octascope bench display: measures how long each technique takes to draw a volume on this machine,
+// checks the pictures, and measures the whole appliance.
 #pragma once
 
 #include <array>
@@ -20,15 +20,15 @@ struct DisplayBenchOptions {
   // Width and height, from the smallest to the largest.
   std::vector<std::array<int, 2>> sizes{{640, 360}, {1280, 720}, {1920, 1080}};
   std::optional<ui::Technique> technique;    // none: all
-  std::optional<ui::RayBackend> rays;        // of techniques that cast them, who does; none: both
-  double seconds = 90;                       // about how long the drawing is measured
+  std::optional<ui::RayBackend> rays;        // for techniques that cast rays; none: both
+  double seconds = 90;                       // approximate time spent drawing
   std::optional<std::filesystem::path> dump; // folder for pictures and the volume
   bool live = true;                          // also run the appliance
 };
 
 struct DisplayBenchCase {
   ui::Technique technique = ui::Technique::rays;
-  ui::RayBackend backend = ui::RayBackend::shader; // of slices, planes and surface always that
+  ui::RayBackend backend = ui::RayBackend::shader; // always this for slices, planes and surface
   int width = 1280;
   int height = 720;
   int steps = 512; // along the longest edge of the volume
@@ -37,11 +37,11 @@ struct DisplayBenchCase {
 
 struct DisplayBenchResult {
   DisplayBenchCase what;
-  int frames = 0; // each drawn anew, from eight directions in turn; at least 4
+  int frames = 0; // each drawn anew, cycling through eight directions; at least 4
   double ms_p50 = 0;
   double ms_p95 = 0;
-  // Mean absolute difference of 255, over the picture, from the same technique drawn by the other
-  // backend, or, of slices and planes, from cast rays; at the smallest size.
+  // Mean absolute difference over the picture, of 255: from the same technique on the other backend
+  // or, for slices and planes, from cast rays; at the smallest size.
   std::optional<double> difference;
 };
 

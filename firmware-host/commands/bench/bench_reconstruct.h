@@ -1,5 +1,5 @@
-// octascope bench reconstruct: how fast each path reconstructs on this machine, relative to bare
-// FFTW transforms measured in between on the same core, and that the results are right.
+// octascope bench reconstruct: measures each reconstruction path on this machine relative to bare
+// FFTW transforms interleaved on the same core, and checks the results.
 #pragma once
 
 #include <string>
@@ -28,8 +28,9 @@ struct BenchCase {
 struct BenchResult {
   BenchCase what;
   double lines_per_s = 0;   // median
-  double ratio_to_fftw = 0; // time a line / time a bare transform: median of the repeats' ratios
-  double spread = 0;        // of that ratio: between its quartiles / median
+  double ratio_to_fftw = 0; // time per line / time per bare transform: median of the repeats'
+                            // ratios
+  double spread = 0;        // of that ratio: interquartile range / median
   int repeats = 0;          // at least 9
   int max_count_error = 0;  // of 255, against double precision, over a sample of lines
   double share_differing = 0;
@@ -42,9 +43,8 @@ struct BenchReport {
   std::vector<BenchResult> cases;
 };
 
-// Every path, instruction set, interpolation, with and without dispersion, on one thread and two;
-// with dispersion, both backgrounds.
-// `seconds` is about what all the measuring takes.
+// Measures every path, instruction set and interpolation, with and without dispersion, on one and
+// two threads; with dispersion, both backgrounds. Takes about `seconds` in all.
 hal::Result<BenchReport> bench_reconstruct(double seconds);
 
 std::string to_text(const BenchReport& report);

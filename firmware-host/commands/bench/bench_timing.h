@@ -1,4 +1,4 @@
-// What the benchmarks share.
+// Helpers shared by the benchmarks.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline double seconds_since(BenchClock::time_point start) {
   return std::chrono::duration<double>(BenchClock::now() - start).count();
 }
 
-// Of at least one value.
+// `values` must not be empty.
 inline double quantile(std::vector<double> values, double share) {
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -25,7 +25,7 @@ inline double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-// Mean absolute difference of two pictures of one size, of 255.
+// Mean absolute difference, of 255, of two pictures of the same size.
 inline double mean_difference(const pipeline::Image& a, const pipeline::Image& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i)

@@ -1,5 +1,5 @@
-// Runs the whole program on its twins for a few seconds, with a knob that is turned all the time,
-// and reads its report.
+// Runs the whole program on its twins for a few seconds while a knob turns continuously, and reads
+// its report.
 #pragma once
 
 #include "hal/result.h"
@@ -7,13 +7,13 @@
 namespace octascope::firmware_host {
 
 struct LiveFigures {
-  double start_to_first_picture_ms = 0; // from the beginning of the process
+  double start_to_first_picture_ms = 0; // from process start
   double frames_per_s = 0;              // while the view turns
   double knob_to_frame_ms_p50 = 0;      // turn of the knob → end of the first frame that shows it
   double knob_to_frame_ms_p95 = 0;
   double latency_ms_p50 = 0; // camera's timestamp of a volume's last line → end of its first frame
   double latency_ms_p95 = 0;
-  double resting_latency_ms_p50 = 0; // the same while nobody turns the view
+  double resting_latency_ms_p50 = 0; // the same while the view is at rest
   double resting_latency_ms_p95 = 0;
   double lost_volumes = 0;
 };

@@ -1,5 +1,5 @@
-// octascope calibrate: measurements of a spectrometer → the calibration that every command takes,
-// and a verdict on it.
+// octascope calibrate: turns measurements of a spectrometer into the calibration that every command
+// takes, and judges it.
 #pragma once
 
 #include <filesystem>
@@ -29,28 +29,28 @@ struct DarkFiles {
 struct CalibrateOptions {
   std::vector<std::filesystem::path> mirrors; // none or two
   DarkFiles darks;
-  std::optional<pipeline::SampleSide> side; // not given: the tissue decides, else both mirrors
+  std::optional<pipeline::SampleSide> side; // empty: decided by the tissue, else both mirrors
   std::optional<std::filesystem::path> lamp;
   std::vector<double> lines_nm;
   std::optional<std::filesystem::path> tissue;
   pipeline::SpectraShape tissue_shape;
   std::optional<std::filesystem::path> base;  // calibration whose k curve is used for the tissue
-  std::optional<int> samples;                 // not given: each file is one line
-  std::optional<hal::SampleType> type;        // not given: as the file's name says, else u16
+  std::optional<int> samples;                 // empty: each file is one line
+  std::optional<hal::SampleType> type;        // empty: from the file's name, else u16
   std::optional<hal::SampleType> tissue_type; // likewise
   std::optional<int> significant_bits;        // full scale of counts
   std::optional<double> mirror_distance_um;
   std::optional<double> spacing_um;
-  std::optional<double> refractive_index; // in which depths are to be told
-  std::string camera;                     // which one the measurements are of; empty: not said
+  std::optional<double> refractive_index; // for which depths are reported
+  std::string camera;                     // which the measurements were made with; empty: unknown
   std::filesystem::path out;
   std::optional<std::filesystem::path> picture;
 };
 
-// What does not go together on the command line.
+// Refuses options that contradict each other.
 hal::Result<> check(const CalibrateOptions& options);
 
-// Checks, and writes the files only when all of it went well.
+// Checks the options; writes files only if everything succeeded.
 hal::Result<CalibrationVerdict> calibrate(const CalibrateOptions& options);
 
 // As add_reconstruct_command().

@@ -1,4 +1,4 @@
-// The measurements that a calibration is made of: one averaged spectrum a file.
+// The measurements that a calibration is made from: one averaged spectrum per file.
 #pragma once
 
 #include <filesystem>
@@ -13,20 +13,21 @@
 namespace octascope::firmware_host {
 
 struct SpectrumInput {
-  std::optional<int> samples; // not given: the file is one line
+  std::optional<int> samples; // empty: the file is one line
   std::optional<hal::SampleType> type;
-  std::optional<int> significant_bits; // of integer counts; all of the type's when not given
+  std::optional<int> significant_bits; // of integer counts; empty: all of the type's
 };
 
-// What `given` says, else what the file's name says (…f32…, …u16…, …u8…), else u16.
+// `given` if set, else the type in the file's name (…f32…, …u16…, …u8…), else u16.
 hal::SampleType spectrum_type(const std::filesystem::path& file,
                               std::optional<hal::SampleType> given);
 
-// A file that is read as numbers, one a line of text (text_curve.h), whatever its type: .txt, .csv.
+// Whether the file is text, one number a line (text_curve.h), whatever its type: .txt, .csv.
 bool is_text(const std::filesystem::path& file);
 
-// The mean of the lines of a file, raw or text. ErrorCode::bad_data with line and sample: not
-// finite; with `refuse_saturated`, at full scale or flat at its highest value in several places.
+// The mean of the lines of a file, raw or text. ErrorCode::bad_data, with line and sample: a value
+// is not finite or, with `refuse_saturated`, at full scale or flat at its maximum in several
+// places.
 hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file,
                                                const SpectrumInput& input, bool refuse_saturated);
 

@@ -20,7 +20,7 @@ struct MirrorMeasurement {
 pipeline::Image draw_mirrors(const std::array<MirrorMeasurement, 2>& mirrors,
                              const pipeline::MirrorPair& pair);
 
-// Of a lamp or a tissue: the k curve's distance from a straight line, and the dispersion.
+// For a lamp or a tissue: the k curve's deviation from a straight line, and the dispersion.
 pipeline::Image draw_curves(std::span<const double> positions,
                             std::span<const double> dispersion_rad);
 

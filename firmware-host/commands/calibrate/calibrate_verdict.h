@@ -31,35 +31,36 @@ struct LampVerdict {
 struct TissueVerdict {
   double sharpness_before = 0; // k-linear, no dispersion
   double sharpness_after = 0;
-  std::vector<double> polynomial_rad; // of m/(N−1), when the tissue gave it
+  std::vector<double> polynomial_rad; // of m/(N−1), if found from the tissue
 };
 
 struct CalibrationVerdict {
   std::string method;
   std::string file; // that was written
   int samples = 0;
-  std::optional<double> spacing_um;       // of a bin, when known
-  std::optional<double> refractive_index; // in which that holds; empty: nobody said
+  std::optional<double> spacing_um;       // per bin, if known
+  std::optional<double> refractive_index; // for which the spacing holds; empty: unknown
   std::vector<MirrorVerdict> mirrors;
-  std::string sample_side; // which mirrors lie where samples do
-  std::string side_source; // how that is known
+  std::string sample_side; // which mirrors lie on the samples' side
+  std::string side_source; // how that was determined
   std::optional<LampVerdict> lamp;
   std::optional<TissueVerdict> tissue;
   bool monotone = true;         // all others are refused
-  double least_step_pixels = 0; // of r[m] from sample to sample
+  double least_step_pixels = 0; // smallest increase of r[m] from sample to sample
   double greatest_step_pixels = 0;
   double dispersion_rms_rad = 0;
 
-  // Of a pair of mirrors.
+  // For a pair of mirrors.
   double residual_rad() const;        // of both, rms
-  double depth_error_bins() const;    // the greatest distance of a peak from its phase's depth
-  double roll_off_db_per_bin() const; // fall of the level from the shallow mirror to the deep one
+  double depth_error_bins() const;    // largest distance of a peak from the depth given by its
+                                      // phase
+  double roll_off_db_per_bin() const; // fall of level from the shallow mirror to the deep one
 };
 
-// Some lines of plain text, or one JSON object.
+// A few lines of plain text, or one JSON object.
 std::string to_text(const CalibrationVerdict& verdict);
 std::string to_json(const CalibrationVerdict& verdict);
-// The most telling figures in one line.
+// The most important figures in one line.
 std::string summary(const CalibrationVerdict& verdict);
 
 } // namespace octascope::firmware_host

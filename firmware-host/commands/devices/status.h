@@ -1,4 +1,4 @@
-// octascope status: what a running appliance says of itself.
+// octascope status: prints the state of a running appliance.
 #pragma once
 
 #include <CLI/App.hpp>

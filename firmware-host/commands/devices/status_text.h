@@ -1,4 +1,4 @@
-// The appliance's answer in words for people.
+// The appliance's answer as text for people.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace octascope::firmware_host {
 
-// `answer` is the JSON object that the appliance gave. ErrorCode::bad_data: it is none.
+// `answer` is the appliance's JSON object. ErrorCode::bad_data: it is not one.
 hal::Result<std::string> status_words(const std::string& answer);
 
 } // namespace octascope::firmware_host

@@ -21,27 +21,27 @@ enum class ExportFormat : std::uint8_t { nrrd, dicom, png };
 struct ExportOptions {
   std::filesystem::path recording;
   ExportFormat format = ExportFormat::nrrd;
-  std::filesystem::path out; // a file of the format's extension for one volume, else a folder
+  std::filesystem::path out; // a file with the format's extension for one volume, else a folder
   VolumeRange volumes;
   bool display_counts = false;             // NRRD: 8 bits instead of float dB
-  std::optional<int> b_scan;               // PNG; empty: from above
+  std::optional<int> b_scan;               // PNG; empty: en face, from above
   bool to_scale = false;                   // PNG: square pixels
-  std::optional<ui::DisplayWindow> window; // DICOM, PNG; empty: what suits the first volume
-  std::optional<std::string> subject;      // DICOM, NRRD: another than the recording's
+  std::optional<ui::DisplayWindow> window; // DICOM, PNG; empty: chosen for the first volume
+  std::optional<std::string> subject;      // DICOM, NRRD: replaces the recording's
 };
 
 struct ExportOutcome {
   std::size_t volumes = 0;
   std::filesystem::path first, last;       // files
-  std::optional<ui::DisplayWindow> window; // in which they are shown
-  std::size_t missing_b_scans = 0;         // among the exported
+  std::optional<ui::DisplayWindow> window; // used to show the volumes
+  std::size_t missing_b_scans = 0;         // in the exported volumes
   bool simulated = false;
-  std::string pixels; // PNG: how large they are, in words
+  std::string pixels; // PNG: their pixel size, as text
 };
 
-// Files appear complete or not at all, and replace what had their names; only their owner may read
-// them: they show a patient. ErrorCode::invalid_argument for what a user can put right on the
-// command line. After a failure those that were finished before remain. `progress` is told 0 to 1.
+// Files appear complete or not at all, replace files of the same name, and are readable by their
+// owner alone, since they show a patient. ErrorCode::invalid_argument for what a user can correct
+// on the command line. After a failure, files finished before remain. `progress` receives 0 to 1.
 hal::Result<ExportOutcome> export_recording(const ExportOptions& options,
                                             const std::function<void(double)>& progress);
 

@@ -1,4 +1,4 @@
-// Where exported files go, and what they are called.
+// Where exported files go and how they are named.
 #pragma once
 
 #include <cstddef>
@@ -13,21 +13,22 @@ namespace octascope::firmware_host {
 // One file for one volume, or a folder with one for each.
 class ExportPlace {
 public:
-  // `extension` as ".nrrd"; `suffix` comes before it in the names of a folder's files. Makes
-  // nothing yet. ErrorCode::invalid_argument: one file for several volumes, another format's
-  // extension, a name that is something else already.
+  // `extension` as in ".nrrd"; `suffix` comes before it in names within a folder. Creates nothing
+  // yet. ErrorCode::invalid_argument: one file for several volumes, another format's extension, or
+  // a name already taken by something else.
   static hal::Result<ExportPlace> choose(const std::filesystem::path& out,
                                          const std::string& extension, const std::string& suffix,
                                          std::size_t volumes);
 
-  // The file of the recording's `n`th volume: volume-0012.nrrd, which sorts as it counts.
+  // The file of the recording's `n`th volume, such as volume-0012.nrrd: names sort in numerical
+  // order.
   std::filesystem::path file_of(std::size_t n) const;
 
-  // Makes the folder where it is missing, but not the one that it is in; says whether a file can be
-  // made there, and whether `bytes` find room.
+  // Makes the folder if it is missing, but not its parent; checks that a file can be made there and
+  // that `bytes` fit.
   hal::Result<> prepare(std::uint64_t bytes, std::size_t first);
 
-  // After a failure: the folder that prepare() made, if there is nothing in it.
+  // After a failure: removes the folder that prepare() made, if it is empty.
   void remove_empty_folder() const;
 
 private:
@@ -39,7 +40,7 @@ private:
   bool made_folder_ = false;
 };
 
-// What `bytes` need against what there is, in words for an error.
+// Checks that `bytes` fit on the disk; the error gives both sizes.
 hal::Result<> check_room(const std::filesystem::path& folder, std::uint64_t bytes,
                          std::uint64_t available);
 

@@ -1,4 +1,4 @@
-// One volume to one file, in each of the formats.
+// Writes one volume to one file in each format.
 #pragma once
 
 #include <cstddef>
@@ -24,14 +24,14 @@ class VolumeExporter {
 public:
   virtual ~VolumeExporter() = default;
 
-  // Complete or not at all, for its owner alone.
+  // The file appears complete or not at all, readable by its owner alone.
   virtual hal::Result<> write(const std::filesystem::path& file, const VolumeToExport& volume) = 0;
 
-  // A file's size, nearly; 0 where it is not known beforehand, and small.
+  // Approximate size of a file; 0 if unknown beforehand and small.
   virtual std::uint64_t file_bytes() const = 0;
 };
 
-// `options.window` is given where the format needs one; `facts` must outlive it.
+// `options.window` is set if the format needs one; `facts` must outlive the exporter.
 hal::Result<std::unique_ptr<VolumeExporter>>
 make_volume_exporter(const ExportOptions& options, const pipeline::RecordingFacts& facts,
                      const pipeline::RecordedVolume& first);

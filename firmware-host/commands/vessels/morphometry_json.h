@@ -1,4 +1,4 @@
-// The table of what a tree measures beside what was published, as JSON.
+// A tree's measurements beside the published ones, as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace octascope::firmware_host {
 
-// A list with an object for each order of each branch that is there.
+// A list with one object for each order of each branch present.
 nlohmann::ordered_json morphometry_json(const sim::MorphometryTable& table);
 
 } // namespace octascope::firmware_host

@@ -1,4 +1,4 @@
-// What vessel trees are drawn by, as the command line has it.
+// Names of methods and branches, and descriptions of what was drawn, for the command line.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace octascope::firmware_host {
 
-// "rca"; "unknown" for what is of none.
+// "rca"; "unknown" if it belongs to no branch.
 std::string_view to_string(pipeline::VesselBranch branch);
 
 const std::map<std::string, pipeline::VesselBranch>& branches_by_name();
@@ -21,7 +21,7 @@ const std::map<std::string, ui::VesselColouring>& colourings_by_name();
 const std::map<std::string, ui::BenchmarkView>& views_by_name();
 std::vector<std::string> method_names();
 
-// Of such a map.
+// The names in such a map.
 template <class Map> std::vector<std::string> names_of(const Map& map) {
   std::vector<std::string> names;
   for (const auto& [name, value] : map)

@@ -1,5 +1,5 @@
-// octascope vessels bench: how long each method takes for a vessel tree's picture on this machine,
-// and that the pictures are right.
+// octascope vessels bench: measures how long each method takes to draw a vessel tree on this
+// machine, and checks the pictures.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct VesselBenchMethod {
   ui::VesselMethodKind kind = ui::VesselMethodKind::hybrid;
   ui::ClusterChoice choice = ui::ClusterChoice::visible;
 };
-// All methods, and "quads-brute-force": quads by GL with nothing left out, to measure against.
+// All methods, and "quads-brute-force", the reference: quads drawn by GL with nothing culled.
 const std::vector<VesselBenchMethod>& vessel_bench_methods();
 inline constexpr std::string_view brute_force_name = "quads-brute-force";
 
@@ -34,26 +34,26 @@ struct VesselsBenchOptions {
                                        ui::all_benchmark_views.end()};
   int width = 1280;
   int height = 720;
-  double seconds = 3;                        // about how long each method is measured in each view
+  double seconds = 3;                        // approximate time per method and view
   std::optional<std::filesystem::path> dump; // folder for the pictures
-  // Compare with quads drawn by brute force at four places within each pixel, too.
+  // Also compare with brute-force quads sampled at four places within each pixel.
   bool supersampled = false;
-  int flight_places = 0; // of a flight through the tree by the hybrid and quads-gpu; 0: none
+  int flight_places = 0; // of a flight through the tree, by the hybrid and quads-gpu; 0: none
   std::function<void(std::string_view)> progress; // a line for each case; may be empty
 };
 
 struct VesselsBenchCase {
   std::string method;
-  // Each with a camera turned a little further; where one takes seconds, it may be only one.
+  // Each with the camera turned a little further; only one where frames take seconds.
   int frames = 0;
   double ms_p50 = 0;
   double ms_p95 = 0;
   ui::SegmentCounts account;
-  // Mean absolute difference of 255, over the picture, from quads-gpu and from the supersampled
+  // Mean absolute difference over the picture, of 255, from quads-gpu and from the supersampled
   // quads.
   double difference = 0;
   std::optional<double> supersampled_difference;
-  std::optional<ui::VesselShares> shares; // of balanced
+  std::optional<ui::VesselShares> shares; // for `balanced` only
 };
 
 struct VesselsBenchView {
@@ -69,7 +69,7 @@ struct VesselsBenchReport {
   std::string gl_renderer;
   int width = 0;
   int height = 0;
-  double upload_ms = 0; // of the nodes to GL, for the methods that need them there
+  double upload_ms = 0; // of the nodes to GL, for methods that need it
   std::vector<VesselsBenchView> views;
   std::optional<VesselsFlightReport> flight;
 };
@@ -78,13 +78,13 @@ struct VesselsBenchReport {
 hal::Result<VesselsBenchReport> bench_vessels(const pipeline::VesselClusters& tree,
                                               const VesselsBenchOptions& options);
 
-// Where the tree is from.
+// Where the tree came from.
 struct VesselsBenchTree {
   std::string source;
   std::uint64_t segments = 0;
-  std::uint64_t bytes = 0; // of clusters, nodes and sources, in use
+  std::uint64_t bytes = 0; // of clusters, nodes and sources
   bool mapped = false;
-  std::optional<double> load_ms;  // from the file to what can be drawn
+  std::optional<double> load_ms;  // from the file to a drawable tree
   std::optional<double> build_ms; // from a tree in memory to clusters
 };
 

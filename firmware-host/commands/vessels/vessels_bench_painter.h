@@ -1,4 +1,4 @@
-// Pictures of a vessel tree by any method, for measuring.
+// Draws a vessel tree with any method, for measurements.
 #pragma once
 
 #include <utility>
@@ -26,11 +26,11 @@ public:
   int height() const { return height_; }
   ui::Camera camera(const ui::VesselView& view) const;
 
-  // Complete, when it returns.
+  // The picture is complete when it returns.
   hal::Result<ui::SegmentCounts> draw(ui::VesselMethod& method, const ui::VesselView& view);
-  // What was drawn last.
+  // The picture drawn last.
   pipeline::Image read() const { return picture_.read_colour(); }
-  // Both.
+  // draw() and read().
   hal::Result<pipeline::Image> picture(ui::VesselMethod& method, const ui::VesselView& view);
 
 private:

@@ -10,17 +10,17 @@
 
 namespace octascope::firmware_host {
 
-// Differences are means over the picture, of 255; steps are half a pixel long.
+// Differences are means over the picture, of 255; a step is half a pixel.
 struct VesselsFlightReport {
   int places = 0; // at each, two frames a step apart
   double length_mm = 0;
-  // Of the hybrid's frames.
+  // For the hybrid's frames.
   double ms_p50 = 0;
   double ms_p95 = 0;
   double worst_difference = 0; // from quads
   double worst_step = 0;       // from frame to frame
   double worst_quads_step = 0; // the same of quads
-  double worst_beyond = 0;     // what a step of the hybrid had more than the same of quads
+  double worst_beyond = 0;     // largest excess of a hybrid's step over the same step of quads
 };
 
 // `progress` is called with a line for each place; may be empty.

@@ -18,14 +18,14 @@ struct VesselsRenderOptions {
   ui::VesselMethodKind method = ui::VesselMethodKind::hybrid;
   ui::TubeShape tubes;
   ui::VesselColouring colouring = ui::VesselColouring::branch;
-  std::optional<pipeline::VesselBranch> branch; // none: all
-  // Where the look begins; what is given below changes it.
+  std::optional<pipeline::VesselBranch> branch; // empty: all
+  // The initial view; the values below change it.
   ui::BenchmarkView view = ui::BenchmarkView::whole;
   std::optional<float> yaw_deg;
   std::optional<float> tilt_deg;
   std::optional<glm::vec3> target_mm;
   std::optional<float> mm_per_pixel;
-  float zoom = 1; // so many times nearer
+  float zoom = 1; // magnification
   int width = 1280;
   int height = 720;
 };

@@ -1,4 +1,4 @@
-// octascope reconstruct: raw spectra → a volume of levels, and a picture of one B-scan.
+// octascope reconstruct: turns raw spectra into a volume of levels and a picture of one B-scan.
 #pragma once
 
 #include <filesystem>
@@ -15,21 +15,22 @@ struct ReconstructOptions {
   std::filesystem::path spectra;
   pipeline::SpectraShape shape;
   hal::SampleType type = hal::SampleType::u16;
-  std::optional<int> significant_bits;              // none: as many as the type has
+  std::optional<int> significant_bits;              // empty: all of the type's
   int right_shift = 0;                              // of left-justified counts
-  std::optional<std::filesystem::path> calibration; // none: no resampling, no dispersion
+  std::optional<std::filesystem::path> calibration; // empty: no resampling, no dispersion
+                                                    // compensation
   std::filesystem::path volume;                     // NRRD to write
   bool display_counts = false;                      // 8 bits instead of float dB
   int picture_b_scan = 0;
   std::optional<std::filesystem::path> picture; // PNG to write
-  unsigned threads = 0;                         // 0: one a core
+  unsigned threads = 0;                         // 0: one per core
 };
 
-// ErrorCode::invalid_argument for what a user can put right on the command line.
+// ErrorCode::invalid_argument for what a user can correct on the command line.
 hal::Result<> reconstruct_volume(const ReconstructOptions& options);
 
-// Adds the command to `app`. When the user gives it, it runs while `app` parses and puts 0 (done),
-// 1 (failed) or 2 (wrong use) into `exit_status`, which must live as long as `app`.
+// Adds the command to `app`. If given, it runs while `app` parses and stores 0 (done), 1 (failed)
+// or 2 (wrong use) in `exit_status`, which must outlive `app`.
 void add_reconstruct_command(CLI::App& app, int& exit_status);
 
 } // namespace octascope::firmware_host

@@ -17,19 +17,19 @@
 namespace octascope::firmware_host {
 
 struct RenderOptions {
-  // Its window is not used; the others as on the display.
+  // The window is ignored; everything else is as on the display.
   ui::ViewState view;
-  std::optional<ui::DisplayWindow> window; // empty: what suits the volume
-  ui::TransferSet transfers;               // what the view's indices choose from
+  std::optional<ui::DisplayWindow> window; // empty: chosen for the volume
+  ui::TransferSet transfers;               // indexed by the view
   int width = 1280;
   int height = 720;
   ui::DrawQuality quality = ui::full_quality;
   std::optional<ui::PlacedVessels> vessels; // borrowed
 };
 
-// The volume alone on the display's background, with its scale, RGB. Opens an offscreen GL context
-// for itself and closes it again; none may be current on this thread. ErrorCode::invalid_argument:
-// what was asked for cannot be drawn so. ErrorCode::unsupported: this machine has no offscreen GL.
+// The volume alone on the display's background, with its scale, RGB. Opens its own offscreen GL
+// context and closes it again; none may be current on this thread. ErrorCode::invalid_argument: the
+// request cannot be drawn. ErrorCode::unsupported: this machine has no offscreen GL.
 hal::Result<pipeline::Image> render_volume(const pipeline::Volume& volume,
                                            const RenderOptions& options);
 

@@ -1,5 +1,4 @@
-// What of a new configuration a running appliance can take over, and what has to wait for a
-// restart.
+// Which configuration changes a running appliance can take over, and which need a restart.
 #pragma once
 
 #include <string>
@@ -11,16 +10,16 @@
 
 namespace octascope::firmware_host {
 
-// Sections of what differs and cannot be changed in a running appliance, as the file names them:
-// "[scan]"; each once. Pure: of files that are named only the names are compared.
+// The sections that differ and need a restart, as named in the file: "[scan]"; each once. Pure:
+// named files are compared by name only.
 std::vector<std::string> changes_for_a_restart(const Configuration& used,
                                                const Configuration& next);
 
-// Do both offer the same? By name and by what they do at 256 places of the window.
+// Whether both sets are the same, by name and by value at 256 places of the window.
 bool same_transfers(const ui::TransferSet& a, const ui::TransferSet& b);
 
-// The view with what `next` says otherwise than `used`; what pedal and knob have set stays
-// elsewhere. Choices go by name; one that is no longer there becomes `next`'s own.
+// The view with the changes from `used` to `next` applied; all else keeps the values set by pedal
+// and knob. Choices are matched by name; one that no longer exists becomes `next`'s own.
 ui::ViewState with_changes(const ui::ViewState& view, const Configuration& used,
                            const Configuration& next);
 

@@ -1,4 +1,4 @@
-// Reads a configuration anew beside the running display.
+// Reloads a configuration beside the running display.
 #pragma once
 
 #include <filesystem>
@@ -14,30 +14,30 @@
 
 namespace octascope::firmware_host {
 
-// Everything that a running appliance can take over at once, and whether it may.
+// Everything a running appliance can take over at once, and whether it may.
 struct ReadConfiguration {
   Configuration configuration;
   ui::ControlProfile controls;
-  std::optional<ConfigurationBundle> calibration; // with its tables, to be compared; empty: none
+  std::optional<ConfigurationBundle> calibration; // with its tables, for comparison; empty: none
 };
 
-// Validated as a whole, with every file that it names.
+// Validates the configuration as a whole, with every file that it names.
 hal::Result<ReadConfiguration> read_whole(const std::filesystem::path& file,
                                           const RunOptions& options);
 
-// Bound to one thread; a thread of its own reads.
+// Bound to one thread; reads on a thread of its own.
 class ConfigurationReload {
 public:
-  // Whoever writes a file often writes it twice, or another one with it.
+  // Editors often write a file twice, or several files in a row.
   static constexpr hal::Duration settled_after = std::chrono::milliseconds{300};
 
   ConfigurationReload(std::filesystem::path file, RunOptions options)
       : file_{std::move(file)}, options_{std::move(options)} {}
 
-  // It was written just now.
+  // Call when the file was written.
   void ask(hal::TimePoint now) { asked_ = now; }
 
-  // Begins to read when it has settled; the outcome, once each time.
+  // Starts reading once writes have settled; returns each outcome once.
   std::optional<hal::Result<ReadConfiguration>> take(hal::TimePoint now);
 
 private:

@@ -1,5 +1,4 @@
-// Tells when the configuration's files were written, or when somebody asks for them to be read
-// anew.
+// Reports when the configuration's files are written, or a reload is requested.
 #pragma once
 
 #include <cstdint>
@@ -11,24 +10,24 @@ namespace octascope::firmware_host {
 
 enum class ReloadSignal : std::uint8_t {
   heeded,  // SIGHUP, as `systemctl reload` sends it
-  ignored, // a terminal that is closed sends it, too: it ends the program as ever
+  ignored, // a closed terminal sends it, too: it ends the program, as usual
 };
 
-// Make it before any thread starts: a heeded signal is blocked in all threads from then on. One
-// thread asks.
+// Make it before any thread starts: a heeded signal is then blocked in all threads. Ask from one
+// thread.
 class ConfigurationWatch {
 public:
-  // The file's folder is watched, so that an editor's way of replacing files is seen; one that
-  // cannot be watched is not, and the signal alone serves. An empty path: the signal alone.
+  // Watches the file's folder, so that editors that replace files are noticed. If the folder cannot
+  // be watched, or with an empty path, only the signal counts.
   ConfigurationWatch(const std::filesystem::path& file, ReloadSignal signal);
   ~ConfigurationWatch();
   ConfigurationWatch(const ConfigurationWatch&) = delete;
   ConfigurationWatch& operator=(const ConfigurationWatch&) = delete;
 
-  // Files that it names and that lie in the same folder.
+  // Adds files named by the configuration that lie in the same folder.
   void watch_too(const std::filesystem::path& file);
 
-  // Never waits. True once after something happened.
+  // Never blocks. True once after each change.
   bool changed();
 
 private:
@@ -36,7 +35,7 @@ private:
   bool file_was_written();
 
   std::filesystem::path folder_;
-  std::set<std::string> names_; // of the files in it that count
+  std::set<std::string> names_; // files in the folder that are watched
   int notify_ = -1;
   int signals_ = -1;
 };

@@ -1,4 +1,4 @@
-// The configuration that worked last, kept for the day on which the machine's own does not.
+// The last configuration that worked, kept in case the machine's own does not.
 #pragma once
 
 #include <filesystem>
@@ -9,17 +9,17 @@
 
 namespace octascope::firmware_host {
 
-// STATE/last-good is a link to one of two folders, of which the other is written anew: it changes
-// at once and as a whole, and a power cut leaves the old one or the new one.
+// STATE/last-good links to one of two folders; the other one is rewritten and then linked, so that
+// a power cut leaves either the old or the new one, complete.
 class LastGood {
 public:
   explicit LastGood(std::filesystem::path state_folder) : state_{std::move(state_folder)} {}
 
-  // Where there is one.
+  // Empty if there is none.
   std::optional<std::filesystem::path> file() const;
 
-  // Writes nothing where the same is kept already. What was written is validated before it takes
-  // the place of the old one. Takes as long as the disk does.
+  // Writes nothing if the same is kept already. What was written is validated before it replaces
+  // the old one. Blocks on the disk.
   hal::Result<> keep(const ConfigurationBundle& bundle) const;
 
 private:

@@ -1,4 +1,4 @@
-// Finds out when a configuration has proved itself, and has it kept.
+// Determines when a configuration has proved itself, and keeps it.
 #pragma once
 
 #include <filesystem>
@@ -11,25 +11,25 @@
 
 namespace octascope::firmware_host {
 
-// Bound to one thread; reading and writing happen on threads of their own.
+// Bound to one thread; reads and writes on threads of its own.
 class LastGoodStore {
 public:
-  // So long a run without a picture proves a configuration, too: the scanner may be switched on
-  // later.
+  // A run of this length without a picture proves a configuration, too: the scanner may be switched
+  // on later.
   static constexpr hal::Duration proved_after = std::chrono::seconds{10};
 
   // `clock` and `faults` outlive it.
   LastGoodStore(std::filesystem::path state_folder, hal::Clock& clock, pipeline::FaultLog& faults)
       : folder_{std::move(state_folder)}, clock_{clock}, faults_{faults} {}
 
-  // This file is run on from now on: it is read at once, as it is, since it may be edited later.
+  // This file is used from now on. It is read at once, since it may be edited later.
   void begin(const std::filesystem::path& configuration);
 
-  // Every turn. With the first picture of a volume since begin(), or after a while, what was read
-  // is written. A failure is a fault (configuration_not_kept).
+  // Call every turn. Writes what was read at the first picture of a volume since begin(), or after
+  // `proved_after`. A failure is a fault (configuration_not_kept).
   void advance(bool picture_shown);
 
-  // At the end of a run, which may be shorter than reading the file takes: waits for it.
+  // At the end of a run, which may be shorter than the reading: waits for it.
   void finish(bool picture_shown);
 
 private:
@@ -40,7 +40,7 @@ private:
   hal::Clock& clock_;
   pipeline::FaultLog& faults_;
   hal::TimePoint began_{};
-  std::optional<std::filesystem::path> wanted_; // to be read, once what is read now has been
+  std::optional<std::filesystem::path> wanted_; // to be read after the present one
   pipeline::BackgroundTask<hal::Result<ConfigurationBundle>> reading_;
   pipeline::BackgroundTask<hal::Result<>> writing_;
 };

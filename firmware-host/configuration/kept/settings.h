@@ -22,19 +22,19 @@ namespace octascope::firmware_host {
 // What a run begins with, by the configuration.
 struct ConfiguredView {
   ui::ViewState view;
-  bool automatic_window = false; // what suits the first volume, so that `view` cannot say it
-  ui::TransferSet transfers;     // what view.transfer and view.colour_map choose from
+  bool automatic_window = false; // chosen for the first volume; `view` cannot express that
+  ui::TransferSet transfers;     // indexed by view.transfer and view.colour_map
 };
 
 struct RestoredView {
   ui::ViewState view;
-  bool window = false; // was restored, too
+  bool window = false; // whether the window was restored, too
 };
 
-// The file's text for what `state` has otherwise than `configured`.
+// The file's text for the values of `state` that differ from `configured`.
 std::string settings_text(const ConfiguredView& configured, const ui::ViewState& state);
 
-// Strict as every file of ours. What it names that is no longer there (a transfer function) is left
+// Strict, like every file of ours. A named choice that no longer exists (a transfer function) stays
 // as configured.
 hal::Result<RestoredView> read_settings(const std::filesystem::path& file,
                                         const ConfiguredView& configured);

@@ -1,4 +1,4 @@
-// Keeps what pedal and knob have set, beside the running display.
+// Saves the settings made by pedal and knob, beside the running display.
 #pragma once
 
 #include <filesystem>
@@ -12,25 +12,25 @@
 
 namespace octascope::firmware_host {
 
-// Bound to one thread, the render thread; a thread of its own writes, one file at a time.
+// Bound to the render thread; a thread of its own writes, one file at a time.
 class SettingsStore {
 public:
   // `clock` and `faults` outlive it.
   SettingsStore(std::filesystem::path file, hal::Clock& clock, pipeline::FaultLog& faults)
       : file_{std::move(file)}, clock_{clock}, faults_{faults} {}
 
-  // Of an earlier run; nothing where there is no file. One that cannot be read is set aside under
-  // another name, recorded as a fault (settings_broken), and never stops a start.
+  // Restores an earlier run's settings; empty if there is no file. An unreadable file is renamed
+  // and recorded as a fault (settings_broken); it never prevents a start.
   std::optional<RestoredView> restore(const ConfiguredView& configured);
 
-  // restore() has just set one aside.
+  // Whether restore() has just set a file aside.
   bool was_broken() const { return was_broken_; }
 
-  // Every turn: costs next to nothing, and every two seconds some microseconds. What changed is
-  // written then; a file that cannot be written is tried again half a minute later.
+  // Call every turn: costs next to nothing, and some microseconds every two seconds, when changes
+  // are written. A failed write is retried after half a minute.
   void note(const ConfiguredView& configured, const ui::ViewState& state);
 
-  // At the end: what was not written yet, now.
+  // At the end: writes what is not written yet.
   void finish(const ConfiguredView& configured, const ui::ViewState& state);
 
 private:
@@ -42,8 +42,8 @@ private:
   pipeline::FaultLog& faults_;
   bool was_broken_ = false;
   hal::TimePoint next_{};
-  std::optional<std::string> kept_; // what the file holds; empty: not known
-  std::string writing_text_;        // what it will hold
+  std::optional<std::string> kept_; // content of the file; empty: unknown
+  std::string writing_text_;        // content being written
   pipeline::BackgroundTask<hal::Result<>> writing_;
 };
 
