@@ -23,14 +23,14 @@ public:
 
   // Makes one pulse and returns the time of its rising edge. Neither allocates nor locks when it
   // succeeds. ErrorCode::disconnected: the line is gone, the state is `failed`; close() and open().
-  Result<TimePoint> arm() { return do_arm(); }
+  Result<TimePoint> pulse() { return do_pulse(); }
 
   // Any state → absent; sets the safe level.
   void close() { do_close(); }
 
 private:
   virtual Result<> do_open(const GalvoTriggerConfig& config) = 0;
-  virtual Result<TimePoint> do_arm() = 0;
+  virtual Result<TimePoint> do_pulse() = 0;
   virtual void do_close() = 0;
 };
 

@@ -47,13 +47,13 @@ Json scan_to_json(const RunReport& report) {
                {"sweeps_per_volume", plan.sweeps()},
                {"planned_volumes_per_s", rounded(plan.volumes_per_s())}};
   if (plan.bidirectional) {
-    const pipeline::ScanLagStatus& phase = report.phase;
-    scan["phase_offset"] = {{"a_scans", rounded(phase.in_use_a_scans)},
-                            {"automatic", phase.automatic},
-                            {"estimates_used", phase.used},
-                            {"estimates_refused", phase.refused},
-                            {"correlation", rounded(phase.correlation)},
-                            {"significance", rounded(phase.significance)}};
+    const pipeline::ScanLagStatus& scan_lag = report.scan_lag;
+    scan["phase_offset"] = {{"a_scans", rounded(scan_lag.in_use_a_scans)},
+                            {"automatic", scan_lag.automatic},
+                            {"estimates_used", scan_lag.used},
+                            {"estimates_refused", scan_lag.refused},
+                            {"correlation", rounded(scan_lag.correlation)},
+                            {"significance", rounded(scan_lag.significance)}};
   }
   return scan;
 }
@@ -164,10 +164,11 @@ std::string to_text(const RunReport& r) {
       c.frames_drawn, c.rates.frames_per_s, c.volumes.lost_lines, c.volumes.lost_b_scans,
       c.volumes.lost_volumes, c.latency.p50_ms, c.latency.p95_ms);
   if (r.plan.bidirectional)
-    text += fmt::format("bidirectional: phase offset {:.2f} A-scans, {}\n", r.phase.in_use_a_scans,
-                        !r.phase.automatic ? "as configured"
-                        : r.phase.used > 0 ? "found in the picture"
-                                           : "as configured: the picture shows no better one");
+    text +=
+        fmt::format("bidirectional: phase offset {:.2f} A-scans, {}\n", r.scan_lag.in_use_a_scans,
+                    !r.scan_lag.automatic ? "as configured"
+                    : r.scan_lag.used > 0 ? "found in the picture"
+                                          : "as configured: the picture shows no better one");
   return text + to_text(r.faults);
 }
 

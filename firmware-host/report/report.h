@@ -44,7 +44,7 @@ struct RunReport {
   CalibrationAccount calibration;
 
   pipeline::ScanPlan plan;
-  pipeline::ScanLagStatus phase;
+  pipeline::ScanLagStatus scan_lag;
   std::vector<int> worker_cores; // by worker; −1 where the system chooses
 
   RunCounters counters; // complete once the threads have ended

@@ -38,7 +38,7 @@ void add_reconstruction(RunReport& report, const pipeline::Reconstructor& recons
 }
 
 void add_volumes(RunReport& report, const pipeline::VolumeThread& volumes) {
-  report.phase = volumes.phase();
+  report.scan_lag = volumes.scan_lag();
   report.reconstruct = volumes.statistics().reconstruct.summary();
   report.assemble = volumes.statistics().assemble.summary();
   report.publish = volumes.statistics().publish.summary();

@@ -48,9 +48,9 @@ TickDecision VolumeScheduler::tick(hal::TimePoint now) {
   return decision;
 }
 
-std::optional<std::uint32_t> VolumeScheduler::pulsed(hal::TimePoint armed) {
+std::optional<std::uint32_t> VolumeScheduler::pulsed(hal::TimePoint when) {
   count(counts_.planned);
-  const hal::TimePoint end = sweeps_.armed(++last_number_, armed);
+  const hal::TimePoint end = sweeps_.pulsed(++last_number_, when);
   count(counts_.triggered);
   if (free_.empty()) {
     count_lost_volume();

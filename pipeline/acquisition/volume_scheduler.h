@@ -97,7 +97,7 @@ public:
 
   // The pulse was made: the buffer to build its volume in, or none, and the volume is lost: the
   // workers are three volumes behind.
-  std::optional<std::uint32_t> pulsed(hal::TimePoint armed);
+  std::optional<std::uint32_t> pulsed(hal::TimePoint when);
   // It was tried and failed.
   void pulse_failed();
   // There is no camera to pulse for, or no trigger. Before the first pulse nothing is lost by that.

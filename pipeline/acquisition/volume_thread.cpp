@@ -46,7 +46,7 @@ VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
       volumes_(make_pool(setup_.plan.geometry(), VolumeScheduler::pool_size)),
       scheduler_(setup_.plan, setup_.most_volumes),
       builder_(setup_.plan, setup_.workers, setup_.reconstruct),
-      phase_(setup_.plan, clock, faults) {
+      scan_lag_(setup_.plan, clock, faults) {
   for (Workplace& workplace : workplaces_) {
     workplace.sweeps.resize(static_cast<std::size_t>(setup_.plan.b_scans));
     workplace.assembler = std::make_unique<VolumeAssembler>(setup_.plan.geometry(), setup_.average);
@@ -58,7 +58,7 @@ VolumeThread::~VolumeThread() {
 }
 
 void VolumeThread::start(const ThreadSetup& setup) {
-  phase_.start(setup);
+  scan_lag_.start(setup);
   const std::size_t most_jobs = volumes_.size() * static_cast<std::size_t>(setup_.plan.b_scans);
   workers_ = std::make_unique<WorkerPool>(
       setup_.workers, most_jobs, setup,
@@ -76,7 +76,7 @@ void VolumeThread::stop() {
   stopping_.store(true, std::memory_order_release);
   arrived_.post();
   thread_.join();
-  phase_.stop();
+  scan_lag_.stop();
 }
 
 const Volume* VolumeThread::do_take_newest() {
@@ -130,19 +130,19 @@ void VolumeThread::tick() {
 }
 
 void VolumeThread::pulse(hal::TimePoint now) {
-  const auto armed = trigger_.arm();
-  if (!armed) {
-    faults_.add(Device::galvo_trigger, armed.error(), now);
+  const auto pulsed = trigger_.pulse();
+  if (!pulsed) {
+    faults_.add(Device::galvo_trigger, pulsed.error(), now);
     if (trigger_.state() == hal::DeviceState::failed)
       trigger_.close();
     scheduler_.pulse_failed();
-  } else if (const auto buffer = scheduler_.pulsed(*armed)) {
-    begin_volume(*buffer, *armed);
+  } else if (const auto buffer = scheduler_.pulsed(*pulsed)) {
+    begin_volume(*buffer, *pulsed);
   } else {
     faults_.add(Fault::overrun,
                 "reconstruction is slower than the camera: fewer lines or B-scans, or linear "
                 "interpolation, would help",
-                *armed);
+                *pulsed);
   }
 }
 
@@ -162,10 +162,10 @@ bool VolumeThread::trigger_ready() {
   return true;
 }
 
-void VolumeThread::begin_volume(std::uint32_t buffer, hal::TimePoint armed) {
+void VolumeThread::begin_volume(std::uint32_t buffer, hal::TimePoint pulsed) {
   Workplace& workplace = workplaces_[buffer];
-  workplace.alignment = SweepAlignment{setup_.plan, phase_.in_use_a_scans()};
-  workplace.sketch = phase_.borrow();
+  workplace.alignment = SweepAlignment{setup_.plan, scan_lag_.in_use_a_scans()};
+  workplace.sketch = scan_lag_.borrow();
   std::ranges::fill(workplace.sweeps, Sweeps{});
   workplace.work_ns.store(0, std::memory_order_relaxed);
   workplace.saturated_lines.store(0, std::memory_order_relaxed);
@@ -173,7 +173,7 @@ void VolumeThread::begin_volume(std::uint32_t buffer, hal::TimePoint armed) {
   std::fill(volume.b_scan_states.begin(), volume.b_scan_states.end(), BScanState::missing);
   workplace.assembler->begin(volume);
   volume.metadata = {};
-  volume.metadata.armed = armed;
+  volume.metadata.pulsed = pulsed;
   volume.metadata.scan_lag_a_scans = workplace.alignment.scan_lag_a_scans();
 }
 
@@ -249,7 +249,7 @@ void VolumeThread::finish_due_volumes(hal::TimePoint looked_until) {
 
 void VolumeThread::lose(std::uint32_t buffer) {
   if (workplaces_[buffer].sketch != nullptr)
-    phase_.finished();
+    scan_lag_.finished();
   if (camera_.state() != hal::DeviceState::streaming)
     return;
   faults_.add(Fault::missed_pulse,
@@ -263,7 +263,7 @@ void VolumeThread::publish(std::uint32_t buffer, const FinishedVolume& finished)
   Workplace& workplace = workplaces_[buffer];
   Volume& volume = volumes_[buffer];
   if (workplace.sketch != nullptr)
-    phase_.finished();
+    scan_lag_.finished();
   const hal::TimePoint begin = clock_.now();
   workplace.assembler->finish();
   fill_ledger(volume.metadata, workplace, finished);

@@ -76,7 +76,7 @@ public:
 
   // Any thread.
   const PipelineStatistics& statistics() const { return statistics_; }
-  ScanLagStatus phase() const { return phase_.status(); }
+  ScanLagStatus scan_lag() const { return scan_lag_.status(); }
 
 private:
   // The frames of a B-scan, by repeat; buffer < 0: did not come (yet), or was given back. The
@@ -101,7 +101,7 @@ private:
   void tick();
   void pulse(hal::TimePoint now);
   bool trigger_ready();
-  void begin_volume(std::uint32_t buffer, hal::TimePoint armed);
+  void begin_volume(std::uint32_t buffer, hal::TimePoint pulsed);
   void place(const hal::LineFrame& frame);
   void refuse(const hal::LineFrame& frame, FrameVerdict verdict);
   void submit(std::span<const BScanJob> jobs);
@@ -127,7 +127,7 @@ private:
   TripleBuffer triple_buffer_{VolumeScheduler::first_middle, VolumeScheduler::first_front};
   VolumeScheduler scheduler_;
   BScanBuilder builder_;
-  ScanLagThread phase_;
+  ScanLagThread scan_lag_;
 
   RetryDelay trigger_retry_;
   PipelineStatistics statistics_;

@@ -196,9 +196,9 @@ SmoothFit FringeFinder::refine(const SmoothCurve& phase) {
     const double a = (yc * ss - ys * cs) / determinant;
     const double b = (ys * cc - yc * cs) / determinant;
     local[p] = {a, -b};
-    const double rest = spectrum_[p] - m(5) - a * (std::cos(predicted[p]) - m(0)) -
-                        b * (std::sin(predicted[p]) - m(1));
-    unexplained += rest * rest;
+    const double residual = spectrum_[p] - m(5) - a * (std::cos(predicted[p]) - m(0)) -
+                            b * (std::sin(predicted[p]) - m(1));
+    unexplained += residual * residual;
     amplitude_[p] = std::hypot(a, b);
   }
   noise_ = std::sqrt(unexplained / static_cast<double>(n));
@@ -251,10 +251,11 @@ hal::Result<Fringe> FringeFinder::find() {
 } // namespace
 
 std::vector<double> remove_slow_part(std::span<const double> spectrum) {
-  std::vector<double> rest =
+  std::vector<double> residual =
       smooth_gaussian(spectrum, 0.033 * static_cast<double>(spectrum.size()));
-  std::transform(spectrum.begin(), spectrum.end(), rest.begin(), rest.begin(), std::minus<>{});
-  return rest;
+  std::transform(spectrum.begin(), spectrum.end(), residual.begin(), residual.begin(),
+                 std::minus<>{});
+  return residual;
 }
 
 hal::Result<Fringe> find_fringe(std::span<const double> spectrum, std::string_view name) {

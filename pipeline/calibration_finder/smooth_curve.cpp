@@ -129,8 +129,8 @@ SmoothFit fit_smooth_curve(std::span<const double> values, std::span<const doubl
     SmoothFit result{SmoothCurve{low, high, solve(matrix, right, size, terms)}, 0};
     double squares = 0;
     for (std::size_t i = first; i <= last; ++i) {
-      const double rest = values[i] - result.curve.at(static_cast<double>(i));
-      squares += weights[i] * rest * rest;
+      const double residual = values[i] - result.curve.at(static_cast<double>(i));
+      squares += weights[i] * residual * residual;
     }
     result.rms = std::sqrt(squares / std::max(total_weight, 1e-300));
     return result;

@@ -225,7 +225,7 @@ hal::Result<> RecordingReader::read(std::size_t n, Volume& volume) {
                        file_->path.string(), n, static_cast<int>(state));
   const RecordedVolume& entry = file_->volumes[n];
   volume.metadata = {.index = entry.index,
-                     .armed = time_point(entry.first_line_ns),
+                     .pulsed = time_point(entry.first_line_ns),
                      .first_line = time_point(entry.first_line_ns),
                      .last_line = time_point(entry.last_line_ns),
                      .published = time_point(entry.published_ns),

@@ -23,8 +23,8 @@ void blend(const std::uint8_t* here, const std::uint8_t* next, std::uint16_t nex
 
 SweepAlignment::SweepAlignment(const ScanPlan& plan, double scan_lag_a_scans)
     : depths_(static_cast<std::size_t>(plan.geometry().depths)), lines_(plan.converted_lines()),
-      a_scans_(plan.a_scans), phase_offset_a_scans_(plan.bidirectional ? scan_lag_a_scans : 0) {
-  const double both = 2 * phase_offset_a_scans_;
+      a_scans_(plan.a_scans), scan_lag_a_scans_(plan.bidirectional ? scan_lag_a_scans : 0) {
+  const double both = 2 * scan_lag_a_scans_;
   const double whole = std::round(both);
   const double rest = (both - whole) / 2;
   const double forward = std::floor(whole / 2);

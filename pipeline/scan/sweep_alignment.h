@@ -34,7 +34,7 @@ public:
     const Shift& shift = backwards ? backward_ : forward_;
     return shift.line + shift.next_weight / double{one};
   }
-  double scan_lag_a_scans() const { return phase_offset_a_scans_; }
+  double scan_lag_a_scans() const { return scan_lag_a_scans_; }
 
   // A-scans at the ends of the sweeps (the worse direction) that repeat the outermost line.
   int repeated_a_scans() const;
@@ -54,7 +54,7 @@ private:
   int a_scans_ = 0;
   Shift forward_;
   Shift backward_;
-  double phase_offset_a_scans_ = 0;
+  double scan_lag_a_scans_ = 0;
 };
 
 } // namespace octascope::pipeline

@@ -4,7 +4,7 @@
 
 namespace octascope::pipeline {
 
-hal::TimePoint SweepTracker::armed(std::uint64_t volume, hal::TimePoint when) {
+hal::TimePoint SweepTracker::pulsed(std::uint64_t volume, hal::TimePoint when) {
   const Start& last = recent_.front();
   const hal::TimePoint start = last.volume == 0 ? when : std::max(when, last.when + duration_);
   std::rotate(recent_.begin(), recent_.end() - 1, recent_.end());

@@ -29,7 +29,7 @@ public:
       : period_(plan.frame_period()), duration_(plan.sweep_duration()), sweeps_(plan.sweeps()) {}
 
   // The pulse for `volume` (> 0, counting up) was made. Returns when its last sweep should end.
-  hal::TimePoint armed(std::uint64_t volume, hal::TimePoint when);
+  hal::TimePoint pulsed(std::uint64_t volume, hal::TimePoint when);
 
   // Empty for a frame that belongs to none of the last three volumes.
   std::optional<SweepSlot> place(hal::TimePoint first_line);

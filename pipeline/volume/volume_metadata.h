@@ -12,7 +12,7 @@ namespace octascope::pipeline {
 struct VolumeMetadata {
   std::uint64_t index = 0; // counts the volumes that were triggered, from 1; 0: no volume yet
 
-  hal::TimePoint armed;      // rising edge of the trigger pulse
+  hal::TimePoint pulsed;     // rising edge of the trigger pulse
   hal::TimePoint first_line; // camera timestamps, of what came
   hal::TimePoint last_line;
   hal::TimePoint published; // when the renderer could take it

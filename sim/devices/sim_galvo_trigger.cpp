@@ -30,10 +30,11 @@ hal::Result<> SimGalvoTrigger::do_open(const hal::GalvoTriggerConfig& config) {
   return {};
 }
 
-hal::Result<TimePoint> SimGalvoTrigger::do_arm() {
+hal::Result<TimePoint> SimGalvoTrigger::do_pulse() {
   if (state() == DeviceState::absent)
-    return hal::fail(ErrorCode::invalid_argument,
-                     "simulated galvo trigger: arm while absent, expected ready; call open first");
+    return hal::fail(
+        ErrorCode::invalid_argument,
+        "simulated galvo trigger: pulse while absent, expected ready; call open first");
   clock_.sleep_until(line_is_low_); // no edge can rise before the last one fell
   const TimePoint now = clock_.now();
   if (state() == DeviceState::failed || probe_.pulled_since_last_look(now)) {

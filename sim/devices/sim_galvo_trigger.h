@@ -16,7 +16,7 @@ private:
   std::string_view do_backend() const override { return "sim"; }
   bool do_simulated() const override { return true; }
   hal::Result<> do_open(const hal::GalvoTriggerConfig& config) override;
-  hal::Result<hal::TimePoint> do_arm() override;
+  hal::Result<hal::TimePoint> do_pulse() override;
   void do_close() override;
 
   GalvoLink& link_;

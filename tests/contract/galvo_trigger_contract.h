@@ -51,13 +51,13 @@ TEST_P(GalvoTriggerContract, walks_through_its_states) {
 }
 
 TEST_P(GalvoTriggerContract, refuses_calls_in_the_wrong_order) {
-  expect_fault(trigger_.arm(), hal::ErrorCode::invalid_argument);
+  expect_fault(trigger_.pulse(), hal::ErrorCode::invalid_argument);
   ASSERT_TRUE(trigger_.open(config_));
   expect_fault(trigger_.open(config_), hal::ErrorCode::invalid_argument);
   EXPECT_EQ(trigger_.state(), hal::DeviceState::ready);
-  EXPECT_TRUE(trigger_.arm());
+  EXPECT_TRUE(trigger_.pulse());
   trigger_.close();
-  expect_fault(trigger_.arm(), hal::ErrorCode::invalid_argument);
+  expect_fault(trigger_.pulse(), hal::ErrorCode::invalid_argument);
   EXPECT_EQ(bench_->pulses_seen(), 1U);
 }
 
@@ -82,7 +82,7 @@ TEST_P(GalvoTriggerContract, each_arm_is_one_pulse_with_the_time_of_its_edge) {
   hal::TimePoint last = clock_.now();
   for (std::uint64_t pulses = 1; pulses <= 20; ++pulses) {
     const hal::TimePoint called = clock_.now();
-    const auto edge = trigger_.arm();
+    const auto edge = trigger_.pulse();
     ASSERT_TRUE(edge) << edge.error().message;
     EXPECT_GE(*edge, called);
     EXPECT_LE(*edge, clock_.now());
@@ -97,20 +97,20 @@ TEST_P(GalvoTriggerContract, each_arm_is_one_pulse_with_the_time_of_its_edge) {
 TEST_P(GalvoTriggerContract, arming_allocates_nothing) {
   ASSERT_TRUE(trigger_.open(config_));
   const std::uint64_t before = allocations_of_this_thread();
-  const bool armed = trigger_.arm().has_value() && trigger_.arm().has_value();
+  const bool pulsed = trigger_.pulse().has_value() && trigger_.pulse().has_value();
   EXPECT_EQ(allocations_of_this_thread(), before);
-  EXPECT_TRUE(armed);
+  EXPECT_TRUE(pulsed);
 }
 
 TEST_P(GalvoTriggerContract, a_disconnect_is_told_and_survived) {
   if (!bench_->can_unplug())
     GTEST_SKIP() << "this bench cannot unplug its trigger";
   ASSERT_TRUE(trigger_.open(config_));
-  ASSERT_TRUE(trigger_.arm());
+  ASSERT_TRUE(trigger_.pulse());
   bench_->unplug();
-  expect_fault(trigger_.arm(), hal::ErrorCode::disconnected);
+  expect_fault(trigger_.pulse(), hal::ErrorCode::disconnected);
   EXPECT_EQ(trigger_.state(), hal::DeviceState::failed);
-  expect_fault(trigger_.arm(), hal::ErrorCode::disconnected);
+  expect_fault(trigger_.pulse(), hal::ErrorCode::disconnected);
   expect_fault(trigger_.open(config_), hal::ErrorCode::invalid_argument);
   trigger_.close();
   EXPECT_EQ(trigger_.state(), hal::DeviceState::absent);
@@ -119,7 +119,7 @@ TEST_P(GalvoTriggerContract, a_disconnect_is_told_and_survived) {
   EXPECT_EQ(bench_->pulses_seen(), 1U);
   bench_->replug();
   ASSERT_TRUE(trigger_.open(config_));
-  EXPECT_TRUE(trigger_.arm());
+  EXPECT_TRUE(trigger_.pulse());
   EXPECT_EQ(bench_->pulses_seen(), 2U);
 }
 

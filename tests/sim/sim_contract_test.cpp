@@ -24,7 +24,7 @@ public:
   hal::LineCameraConfig config() const override {
     return {.format = source_->format(), .line_rate_hz = 4e3, .buffers = 4};
   }
-  void trigger() override { EXPECT_TRUE(trigger_.arm()); }
+  void trigger() override { EXPECT_TRUE(trigger_.pulse()); }
   int frames_per_sweep() const override { return source_->sweeps(); }
   hal::Duration sweep_duration() const override { return link_.sweep_duration(); }
   bool can_unplug() const override { return true; }

@@ -217,7 +217,7 @@ TEST(SimGalvoTrigger, missed_pulses_are_made_and_not_seen) {
   SimGalvoTrigger trigger{link, clock, &schedule};
   ASSERT_TRUE(trigger.open({}));
   for (int i = 0; i < 100; ++i) {
-    EXPECT_TRUE(trigger.arm());
+    EXPECT_TRUE(trigger.pulse());
     clock.advance(2ms);
   }
   EXPECT_EQ(link.sweeps(), 75U);

@@ -74,10 +74,10 @@ Result<> GpioGalvoTrigger::take_lines() {
   return {};
 }
 
-Result<TimePoint> GpioGalvoTrigger::do_arm() {
+Result<TimePoint> GpioGalvoTrigger::do_pulse() {
   if (state() == DeviceState::absent)
     return fail(ErrorCode::invalid_argument,
-                "GPIO galvo trigger: arm while absent, expected ready; call open first");
+                "GPIO galvo trigger: pulse while absent, expected ready; call open first");
   if (state() == DeviceState::failed)
     return fail(ErrorCode::disconnected,
                 "GPIO galvo trigger: line \"{}\" failed before; close it and open it again",

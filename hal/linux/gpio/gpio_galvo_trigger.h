@@ -42,7 +42,7 @@ struct GpioTriggerCounters {
 // open with pulses longer than `longest_wait`, a thread of this class ends them.
 class GpioGalvoTrigger final : public GalvoTrigger {
 public:
-  // arm() waits for the end of pulses up to this width; longer ones end after it has returned.
+  // pulse() waits for the end of pulses up to this width; longer ones end after it has returned.
   static constexpr Duration longest_wait = std::chrono::microseconds{200};
 
   // `clock` is borrowed, must outlive the trigger and must run on CLOCK_MONOTONIC.
@@ -51,7 +51,7 @@ public:
 
   GpioTriggerCounters counters() const;
 
-  // Drives the line low in any state; arm() still works afterwards. Async-signal-safe.
+  // Drives the line low in any state; pulse() still works afterwards. Async-signal-safe.
   void make_safe() noexcept;
 
 private:
@@ -61,7 +61,7 @@ private:
   std::string_view do_backend() const override { return "gpio"; }
   bool do_simulated() const override { return false; }
   Result<> do_open(const GalvoTriggerConfig& config) override;
-  Result<TimePoint> do_arm() override;
+  Result<TimePoint> do_pulse() override;
   void do_close() override;
 
   Result<> take_lines();

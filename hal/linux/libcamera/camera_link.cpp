@@ -28,11 +28,11 @@ Error failure(const std::string& model, std::string_view action, int result) {
       .value();
 }
 
-std::vector<OfferedFormat> offered_by(const libcamera::StreamConfiguration& stream) {
-  std::vector<OfferedFormat> offers;
+std::vector<CameraFormat> offered_by(const libcamera::StreamConfiguration& stream) {
+  std::vector<CameraFormat> offers;
   const libcamera::StreamFormats& formats = stream.formats();
   for (const libcamera::PixelFormat& format : formats.pixelformats()) {
-    OfferedFormat offer{format.fourcc(), {}, {}};
+    CameraFormat offer{format.fourcc(), {}, {}};
     for (const libcamera::Size& size : formats.sizes(format))
       offer.sizes.push_back({static_cast<int>(size.width), static_cast<int>(size.height)});
     const libcamera::SizeRange range = formats.range(format);
@@ -49,9 +49,9 @@ std::vector<OfferedFormat> offered_by(const libcamera::StreamConfiguration& stre
   return offers;
 }
 
-std::string names_of(const std::vector<OfferedFormat>& offers) {
+std::string names_of(const std::vector<CameraFormat>& offers) {
   std::string names;
-  for (const OfferedFormat& offer : offers)
+  for (const CameraFormat& offer : offers)
     names += (names.empty() ? "" : ", ") + format_name(offer.fourcc);
   return names;
 }
@@ -122,7 +122,7 @@ Result<> CameraLink::Parts::configure(const ScopeCameraConfig& config) {
     return fail(ErrorCode::unsupported,
                 "scope camera \"{}\": it has no stream for a display; take another camera", model);
   libcamera::StreamConfiguration& wish = configuration->at(0);
-  const std::vector<OfferedFormat> offers = offered_by(wish);
+  const std::vector<CameraFormat> offers = offered_by(wish);
   for (const FormatWish& format : choose_formats(offers, config)) {
     wish.pixelFormat = libcamera::PixelFormat{format.fourcc};
     wish.size = {static_cast<unsigned>(format.size.width),
@@ -270,7 +270,7 @@ CameraLink::Completed CameraLink::completed(std::size_t buffer) {
   libcamera::Request& request = *parts_->requests[buffer];
   const libcamera::FrameBuffer& filled = *request.findBuffer(parts_->stream);
   const libcamera::FrameMetadata& facts = filled.metadata();
-  const FrameStamp stamp{facts.sequence, exposure_time(request), facts.timestamp};
+  const RequestStamp stamp{facts.sequence, exposure_time(request), facts.timestamp};
   if (facts.status != libcamera::FrameMetadata::FrameSuccess)
     return {false, stamp, {}};
   std::span<const std::byte> bytes = parts_->pictures[buffer].begin_reading();

@@ -93,7 +93,7 @@ public:
   // queue(buffer).
   struct Completed {
     bool good = false; // false: the driver flagged an error, and `bytes` is empty
-    FrameStamp stamp;
+    RequestStamp stamp;
     std::span<const std::byte> bytes;
   };
   Completed completed(std::size_t buffer);

@@ -38,7 +38,7 @@ int distance(PictureSize a, PictureSize b) {
   return std::abs(a.width - b.width) + std::abs(a.height - b.height);
 }
 
-std::optional<PictureSize> nearest(const OfferedFormat& offer, PictureSize wish) {
+std::optional<PictureSize> nearest(const CameraFormat& offer, PictureSize wish) {
   if (offer.range)
     return PictureSize{
         std::clamp(wish.width, offer.range->smallest.width, offer.range->largest.width),
@@ -60,7 +60,7 @@ int rank(const FormatWish& wish, double frames_per_s) {
   return bytes_per_s > usb2_bytes_per_s ? after_motion_jpeg + order : order;
 }
 
-bool valid(OfferedFormat::Range range) {
+bool valid(CameraFormat::Range range) {
   return range.smallest.width > 0 && range.smallest.height > 0 &&
          range.smallest.width <= range.largest.width &&
          range.smallest.height <= range.largest.height;
@@ -75,11 +75,11 @@ std::optional<Encoding> encoding_of(std::uint32_t fourcc) {
   return std::nullopt;
 }
 
-std::vector<FormatWish> choose_formats(const std::vector<OfferedFormat>& offered,
+std::vector<FormatWish> choose_formats(const std::vector<CameraFormat>& offered,
                                        const ScopeCameraConfig& config) {
   const PictureSize wish{config.width, config.height};
   std::vector<FormatWish> wishes;
-  for (const OfferedFormat& offer : offered) {
+  for (const CameraFormat& offer : offered) {
     const auto encoding = encoding_of(offer.fourcc);
     if (!encoding || (offer.range && !valid(*offer.range)))
       continue;

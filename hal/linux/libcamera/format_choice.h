@@ -20,7 +20,7 @@ struct PictureSize {
 };
 
 // One pixel format that a camera offers. `fourcc` as in the kernel's drm_fourcc.h.
-struct OfferedFormat {
+struct CameraFormat {
   std::uint32_t fourcc = 0;
   std::vector<PictureSize> sizes;
   // If the camera scales: any size between the two.
@@ -44,7 +44,7 @@ std::optional<Encoding> encoding_of(std::uint32_t fourcc);
 // fewest bytes. Motion JPEG costs processor time and sharpness, so it comes after the raw formats,
 // except those that need more bandwidth than USB 2 has: cameras then silently deliver only a few
 // frames per second.
-std::vector<FormatWish> choose_formats(const std::vector<OfferedFormat>& offered,
+std::vector<FormatWish> choose_formats(const std::vector<CameraFormat>& offered,
                                        const ScopeCameraConfig& config);
 
 // The format of the frames that ScopeCamera delivers for this encoding.

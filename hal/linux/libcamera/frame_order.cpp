@@ -18,7 +18,7 @@ constexpr std::uint32_t half_way = std::uint32_t{1} << 31;
 
 } // namespace
 
-FrameOrder::Place FrameOrder::place(const FrameStamp& stamp, TimePoint arrival) {
+FrameOrder::Place FrameOrder::place(const RequestStamp& stamp, TimePoint arrival) {
   if (driver_sequence_) {
     const std::uint32_t step = stamp.sequence - *driver_sequence_;
     sequence_ += step == 0 || step >= half_way ? 1 : step;

@@ -10,7 +10,7 @@ namespace octascope::hal::linux_backend {
 
 // What is known about a frame when it arrives. Times are in ns since boot; 0 or empty if the driver
 // gives none.
-struct FrameStamp {
+struct RequestStamp {
   std::uint32_t sequence = 0;
   std::optional<std::int64_t> exposed_ns; // by the sensor
   std::uint64_t filled_ns = 0;            // by the driver that filled the buffer
@@ -25,7 +25,7 @@ public:
     std::uint64_t sequence; // starts at 0; gaps are lost frames
     TimePoint time;         // increases, but is never after `arrival`
   };
-  Place place(const FrameStamp& stamp, TimePoint arrival);
+  Place place(const RequestStamp& stamp, TimePoint arrival);
 
 private:
   std::optional<std::uint32_t> driver_sequence_;

@@ -177,14 +177,14 @@ void make_pass_twiddles(FusedTables& tables) {
 void make_last_rows(FusedTables& tables) {
   const int groups = tables.blocks / tables.last_radix();
   for (int group = 0; group < groups; ++group) {
-    int rest = group;
+    int remainder = group;
     int weight = groups;
     int row = 0;
     int scale = 1;
     for (int pass = 0; pass + 1 < tables.passes; ++pass) {
       weight /= tables.radices[index(pass)];
-      row += rest / weight * scale;
-      rest %= weight;
+      row += remainder / weight * scale;
+      remainder %= weight;
       scale *= tables.radices[index(pass)];
     }
     tables.last_rows.push_back(row);

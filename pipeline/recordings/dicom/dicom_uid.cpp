@@ -24,13 +24,13 @@ Uuid uuid_of(std::string_view name) {
 
 // Divides by ten; the remainder.
 std::uint32_t take_digit(Uuid& number) {
-  std::uint64_t rest = 0;
+  std::uint64_t remainder = 0;
   for (std::uint32_t& part : number) {
-    rest = rest << 32 | part;
-    part = static_cast<std::uint32_t>(rest / 10);
-    rest %= 10;
+    remainder = remainder << 32 | part;
+    part = static_cast<std::uint32_t>(remainder / 10);
+    remainder %= 10;
   }
-  return static_cast<std::uint32_t>(rest);
+  return static_cast<std::uint32_t>(remainder);
 }
 
 } // namespace

@@ -35,7 +35,7 @@ void move_to(VolumeMetadata& metadata, const RecordedVolume& entry, hal::TimePoi
   metadata.published = now;
   metadata.first_line = now - recorded_step(entry.first_line_ns, entry.published_ns);
   metadata.last_line = now - recorded_step(entry.last_line_ns, entry.published_ns);
-  metadata.armed = metadata.first_line;
+  metadata.pulsed = metadata.first_line;
   metadata.recorded_ns = entry.wall_clock_ns;
 }
 

@@ -235,8 +235,8 @@ void LoopStage::rest() {
 
 void LoopStage::send_volume(Tissue tissue) {
   sweep_clock_.sleep_until(clock_.now()); // the tick is due
-  const hal::TimePoint armed = trigger_.wait_for_pulse(next_pulse_++);
-  const hal::TimePoint end = armed + plan().tick_period();
+  const hal::TimePoint pulsed = trigger_.wait_for_pulse(next_pulse_++);
+  const hal::TimePoint end = pulsed + plan().tick_period();
   while (clock_.now() + longest_turn_ < end)
     turn();
   ASSERT_LE(clock_.now(), end) << "the last frame took longer than a volume";
@@ -244,7 +244,7 @@ void LoopStage::send_volume(Tissue tissue) {
   sweep_clock_.sleep_until(end);
   const std::uint64_t published = volumes_->counters().published;
   for (int b = 0; b < small_geometry.b_scans; ++b)
-    camera_.deliver(sequence_++, armed + b * plan().frame_period(),
+    camera_.deliver(sequence_++, pulsed + b * plan().frame_period(),
                     static_cast<std::uint8_t>(frames_of_a_tissue * static_cast<int>(tissue) + b));
   await("the volume", [&] { return volumes_->counters().published > published; });
 }

@@ -10,8 +10,8 @@ namespace octascope::tests {
 namespace {
 
 namespace backend = hal::linux_backend;
+using backend::CameraFormat;
 using backend::Encoding;
-using backend::OfferedFormat;
 using backend::PictureSize;
 
 std::uint32_t code(const char (&name)[5]) {
@@ -21,11 +21,11 @@ std::uint32_t code(const char (&name)[5]) {
   return value;
 }
 
-OfferedFormat sizes(const char (&name)[5], std::vector<PictureSize> offered) {
+CameraFormat sizes(const char (&name)[5], std::vector<PictureSize> offered) {
   return {code(name), std::move(offered), {}};
 }
 
-std::vector<Encoding> encodings(const std::vector<OfferedFormat>& offered,
+std::vector<Encoding> encodings(const std::vector<CameraFormat>& offered,
                                 const hal::ScopeCameraConfig& wish) {
   std::vector<Encoding> chosen;
   for (const backend::FormatWish& format : choose_formats(offered, wish))
@@ -68,7 +68,7 @@ TEST(FormatChoice, takes_motion_jpeg_where_raw_pictures_are_too_much_for_usb) {
 }
 
 TEST(FormatChoice, a_camera_that_scales_gives_the_wished_size) {
-  const OfferedFormat scaling{code("NV12"), {}, {{{64, 48}, {1920, 1080}}}};
+  const CameraFormat scaling{code("NV12"), {}, {{{64, 48}, {1920, 1080}}}};
   EXPECT_EQ(backend::choose_formats({scaling}, {800, 600, 30})[0].size, (PictureSize{800, 600}));
   EXPECT_EQ(backend::choose_formats({scaling}, {8000, 6, 30})[0].size, (PictureSize{1920, 48}));
 }
@@ -83,9 +83,9 @@ TEST(FormatChoice, holds_for_any_offer) {
       code("NV12"), code("YUYV"), code("BG24"), code("XB24"), code("MJPG"), code("RG24"), 0,
       0xFFFFFFFF};
   for (int round = 0; round < 3000; ++round) {
-    std::vector<OfferedFormat> offers;
+    std::vector<CameraFormat> offers;
     for (int i = below(6); i > 0; --i) {
-      OfferedFormat offer{codes[below(8)], {}, {}};
+      CameraFormat offer{codes[below(8)], {}, {}};
       for (int j = below(4); j > 0; --j)
         offer.sizes.push_back({below(3000) - 5, below(3000) - 5});
       if (below(4) == 0)
@@ -99,7 +99,7 @@ TEST(FormatChoice, holds_for_any_offer) {
       EXPECT_EQ(backend::encoding_of(format.fourcc), format.encoding);
       EXPECT_GT(format.size.width, 0);
       EXPECT_GT(format.size.height, 0);
-      EXPECT_TRUE(std::any_of(offers.begin(), offers.end(), [&](const OfferedFormat& offer) {
+      EXPECT_TRUE(std::any_of(offers.begin(), offers.end(), [&](const CameraFormat& offer) {
         const auto& r = offer.range;
         return offer.fourcc == format.fourcc &&
                (r ? format.size.width >= r->smallest.width &&

@@ -53,7 +53,7 @@ TEST(FrameOrder, rises_and_stays_in_the_past_whatever_a_driver_says) {
     for (int i = 0; i < 50; ++i) {
       arrival += Duration{1 + static_cast<std::int64_t>(random() % 40'000'000)};
       const auto near = ns(arrival) - 30'000'000 + random() % 60'000'000;
-      hal::linux_backend::FrameStamp stamp{static_cast<std::uint32_t>(random()), {}, random()};
+      hal::linux_backend::RequestStamp stamp{static_cast<std::uint32_t>(random()), {}, random()};
       if (random() % 2 == 0)
         stamp.exposed_ns = static_cast<std::int64_t>(random() % 2 == 0 ? random() : near);
       if (random() % 2 == 0)

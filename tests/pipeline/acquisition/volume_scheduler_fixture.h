@@ -46,17 +46,17 @@ protected:
     return scheduler.pulsed(when);
   }
   hal::TimePoint tick(int n) const { return first_tick + n * plan.tick_period(); }
-  hal::TimePoint time_of(hal::TimePoint armed, int sweep) const {
-    return armed + sweep * plan.frame_period();
+  hal::TimePoint time_of(hal::TimePoint pulsed, int sweep) const {
+    return pulsed + sweep * plan.frame_period();
   }
   // Until when a volume takes frames, if the camera was looked at; and if it was not.
-  hal::TimePoint accepts_until(hal::TimePoint armed) const {
-    return armed + plan.sweep_duration() + plan.sweep_duration() / 6;
+  hal::TimePoint accepts_until(hal::TimePoint pulsed) const {
+    return pulsed + plan.sweep_duration() + plan.sweep_duration() / 6;
   }
   hal::Duration patience() const { return plan.sweep_duration() / 2; }
 
-  FrameDecision frame(hal::TimePoint armed, int sweep) {
-    const hal::TimePoint first_line = time_of(armed, sweep);
+  FrameDecision frame(hal::TimePoint pulsed, int sweep) {
+    const hal::TimePoint first_line = time_of(pulsed, sweep);
     return scheduler.place(first_line, first_line + 4 * plan.line_period());
   }
   // The workers are quick.
@@ -64,9 +64,9 @@ protected:
     for (const BScanJob& job : jobs)
       scheduler.b_scan_made(job.buffer);
   }
-  void deliver(hal::TimePoint armed, int begin, int end) {
+  void deliver(hal::TimePoint pulsed, int begin, int end) {
     for (int sweep = begin; sweep < end; ++sweep) {
-      const FrameDecision decision = frame(armed, sweep);
+      const FrameDecision decision = frame(pulsed, sweep);
       EXPECT_EQ(decision.verdict, FrameVerdict::placed) << sweep;
       make(decision.submit);
     }

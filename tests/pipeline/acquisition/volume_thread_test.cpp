@@ -79,19 +79,19 @@ protected:
     await([&] { return acquisition->counters().frames >= frames; });
   }
 
-  hal::TimePoint time_of(hal::TimePoint armed, int sweep) const {
-    return armed + sweep * plan.frame_period();
+  hal::TimePoint time_of(hal::TimePoint pulsed, int sweep) const {
+    return pulsed + sweep * plan.frame_period();
   }
   // Until when a volume takes frames; how long after that it waits for a camera not looked at.
-  hal::TimePoint accepts_until(hal::TimePoint armed) const {
-    return armed + plan.sweep_duration() + plan.sweep_duration() / 6;
+  hal::TimePoint accepts_until(hal::TimePoint pulsed) const {
+    return pulsed + plan.sweep_duration() + plan.sweep_duration() / 6;
   }
   hal::Duration patience() const { return plan.sweep_duration() / 2; }
 
   // The B-scans from `begin` to before `end`, in order and each in its time.
-  void deliver(hal::TimePoint armed, int begin, int end) {
+  void deliver(hal::TimePoint pulsed, int begin, int end) {
     for (int b = begin; b < end; ++b)
-      camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b), 10);
+      camera.deliver(static_cast<std::uint64_t>(b), time_of(pulsed, b), 10);
   }
 
   // So many frames came, and then nobody looks at the camera any more.
@@ -127,10 +127,10 @@ protected:
 
 TEST_F(VolumeThreadTest, publishes_a_whole_volume_with_every_b_scan_in_its_place) {
   start();
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
   // In any order: the timestamp decides.
   for (const int b : {3, 1, 0, 2, 7, 6, 5, 4})
-    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b),
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(pulsed, b),
                    static_cast<std::uint8_t>(10 + b));
   const Volume* volume = wait_for_volume(1);
   for (int b = 0; b < plan.b_scans; ++b) {
@@ -138,9 +138,9 @@ TEST_F(VolumeThreadTest, publishes_a_whole_volume_with_every_b_scan_in_its_place
     for (const std::uint8_t level : volume->b_scan(b))
       ASSERT_EQ(level, 10 + b);
   }
-  EXPECT_EQ(volume->metadata.armed, armed);
-  EXPECT_EQ(volume->metadata.last_line, time_of(armed, 7) + 100us);
-  EXPECT_EQ(volume->metadata.published, armed) << "no time has passed";
+  EXPECT_EQ(volume->metadata.pulsed, pulsed);
+  EXPECT_EQ(volume->metadata.last_line, time_of(pulsed, 7) + 100us);
+  EXPECT_EQ(volume->metadata.published, pulsed) << "no time has passed";
   EXPECT_EQ(volume->metadata.lost_b_scans, 0);
   stop();
   EXPECT_EQ(volumes->counters().published, 1U);
@@ -149,13 +149,13 @@ TEST_F(VolumeThreadTest, publishes_a_whole_volume_with_every_b_scan_in_its_place
 
 TEST_F(VolumeThreadTest, publishes_without_the_missing_and_broken_ones_and_counts_them) {
   start();
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
   for (const int b : {0, 1, 3, 4, 5, 6}) // 2 and 7 never come, 5 is broken, 6 is saturated
-    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b),
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(pulsed, b),
                    b == 6 ? saturated_fill : static_cast<std::uint8_t>(10 + b),
                    b == 5 ? FrameIntegrity::corrupted : FrameIntegrity::good);
   await_frames(5);
-  clock.sleep_until(accepts_until(armed));
+  clock.sleep_until(accepts_until(pulsed));
   const Volume* volume = wait_for_volume(1);
   for (const int b : {2, 5, 7}) {
     EXPECT_EQ(volume->b_scan_states[static_cast<std::size_t>(b)], BScanState::missing);
@@ -180,24 +180,24 @@ TEST_F(VolumeThreadTest, publishes_without_the_missing_and_broken_ones_and_count
 
 TEST_F(VolumeThreadTest, a_late_frame_of_a_published_volume_is_refused) {
   start();
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  deliver(armed, 0, 1);
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
+  deliver(pulsed, 0, 1);
   await_frames(1);
-  clock.sleep_until(accepts_until(armed));
+  clock.sleep_until(accepts_until(pulsed));
   wait_for_volume(1);
-  camera.deliver(1, time_of(armed, 1), 99);
+  camera.deliver(1, time_of(pulsed, 1), 99);
   await([&] { return has_fault(Fault::late_frame); });
   stop();
 }
 
 TEST_F(VolumeThreadTest, frames_that_came_in_time_to_a_camera_nobody_looked_at_are_not_late) {
   start();
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  deliver(armed, 0, 5);
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
+  deliver(pulsed, 0, 5);
   hold_camera_after(5);
-  deliver(armed, 5, plan.b_scans);
-  clock.sleep_until(accepts_until(armed));
-  EXPECT_EQ(clock.await_waiter(), accepts_until(armed) + patience());
+  deliver(pulsed, 5, plan.b_scans);
+  clock.sleep_until(accepts_until(pulsed));
+  EXPECT_EQ(clock.await_waiter(), accepts_until(pulsed) + patience());
   EXPECT_FALSE(volumes->has_newer());
   camera.let_go();
   const Volume* volume = wait_for_volume(1);
@@ -209,13 +209,13 @@ TEST_F(VolumeThreadTest, frames_that_came_in_time_to_a_camera_nobody_looked_at_a
 
 TEST_F(VolumeThreadTest, a_volume_does_not_wait_for_ever_for_a_look_at_the_camera) {
   start();
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  deliver(armed, 0, 5);
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
+  deliver(pulsed, 0, 5);
   hold_camera_after(5);
-  clock.sleep_until(accepts_until(armed));
-  EXPECT_EQ(clock.await_waiter(), accepts_until(armed) + patience());
+  clock.sleep_until(accepts_until(pulsed));
+  EXPECT_EQ(clock.await_waiter(), accepts_until(pulsed) + patience());
   EXPECT_FALSE(volumes->has_newer());
-  clock.sleep_until(accepts_until(armed) + patience());
+  clock.sleep_until(accepts_until(pulsed) + patience());
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->metadata.index, 1U);
   EXPECT_EQ(volume->missing_b_scans(), 3);
@@ -240,9 +240,9 @@ TEST_F(VolumeThreadTest, pulses_at_the_ticks_of_its_clock_and_waits_in_its_time)
 
 TEST_F(VolumeThreadTest, a_stuck_sequence_number_moves_no_b_scan) {
   start();
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
   for (int b = 0; b < plan.b_scans; ++b)
-    camera.deliver(5, time_of(armed, b), static_cast<std::uint8_t>(10 + b));
+    camera.deliver(5, time_of(pulsed, b), static_cast<std::uint8_t>(10 + b));
   const Volume* volume = wait_for_volume(1);
   for (int b = 0; b < plan.b_scans; ++b)
     EXPECT_EQ(volume->b_scan(b).front(), 10 + b);
@@ -263,8 +263,8 @@ TEST_F(VolumeThreadTest, triggers_nothing_without_a_camera_and_goes_on_when_it_i
   await([&] { return camera.state() == DeviceState::streaming; });
   while (trigger.pulses() == pulses)
     clock.sleep_until(clock.await_waiter());
-  const hal::TimePoint armed = trigger.wait_for_pulse(pulses);
-  deliver(armed, 0, plan.b_scans);
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(pulses);
+  deliver(pulsed, 0, plan.b_scans);
   const Volume* volume = wait_for_volume(pulses + 1);
   EXPECT_EQ(volume->missing_b_scans(), 0);
   stop();
@@ -274,8 +274,8 @@ TEST_F(VolumeThreadTest, triggers_nothing_without_a_camera_and_goes_on_when_it_i
 
 TEST_F(VolumeThreadTest, stops_cleanly_with_frames_on_the_way) {
   start();
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  deliver(armed, 0, 5);
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
+  deliver(pulsed, 0, 5);
   await_frames(5);
   stop();
   EXPECT_EQ(volumes->counters().planned, 1U);
@@ -293,9 +293,9 @@ class RepeatsTest : public VolumeThreadTest {
 protected:
   RepeatsTest() : VolumeThreadTest(three_repeats()) {}
 
-  void deliver(hal::TimePoint armed, std::initializer_list<int> sweeps) {
+  void deliver(hal::TimePoint pulsed, std::initializer_list<int> sweeps) {
     for (const int sweep : sweeps)
-      camera.deliver(static_cast<std::uint64_t>(sweep), time_of(armed, sweep),
+      camera.deliver(static_cast<std::uint64_t>(sweep), time_of(pulsed, sweep),
                      static_cast<std::uint8_t>(10 * (sweep / 3 + 1) + 3 * (sweep % 3)));
   }
 };
@@ -317,10 +317,10 @@ TEST_F(RepeatsTest, a_b_scan_is_the_average_of_its_sweeps) {
 TEST_F(RepeatsTest, what_is_left_of_a_b_scan_is_shown_and_lost_sweeps_are_counted_in_lines) {
   start();
   // B-scan 0 lacks its middle, 1 has one only, 2 has none, 3 lacks its last.
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  deliver(armed, {0, 2, 4, 9, 10});
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
+  deliver(pulsed, {0, 2, 4, 9, 10});
   await_frames(5);
-  clock.sleep_until(accepts_until(armed));
+  clock.sleep_until(accepts_until(pulsed));
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->b_scan(0).front(), 13);
   EXPECT_EQ(volume->b_scan(1).front(), 23);
@@ -334,11 +334,11 @@ TEST_F(RepeatsTest, what_is_left_of_a_b_scan_is_shown_and_lost_sweeps_are_counte
 
 TEST_F(RepeatsTest, a_sweep_that_comes_when_its_b_scan_was_made_is_refused) {
   start();
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
-  deliver(armed, {0, 1, 6}); // the sixth begins the B-scan after the next
-  deliver(armed, {2, 1, 3, 4, 5, 7, 8, 9, 10, 11});
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
+  deliver(pulsed, {0, 1, 6}); // the sixth begins the B-scan after the next
+  deliver(pulsed, {2, 1, 3, 4, 5, 7, 8, 9, 10, 11});
   await_frames(13);
-  clock.sleep_until(accepts_until(armed));
+  clock.sleep_until(accepts_until(pulsed));
   const Volume* volume = wait_for_volume(1);
   EXPECT_EQ(volume->b_scan(0).front(), 12) << "of 10 and 13";
   EXPECT_TRUE(has_fault(Fault::late_frame));
@@ -370,18 +370,18 @@ protected:
 
 TEST_F(BidirectionalTest, a_volume_says_with_which_offset_it_was_placed) {
   start();
-  const hal::TimePoint armed = trigger.wait_for_pulse(0);
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
   for (int b = 0; b < plan.b_scans; ++b)
-    camera.deliver(static_cast<std::uint64_t>(b), time_of(armed, b),
+    camera.deliver(static_cast<std::uint64_t>(b), time_of(pulsed, b),
                    static_cast<std::uint8_t>(10 + b));
   const Volume* volume = wait_for_volume(1);
   for (int b = 0; b < plan.b_scans; ++b)
     EXPECT_EQ(volume->b_scan(b).front(), 10 + b);
   EXPECT_EQ(volume->metadata.scan_lag_a_scans, 1.5);
   stop();
-  EXPECT_EQ(volumes->phase().in_use_a_scans, 1.5) << "nothing to be seen in these";
-  EXPECT_TRUE(volumes->phase().automatic);
-  EXPECT_EQ(volumes->phase().used, 0U);
+  EXPECT_EQ(volumes->scan_lag().in_use_a_scans, 1.5) << "nothing to be seen in these";
+  EXPECT_TRUE(volumes->scan_lag().automatic);
+  EXPECT_EQ(volumes->scan_lag().used, 0U);
 }
 
 } // namespace

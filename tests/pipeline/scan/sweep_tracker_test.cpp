@@ -23,7 +23,7 @@ void expect_all_sweeps_placed(SweepTracker& tracker, const ScanPlan& plan, std::
 TEST(SweepTracker, places_frames_by_their_time) {
   const ScanPlan plan;
   SweepTracker tracker{plan};
-  EXPECT_EQ(tracker.armed(1, start), start + plan.sweep_duration());
+  EXPECT_EQ(tracker.pulsed(1, start), start + plan.sweep_duration());
   for (const int b : {0, 5, 41, 79}) {
     const auto slot = tests::must(tracker.place(start + b * plan.frame_period() + 20us));
     EXPECT_EQ(slot.volume, 1U);
@@ -37,7 +37,7 @@ TEST(SweepTracker, counts_repeats_like_any_other_sweep) {
   ScanPlan plan;
   plan.repeats = 4;
   SweepTracker tracker{plan};
-  const hal::TimePoint end = tracker.armed(1, start);
+  const hal::TimePoint end = tracker.pulsed(1, start);
   EXPECT_EQ(end, start + plan.sweep_duration());
   const auto slot = tests::must(tracker.place(start + 319 * plan.frame_period()));
   EXPECT_EQ(slot.sweep, 319);
@@ -47,8 +47,8 @@ TEST(SweepTracker, counts_repeats_like_any_other_sweep) {
 TEST(SweepTracker, knows_that_a_pulse_during_a_sweep_is_latched) {
   const ScanPlan plan;
   SweepTracker tracker{plan};
-  const hal::TimePoint second = tracker.armed(1, start);
-  EXPECT_EQ(tracker.armed(2, second - 7ms), second + plan.sweep_duration());
+  const hal::TimePoint second = tracker.pulsed(1, start);
+  EXPECT_EQ(tracker.pulsed(2, second - 7ms), second + plan.sweep_duration());
   const auto last = tests::must(tracker.place(second - plan.frame_period()));
   EXPECT_EQ(last.volume, 1U);
   EXPECT_EQ(last.sweep, 79);
@@ -62,11 +62,11 @@ TEST(SweepTracker, knows_that_a_pulse_during_a_sweep_is_latched) {
 TEST(SweepTracker, knows_that_a_missed_pulse_latches_nothing) {
   const ScanPlan plan;
   SweepTracker tracker{plan};
-  const hal::TimePoint second = tracker.armed(1, start);
+  const hal::TimePoint second = tracker.pulsed(1, start);
   ASSERT_TRUE(tracker.place(start));
-  tracker.armed(2, second - 7ms);
+  tracker.pulsed(2, second - 7ms);
   const hal::TimePoint third = second - 7ms + plan.sweep_duration();
-  tracker.armed(3, third);
+  tracker.pulsed(3, third);
   expect_all_sweeps_placed(tracker, plan, 3, third);
 }
 
@@ -74,10 +74,10 @@ TEST(SweepTracker, knows_that_a_missed_pulse_latches_nothing) {
 TEST(SweepTracker, knows_that_a_volume_whose_frames_were_lost_latched_the_next) {
   const ScanPlan plan;
   SweepTracker tracker{plan};
-  const hal::TimePoint second = tracker.armed(1, start);
+  const hal::TimePoint second = tracker.pulsed(1, start);
   ASSERT_TRUE(tracker.place(start));
-  const hal::TimePoint third = tracker.armed(2, second - 2500us);
-  tracker.armed(3, third - 2500us);
+  const hal::TimePoint third = tracker.pulsed(2, second - 2500us);
+  tracker.pulsed(3, third - 2500us);
   expect_all_sweeps_placed(tracker, plan, 3, third);
 }
 
@@ -89,7 +89,7 @@ TEST(SweepTracker, follows_a_camera_whose_clock_drifts) {
   const hal::Duration true_period = plan.frame_period() * 1005 / 1000;
   hal::TimePoint true_time = start;
   for (std::uint64_t volume = 1; volume <= 20; ++volume) {
-    tracker.armed(volume, true_time - (volume == 1 ? 0ms : 1ms));
+    tracker.pulsed(volume, true_time - (volume == 1 ? 0ms : 1ms));
     for (int b = 0; b < plan.b_scans; ++b, true_time += true_period) {
       const auto slot = tests::must(tracker.place(true_time));
       ASSERT_EQ(slot.volume, volume);

@@ -159,7 +159,7 @@ private:
     set_state(hal::DeviceState::ready);
     return {};
   }
-  hal::Result<hal::TimePoint> do_arm() override {
+  hal::Result<hal::TimePoint> do_pulse() override {
     const std::lock_guard lock{mutex_};
     pulses_.push_back(clock_.now());
     changed_.notify_one();

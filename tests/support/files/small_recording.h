@@ -36,7 +36,7 @@ inline pipeline::Volume small_recording_volume(std::uint64_t n) {
     return hal::TimePoint{std::chrono::milliseconds{100'000 + 141 * static_cast<int>(n) + ms}};
   };
   volume.metadata = {.index = n + (n > 1 ? 2 : 1),
-                     .armed = at(0),
+                     .pulsed = at(0),
                      .first_line = at(1),
                      .last_line = at(135),
                      .published = at(138),

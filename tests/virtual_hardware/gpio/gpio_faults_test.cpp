@@ -70,7 +70,7 @@ TEST_F(GpioFaults, a_name_that_two_lines_have_is_refused) {
   const std::string chip = chip_->node().substr(std::strlen("/dev/"));
   GpioGalvoTrigger exact{clock_, {.line = chip + ":3"}};
   ASSERT_TRUE(exact.open({.pulse_width = 10s}));
-  ASSERT_TRUE(exact.arm());
+  ASSERT_TRUE(exact.pulse());
   EXPECT_TRUE(chip_->level(trigger_line));
   EXPECT_FALSE((*second)->level(0));
 }
@@ -94,16 +94,16 @@ TEST_F(GpioFaults, without_permission_the_message_says_which_group) {
 TEST_F(GpioFaults, a_chip_that_goes_in_the_middle_of_a_long_pulse_is_survived) {
   GpioGalvoTrigger trigger{clock_};
   ASSERT_TRUE(trigger.open({.pulse_width = 20ms}));
-  ASSERT_TRUE(trigger.arm());
+  ASSERT_TRUE(trigger.pulse());
   ASSERT_TRUE(chip_->remove());
-  EXPECT_THAT(trigger.arm(), FailsWith(ErrorCode::disconnected, "octascope-trigger"));
+  EXPECT_THAT(trigger.pulse(), FailsWith(ErrorCode::disconnected, "octascope-trigger"));
   EXPECT_EQ(trigger.state(), hal::DeviceState::failed);
   trigger.close();
   EXPECT_THAT(trigger.open({}), FailsWith(ErrorCode::absent, "octascope-trigger"));
   ASSERT_TRUE(chip_->restore());
   ASSERT_TRUE(trigger.open({.pulse_width = 20ms}));
   EXPECT_FALSE(chip_->level(trigger_line));
-  ASSERT_TRUE(trigger.arm());
+  ASSERT_TRUE(trigger.pulse());
   EXPECT_TRUE(await_level(false));
 }
 
@@ -114,11 +114,11 @@ TEST_F(GpioFaults, two_hundred_plug_cycles_leak_nothing) {
   GpioGalvoTrigger trigger{clock_, {.line = "cycled-trigger"}};
   const auto cycle = [&](bool in_use) {
     ASSERT_TRUE(trigger.open({.pulse_width = in_use ? 1ms : 50us}));
-    ASSERT_TRUE(trigger.arm());
+    ASSERT_TRUE(trigger.pulse());
     if (!in_use)
       trigger.close();
     ASSERT_TRUE((*chip)->remove());
-    ASSERT_FALSE(trigger.arm());
+    ASSERT_FALSE(trigger.pulse());
     trigger.close();
     ASSERT_FALSE(trigger.open({}));
     ASSERT_TRUE((*chip)->restore());
@@ -136,7 +136,7 @@ TEST_F(GpioFaults, two_hundred_openings_leak_nothing) {
   GpioGalvoTrigger refused{clock_, {.line = "octascope-sync"}};
   const auto cycle = [&](hal::Duration width) {
     ASSERT_TRUE(trigger.open({.pulse_width = width}));
-    ASSERT_TRUE(trigger.arm());
+    ASSERT_TRUE(trigger.pulse());
     ASSERT_FALSE(refused.open({}));
     trigger.close();
   };

@@ -21,7 +21,7 @@ TEST_F(GpioSafeLevel, a_long_pulse_does_not_hold_the_caller_and_ends_by_itself) 
   ASSERT_TRUE(trigger.open({.pulse_width = 500ms}));
   const hal::TimePoint called = clock_.now();
   const std::uint64_t allocations = allocations_of_this_thread();
-  const auto first = trigger.arm();
+  const auto first = trigger.pulse();
   EXPECT_EQ(allocations_of_this_thread(), allocations);
   ASSERT_TRUE(first);
   EXPECT_LT(clock_.now() - called, 250ms);
@@ -29,8 +29,8 @@ TEST_F(GpioSafeLevel, a_long_pulse_does_not_hold_the_caller_and_ends_by_itself) 
   EXPECT_TRUE(await_level(false));
   EXPECT_GE(clock_.now() - *first, 499ms);
 
-  const auto second = trigger.arm();
-  const auto third = trigger.arm();
+  const auto second = trigger.pulse();
+  const auto third = trigger.pulse();
   ASSERT_TRUE(second && third);
   EXPECT_GE(*third - *second, 499ms) << "an edge rises only after the last one fell";
 }
@@ -38,7 +38,7 @@ TEST_F(GpioSafeLevel, a_long_pulse_does_not_hold_the_caller_and_ends_by_itself) 
 TEST_F(GpioSafeLevel, closing_in_the_middle_of_a_pulse_ends_it) {
   GpioGalvoTrigger trigger{clock_};
   ASSERT_TRUE(trigger.open({.pulse_width = 10s}));
-  ASSERT_TRUE(trigger.arm());
+  ASSERT_TRUE(trigger.pulse());
   ASSERT_TRUE(chip_->level(trigger_line));
   trigger.close();
   EXPECT_FALSE(chip_->level(trigger_line));
@@ -48,7 +48,7 @@ TEST_F(GpioSafeLevel, a_trigger_that_goes_out_of_scope_leaves_it_low) {
   {
     GpioGalvoTrigger trigger{clock_};
     ASSERT_TRUE(trigger.open({.pulse_width = 10s}));
-    ASSERT_TRUE(trigger.arm());
+    ASSERT_TRUE(trigger.pulse());
   }
   EXPECT_FALSE(chip_->level(trigger_line));
 }
@@ -69,7 +69,7 @@ template <class AtStart> pid_t start_pulsing_child(AtStart&& at_start) {
     hal::linux_backend::MonotonicClock clock;
     GpioGalvoTrigger trigger{clock};
     at_start(trigger);
-    if (trigger.open({.pulse_width = 60s}) && trigger.arm())
+    if (trigger.open({.pulse_width = 60s}) && trigger.pulse())
       for (;;)
         ::pause();
     ::_exit(1);
@@ -85,7 +85,7 @@ TEST_F(GpioSafeLevel, a_killed_program_does_not_leave_it_high) {
   EXPECT_TRUE(await_level(false));
   GpioGalvoTrigger next{clock_};
   ASSERT_TRUE(next.open({})) << "the line is free again";
-  EXPECT_TRUE(next.arm());
+  EXPECT_TRUE(next.pulse());
 }
 
 GpioGalvoTrigger* to_be_made_safe = nullptr; // of the child below: a signal's handler has no `this`

@@ -19,7 +19,7 @@ protected:
   // So many after each pulse.
   void pulse_and_answer(GpioGalvoTrigger& trigger, std::initializer_list<int> answers) {
     for (const int count : answers) {
-      ASSERT_TRUE(trigger.arm());
+      ASSERT_TRUE(trigger.pulse());
       for (int i = 0; i < count; ++i)
         answer();
     }
@@ -36,10 +36,10 @@ TEST_F(GpioSync, every_answered_pulse_is_counted_with_its_delay) {
   GpioGalvoTrigger trigger{clock_, {.sync_line = "octascope-sync"}};
   ASSERT_TRUE(trigger.open({}));
   for (int i = 0; i < 10; ++i) {
-    ASSERT_TRUE(trigger.arm());
+    ASSERT_TRUE(trigger.pulse());
     answer();
   }
-  const auto last = trigger.arm();
+  const auto last = trigger.pulse();
   ASSERT_TRUE(last);
   const auto counters = trigger.counters();
   EXPECT_EQ(counters.pulses, 11U);
@@ -86,11 +86,11 @@ TEST_F(GpioSync, a_sync_line_that_goes_away_does_not_stop_the_trigger) {
   ASSERT_TRUE(sync_chip);
   GpioGalvoTrigger trigger{clock_, {.sync_line = "scanner-sync"}};
   ASSERT_TRUE(trigger.open({}));
-  ASSERT_TRUE(trigger.arm());
+  ASSERT_TRUE(trigger.pulse());
   EXPECT_TRUE(trigger.counters().sync_works);
   ASSERT_TRUE((*sync_chip)->remove());
   for (int i = 0; i < 3; ++i)
-    ASSERT_TRUE(trigger.arm());
+    ASSERT_TRUE(trigger.pulse());
   EXPECT_FALSE(trigger.counters().sync_works);
   EXPECT_EQ(trigger.counters().missed_edges, 3U);
 }

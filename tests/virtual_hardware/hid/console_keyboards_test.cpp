@@ -12,7 +12,7 @@
 #include "hal/linux/hid/keyboards/console_keyboards.h"
 #include "hal/linux/system/system_error.h"
 #include "tests/virtual_hardware/hid/hid_bench.h"
-#include "tests/virtual_hardware/support/fire.h"
+#include "tests/virtual_hardware/support/syscall_faults.h"
 #include "tests/virtual_hardware/support/virtual_keyboard.h"
 
 namespace octascope::tests {
@@ -169,10 +169,10 @@ TEST_F(ConsoleKeyboardsTest, one_that_somebody_has_grabbed_is_told_and_taken_whe
 }
 
 // Whatever fails: keys come, or they come after the next look; nothing stays open.
-TEST_F(ConsoleKeyboardsTest, system_calls_under_fire_end_well) {
+TEST_F(ConsoleKeyboardsTest, every_system_call_that_fails_ends_well) {
   const auto keyboard = plug_in_keyboard();
   ASSERT_TRUE(keyboard);
-  const FireReport report = under_fire(
+  const SyscallFaultReport report = inject_faults(
       every_kind, usual_errors(),
       [&]() -> std::optional<std::string> {
         ConsoleKeyboards keyboards{clock_, {"046d:c31c"}};

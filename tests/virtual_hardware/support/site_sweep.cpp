@@ -20,11 +20,11 @@ namespace octascope::tests {
 
 namespace {
 
-// A shot that hangs is told by that; it has another try that may take longer, as the machine may be
+// A fault that hangs is told by that; it has another try that may take longer, as the machine may be
 // busy. Where it is known to hang, no more than a moment is waited.
-constexpr unsigned longest_shot_s = 10, longest_second_try_s = 60, longest_known_s = 3;
+constexpr unsigned longest_fault_s = 10, longest_second_try_s = 60, longest_known_s = 3;
 
-// What a process tells of one shot, in memory that the test has, too.
+// What a process tells of one fault, in memory that the test has, too.
 struct Note {
   bool begun = false, ended = false, reached = false, left = false;
   std::array<char, 1024> wrong{};
@@ -76,9 +76,10 @@ void shoot(const SweepPlan& plan, const Target& target, Note& note, unsigned lim
   const Holdings before = Holdings::now();
   std::optional<std::string> wrong;
   {
-    const Firing firing{plan.kinds, Shot{0, target.error, target.seen.site}};
-    wrong = firing.run(plan.scenario);
-    note.reached = firing.has_hit();
+    const SyscallFaultInjector injector{plan.kinds,
+                                        SyscallFault{0, target.error, target.seen.site}};
+    wrong = injector.run(plan.scenario);
+    note.reached = injector.has_hit();
   }
   note.left = !(Holdings::now() == before);
   if (!wrong && plan.afterwards && (note.left || !note.reached))
@@ -89,7 +90,7 @@ void shoot(const SweepPlan& plan, const Target& target, Note& note, unsigned lim
   note.ended = true;
 }
 
-// One process: from `first` on until a shot does not end well. `words` takes what it says.
+// One process: from `first` on until a fault does not end well. `words` takes what it says.
 void shoot_on(const SweepPlan& plan, std::span<const Target> targets, std::span<Note> notes,
               unsigned limit_s, int words) {
   ::dup2(words, STDERR_FILENO);
@@ -97,14 +98,14 @@ void shoot_on(const SweepPlan& plan, std::span<const Target> targets, std::span<
   if (plan.begin && !plan.begin())
     return;
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    const bool is_repeated = i == 0 && limit_s != longest_shot_s;
+    const bool is_repeated = i == 0 && limit_s != longest_fault_s;
     const bool may_hang = std::ranges::any_of(plan.known, [&](const KnownDeath& death) {
       return targets[i].seen.name.find(death.site) != std::string::npos;
     });
     shoot(plan, targets[i], notes[i],
           is_repeated ? limit_s
           : may_hang  ? longest_known_s
-                      : longest_shot_s);
+                      : longest_fault_s);
     if (!notes[i].is_good())
       break;
   }
@@ -143,7 +144,7 @@ std::string name_of(const Target& target) {
 }
 
 void judge(const Target& target, const Note& note, int status, int words, SweepReport& report) {
-  ++report.shots;
+  ++report.faults;
   report.missed += note.ended && !note.reached ? 1 : 0;
   report.left_behind += note.left ? 1 : 0;
   if (!note.ended)
@@ -178,7 +179,7 @@ private:
   std::span<Note> notes_;
 };
 
-// The shots of one sweep, process after process.
+// The faults of one sweep, process after process.
 class Shooting {
 public:
   Shooting(const SweepPlan& plan, std::vector<Target> targets, SweepReport& report)
@@ -192,11 +193,11 @@ public:
     }
     while (next_ < targets_.size()) {
       const std::size_t first = next_;
-      const int status = run_process(std::exchange(limit_s_, longest_shot_s));
+      const int status = run_process(std::exchange(limit_s_, longest_fault_s));
       while (next_ < targets_.size() && note().begun)
         if (!take(next_ == first, status))
           break;
-      if (next_ == first && limit_s_ == longest_shot_s) {
+      if (next_ == first && limit_s_ == longest_fault_s) {
         report_.complaints.emplace_back("the test: a child could not be made");
         return;
       }
@@ -218,7 +219,7 @@ private:
     return status_of(child);
   }
 
-  // What became of the next shot; false: it is to be repeated, in a new process.
+  // What became of the next fault; false: it is to be repeated, in a new process.
   bool take(bool was_first, int status) {
     // Those before it may be the reason.
     const bool was_missed = note().ended && !note().reached && note().wrong[0] == 0;
@@ -235,7 +236,7 @@ private:
       judge(targets_[next_++], note(), status, words_.get(), report_);
       return true;
     }
-    ++report_.shots;
+    ++report_.faults;
     report_.known.push_back(fmt::format("{}: {}", name_of(targets_[next_]), known->reason));
     const CallSite site = targets_[next_++].seen.site;
     for (; next_ < targets_.size() && targets_[next_].seen.site == site; ++next_)
@@ -249,8 +250,8 @@ private:
   Notes shared_;
   hal::linux_backend::FileDescriptor words_;
   std::size_t next_ = 0;
-  unsigned limit_s_ = longest_shot_s;     // of the next process's first shot
-  unsigned limit_now_s_ = longest_shot_s; // of the one that ran
+  unsigned limit_s_ = longest_fault_s;     // of the next process's first fault
+  unsigned limit_now_s_ = longest_fault_s; // of the one that ran
 };
 
 } // namespace
@@ -283,35 +284,36 @@ SweepReport sweep_sites(const SweepPlan& plan) {
     report.complaints.emplace_back("unharmed: it could not begin");
     return report;
   }
-  for (const Firing::Notes notes : {Firing::Notes::none, Firing::Notes::sites}) {
+  for (const SyscallFaultInjector::Notes notes :
+       {SyscallFaultInjector::Notes::none, SyscallFaultInjector::Notes::sites}) {
     // Twice: what is made once in a process, is made the first time.
-    const Firing firing{plan.kinds, {}, notes};
-    if (const auto wrong = firing.run(plan.scenario)) {
+    const SyscallFaultInjector injector{plan.kinds, {}, notes};
+    if (const auto wrong = injector.run(plan.scenario)) {
       report.complaints.push_back("unharmed: " + *wrong);
       return report;
     }
-    report.calls = firing.calls();
-    sites = firing.sites();
+    report.calls = injector.calls();
+    sites = injector.sites();
   }
   if (plan.end)
     plan.end();
   report.sites = static_cast<unsigned>(sites.size());
   std::vector<Target> targets;
-  unsigned shots = 0;
+  unsigned faults = 0;
   for (const SeenSite& seen : sites)
     for (const int error : possible_errors(seen.site.kind))
-      if (shots++ % fire_every() == 0)
+      if (faults++ % fault_stride() == 0)
         targets.push_back({seen, error});
   Shooting{plan, std::move(targets), report}.run();
   if (const auto wrong = plan.afterwards ? plan.afterwards() : plan.scenario())
-    report.complaints.push_back("unharmed, after all shots: " + *wrong);
+    report.complaints.push_back("unharmed, after all faults: " + *wrong);
   return report;
 }
 
 void print(const SweepReport& report) {
-  fmt::print("  {} calls from {} sites; {} shots in {} processes, {} spared, {} missed, after {} "
+  fmt::print("  {} calls from {} sites; {} faults in {} processes, {} spared, {} missed, after {} "
              "something was left\n",
-             report.calls, report.sites, report.shots, report.processes, report.spared,
+             report.calls, report.sites, report.faults, report.processes, report.spared,
              report.missed, report.left_behind);
   for (const std::string& death : report.known)
     fmt::print("  known: {}\n", death);

@@ -1,7 +1,7 @@
-// System calls under fire, site by site, in processes that may die.
+// System calls that are made to fail, site by site, in processes that may die.
 //
 // For scenarios of which a library under ours may die (it asserts, or takes what it did not get),
-// and for those with too many calls to hit each: a site that is called in a loop is hit once. Shots
+// and for those with too many calls to hit each: a site that is called in a loop is hit once. Faults
 // follow one another in a process until one does not end well: the next has a new process. So each
 // that does well has shown, too, that the one before it left nothing amiss.
 #pragma once
@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tests/virtual_hardware/support/fire.h"
+#include "tests/virtual_hardware/support/syscall_faults.h"
 
 namespace octascope::tests {
 
@@ -25,13 +25,13 @@ struct KnownDeath {
 
 struct SweepPlan {
   unsigned kinds = every_kind;
-  // Says what is wrong with how it ended, as for under_fire().
+  // Says what is wrong with how it ended, as for inject_faults().
   std::function<std::optional<std::string>()> scenario;
   // Before the first scenario in a process, and unharmed: false if it failed. `end` gives back what
   // it took, threads above all.
   std::function<bool()> begin = {};
   std::function<void()> end = {};
-  // After a shot that left something behind, or that was missed, unharmed, in the same process, and
+  // After a fault that left something behind, or that was missed, unharmed, in the same process, and
   // in the test's own after all: says what is wrong.
   std::function<std::optional<std::string>()> afterwards = {};
   // Where one of these came true, the site is spared the other errors.
@@ -40,10 +40,10 @@ struct SweepPlan {
 
 struct SweepReport {
   unsigned calls = 0, sites = 0; // of the scenario unharmed
-  unsigned shots = 0, processes = 0;
-  unsigned spared = 0;            // shots
-  unsigned missed = 0;            // shots whose site was not come by: another thread was faster
-  unsigned left_behind = 0;       // shots after which descriptors or mappings were left
+  unsigned faults = 0, processes = 0;
+  unsigned spared = 0;            // faults
+  unsigned missed = 0;            // faults whose site was not come by: another thread was faster
+  unsigned left_behind = 0;       // faults after which descriptors or mappings were left
   std::vector<std::string> known; // deaths, in words
   std::vector<std::string> complaints; // everything else that is wrong
 };

@@ -9,8 +9,8 @@
 #include <unistd.h>
 
 #include "hal/linux/v4l2/video_nodes.h"
-#include "tests/virtual_hardware/support/fire.h"
 #include "tests/virtual_hardware/support/resource_count.h"
+#include "tests/virtual_hardware/support/syscall_faults.h"
 #include "tests/virtual_hardware/v4l2/vivid_fixture.h"
 
 namespace octascope::tests {

@@ -1,4 +1,4 @@
-#include "tests/virtual_hardware/support/fire.h"
+#include "tests/virtual_hardware/support/syscall_faults.h"
 
 #include <algorithm>
 #include <atomic>
@@ -35,7 +35,7 @@ std::atomic<unsigned> counted_at_site{0};
 std::atomic<bool> hit{false};
 std::atomic<bool> notes_sites{false};
 std::atomic<unsigned long> spared_request{0};
-std::optional<Shot> shot_now; // changes only while nothing is armed
+std::optional<SyscallFault> fault_now; // changes only while none is alive
 
 std::mutex noted_guard;
 std::vector<SeenSite> noted;
@@ -82,10 +82,10 @@ void note(const CallSite& site, const CallStack& stack) {
       {site, fmt::format("{}{}: {}", name_of(site.kind), request, stack.names(told_callers)), 1});
 }
 
-// Whether it is the shot's; notes it where sites are noted.
+// Whether it is the fault's; notes it where sites are noted.
 bool is_at_site(const Call& call) {
-  const bool may_be = shot_now && shot_now->site && shot_now->site->kind == call.kind &&
-                      shot_now->site->request == call.request;
+  const bool may_be = fault_now && fault_now->site && fault_now->site->kind == call.kind &&
+                      fault_now->site->request == call.request;
   if (!may_be && !notes_sites.load(std::memory_order_relaxed))
     return false; // the stack need not be looked at
   const CallStack stack =
@@ -93,7 +93,7 @@ bool is_at_site(const Call& call) {
   const CallSite site{call.kind, call.request, stack.hash()};
   if (notes_sites.load(std::memory_order_relaxed))
     note(site, stack);
-  return may_be && shot_now->site == site;
+  return may_be && fault_now->site == site;
 }
 
 // True when this very call is the one; `error` is then what it is to fail with.
@@ -103,7 +103,7 @@ bool is_hit(const Call& call, int& error) {
   if (call.kind == CallKind::control && call.request == spared_request.load())
     return false;
   unsigned number = counted.fetch_add(1, std::memory_order_relaxed);
-  const bool by_site = shot_now && shot_now->site;
+  const bool by_site = fault_now && fault_now->site;
   if (by_site || notes_sites.load(std::memory_order_relaxed)) {
     const int errno_before = errno;
     const bool at_site = !hit.load(std::memory_order_relaxed) && is_at_site(call);
@@ -113,9 +113,9 @@ bool is_hit(const Call& call, int& error) {
     if (by_site)
       number = counted_at_site.fetch_add(1, std::memory_order_relaxed);
   }
-  if (!shot_now || number != shot_now->call)
+  if (!fault_now || number != fault_now->call)
     return false;
-  error = shot_now->error;
+  error = fault_now->error;
   hit.store(true, std::memory_order_relaxed);
   return true;
 }
@@ -145,35 +145,36 @@ template <class Function> Function* next(const char* name) {
 
 } // namespace
 
-Firing::Firing(unsigned kinds, std::optional<Shot> shot, Notes notes) {
+SyscallFaultInjector::SyscallFaultInjector(unsigned kinds, std::optional<SyscallFault> fault,
+                                           Notes notes) {
   counted = 0;
   counted_at_site = 0;
   hit = false;
-  shot_now = shot;
+  fault_now = fault;
   notes_sites = notes == Notes::sites;
   noted.clear();
   armed_kinds.store(kinds, std::memory_order_release);
 }
 
-Firing::~Firing() {
+SyscallFaultInjector::~SyscallFaultInjector() {
   armed_kinds = 0;
 }
 
-unsigned Firing::calls() const {
+unsigned SyscallFaultInjector::calls() const {
   return counted;
 }
 
-bool Firing::has_hit() const {
+bool SyscallFaultInjector::has_hit() const {
   return hit;
 }
 
-std::vector<SeenSite> Firing::sites() const {
+std::vector<SeenSite> SyscallFaultInjector::sites() const {
   const std::lock_guard lock{noted_guard};
   return noted;
 }
 
 std::optional<std::string>
-Firing::run(const std::function<std::optional<std::string>()>& scenario) const {
+SyscallFaultInjector::run(const std::function<std::optional<std::string>()>& scenario) const {
   return run_scenario(scenario);
 }
 
@@ -191,19 +192,19 @@ Holdings Holdings::now() {
   return holdings;
 }
 
-FireReport under_fire(unsigned kinds, std::span<const int> errors,
-                      const std::function<std::optional<std::string>()>& scenario,
-                      bool check_recovery, unsigned long spared) {
-  FireReport report;
+SyscallFaultReport inject_faults(unsigned kinds, std::span<const int> errors,
+                                 const std::function<std::optional<std::string>()>& scenario,
+                                 bool check_recovery, unsigned long spared) {
+  SyscallFaultReport report;
   spared_request = spared;
-  const auto run = [&](std::optional<Shot> shot) {
+  const auto run = [&](std::optional<SyscallFault> fault) {
     const Holdings before = Holdings::now();
     std::optional<std::string> wrong;
     {
-      const Firing firing{kinds, shot};
+      const SyscallFaultInjector injector{kinds, fault};
       wrong = scenario();
-      if (!shot)
-        report.calls = std::max(report.calls, firing.calls());
+      if (!fault)
+        report.calls = std::max(report.calls, injector.calls());
     }
     ++report.runs;
     const Holdings after = Holdings::now();
@@ -212,19 +213,20 @@ FireReport under_fire(unsigned kinds, std::span<const int> errors,
                           before.descriptors, before.mappings, after.descriptors, after.mappings);
     if (wrong)
       report.complaints.push_back(
-          shot ? fmt::format("call {} with {}: {}", shot->call,
-                             shot->error != 0 ? std::strerror(shot->error) : "half of it", *wrong)
-               : fmt::format("unharmed: {}", *wrong));
+          fault
+              ? fmt::format("call {} with {}: {}", fault->call,
+                            fault->error != 0 ? std::strerror(fault->error) : "half of it", *wrong)
+              : fmt::format("unharmed: {}", *wrong));
   };
   run({}); // what is made once in a process, is made now
   report.complaints.clear();
   run({});
-  unsigned shots = 0;
+  unsigned faults = 0;
   for (unsigned call = 0; call < report.calls; ++call)
     for (const int error : errors) {
-      if (shots++ % fire_every() != 0)
+      if (faults++ % fault_stride() != 0)
         continue;
-      run(Shot{call, error});
+      run(SyscallFault{call, error});
       if (check_recovery)
         run({});
     }
@@ -232,15 +234,15 @@ FireReport under_fire(unsigned kinds, std::span<const int> errors,
   return report;
 }
 
-void expect_good(const FireReport& report, unsigned least_calls) {
+void expect_good(const SyscallFaultReport& report, unsigned least_calls) {
   std::printf("  %u calls, %u runs\n", report.calls, report.runs);
   EXPECT_GE(report.calls, least_calls);
   for (const std::string& complaint : report.complaints)
     ADD_FAILURE() << complaint;
 }
 
-unsigned fire_every() {
-  const char* const wanted = std::getenv("OCTASCOPE_FIRE_EVERY");
+unsigned fault_stride() {
+  const char* const wanted = std::getenv("OCTASCOPE_FAULT_EVERY");
   return wanted == nullptr ? 1 : std::max(1U, static_cast<unsigned>(std::atoi(wanted)));
 }
 

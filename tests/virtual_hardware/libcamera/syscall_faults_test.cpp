@@ -1,5 +1,5 @@
 // The libcamera backend while system calls fail, its own, libcamera's and libudev's: each site with
-// each error that the kernel may give there. A shot has a process of its own, since libcamera 0.0.3
+// each error that the kernel may give there. A fault has a process of its own, since libcamera 0.0.3
 // ends the program at some: those are known by name, and no other may.
 #include <memory>
 #include <optional>
@@ -29,7 +29,7 @@ constexpr KnownDeath known_deaths[]{
      "waits for its thread, which it could not wake"},
 };
 
-class LibcameraUnderFire : public testing::Test {
+class LibcameraSyscallFaults : public testing::Test {
 protected:
   void SetUp() override {
     if (!has_vimc())
@@ -105,7 +105,7 @@ protected:
   backend::MonotonicClock clock_;
 };
 
-TEST_F(LibcameraUnderFire, cameras_are_looked_for_and_whatever_fails_ends_well) {
+TEST_F(LibcameraSyscallFaults, cameras_are_looked_for_and_whatever_fails_ends_well) {
   SweepPlan plan;
   plan.scenario = [this]() -> std::optional<std::string> {
     const auto session = backend::LibcameraSession::start();
@@ -119,7 +119,7 @@ TEST_F(LibcameraUnderFire, cameras_are_looked_for_and_whatever_fails_ends_well) 
   expect_good(sweep_sites(plan), 60);
 }
 
-TEST_F(LibcameraUnderFire, pictures_are_taken_and_whatever_fails_ends_well) {
+TEST_F(LibcameraSyscallFaults, pictures_are_taken_and_whatever_fails_ends_well) {
   SweepPlan plan;
   // What a session makes once, it makes with the first picture.
   plan.begin = [this] { return start_session() && !use_again(); };

@@ -11,8 +11,8 @@
 
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/v4l2/v4l2_line_camera.h"
-#include "tests/virtual_hardware/support/fire.h"
 #include "tests/virtual_hardware/support/loopback_feeder.h"
+#include "tests/virtual_hardware/support/syscall_faults.h"
 #include "tests/virtual_hardware/v4l2/vivid.h"
 
 namespace octascope::tests {
@@ -71,8 +71,8 @@ std::optional<std::string> use(LineCamera& camera, LoopbackFeeder* feeder) {
 }
 
 // By its name, or looked for among all nodes.
-void fire_at_loopback(bool by_name, unsigned kinds, std::span<const int> errors,
-                      unsigned least_calls) {
+void inject_into_loopback(bool by_name, unsigned kinds, std::span<const int> errors,
+                          unsigned least_calls) {
   const auto node = LoopbackFeeder::find();
   if (!node)
     GTEST_SKIP() << "no v4l2loopback node: load the module, or run this in the bench's kernel";
@@ -85,19 +85,19 @@ void fire_at_loopback(bool by_name, unsigned kinds, std::span<const int> errors,
     return use(camera, &*feeder);
   };
   const bool check_recovery = by_name;
-  expect_good(under_fire(kinds, errors, scenario, check_recovery), least_calls);
+  expect_good(inject_faults(kinds, errors, scenario, check_recovery), least_calls);
 }
 
-TEST(UnderFire, v4l2loopback) {
-  fire_at_loopback(true, ours, usual_errors(), 30);
+TEST(SyscallFaults, v4l2loopback) {
+  inject_into_loopback(true, ours, usual_errors(), 30);
 }
 
-TEST(UnderFire, v4l2loopback_looked_for_among_all) {
+TEST(SyscallFaults, v4l2loopback_looked_for_among_all) {
   constexpr int errors[] = {EINTR, ENODEV, EACCES};
-  fire_at_loopback(false, static_cast<unsigned>(CallKind::open), errors, 2);
+  inject_into_loopback(false, static_cast<unsigned>(CallKind::open), errors, 2);
 }
 
-TEST(UnderFire, vivid) {
+TEST(SyscallFaults, vivid) {
   const auto vivid = Vivid::find();
   if (!vivid)
     GTEST_SKIP() << "no vivid device: `modprobe vivid`, or run this in the bench's kernel";
@@ -105,7 +105,7 @@ TEST(UnderFire, vivid) {
   MonotonicClock clock;
   constexpr int errors[] = {ENODEV, ENOMEM};
   expect_good(
-      under_fire(
+      inject_faults(
           ours, errors,
           [&]() -> std::optional<std::string> {
             V4l2LineCamera camera{{.node = vivid->node(), .input = Vivid::any_size_input}, clock};

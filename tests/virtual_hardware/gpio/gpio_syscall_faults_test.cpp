@@ -3,7 +3,7 @@
 #include <string>
 
 #include "tests/virtual_hardware/gpio/gpio_bench.h"
-#include "tests/virtual_hardware/support/fire.h"
+#include "tests/virtual_hardware/support/syscall_faults.h"
 
 namespace octascope::tests {
 namespace {
@@ -11,7 +11,7 @@ namespace {
 using hal::linux_backend::GpioGalvoTrigger;
 using namespace std::chrono_literals;
 
-class GpioUnderFire : public GpioTest {
+class GpioSyscallFaults : public GpioTest {
 protected:
   // Opens, makes three pulses and closes: what is wrong with how it ended.
   std::optional<std::string> pulse_three_times(hal::Duration width) {
@@ -23,7 +23,7 @@ protected:
                                             : std::nullopt;
     }
     for (int i = 0; i < 3; ++i) {
-      const auto edge = trigger.arm();
+      const auto edge = trigger.pulse();
       if (!edge && trigger.state() != hal::DeviceState::failed)
         return "an error, and not failed: " + edge.error().message;
       if (!edge)
@@ -34,10 +34,10 @@ protected:
   }
 };
 
-TEST_F(GpioUnderFire, short_and_long_pulses_end_well) {
+TEST_F(GpioSyscallFaults, short_and_long_pulses_end_well) {
   for (const hal::Duration width : {hal::Duration{50us}, hal::Duration{1ms}}) {
-    const FireReport report =
-        under_fire(every_kind, usual_errors(), [&] { return pulse_three_times(width); });
+    const SyscallFaultReport report =
+        inject_faults(every_kind, usual_errors(), [&] { return pulse_three_times(width); });
     expect_good(report, 20);
     EXPECT_FALSE(chip_->level(trigger_line));
   }

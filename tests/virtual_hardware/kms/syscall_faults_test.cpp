@@ -1,4 +1,4 @@
-// The console display under fire: each site of a system call of opening and closing, and each call
+// The console display with failing system calls: each site of a system call of opening and closing, and each call
 // of showing, fails once with each error; it ends with success or an Error in words, gives back
 // what it took, and works the next time. The calls are the display's own and those of libdrm, GBM,
 // EGL and udev below it.
@@ -11,8 +11,8 @@
 #include "hal/linux/kms/kms_display.h"
 #include "hal/linux/monotonic_clock.h"
 #include "tests/virtual_hardware/kms/vkms_card.h"
-#include "tests/virtual_hardware/support/fire.h"
 #include "tests/virtual_hardware/support/site_sweep.h"
+#include "tests/virtual_hardware/support/syscall_faults.h"
 
 namespace octascope::tests {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 using hal::linux_backend::KmsConfig;
 using hal::linux_backend::KmsDisplay;
 
-class KmsFire : public testing::Test {
+class KmsSyscallFaults : public testing::Test {
 protected:
   void SetUp() override {
     if (!find_vkms())
@@ -61,7 +61,7 @@ constexpr KnownDeath known_deaths[]{
     {"mmap: ", "_dri.so < libEGL_mesa.so.0 < ", "draws, although the buffer was not mapped"},
 };
 
-TEST_F(KmsFire, opening_and_closing_survive_whatever_fails_at_any_site) {
+TEST_F(KmsSyscallFaults, opening_and_closing_survive_whatever_fails_at_any_site) {
   SweepPlan plan;
   plan.scenario = [&]() -> std::optional<std::string> {
     KmsDisplay display{clock_, config_};
@@ -79,7 +79,7 @@ TEST_F(KmsFire, opening_and_closing_survive_whatever_fails_at_any_site) {
   EXPECT_EQ(report.left_behind, 0U);
 }
 
-TEST_F(KmsFire, showing_survives_any_call_that_fails_with_any_error) {
+TEST_F(KmsSyscallFaults, showing_survives_any_call_that_fails_with_any_error) {
   KmsDisplay display{clock_, config_};
   unsigned reopened = 0;
   const auto scenario = [&]() -> std::optional<std::string> {
@@ -94,7 +94,7 @@ TEST_F(KmsFire, showing_survives_any_call_that_fails_with_any_error) {
     return show(display);
   };
   ASSERT_EQ(scenario(), std::nullopt);
-  FireReport report = under_fire(every_kind, usual_errors(), scenario, false);
+  SyscallFaultReport report = inject_faults(every_kind, usual_errors(), scenario, false);
   // A run that ends with a display lost holds less than it began with; the next one takes it again.
   std::erase_if(report.complaints, [](const std::string& complaint) {
     return complaint.find("descriptors and") != std::string::npos;

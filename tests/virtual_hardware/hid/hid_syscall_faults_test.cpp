@@ -7,7 +7,7 @@
 #include <sys/ioctl.h>
 
 #include "tests/virtual_hardware/hid/hid_bench.h"
-#include "tests/virtual_hardware/support/fire.h"
+#include "tests/virtual_hardware/support/syscall_faults.h"
 
 namespace octascope::tests {
 namespace {
@@ -22,7 +22,7 @@ constexpr std::uint8_t key_b = 5; // as HID numbers keys
 constexpr unsigned long spared =
     HID_API_VERSION < HID_API_MAKE_VERSION(0, 14, 0) ? HIDIOCGRDESCSIZE : 0;
 
-class HidUnderFire : public HidTest {
+class HidSyscallFaults : public HidTest {
 protected:
   // Opens, reads what two controls say, and closes: what is wrong with how it ended.
   std::optional<std::string> use(VirtualPedal& pedal, VirtualPedal& typing) {
@@ -49,11 +49,11 @@ protected:
   }
 };
 
-TEST_F(HidUnderFire, hidapi_and_evdev_end_well) {
+TEST_F(HidSyscallFaults, hidapi_and_evdev_end_well) {
   const auto pedal = plug_in(vec_pedal());
   const auto typing = plug_in(pcsensor_pedal());
   ASSERT_TRUE(pedal && typing);
-  const FireReport report = under_fire(
+  const SyscallFaultReport report = inject_faults(
       every_kind, usual_errors(), [&] { return use(*pedal, *typing); }, false, spared);
   expect_good(report, 40);
   EXPECT_EQ(use(*pedal, *typing), std::nullopt);

@@ -1,9 +1,9 @@
-// System calls under fire: the calls of the program and of its libraries, counted, and one of them
+// System calls that are made to fail: the calls of the program and of its libraries, counted, and one of them
 // made to fail.
 //
-// Linked into a program, fire.cpp stands before the C library's open, close, ioctl, poll, read,
+// Linked into a program, syscall_faults.cpp stands before the C library's open, close, ioctl, poll, read,
 // write, mmap and recv: whoever calls them, our backends or libdrm, libgpiod, libudev and libcamera
-// below them, comes through it. Nothing is changed unless a Firing is alive.
+// below them, comes through it. Nothing is changed unless a SyscallFaultInjector is alive.
 //
 // Where a scenario has so many calls that hitting each takes too long, each *site* is hit
 // (site_sweep.h): calls that the same functions make, one within the other from the scenario down,
@@ -40,7 +40,7 @@ struct CallSite {
   auto operator<=>(const CallSite&) const = default;
 };
 
-struct Shot {
+struct SyscallFault {
   unsigned call = 0; // which of the counted calls, from 0
   int error = 0;     // errno it fails with; 0: read() and write() do half, all else is let through
   std::optional<CallSite> site = {}; // then `call` counts its calls alone
@@ -55,13 +55,14 @@ struct SeenSite {
 
 // One at a time in a process, for as long as it lives; calls of every thread count. close() that is
 // hit closes all the same, as Linux does.
-class Firing {
+class SyscallFaultInjector {
 public:
   enum class Notes { none, sites };
-  explicit Firing(unsigned kinds, std::optional<Shot> shot = {}, Notes notes = Notes::none);
-  Firing(const Firing&) = delete;
-  Firing& operator=(const Firing&) = delete;
-  ~Firing();
+  explicit SyscallFaultInjector(unsigned kinds, std::optional<SyscallFault> fault = {},
+                                Notes notes = Notes::none);
+  SyscallFaultInjector(const SyscallFaultInjector&) = delete;
+  SyscallFaultInjector& operator=(const SyscallFaultInjector&) = delete;
+  ~SyscallFaultInjector();
 
   unsigned calls() const; // counted so far
   bool has_hit() const;
@@ -79,7 +80,7 @@ struct Holdings {
   bool operator==(const Holdings&) const = default;
 };
 
-struct FireReport {
+struct SyscallFaultReport {
   unsigned calls = 0; // of one run that nothing hit
   unsigned runs = 0;
   std::vector<std::string> complaints; // call, error, and what is wrong
@@ -89,15 +90,15 @@ struct FireReport {
 // says what is wrong with how it ended (nothing: success or a clean Error), and must give back all
 // that it took; after each hit it is run unharmed once more when `check_recovery`. An ioctl with
 // the request `spared` is neither counted nor hit: a library is known to die where it fails.
-FireReport under_fire(unsigned kinds, std::span<const int> errors,
-                      const std::function<std::optional<std::string>()>& scenario,
-                      bool check_recovery = true, unsigned long spared = 0);
+SyscallFaultReport inject_faults(unsigned kinds, std::span<const int> errors,
+                                 const std::function<std::optional<std::string>()>& scenario,
+                                 bool check_recovery = true, unsigned long spared = 0);
 
 // Prints it; a failed test for each complaint, and where there were fewer calls.
-void expect_good(const FireReport& report, unsigned least_calls);
+void expect_good(const SyscallFaultReport& report, unsigned least_calls);
 
-// Of so many shots one is fired: 1, unless OCTASCOPE_FIRE_EVERY says more.
-unsigned fire_every();
+// Of so many faults one is injected: 1, unless OCTASCOPE_FAULT_EVERY says more.
+unsigned fault_stride();
 
 // EINTR, EAGAIN, EBUSY, EIO, ENODEV, ENOMEM, and half reads and writes.
 std::span<const int> usual_errors();
