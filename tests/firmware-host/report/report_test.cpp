@@ -29,7 +29,7 @@ RunReport example() {
   r.display = "offscreen";
   r.plan.bidirectional = true;
   r.plan.repeats = 2;
-  r.phase = {.in_use_a_scans = 5.43219,
+  r.scan_lag = {.in_use_a_scans = 5.43219,
              .automatic = true,
              .used = 3,
              .refused = 1,
