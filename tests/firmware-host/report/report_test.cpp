@@ -30,11 +30,11 @@ RunReport example() {
   r.plan.bidirectional = true;
   r.plan.repeats = 2;
   r.scan_lag = {.in_use_a_scans = 5.43219,
-             .automatic = true,
-             .used = 3,
-             .refused = 1,
-             .correlation = 0.5,
-             .significance = 9};
+                .automatic = true,
+                .used = 3,
+                .refused = 1,
+                .correlation = 0.5,
+                .significance = 9};
   r.worker_cores = {2, -1};
   r.counters.volumes.acquired = 10;
   r.counters.volumes.published = 9;
