@@ -34,7 +34,8 @@ struct SourceShaping {
 // One factor for each sample uniform in k, to be used instead of a window. The Gaussian is centred
 // on the source's centroid and scaled so that a reflector is as bright as with the Hann window. The
 // source is interpolated like the lines. ErrorCode::bad_data, with found and expected: the source
-// has no light. ErrorCode::invalid_argument: a parameter is out of range.
+// has no light, a value that is not finite or the wrong length. ErrorCode::invalid_argument: a
+// parameter is out of range.
 hal::Result<std::vector<double>> make_shaping_factors(const SourceShaping& shaping,
                                                       std::span<const double> positions,
                                                       Interpolation interpolation);
