@@ -3,9 +3,9 @@
 //
 // B-scans are handed to the workers as they arrive, so that almost nothing is left to do after the
 // last one. A volume is published when it is complete. Otherwise it is published, with its missing
-// B-scans marked, shortly after its sweeps should have ended and the camera thread has polled the
-// camera up to then, which it is given a limited time for. So a late camera never delays the tick,
-// and a frame that the camera delivered in time is not called late because the machine was busy.
+// B-scans marked, shortly after its sweeps should have ended and once the camera thread has polled
+// the camera up to then (or has failed to within a limited time). So a late camera never delays the
+// tick, and a frame that the camera delivered in time does not count as late on a busy machine.
 //
 // A B-scan with several sweeps is built when all of them have arrived. If one is missing, it is
 // built once a sweep of the B-scan after the next has arrived, or when the volume's time is over.
@@ -57,7 +57,7 @@ struct FrameDecision {
 
 struct FinishedVolume {
   std::uint64_t number = 0;                 // of its pulse, from 1
-  hal::TimePoint first_line{}, last_line{}; // of the first frame to arrive; the latest
+  hal::TimePoint first_line{}, last_line{}; // of the first frame to arrive; the latest of all
   std::int32_t lost_b_scans = 0, lost_lines = 0;
 };
 
@@ -140,7 +140,7 @@ private:
     bool open = false;
     FinishedVolume facts; // so far
     hal::TimePoint accept_until;
-    std::optional<hal::TimePoint> give_up_at; // set if the camera was not polled up to then
+    std::optional<hal::TimePoint> give_up_at; // set if the camera was not polled that long
     std::vector<BScanSlot> slots;             // by B-scan
     int sweeps_came = 0;
     int submitted = 0;
