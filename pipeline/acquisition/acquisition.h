@@ -18,30 +18,30 @@
 namespace octascope::pipeline {
 
 struct AcquisitionCounters {
-  std::uint64_t frames = 0;     // good ones, queued
+  std::uint64_t frames = 0;     // good frames, queued
   std::uint64_t unusable = 0;   // flagged as corrupted, or of the wrong size
   std::uint64_t gaps = 0;       // missing sequence numbers
-  std::uint64_t overflowed = 0; // pushed out of the full queue by newer ones
+  std::uint64_t overflowed = 0; // dropped from the full queue to make room for newer frames
 };
 
-// Frames are borrowed from the camera and travel by number, without a copy. The queue is bounded
-// by the camera's buffers and drops the oldest, counted. The camera may vanish and come back at
-// any time: it is reopened with a back-off of 0.1 s to 2 s. One that streams and falls silent
-// without an error, although the scanner is pulsed, is opened anew after 3 s, then 6, 12 and 24: it
-// may as well be the scanner that is off.
+// Frames are borrowed from the camera and passed on by buffer number, without copying. The queue
+// holds as many frames as the camera has buffers; when full it drops and counts the oldest. The
+// camera may disconnect and return at any time: it is reopened with a back-off of 0.1 s to 2 s. A
+// camera that reports no error but sends no frames although the scanner is pulsed is reopened after
+// 3 s, then 6 s, 12 s and every 24 s: the cause may equally be a scanner that is off.
 class Acquisition {
 public:
-  // `camera`, `clock` and `faults` outlive this. `arrived` is posted after each queued frame, and
-  // after the look that somebody asked for.
+  // `camera`, `clock` and `faults` outlive this. `arrived` is posted after each queued frame and
+  // after a poll requested by ask_for_look().
   Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& config, hal::Clock& clock,
               FaultLog& faults, Wakeup& arrived);
   ~Acquisition();
 
-  // Opens the camera (an Error if that fails for a reason that waiting cannot fix: a wrong
-  // configuration) and starts the thread.
+  // Opens the camera and starts the thread. Returns an Error only for a wrong configuration
+  // (ErrorCode::invalid_argument); after any other failure the thread keeps trying.
   hal::Result<> start(const ThreadSetup& setup);
 
-  // Ends the thread, waits for loans, closes the camera. No frame is handed out afterwards.
+  // Ends the thread, waits for frames on loan, closes the camera. No frame is handed out after it.
   void stop();
 
   // One consumer thread. The frame is on loan until release(frame.buffer).
@@ -50,16 +50,15 @@ public:
   // Any thread.
   void release(int buffer);
 
-  // Any thread, wait-free: what the camera had to give until then, by when it was exposed, is in
-  // the queue or was dropped. To know that nothing earlier will come, ask before taking what is
-  // queued.
+  // Any thread, wait-free: every frame exposed up to this time has been queued or dropped. To be
+  // sure that no earlier frame will follow, read this before draining the queue.
   hal::TimePoint looked_until() const { return looked_until_.load(std::memory_order_acquire); }
 
-  // Any thread, wait-free: `arrived` is posted after the first look that reaches `until`, be it
-  // with a frame or without. The last who asks is served.
+  // Any thread, wait-free: posts `arrived` once looked_until() reaches `until`, whether or not a
+  // frame came. A new request replaces the previous one.
   void ask_for_look(hal::TimePoint until) { awaited_look_.store(until, std::memory_order_relaxed); }
 
-  // Any thread, wait-free: a pulse should have brought frames, and brought none.
+  // Any thread, wait-free: a pulse that should have produced frames produced none.
   void note_unanswered_pulse() { unanswered_.store(true, std::memory_order_relaxed); }
 
   // Any thread.
@@ -86,10 +85,10 @@ private:
   IndexRing queue_;
   std::atomic<int> on_loan_{0};                // queued or with the pipeline
   std::optional<std::uint64_t> last_sequence_; // of this stream
-  std::uint64_t repeated_ = 0;                 // frames since then with the same number
+  std::uint64_t repeated_ = 0;                 // later frames with the same number
   RetryDelay retry_;
-  std::optional<hal::TimePoint> silent_since_; // pulses go out, and no frame comes
-  hal::Duration patience_;                     // with that
+  std::optional<hal::TimePoint> silent_since_; // no frames since then, despite pulses
+  hal::Duration patience_;                     // how long that is tolerated before reopening
 
   std::atomic<std::uint64_t> good_{0}, unusable_{0}, gaps_{0}, overflowed_{0};
   std::atomic<hal::TimePoint> looked_until_{hal::TimePoint{}};

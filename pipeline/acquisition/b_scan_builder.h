@@ -1,4 +1,4 @@
-// A worker's job: from the frames of a B-scan's sweeps to its levels.
+// A worker's job: turns the frames of a B-scan's sweeps into its levels.
 #pragma once
 
 #include <cstddef>
@@ -15,35 +15,35 @@
 namespace octascope::pipeline {
 
 // Converts the first ScanPlan::converted_lines() lines of a frame to levels [line][z]; returns the
-// number of saturated lines. Called by several workers at once, each with its own number; must not
+// number of saturated lines. Called by several workers at once, each with its own index; must not
 // throw or allocate.
 using ReconstructSweep = std::function<int(std::size_t worker, const hal::LineFrame& frame,
                                            std::span<std::uint8_t> levels)>;
 
-// All repeats of a B-scan are converted one behind the other by one worker, so that they are in its
-// cache side by side, aligned, when their levels are averaged: whatever else compares repeats has
-// its place there.
+// One worker converts all repeats of a B-scan in turn, so that they are aligned and in its cache
+// when their levels are averaged. Any other comparison of repeats belongs here too.
 //
-// Levels (decibels) are averaged, as those of neighbours are. An average of powers would be the
-// better estimate of a power, but the mean level of speckle then rises with the number of repeats
-// (by up to 2.5 dB), and a display window set with one number would not fit another; and a repeat
-// in which something flashed by outweighs the others.
+// Levels (decibels) are averaged, as for neighbouring B-scans. Averaging powers would estimate the
+// power better, but the mean level of speckle would rise with the number of repeats (by up to
+// 2.5 dB), so a display window set for one number would not suit another; and one repeat with a
+// flash would outweigh the others.
 //
-// Immutable but for each worker's own buffers, which are made once: build() allocates nothing.
+// Immutable except for each worker's own buffers, which are allocated once: build() allocates
+// nothing.
 class BScanBuilder {
 public:
   BScanBuilder(const ScanPlan& plan, std::size_t workers, ReconstructSweep reconstruct);
 
-  // `frames`: one for each repeat, in order; those with a negative buffer did not come, one at
-  // least did. `sketch` may be null. `levels` [a][z]. Returns the number of saturated lines.
+  // `frames`: one for each repeat, in order; a negative buffer marks a missing one. At least one is
+  // present. `sketch` may be null. `levels` [a][z]. Returns the number of saturated lines.
   int build(std::size_t worker, int b_scan, std::span<const hal::LineFrame> frames,
             const SweepAlignment& alignment, DownsampledSweep* sketch,
             std::span<std::uint8_t> levels);
 
 private:
   struct Buffers {
-    std::vector<std::uint8_t> lines;   // bidirectional: a sweep as it came
-    std::vector<std::uint8_t> repeats; // several: [repeat][a][z]
+    std::vector<std::uint8_t> lines;   // bidirectional: a sweep before alignment
+    std::vector<std::uint8_t> repeats; // with several repeats: [repeat][a][z]
   };
 
   int convert(std::size_t worker, int sweep, const hal::LineFrame& frame,
@@ -56,7 +56,7 @@ private:
 };
 
 // Rounds to the nearest count. `repeats` holds `count` (1 to ScanPlan::most_repeats) runs of
-// average.size() levels, one behind the other.
+// average.size() levels, one after another.
 void average_repeats(std::span<const std::uint8_t> repeats, int count,
                      std::span<std::uint8_t> average);
 

@@ -1,6 +1,6 @@
-// Finishes the B-scans of a volume as they come: averages each with its neighbours, and notes where
-// it is empty, as soon as the neighbours are there. When a sweep is over there is nothing left to
-// do but its last two B-scans.
+// Finishes the B-scans of a volume while it is acquired: as soon as a B-scan and its neighbours are
+// built, averages it with them and updates the volume's occupancy. When the last B-scan is built,
+// only the last two are left to finish.
 #pragma once
 
 #include <atomic>
@@ -15,29 +15,29 @@
 namespace octascope::pipeline {
 
 // Threads: begin() and finish() from one thread, with no other call at the same time; built() from
-// any number of threads, once for each B-scan. Allocates when it is made, never afterwards.
+// any number of threads, once for each B-scan. Allocates on construction only.
 class VolumeAssembler {
 public:
   VolumeAssembler(const VolumeGeometry& geometry, const NeighbourAverage& average);
 
-  // What follows is for this volume, which is borrowed until finish() and has the geometry given
-  // above and an Occupancy for it.
+  // Starts `volume`, which is borrowed until finish(). It must have the geometry given above and an
+  // Occupancy for it.
   void begin(Volume& volume) noexcept;
 
   // Where B-scan `b` is to be built, as [a][z].
   std::span<std::uint8_t> own_levels(int b) noexcept;
 
-  // B-scan `b` is built, with its state in the volume. Finishes those that waited for it.
+  // B-scan `b` is built and its state is set in the volume. Finishes those that waited for it.
   void built(int b) noexcept;
 
-  // What has not come will not come: finishes what still waits, blanks what is missing, and notes
-  // in the volume's metadata what lies at the upper border.
+  // No more B-scans will come: finishes those that still wait, blanks the missing ones, and sets
+  // upper_border in the volume's metadata.
   void finish() noexcept;
 
 private:
   struct Progress {
     std::atomic<bool> built{false};
-    std::atomic<bool> taken{false}; // somebody finishes it, or has
+    std::atomic<bool> taken{false}; // a thread is finishing it, or has finished it
   };
 
   bool is_built(int b) const noexcept;
@@ -49,7 +49,7 @@ private:
   Volume* volume_ = nullptr;
   std::vector<std::uint8_t> own_levels_; // before averaging, [b][a][z]
   std::unique_ptr<Progress[]> progress_; // by B-scan
-  std::vector<BorderCount> borders_;     // likewise: written by whoever finishes it
+  std::vector<BorderCount> borders_;     // by B-scan; written by the thread that finishes it
 };
 
 } // namespace octascope::pipeline

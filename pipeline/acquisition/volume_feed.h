@@ -7,17 +7,16 @@
 
 namespace octascope::pipeline {
 
-// Double-entry: what is counted at the beginning of a volume must be found again at its end, once
-// the thread has stopped: planned = acquired + lost_volumes + unfinished.
+// Once the thread has stopped, planned = acquired + lost_volumes + unfinished.
 struct VolumeCounters {
   std::uint64_t planned = 0; // ticks, each of which should bring a volume
   std::uint64_t triggered = 0;
   std::uint64_t acquired = 0; // at least one B-scan came
   std::uint64_t published = 0;
-  std::uint64_t skipped = 0;      // published, and replaced before the renderer took them
-  std::uint64_t lost_lines = 0;   // kept lines of every sweep that did not come whole and in time
-  std::uint64_t lost_b_scans = 0; // of which no sweep did
-  std::uint64_t lost_volumes = 0; // ticks of which nothing came
+  std::uint64_t skipped = 0;      // published, but replaced before the renderer took them
+  std::uint64_t lost_lines = 0;   // kept lines of every sweep that did not arrive whole and in time
+  std::uint64_t lost_b_scans = 0; // with no sweep that did
+  std::uint64_t lost_volumes = 0; // ticks that yielded nothing
   std::uint64_t unfinished = 0;   // under way when the thread was stopped
   std::uint64_t saturated_lines = 0;
 };
@@ -26,7 +25,7 @@ class VolumeFeed {
 public:
   virtual ~VolumeFeed() = default;
 
-  // One thread, the renderer's: the newest volume if one came since the last call; valid and
+  // Renderer's thread only. The newest volume, or null if none came since the last call; valid and
   // unchanged until the next call that returns one.
   const Volume* take_newest() { return do_take_newest(); }
   bool has_newer() const { return do_has_newer(); }

@@ -1,15 +1,15 @@
-// Which tick gets a trigger pulse, where each frame goes, when a B-scan is made from what has come
-// of it, and when a volume is published or lost: decided from times alone.
+// Decides, from times alone, which tick gets a trigger pulse, where each frame goes, when a B-scan
+// is built from the sweeps that arrived, and when a volume is published or lost.
 //
-// B-scans are handed to the workers as they come, not at the end of the sweeps, so that almost
-// nothing is left to do when the last one arrives. A volume is published when it is complete, or,
-// with its missing B-scans marked, shortly after its sweeps should have ended, once the camera's
-// thread has looked at the camera that long: a late camera never delays the tick, and a busy
-// machine makes no frame late that the camera gave in time.
+// B-scans are handed to the workers as they arrive, so that almost nothing is left to do after the
+// last one. A volume is published when it is complete. Otherwise it is published, with its missing
+// B-scans marked, shortly after its sweeps should have ended and once the camera thread has polled
+// the camera up to then (or has failed to within a limited time). So a late camera never delays the
+// tick, and a frame that the camera delivered in time does not count as late on a busy machine.
 //
-// With several sweeps of each B-scan, a B-scan is made when all of them have come; when one is
-// missing, once the B-scan after the next has begun, or when the volume's time is over. A B-scan is
-// missing when none of its sweeps came.
+// A B-scan with several sweeps is built when all of them have arrived. If one is missing, it is
+// built once a sweep of the B-scan after the next has arrived, or when the volume's time is over.
+// It is missing if none of its sweeps arrived.
 #pragma once
 
 #include <array>
@@ -33,21 +33,20 @@ struct BScanJob {
   bool operator==(const BScanJob&) const = default;
 };
 
-// What a tick wants.
 struct TickDecision {
-  std::uint64_t slept_through = 0; // ticks before this one that nobody asked about: lost volumes
-  bool pulse = false;              // to be answered by pulsed(), pulse_failed() or not_ready()
+  std::uint64_t slept_through = 0; // ticks missed before this one: lost volumes
+  bool pulse = false;              // answer with pulsed(), pulse_failed() or not_ready()
 };
 
 enum class FrameVerdict : std::uint8_t {
   placed,
-  outside, // exposed in no sweep of the last volumes
-  doubled, // of a sweep that had come already
-  late     // its B-scan was made, or its volume is over
+  outside, // not exposed during any sweep of the last volumes
+  doubled, // of a sweep that already has a frame
+  late     // its B-scan has been submitted, or its volume is over
 };
 
-// Where a frame goes, and what is to be handed to the workers once it is there, in this order. What
-// is not `placed` is to be given back to the camera.
+// Where to put a frame, and which jobs to hand to the workers, in this order, once it is there. A
+// frame that is not `placed` must be given back to the camera.
 struct FrameDecision {
   FrameVerdict verdict = FrameVerdict::outside;
   std::uint32_t buffer = 0;
@@ -56,21 +55,20 @@ struct FrameDecision {
   std::span<const BScanJob> submit{}; // valid until the next call
 };
 
-// What is known of a volume that is over.
 struct FinishedVolume {
-  std::uint64_t number = 0;                 // counts the pulses, from 1
-  hal::TimePoint first_line{}, last_line{}; // of what came; the former of what came first
+  std::uint64_t number = 0;                 // of its pulse, from 1
+  hal::TimePoint first_line{}, last_line{}; // of the first frame to arrive; the latest of all
   std::int32_t lost_b_scans = 0, lost_lines = 0;
 };
 
-// What is to be done with the oldest volume under way.
+// What to do with the oldest volume under way.
 struct VolumeDecision {
   enum class Action : std::uint8_t {
-    wait,    // nothing until next_wake(), a frame, a finished B-scan, or the camera's thread's look
-    look,    // ask the camera's thread to look until `look_until`
-    submit,  // to the workers: the missing sweeps of these B-scans will not come
-    publish, // `buffer` is as whole as it will be; published() tells what became of it
-    lose     // nothing came; `buffer` is free again
+    wait,    // until next_wake(), a frame, a finished B-scan, or a poll by the camera thread
+    look,    // ask the camera thread to poll the camera up to `look_until`
+    submit,  // hand `submit` to the workers: the missing sweeps of these B-scans will not come
+    publish, // `buffer` will not get any more complete; publish it, then call published()
+    lose     // nothing arrived; `buffer` is free again
   };
   Action action = Action::wait;
   std::uint32_t buffer = 0;
@@ -79,53 +77,54 @@ struct VolumeDecision {
   FinishedVolume volume{};            // publish and lose
 };
 
-// Pure logic: no clock, no thread, no device. One thread, but for what says otherwise; allocates
-// when it is made, never afterwards.
+// Pure logic: no clock, no thread, no device. For one thread, unless stated otherwise. Allocates on
+// construction only.
 class VolumeScheduler {
 public:
-  static constexpr std::uint32_t pool_size = 5; // middle, renderer's, and three to build in
-  // Of the pool, the buffers that are in the middle and with the renderer at first.
+  // The triple buffer's middle, the renderer's, and three to build in.
+  static constexpr std::uint32_t pool_size = 5;
+  // The buffers that are initially in the middle and with the renderer.
   static constexpr std::uint32_t first_middle = 0, first_front = 1;
 
-  // With `most_volumes`, no more than so many are asked for.
+  // Asks for at most `most_volumes` volumes, if given.
   VolumeScheduler(const ScanPlan& plan, std::optional<std::uint64_t> most_volumes);
 
-  // Ticks. The first is due at `first`.
+  // The first tick is due at `first`.
   void begin(hal::TimePoint first) { next_tick_ = first; }
   bool tick_due(hal::TimePoint now) const { return now >= next_tick_; }
   TickDecision tick(hal::TimePoint now);
 
-  // The pulse was made: the buffer to build its volume in, or none, and the volume is lost: the
-  // workers are three volumes behind.
+  // The pulse was sent. Returns the buffer to build its volume in, or nothing if the workers are
+  // three volumes behind: the volume is then lost.
   std::optional<std::uint32_t> pulsed(hal::TimePoint when);
-  // It was tried and failed.
   void pulse_failed();
-  // There is no camera to pulse for, or no trigger. Before the first pulse nothing is lost by that.
+  // Camera or trigger is not available. Counts a lost volume, except before the first pulse.
   void not_ready();
 
-  // A good frame, by the camera's times.
+  // Places a good frame by the camera's time stamps.
   FrameDecision place(hal::TimePoint first_line, hal::TimePoint last_line);
 
-  // Any thread: a submitted B-scan of this buffer is made. What was written before is there when
-  // the volume is published.
+  // Any thread: a submitted B-scan of this buffer is built. Whatever the thread wrote before is
+  // visible when the volume is published.
   void b_scan_made(std::uint32_t buffer) {
     pending_[buffer].made.fetch_add(1, std::memory_order_release);
   }
 
-  // To be asked again until it says `wait`. `looked_until`: what the camera had given until then
-  // was placed already; asked for before the frames were taken. `streaming`: the camera is.
+  // Call repeatedly until it returns `wait`. `looked_until`: Acquisition::looked_until(), read
+  // before taking the frames placed so far. `streaming`: whether the camera streams.
   VolumeDecision next(hal::TimePoint now, hal::TimePoint looked_until, bool streaming);
 
-  // What was to be published is: `recycled` came back for it, `skipped` if nobody had taken that.
+  // The volume was published in exchange for buffer `recycled`; `skipped` if that one was never
+  // taken.
   void published(std::uint32_t recycled, bool skipped);
 
   void count_saturated_lines(std::int32_t lines) { count(counts_.saturated_lines, lines); }
 
-  // When the thread has something to do at the latest, however quiet it is. A time that is over when
-  // it is asked for is told as it is: a tick that came due since tick_due() was asked waits no longer.
+  // When the thread must wake at the latest, even if nothing happens. May be in the past: then
+  // something, such as a tick, has come due since the last check.
   hal::TimePoint next_wake(hal::TimePoint now) const;
 
-  // What is under way will not be finished.
+  // Counts the volumes under way as unfinished.
   void end() { counts_.unfinished.store(under_way(), std::memory_order_relaxed); }
 
   // Any thread.
@@ -133,19 +132,19 @@ public:
 
 private:
   struct BScanSlot {
-    std::uint32_t came = 0; // one bit a repeat
-    bool submitted = false; // from then on the frames are the worker's
+    std::uint32_t came = 0; // one bit per repeat
+    bool submitted = false; // from then on the worker owns the frames
   };
   // One for each buffer of the pool.
   struct PendingVolume {
     bool open = false;
     FinishedVolume facts; // so far
     hal::TimePoint accept_until;
-    std::optional<hal::TimePoint> give_up_at; // set when that was over and the camera not looked at
+    std::optional<hal::TimePoint> give_up_at; // set if the camera was not polled that long
     std::vector<BScanSlot> slots;             // by B-scan
     int sweeps_came = 0;
     int submitted = 0;
-    int flushed = 0;          // B-scans before this one wait for no more sweeps
+    int flushed = 0;          // B-scans before this one no longer wait for sweeps
     std::atomic<int> made{0}; // B-scans that the workers are done with
   };
   struct Counts {
@@ -156,7 +155,7 @@ private:
   static void count(std::atomic<std::uint64_t>& counter, std::int64_t by = 1) {
     counter.fetch_add(static_cast<std::uint64_t>(by), std::memory_order_relaxed);
   }
-  // Whether time decides about it; otherwise the workers do.
+  // Whether it still waits for sweeps, not only for the workers.
   bool awaits_sweeps(const PendingVolume& volume) const;
   void count_lost_volume();
   std::uint64_t under_way() const;
@@ -171,7 +170,7 @@ private:
   SweepTracker sweeps_;
   std::array<PendingVolume, pool_size> pending_;
   std::vector<std::uint32_t> free_; // buffers of the pool to build in
-  std::vector<BScanJob> to_submit_; // what the last decision says
+  std::vector<BScanJob> to_submit_; // jobs of the last decision
   std::uint64_t last_number_ = 0;
   hal::TimePoint next_tick_;
   Counts counts_;

@@ -1,7 +1,7 @@
 // The fixed-rate thread: one tick, one trigger pulse, one volume.
 //
-// It wakes for ticks, frames and finished B-scans, asks the VolumeScheduler what is to be done, and
-// does it: pulses the trigger, hands B-scans to the workers, publishes volumes.
+// It wakes for ticks, frames and finished B-scans and does what the VolumeScheduler decides: pulses
+// the trigger, hands B-scans to the workers, publishes volumes.
 #pragma once
 
 #include <array>
@@ -35,12 +35,12 @@
 
 namespace octascope::pipeline {
 
-// Called on the volume thread for each frame in the order of their coming, before a worker gets
-// it, for what depends on that order; must not throw or allocate. May be empty.
+// Called on the volume thread for each placed frame in order of arrival, before a worker gets it,
+// for processing that depends on that order. Must not throw or allocate. May be empty.
 using ObserveFrame = std::function<void(const hal::LineFrame& frame)>;
 
-// Called on the volume thread with each volume that was published, when the renderer could have
-// taken it already; must not throw, allocate or wait. May be empty.
+// Called on the volume thread after each volume is published, when the renderer may already have
+// taken it. Must not throw, allocate or wait. May be empty.
 using ObserveVolume = std::function<void(const Volume& volume)>;
 
 struct VolumeThreadSetup {
@@ -51,18 +51,18 @@ struct VolumeThreadSetup {
   ObserveFrame observe = {};
   ObserveVolume observe_volume = {};
   NeighbourAverage average;
-  std::optional<std::uint64_t> most_volumes; // then no more are triggered
+  std::optional<std::uint64_t> most_volumes; // stop triggering after this many
 };
 
 struct PipelineStatistics {
-  DurationStatistics reconstruct; // work of all workers for one volume
+  DurationStatistics reconstruct; // summed over all workers for one volume
   DurationStatistics assemble;
   DurationStatistics publish;
 };
 
 class VolumeThread final : public VolumeFeed {
 public:
-  // All references outlive this; `arrived` is the one the acquisition posts, `news` is posted
+  // All references outlive this. `arrived` is the Wakeup that `acquisition` posts; `news` is posted
   // after each published volume.
   VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger, Acquisition& acquisition,
                hal::LineCamera& camera, hal::Clock& clock, FaultLog& faults, Wakeup& arrived,
@@ -71,7 +71,7 @@ public:
 
   void start(const ThreadSetup& setup);
 
-  // Ends thread and workers and closes the trigger; volumes under way are counted as unfinished.
+  // Ends the thread and its workers and closes the trigger. Volumes under way count as unfinished.
   void stop();
 
   // Any thread.
@@ -79,10 +79,10 @@ public:
   ScanLagStatus scan_lag() const { return scan_lag_.status(); }
 
 private:
-  // The frames of a B-scan, by repeat; buffer < 0: did not come (yet), or was given back. The
-  // worker's from when the B-scan is submitted.
+  // The frames of a B-scan, by repeat; buffer < 0: not arrived (yet), or given back. Owned by the
+  // worker once the B-scan is submitted.
   using Sweeps = std::array<hal::LineFrame, ScanPlan::most_repeats>;
-  // What a volume under way is built with; one for each buffer of the pool.
+  // State for building a volume; one for each buffer of the pool.
   struct Workplace {
     SweepAlignment alignment; // of all its sweeps
     DownsampledSweep* sketch = nullptr;
@@ -92,7 +92,6 @@ private:
     std::atomic<int> saturated_lines{0};
   };
 
-  // The renderer's side of the triple buffer.
   const Volume* do_take_newest() override;
   bool do_has_newer() const override { return triple_buffer_.has_newer(); }
   VolumeCounters do_counters() const override { return scheduler_.counters(); }

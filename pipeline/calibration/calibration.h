@@ -1,7 +1,7 @@
-// What one spectrometer needs to turn its counts into depth: positions uniform in wavenumber,
-// dispersion phase, background, spectral window and the physical spacings.
+// The calibration of one spectrometer: positions uniform in wavenumber, dispersion phase,
+// background, spectral window and the physical spacings.
 //
-// The file format is described in docs (a calibration is TOML; paths in it are relative to it).
+// The file is TOML, with paths relative to it; the format is described in docs.
 #pragma once
 
 #include <cstdint>
@@ -21,45 +21,44 @@ namespace octascope::pipeline {
 
 enum class BackgroundMode : std::uint8_t {
   mean,    // of the kept lines of each B-scan
-  running, // mean over the last B-scans, in their order (background.h)
+  running, // mean over the last B-scans in order (background.h)
   file,    // a recorded spectrum
   none,
 };
 
-// The least and the most samples a line may have.
+// Limits for the samples of a line.
 inline constexpr int fewest_samples = 16;
 inline constexpr int most_samples = 65536;
 
 // A plain value. All curves are resolved to `samples` values in double precision.
 struct Calibration {
   int samples = 1024;
-  std::string
-      camera; // hal::LineCamera::identity() of the one that it was made with; empty: not said
+  std::string camera; // hal::LineCamera::identity() of the camera it was made with; empty: unknown
   std::vector<double> positions; // r[m], fractional pixels in [0, samples−1], uniform in k
   Interpolation interpolation = Interpolation::sinc8;
-  std::vector<double> dispersion_rad; // θ[m] with its sign applied; empty: none
+  std::vector<double> dispersion_rad; // θ[m], sign included; empty: none
   BackgroundMode background_mode = BackgroundMode::mean;
   std::vector<float> background; // counts after the right shift; only for BackgroundMode::file
   FixedPatternRemoval fixed_pattern;
-  // w[m], what counts; and where it comes from, for the file: `shaping` where there is one, else
+  // w[m]: the factors that are applied. Their origin, for the file, is `shaping` if set, else
   // `window_kind`.
   std::vector<double> window;
   SpectralWindow window_kind = SpectralWindow::hann;
   std::optional<SourceShaping> shaping;
-  int zero_padding = 1;          // 1: none; 2: as many zeros behind each line as it has samples
-  double depth_spacing_um = 3.5; // of one bin without zero-padding, in the medium
-  std::optional<double> refractive_index; // of that medium: 1 is air; empty: nobody said
+  int zero_padding = 1;          // 1: none; 2: each line is followed by as many zeros as samples
+  double depth_spacing_um = 3.5; // of one bin without zero padding, in the medium
+  std::optional<double> refractive_index; // of that medium: 1 is air; empty: unknown
   double a_spacing_um = 10;
   double b_spacing_um = 37.5;
 
   // The whole file, or an Error that names file, line or index, what was found and what was
-  // expected. `expected_samples` is what the spectra have.
+  // expected. `expected_samples`: samples per line of the spectra.
   static hal::Result<Calibration> load(const std::filesystem::path& file, int expected_samples);
 
-  // For when no calibration is given: no resampling, no dispersion, Hann window, mean background.
+  // Used when no calibration is given: no resampling, no dispersion, Hann window, mean background.
   static Calibration identity(int samples);
 
-  // Levels of an A-scan, and the distance between two of them.
+  // The number of depth bins of an A-scan, and their spacing.
   int depths() const { return samples * zero_padding / 2; }
   double bin_spacing_um() const { return depth_spacing_um / zero_padding; }
 
@@ -67,13 +66,13 @@ struct Calibration {
   hal::Result<> validate() const;
 };
 
-// The camera that a calibration names; empty: none. Reads nothing else of it and checks nothing.
+// The camera that a calibration names; empty: none. Reads and checks nothing else in it.
 hal::Result<std::string> calibration_camera(const std::filesystem::path& file);
 
 class ConfigDocument;
 
-// The file's text, asked for every file that it names and for nothing else: for copies that keep
-// them together (ConfigDocument::text_naming()).
+// The file as a document whose named_files() are all files that the calibration uses, so that it
+// can be copied together with them (ConfigDocument::text_naming()). Checks nothing else.
 hal::Result<ConfigDocument> calibration_document(const std::filesystem::path& file);
 
 } // namespace octascope::pipeline

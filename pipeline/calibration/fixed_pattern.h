@@ -1,18 +1,18 @@
-// Fixed lines in a B-scan: what is the same in every A-scan, and so no tissue.
+// Removes fixed-pattern noise: lines that are the same in every A-scan, and so are not tissue.
 //
-// The mean over a B-scan takes a fixed pattern out, but with it what a horizontal reflector has in
-// common over most of the B-scan. The minimum-variance mean A-scan does better: the B-scan is
-// parted into segments of neighbouring A-scans, and for each depth the segment whose complex values
-// vary least gives the pattern, its mean: there, the fixed pattern is alone. After S. Moon,
+// Subtracting the mean over a B-scan removes a fixed pattern, but also whatever a horizontal
+// reflector has in common over most of the B-scan. The minimum-variance mean A-scan is better: the
+// B-scan is divided into segments of neighbouring A-scans, and for each depth the pattern is the
+// mean of the segment whose complex values vary least: there, the pattern is alone. After S. Moon,
 // S.-W. Lee, Z. Chen: Reference spectrum extraction and fixed-pattern noise removal in optical
 // coherence tomography, Optics Express 18 (2010) 24395.
 //
-// A reflector that keeps amplitude and phase from A-scan to A-scan better than the noise does, as a
-// perfectly flat mirror, cannot be told from a fixed line, and one that fills every segment loses
-// what it has in common in the quietest of them. Tissue does neither.
+// A reflector whose amplitude and phase vary less than the noise from A-scan to A-scan, such as a
+// perfectly flat mirror, cannot be distinguished from a fixed line. A reflector in every segment
+// loses its mean over the quietest one. Neither happens with tissue.
 //
-// The chain before it is linear, so whatever constant background was subtracted from the lines
-// (a recorded one, a mean, nothing) drops out: the result is the same.
+// The processing before this is linear, so the result does not depend on which constant background
+// (recorded, mean or none) was subtracted from the lines.
 #pragma once
 
 #include <cstddef>
@@ -28,18 +28,18 @@ enum class FixedPatternMode : std::uint8_t { none, minimum_variance };
 struct FixedPatternRemoval {
   static constexpr int fewest_segments = 2;
   static constexpr int most_segments = 64;
-  static constexpr int fewest_a_scans = 4; // of a segment: the variance of fewer says little
+  static constexpr int fewest_a_scans = 4; // per segment: the variance of fewer means little
 
   FixedPatternMode mode = FixedPatternMode::none;
   int segments = 8;
 
-  // ErrorCode::invalid_argument with found, expected and the remedy where there are too few
-  // A-scans.
+  // ErrorCode::invalid_argument, with found, expected and the remedy: `segments` out of range, or
+  // too few A-scans for them.
   hal::Result<> validate(int a_scans) const;
 };
 
-// Collects the complex A-scans of one B-scan and removes what is fixed. For one thread; nothing
-// but the constructor allocates.
+// Collects the complex A-scans of one B-scan and removes the fixed pattern. For one thread; only
+// the constructor allocates.
 class FixedPatternRemover {
 public:
   FixedPatternRemover(int segments, int a_scans, int depths);
@@ -47,7 +47,7 @@ public:
   // `depths` complex values (re, im, re, im …) of A-scan `a`, to be filled and read.
   float* a_scan(int a) { return a_scans_.data() + stride_ * static_cast<std::size_t>(a); }
 
-  // Takes the pattern out of the first `a_scans` A-scans, at most as many as there are room for.
+  // Removes the pattern from the first `a_scans` A-scans, at most the constructor's number.
   void remove(int a_scans) noexcept;
 
 private:
@@ -59,9 +59,9 @@ private:
   std::size_t stride_; // floats of an A-scan
   std::vector<float> a_scans_;
   std::vector<float> sums_;     // of one segment, complex, relative to its first A-scan
-  std::vector<float> squares_;  // of one segment, relative likewise
-  std::vector<float> variance_; // the least so far, by depth
-  std::vector<float> pattern_;  // its segment's mean
+  std::vector<float> squares_;  // likewise
+  std::vector<float> variance_; // the lowest so far, by depth
+  std::vector<float> pattern_;  // the mean of that segment
   const float* origin_ = nullptr;
 };
 

@@ -1,5 +1,5 @@
-// k-linearisation: where on the spectrometer the samples lie that are uniform in wavenumber, and
-// how the counts between its pixels are found.
+// k-linearisation: the pixel positions of samples uniform in wavenumber, and the interpolation of
+// counts between pixels.
 #pragma once
 
 #include <cstdint>
@@ -27,21 +27,21 @@ std::vector<double> evaluate_unit_polynomial(std::span<const double> coefficient
 hal::Result<std::vector<double>> positions_from_wavelength(std::span<const double> coefficients_nm,
                                                            int samples);
 
-// What is wrong with a curve of positions, naming the index and the values: not finite, not
-// strictly monotone (rising or falling), or mostly outside the line. Nothing when it is good.
+// Describes what is wrong with a curve of positions, naming index and values: not finite, not
+// strictly monotone (rising or falling), or mostly outside the line. Empty if it is good.
 std::optional<std::string> find_position_fault(std::span<const double> positions);
 
-// The first step that is far out of line with its neighbours: measured curves have them where a
-// phase was unwrapped wrongly (1201.42 → 1210.44 in a real one). Expects a curve without the faults
-// above.
+// Describes the first step that differs greatly from its neighbours; empty if there is none.
+// Measured curves have such steps where a phase was unwrapped wrongly (1201.42 → 1210.44 in a real
+// one). The curve must have passed find_position_fault().
 std::optional<std::string> find_position_jump(std::span<const double> positions);
 
-// Interpolation as a sum over taps: x[m] = Σ_t weights[m·width + t] · s[first[m] + t]. Windows that
-// would reach over an end are moved inside, and the weights of the pixels beyond it are added to
-// the last pixel's, which is the same as repeating that pixel: no tap ever leaves the line.
+// Interpolation as a sum over taps: x[m] = Σ_t weights[m·width + t] · s[first[m] + t]. Windows
+// that would extend past an end are moved inside, and the weights of the pixels beyond the end are
+// added to the end pixel's, which is the same as repeating that pixel: no tap is outside the line.
 struct ResamplingTaps {
-  int width = 0;                   // 4 or 8; 0 when every position is its own pixel: no resampling
-  std::vector<std::int32_t> first; // a multiple of 4 of them; the padding has weights of 0
+  int width = 0;                   // 4 or 8; 0: every position is its own pixel, no resampling
+  std::vector<std::int32_t> first; // padded to a multiple of 4, with weights of 0
   std::vector<float> weights;
 };
 

@@ -1,4 +1,4 @@
-// The window that shapes the spectrum, and with it the axial point spread and its side lobes.
+// The spectral window, which determines the axial point spread function and its side lobes.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ enum class SpectralWindow : std::uint8_t {
   hamming,
   blackman,
   gaussian, // standard deviation 0.4 of the half width
-  tukey,    // a quarter of the width tapers at either end
+  tukey,    // a quarter of the width tapers at each end
   flat,
 };
 
-// Symmetric: w[m] = w[samples−1−m], highest value 1 (between the samples when their number is
-// even). Not normalised to any sum: the level of a reflector depends on the window.
+// Symmetric: w[m] = w[samples−1−m], with maximum 1 (between the two middle samples if their number
+// is even). Not normalised: the level of a reflector depends on the window.
 std::vector<double> make_spectral_window(SpectralWindow kind, int samples);
 
 } // namespace octascope::pipeline

@@ -1,4 +1,4 @@
-// A Gaussian moving average.
+// Gaussian moving average.
 #pragma once
 
 #include <span>
@@ -6,8 +6,8 @@
 
 namespace octascope::pipeline {
 
-// Weighted mean of the values around each one, standard deviation `sigma` in samples, cut off at
-// three of them. At the ends the mean is over what there is.
+// Weighted mean around each value with standard deviation `sigma` in samples, cut off at 3 sigma.
+// At the ends the mean is over the values that exist.
 std::vector<double> smooth_gaussian(std::span<const double> values, double sigma);
 
 } // namespace octascope::pipeline

@@ -1,4 +1,4 @@
-// An emission-line lamp on the spectrometer → wavelength over the pixel.
+// Finds wavelength as a function of pixel from the spectrum of an emission-line lamp.
 #pragma once
 
 #include <span>
@@ -16,12 +16,12 @@ struct LampCalibration {
   double rms_nm = 0;
 };
 
-// The peaks are the highest ones of `spectrum`, as many as there are lines, placed by the centroid
-// of what rises above the half of each; `lines_nm` are in the order of the pixels, rising or
-// falling. The polynomial's degree is 3, less with fewer than 5 lines: one line more than it has
-// terms shows how well they fit. ErrorCode::bad_data with `name` and index, found and expected: too
-// few or ambiguous peaks, a line that is off by more than the mean width of a pixel, a wavelength
-// that is not monotone. ErrorCode::invalid_argument for the lines.
+// Uses the highest peaks of `spectrum`, as many as there are lines, each located by the centroid of
+// the part above half its height. `lines_nm` are in pixel order, rising or falling. The degree of
+// the polynomial is 3, or less with fewer than 5 lines: there is always one more line than terms to
+// show the quality of the fit. ErrorCode::bad_data, with `name`, index, found and expected: too few
+// or ambiguous peaks, a line off by more than the mean width of a pixel, a wavelength that is not
+// monotone. ErrorCode::invalid_argument: `lines_nm` are too few, not positive or not in order.
 hal::Result<LampCalibration> find_lamp_lines(std::span<const double> spectrum,
                                              std::span<const double> lines_nm,
                                              std::string_view name);

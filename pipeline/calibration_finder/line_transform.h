@@ -1,4 +1,4 @@
-// Fourier transforms in double precision for measuring, where time does not matter.
+// Double-precision Fourier transforms for measurements, where speed does not matter.
 #pragma once
 
 #include <complex>

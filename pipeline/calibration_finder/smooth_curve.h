@@ -1,5 +1,5 @@
-// A smooth curve through noisy values: a weighted least-squares polynomial in Legendre form, and
-// its cautious continuation where nothing was measured.
+// A smooth curve through noisy values: a weighted least-squares polynomial in Legendre form, with
+// parabolic extrapolation outside the measured range.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace octascope::pipeline {
 
-// Inside [first, last] the polynomial; outside it the parabola that fits the outer fifth best, put
-// on the value at that end: a polynomial of high degree runs away where no value holds it, and its
-// own curvature at the end is mostly noise.
+// Inside [first, last] the polynomial; outside, the parabola that best fits the outer fifth and
+// meets the value at that end. A polynomial of high degree would diverge where there are no values,
+// and its own curvature at the end is mostly noise.
 class SmoothCurve {
 public:
   SmoothCurve(double first, double last, std::vector<double> coefficients);
@@ -38,14 +38,14 @@ private:
 
 struct SmoothFit {
   SmoothCurve curve;
-  double rms = 0; // weighted, of what the curve leaves
+  double rms = 0; // weighted, of the residuals
 };
 
-// `values[i]` was measured at x = i with `weights[i]` ≥ 0; only `first` ≤ i ≤ `last` counts.
-// Neighbours that are `correlated` samples apart or more are independent. The degree, from 1 to
-// `highest_degree`, is the one of the least information criterion: n·ln(rms²) + 2·terms for n
-// independent values (H. Akaike, IEEE Transactions on Automatic Control 19, 1974). Needs more than
-// `highest_degree` values with a weight.
+// `values[i]` was measured at x = i with `weights[i]` ≥ 0; only `first` ≤ i ≤ `last` is used.
+// Values `correlated` or more samples apart are taken as independent. The degree, from 1 to
+// `highest_degree`, minimises Akaike's information criterion, n·ln(rms²) + 2·terms for n
+// independent values (H. Akaike, IEEE Transactions on Automatic Control 19, 1974). More than
+// `highest_degree` values must have a weight above 0.
 SmoothFit fit_smooth_curve(std::span<const double> values, std::span<const double> weights,
                            std::size_t first, std::size_t last, int highest_degree,
                            double correlated);

@@ -1,7 +1,7 @@
-// Dispersion without a mirror: the phase that makes a picture of tissue sharpest.
+// Dispersion without a mirror: the phase that makes an image of tissue sharpest.
 //
-// The measure is Σ I² / (Σ I)² with I = |Y|² over depth and A-scans: speckle and surfaces that are
-// spread over fewer bins weigh more. Both sums scale alike with brightness.
+// Sharpness is Σ I² / (Σ I)² with I = |Y|² over depth and A-scans. It rises when speckle and
+// surfaces are spread over fewer bins, and does not depend on brightness.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@
 
 namespace octascope::pipeline {
 
-// Some A-scans of tissue, linearised and windowed once, so that many phases can be tried on them.
+// Some A-scans of tissue, linearised and windowed once, so that many phases can be tried.
 // Use it from one thread at a time.
 class TissueSharpness {
 public:
@@ -37,11 +37,11 @@ struct TissueDispersion {
   double cubic_rad = 0;
   std::vector<double> theta_rad;
   std::vector<double> unit_polynomial_rad; // the same as Σ d_i (m/(N−1))^i
-  double sharpness_before = 0;             // without any dispersion
+  double sharpness_before = 0;             // with θ = 0
   double sharpness_after = 0;
 };
 
-// From coarse to fine over ±`widest_rad`, the quadratic, then the cubic, then both once more.
+// Searches ±`widest_rad` from coarse to fine: first quadratic, then cubic, then both again.
 TissueDispersion find_tissue_dispersion(TissueSharpness& sharpness, int samples,
                                         double widest_rad = 100);
 

@@ -1,4 +1,4 @@
-// The control thread: fetches what pedals and knobs say and queues it for the render thread.
+// The control thread: reads pedal and knob events and queues them for the render thread.
 #pragma once
 
 #include <atomic>
@@ -16,17 +16,17 @@
 
 namespace octascope::pipeline {
 
-// The device may vanish and return at any time; it is reopened with a back-off.
+// The device may disconnect and return at any time; it is reopened with a back-off.
 class ControlThread {
 public:
-  // All references outlive this; `news` is posted after each event.
+  // All references outlive this; `news` is posted when events were queued.
   ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults, Wakeup& news);
   ~ControlThread();
 
   void start(const ThreadSetup& setup);
   void stop();
 
-  // One consumer thread. Oldest first.
+  // One consumer thread. The oldest event, if any.
   std::optional<hal::ControlEvent> take() { return queue_.pop(); }
 
 private:
@@ -42,7 +42,7 @@ private:
   EventQueue<hal::ControlEvent, 256> queue_;
   RetryDelay retry_;
   HeldSwitches held_;
-  std::uint64_t bounces_ = 0; // told so far
+  std::uint64_t bounces_ = 0; // reported so far
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };

@@ -1,5 +1,5 @@
-// Which switches of a device are down, since when, and which of them for longer than a foot would
-// hold them.
+// Tracks which switches of a device are down, since when, and which have been down too long to be
+// held by a foot.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ class HeldSwitches {
 public:
   static constexpr hal::Duration limit = std::chrono::seconds{4};
 
-  // A switch goes down or up at `time`. False where it was so already, or there is none of that
-  // index.
+  // A switch goes down or up at `time`. False if it was already in that state or `index` is out of
+  // range.
   bool note(std::size_t index, bool down, hal::TimePoint time) {
     if (index >= since_.size() || is_down(index) == down)
       return false;
@@ -37,11 +37,11 @@ public:
 
   SwitchSet down() const { return down_; }
   bool is_down(std::size_t index) const { return (down_ >> index & 1U) != 0; }
-  // When it went down last.
+  // When it last went down.
   hal::TimePoint since(std::size_t index) const { return since_[index]; }
 
-  // The switch that went down first of those that are down for `limit` and were not told yet; each
-  // is told once a press.
+  // The switch that has been down longest, if for at least `limit`, among those not reported yet.
+  // Reports each press once.
   std::optional<std::size_t> longest_untold(hal::TimePoint now) {
     std::optional<std::size_t> longest;
     for (SwitchSet left = untold_; left != 0; left &= left - 1) {
@@ -56,7 +56,7 @@ public:
 
 private:
   SwitchSet down_ = 0;
-  SwitchSet untold_ = 0; // down, and not told yet
+  SwitchSet untold_ = 0; // down and not reported yet
   std::array<hal::TimePoint, most_switches> since_{};
 };
 

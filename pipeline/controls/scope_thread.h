@@ -1,4 +1,4 @@
-// The thread of the scope camera: keeps the newest microscope picture for the renderer.
+// The microscope camera's thread: keeps the newest picture for the renderer.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace octascope::pipeline {
 
-// The camera may vanish and return at any time; it is reopened with a back-off.
+// The camera may disconnect and return at any time; it is reopened with a back-off.
 class ScopeThread {
 public:
   // All references outlive this; `news` is posted after each picture.
@@ -29,14 +29,14 @@ public:
   void start(const ThreadSetup& setup);
   void stop();
 
-  // The renderer's side (one thread): the newest picture, in the camera's own pixel format, if one
-  // came since the last call; valid until the next call that returns one. It is a copy: the camera
-  // may vanish meanwhile.
+  // Renderer's thread only. The newest picture, in the camera's own pixel format, or null if none
+  // came since the last call; valid until the next call that returns one. It is a copy, so the
+  // camera may disconnect meanwhile.
   const hal::ScopeFrame* take_newest();
 
 private:
   struct Picture {
-    hal::ScopeFrame frame; // its pixels are `bytes`
+    hal::ScopeFrame frame; // its pixels point into `bytes`
     std::vector<std::byte> bytes;
   };
 

@@ -1,4 +1,4 @@
-// Everything that can go wrong: with what, how grave it is, and in which words it is told.
+// All faults: the device concerned, the severity and the text shown to users.
 #pragma once
 
 #include <chrono>
@@ -11,8 +11,8 @@
 
 namespace octascope::pipeline {
 
-// What a fault befalls. First the devices, in the order in which a picture needs them; then what is
-// told in the same way.
+// What a fault concerns: first the devices, in the order in which an image needs them, then other
+// parts that are reported in the same way.
 enum class Device : std::uint8_t {
   line_camera,
   galvo_trigger,
@@ -20,7 +20,7 @@ enum class Device : std::uint8_t {
   scope_camera,
   display,
   pipeline, // from frames to volumes
-  picture,  // what the volume shows
+  picture,  // the contents of the volume
   recording,
   vessels,
   keyboard,
@@ -31,12 +31,12 @@ inline constexpr std::size_t device_count = static_cast<std::size_t>(Device::hos
 
 struct DeviceFacts {
   Device device;
-  std::string_view key;        // in reports, journal, metrics and fault scripts: it stays
-  std::string_view name = key; // on the status bar and in `octascope status`: it stays
-  std::string_view away = {};  // the notice while it is away; empty: none
+  std::string_view key;        // in reports, journal, metrics and fault scripts: stable
+  std::string_view name = key; // on the status bar and in `octascope status`: stable
+  std::string_view away = {};  // the notice while it is disconnected; empty: none
 };
 
-// Gravest first: of several, the display tells the one that is named first here.
+// Most severe first: of several faults, the display shows the one listed first.
 enum class Fault : std::uint8_t {
   line_camera_stuck_thread,
   pipeline_stuck_thread,
@@ -70,7 +70,7 @@ enum class Fault : std::uint8_t {
   stuck_switch,
   restarted_after_crash,
 
-  // Left to the report: they concern neither pictures nor hands.
+  // Only in the report: these affect neither the image nor the controls.
   stuck_sequence,
   control_overflow,
   bounce,
@@ -89,7 +89,7 @@ enum class Fault : std::uint8_t {
   settings_broken,
   settings_not_kept,
 
-  device_errors, // the first of the errors of devices, which have no names of their own
+  device_errors, // first of the device errors, which have no names of their own
 };
 
 inline constexpr std::size_t named_fault_count = static_cast<std::size_t>(Fault::device_errors);
@@ -101,7 +101,7 @@ constexpr std::size_t index_of(Fault fault) {
   return static_cast<std::size_t>(fault);
 }
 
-// What a device answered: each of hal's codes is a fault of each device.
+// The fault for an error returned by a device: each device has one for each hal::ErrorCode.
 constexpr Fault fault_of(Device device, hal::ErrorCode code) {
   return static_cast<Fault>(named_fault_count +
                             static_cast<std::size_t>(device) * error_code_count +
@@ -111,14 +111,14 @@ constexpr Fault fault_of(Device device, hal::ErrorCode code) {
 struct FaultFacts {
   Fault fault;
   Device device;
-  std::string_view key;         // "kind" in reports and metrics: it stays
-  std::string_view notice = {}; // what the display says; empty: left to the report
-  hal::Duration shown_for = std::chrono::seconds{2}; // after it last struck
+  std::string_view key;         // "kind" in reports and metrics: stable
+  std::string_view notice = {}; // text on the display; empty: only in the report
+  hal::Duration shown_for = std::chrono::seconds{2}; // after it last occurred
 
   std::string_view device_key() const; // "device" in reports and metrics
 };
 
-// From the tables of all devices and all faults. Every string is a literal.
+// Looked up in the tables of all devices and faults. Every string is a literal.
 const DeviceFacts& facts_of(Device device);
 FaultFacts facts_of(Fault fault);
 

@@ -11,19 +11,19 @@
 
 namespace octascope::pipeline {
 
-// Who may read a file.
 enum class Readers : std::uint8_t {
   as_the_umask_allows,
-  owner, // what shows a patient, whatever the umask
+  owner, // for patient data: only the owner, whatever the umask
 };
 
-// Written under a temporary name in the folder of its destination, and renamed by commit(). One
-// that is destroyed without a commit leaves nothing behind and the old file, if any, as it was.
-// write_at() may be called from several threads at once; the rest from one.
+// Written under a temporary name in the folder of its destination and renamed by commit(). Without
+// a commit(), the destructor removes the temporary file, and the old file, if any, is unchanged.
+// write_at() may be called from several threads at once, the rest from one.
 class AtomicFile {
 public:
-  // ErrorCode::absent: no such folder. ErrorCode::invalid_argument: the destination is a directory,
-  // a device or the like.
+  // If `destination` is a symbolic link, the file it points to is replaced. ErrorCode::absent: no
+  // such folder. ErrorCode::denied: the folder cannot be written. ErrorCode::invalid_argument: the
+  // destination is a directory, a device or the like.
   static hal::Result<AtomicFile> create(const std::filesystem::path& destination,
                                         Readers readers = Readers::as_the_umask_allows);
 
@@ -33,8 +33,8 @@ public:
 
   hal::Result<> write_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
 
-  // To the disk, then under its name, then the name to the disk: a power cut leaves the old file or
-  // the new one.
+  // Flushes the data to disk, renames the file and flushes the folder: after a power cut there is
+  // either the old file or the new one.
   hal::Result<> commit();
 
 private:
@@ -45,11 +45,11 @@ private:
   std::filesystem::path temporary_;
 };
 
-// What was made, renamed or removed under this name survives a power cut. A folder that may be
-// written but not read (a drop box) is left to the system.
+// Flushes the folder of `file`, so that creating, renaming or removing the file survives a power
+// cut. Does nothing for a folder that may be written but not read (a drop box).
 hal::Result<> sync_folder_of(const std::filesystem::path& file);
 
-// All of a small file, as AtomicFile does it.
+// Writes a whole small file through an AtomicFile.
 hal::Result<> write_atomically(const std::filesystem::path& file, std::string_view text);
 
 } // namespace octascope::pipeline

@@ -1,9 +1,9 @@
-// Strict reading of a TOML file: every key is known, every value is in range, or the whole file is
-// refused with file, line, key, what was found and what was expected.
+// Strict reading of a TOML file. An unknown key or a value out of range makes the whole file
+// invalid; the message gives file, line, key, what was found and what was expected.
 //
-// A ConfigTable hands out values and remembers which keys were asked for. The first complaint
-// sticks to the document; values read after it are the defaults, so a reader needs no check after
-// each line, only finish() at the end.
+// A ConfigTable returns values and remembers which keys were read. Complaints are kept in the
+// document and a bad value reads as its default, so a reader need not check after each value, only
+// call finish() at the end.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +27,7 @@ struct NumberRange {
 
 class ConfigTable {
 public:
-  // Each returns `fallback` when the key is not there.
+  // Each returns `fallback` if the key is absent.
   int integer(std::string_view key, int fallback, NumberRange range);
   double number(std::string_view key, double fallback, NumberRange range);
   bool boolean(std::string_view key, bool fallback);
@@ -35,27 +35,27 @@ public:
   // One of `choices`; returns its index.
   std::size_t choice(std::string_view key, std::size_t fallback,
                      std::initializer_list<std::string_view> choices);
-  // Finite numbers; an empty vector when the key is not there.
+  // Finite numbers; empty if the key is absent.
   std::vector<double> numbers(std::string_view key);
-  // Lists of `columns` finite numbers each, [[0, 0], [1, 0.5]]; empty when the key is not there.
+  // Lists of `columns` finite numbers each, [[0, 0], [1, 0.5]]; empty if the key is absent.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns);
-  // A text, or a list of texts; an empty vector when the key is not there.
+  // A string or a list of strings; empty if the key is absent.
   std::vector<std::string> texts(std::string_view key);
-  // The path of a file that is read, relative to the document's folder: one of named_files().
+  // The path of an input file, resolved against the document's folder; added to named_files().
   std::optional<std::filesystem::path> path(std::string_view key);
-  // The path of one that is written: none of them.
+  // The path of an output file; not added to named_files().
   std::optional<std::filesystem::path> output_path(std::string_view key);
 
   bool has(std::string_view key) const;
-  // Is it there, and a whole number? For keys that take numbers as well as names.
+  // Present, and an integer? For keys that accept numbers as well as names.
   bool has_integer(std::string_view key) const;
   bool has_text(std::string_view key) const; // likewise
-  // An empty table when it is not there.
+  // An empty table if the key is absent.
   ConfigTable table(std::string_view key);
-  // Entries of an array of tables ([[key]]), empty when it is not there.
+  // Entries of an array of tables ([[key]]); empty if the key is absent.
   std::vector<ConfigTable> tables(std::string_view key);
 
-  // Complains about this table: "<file>:<line>: [<table>] <message>".
+  // Adds a complaint about this table: "<file>:<line>: [<table>] <message>".
   void complain(std::string_view message);
   template <class First, class... Rest>
   void complain(fmt::format_string<First, Rest...> pattern, First&& first, Rest&&... rest) {
@@ -72,8 +72,8 @@ private:
 // A file that a document names.
 struct NamedFile {
   std::filesystem::path file; // as ConfigTable::path() gave it
-  unsigned line = 0;          // where its name stands in the text: code points, from 1
-  unsigned column = 0;
+  unsigned line = 0;          // position of its name in the text, from 1
+  unsigned column = 0;        // in code points, from 1
 };
 
 class ConfigDocument {
@@ -84,19 +84,20 @@ public:
 
   ConfigTable root() const { return root_; }
 
-  // The first complaint, or the first key that nobody asked for; call it when all was read.
+  // Returns the first complaint, if any, as an Error. Call it after everything was read: keys that
+  // were never read are complaints too.
   hal::Result<> finish() const;
 
-  // All of them, after finish(): for people who fix a file. What comes late may follow from what
-  // came first.
+  // All complaints, once finish() was called: for people who fix a file. Later ones may be
+  // consequences of earlier ones.
   std::vector<std::string> complaints() const;
 
-  // What was asked for with path() and is there, in the order of asking.
+  // The files read with path() whose keys are present, in the order of reading.
   std::vector<NamedFile> named_files() const;
 
-  // The text with other names for those files: `names` has one for each of named_files(). For
-  // copies that keep a document and its files together. ErrorCode::bad_data: a name could not be
-  // found in the text.
+  // The text with those files renamed: `names` has one name for each of named_files(). For copies
+  // that keep a document and its files together. ErrorCode::bad_data: a file's name in the text is
+  // not a simple quoted string.
   hal::Result<std::string> text_naming(std::span<const std::string> names) const;
 
 private:

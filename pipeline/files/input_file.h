@@ -1,7 +1,7 @@
 // A regular file that is read from front to back, read whole, or mapped.
 //
-// A file on a medium that is pulled out in the middle gives an error where it is read, and ends the
-// program where it is mapped.
+// If the medium is removed meanwhile, reading returns an error, but accessing a mapped file ends
+// the program.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@
 
 namespace octascope::pipeline {
 
-// A mapped file's bytes, for as long as this lives.
+// The bytes of a mapped file, valid as long as this object.
 class MappedFile {
 public:
   explicit MappedFile(std::span<const std::byte> bytes)
@@ -34,8 +34,9 @@ private:
 
 class InputFile {
 public:
-  // `expected` completes "found …, expected …". ErrorCode::absent: no such file; invalid_argument:
-  // a directory, a pipe or the like; bad_data: it has more than `most_bytes`.
+  // `expected` completes messages like "found …, expected …". ErrorCode::absent: no such file;
+  // denied: no permission; invalid_argument: a directory, a pipe or the like; bad_data: more than
+  // `most_bytes`.
   static hal::Result<InputFile> open(const std::filesystem::path& file, std::string_view expected,
                                      std::uint64_t most_bytes);
 
@@ -43,15 +44,15 @@ public:
   InputFile& operator=(InputFile&&) = delete;
   ~InputFile();
 
-  std::uint64_t bytes() const { return bytes_; } // when it was opened
+  std::uint64_t bytes() const { return bytes_; } // size when it was opened
 
-  // Fills as much of `buffer` as there is; less only at the end of the file.
+  // Fills `buffer` and returns the bytes read, fewer than its size only at the end of the file.
   hal::Result<std::size_t> read(std::span<char> buffer) const;
 
-  // All of it, which must not be nothing.
+  // Maps the whole file, which must not be empty.
   hal::Result<MappedFile> map() const;
 
-  // What is left, up to `most` bytes.
+  // Reads the remainder, up to `most` bytes.
   hal::Result<std::string> read_rest(std::uint64_t most) const;
 
 private:

@@ -1,6 +1,6 @@
 // Volumes as NRRD files: attached header, raw little-endian data, sizes depth A B, spacings in mm.
 //
-// Format: NRRD0005 of the Teem library, so that its `unu` and other people's viewers open it.
+// Format: NRRD0005 of the Teem library, so that its `unu` and other viewers can open them.
 #pragma once
 
 #include <cstddef>
@@ -19,19 +19,18 @@
 namespace octascope::pipeline {
 
 enum class NrrdType : std::uint8_t {
-  uint8,   // display counts; level_scale.h, and the header, say what they mean in dB
+  uint8,   // display counts; level_scale.h and the file's header give their meaning in dB
   float32, // decibels
 };
 
-// What else a header says: keys and their values, as `key:=value` lines. Other programs show them.
+// Additional header lines `key:=value`, as pairs of key and value. Other programs display them.
 using NrrdNotes = std::vector<std::pair<std::string, std::string>>;
 
-// Writes a volume B-scan by B-scan, in any order and from any thread; the file appears complete or
+// Writes a volume B-scan by B-scan, in any order and from any thread. The file appears complete or
 // not at all.
 class NrrdWriter {
 public:
-  // ErrorCode::invalid_argument: an empty volume; a note that is longer than a line of a header may
-  // be.
+  // ErrorCode::invalid_argument: an empty volume, or a note longer than longest_nrrd_line.
   static hal::Result<NrrdWriter> create(const std::filesystem::path& file,
                                         const VolumeGeometry& geometry, NrrdType type,
                                         const NrrdNotes& notes = {},
@@ -41,7 +40,7 @@ public:
   hal::Result<> write_b_scan(int b, std::span<const float> levels) const;
   hal::Result<> write_b_scan(int b, std::span<const std::uint8_t> levels) const;
 
-  // When every B-scan was written.
+  // Call once every B-scan has been written.
   hal::Result<> commit() { return file_.commit(); }
 
 private:
@@ -55,20 +54,20 @@ private:
   std::size_t header_bytes_;
 };
 
-// Of a header, without its end; a reader takes no longer one for a header's.
+// The longest header line in bytes, without its line end; the reader refuses longer ones.
 inline constexpr std::size_t longest_nrrd_line = 4096;
 
 struct NrrdVolume {
   VolumeGeometry geometry;
-  // Of the file's type, [b][a][z], depth fastest.
+  // In the file's type, [b][a][z], depth fastest.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> levels;
 };
 
 hal::Result<> write_nrrd(const std::filesystem::path& file, const NrrdVolume& volume);
 
-// Reads what NrrdWriter writes, and files of others with the same three axes: attached header, type
-// uint8 or float, raw, little-endian, spacings or none (1 mm). Anything else is refused with what
-// was found and expected.
+// Reads files from NrrdWriter, and files from other programs with the same three axes: attached
+// header, type uint8 or float, raw, little-endian, spacings optional (default 1 mm). Refuses
+// anything else, with what was found and what was expected.
 hal::Result<NrrdVolume> read_nrrd(const std::filesystem::path& file);
 
 } // namespace octascope::pipeline

@@ -1,4 +1,4 @@
-// Curves as people write them: one number, or a few, a line.
+// Curves as text files with one or several numbers per line, and as raw floats.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,19 @@
 
 namespace octascope::pipeline {
 
-// Reads exactly `expected` finite numbers. Blank lines, comments (# to the end of the line), LF and
-// CRLF line ends and a byte-order mark are fine; anything else is refused with file, line, found
-// and expected. Independent of the locale: the decimal sign is a point.
+// Reads exactly `expected` finite numbers, one per line. Blank lines, comments (# to the end of the
+// line), LF and CRLF line ends and a byte-order mark are accepted; anything else is refused with
+// file, line, found and expected. Whatever the locale, the decimal separator is a point.
 hal::Result<std::vector<double>> read_text_curve(const std::filesystem::path& file,
                                                  std::size_t expected);
 
-// The same for as many numbers as there are, up to `most`.
+// The same for all numbers in the file, up to `most`.
 hal::Result<std::vector<double>> read_text_numbers(const std::filesystem::path& file,
                                                    std::size_t most);
 
-// The same for lines of several numbers with commas, semicolons, blanks or tabs between them: up to
-// `most` lines, all with the same count of numbers, which is one of `counts`. `line` is where in
-// the file each stands, from 1.
+// The same for lines of several numbers separated by commas, semicolons, blanks or tabs: up to
+// `most` lines, all with the same count of numbers, which must be one of `counts`. `line` counts
+// from 1 in the file.
 struct TextRow {
   std::size_t line = 0;
   std::vector<double> numbers;

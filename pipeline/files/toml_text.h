@@ -1,4 +1,4 @@
-// Values as they stand in a TOML file.
+// Formats values as TOML.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace octascope::pipeline {
 
-// A basic string: quotes, backslashes and control characters are escaped.
+// A quoted basic string; quotes, backslashes and control characters are escaped.
 std::string toml_text(std::string_view text);
 
-// With all the digits that a double has, so that reading gives the same number.
+// With enough digits that reading gives the same doubles.
 std::string toml_numbers(const std::vector<double>& values);
 
 } // namespace octascope::pipeline
