@@ -37,12 +37,11 @@ private:
 //
 // It depends on the order of the B-scans, but workers finish them in any order. So the one thread
 // that distributes B-scans calls add() for each of them, in order, and passes the current mean on
-// with the B-scan. No lock and no waiting is needed, the
-// result is the same for any number of workers, the first B-scan has a background already, and no
-// work is done twice, as the workers need not sum the lines any more. Keeping a mean for each
-// worker (which B-scans it sees is chance), a mean for each B-scan position (it would take still
-// tissue for background) or publishing one a volume (nothing for the first volumes, and volumes
-// overlap) do not have all of that.
+// with the B-scan. This needs no lock and no waiting, gives the same result for any number of
+// workers and a background for the first B-scan, and sums the lines only once. The alternatives
+// lack some of that: a mean for each worker (it sees B-scans by chance), for each B-scan position
+// (it takes still tissue for background), or one a volume (none for the first, and volumes
+// overlap).
 //
 // Not thread-safe; add() allocates nothing.
 class RunningBackground {
@@ -67,8 +66,8 @@ private:
 
 // The running background of every frame being processed, indexed by its camera buffer.
 // The thread that hands frames out calls take() for each of them, in order and before it hands the
-// frame out; whoever got the frame calls of() until the frame is given back to the camera. Handing
-// over and giving back order the two; nothing allocates or locks.
+// frame out; the worker with the frame calls of() until the frame returns to the camera. The
+// hand-over and the return order the two; nothing allocates or locks.
 class FrameBackgrounds {
 public:
   FrameBackgrounds(RunningBackground running, int samples, int camera_buffers);

@@ -33,10 +33,10 @@ struct PathDecision {
   std::optional<PathTimes> times; // of `measured` and `remembered`
 };
 
-// Where measured times are kept from one start to the next. The pipeline knows no folders: whoever
-// makes a Reconstructor may lend it one. `line_case` names what the times depend on but the
+// Keeps measured times from one start to the next. The pipeline knows no folders, so the caller who
+// makes a Reconstructor may lend it one. `line_case` names what the times depend on besides the
 // machine: samples, type, interpolation, dispersion and instruction set. Neither function may fail:
-// what cannot be kept is measured again.
+// times that cannot be kept are measured again.
 class PathMemory {
 public:
   virtual ~PathMemory() = default;
@@ -44,8 +44,8 @@ public:
   virtual void remember(std::string_view line_case, const PathTimes& times) = 0;
 };
 
-// The least of several alternating runs of both, each of which works off `lines` lines: what runs
-// beside them disturbs both alike.
+// The least time of several alternating runs of both paths, each over `lines` lines: other load
+// then disturbs both alike.
 PathTimes benchmark_paths(const std::function<void()>& fused, const std::function<void()>& fftw,
                           int lines);
 

@@ -4,7 +4,7 @@
 //   shift, s − background[p]; x[m] = s(r[m]) (k-linearisation by taps);
 //   y[m] = x[m]·w[m]·exp(iθ[m])/N (one complex factor a sample; real without dispersion);
 //   Y = FFT(y), bins 0 … N/2−1 (with zero-padding: of 2N samples, bins 0 … N−1);
-//   on request, what is fixed in all A-scans is taken off Y (fixed_pattern.h);
+//   on request, the pattern fixed in all A-scans is subtracted from Y (fixed_pattern.h);
 //   level = 10·log10(|Y|²) dB, which is 20·log10(|FFT|/N).
 // Single precision. Two paths with one meaning: FFTW's (fftw_path.h), for everything; and the fused
 // one (fused_path.h), a line in one pass, for integer counts and N = 256, 512 … 8192.
@@ -32,8 +32,8 @@ struct ReconstructionSetup {
   ReconstructionPath path = ReconstructionPath::automatic;
   // Of the fused path, to compare: AVX3, AVX2, SSE4 or NEON; empty: the widest there is.
   std::string fused_isa = {};
-  // Borrowed while the Reconstructor is made: what `automatic` measures is kept there and not
-  // measured again. nullptr: it is measured each time, for some milliseconds.
+  // Borrowed while the Reconstructor is made: keeps the times that `automatic` measures. nullptr:
+  // they are measured each time, for some milliseconds.
   PathMemory* memory = nullptr;
 };
 
@@ -82,15 +82,14 @@ public:
   const PathDecision& path_decision() const;
 
   Workspace make_workspace() const;
-  // With BackgroundMode::running, what hands out the background of each B-scan in order; nothing
-  // else.
+  // BackgroundMode::running only: hands out the background of each B-scan, in order.
   std::optional<RunningBackground> make_running_background() const;
 
   // `frame` begins with the a_scans() kept lines, aligned for its sample type; fly-back lines behind
   // them are not read. `levels` has levels() values [a][z], depth fastest.
-  // `running`: with BackgroundMode::running, what RunningBackground::add() gave for this B-scan; of
-  // no meaning otherwise. Without it the workspace averages the B-scans that it sees itself, which
-  // is right where one worker sees all of them in order. Neither allocates, locks nor logs.
+  // `running`: with BackgroundMode::running, the result of RunningBackground::add() for this B-scan;
+  // ignored otherwise. Without it the workspace averages the B-scans that it sees, which is right
+  // if one worker sees all of them in order. Neither allocates, locks nor logs.
   BScanOutcome reconstruct_b_scan(Workspace& workspace, std::span<const std::byte> frame,
                                   std::span<std::uint8_t> levels,
                                   std::span<const float> running = {}) const noexcept;

@@ -1,4 +1,4 @@
-// Keeps the volumes of a run in a recording, beside the display.
+// Records the volumes of a run in the background.
 #pragma once
 
 #include <atomic>
@@ -20,20 +20,20 @@
 namespace octascope::pipeline {
 
 struct RecorderStatus {
-  bool on = false;            // volumes are taken
-  hal::TimePoint since;       // while it is on
+  bool on = false;            // volumes are being taken
+  hal::TimePoint since;       // valid while `on`
   std::uint64_t kept = 0;     // volumes of this recording, or of the last
-  std::uint64_t not_kept = 0; // came while all places were taken: the disk was too slow
+  std::uint64_t not_kept = 0; // no place was free: the disk was too slow
 };
 
 // The fixed-rate thread offers each volume and never waits: the volume is copied to a free place,
-// or counted as not kept. A thread of its own writes what is in the places. The disk is left some
-// room: a recording ends before the disk is full, and so when writing fails; both are faults of the
-// device "recording". What is in the file by then stays.
+// or counted as not kept. A writing thread empties the places. A recording ends before the disk is
+// full, or when writing fails; both are faults of the device "recording". The volumes written by
+// then stay in the file.
 class Recorder {
 public:
-  // `places`: how many volumes the disk may be behind. The thread takes the memory for all of them
-  // when it starts, as no picture should wait for that.
+  // `places`: how many volumes may wait for the disk. The thread allocates all of them when it
+  // starts, so that no picture waits for it.
   Recorder(const VolumeGeometry& geometry, std::size_t places, hal::Clock& clock, FaultLog& faults,
            Wakeup& news);
   ~Recorder();
@@ -42,12 +42,12 @@ public:
   // Finishes the recording, if there is one, and ends the thread.
   void stop();
 
-  // One thread, the render thread. Returns at once; what fails is told as a fault. False: the last
-  // one is still being finished.
+  // Render thread only. Returns at once; failures become faults. False: the last recording is still
+  // being finished.
   bool begin(std::filesystem::path file, RecordingFacts facts);
   void end();
 
-  // The fixed-rate thread: takes a copy where a recording is on.
+  // Fixed-rate thread: copies the volume if a recording is on.
   void offer(const Volume& volume);
 
   // Any thread.

@@ -1,9 +1,9 @@
-// Appends volumes to a recording, as they come.
+// Appends volumes to a recording.
 //
-// What was appended and flushed outlives the program and, as far as the disk keeps its word, a
-// power cut: the file is one that HDF5 writes for readers who look on (single writer, multiple
-// readers), and so is consistent at every moment. It carries its name from the start; `finished` in
-// it tells whether it was closed properly.
+// Volumes that were appended and flushed survive a crash of the program and, if the disk keeps what
+// it acknowledges, a power cut: the file is written with HDF5's single-writer-multiple-readers mode
+// and is consistent at every moment. It has its final name from the start; its attribute `finished`
+// says whether it was closed properly.
 #pragma once
 
 #include <filesystem>
@@ -14,17 +14,16 @@
 
 namespace octascope::pipeline {
 
-// Bound to one thread at a time. Nothing of a recording is held in memory: a volume goes to the
-// operating system when it is appended.
+// One thread at a time. No volume is held in memory: each is written when it is appended.
 class RecordingWriter {
 public:
-  // Makes the file, readable by its owner alone: it shows a patient. ErrorCode::invalid_argument:
-  // there is one of that name already.
+  // Makes the file, readable by its owner only: it shows a patient. ErrorCode::invalid_argument: the
+  // file exists already.
   static hal::Result<RecordingWriter> create(const std::filesystem::path& file,
                                              const RecordingFacts& facts);
   RecordingWriter(RecordingWriter&&) noexcept;
   RecordingWriter& operator=(RecordingWriter&&) noexcept;
-  // Closes without finish(): what was appended can be read, marked as not finished.
+  // Without finish() the appended volumes can be read, and the file is marked as not finished.
   ~RecordingWriter();
 
   // Of the facts' geometry. After an Error nothing more can be appended.

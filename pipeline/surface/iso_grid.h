@@ -1,7 +1,7 @@
-// A volume made coarser and calmer, so that surfaces can be taken from it.
+// A coarser, smoothed volume from which surfaces can be extracted.
 //
-// Speckle makes every voxel of an OCT volume a lottery: its level scatters by some 5 dB, so that a
-// surface of equal level through the voxels themselves is confetti. It is also three to ten times
+// Speckle scatters the level of every voxel of an OCT volume by some 5 dB, so that a surface of
+// equal level through the voxels themselves falls to pieces. It is also three to ten times
 // finer along depth than along the slow axis. So voxels are averaged until cells are about as long
 // along all axes, then smoothed over about the same length along all of them.
 #pragma once
@@ -41,8 +41,8 @@ struct IsoGrid {
 // more than four million samples.
 std::array<int, 3> iso_factors(const VolumeGeometry& geometry, int first_depth);
 
-// Averages `volume` from depth bin `first_depth` on: what lies before is no tissue. What is left
-// over at the far ends is left out. A sample of which a B-scan is missing is not present.
+// Averages `volume` from depth bin `first_depth` on: the bins before it hold no tissue. Voxels
+// that do not fill a sample at the far ends are dropped. A sample with a missing B-scan is absent.
 // About two milliseconds for a live volume. Allocates when the geometry changes.
 class IsoGridMaker {
 public:
@@ -57,7 +57,7 @@ private:
 // spread nor fill up. Allocates when the size changes.
 class IsoSmoother {
 public:
-  // False when `abandoned` said so; the grid is of no use then.
+  // False if `abandoned` returned true; the grid is then unusable.
   template <typename Abandoned> bool smooth(IsoGrid& grid, const Abandoned& abandoned) {
     const std::array<int, 3> passes = passes_for(grid);
     for (int axis = 0; axis < 3; ++axis)

@@ -39,8 +39,8 @@ class IsoExtractor {
 public:
   // The surface between what is below `level` (a count, 0 to 255) and what is not. Open at the
   // volume's border and where B-scans are missing, closed everywhere else. `occupancy` is the
-  // grid's. Asks abandoned() before each slab between two slow samples; false when it said so, and
-  // the mesh is unfinished then.
+  // grid's. Calls abandoned() before each slab between two slow samples; if it returns true, returns
+  // false with the mesh unfinished.
   template <typename Abandoned>
   bool extract(const IsoGrid& grid, const Occupancy& occupancy, float level, IsoMesh& mesh,
                const Abandoned& abandoned) {
@@ -71,8 +71,8 @@ private:
   std::vector<std::uint32_t> along_b_;
 };
 
-// Leaves out what hangs together over less than `least_area_mm2`: speckle that smoothing left.
-// Keeps the order of what stays. Allocates as the mesh grows.
+// Removes connected pieces smaller than `least_area_mm2`: speckle that smoothing left. Keeps the
+// order of the others. Allocates as the mesh grows.
 class IsoCleaner {
 public:
   void drop_small_pieces(float least_area_mm2, IsoMesh& mesh);

@@ -1,4 +1,4 @@
-// That a thread still makes its steps, told by the thread itself and read by whoever watches it.
+// Proof that a thread is alive: it writes the time of each step, and a watcher reads it.
 #pragma once
 
 #include <atomic>
@@ -9,17 +9,17 @@
 
 namespace octascope::pipeline {
 
-// Written by one thread, read by any; one relaxed store a step, so a hot path may beat.
+// Written by one thread, read by any. A beat is one relaxed store, allowed in hot paths.
 class Heartbeat {
 public:
-  // A step was made, the next one is due.
+  // Call after each step while another one is due.
   void beat(hal::TimePoint now) {
     last_ns_.store(now.time_since_epoch().count(), std::memory_order_relaxed);
   }
-  // Nothing is due: the thread waits for work, for as long as it takes, or has ended.
+  // Call before waiting for work without a limit, and at the thread's end.
   void rest() { last_ns_.store(resting, std::memory_order_relaxed); }
 
-  // Of the last step; empty while nothing is due.
+  // The time of the last step; empty while the thread rests.
   std::optional<hal::TimePoint> last() const {
     const std::int64_t ns = last_ns_.load(std::memory_order_relaxed);
     return ns == resting ? std::nullopt : std::optional{hal::TimePoint{hal::Duration{ns}}};

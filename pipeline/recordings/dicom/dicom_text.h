@@ -9,12 +9,12 @@
 
 namespace octascope::pipeline {
 
-// Long String (LO): at most 64 characters of UTF-8, no backslash, which parts values, and no
-// control characters.
+// Long String (LO): at most 64 characters of UTF-8, no backslash (it separates values), no control
+// characters.
 bool is_long_string(std::string_view text);
 
-// For what nobody is identified by: blanks and slashes for what LO cannot hold, cut to 64
-// characters. What is no UTF-8 becomes question marks.
+// Makes a text fit LO, for values that identify nobody: characters that LO cannot hold become blanks
+// and slashes, broken UTF-8 becomes question marks, and the text is cut to 64 characters.
 std::string to_long_string(std::string_view text);
 
 // Decimal String (DS): at most 16 bytes, here nine digits.

@@ -35,7 +35,7 @@ hal::Result<ReplaySource> replay_source(RecordingReader reader);
 
 struct ReplaySetup {
   double rate = 1;                             // as ReplaySchedule takes it
-  bool once = false;                           // ends after the last volume; else begins anew
+  bool once = false;                           // ends after the last volume; otherwise it repeats
   std::optional<std::uint64_t> most_volumes{}; // ends after so many
 };
 
@@ -45,25 +45,25 @@ enum class ReplayEnd : std::uint8_t {
   unreadable, // no volume could be read any more: the fault log says why
 };
 
-// A published volume has the times of a live one: its own history, moved by one offset so that it
-// was ready when it was published here; its index stays, and `recorded_ns` says what it is.
-// B-scans that were missing are missing, and blank. Volumes that were lost count as lost, in their
-// place; so does one that cannot be read, which is a fault ("recording", "unreadable_volume"), and
-// the replay goes on with the next. When none of a whole pass could be read it ends.
+// A published volume has the recorded times, all shifted so that it was ready when it is published
+// here; its index stays, and `recorded_ns` marks it as recorded. Missing B-scans stay missing and
+// blank. Volumes lost in the recording count as lost at their place. A volume that cannot be read
+// counts as lost, too, and is a fault ("recording", "unreadable_volume"); the replay continues with
+// the next one, and ends if no volume of a whole pass can be read.
 //
-// Holds three volumes, however long the recording is, and allocates nothing after it was made but
-// for faults.
+// Holds three volumes, however long the recording is; allocates nothing once made, except for
+// faults.
 class ReplayPlayer final : public VolumeFeed {
 public:
   // `faults` and `news`, which is posted after each published volume, outlive it.
   ReplayPlayer(ReplaySource source, const ReplaySetup& setup, FaultLog& faults, Wakeup& news);
 
-  // One thread: does what is due; returns when it wants to be called again, at the latest.
+  // One thread: does what is due and returns when it must be called again at the latest.
   hal::TimePoint step(hal::TimePoint now);
 
   // Any thread; all take effect at the next step.
-  void seek(std::size_t n); // the next one is this, counted from 0, and then those after it
-  void hold(bool held);     // meanwhile nothing is published, and the replay's time stands still
+  void seek(std::size_t n); // continues from volume n, counted from 0
+  void hold(bool held);     // while held, nothing is published and the replay's time stops
 
   // Any thread.
   ReplayEnd end() const { return end_.load(std::memory_order_acquire); }
