@@ -85,11 +85,11 @@ public:
   // BackgroundMode::running only: hands out the background of each B-scan, in order.
   std::optional<RunningBackground> make_running_background() const;
 
-  // `frame` begins with the a_scans() kept lines, aligned for its sample type; fly-back lines behind
-  // them are not read. `levels` has levels() values [a][z], depth fastest.
-  // `running`: with BackgroundMode::running, the result of RunningBackground::add() for this B-scan;
-  // ignored otherwise. Without it the workspace averages the B-scans that it sees, which is right
-  // if one worker sees all of them in order. Neither allocates, locks nor logs.
+  // `frame` begins with the a_scans() kept lines, aligned for its sample type; the fly-back lines
+  // after them are not read. `levels` has levels() values [a][z], depth fastest.
+  // `running`: with BackgroundMode::running, the result of RunningBackground::add() for this
+  // B-scan; ignored otherwise. Without it the workspace averages the B-scans that it sees, which is
+  // right if one worker sees all of them in order. Neither allocates, locks nor logs.
   BScanOutcome reconstruct_b_scan(Workspace& workspace, std::span<const std::byte> frame,
                                   std::span<std::uint8_t> levels,
                                   std::span<const float> running = {}) const noexcept;

@@ -17,8 +17,8 @@ namespace octascope::pipeline {
 // One thread at a time. No volume is held in memory: each is written when it is appended.
 class RecordingWriter {
 public:
-  // Makes the file, readable by its owner only: it shows a patient. ErrorCode::invalid_argument: the
-  // file exists already.
+  // Makes the file, readable by its owner only: it shows a patient. ErrorCode::invalid_argument:
+  // the file exists already.
   static hal::Result<RecordingWriter> create(const std::filesystem::path& file,
                                              const RecordingFacts& facts);
   RecordingWriter(RecordingWriter&&) noexcept;

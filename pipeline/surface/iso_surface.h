@@ -1,7 +1,7 @@
 // Surfaces of equal level, as triangles.
 //
-// Source: marching cubes (pipeline/surface/cube_triangles.h). Corners lie on the grid's edges, where the
-// level between two samples is the surface's; each is made once and shared. Normals are the
+// Source: marching cubes (pipeline/surface/cube_triangles.h). Corners lie on the grid's edges,
+// where the interpolated level is the surface's; each is made once and shared. Normals are the
 // gradient of the level there.
 #pragma once
 
@@ -39,8 +39,8 @@ class IsoExtractor {
 public:
   // The surface between what is below `level` (a count, 0 to 255) and what is not. Open at the
   // volume's border and where B-scans are missing, closed everywhere else. `occupancy` is the
-  // grid's. Calls abandoned() before each slab between two slow samples; if it returns true, returns
-  // false with the mesh unfinished.
+  // grid's. Calls abandoned() before each slab between two slow samples; if it returns true,
+  // returns false with the mesh unfinished.
   template <typename Abandoned>
   bool extract(const IsoGrid& grid, const Occupancy& occupancy, float level, IsoMesh& mesh,
                const Abandoned& abandoned) {

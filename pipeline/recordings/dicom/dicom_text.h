@@ -13,8 +13,8 @@ namespace octascope::pipeline {
 // characters.
 bool is_long_string(std::string_view text);
 
-// Makes a text fit LO, for values that identify nobody: characters that LO cannot hold become blanks
-// and slashes, broken UTF-8 becomes question marks, and the text is cut to 64 characters.
+// Makes a text fit LO, for values that identify nobody: characters that LO cannot hold become
+// blanks and slashes, broken UTF-8 becomes question marks; cut to 64 characters.
 std::string to_long_string(std::string_view text);
 
 // Decimal String (DS): at most 16 bytes, here nine digits.
