@@ -9,11 +9,11 @@
 
 namespace octascope::pipeline {
 
-// Radii below are kept as this: the format's radii are powers.
+// Smaller radii are stored as this one: the format's radii are powers.
 inline constexpr float thinnest_vessel_mm = 1e-6F;
 
-// How far the packed nodes are from the tree's, at most: measured on every node, not estimated.
-// Copies that are there for a direction alone are left out.
+// The greatest distance of packed nodes from the tree's, measured on every node. Copies that only
+// give a direction are not counted.
 struct ClusterError {
   float position_um = 0;
   float relative_radius = 0; // of radii from thinnest_vessel_mm up

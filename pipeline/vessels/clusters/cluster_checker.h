@@ -1,4 +1,4 @@
-// Is what stands in a file of clusters safe to follow?
+// Checks that the content of a file of clusters is safe to follow.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ hal::Result<> check_clusters(const ClusterFileHeader& header, const VesselCluste
 std::uint64_t checksum(std::span<const std::byte> bytes);
 std::uint64_t header_checksum(ClusterFileHeader header);
 
-// Where the parts lie.
+// The offsets of the parts.
 struct ClusterFileParts {
   std::uint64_t clusters_at;
   std::uint64_t nodes_at;
@@ -33,7 +33,7 @@ struct ClusterFileParts {
 };
 ClusterFileParts parts_of(const ClusterFileHeader& header);
 
-// "<name>: at byte <offset>: <found>; …": a file that is damaged.
+// The error of a damaged file: "<name>: at byte <offset>: <found>; …".
 tl::unexpected<hal::Error> damaged(std::string_view name, std::uint64_t offset,
                                    std::string_view found_and_expected);
 

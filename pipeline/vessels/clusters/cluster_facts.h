@@ -1,4 +1,4 @@
-// What is worth knowing about a tree that was packed into clusters.
+// Facts about a tree that was packed into clusters.
 #pragma once
 
 #include <array>

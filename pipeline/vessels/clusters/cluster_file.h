@@ -13,22 +13,21 @@
 
 namespace octascope::pipeline {
 
-// What a file's bytes say; `clusters` borrows from them.
+// The content of a file's bytes; `clusters` borrows from them.
 struct ClusterFileContent {
   VesselClusters clusters;
   VesselFacts facts;
 };
 
 // Checks all of it: magic, version, byte order, sizes, checksums, and every index that a reader
-// will follow. What it returns can be drawn and unpacked without a further check, whoever wrote the
+// will follow. The result can be drawn and unpacked without further checks, whoever wrote the
 // file. ErrorCode::bad_data, with `name`, the offset, what was found and what was expected.
 // `bytes` must be aligned to 8 bytes.
 hal::Result<ClusterFileContent> read_cluster_bytes(std::span<const std::byte> bytes,
                                                    std::string_view name);
 
-// An open file. Reading from it is safe from any thread. As for any mapped file, who overwrites it
-// in place while it is open, instead of replacing it (as write_cluster_file() does), changes it
-// under its readers.
+// An open, mapped file; any thread may read from it. Replacing the file on disk (as
+// write_cluster_file() does) is safe; overwriting it in place changes it under its readers.
 class ClusterFile {
 public:
   // Faults: absent, denied, invalid_argument for what is no regular file, and those of

@@ -17,7 +17,7 @@
 
 namespace octascope::pipeline {
 
-// Like PNG's: a byte that is no text, then line ends that a transfer as text would change.
+// Like PNG's: a byte that is not text, then line ends that a transfer in text mode would change.
 inline constexpr std::array<std::uint8_t, 8> cluster_file_magic{0x89, 'V',  'S',  'L',
                                                                 '\r', '\n', 0x1A, '\n'};
 inline constexpr std::uint32_t cluster_file_version = 1;

@@ -1,4 +1,4 @@
-// A handful of segments that hang together, and the box around them.
+// A connected group of segments, and the box around them.
 #pragma once
 
 #include <algorithm>
@@ -37,8 +37,7 @@ struct TreeBox {
   }
 };
 
-// How far apart codes are says how far apart places are: the bits of the three axes in turn
-// (Morton 1966).
+// Nearby places have nearby codes: the bits of the three axes interleaved (Morton 1966).
 inline std::uint64_t morton_code(const TreeBox& within, const std::array<float, 3>& place) {
   constexpr std::uint32_t most = (1U << 16) - 1;
   std::uint64_t code = 0;
@@ -61,7 +60,7 @@ struct TreePiece {
   float thinnest_mm = std::numeric_limits<float>::max();
   float shortest_mm = std::numeric_limits<float>::max();
   std::uint32_t segments = 0;
-  std::uint32_t parent = no_parent; // the node at which it hangs
+  std::uint32_t parent = no_parent; // the node it is attached to
   std::uint32_t kind = 0;           // pieces of unequal kinds do not share a cluster
 
   void join(const TreePiece& other) {
@@ -71,8 +70,8 @@ struct TreePiece {
     segments += other.segments;
   }
 
-  // Are the steps of such a box small enough? An error of a tenth of the thinnest vessel's radius
-  // does not show; nor does one that is small beside the shortest segment.
+  // Whether the steps of such a box are small enough: errors up to a tenth of the thinnest vessel's
+  // radius, or small beside the shortest segment, are invisible.
   bool fine_enough() const {
     // √3 / 2 steps are the most that rounding does; references for directions may lengthen a side
     // by a half.

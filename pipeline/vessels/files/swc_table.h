@@ -1,4 +1,4 @@
-// The rows of an SWC file as they come, and what they are as a tree.
+// Collects the rows of an SWC file and makes a tree of them.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace octascope::pipeline {
 
-// What is wrong with a row that is right by itself.
+// What is wrong with a row that is valid by itself.
 struct SwcTreeFault {
   std::size_t row = 0; // among the nodes, from 0
   int field = 0;       // of the row

@@ -1,4 +1,4 @@
-// A vessel tree from a file of any kind that is known, told apart by its content and not its name.
+// A vessel tree from a file of any known kind, recognised by its content, not its name.
 #pragma once
 
 #include <cstdint>

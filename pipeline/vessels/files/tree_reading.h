@@ -1,5 +1,4 @@
-// What readers of vessel trees have in common: the caller's choices, and what is done to every
-// tree.
+// Shared by the readers of vessel trees: the caller's choices, and what is done to every tree.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace octascope::pipeline {
 
-// Places and radii beyond are no lengths of vessels; their squares stay within a float.
+// Larger places and radii are refused; squares of smaller ones fit into a float.
 inline constexpr float largest_vessel_length_mm = 1e9F;
 
 enum class LengthUnit : std::uint8_t { um, mm };
@@ -41,8 +40,8 @@ struct TreeReadOptions {
   TreeLimits limits;
   // Called on the reader's thread with how much of the file is read, 0 to 1; may be empty.
   std::function<void(double)> progress;
-  // Once it is requested, whoever wanted the tree is gone, and reading ends soon with
-  // ErrorCode::disconnected; of VTP files between two pieces.
+  // When it is requested, reading ends soon with ErrorCode::disconnected; for VTP files between two
+  // pieces.
   std::stop_token stop;
 };
 
@@ -53,7 +52,7 @@ template <class Counts> struct ReadTree {
   LengthUnit unit = LengthUnit::mm; // of the file
 };
 
-// That reading was broken off. `name` is the file's.
+// The error of a reading that was stopped. `name` is the file's.
 tl::unexpected<hal::Error> reading_stopped(const std::filesystem::path& name);
 
 // Does what `policy` says about radii of 0; parents come before their children. How many there
