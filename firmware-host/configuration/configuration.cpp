@@ -71,24 +71,24 @@ void read_pipeline(ConfigTable table, Configuration& configuration) {
 
 enum class OtherWords { refused, allowed }; // allowed: a node's name, an id
 
-std::string read_wish(ConfigTable& table, const char* key, std::string_view fallback,
-                      std::initializer_list<std::string_view> known, OtherWords others) {
-  std::string wish = table.text(key, std::string{fallback});
-  const bool is_known = std::ranges::find(known, wish) != known.end();
-  if (!is_known && (others == OtherWords::refused || wish.empty()))
-    table.complain("{} is \"{}\", expected one of: {}", key, wish, fmt::join(known, ", "));
-  return wish;
+std::string read_device(ConfigTable& table, const char* key, std::string_view fallback,
+                        std::initializer_list<std::string_view> known, OtherWords others) {
+  std::string wanted = table.text(key, std::string{fallback});
+  const bool is_known = std::ranges::find(known, wanted) != known.end();
+  if (!is_known && (others == OtherWords::refused || wanted.empty()))
+    table.complain("{} is \"{}\", expected one of: {}", key, wanted, fmt::join(known, ", "));
+  return wanted;
 }
 
 void read_devices(ConfigTable table, DeviceConfig& config) {
-  config.line_camera = read_wish(table, "line_camera", config.line_camera, {"auto", "sim", "v4l2"},
-                                 OtherWords::allowed);
-  config.galvo_trigger = read_wish(table, "galvo_trigger", config.galvo_trigger,
-                                   {"auto", "sim", "gpio"}, OtherWords::refused);
-  config.control_input = read_wish(table, "control_input", config.control_input,
-                                   {"auto", "sim", "hid"}, OtherWords::refused);
-  config.scope_camera = read_wish(table, "scope_camera", config.scope_camera,
-                                  {"auto", "sim", "none", "libcamera"}, OtherWords::allowed);
+  config.line_camera = read_device(table, "line_camera", config.line_camera,
+                                   {"auto", "sim", "v4l2"}, OtherWords::allowed);
+  config.galvo_trigger = read_device(table, "galvo_trigger", config.galvo_trigger,
+                                     {"auto", "sim", "gpio"}, OtherWords::refused);
+  config.control_input = read_device(table, "control_input", config.control_input,
+                                     {"auto", "sim", "hid"}, OtherWords::refused);
+  config.scope_camera = read_device(table, "scope_camera", config.scope_camera,
+                                    {"auto", "sim", "none", "libcamera"}, OtherWords::allowed);
   config.trigger_line = table.text("trigger_line", config.trigger_line);
   config.sync_line = table.text("sync_line", config.sync_line);
   config.pulse_width = hal::from_seconds(

@@ -11,70 +11,70 @@ namespace {
 constexpr std::string_view twin_asked_for = "the simulated twin was asked for";
 constexpr std::string_view volumes_from_a_file = "volumes from a file were asked for";
 
-std::string asked_for(std::string_view wish) {
-  return fmt::format("the configuration asks for it ({})", wish);
+std::string asked_for(std::string_view wanted) {
+  return fmt::format("the configuration asks for it ({})", wanted);
 }
 
 DeviceChoice line_camera(const DeviceFinding& found, const RunOptions& options,
-                         std::string_view wish) {
+                         std::string_view wanted) {
   constexpr Device device = Device::line_camera;
   if (options.replay)
     return {device, "none", std::string{volumes_from_a_file}};
   if (options.recording)
     return {device, "recording", "spectra from a file were asked for"};
-  if (options.simulate || wish == DeviceConfig::twin)
+  if (options.simulate || wanted == DeviceConfig::twin)
     return {device, "sim", std::string{twin_asked_for}};
-  if (wish != DeviceConfig::automatic)
-    return {device, "v4l2", asked_for(wish)};
+  if (wanted != DeviceConfig::automatic)
+    return {device, "v4l2", asked_for(wanted)};
   return {device, found.usable ? "v4l2" : "sim", found.what};
 }
 
 DeviceChoice galvo_trigger(const DeviceFinding& found, bool real_camera, const RunOptions& options,
-                           std::string_view wish) {
+                           std::string_view wanted) {
   constexpr Device device = Device::galvo_trigger;
   if (options.replay)
     return {device, "none", std::string{volumes_from_a_file}};
   if (!real_camera)
     return {device, "sim", "it triggers the simulated line camera"};
-  if (wish == DeviceConfig::twin)
+  if (wanted == DeviceConfig::twin)
     return {device, "sim", fmt::format("{}: nothing triggers the scanner", twin_asked_for)};
   return {device, "gpio", found.what};
 }
 
 DeviceChoice control_input(const DeviceFinding& found, bool real_camera, const RunOptions& options,
-                           std::string_view wish) {
+                           std::string_view wanted) {
   constexpr Device device = Device::control_input;
-  if (options.simulate || options.controls || wish == DeviceConfig::twin)
+  if (options.simulate || options.controls || wanted == DeviceConfig::twin)
     return {device, "sim", std::string{twin_asked_for}};
-  if (wish != DeviceConfig::automatic)
-    return {device, "hid", found.usable ? found.what : asked_for(wish)};
+  if (wanted != DeviceConfig::automatic)
+    return {device, "hid", found.usable ? found.what : asked_for(wanted)};
   return {device, found.usable || real_camera ? "hid" : "sim", found.what};
 }
 
 DeviceChoice scope_camera(const DeviceFinding& found, bool real_camera, const RunOptions& options,
-                          std::string_view wish) {
+                          std::string_view wanted) {
   constexpr Device device = Device::scope_camera;
-  if (wish == DeviceConfig::nothing)
-    return {device, "none", asked_for(wish)};
+  if (wanted == DeviceConfig::nothing)
+    return {device, "none", asked_for(wanted)};
   if (options.replay)
     return {device, "none", std::string{volumes_from_a_file}};
   if (options.recording)
     return {device, "none", "a recording of spectra has no microscope picture"};
   if (!real_camera)
     return {device, "sim",
-            options.simulate || wish == DeviceConfig::twin
+            options.simulate || wanted == DeviceConfig::twin
                 ? std::string{twin_asked_for}
                 : "beside simulated spectra the microscope's picture is simulated, too"};
-  if (wish == DeviceConfig::twin)
+  if (wanted == DeviceConfig::twin)
     return {device, "none", "a simulated picture is not shown beside a patient's spectra"};
-  if (wish != DeviceConfig::automatic)
-    return {device, "libcamera", asked_for(wish)};
+  if (wanted != DeviceConfig::automatic)
+    return {device, "libcamera", asked_for(wanted)};
   return {device, found.usable ? "libcamera" : "none", found.what};
 }
 
-DeviceChoice display(const DetectedDevices& detected, DisplayChoice wish) {
+DeviceChoice display(const DetectedDevices& detected, DisplayChoice wanted) {
   constexpr Device device = Device::display;
-  switch (wish) {
+  switch (wanted) {
   case DisplayChoice::window: return {device, "window", "a window was asked for"};
   case DisplayChoice::offscreen: return {device, "offscreen", "offscreen was asked for"};
   case DisplayChoice::kms: return {device, "kms", "a console display was asked for"};

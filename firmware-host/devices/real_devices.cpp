@@ -38,14 +38,14 @@ hal::LineFormat wanted_format(const DeviceConfig& config, const pipeline::ScanPl
           .right_shift = config.right_shift};
 }
 
-// A wish that names one device, as "/dev/video0", and not a kind.
-std::string named(const std::string& wish, std::string_view kind) {
+// A wanted that names one device, as "/dev/video0", and not a kind.
+std::string named(const std::string& wanted, std::string_view kind) {
   const bool general =
-      wish == DeviceConfig::automatic || wish == DeviceConfig::twin || wish == kind;
-  return general ? std::string{} : wish;
+      wanted == DeviceConfig::automatic || wanted == DeviceConfig::twin || wanted == kind;
+  return general ? std::string{} : wanted;
 }
 
-std::string node_wish(const DeviceConfig& config) {
+std::string configured_node(const DeviceConfig& config) {
   return named(config.line_camera, "v4l2");
 }
 
@@ -105,7 +105,7 @@ DeviceFinding RealDevices::find_line_camera() {
     wanted.significant_bits = bits;
     wanted.sample_type = bits <= 8 ? hal::SampleType::u8 : hal::SampleType::u16;
     std::vector<backend::LineCameraCandidate> candidates = backend::line_camera_candidates(wanted);
-    if (const std::string node = node_wish(config_); !node.empty())
+    if (const std::string node = configured_node(config_); !node.empty())
       std::erase_if(candidates, [&](const auto& found) { return found.identity.node != node; });
     const auto picked = backend::pick_line_camera(candidates, "", wanted);
     if (!picked) {
@@ -172,15 +172,15 @@ DeviceFinding RealDevices::find_scope_camera() {
 
 DeviceFinding RealDevices::find_console_display() const {
   const std::vector<backend::kms::Card> cards = backend::kms::survey();
-  backend::kms::OutputWish wish;
-  wish.connector = config_.connector;
+  backend::kms::OutputRequest wanted;
+  wanted.connector = config_.connector;
   if (!config_.mode.empty()) {
-    const auto mode = backend::kms::parse_mode_wish(config_.mode);
+    const auto mode = backend::kms::parse_mode_request(config_.mode);
     if (!mode)
       return {false, mode.error().message};
-    wish.mode = *mode;
+    wanted.mode = *mode;
   }
-  const auto output = backend::kms::choose_output(cards, wish);
+  const auto output = backend::kms::choose_output(cards, wanted);
   if (!output)
     return {false, output.error().message};
   const backend::kms::Card& card = cards[output->card];
@@ -196,7 +196,7 @@ DeviceFinding RealDevices::find_console_display() const {
 
 std::unique_ptr<hal::LineCamera> RealDevices::make_line_camera() {
   backend::V4l2CameraOptions options;
-  options.node = node_wish(config_);
+  options.node = configured_node(config_);
   options.input = config_.camera_input;
   options.settings.exposure_us = config_.exposure_us;
   options.settings.gain = config_.gain;

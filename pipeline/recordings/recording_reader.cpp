@@ -211,7 +211,7 @@ hal::Result<> RecordingReader::read(std::size_t n, Volume& volume) {
   if (n >= file_->volumes.size() || volume.geometry != geometry)
     return hal::fail(
         hal::ErrorCode::invalid_argument,
-        "{}: found a wish for volume {}, expected 0 to {}, into one of the recording's geometry",
+        "{}: volume {} is asked for, expected 0 to {}, into one of the recording's geometry",
         file_->path.string(), n, static_cast<std::int64_t>(file_->volumes.size()) - 1);
   if (!read_row(file_->levels, layout::levels_size(geometry, 0), n, volume.levels.data()) ||
       !read_row(file_->states, layout::states_size(geometry, 0), n, volume.b_scan_states.data()))

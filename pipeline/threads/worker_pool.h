@@ -29,7 +29,8 @@ class WorkerPool {
 public:
   using Work = std::function<void(std::size_t worker, std::uint32_t job)>;
 
-  // Threads are started here; `work` runs on them, must not throw, and outlives the pool.
+  // Starts the threads. The pool keeps `work`; what it refers to must outlive the pool. It must not
+  // throw.
   WorkerPool(std::size_t workers, std::size_t most_jobs, const ThreadSetup& setup, Work work);
   ~WorkerPool();
 

@@ -73,20 +73,20 @@ struct OffscreenDisplay::Surface {
     if (display == EGL_NO_DISPLAY)
       return no_gles("no EGL display could be initialised");
     eglBindAPI(EGL_OPENGL_ES_API);
-    const std::array<EGLint, 11> wish{EGL_RENDERABLE_TYPE,
-                                      EGL_OPENGL_ES3_BIT,
-                                      EGL_SURFACE_TYPE,
-                                      EGL_PBUFFER_BIT,
-                                      EGL_RED_SIZE,
-                                      8,
-                                      EGL_GREEN_SIZE,
-                                      8,
-                                      EGL_BLUE_SIZE,
-                                      8,
-                                      EGL_NONE};
+    const std::array<EGLint, 11> wanted{EGL_RENDERABLE_TYPE,
+                                        EGL_OPENGL_ES3_BIT,
+                                        EGL_SURFACE_TYPE,
+                                        EGL_PBUFFER_BIT,
+                                        EGL_RED_SIZE,
+                                        8,
+                                        EGL_GREEN_SIZE,
+                                        8,
+                                        EGL_BLUE_SIZE,
+                                        8,
+                                        EGL_NONE};
     EGLConfig egl_config = nullptr;
     EGLint found = 0;
-    if (eglChooseConfig(display, wish.data(), &egl_config, 1, &found) != EGL_TRUE || found == 0)
+    if (eglChooseConfig(display, wanted.data(), &egl_config, 1, &found) != EGL_TRUE || found == 0)
       return no_gles("no EGL configuration with GLES 3 and a pbuffer");
     const std::array<EGLint, 3> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
     context = eglCreateContext(display, egl_config, EGL_NO_CONTEXT, version.data());

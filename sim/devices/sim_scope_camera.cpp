@@ -59,10 +59,10 @@ hal::Result<> SimScopeCamera::do_open(const hal::ScopeCameraConfig& config) {
     return hal::fail(hal::ErrorCode::busy,
                      "scope camera: open() found it {}, expected absent; close it first",
                      to_string(state()));
-  HAL_CHECK(check_size("the wish", config.width, config.height));
+  HAL_CHECK(check_size("the wanted", config.width, config.height));
   if (!(config.frames_per_s > 0 && config.frames_per_s <= most_frames_per_s))
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     "scope camera: the wish is {} frames/s, expected more than 0 to {}",
+                     "scope camera: {} frames/s are asked for, expected more than 0 to {}",
                      config.frames_per_s, most_frames_per_s);
   if (!plugged_.load(std::memory_order_acquire))
     return hal::fail(hal::ErrorCode::absent,

@@ -24,7 +24,7 @@ struct ScopeCameraRig {
   std::unique_ptr<hal::ScopeCamera> camera;
   std::function<void()> unplug;
   std::function<void()> replug;
-  bool keeps_rate = true; // false: this camera has a rate of its own, whatever is wished
+  bool keeps_rate = true; // false: this camera has a rate of its own, whatever is wanted
 };
 
 class ScopeCameraContract : public testing::TestWithParam<std::function<ScopeCameraRig()>> {
@@ -89,11 +89,11 @@ TEST_P(ScopeCameraContract, calls_out_of_order_are_errors_and_change_nothing) {
   EXPECT_EQ(camera_.state(), hal::DeviceState::ready);
 }
 
-TEST_P(ScopeCameraContract, an_impossible_wish_is_an_invalid_argument) {
-  for (const hal::ScopeCameraConfig& wish :
+TEST_P(ScopeCameraContract, an_impossible_request_is_an_invalid_argument) {
+  for (const hal::ScopeCameraConfig& wanted :
        {hal::ScopeCameraConfig{0, 480, 30}, hal::ScopeCameraConfig{640, -1, 30},
         hal::ScopeCameraConfig{640, 480, 0}, hal::ScopeCameraConfig{640, 480, -30}}) {
-    const auto opened = camera_.open(wish);
+    const auto opened = camera_.open(wanted);
     ASSERT_THAT(opened, FailsWith(hal::ErrorCode::invalid_argument));
     EXPECT_FALSE(opened.error().message.empty());
     EXPECT_EQ(camera_.state(), hal::DeviceState::absent);
@@ -134,7 +134,7 @@ TEST_P(ScopeCameraContract, sequence_and_time_rise_and_loans_stay_as_they_were) 
   camera_.release(last.buffer);
 }
 
-TEST_P(ScopeCameraContract, frames_come_at_about_the_wished_rate) {
+TEST_P(ScopeCameraContract, frames_come_at_about_the_requested_rate) {
   if (!rig_.keeps_rate)
     GTEST_SKIP() << "this camera has a rate of its own";
   open_and_start();

@@ -17,7 +17,7 @@ LargeBuffer::LargeBuffer(std::size_t size) {
   void* mapped = mmap(nullptr, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (mapped == MAP_FAILED)
     throw std::bad_alloc{};
-  madvise(mapped, whole, MADV_HUGEPAGE); // a wish: refused, all works as well
+  madvise(mapped, whole, MADV_HUGEPAGE); // advice: all works without it
   bytes_ = {static_cast<std::uint8_t*>(mapped), Unmap{whole}};
 }
 

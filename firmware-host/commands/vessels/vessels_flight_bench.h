@@ -1,4 +1,5 @@
-// The part of octascope vessels bench that flies through the tree (ui/vessels/view/vessel_flight.h).
+// The part of octascope vessels bench that flies through the tree
+// (ui/vessels/view/vessel_flight.h).
 #pragma once
 
 #include <functional>

@@ -39,13 +39,13 @@ std::uint32_t format_of(EGLDisplay display, EGLConfig config) {
 }
 
 std::vector<EGLConfig> drawable_configs(EGLDisplay display) {
-  constexpr std::array<EGLint, 5> wish{EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE,
-                                       EGL_WINDOW_BIT, EGL_NONE};
+  constexpr std::array<EGLint, 5> wanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE,
+                                         EGL_WINDOW_BIT, EGL_NONE};
   EGLint count = 0;
-  if (eglChooseConfig(display, wish.data(), nullptr, 0, &count) != EGL_TRUE || count < 1)
+  if (eglChooseConfig(display, wanted.data(), nullptr, 0, &count) != EGL_TRUE || count < 1)
     return {};
   std::vector<EGLConfig> configs(static_cast<std::size_t>(count));
-  if (eglChooseConfig(display, wish.data(), configs.data(), count, &count) != EGL_TRUE)
+  if (eglChooseConfig(display, wanted.data(), configs.data(), count, &count) != EGL_TRUE)
     return {};
   configs.resize(static_cast<std::size_t>(count));
   return configs;

@@ -69,14 +69,14 @@ struct KmsDisplay::Session {
   }
 
   Result<> open(const KmsConfig& config, Clock& clock) {
-    OutputWish wish{config.connector, {}, config.atomic};
-    HAL_TRY(auto mode, parse_mode_wish(config.mode));
-    wish.mode = mode;
+    OutputRequest wanted{config.connector, {}, config.atomic};
+    HAL_TRY(auto mode, parse_mode_request(config.mode));
+    wanted.mode = mode;
     auto opened = open_seat(config.seat);
     if (!opened)
       return tl::make_unexpected(opened.error());
     seat = *std::move(opened);
-    HAL_CHECK(choose(wish));
+    HAL_CHECK(choose(wanted));
     HAL_CHECK(seat->take_card(device));
     HAL_TRY(const auto part, visible_part(choice.mode.width, choice.mode.height, config.overscan));
     auto shown_with = show_black(part, true, clock);
@@ -87,7 +87,7 @@ struct KmsDisplay::Session {
   }
 
   // Opens all cards, keeps the one that is chosen.
-  Result<> choose(const OutputWish& wish) {
+  Result<> choose(const OutputRequest& wanted) {
     std::vector<Card> cards;
     std::vector<SeatDevice> devices;
     for (const std::string& node : card_nodes()) {
@@ -101,7 +101,7 @@ struct KmsDisplay::Session {
         devices.emplace_back();
       }
     }
-    const auto chosen = choose_output(cards, wish);
+    const auto chosen = choose_output(cards, wanted);
     for (std::size_t i = 0; i < devices.size(); ++i)
       if (devices[i].file && (!chosen || i != chosen->card))
         seat->close_device(std::move(devices[i]));

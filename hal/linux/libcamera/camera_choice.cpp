@@ -68,24 +68,24 @@ bool has_ipa_modules(const fs::path& root) {
 } // namespace
 
 Result<std::size_t> choose_camera(const std::vector<LibcameraFound>& found,
-                                  const std::string& wish) {
-  if (wish.empty()) {
+                                  const std::string& wanted) {
+  if (wanted.empty()) {
     if (const auto free = first(found, [](const LibcameraFound& c) { return !c.taken; }))
       return *free;
     return fail(ErrorCode::absent, "scope camera: found only {}, expected one more; plug it in",
                 list(found));
   }
-  if (const auto same =
-          first(found, [&](const LibcameraFound& c) { return c.id == wish || c.model == wish; }))
+  if (const auto same = first(
+          found, [&](const LibcameraFound& c) { return c.id == wanted || c.model == wanted; }))
     return *same;
   if (const auto part = first(found, [&](const LibcameraFound& c) {
-        return c.id.find(wish) != std::string::npos || c.model.find(wish) != std::string::npos;
+        return c.id.find(wanted) != std::string::npos || c.model.find(wanted) != std::string::npos;
       }))
     return *part;
   return fail(
       ErrorCode::absent,
       "scope camera: expected \"{}\", found {}; plug it in, or name one of those that are there",
-      wish, list(found));
+      wanted, list(found));
 }
 
 Error explain_absence(const fs::path& root) {

@@ -16,11 +16,11 @@ struct LibcameraFound {
   bool taken = false; // it is the line camera
 };
 
-// The first camera whose id or model is `wish`, else the first whose id or model contains it; if
-// `wish` is empty, the first that is not taken. ErrorCode::absent: none; the message lists the
+// The first camera whose id or model is `wanted`, else the first whose id or model contains it; if
+// `wanted` is empty, the first that is not taken. ErrorCode::absent: none; the message lists the
 // cameras found. Pure.
 Result<std::size_t> choose_camera(const std::vector<LibcameraFound>& found,
-                                  const std::string& wish);
+                                  const std::string& wanted);
 
 // Why libcamera lists no camera at all, with the remedy: no udev daemon (libcamera finds cameras
 // only in udevd's database), media nodes that this user may not open (libcamera skips them

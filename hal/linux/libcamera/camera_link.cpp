@@ -18,7 +18,7 @@ namespace octascope::hal::linux_backend {
 
 namespace {
 
-constexpr unsigned wished_buffers = 6;
+constexpr unsigned wanted_buffers = 6;
 
 Error failure(const std::string& model, std::string_view action, int result) {
   constexpr std::string_view who_has_it =
@@ -121,25 +121,25 @@ Result<> CameraLink::Parts::configure(const ScopeCameraConfig& config) {
   if (!configuration || configuration->empty())
     return fail(ErrorCode::unsupported,
                 "scope camera \"{}\": it has no stream for a display; take another camera", model);
-  libcamera::StreamConfiguration& wish = configuration->at(0);
-  const std::vector<CameraFormat> offers = offered_by(wish);
-  for (const FormatWish& format : choose_formats(offers, config)) {
-    wish.pixelFormat = libcamera::PixelFormat{format.fourcc};
-    wish.size = {static_cast<unsigned>(format.size.width),
-                 static_cast<unsigned>(format.size.height)};
-    wish.bufferCount = wished_buffers;
-    wish.colorSpace = libcamera::ColorSpace::Smpte170m; // BT.601, limited range: as it is drawn
+  libcamera::StreamConfiguration& wanted = configuration->at(0);
+  const std::vector<CameraFormat> offers = offered_by(wanted);
+  for (const FormatCandidate& format : choose_formats(offers, config)) {
+    wanted.pixelFormat = libcamera::PixelFormat{format.fourcc};
+    wanted.size = {static_cast<unsigned>(format.size.width),
+                   static_cast<unsigned>(format.size.height)};
+    wanted.bufferCount = wanted_buffers;
+    wanted.colorSpace = libcamera::ColorSpace::Smpte170m; // BT.601, limited range: as it is drawn
     if (configuration->validate() == libcamera::CameraConfiguration::Invalid)
       continue;
-    const auto encoding = encoding_of(wish.pixelFormat.fourcc()); // perhaps adjusted
+    const auto encoding = encoding_of(wanted.pixelFormat.fourcc()); // perhaps adjusted
     if (!encoding)
       continue;
     if (const int result = camera->configure(configuration.get()); result < 0)
       return tl::make_unexpected(failure(model, "configuring it", result));
     layout = {*encoding,
-              {static_cast<int>(wish.size.width), static_cast<int>(wish.size.height)},
-              wish.stride};
-    stream = wish.stream();
+              {static_cast<int>(wanted.size.width), static_cast<int>(wanted.size.height)},
+              wanted.stride};
+    stream = wanted.stream();
     return {};
   }
   return fail(ErrorCode::unsupported,
@@ -168,7 +168,7 @@ Result<> CameraLink::Parts::allocate() {
   if (requests.empty())
     return fail(ErrorCode::bad_data,
                 "scope camera \"{}\": its driver gave no buffer, expected {}; plug it in again",
-                model, wished_buffers);
+                model, wanted_buffers);
   return {};
 }
 

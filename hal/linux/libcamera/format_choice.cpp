@@ -38,24 +38,25 @@ int distance(PictureSize a, PictureSize b) {
   return std::abs(a.width - b.width) + std::abs(a.height - b.height);
 }
 
-std::optional<PictureSize> nearest(const CameraFormat& offer, PictureSize wish) {
+std::optional<PictureSize> nearest(const CameraFormat& offer, PictureSize wanted) {
   if (offer.range)
     return PictureSize{
-        std::clamp(wish.width, offer.range->smallest.width, offer.range->largest.width),
-        std::clamp(wish.height, offer.range->smallest.height, offer.range->largest.height)};
+        std::clamp(wanted.width, offer.range->smallest.width, offer.range->largest.width),
+        std::clamp(wanted.height, offer.range->smallest.height, offer.range->largest.height)};
   const auto best = std::ranges::min_element(offer.sizes, [&](PictureSize a, PictureSize b) {
-    return distance(a, wish) < distance(b, wish);
+    return distance(a, wanted) < distance(b, wanted);
   });
   if (best == offer.sizes.end())
     return std::nullopt;
   return *best;
 }
 
-int rank(const FormatWish& wish, double frames_per_s) {
-  const double bytes_per_s = static_cast<double>(row_bytes(wish.encoding, wish.size.width) *
-                                                 row_count(wish.encoding, wish.size.height)) *
-                             frames_per_s;
-  const int order = static_cast<int>(wish.encoding);
+int rank(const FormatCandidate& candidate, double frames_per_s) {
+  const double bytes_per_s =
+      static_cast<double>(row_bytes(candidate.encoding, candidate.size.width) *
+                          row_count(candidate.encoding, candidate.size.height)) *
+      frames_per_s;
+  const int order = static_cast<int>(candidate.encoding);
   constexpr int after_motion_jpeg = static_cast<int>(Encoding::motion_jpeg) + 1;
   return bytes_per_s > usb2_bytes_per_s ? after_motion_jpeg + order : order;
 }
@@ -75,24 +76,24 @@ std::optional<Encoding> encoding_of(std::uint32_t fourcc) {
   return std::nullopt;
 }
 
-std::vector<FormatWish> choose_formats(const std::vector<CameraFormat>& offered,
-                                       const ScopeCameraConfig& config) {
-  const PictureSize wish{config.width, config.height};
-  std::vector<FormatWish> wishes;
+std::vector<FormatCandidate> choose_formats(const std::vector<CameraFormat>& offered,
+                                            const ScopeCameraConfig& config) {
+  const PictureSize wanted{config.width, config.height};
+  std::vector<FormatCandidate> candidates;
   for (const CameraFormat& offer : offered) {
     const auto encoding = encoding_of(offer.fourcc);
     if (!encoding || (offer.range && !valid(*offer.range)))
       continue;
-    if (const auto size = nearest(offer, wish); size && size->width > 0 && size->height > 0)
-      wishes.push_back({offer.fourcc, *encoding, *size});
+    if (const auto size = nearest(offer, wanted); size && size->width > 0 && size->height > 0)
+      candidates.push_back({offer.fourcc, *encoding, *size});
   }
-  std::ranges::stable_sort(wishes, [&](const FormatWish& a, const FormatWish& b) {
-    const int from_a = distance(a.size, wish);
-    const int from_b = distance(b.size, wish);
+  std::ranges::stable_sort(candidates, [&](const FormatCandidate& a, const FormatCandidate& b) {
+    const int from_a = distance(a.size, wanted);
+    const int from_b = distance(b.size, wanted);
     return from_a != from_b ? from_a < from_b
                             : rank(a, config.frames_per_s) < rank(b, config.frames_per_s);
   });
-  return wishes;
+  return candidates;
 }
 
 PixelFormat pixel_format(Encoding encoding) {

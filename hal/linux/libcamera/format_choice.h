@@ -31,7 +31,7 @@ struct CameraFormat {
   std::optional<Range> range;
 };
 
-struct FormatWish {
+struct FormatCandidate {
   std::uint32_t fourcc = 0;
   Encoding encoding = Encoding::nv12;
   PictureSize size;
@@ -44,8 +44,8 @@ std::optional<Encoding> encoding_of(std::uint32_t fourcc);
 // fewest bytes. Motion JPEG costs processor time and sharpness, so it comes after the raw formats,
 // except those that need more bandwidth than USB 2 has: cameras then silently deliver only a few
 // frames per second.
-std::vector<FormatWish> choose_formats(const std::vector<CameraFormat>& offered,
-                                       const ScopeCameraConfig& config);
+std::vector<FormatCandidate> choose_formats(const std::vector<CameraFormat>& offered,
+                                            const ScopeCameraConfig& config);
 
 // The format of the frames that ScopeCamera delivers for this encoding.
 PixelFormat pixel_format(Encoding encoding);

@@ -21,16 +21,16 @@ constexpr Duration longest_farewell = 1s; // until libcamera notices that a came
 constexpr double most_frames_per_s = 1000;
 constexpr int largest_side = 1 << 14;
 
-Result<> check(const ScopeCameraConfig& wish) {
+Result<> check(const ScopeCameraConfig& wanted) {
   const auto side = [](int pixels) { return pixels >= 1 && pixels <= largest_side; };
-  if (!side(wish.width) || !side(wish.height))
+  if (!side(wanted.width) || !side(wanted.height))
     return fail(ErrorCode::invalid_argument,
-                "scope camera: the wish is {}x{}, expected 1x1 to {}x{}", wish.width, wish.height,
-                largest_side, largest_side);
-  if (!(wish.frames_per_s > 0 && wish.frames_per_s <= most_frames_per_s))
+                "scope camera: {}x{} is asked for, expected 1x1 to {}x{}", wanted.width,
+                wanted.height, largest_side, largest_side);
+  if (!(wanted.frames_per_s > 0 && wanted.frames_per_s <= most_frames_per_s))
     return fail(ErrorCode::invalid_argument,
-                "scope camera: the wish is {} frames/s, expected more than 0 to {}",
-                wish.frames_per_s, most_frames_per_s);
+                "scope camera: {} frames/s are asked for, expected more than 0 to {}",
+                wanted.frames_per_s, most_frames_per_s);
   return {};
 }
 

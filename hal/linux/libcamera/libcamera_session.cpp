@@ -152,7 +152,7 @@ std::vector<LibcameraFound> LibcameraSession::cameras(const std::vector<std::str
 }
 
 Result<LibcameraSession::Chosen>
-LibcameraSession::choose(const std::string& wish, const std::vector<std::string>& taken_nodes) {
+LibcameraSession::choose(const std::string& wanted, const std::vector<std::string>& taken_nodes) {
   const std::lock_guard lock{parts_->mutex};
   HAL_TRY(const auto listed, parts_->list(taken_nodes));
   if (listed.empty())
@@ -160,7 +160,7 @@ LibcameraSession::choose(const std::string& wish, const std::vector<std::string>
   std::vector<LibcameraFound> found;
   for (const Parts::Listed& one : listed)
     found.push_back(one.facts);
-  return choose_camera(found, wish).map([&](std::size_t index) {
+  return choose_camera(found, wanted).map([&](std::size_t index) {
     const Parts::Listed& one = listed[index];
     return Chosen{one.camera, one.facts.model, one.nodes};
   });

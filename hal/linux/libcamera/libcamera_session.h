@@ -34,7 +34,7 @@ public:
 
   // The camera to use (see choose_camera), or an Error that says why there is none.
   struct Chosen; // for LibcameraScopeCamera: camera_link.h
-  Result<Chosen> choose(const std::string& wish, const std::vector<std::string>& taken_nodes);
+  Result<Chosen> choose(const std::string& wanted, const std::vector<std::string>& taken_nodes);
 
   // libcamera starts again at the next cameras() or choose(). Cameras that are still held become
   // useless.

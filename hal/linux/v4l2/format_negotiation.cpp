@@ -101,7 +101,7 @@ std::string words(const LineFormat& wanted) {
                      to_string(wanted.sample_type), wanted.right_shift);
 }
 
-Result<> check_wish(const LineFormat& wanted) {
+Result<> check_request(const LineFormat& wanted) {
   const auto refuse = [&](std::string_view expected) {
     return fail(ErrorCode::invalid_argument, "the format is {}; expected {}", words(wanted),
                 expected);
@@ -121,7 +121,7 @@ Result<> check_wish(const LineFormat& wanted) {
 
 Result<std::vector<FormatRequest>> rank_formats(std::span<const OfferedFormat> offered,
                                                 const LineFormat& wanted) {
-  HAL_CHECK(check_wish(wanted));
+  HAL_CHECK(check_request(wanted));
   if (offered.empty())
     return fail(ErrorCode::absent, "it offers no format yet: is what feeds it running, and is its "
                                    "cable plugged in? It is tried again by itself");

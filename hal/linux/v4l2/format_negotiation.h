@@ -45,11 +45,12 @@ struct GivenFormat {
 
 // ErrorCode::invalid_argument for what no camera can deliver: sizes that are not positive or exceed
 // 2 GB, more bits than the sample holds.
-Result<> check_wish(const LineFormat& wanted);
+Result<> check_request(const LineFormat& wanted);
 
 // The formats to request from the driver, best first; never empty. ErrorCode::absent: nothing is
 // offered (yet). ErrorCode::unsupported: nothing fits; the message has what is offered and what is
-// expected. Sizes between a driver's steps are requested too: not all drivers insist on their steps.
+// expected. Sizes between a driver's steps are requested too: not all drivers insist on their
+// steps.
 Result<std::vector<FormatRequest>> rank_formats(std::span<const OfferedFormat> offered,
                                                 const LineFormat& wanted);
 

@@ -23,8 +23,8 @@ Result<> check(const LineCameraConfig& config, const V4l2CameraOptions& options)
   const auto refuse = [](std::string why) {
     return fail(ErrorCode::invalid_argument, "line camera: " + std::move(why));
   };
-  if (const auto wish = check_wish(config.format); !wish)
-    return refuse(wish.error().message);
+  if (const auto checked = check_request(config.format); !checked)
+    return refuse(checked.error().message);
   if (!(config.line_rate_hz >= 1 && config.line_rate_hz <= 1e9))
     return refuse(fmt::format("line_rate_hz is {}, expected 1 to 1e9", config.line_rate_hz));
   if (config.buffers < 1)

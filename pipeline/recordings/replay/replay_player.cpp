@@ -76,7 +76,7 @@ void ReplayPlayer::hold(bool held) {
 }
 
 hal::TimePoint ReplayPlayer::step(hal::TimePoint now) {
-  follow_wishes(now);
+  follow_requests(now);
   if (end() != ReplayEnd::none || held_since_)
     return now + longest_rest;
   if (!prepared_) {
@@ -89,7 +89,7 @@ hal::TimePoint ReplayPlayer::step(hal::TimePoint now) {
   return now;
 }
 
-void ReplayPlayer::follow_wishes(hal::TimePoint now) {
+void ReplayPlayer::follow_requests(hal::TimePoint now) {
   if (const std::size_t n = wanted_.exchange(nowhere, std::memory_order_relaxed); n != nowhere)
     go_to(std::min(n, schedule_.size() - 1), now);
   else if (!begun_)

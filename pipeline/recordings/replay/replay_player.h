@@ -82,7 +82,7 @@ private:
   bool do_has_newer() const override { return buffer_.has_newer(); }
   VolumeCounters do_counters() const override;
 
-  void follow_wishes(hal::TimePoint now);
+  void follow_requests(hal::TimePoint now);
   void go_to(std::size_t n, hal::TimePoint now);
   hal::Result<> read_next();
   void prepare(hal::TimePoint now);

@@ -9,6 +9,7 @@
 #include "firmware-host/commands/recordings/export_place.h"
 #include "firmware-host/commands/recordings/recording_summary.h"
 #include "firmware-host/commands/size_text.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/must.h"
 
@@ -66,8 +67,8 @@ TEST(ExportPlaces, are_refused_before_the_work) {
 TEST(ExportPlaces, without_room_are_refused_and_leave_nothing) {
   const tests::ScratchFolder folder;
   auto place = tests::must(ExportPlace::choose(folder / "a", ".nrrd", "", 2));
-  EXPECT_THAT(tests::error_of(place.prepare(std::uint64_t{1} << 62, 0)).message,
-              HasSubstr("expected 4611686018.43 GB for the files"));
+  EXPECT_THAT(place.prepare(std::uint64_t{1} << 62, 0),
+              tests::FailsSaying("expected 4611686018.43 GB for the files"));
   place.remove_empty_folder();
   EXPECT_EQ(folder.count(), 0);
   EXPECT_TRUE(place.prepare(1, 0));

@@ -121,19 +121,19 @@ TEST(DeviceChoice, a_recording_stands_in_for_the_line_camera) {
   EXPECT_EQ(choices.scope_camera.backend, "none");
 }
 
-TEST(DeviceChoice, the_display_follows_the_wish_or_else_the_machine) {
+TEST(DeviceChoice, the_display_follows_the_configuration_or_else_the_machine) {
   DetectedDevices detected = everything();
   EXPECT_EQ(choose_devices(detected, {}).display.backend, "kms");
   detected.has_window_system = true;
   EXPECT_EQ(choose_devices(detected, {}).display.backend, "window");
-  const auto wished = [&](DisplayChoice wish) {
+  const auto wanted = [&](DisplayChoice wanted) {
     RunOptions options;
-    options.display = wish;
+    options.display = wanted;
     return choose_devices(detected, options).display.backend;
   };
-  EXPECT_EQ(wished(DisplayChoice::offscreen), "offscreen");
-  EXPECT_EQ(wished(DisplayChoice::window), "window");
-  EXPECT_EQ(wished(DisplayChoice::kms), "kms");
+  EXPECT_EQ(wanted(DisplayChoice::offscreen), "offscreen");
+  EXPECT_EQ(wanted(DisplayChoice::window), "window");
+  EXPECT_EQ(wanted(DisplayChoice::kms), "kms");
 }
 
 } // namespace

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware-host/reconstruction/reconstruction_cache.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
-#include "tests/support/must.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -104,11 +104,11 @@ TEST_F(Cache, says_what_keeps_it_from_writing) {
   ReconstructionCache blocked{folder / "occupied", "this machine"};
   blocked.remember("1024 u16", {1, 2});
   EXPECT_TRUE(blocked.recall("1024 u16"));
-  EXPECT_THAT(tests::error_of(blocked.save()).message, HasSubstr((folder / "occupied").string()));
+  EXPECT_THAT(blocked.save(), tests::FailsSaying((folder / "occupied").string()));
 
   ReconstructionCache homeless{std::nullopt, "this machine"};
   homeless.remember("1024 u16", {1, 2});
-  EXPECT_THAT(tests::error_of(homeless.save()).message, HasSubstr("XDG_CACHE_HOME"));
+  EXPECT_THAT(homeless.save(), tests::FailsSaying("XDG_CACHE_HOME"));
 }
 
 class Variable { // of the environment, for as long as this lives

@@ -9,6 +9,7 @@
 #include "firmware-host/vessels/vessel_files.h"
 #include "firmware-host/vessels/vessel_source.h"
 #include "pipeline/vessels/clusters/cluster_unpacker.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/must.h"
 #include "tests/support/vessels/random_tree.h"
@@ -59,9 +60,8 @@ TEST_F(VesselSource, packs_swc) {
 }
 
 TEST_F(VesselSource, says_what_is_wrong_with_a_file) {
-  EXPECT_THAT(
-      tests::error_of(load_vessels(folder_.write("bad.swc", "1 0 0 0 0 zero -1\n"))).message,
-      testing::HasSubstr("bad.swc:1:11: found"));
+  EXPECT_THAT(load_vessels(folder_.write("bad.swc", "1 0 0 0 0 zero -1\n")),
+              tests::FailsSaying("bad.swc:1:11: found"));
   const auto absent = load_vessels(folder_ / "absent");
   ASSERT_FALSE(absent);
   EXPECT_EQ(absent.error().code, hal::ErrorCode::absent);

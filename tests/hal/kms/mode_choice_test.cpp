@@ -74,45 +74,45 @@ TEST(ComputedMode, has_its_parts_in_order_and_nearly_the_rate_for_any_size) {
   }
 }
 
-TEST(ModeWish, is_read_as_written) {
-  EXPECT_EQ(parse_mode_wish("")->width, 0);
-  EXPECT_EQ(parse_mode_wish("preferred")->width, 0);
-  const auto plain = parse_mode_wish("1920x1080");
+TEST(ModeRequest, is_read_as_written) {
+  EXPECT_EQ(parse_mode_request("")->width, 0);
+  EXPECT_EQ(parse_mode_request("preferred")->width, 0);
+  const auto plain = parse_mode_request("1920x1080");
   ASSERT_TRUE(plain);
   EXPECT_EQ(plain->width, 1920);
   EXPECT_EQ(plain->height, 1080);
   EXPECT_FALSE(plain->refresh_hz);
   EXPECT_FALSE(plain->computed);
-  const auto full = parse_mode_wish("800x600M@59.94");
+  const auto full = parse_mode_request("800x600M@59.94");
   ASSERT_TRUE(full);
   EXPECT_EQ(full->width, 800);
   EXPECT_TRUE(full->computed);
   EXPECT_DOUBLE_EQ(full->refresh_hz.value_or(0), 59.94);
 }
 
-TEST(ModeWish, that_makes_no_sense_is_refused_with_examples) {
+TEST(ModeRequest, that_makes_no_sense_is_refused_with_examples) {
   for (const char* const text :
        {"1920", "x1080", "1920x", "1920x1080@", "1920x1080@0", "1920x1080@nan", "1920x1080@60Hz",
         "1920 x 1080", "-5x100", "99x99", "99999x10", "1920x1080m", "1920x1080@inf", "prefered"}) {
-    EXPECT_THAT(parse_mode_wish(text),
+    EXPECT_THAT(parse_mode_request(text),
                 FailsWith(hal::ErrorCode::invalid_argument, text, "\"1920x1080@60\""));
   }
 }
 
-TEST(ModeWish, of_any_bytes_is_refused_or_sane) {
+TEST(ModeRequest, of_any_bytes_is_refused_or_sane) {
   std::mt19937_64 random{11};
   for (int i = 0; i < 20000; ++i) {
-    const auto wish = parse_mode_wish(mutate("1920x1080M@59.94", random));
-    if (!wish || wish->width == 0)
+    const auto wanted = parse_mode_request(mutate("1920x1080M@59.94", random));
+    if (!wanted || wanted->width == 0)
       continue;
-    ASSERT_GE(wish->width, 100);
-    ASSERT_LE(wish->height, 16384);
-    ASSERT_GE(wish->refresh_hz.value_or(60), 1);
-    ASSERT_LE(wish->refresh_hz.value_or(60), 1000);
+    ASSERT_GE(wanted->width, 100);
+    ASSERT_LE(wanted->height, 16384);
+    ASSERT_GE(wanted->refresh_hz.value_or(60), 1);
+    ASSERT_LE(wanted->refresh_hz.value_or(60), 1000);
   }
 }
 
-TEST(ModeChoice, takes_the_preferred_one_without_a_wish) {
+TEST(ModeChoice, takes_the_preferred_one_unless_asked) {
   const std::vector<Mode> modes{mode_of(3840, 2160, 30), mode_of(1920, 1080, 60),
                                 mode_of(1920, 1080, 50, DRM_MODE_TYPE_PREFERRED),
                                 mode_of(1280, 720, 60, DRM_MODE_TYPE_PREFERRED)};

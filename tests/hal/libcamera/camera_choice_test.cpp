@@ -21,7 +21,7 @@ TEST(CameraChoice, takes_the_first_that_is_not_the_line_camera) {
   EXPECT_THAT(choose_camera({three[0]}, ""), FailsWith(hal::ErrorCode::absent, "Line grabber"));
 }
 
-TEST(CameraChoice, takes_what_is_wished_by_id_model_or_part) {
+TEST(CameraChoice, takes_what_is_asked_for_by_id_model_or_part) {
   EXPECT_EQ(choose_camera(three, "csi-0"), 2U);
   EXPECT_EQ(choose_camera(three, "imx477"), 2U);
   EXPECT_EQ(choose_camera(three, "csi"), 2U);

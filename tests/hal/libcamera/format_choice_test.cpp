@@ -26,9 +26,9 @@ CameraFormat sizes(const char (&name)[5], std::vector<PictureSize> offered) {
 }
 
 std::vector<Encoding> encodings(const std::vector<CameraFormat>& offered,
-                                const hal::ScopeCameraConfig& wish) {
+                                const hal::ScopeCameraConfig& wanted) {
   std::vector<Encoding> chosen;
-  for (const backend::FormatWish& format : choose_formats(offered, wish))
+  for (const backend::FormatCandidate& format : choose_formats(offered, wanted))
     chosen.push_back(format.encoding);
   return chosen;
 }
@@ -44,7 +44,7 @@ TEST(FormatChoice, knows_what_the_display_draws) {
   EXPECT_FALSE(backend::encoding_of(0));
 }
 
-TEST(FormatChoice, prefers_few_bytes_of_the_wished_size) {
+TEST(FormatChoice, prefers_few_bytes_of_the_requested_size) {
   const std::vector<PictureSize> vga{{320, 240}, {640, 480}};
   EXPECT_EQ(encodings({sizes("MJPG", vga), sizes("XB24", vga), sizes("BG24", vga),
                        sizes("YUYV", vga), sizes("NV12", vga), sizes("RG10", vga)},
@@ -67,7 +67,7 @@ TEST(FormatChoice, takes_motion_jpeg_where_raw_pictures_are_too_much_for_usb) {
       << "a board camera offers no JPEG";
 }
 
-TEST(FormatChoice, a_camera_that_scales_gives_the_wished_size) {
+TEST(FormatChoice, a_camera_that_scales_gives_the_requested_size) {
   const CameraFormat scaling{code("NV12"), {}, {{{64, 48}, {1920, 1080}}}};
   EXPECT_EQ(backend::choose_formats({scaling}, {800, 600, 30})[0].size, (PictureSize{800, 600}));
   EXPECT_EQ(backend::choose_formats({scaling}, {8000, 6, 30})[0].size, (PictureSize{1920, 48}));
@@ -92,10 +92,10 @@ TEST(FormatChoice, holds_for_any_offer) {
         offer.range = {{below(500) - 5, below(500) - 5}, {below(3000) - 5, below(3000) - 5}};
       offers.push_back(offer);
     }
-    const hal::ScopeCameraConfig wish{1 + below(4000), 1 + below(4000), 1.0 + below(120)};
-    const auto chosen = choose_formats(offers, wish);
+    const hal::ScopeCameraConfig wanted{1 + below(4000), 1 + below(4000), 1.0 + below(120)};
+    const auto chosen = choose_formats(offers, wanted);
     int last = -1;
-    for (const backend::FormatWish& format : chosen) {
+    for (const backend::FormatCandidate& format : chosen) {
       EXPECT_EQ(backend::encoding_of(format.fourcc), format.encoding);
       EXPECT_GT(format.size.width, 0);
       EXPECT_GT(format.size.height, 0);
@@ -109,7 +109,7 @@ TEST(FormatChoice, holds_for_any_offer) {
                   : std::count(offer.sizes.begin(), offer.sizes.end(), format.size) > 0);
       }));
       const int distance =
-          std::abs(format.size.width - wish.width) + std::abs(format.size.height - wish.height);
+          std::abs(format.size.width - wanted.width) + std::abs(format.size.height - wanted.height);
       EXPECT_GE(distance, last);
       last = distance;
     }

@@ -120,11 +120,11 @@ TEST(FormatNegotiation, refusals_have_found_and_expected) {
               FailsSaying("Y10P has packed samples"));
 }
 
-TEST(FormatNegotiation, impossible_wishes_are_the_callers_fault) {
+TEST(FormatNegotiation, impossible_requests_are_the_callers_fault) {
   const auto refused = [](auto change) {
     LineFormat format = wanted(SampleType::u16, 12);
     change(format);
-    EXPECT_THAT(check_wish(format), FailsWith(ErrorCode::invalid_argument, "expected"));
+    EXPECT_THAT(check_request(format), FailsWith(ErrorCode::invalid_argument, "expected"));
   };
   refused([](LineFormat& f) { f.sample_type = SampleType::f32; });
   refused([](LineFormat& f) { f.samples_per_line = 0; });
@@ -136,7 +136,7 @@ TEST(FormatNegotiation, impossible_wishes_are_the_callers_fault) {
   refused([](LineFormat& f) { f.right_shift = 5; });
   refused([](LineFormat& f) { f.right_shift = INT32_MAX; });
   refused([](LineFormat& f) { f.samples_per_line = f.lines_per_frame = INT32_MAX; });
-  EXPECT_TRUE(check_wish(wanted(SampleType::u16, 12, 4)));
+  EXPECT_TRUE(check_request(wanted(SampleType::u16, 12, 4)));
 }
 
 TEST(FormatNegotiation, what_the_driver_gave_is_checked) {

@@ -50,7 +50,7 @@ public:
     return formats;
   }
 
-  LineFormat wish() {
+  LineFormat wanted() {
     LineFormat format;
     format.sample_type = random_() % 3 == 0 ? SampleType::u8 : SampleType::u16;
     format.significant_bits = 8 + static_cast<int>(random_() % 9);
@@ -93,7 +93,7 @@ TEST(MutatedFormats, give_a_request_or_words) {
   int refused = 0;
   for (int round = 0; round < 50'000; ++round) {
     const auto offered = mutations.offer();
-    const LineFormat wanted = mutations.wish();
+    const LineFormat wanted = mutations.wanted();
     const auto ranked = rank_formats(offered, wanted);
     if (!ranked) {
       ++refused;

@@ -112,5 +112,13 @@ TEST(NeighbourAverage, refuses_weights_that_make_no_sense) {
   EXPECT_FALSE(NeighbourAverage::create({std::nan(""), 1, 1}));
 }
 
+TEST(NeighbourAverage, rounds_to_the_nearest) {
+  Volume volume{{1, 1, 3, 1, 1, 1}};
+  volume.levels = {10, 11, 11};
+  volume.b_scan_states.assign(3, BScanState::good);
+  EXPECT_EQ(average_all(*NeighbourAverage::create({}), volume),
+            (std::vector<std::uint8_t>{10, 11, 11})); // 10.33, 10.75, 11
+}
+
 } // namespace
 } // namespace octascope::pipeline

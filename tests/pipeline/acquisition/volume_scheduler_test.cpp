@@ -144,6 +144,15 @@ TEST_F(VolumeSchedulerTest, a_frame_belongs_to_the_sweep_that_is_nearest) {
   EXPECT_EQ(frame(first_tick, -1).verdict, FrameVerdict::outside);
 }
 
+TEST_F(VolumeSchedulerTest, what_is_under_way_at_the_end_is_unfinished) {
+  pulse(tick(0));
+  deliver(tick(0), 0, 8);
+  pulse(tick(1));
+  scheduler.end();
+  EXPECT_EQ(scheduler.counters().unfinished, 2U);
+  EXPECT_EQ(scheduler.counters().planned, 2U);
+}
+
 TEST_F(VolumeSchedulerTest, it_wakes_for_ticks_and_for_the_oldest_volumes_end) {
   pulse(first_tick);
   EXPECT_EQ(scheduler.next_wake(first_tick), tick(1));

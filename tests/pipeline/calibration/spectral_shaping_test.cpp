@@ -108,7 +108,7 @@ TEST(SpectralShaping, makes_the_spectrum_the_gaussian_it_names) {
   }
   const double centre = moment / sum;
   const auto shaped = [&](double p) {
-    return light(std::round(p)) * (factors)[static_cast<std::size_t>(std::lround(p))];
+    return light(std::round(p)) * factors[static_cast<std::size_t>(std::lround(p))];
   };
   const double middle = shaped(centre);
   for (const double x : {-0.3, -0.15, -0.05, 0.1, 0.15, 0.3}) {
@@ -127,7 +127,7 @@ TEST(SpectralShaping, limits_the_gain_where_the_source_is_weak) {
     shaping.highest_gain = gain;
     const auto factors = tests::must(
         make_shaping_factors(shaping, calibration.positions, calibration.interpolation));
-    EXPECT_NEAR((factors)[500] / (factors)[524], gain, 0.05 * gain);
+    EXPECT_NEAR(factors[500] / factors[524], gain, 0.05 * gain);
     for (const double factor : factors) {
       EXPECT_TRUE(std::isfinite(factor));
       EXPECT_GE(factor, 0);

@@ -80,5 +80,28 @@ TEST(SpectralWindow, gaussian_and_tukey_are_their_closed_forms) {
   }
 }
 
+TEST(SpectralWindow, side_lobes_are_as_in_the_books) {
+  // F. J. Harris, Proceedings of the IEEE 66 (1978) 51, table 1.
+  const auto highest_db = [](SpectralWindow kind) {
+    const auto window = make_spectral_window(kind, 257);
+    double last = response(window, 0);
+    double x = 0.01;
+    for (double now = response(window, x); now < last; now = response(window, x)) {
+      last = now; // down the main lobe
+      x += 0.01;
+    }
+    double highest = 0;
+    for (; x < 128; x += 0.01)
+      highest = std::max(highest, response(window, x));
+    return 20 * std::log10(highest / response(window, 0));
+  };
+  EXPECT_NEAR(highest_db(SpectralWindow::flat), -13.3, 0.2);
+  EXPECT_NEAR(highest_db(SpectralWindow::hann), -31.5, 0.2);
+  EXPECT_NEAR(highest_db(SpectralWindow::hamming), -42.7, 0.5);
+  EXPECT_NEAR(highest_db(SpectralWindow::blackman), -58.1, 0.3);
+  EXPECT_NEAR(highest_db(SpectralWindow::gaussian), -42, 2);  // alpha = 2.5
+  EXPECT_NEAR(highest_db(SpectralWindow::tukey), -15.1, 0.3); // alpha = 0.5
+}
+
 } // namespace
 } // namespace octascope::pipeline

@@ -77,6 +77,24 @@ TEST(ZeroPadding, the_geometry_follows) {
   EXPECT_DOUBLE_EQ(calibration.bin_spacing_um(), calibration.depth_spacing_um / 2);
 }
 
+TEST_P(ZeroPadding, every_second_level_is_one_without_it) {
+  const int samples = GetParam();
+  Calibration calibration = tests::chirped_calibration(samples, samples / 20.0);
+  const auto counts = draw_counts(samples);
+  const auto plain = reconstruct(calibration, counts);
+  calibration.zero_padding = 2;
+  const auto padded = reconstruct(calibration, counts);
+  const auto depths = static_cast<std::size_t>(samples / 2);
+  for (std::size_t a = 0; a < lines; ++a) {
+    for (std::size_t z = 0; z < depths; ++z) {
+      const float level = plain[a * depths + z];
+      if (level > 0) {
+        ASSERT_NEAR(padded[a * static_cast<std::size_t>(samples) + 2 * z], level, 0.02F);
+      }
+    }
+  }
+}
+
 TEST(ZeroPadding, is_the_fftw_paths_business) {
   Calibration calibration = Calibration::identity(256);
   calibration.zero_padding = 2;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/files/nrrd.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/must.h"
@@ -87,7 +88,7 @@ TEST_F(Nrrd, notes_that_no_reader_would_take_are_refused) {
                               {{"k", std::string(bytes, 'x')}});
   };
   EXPECT_TRUE(create(4093));
-  EXPECT_EQ(tests::error_of(create(4094)).code, hal::ErrorCode::invalid_argument);
+  EXPECT_THAT(create(4094), tests::FailsWith(hal::ErrorCode::invalid_argument));
   EXPECT_EQ(folder.count(), 0);
 }
 

@@ -181,5 +181,28 @@ TEST(Reconstructor, refuses_what_does_not_fit_together) {
   EXPECT_NE(message({Calibration::identity(15), SpectrumFormat{15, hal::SampleType::u16}, 1}), "");
 }
 
+TEST(Reconstructor, a_running_background_remembers) {
+  // Constant B-scans of 100 and then 200 counts: the mean takes all of each, the running mean
+  // leaves half of the step in the second: DC of 50 counts.
+  constexpr int samples = 32;
+  Calibration calibration = Calibration::identity(samples);
+  calibration.background_mode = BackgroundMode::running;
+  calibration.window = make_spectral_window(SpectralWindow::flat, samples);
+  const auto reconstructor =
+      Reconstructor::create({calibration, SpectrumFormat{samples, hal::SampleType::u8}, 2});
+  ASSERT_TRUE(reconstructor);
+  auto workspace = reconstructor->make_workspace();
+  std::vector<float> db(reconstructor->levels());
+  const std::vector<std::byte> first(2 * samples, std::byte{100});
+  const std::vector<std::byte> second(2 * samples, std::byte{200});
+  reconstructor->reconstruct_b_scan_db(workspace, first, db);
+  EXPECT_LT(db[0], -100);
+  reconstructor->reconstruct_b_scan_db(workspace, second, db);
+  EXPECT_NEAR(db[0], 20 * std::log10(50.0), 0.01);
+  workspace.reset_background();
+  reconstructor->reconstruct_b_scan_db(workspace, second, db);
+  EXPECT_LT(db[0], -100);
+}
+
 } // namespace
 } // namespace octascope::pipeline

@@ -209,7 +209,7 @@ TEST_F(DicomVolume, knows_whom_and_which_eye_it_shows) {
   EXPECT_EQ(nobody.text(DCM_Modality), "OCT");
 }
 
-TEST_F(DicomVolume, takes_another_subject_or_none_where_that_is_wished) {
+TEST_F(DicomVolume, takes_another_subject_or_none_where_that_is_asked_for) {
   options.patient_id = "A-17";
   EXPECT_EQ(write(small_recording_facts()).text(DCM_PatientID), "A-17");
   options.patient_id = "";

@@ -12,6 +12,7 @@
 
 #include "pipeline/recordings/recording_reader.h"
 #include "pipeline/recordings/recording_writer.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
@@ -109,9 +110,8 @@ TEST_F(Recording, is_never_written_over) {
 }
 
 TEST_F(Recording, into_a_missing_folder_is_refused) {
-  EXPECT_EQ(
-      tests::error_of(RecordingWriter::create(folder / "none/r.h5", small_recording_facts())).code,
-      hal::ErrorCode::absent);
+  EXPECT_THAT(RecordingWriter::create(folder / "none/r.h5", small_recording_facts()),
+              tests::FailsWith(hal::ErrorCode::absent));
 }
 
 TEST_F(Recording, takes_no_volume_of_another_geometry) {

@@ -67,7 +67,7 @@ TEST_F(ReplayThreadTest, ends_by_itself_with_all_volumes) {
   EXPECT_EQ(wait_for_volume(*thread)->metadata.index, 7U);
 }
 
-TEST_F(ReplayThreadTest, takes_a_wish_at_once_although_it_sleeps) {
+TEST_F(ReplayThreadTest, takes_a_request_at_once_although_it_sleeps) {
   const auto thread = make({.rate = 0.1}); // one volume in 1.4 s
   thread->start({});
   ASSERT_NE(wait_for_volume(*thread), nullptr);

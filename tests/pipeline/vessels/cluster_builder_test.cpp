@@ -218,5 +218,33 @@ TEST(ClusterBuilder, keeps_a_radius_of_nothing_as_a_nanometre) {
   EXPECT_EQ(arrays.error.relative_radius, 0);
 }
 
+TEST(ClusterBuilder, keeps_every_segment_and_its_length) {
+  const VesselTree tree = tests::random_tree(20000, 1);
+  const ClusterArrays arrays = build_clusters(tree);
+  EXPECT_EQ(arrays.segments, 20000U);
+  double expected = 0;
+  for (std::size_t i = 0; i < tree.nodes(); ++i)
+    if (tree.parents[i] != no_parent) {
+      const auto& a = tree.positions_mm[i];
+      const auto& b = tree.positions_mm[tree.parents[i]];
+      expected += std::hypot<double>(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    }
+  double found = 0;
+  double stated = 0;
+  for (const VesselCluster& cluster : arrays.clusters) {
+    stated += double{cluster.length_mm};
+    for (std::uint32_t i = cluster.references; i < cluster.nodes; ++i) {
+      const PackedNode node = arrays.nodes[cluster.first_node + i];
+      const VesselNode end = unpack(cluster, node);
+      const VesselNode start = unpack(cluster, arrays.nodes[cluster.first_node + node.parent()]);
+      const auto& a = end.position_mm;
+      const auto& b = start.position_mm;
+      found += std::hypot<double>(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    }
+  }
+  EXPECT_NEAR(found, expected, 1e-3 * expected);
+  EXPECT_NEAR(stated, expected, 1e-5 * expected);
+}
+
 } // namespace
 } // namespace octascope::pipeline

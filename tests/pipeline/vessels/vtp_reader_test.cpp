@@ -8,6 +8,7 @@
 
 #include "pipeline/vessels/files/tree_file.h"
 #include "pipeline/vessels/files/vtp_reader.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/must.h"
@@ -240,9 +241,9 @@ TEST(TreeFile, is_told_by_its_content) {
   const auto vtp = tests::must(read_tree(folder.write("b.swc", "\xEF\xBB\xBF" + Text{}.file())));
   EXPECT_TRUE(std::holds_alternative<VtpCounts>(vtp.counts));
   EXPECT_EQ(vtp.unit, LengthUnit::mm);
-  EXPECT_THAT(tests::error_of(read_tree(folder.write("c.swc", {"\0\1\2", 3}))).message,
-              HasSubstr("c.swc: found bytes that are no text, expected a "
-                        "vessel tree: a .vessels file, SWC text or VTK XML poly data"));
+  EXPECT_THAT(read_tree(folder.write("c.swc", {"\0\1\2", 3})),
+              tests::FailsSaying("c.swc: found bytes that are no text, expected a "
+                                 "vessel tree: a .vessels file, SWC text or VTK XML poly data"));
 }
 
 } // namespace

@@ -4,8 +4,6 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <ostream>
 #include <set>
 #include <utility>
@@ -16,6 +14,7 @@
 
 #include "sim/faults/fault_script.h"
 #include "tests/program/program_support.h"
+#include "tests/support/files/mutation.h"
 #include "tests/support/program/built_places.h"
 
 namespace octascope::tests {
@@ -385,8 +384,7 @@ TEST(DisplayLost, at_the_end_costs_the_picture_and_not_the_report) {
 
 // A script whose times are a third of the file's.
 std::string three_times_as_fast(const std::filesystem::path& file) {
-  std::ifstream in{file};
-  std::string script{std::istreambuf_iterator<char>{in}, {}};
+  std::string script = whole_file(file);
   for (std::size_t at = 0; (at = script.find("_s = ", at)) != std::string::npos;) {
     at += 5;
     std::size_t digits = 0;

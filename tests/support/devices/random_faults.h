@@ -9,8 +9,8 @@
 
 namespace octascope::tests {
 
-// Text of a script (sim/faults/fault_script.h) whose faults all lie between the two times; one begins
-// about every `mean_gap_s`, and they may overlap.
+// Text of a script (sim/faults/fault_script.h) whose faults all lie between the two times; one
+// begins about every `mean_gap_s`, and they may overlap.
 std::string random_faults(unsigned seed, double from_s, double until_s, double mean_gap_s);
 
 // Each kind of fault of each device once, one after the other from `from_s` on, and the display's

@@ -107,9 +107,9 @@ TEST_F(HudInAllSizes, that_the_calibration_is_another_cameras_finds_room_beside_
   });
 }
 
-// A subject of any length is cut to what is the longest here. What must be seen at once is within the
-// marks; the rest, where everything is said at once, no lower than two fifths of the large picture,
-// so that its middle stays free.
+// A subject of any length is cut to what is the longest here. What must be seen at once is within
+// the marks; the rest, where everything is said at once, no lower than two fifths of the large
+// picture, so that its middle stays free.
 TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
   Status status = worst_status();
   status.freshness = {Liveness::frozen, std::chrono::seconds{3599}, std::chrono::seconds{3599}};

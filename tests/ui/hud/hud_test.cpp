@@ -173,6 +173,18 @@ TEST(HudText, an_old_microscope_picture_is_stale) {
   EXPECT_EQ(hud.scope.note.view(), "stale 3 s");
 }
 
+TEST(HudText, the_echo_lasts_for_a_moment) {
+  Status status = live_status();
+  ViewState view;
+  view.echo = {Action::tilt, false, {}, status.now + std::chrono::milliseconds{1}};
+  const HudText hud = compose_hud_text(view, status, {});
+  EXPECT_TRUE(hud.echo.visible);
+  EXPECT_EQ(hud.echo.name, "Tilt");
+  EXPECT_EQ(hud.echo.value.view(), "35°");
+  status.now = view.echo.until;
+  EXPECT_FALSE(compose_hud_text(view, status, {}).echo.visible);
+}
+
 TEST(FixedText, long_text_is_cut_between_characters) {
   FixedText<5> text;
   text.format("abc–de"); // the dash is three bytes, from 3 to 5
@@ -291,6 +303,42 @@ TEST_F(HudPicture, leaves_no_gl_error_and_the_target_bound) {
   EXPECT_EQ(before, after);
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   EXPECT_FALSE(renderer_->draw({}, live_status(), 0, 10));
+}
+
+TEST_F(HudPicture, badges_change_the_corner_and_never_the_centre) {
+  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
+  Status status = live_status();
+  status.simulated = false;
+  const pipeline::Image live = draw({}, status);
+  const Layout layout = lay_out(width, height, {});
+  const Rect corner{0, 0, layout.view.width, layout.view.height / 4};
+  const Rect centre{layout.view.width / 4, layout.view.height / 4, layout.view.width / 2,
+                    layout.view.height / 2};
+  for (const Liveness liveness : {Liveness::stale, Liveness::frozen}) {
+    status.freshness = {liveness, std::chrono::seconds{2}, std::chrono::seconds{2}};
+    const pipeline::Image marked = draw({}, status);
+    EXPECT_GT(changed(live, marked, corner), 500);
+    EXPECT_EQ(changed(live, marked, centre), 0);
+  }
+  status.freshness = live_status().freshness;
+  status.simulated = true;
+  EXPECT_GT(changed(live, draw({}, status), corner), 200);
+}
+
+TEST_F(HudPicture, a_veiled_picture_is_dark_all_over) {
+  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
+  Status status = live_status();
+  const auto brightness = [&](const pipeline::Image& image) {
+    const Layout layout = lay_out(width, height, {});
+    double sum = 0;
+    for (int y = 60; y < layout.view.height - 20; ++y)
+      for (int x = 20; x < layout.view.width - 20; ++x)
+        sum += image.pixel(x, y)[1];
+    return sum;
+  };
+  const double live = brightness(draw({}, status));
+  status.freshness = {Liveness::veiled, std::chrono::seconds{9}, {}};
+  EXPECT_LT(brightness(draw({}, status)), 0.45 * live);
 }
 
 } // namespace

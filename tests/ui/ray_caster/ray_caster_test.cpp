@@ -1,7 +1,7 @@
-// The processor's ray caster against a slow one in double precision; closed forms it is
-// held to with all techniques (volume_techniques_test.cpp).
+// The processor's ray caster against a slow one in double precision, and against closed forms.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -212,6 +212,132 @@ TEST(RayCaster, draws_the_same_with_any_number_of_threads_and_allocates_nothing)
     EXPECT_EQ(allocations_of_this_thread(), before);
     image = cast(caster, state, settings);
     EXPECT_EQ(image.rgba, first) << helpers;
+  }
+}
+
+// 1 − (1 − a)^(L / reference step), at any step. The dither adds or takes a part of one sample at
+// either end, so neighbouring pixels are averaged.
+TEST(RayCaster, uniform_slab_has_the_closed_form_opacity_at_any_step) {
+  const pipeline::VolumeGeometry slab{64, 64, 16, 40, 40, 10};
+  ui::RayCaster caster = make_caster();
+  for (const int count : {90, 110, 150}) {
+    ASSERT_TRUE(show(caster, uniform_volume(slab, static_cast<std::uint8_t>(count))));
+    ui::ViewState state;
+    state.yaw_deg = 0;
+    state.tilt_deg = 0;
+    state.distance = 8;
+    state.window_offset_db = 0;
+    state.window_size_db = 40;
+    state.opacity = 1;
+    const double grey = static_cast<double>(pipeline::level_db(static_cast<float>(count))) / 40;
+    const double steps =
+        0.16 / static_cast<double>(ui::reference_step_mm(ui::box_extents_mm(slab) / 2.0F));
+    const double expected = 255 * (1 - std::pow(1 - grey, steps));
+    for (const float step_mm : {0.016F, 0.004F, 0.001F}) {
+      const ui::RayImage image = cast(caster, state, {ui::RayMode::composite, step_mm, true});
+      double opacity = 0;
+      double shade = 0;
+      int pixels = 0;
+      for (int y = 24; y < 40; ++y)
+        for (int x = 40; x < 56; ++x, ++pixels) {
+          const std::uint32_t rgba = image.rgba[static_cast<std::size_t>(y * width + x)];
+          opacity += opacity_of(rgba);
+          shade += grey_of(rgba);
+        }
+      EXPECT_NEAR(opacity / pixels, expected, 1) << count << " at " << step_mm;
+      EXPECT_NEAR(shade / pixels, grey * expected, 1) << count << " at " << step_mm;
+    }
+  }
+}
+
+TEST(RayCaster, sphere_has_the_silhouette_of_its_cone_of_tangents) {
+  constexpr int n = 96;
+  pipeline::Volume volume = uniform_volume({n, n, n, 25, 25, 25}, 0);
+  constexpr double radius_mm = 0.9;
+  for (int b = 0; b < n; ++b)
+    for (int a = 0; a < n; ++a)
+      for (int z = 0; z < n; ++z) {
+        const auto mm = [](int i) { return (i + 0.5 - n / 2.0) * 0.025; };
+        const double distance = std::sqrt(mm(a) * mm(a) + mm(b) * mm(b) + mm(z) * mm(z));
+        // A ramp of two voxels whose middle is the sphere's surface.
+        const double share = std::clamp((radius_mm - distance) / 0.05 + 0.5, 0.0, 1.0);
+        volume.b_scan(b)[static_cast<std::size_t>(a * n + z)] =
+            static_cast<std::uint8_t>(std::lround(200 * share));
+      }
+  ui::RayCaster caster = make_caster();
+  ASSERT_TRUE(show(caster, volume));
+  ui::ViewState state = view_from({"", 25, 40, 2}, 1);
+  state.window_offset_db = pipeline::level_db(100); // begins at the surface
+  state.window_size_db = 1;
+  const ui::RayImage image = cast(caster, state, {ui::RayMode::composite, 0.004F, true}, 200, 200);
+  const ui::Camera camera = ui::make_camera(state, ui::box_extents_mm(volume.geometry), 1);
+  const double eye_mm = static_cast<double>(glm::length(camera.eye));
+  const double tangent = radius_mm / std::sqrt(eye_mm * eye_mm - radius_mm * radius_mm);
+  const double radius_pixels = tangent / static_cast<double>(camera.tan_half_height) * 100;
+  double area = 0;
+  for (const std::uint32_t rgba : image.rgba)
+    area += opacity_of(rgba) / 255.0;
+  EXPECT_NEAR(std::sqrt(area / std::numbers::pi), radius_pixels, 0.5);
+  // The nearest point is one radius before the centre.
+  const auto centre = static_cast<std::size_t>(100 * 200 + 100);
+  EXPECT_NEAR(static_cast<double>(image.depth_mm[centre]), eye_mm - radius_mm, 0.02);
+  EXPECT_TRUE(std::isinf(image.depth_mm[0]));
+}
+
+TEST(RayCaster, maximum_of_a_ramp_is_its_upper_end) {
+  pipeline::Volume volume = uniform_volume(cube, 0);
+  for (int b = 0; b < 32; ++b)
+    for (int a = 0; a < 32; ++a)
+      for (int z = 0; z < 32; ++z)
+        volume.b_scan(b)[static_cast<std::size_t>(a * 32 + z)] =
+            static_cast<std::uint8_t>(4 * b + a);
+  ui::RayCaster caster = make_caster();
+  ASSERT_TRUE(show(caster, volume));
+  ui::ViewState state = view_from({"", 0, 0, 8}, 0.5F);
+  state.window_offset_db = pipeline::lowest_level_db;
+  state.window_size_db = 100;
+  const ui::RayImage image = cast(caster, state, {ui::RayMode::maximum, 0.005F, true}, 64, 64);
+  // Straight through the middle: the nearest B-scan, between A-scans 15 and 16.
+  const double expected = 255 * (124 + 15.5) * 0.5 / 100;
+  for (const std::size_t row : {31U, 32U}) {
+    const std::uint32_t left = image.rgba[row * 64 + 31];
+    const std::uint32_t right = image.rgba[row * 64 + 32];
+    EXPECT_NEAR((grey_of(left) + grey_of(right)) / 2.0, expected, 0.6);
+    EXPECT_NEAR((opacity_of(left) + opacity_of(right)) / 2.0, expected, 0.6);
+  }
+}
+
+TEST(RayCaster, a_changed_window_or_volume_shows_in_the_next_picture) {
+  ui::RayCaster caster = make_caster();
+  ASSERT_TRUE(show(caster, uniform_volume(cube, 100)));
+  ui::ViewState state = view_from({"", 0, 0, 3}, 1);
+  state.window_offset_db = 0;
+  state.window_size_db = 40;
+  const ui::RaySettings settings{ui::RayMode::composite, 0.01F, true};
+  const auto middle = [&] {
+    return grey_of(cast(caster, state, settings, 64, 64).rgba[32 * 64 + 32]);
+  };
+  EXPECT_NEAR(middle(), 255 * 10.0 / 40, 1);
+  state.window_offset_db = 20;
+  EXPECT_EQ(middle(), 0) << "below the window all is clear";
+  ASSERT_TRUE(show(caster, uniform_volume(cube, 140)));
+  EXPECT_NEAR(middle(), 255 * 10.0 / 40, 1) << "bricks that were empty are not any more";
+}
+
+TEST(RayCaster, half_the_step_is_the_same_picture) {
+  ui::RayCaster caster = make_caster();
+  ASSERT_TRUE(show(caster, tissue_volume(small_geometry)));
+  for (const Place& view : places) {
+    const ui::ViewState state = view_from(view, 0.5F);
+    const auto at = [&](int steps) {
+      return cast(caster, state, {ui::RayMode::composite, step_for(small_geometry, steps), true});
+    };
+    const ui::RayImage coarse = at(512);
+    const ui::RayImage fine = at(1024);
+    double difference = 0;
+    for (std::size_t i = 0; i < fine.rgba.size(); ++i)
+      difference += std::abs(grey_of(fine.rgba[i]) - grey_of(coarse.rgba[i]));
+    EXPECT_LE(difference / static_cast<double>(fine.rgba.size()), 0.01 * 255) << view.name;
   }
 }
 

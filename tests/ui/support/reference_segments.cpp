@@ -71,9 +71,9 @@ std::optional<ReferenceSegment> segment_of(const ui::VesselScene& scene,
 
 // Where the ray (1 along the view) enters the ball a share of the way from end to end; no number
 // where it misses.
-double enter_ball(const ReferenceSegment& s, const glm::dvec3& ray, double share) {
+double enter_ball(const ReferenceSegment& s, const glm::dvec3& ray, double share, double wider) {
   const glm::dvec3 middle = glm::mix(s.from, s.to, share);
-  const double radius = glm::mix(s.from_mm, s.to_mm, share);
+  const double radius = wider * glm::mix(s.from_mm, s.to_mm, share);
   const double along = glm::dot(ray, middle);
   const double square = glm::dot(ray, ray);
   return (along -
@@ -82,18 +82,18 @@ double enter_ball(const ReferenceSegment& s, const glm::dvec3& ray, double share
 }
 
 // The first of all the balls between the ends that the ray enters, found by trying.
-double surface_mm(const ReferenceSegment& s, const glm::dvec3& ray, double axis_mm) {
+double surface_mm(const ReferenceSegment& s, const glm::dvec3& ray, double axis_mm, double wider) {
   constexpr int tried = 96;
   double nearest = axis_mm;
   double share = 0;
   for (int i = 0; i <= tried; ++i)
-    if (const double entered = enter_ball(s, ray, i / double{tried}); entered < nearest) {
+    if (const double entered = enter_ball(s, ray, i / double{tried}, wider); entered < nearest) {
       nearest = entered;
       share = i / double{tried};
     }
   for (double step = 0.5 / tried; step > 1e-5; step /= 2)
     for (const double near : {share - step, share + step})
-      if (const double entered = enter_ball(s, ray, std::clamp(near, 0.0, 1.0));
+      if (const double entered = enter_ball(s, ray, std::clamp(near, 0.0, 1.0), wider);
           entered < nearest) {
         nearest = entered;
         share = std::clamp(near, 0.0, 1.0);
@@ -111,14 +111,23 @@ ReferencePlace place_in(const ReferenceSegment& s, const glm::dvec2& place,
   const double t = end_on ? 0 : std::clamp(glm::dot(place - s.a, way) / length2, 0.0, 1.0);
   ReferencePlace found{glm::length(place - s.a - t * way),
                        end_on ? s.widest_px() : glm::mix(s.ra, s.rb, t),
-                       1 / glm::mix(1 / s.za, 1 / s.zb, t)};
-  if (s.widest_px() >= 8 && found.outside_px() < 0) {
+                       1 / glm::mix(1 / s.za, 1 / s.zb, t),
+                       0,
+                       0,
+                       0};
+  found.distance_mm = found.farthest_mm = found.nearest_mm = found.axis_mm;
+  if (s.widest_px() >= 8 && found.outside_px() < 0.01) {
     const double scale = scene.pixels_per_unit();
     const glm::dvec3 ray{(place.x - 0.5 * scene.width) / scale + double{scene.camera.centre_shift},
                          (0.5 * scene.height - place.y) / scale, 1};
     const double near_mm = scene.camera.near_mm;
-    found.distance_mm = std::max(surface_mm(s, ray, found.distance_mm),
-                                 near_mm + 0.002 * (found.distance_mm - near_mm));
+    const auto seen_mm = [&](double wider) {
+      return std::max(surface_mm(s, ray, found.axis_mm, wider),
+                      near_mm + 0.002 * (found.axis_mm - near_mm));
+    };
+    found.distance_mm = seen_mm(1);
+    found.farthest_mm = seen_mm(0.999);
+    found.nearest_mm = seen_mm(1.001);
   }
   return found;
 }

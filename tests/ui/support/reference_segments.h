@@ -1,4 +1,5 @@
-// The segments of a vessel tree on the screen (ui/vessels/scene/vessel_scene.h), in double precision.
+// The segments of a vessel tree on the screen (ui/vessels/scene/vessel_scene.h), in double
+// precision.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +29,11 @@ struct ReferenceSegment {
 struct ReferencePlace {
   double off_px;      // from the axis
   double radius_px;   // there
+  double axis_mm;     // its distance
   double distance_mm; // of what is seen: the axis, or of wide segments the surface
+  // Likewise, were the segment thinner or thicker by a thousandth: between them, rounding decides.
+  double farthest_mm;
+  double nearest_mm;
 
   double outside_px() const { return off_px - radius_px; }
 };

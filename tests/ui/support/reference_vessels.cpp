@@ -12,11 +12,9 @@ namespace {
 constexpr double looked_at_px = 2; // around an outline
 
 void shade(ReferenceVesselPixel& pixel, const ui::VesselScene& scene, const ReferencePlace& place,
-           const ReferenceSegment& segment) {
+           std::uint32_t node) {
   const double inside = -place.outside_px();
   const bool hidden = inside < 0 || (pixel.covered() && pixel.depth_mm <= place.distance_mm);
-  if (inside >= 0 && pixel.covered())
-    pixel.next_mm = std::min(pixel.next_mm, std::max(pixel.depth_mm, place.distance_mm));
   pixel.inside_px = std::max(pixel.inside_px, inside);
   pixel.to_outline_px = std::min(pixel.to_outline_px, std::abs(inside));
   if (inside >= 0)
@@ -24,8 +22,7 @@ void shade(ReferenceVesselPixel& pixel, const ui::VesselScene& scene, const Refe
   if (hidden)
     return;
   pixel.depth_mm = place.distance_mm;
-  pixel.node = segment.node;
-  pixel.colour = segment.colour;
+  pixel.node = node;
   pixel.brightness =
       double{ui::vessel_brightness(static_cast<float>(place.off_px / place.radius_px)) *
              ui::vessel_fading(scene.look, static_cast<float>(place.distance_mm))};
@@ -40,7 +37,7 @@ std::vector<ReferenceVesselPixel> reference_vessels(const ui::VesselScene& scene
     for (int y = range.top; y < range.bottom; ++y)
       for (int x = range.left; x < range.right; ++x)
         shade(pixels[static_cast<std::size_t>(y * scene.width + x)], scene,
-              place_in(segment, {x + 0.5, y + 0.5}, scene), segment);
+              place_in(segment, {x + 0.5, y + 0.5}, scene), segment.node);
   }
   return pixels;
 }

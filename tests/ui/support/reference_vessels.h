@@ -1,5 +1,5 @@
-// The shape of ui/vessels/scene/vessel_scene.h in double precision, pixel by pixel, with nothing left
-// out.
+// The shape of ui/vessels/scene/vessel_scene.h in double precision, pixel by pixel, with nothing
+// left out.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,8 @@
 namespace octascope::tests {
 
 struct ReferenceVesselPixel {
-  double depth_mm = 0;          // of what is seen, along the view
-  double next_mm = 1e9;         // likewise, of the next segment behind it
-  ui::VesselColour colour{};    // by branch or by order, as the scene's look says
-  double brightness = 0;        // of it, with the depth cue, 0…1
+  double depth_mm = 0;          // of the axis, along the view
+  double brightness = 0;        // with the depth cue, 0…1
   double largest_radius_px = 0; // of all that cover it
   std::uint32_t node = 0;       // whose segment it is, in VesselClusters::nodes
   // How far the pixel's centre is inside an outline, at most, in pixels; negative outside all.

@@ -1,4 +1,5 @@
-// The measure that golden pictures of texture are held to: what it lets pass and what not.
+// The measure that golden pictures of texture are held to: its values in closed form, and what it
+// lets pass and what not.
 #include <cmath>
 #include <filesystem>
 
@@ -11,6 +12,20 @@
 
 namespace octascope::tests {
 namespace {
+
+pipeline::Image grey_picture(int width, int height, auto&& level) {
+  pipeline::Image image{width, height, 3};
+  std::size_t i = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.pixels[i++] = static_cast<std::uint8_t>(level(x, y));
+  return image;
+}
+
+pipeline::Image checks(int low, int high) {
+  return grey_picture(40, 30, [=](int x, int y) { return (x + y) % 2 == 0 ? low : high; });
+}
 
 pipeline::Image golden(const std::string& name) {
   auto read = pipeline::read_png(source_folder() / "tests/golden" / (name + ".png"));
@@ -30,6 +45,35 @@ pipeline::Image mixed_with_neighbour(const pipeline::Image& from, double share) 
             std::lround((1 - share) * from.pixels[i] + share * from.pixels[i + 3]));
       }
   return image;
+}
+
+TEST(StructuralSimilarity, is_1_for_equal_pictures) {
+  EXPECT_DOUBLE_EQ(structural_similarity(checks(20, 220), checks(20, 220)), 1);
+}
+
+// Two flat pictures differ in luminance alone: (2ab + C1) / (a² + b² + C1).
+TEST(StructuralSimilarity, of_flat_pictures_is_the_luminance_term) {
+  const auto flat = [](int level) { return grey_picture(20, 20, [=](int, int) { return level; }); };
+  const double c1 = 2.55 * 2.55;
+  EXPECT_NEAR(structural_similarity(flat(100), flat(140)),
+              (2.0 * 100 * 140 + c1) / (100.0 * 100 + 140.0 * 140 + c1), 1e-9);
+}
+
+// The opposite of a pattern about the same mean: the structure term is −1 but for C2.
+TEST(StructuralSimilarity, of_a_pattern_and_its_negative_is_almost_minus_1) {
+  const double similarity = structural_similarity(checks(28, 228), checks(228, 28));
+  EXPECT_LT(similarity, -0.98);
+  EXPECT_GT(similarity, -1);
+}
+
+// Beside a large empty ground, too, the part that differs decides.
+TEST(StructuralSimilarity, is_not_drowned_by_an_empty_ground) {
+  const auto corner = [](int phase) {
+    return grey_picture(200, 200, [=](int x, int y) {
+      return x < 30 && y < 30 ? ((x + y + phase) % 2 == 0 ? 20 : 220) : 8;
+    });
+  };
+  EXPECT_LT(structural_similarity(corner(0), corner(1)), 0);
 }
 
 class KeptPicture : public testing::TestWithParam<std::string> {};

@@ -143,6 +143,19 @@ TEST_P(VolumePictureTest, the_box_has_its_physical_aspect) {
   EXPECT_EQ(pixel(size / 2, top - 3), 255);
 }
 
+TEST_P(VolumePictureTest, a_change_of_the_window_needs_no_new_volume) {
+  upload(uniform_volume(cube, 130)); // 25 dB
+  ui::ViewState view = plain_view();
+  draw(view);
+  EXPECT_NEAR(pixel(size / 2, size / 2), 255 * 25.0 / 40, 2);
+  view.window_size_db = 100;
+  draw(view);
+  EXPECT_NEAR(pixel(size / 2, size / 2), 255 * 25.0 / 100, 2);
+  view.window_offset_db = 30;
+  draw(view);
+  EXPECT_EQ(pixel(size / 2, size / 2), 255) << "below the window all is clear";
+}
+
 TEST_P(VolumePictureTest, refuses_volumes_that_do_not_fit_and_keeps_the_last) {
   upload(uniform_volume(cube, 130));
   pipeline::Volume torn = uniform_volume(cube, 0);

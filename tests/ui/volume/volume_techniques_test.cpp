@@ -60,14 +60,6 @@ protected:
   }
   void TearDown() override { stage_.reset(); }
 
-  // By GL; and where rays are cast, by the processor.
-  std::vector<StagePicture> pictures(const ui::ViewState& view, const StageSettings& settings) {
-    std::vector<StagePicture> made{stage_->draw(view, settings)};
-    if (std::ranges::count(ray_techniques, view.technique) > 0)
-      made.push_back(stage_->cast(view, mode_of(view.technique), settings));
-    return made;
-  }
-
   void expect_as_rays(Technique technique, const pipeline::VolumeGeometry& geometry,
                       const StageSettings& settings, double most) {
     stage_->show(tissue_volume(geometry));
@@ -165,11 +157,10 @@ TEST_F(VolumeTechniquesTest, half_the_step_is_the_same_picture) {
        {Technique::planes, Technique::rays, Technique::shaded, Technique::maximum})
     for (const Place& place : places) {
       const ui::ViewState view = view_from(place, technique);
-      const auto coarse = pictures(view, steps(small_geometry, 512));
-      const auto fine = pictures(view, steps(small_geometry, 1024));
-      for (std::size_t i = 0; i < fine.size(); ++i)
-        EXPECT_LE(mean_difference(coarse[i], fine[i]), 0.01 * 255)
-            << ui::to_string(technique) << ' ' << place.name << ' ' << i;
+      const StagePicture coarse = stage_->draw(view, steps(small_geometry, 512));
+      const StagePicture fine = stage_->draw(view, steps(small_geometry, 1024));
+      EXPECT_LE(mean_difference(coarse, fine), 0.01 * 255)
+          << ui::to_string(technique) << ' ' << place.name;
     }
 }
 
@@ -261,19 +252,18 @@ TEST_F(VolumeTechniquesTest, uniform_slab_has_the_closed_form_opacity) {
         view.window_size_db = 40;
         StageSettings settings;
         settings.step_mm = step_mm;
-        for (const StagePicture& picture : pictures(view, settings)) {
-          double opacity = 0;
-          double shade = 0;
-          for (int y = 42; y < 58; ++y) // the dither's average
-            for (int x = 72; x < 88; ++x) {
-              opacity += 255 * static_cast<double>(picture.at(x, y).opacity) / 256;
-              shade += 255 * static_cast<double>(picture.at(x, y).red) / 256;
-            }
-          const std::string what = std::string{ui::to_string(technique)} + ' ' +
-                                   std::to_string(count) + " at " + std::to_string(step_mm);
-          EXPECT_NEAR(opacity, expected, 1) << what;
-          EXPECT_NEAR(shade, grey * expected, 1) << what;
-        }
+        const StagePicture picture = stage_->draw(view, settings);
+        double opacity = 0;
+        double shade = 0;
+        for (int y = 42; y < 58; ++y) // the dither's average
+          for (int x = 72; x < 88; ++x) {
+            opacity += 255 * static_cast<double>(picture.at(x, y).opacity) / 256;
+            shade += 255 * static_cast<double>(picture.at(x, y).red) / 256;
+          }
+        const std::string what = std::string{ui::to_string(technique)} + ' ' +
+                                 std::to_string(count) + " at " + std::to_string(step_mm);
+        EXPECT_NEAR(opacity, expected, 1) << what;
+        EXPECT_NEAR(shade, grey * expected, 1) << what;
       }
   }
 }
@@ -324,25 +314,23 @@ TEST_F(VolumeTechniquesTest, sphere_has_the_silhouette_of_its_cone_of_tangents) 
     ui::ViewState view = view_from({"", 25, 40, 2}, technique, 1);
     view.window_offset_db = pipeline::level_db(100); // begins at the surface
     view.window_size_db = 1;
+    const StagePicture picture = stage_->draw(view, settings);
     const ui::Camera camera = ui::make_camera(view, ui::box_extents_mm(volume.geometry), 1);
     const double eye_mm = static_cast<double>(glm::length(camera.eye));
     const double tangent = radius_mm / std::sqrt(eye_mm * eye_mm - radius_mm * radius_mm);
     const double radius_pixels = tangent / static_cast<double>(camera.tan_half_height) * 100;
-    for (const StagePicture& picture : pictures(view, settings)) {
-      const double area = mean_opacity(picture) / 255 * 200 * 200;
-      EXPECT_NEAR(std::sqrt(area / std::numbers::pi), radius_pixels, 0.7)
-          << ui::to_string(technique);
-      if (picture.depth_mm.empty())
-        continue;
-      const auto centre = static_cast<double>(picture.depth_mm[100 * 200 + 100]);
-      if (technique == Technique::rays || technique == Technique::shaded) {
-        EXPECT_NEAR(centre, eye_mm - radius_mm, 0.02) << ui::to_string(technique);
-      }
-      if (technique == Technique::slices || technique == Technique::planes) {
-        EXPECT_TRUE(std::isinf(centre)) << ui::to_string(technique);
-      }
-      EXPECT_TRUE(std::isinf(picture.depth_mm[0])) << ui::to_string(technique);
+    const double area = mean_opacity(picture) / 255 * 200 * 200;
+    EXPECT_NEAR(std::sqrt(area / std::numbers::pi), radius_pixels, 0.7) << ui::to_string(technique);
+    if (picture.depth_mm.empty())
+      continue;
+    const auto centre = static_cast<double>(picture.depth_mm[100 * 200 + 100]);
+    if (technique == Technique::rays || technique == Technique::shaded) {
+      EXPECT_NEAR(centre, eye_mm - radius_mm, 0.02) << ui::to_string(technique);
     }
+    if (technique == Technique::slices || technique == Technique::planes) {
+      EXPECT_TRUE(std::isinf(centre)) << ui::to_string(technique);
+    }
+    EXPECT_TRUE(std::isinf(picture.depth_mm[0])) << ui::to_string(technique);
   }
 }
 
@@ -361,14 +349,12 @@ TEST_F(VolumeTechniquesTest, maximum_of_a_ramp_is_its_upper_end) {
   settings.width = 64;
   settings.height = 64;
   settings.step_mm = 0.005F;
+  const StagePicture picture = stage_->draw(view, settings);
   // Straight through the middle: the nearest B-scan, between A-scans 15 and 16.
   const double expected = 255 * (124 + 15.5) * 0.5 / 100;
-  for (const StagePicture& picture : pictures(view, settings)) {
-    const double found =
-        127.5 * static_cast<double>(picture.at(31, 31).red + picture.at(32, 31).red);
-    EXPECT_NEAR(found, expected, 0.7);
-    EXPECT_EQ(picture.at(31, 31).red, picture.at(31, 31).opacity);
-  }
+  const double found = 127.5 * static_cast<double>(picture.at(31, 31).red + picture.at(32, 31).red);
+  EXPECT_NEAR(found, expected, 0.7);
+  EXPECT_EQ(picture.at(31, 31).red, picture.at(31, 31).opacity);
 }
 
 // The box against the matrices, with every technique and shape of picture.
@@ -435,13 +421,12 @@ TEST_F(VolumeTechniquesTest, a_changed_window_shows_where_bricks_were_empty) {
     ui::ViewState view = view_from({"", 0, 0, 3}, technique, 1);
     view.window_offset_db = 20;
     view.window_size_db = 20;
-    for (const StagePicture& picture : pictures(view, settings))
-      EXPECT_EQ(mean_opacity(picture), 0) << ui::to_string(technique);
+    EXPECT_EQ(mean_opacity(stage_->draw(view, settings)), 0) << ui::to_string(technique);
     view.window_offset_db = 0;
-    for (const StagePicture& picture : pictures(view, settings))
-      EXPECT_NEAR(picture.at(80, 50).red, technique == Technique::shaded ? 0.45F : 0.5F,
-                  technique == Technique::shaded ? 0.1F : 0.01F)
-          << ui::to_string(technique);
+    const StagePicture picture = stage_->draw(view, settings);
+    EXPECT_NEAR(picture.at(80, 50).red, technique == Technique::shaded ? 0.45F : 0.5F,
+                technique == Technique::shaded ? 0.1F : 0.01F)
+        << ui::to_string(technique);
   }
 }
 

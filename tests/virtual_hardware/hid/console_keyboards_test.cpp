@@ -187,7 +187,7 @@ TEST_F(ConsoleKeyboardsTest, every_system_call_that_fails_ends_well) {
         return keyboards.serving().empty() ? std::nullopt : std::optional{"not let go"};
       },
       false);
-  expect_good(report, 20);
+  expect_good(report, 21);
   keyboards_.attend(true);
   type(*keyboard, KEY_O);
   EXPECT_THAT(keys(keyboards_), ElementsAre("+o", "-o"));

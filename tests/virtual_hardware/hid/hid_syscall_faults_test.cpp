@@ -55,7 +55,7 @@ TEST_F(HidSyscallFaults, hidapi_and_evdev_end_well) {
   ASSERT_TRUE(pedal && typing);
   const SyscallFaultReport report = inject_faults(
       every_kind, usual_errors(), [&] { return use(*pedal, *typing); }, false, spared);
-  expect_good(report, 40);
+  expect_good(report, 41);
   EXPECT_EQ(use(*pedal, *typing), std::nullopt);
 }
 

@@ -19,9 +19,9 @@ namespace {
 
 FakeDriver from_environment() {
   FakeDriver driver;
-  if (const char* const wish = std::getenv("OCTASCOPE_FAKE_RESET")) {
+  if (const char* const wanted = std::getenv("OCTASCOPE_FAKE_RESET")) {
     int after = 0, times = 0;
-    std::istringstream{wish} >> after >> times;
+    std::istringstream{wanted} >> after >> times;
     driver.tells_of_resets = true;
     driver.first_reset = after + 1;
     driver.last_reset = after + times;
@@ -73,11 +73,11 @@ const char* eglQueryString(EGLDisplay display, EGLint name) {
 // The real driver has never heard of resets, and is asked for a context without.
 EGLContext eglCreateContext(EGLDisplay display, EGLConfig config, EGLContext shared,
                             const EGLint* attributes) {
-  std::vector<int> wish;
+  std::vector<int> wanted;
   for (; *attributes != EGL_NONE; ++attributes)
-    wish.push_back(*attributes);
-  fake_driver().context_attributes = wish;
-  if (asks_to_be_told(wish) && fake_driver().refuses)
+    wanted.push_back(*attributes);
+  fake_driver().context_attributes = wanted;
+  if (asks_to_be_told(wanted) && fake_driver().refuses)
     return EGL_NO_CONTEXT;
   const EGLint plain[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
   return real<decltype(eglCreateContext)>("eglCreateContext")(display, config, shared, plain);

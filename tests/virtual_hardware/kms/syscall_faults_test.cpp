@@ -1,7 +1,7 @@
-// The console display with failing system calls: each site of a system call of opening and closing, and each call
-// of showing, fails once with each error; it ends with success or an Error in words, gives back
-// what it took, and works the next time. The calls are the display's own and those of libdrm, GBM,
-// EGL and udev below it.
+// The console display while system calls fail: each site of one of opening and closing, and each
+// call of showing, fails once with each error; it ends with success or an Error in words, gives
+// back what it took, and works the next time. The calls are the display's own and those of libdrm,
+// GBM, EGL and udev below it.
 #include <cerrno>
 #include <optional>
 #include <string>

@@ -1,6 +1,6 @@
 // The libcamera backend while system calls fail, its own, libcamera's and libudev's: each site with
-// each error that the kernel may give there. A fault has a process of its own, since libcamera 0.0.3
-// ends the program at some: those are known by name, and no other may.
+// each error that the kernel may give there. A fault has a process of its own, since libcamera
+// 0.0.3 ends the program at some: those are known by name, and no other may.
 #include <memory>
 #include <optional>
 #include <string>

@@ -35,8 +35,8 @@ protected:
   make_camera(const backend::LibcameraScopeOptions& options) {
     return std::make_unique<backend::LibcameraScopeCamera>(*session_, options, clock_);
   }
-  void open_and_start(hal::ScopeCameraConfig wish = {}) {
-    const auto opened = camera_->open(wish);
+  void open_and_start(hal::ScopeCameraConfig wanted = {}) {
+    const auto opened = camera_->open(wanted);
     ASSERT_TRUE(opened) << opened.error().message;
     const auto started = camera_->start();
     ASSERT_TRUE(started) << started.error().message;
@@ -99,7 +99,7 @@ TEST_F(Vimc, picture_shows_the_eight_bars) {
   camera_->release(frame.buffer);
 }
 
-TEST_F(Vimc, size_follows_the_wish) {
+TEST_F(Vimc, size_follows_the_request) {
   for (const auto& [width, height] : {std::pair{320, 240}, std::pair{1280, 720}}) {
     open_and_start({width, height, 30});
     const hal::ScopeFrame frame = next_frame();

@@ -21,7 +21,7 @@ public:
   // its libraries were mapped.
   std::uint64_t hash() const;
 
-  // "libdrm.so.2 drmIoctl < libdrm.so.2 drmModeSetPlane < bench_kms_syscall_faults": the innermost first;
+  // "libdrm.so.2 drmIoctl < libdrm.so.2 drmModeSetPlane < bench_kms": the innermost first;
   // functions that their module does not export have no name, and those in a row are told once.
   std::string names(std::size_t most) const;
 

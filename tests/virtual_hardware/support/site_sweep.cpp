@@ -20,8 +20,8 @@ namespace octascope::tests {
 
 namespace {
 
-// A fault that hangs is told by that; it has another try that may take longer, as the machine may be
-// busy. Where it is known to hang, no more than a moment is waited.
+// A fault that hangs is told by that; it has another try that may take longer, as the machine may
+// be busy. Where it is known to hang, no more than a moment is waited.
 constexpr unsigned longest_fault_s = 10, longest_second_try_s = 60, longest_known_s = 3;
 
 // What a process tells of one fault, in memory that the test has, too.

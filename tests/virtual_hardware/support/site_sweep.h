@@ -1,9 +1,9 @@
 // System calls that are made to fail, site by site, in processes that may die.
 //
 // For scenarios of which a library under ours may die (it asserts, or takes what it did not get),
-// and for those with too many calls to hit each: a site that is called in a loop is hit once. Faults
-// follow one another in a process until one does not end well: the next has a new process. So each
-// that does well has shown, too, that the one before it left nothing amiss.
+// and for those with too many calls to hit each: a site that is called in a loop is hit once.
+// Faults follow one another in a process until one does not end well: the next has a new process.
+// So each that does well has shown, too, that the one before it left nothing amiss.
 #pragma once
 
 #include <functional>
@@ -31,8 +31,8 @@ struct SweepPlan {
   // it took, threads above all.
   std::function<bool()> begin = {};
   std::function<void()> end = {};
-  // After a fault that left something behind, or that was missed, unharmed, in the same process, and
-  // in the test's own after all: says what is wrong.
+  // After a fault that left something behind, or that was missed, unharmed, in the same process,
+  // and in the test's own after all: says what is wrong.
   std::function<std::optional<std::string>()> afterwards = {};
   // Where one of these came true, the site is spared the other errors.
   std::span<const KnownDeath> known = {};

@@ -271,13 +271,6 @@ mode_t mode_of(int flags, va_list arguments) {
   return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(arguments, mode_t) : mode_t{0};
 }
 
-void* map_unless_hit(const char* name, const void* caller, void* address, std::size_t length,
-                     int protection, int flags, int descriptor, off_t offset) {
-  if (descriptor >= 0 && fails({CallKind::map, caller}))
-    return MAP_FAILED;
-  return next<MapFunction>(name)(address, length, protection, flags, descriptor, offset);
-}
-
 } // namespace
 
 extern "C" {
@@ -292,16 +285,6 @@ int open(const char* path, int flags, ...) {
              : next<OpenFunction>("open")(path, flags, mode);
 }
 
-int open64(const char* path, int flags, ...) {
-  va_list arguments;
-  va_start(arguments, flags);
-  const mode_t mode = mode_of(flags, arguments);
-  va_end(arguments);
-  return fails({CallKind::open, __builtin_return_address(0)})
-             ? -1
-             : next<OpenFunction>("open64")(path, flags, mode);
-}
-
 int openat(int folder, const char* path, int flags, ...) {
   va_list arguments;
   va_start(arguments, flags);
@@ -310,16 +293,6 @@ int openat(int folder, const char* path, int flags, ...) {
   return fails({CallKind::open, __builtin_return_address(0)})
              ? -1
              : next<OpenAtFunction>("openat")(folder, path, flags, mode);
-}
-
-int openat64(int folder, const char* path, int flags, ...) {
-  va_list arguments;
-  va_start(arguments, flags);
-  const mode_t mode = mode_of(flags, arguments);
-  va_end(arguments);
-  return fails({CallKind::open, __builtin_return_address(0)})
-             ? -1
-             : next<OpenAtFunction>("openat64")(folder, path, flags, mode);
 }
 
 int close(int descriptor) {
@@ -384,14 +357,15 @@ ssize_t recvmsg(int socket, msghdr* message, int flags) {
 
 void* mmap(void* address, std::size_t length, int protection, int flags, int descriptor,
            off_t offset) noexcept {
-  return map_unless_hit("mmap", __builtin_return_address(0), address, length, protection, flags,
-                        descriptor, offset);
+  if (descriptor >= 0 && fails({CallKind::map, __builtin_return_address(0)}))
+    return MAP_FAILED;
+  return next<MapFunction>("mmap")(address, length, protection, flags, descriptor, offset);
 }
 
+// Where offsets have 64 bits anyway, both names are one function.
+int open64(const char* path, int flags, ...) __attribute__((alias("open")));
+int openat64(int folder, const char* path, int flags, ...) __attribute__((alias("openat")));
 void* mmap64(void* address, std::size_t length, int protection, int flags, int descriptor,
-             off_t offset) noexcept {
-  return map_unless_hit("mmap64", __builtin_return_address(0), address, length, protection, flags,
-                        descriptor, offset);
-}
+             off_t offset) noexcept __attribute__((alias("mmap")));
 
 } // extern "C"

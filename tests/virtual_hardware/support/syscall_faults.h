@@ -1,9 +1,10 @@
-// System calls that are made to fail: the calls of the program and of its libraries, counted, and one of them
-// made to fail.
+// System calls that are made to fail: the calls of the program and of its libraries, counted, and
+// one of them made to fail.
 //
-// Linked into a program, syscall_faults.cpp stands before the C library's open, close, ioctl, poll, read,
-// write, mmap and recv: whoever calls them, our backends or libdrm, libgpiod, libudev and libcamera
-// below them, comes through it. Nothing is changed unless a SyscallFaultInjector is alive.
+// Linked into a program, syscall_faults.cpp stands before the C library's open, close, ioctl, poll,
+// read, write, mmap and recv: whoever calls them, our backends or libdrm, libgpiod, libudev and
+// libcamera below them, comes through it. Nothing is changed unless a SyscallFaultInjector is
+// alive.
 //
 // Where a scenario has so many calls that hitting each takes too long, each *site* is hit
 // (site_sweep.h): calls that the same functions make, one within the other from the scenario down,

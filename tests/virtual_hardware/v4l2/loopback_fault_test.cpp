@@ -13,6 +13,7 @@
 #include "tests/support/fails_with.h"
 #include "tests/virtual_hardware/support/loopback_feeder.h"
 #include "tests/virtual_hardware/support/resource_count.h"
+#include "tests/virtual_hardware/support/syscall_faults.h"
 
 namespace octascope::tests {
 namespace {
@@ -205,9 +206,12 @@ TEST_F(LoopbackFault, opened_and_closed_200_times_nothing_leaks) {
   V4l2LineCamera camera{{.node = node_}, clock_};
   const auto whole = frame_of(fed, 3);
   ResourceCount before;
+  Holdings held;
   for (int cycle = 0; cycle < 205; ++cycle) {
-    if (cycle == 5) // what is allocated once is there
+    if (cycle == 5) { // what is allocated once is there
+      held = Holdings::now();
       before = resources_in_use();
+    }
     ASSERT_TRUE(camera.open(config_of())) << cycle;
     ASSERT_TRUE(camera.start()) << cycle;
     ASSERT_TRUE(fed.write(whole));
@@ -220,6 +224,7 @@ TEST_F(LoopbackFault, opened_and_closed_200_times_nothing_leaks) {
     camera.close();
   }
   expect_no_leak(before);
+  EXPECT_EQ(Holdings::now().mappings, held.mappings) << "of files and devices";
 }
 
 } // namespace

@@ -239,12 +239,15 @@ TEST_F(VividFault, a_camera_without_permission_says_what_to_do) {
 
 TEST_F(VividFault, unplugged_and_plugged_200_times_nothing_leaks) {
   ResourceCount before;
+  Holdings held;
   LineCameraConfig config = usual_config();
   config.format.samples_per_line = 256;
   config.format.lines_per_frame = 32;
   for (int cycle = 0; cycle < 205; ++cycle) {
-    if (cycle == 5) // what is allocated once is there
+    if (cycle == 5) { // what is allocated once is there
+      held = Holdings::now();
       before = resources_in_use();
+    }
     ASSERT_NO_FATAL_FAILURE(open_and_start(config)) << cycle;
     const LineFrame loan = next_frame();
     ASSERT_TRUE(vivid_->set("Disconnect"));
@@ -256,6 +259,7 @@ TEST_F(VividFault, unplugged_and_plugged_200_times_nothing_leaks) {
     ASSERT_FALSE(HasFailure()) << cycle;
   }
   expect_no_leak(before);
+  EXPECT_EQ(Holdings::now().mappings, held.mappings) << "of files and devices";
 }
 
 } // namespace

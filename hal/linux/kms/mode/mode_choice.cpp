@@ -40,15 +40,16 @@ bool take(std::string_view& text, char expected) {
   return true;
 }
 
-tl::unexpected<Error> no_such_mode(std::span<const Mode> modes, const ModeWish& wish) {
+tl::unexpected<Error> no_such_mode(std::span<const Mode> modes, const ModeRequest& wanted) {
   std::string list;
   for (const Mode& mode : modes)
     list += (list.empty() ? "" : ", ") + to_text(mode);
   return fail(ErrorCode::unsupported,
               "kms display: no mode {}x{}{}, expected one of the monitor's: {}; set the mode to "
               "one of them, or to \"{}x{}M\" to try computed timings",
-              wish.width, wish.height, wish.refresh_hz ? fmt::format("@{}", *wish.refresh_hz) : "",
-              list.empty() ? "none" : list, wish.width, wish.height);
+              wanted.width, wanted.height,
+              wanted.refresh_hz ? fmt::format("@{}", *wanted.refresh_hz) : "",
+              list.empty() ? "none" : list, wanted.width, wanted.height);
 }
 
 // Lines of vertical sync, by which monitors tell the aspect ratio (CVT 1.1, table 3-2).
@@ -67,10 +68,10 @@ int sync_lines(int width, int height) {
 
 } // namespace
 
-Result<ModeWish> parse_mode_wish(std::string_view text) {
-  ModeWish wish;
+Result<ModeRequest> parse_mode_request(std::string_view text) {
+  ModeRequest wanted;
   if (text.empty() || text == "preferred")
-    return wish;
+    return wanted;
   std::string_view rest = text;
   const auto width = take_number<int>(rest);
   if (!width || !take(rest, 'x'))
@@ -78,40 +79,42 @@ Result<ModeWish> parse_mode_wish(std::string_view text) {
   const auto height = take_number<int>(rest);
   if (!height || *width < smallest || *height < smallest || *width > largest || *height > largest)
     return not_a_mode(text);
-  wish.width = *width;
-  wish.height = *height;
-  wish.computed = take(rest, 'M');
+  wanted.width = *width;
+  wanted.height = *height;
+  wanted.computed = take(rest, 'M');
   if (take(rest, '@')) {
-    wish.refresh_hz = take_number<double>(rest);
-    if (!wish.refresh_hz || !(*wish.refresh_hz >= 1 && *wish.refresh_hz <= 1000))
+    wanted.refresh_hz = take_number<double>(rest);
+    if (!wanted.refresh_hz || !(*wanted.refresh_hz >= 1 && *wanted.refresh_hz <= 1000))
       return not_a_mode(text);
   }
   if (!rest.empty())
     return not_a_mode(text);
-  return wish;
+  return wanted;
 }
 
-Result<Mode> choose_mode(std::span<const Mode> modes, const ModeWish& wish) {
-  if (wish.computed)
-    return computed_mode(wish.width, wish.height, wish.refresh_hz.value_or(60));
+Result<Mode> choose_mode(std::span<const Mode> modes, const ModeRequest& wanted) {
+  if (wanted.computed)
+    return computed_mode(wanted.width, wanted.height, wanted.refresh_hz.value_or(60));
   const Mode* best = nullptr;
   // The monitor's order decides between equals.
   const auto better = [&](const Mode& mode) {
     if (best == nullptr)
       return true;
-    if (wish.refresh_hz)
-      return std::abs(refresh_hz(mode) - *wish.refresh_hz) <
-             std::abs(refresh_hz(*best) - *wish.refresh_hz);
+    if (wanted.refresh_hz)
+      return std::abs(refresh_hz(mode) - *wanted.refresh_hz) <
+             std::abs(refresh_hz(*best) - *wanted.refresh_hz);
     return is_preferred(mode) && !is_preferred(*best);
   };
   for (const Mode& mode : modes) {
-    const bool fits = wish.width == 0 || (mode.width == wish.width && mode.height == wish.height);
+    const bool fits =
+        wanted.width == 0 || (mode.width == wanted.width && mode.height == wanted.height);
     if (fits && !is_interlaced(mode) && refresh_hz(mode) > 0 && better(mode))
       best = &mode;
   }
-  // Half a hertz: 60 and 59.94 are one wish to a person, 50 is another.
-  if (best == nullptr || (wish.refresh_hz && std::abs(refresh_hz(*best) - *wish.refresh_hz) > 0.5))
-    return no_such_mode(modes, wish);
+  // Half a hertz: 60 and 59.94 are one wanted to a person, 50 is another.
+  if (best == nullptr ||
+      (wanted.refresh_hz && std::abs(refresh_hz(*best) - *wanted.refresh_hz) > 0.5))
+    return no_such_mode(modes, wanted);
   return *best;
 }
 

@@ -9,7 +9,7 @@
 
 namespace octascope::hal::linux_backend::kms {
 
-struct ModeWish {
+struct ModeRequest {
   int width = 0; // 0: the monitor's preferred mode
   int height = 0;
   std::optional<double> refresh_hz;
@@ -18,10 +18,10 @@ struct ModeWish {
 
 // "" or "preferred"; "1920x1080"; "1920x1080@50"; "1920x1080M@50": computed, for a monitor whose
 // list is missing or wrong (M as in the kernel's video= option). ErrorCode::invalid_argument.
-Result<ModeWish> parse_mode_wish(std::string_view text);
+Result<ModeRequest> parse_mode_request(std::string_view text);
 
 // ErrorCode::unsupported: the monitor has no such mode; the message lists those it has.
-Result<Mode> choose_mode(std::span<const Mode> modes, const ModeWish& wish);
+Result<Mode> choose_mode(std::span<const Mode> modes, const ModeRequest& wanted);
 
 // VESA Coordinated Video Timings 1.1, standard blanking, progressive, no margins. The width is
 // rounded down to a multiple of 8; width and height are at least 100.

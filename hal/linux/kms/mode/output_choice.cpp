@@ -134,12 +134,12 @@ std::uint32_t choose_plane(const Card& card, std::size_t crtc_index) {
 
 } // namespace
 
-Result<OutputChoice> choose_output(std::span<const Card> cards, const OutputWish& wish) {
+Result<OutputChoice> choose_output(std::span<const Card> cards, const OutputRequest& wanted) {
   if (sockets_of(cards, "").empty())
     return no_card(cards);
-  const auto socket = choose_socket(cards, wish.connector);
+  const auto socket = choose_socket(cards, wanted.connector);
   if (!socket)
-    return nothing_connected(cards, wish.connector);
+    return nothing_connected(cards, wanted.connector);
 
   const Card& card = cards[socket->card];
   const Connector& connector = at(cards, *socket);
@@ -149,7 +149,7 @@ Result<OutputChoice> choose_output(std::span<const Card> cards, const OutputWish
                 "kms display: nothing in {} ({}) can send a picture to {}, expected a CRTC; use "
                 "another connector: {}",
                 card.node, card.driver, connector.name, list_of(cards));
-  auto mode = choose_mode(connector.modes, wish.mode);
+  auto mode = choose_mode(connector.modes, wanted.mode);
   if (!mode)
     return fail(mode.error().code, "{} ({})", mode.error().message, connector.name);
 
@@ -158,7 +158,7 @@ Result<OutputChoice> choose_output(std::span<const Card> cards, const OutputWish
   choice.connector = socket->connector;
   choice.crtc = card.crtcs[*crtc];
   choice.plane = choose_plane(card, *crtc);
-  choice.atomic = wish.atomic && card.atomic && choice.plane != 0;
+  choice.atomic = wanted.atomic && card.atomic && choice.plane != 0;
   choice.mode = *std::move(mode);
   return choice;
 }

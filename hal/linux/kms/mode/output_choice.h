@@ -12,9 +12,9 @@
 
 namespace octascope::hal::linux_backend::kms {
 
-struct OutputWish {
+struct OutputRequest {
   std::string connector; // "HDMI-A-1" or "card1:HDMI-A-1"; empty: the first that is connected
-  ModeWish mode;
+  ModeRequest mode;
   bool atomic = true; // false: the legacy calls, even if the driver has atomic commits
 };
 
@@ -29,7 +29,7 @@ struct OutputChoice {
 
 // ErrorCode::absent: nothing is connected yet. ErrorCode::denied: there are cards, but they may not
 // be opened. ErrorCode::unsupported: the mode is not available, or no CRTC can drive the connector.
-Result<OutputChoice> choose_output(std::span<const Card> cards, const OutputWish& wish);
+Result<OutputChoice> choose_output(std::span<const Card> cards, const OutputRequest& wanted);
 
 // Pixel formats that the plane can show and EGL can draw, best first: 8 bits per colour, without
 // alpha before with alpha. If `plane` is null (unknown), only XRGB8888, which any card can show.
