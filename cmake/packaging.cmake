@@ -29,6 +29,7 @@ add_custom_command(OUTPUT ${manual}/octascope.1
   COMMAND ${CMAKE_COMMAND} -E rm -rf ${manual}
   COMMAND ${OCTASCOPE_DEPLOY}/manual $<TARGET_FILE:octascope> ${manual}
   DEPENDS octascope ${OCTASCOPE_DEPLOY}/manual ${OCTASCOPE_DEPLOY}/example.toml ${by_hand}
+    ${CMAKE_SOURCE_DIR}/docs/CONFIGURATION.md
   COMMENT "Writing man pages and completion" VERBATIM)
 add_custom_target(octascope_manual DEPENDS ${manual}/octascope.1)
 install(CODE "
@@ -43,6 +44,10 @@ install(CODE "
   endforeach()")
 install(FILES ${manual}/octascope.bash DESTINATION usr/share/bash-completion/completions
         RENAME octascope)
+
+# What messages and man pages name; README's links lead there.
+file(GLOB documents CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/*.md ${CMAKE_SOURCE_DIR}/docs/*.png)
+install(FILES ${documents} DESTINATION ${OCTASCOPE_DOC}/docs)
 
 # NOTICE, and in full the licences of what is compiled into the program itself.
 install(FILES README.md NOTICE ${OCTASCOPE_DEPLOY}/example.toml ${OCTASCOPE_DEPLOY}/debian/copyright

@@ -1,5 +1,7 @@
 #include "hal/result.h"
 
+#include "hal/plain_text.h"
+
 namespace octascope::hal {
 
 std::string_view to_string(ErrorCode fault) {
@@ -15,6 +17,10 @@ std::string_view to_string(ErrorCode fault) {
   case ErrorCode::system: return "system error";
   }
   return "unknown fault";
+}
+
+tl::unexpected<Error> fail(ErrorCode code, std::string_view message) {
+  return tl::make_unexpected(Error{code, printable_lines(message)});
 }
 
 } // namespace octascope::hal

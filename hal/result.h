@@ -33,9 +33,9 @@ struct Error {
 
 template <class T = void> using Result = tl::expected<T, Error>;
 
-inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
-  return tl::make_unexpected(Error{code, std::move(message)});
-}
+// The message is made harmless for terminals and documents, as it may quote what came from outside
+// (printable_lines of hal/plain_text.h).
+tl::unexpected<Error> fail(ErrorCode code, std::string_view message);
 
 template <class First, class... Rest>
 tl::unexpected<Error> fail(ErrorCode code, fmt::format_string<First, Rest...> pattern,

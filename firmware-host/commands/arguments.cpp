@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
+#include "firmware-host/terminal/terminal.h"
 
 namespace octascope::firmware_host {
 
@@ -40,15 +42,16 @@ const std::map<std::string, DisplayChoice>& displays() {
 } // namespace
 
 void add_show_options(CLI::App& command, ShowArguments& a) {
-  command.add_option("--config", a.configuration, "Configuration (TOML)");
+  command.add_option("--config", a.configuration, "Configuration")->type_name("FILE.toml");
   command.add_option("--display", a.display, "Where the picture goes")
       ->check(CLI::IsMember({"auto", "kms", "window", "offscreen"}))
       ->capture_default_str();
-  command.add_option("--size", a.size, "Size of the picture in pixels, as 1280x720");
+  command.add_option("--size", a.size, "Size of the picture in pixels, as 1280x720")
+      ->type_name("WxH");
   auto* duration = command.add_option("--duration", a.duration_s, "End after so many seconds")
-                       ->check(CLI::Range(0.1, 1e9));
+                       ->check(within(0.1, 1e9));
   command.add_option("--volumes", a.volumes, "End after so many volumes")
-      ->check(CLI::Range(1, 1000000000))
+      ->check(within(1, 1000000000))
       ->excludes(duration);
   CLI::Option* vessels =
       command
@@ -60,8 +63,9 @@ void add_show_options(CLI::App& command, ShowArguments& a) {
                   "Where it lies in the volume; else in its middle, marked as not registered")
       ->type_name("FILE.toml")
       ->needs(vessels);
-  command.add_option("--snapshot", a.snapshot, "Write the last picture here (PNG)");
-  command.add_option("--report", a.report, "Write the report here (JSON)");
+  command.add_option("--snapshot", a.snapshot, "Write the last picture here")
+      ->type_name("FILE.png");
+  command.add_option("--report", a.report, "Write the report here")->type_name("FILE.json");
 }
 
 hal::Result<> read_show_options(const ShowArguments& a, RunOptions& options) {
@@ -85,7 +89,7 @@ std::optional<std::filesystem::path> path_of(const std::string& text) {
 }
 
 int complain(std::string_view command, const hal::Error& error) {
-  fmt::print(stderr, "octascope {}: {}\n", command, error.message);
+  warn("octascope {}: {}\n", command, error.message);
   return error.code == hal::ErrorCode::invalid_argument ? exit_wrong_use : exit_failed;
 }
 

@@ -150,6 +150,21 @@ void read_controls(ConfigTable table, Configuration& configuration) {
     table.complain(known.error().message);
 }
 
+// What is written there must not be in the way: it would be noticed when it is needed.
+void read_outputs(ConfigTable observation, ConfigTable recordings, Configuration& configuration) {
+  std::error_code error;
+  configuration.metrics = observation.output_path("metrics");
+  if (configuration.metrics && std::filesystem::is_directory(*configuration.metrics, error))
+    observation.complain("metrics is {}, which is a folder, expected the name of a file",
+                         configuration.metrics->string());
+  configuration.recording_folder = recordings.output_path("folder");
+  const auto& folder = configuration.recording_folder;
+  if (folder && std::filesystem::exists(*folder, error) &&
+      !std::filesystem::is_directory(*folder, error))
+    recordings.complain("folder is {}, which is a file, expected a folder, made where missing",
+                        folder->string());
+}
+
 void read_sim(ConfigTable table, Configuration& configuration) {
   configuration.phantom = table.text("phantom", configuration.phantom);
   configuration.loop_volumes = table.integer("loop_volumes", configuration.loop_volumes, {1, 64});
@@ -204,8 +219,7 @@ hal::Result<Configuration> read_configuration(const pipeline::ConfigDocument& do
   read_display(display, configuration);
   configuration.look = read_look(root, display);
   read_controls(root.table("controls"), configuration);
-  configuration.metrics = root.table("observation").output_path("metrics");
-  configuration.recording_folder = root.table("recordings").output_path("folder");
+  read_outputs(root.table("observation"), root.table("recordings"), configuration);
   read_sim(root.table("sim"), configuration);
   read_optics(root, configuration);
   HAL_CHECK(document.finish());

@@ -1,6 +1,10 @@
 #include "firmware-host/configuration/configuration_check.h"
 
+#include <algorithm>
+#include <sstream>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "pipeline/calibration/calibration.h"
 #include "sim/devices/control_script.h"
@@ -11,9 +15,25 @@ namespace octascope::firmware_host {
 
 namespace {
 
-template <class Value> hal::Result<> verdict_of(const hal::Result<Value>& read) {
-  return read ? hal::Result<>{} : tl::make_unexpected(read.error());
-}
+// What is wrong with the files that a configuration names, in their order.
+class Complaints {
+public:
+  explicit Complaints(const std::filesystem::path& configuration) : configuration_(configuration) {}
+
+  template <class Value> void take(const hal::Result<Value>& read) {
+    if (read)
+      return;
+    const std::string& message = read.error().message;
+    texts_.push_back(message.find(".toml") == std::string::npos
+                         ? fmt::format("{}: {}", configuration_.string(), message)
+                         : message);
+  }
+  const std::vector<std::string>& texts() const { return texts_; }
+
+private:
+  const std::filesystem::path& configuration_;
+  std::vector<std::string> texts_;
+};
 
 // Samples of a line, as the run will have them.
 hal::Result<int> samples_of(const Configuration& configuration, const RunOptions& options) {
@@ -25,51 +45,76 @@ hal::Result<int> samples_of(const Configuration& configuration, const RunOptions
   return configuration.plan ? plan.samples : loop.plan.samples;
 }
 
-hal::Result<> check_calibrations(const Configuration& configuration, int samples) {
+void check_calibrations(const Configuration& configuration, int samples, Complaints& complaints) {
+  std::vector<std::filesystem::path> files;
   if (configuration.calibration)
-    HAL_CHECK(pipeline::Calibration::load(*configuration.calibration, samples));
+    files.push_back(*configuration.calibration);
   for (const Objective& objective : configuration.objectives) {
-    if (!objective.calibration)
-      continue;
-    HAL_CHECK(pipeline::Calibration::load(*objective.calibration, samples));
+    if (objective.calibration && std::ranges::find(files, *objective.calibration) == files.end())
+      files.push_back(*objective.calibration);
   }
-  return {};
+  for (const auto& file : files)
+    complaints.take(pipeline::Calibration::load(file, samples));
+}
+
+std::vector<std::string> named_file_complaints(const std::filesystem::path& file,
+                                               const Configuration& configuration,
+                                               const RunOptions& options) {
+  Complaints complaints{file};
+  const auto samples = samples_of(configuration, options);
+  complaints.take(samples);
+  if (samples)
+    check_calibrations(configuration, *samples, complaints);
+  complaints.take(load_controls(configuration));
+  if (configuration.faults)
+    complaints.take(sim::FaultScript::load(*configuration.faults));
+  if (configuration.controls)
+    complaints.take(sim::ControlScript::load(*configuration.controls));
+  return complaints.texts();
 }
 
 } // namespace
 
-hal::Result<> check_named_files(const Configuration& configuration, const RunOptions& options) {
-  HAL_TRY(const auto samples, samples_of(configuration, options));
-  HAL_CHECK(check_calibrations(configuration, samples));
-  HAL_CHECK(verdict_of(load_controls(configuration)));
-  if (configuration.faults)
-    HAL_CHECK(verdict_of(sim::FaultScript::load(*configuration.faults)));
-  return configuration.controls ? verdict_of(sim::ControlScript::load(*configuration.controls))
-                                : hal::Result<>{};
-}
-
 hal::Result<Configuration> load_whole_configuration(const std::filesystem::path& file,
                                                     const RunOptions& options) {
-  auto configuration = load_configuration(file);
-  if (!configuration)
-    return configuration;
-  if (const auto checked = check_named_files(*configuration, options); !checked)
-    return hal::fail(checked.error().code,
-                     checked.error().message.find(".toml") == std::string::npos
-                         ? fmt::format("{}: {}", file.string(), checked.error().message)
-                         : checked.error().message);
+  HAL_TRY(auto configuration, load_configuration(file));
+  const auto complaints = named_file_complaints(file, configuration, options);
+  if (!complaints.empty())
+    return hal::fail(hal::ErrorCode::invalid_argument, "{}", fmt::join(complaints, "\n"));
   return configuration;
 }
 
-std::vector<std::string> configuration_complaints(const std::filesystem::path& file) {
+std::vector<std::filesystem::path> files_of_calibration(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> files;
+  if (const auto document = pipeline::calibration_document(file)) {
+    for (const pipeline::NamedFile& named : document->named_files())
+      files.push_back(named.file);
+  }
+  return files;
+}
+
+std::vector<std::filesystem::path> files_of_configuration(const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> files;
   const auto document = pipeline::ConfigDocument::load(file);
   if (!document)
-    return {document.error().message};
-  const auto read = read_configuration(*document);
-  std::vector<std::string> complaints = document->complaints();
+    return files;
+  const auto read = read_configuration(*document); // for the names: good or not
+  for (const pipeline::NamedFile& named : document->named_files()) {
+    files.push_back(named.file);
+    const auto nested = files_of_calibration(named.file);
+    files.insert(files.end(), nested.begin(), nested.end());
+  }
+  return files;
+}
+
+std::vector<std::string> configuration_complaints(const std::filesystem::path& file) {
+  const auto read = load_whole_configuration(file);
+  std::vector<std::string> complaints;
   if (read)
-    if (const auto checked = check_named_files(*read); !checked)
-      complaints.push_back(checked.error().message);
+    return complaints;
+  std::istringstream lines{read.error().message};
+  for (std::string line; std::getline(lines, line);)
+    complaints.push_back(line);
   return complaints;
 }
 

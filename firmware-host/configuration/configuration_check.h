@@ -11,16 +11,17 @@
 
 namespace octascope::firmware_host {
 
-// Reads every file that the configuration names, including those of objectives not on the
-// microscope, and checks that they agree. Returns the first error, with file, line, what was found
-// and what was expected.
-hal::Result<> check_named_files(const Configuration& configuration, const RunOptions& options = {});
-
-// load_configuration() followed by check_named_files().
+// Reads the file and every file that it names, those of objectives not on the microscope included,
+// and checks that they agree. The error has all that is wrong, a line each, in the order of the file.
 hal::Result<Configuration> load_whole_configuration(const std::filesystem::path& file,
                                                     const RunOptions& options = {});
 
-// Everything wrong with the file and the files it names, for people who fix it; empty: usable.
+// The files that a configuration or a calibration names, and those that its calibrations name; none
+// of a file that cannot be read.
+std::vector<std::filesystem::path> files_of_configuration(const std::filesystem::path& file);
+std::vector<std::filesystem::path> files_of_calibration(const std::filesystem::path& file);
+
+// What load_whole_configuration() says is wrong, one by one; empty: usable.
 std::vector<std::string> configuration_complaints(const std::filesystem::path& file);
 
 } // namespace octascope::firmware_host

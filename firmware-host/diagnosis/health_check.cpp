@@ -228,11 +228,14 @@ std::vector<HealthCheck> check_configuration(const std::optional<std::filesystem
   if (!used)
     return {{"configuration", Verdict::limited,
              fmt::format("{} is not there: what is built in", machine_configuration),
-             "copy deploy/example.toml there and say what this machine has"}};
+             "copy example.toml there (from deploy, or /usr/share/doc/octascope) and say what "
+             "this machine has"}};
   std::vector<HealthCheck> checks;
   for (std::string& complaint : configuration_complaints(*used))
-    checks.push_back({"configuration", Verdict::fails, std::move(complaint),
-                      "fix it; docs/CONFIGURATION.md has every key"});
+    checks.push_back(
+        {"configuration", Verdict::fails, std::move(complaint),
+         "fix it; docs/CONFIGURATION.md (in /usr/share/doc/octascope) has every key, and "
+         "so has man octascope.toml"});
   if (checks.empty()) {
     checks.push_back(good("configuration", used->string()));
     if (auto unnamed = check_camera_of_calibration(*used))

@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "firmware-host/terminal/terminal.h"
+
 namespace octascope::firmware_host {
 
 namespace {
@@ -19,7 +21,7 @@ ProgressLine::ProgressLine(std::string task)
 
 ProgressLine::~ProgressLine() {
   if (printed_)
-    fmt::print(stderr, "\r\x1b[K");
+    show_progress("");
 }
 
 void ProgressLine::update(double done) {
@@ -27,8 +29,7 @@ void ProgressLine::update(double done) {
   if (!terminal_ || now < next_)
     return;
   next_ = now + between;
-  fmt::print(stderr, "\r{}: {:.0f} %\x1b[K", task_, 100 * done);
-  std::fflush(stderr);
+  show_progress(fmt::format("{}: {:.0f} %", task_, 100 * done));
   printed_ = true;
 }
 

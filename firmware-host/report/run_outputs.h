@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "firmware-host/configuration/run_options.h"
+#include "firmware-host/terminal/terminal.h"
 #include "hal/result.h"
 #include "pipeline/files/png_image.h"
 
@@ -17,11 +18,11 @@ hal::Result<> check_outputs(const RunOptions& options);
 // Prints a report, and writes it if requested.
 template <class Report>
 hal::Result<> leave_report(const Report& report, const RunOptions& options) {
-  fmt::print("{}", to_text(report));
+  say("{}", to_text(report));
   if (!options.report)
     return {};
   HAL_CHECK(write_report(report, *options.report));
-  fmt::print("report:   {}\n", options.report->string());
+  say("report:   {}\n", options.report->string());
   return {};
 }
 

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "firmware-host/terminal/terminal.h"
+
 namespace octascope::firmware_host {
 
 StatusLine::StatusLine(hal::TimePoint started)
@@ -12,20 +14,18 @@ StatusLine::StatusLine(hal::TimePoint started)
 
 void StatusLine::print(const ui::Status& shown, const RunCounters& c) {
   next_ = shown.now + std::chrono::seconds{1};
-  // \r and "erase to the end of the line": each second overwrites the one before.
-  fmt::print(stderr,
-             "\r{:6.0f} s  {:.1f} volumes/s  {:.0f} frames/s  latency {:.0f} ms  lost {} lines, {} "
-             "B-scans, {} volumes{}{}\x1b[K",
-             hal::to_seconds(shown.now - started_), c.rates.volumes_per_s, c.rates.frames_per_s,
-             c.latency.p50_ms, c.volumes.lost_lines, c.volumes.lost_b_scans, c.volumes.lost_volumes,
-             shown.replay ? "  REPLAY" : "", shown.simulated ? "  SIMULATED" : "");
-  std::fflush(stderr);
+  show_progress(fmt::format(
+      "{:6.0f} s  {:.1f} volumes/s  {:.0f} frames/s  latency {:.0f} ms  lost {} lines, {} B-scans, "
+      "{} volumes{}{}",
+      hal::to_seconds(shown.now - started_), c.rates.volumes_per_s, c.rates.frames_per_s,
+      c.latency.p50_ms, c.volumes.lost_lines, c.volumes.lost_b_scans, c.volumes.lost_volumes,
+      shown.replay ? "  REPLAY" : "", shown.simulated ? "  SIMULATED" : ""));
   printed_ = true;
 }
 
 void StatusLine::finish() {
   if (printed_)
-    std::fputc('\n', stderr);
+    warn("\n");
 }
 
 } // namespace octascope::firmware_host

@@ -17,6 +17,7 @@
 #include "firmware-host/run/run_source.h"
 #include "firmware-host/supervision/supervision.h"
 #include "firmware-host/supervision/thread_roles.h"
+#include "firmware-host/terminal/terminal.h"
 #include "firmware-host/version/version.h"
 #include "hal/linux/realtime.h"
 #include "hal/linux/system/system_error.h"
@@ -174,7 +175,7 @@ void LiveSource::make_calibrated_camera() {
   calibrated_camera_ = std::make_unique<CalibratedCamera>(camera, faults_);
   const auto& file = options_.calibration ? options_.calibration : configuration_.calibration;
   if (file && camera.empty() && !options_.recording)
-    fmt::print(stderr, "octascope run: {}\n", words_on_unnamed_camera(*file));
+    warn("octascope run: {}\n", words_on_unnamed_camera(*file));
 }
 
 void LiveSource::make_recordings() {
@@ -289,8 +290,8 @@ RunStatistics LiveSource::account(const RenderLoop& loop) const {
 hal::Result<> LiveSource::report(const RenderLoop& loop, const RunTimes& times) const {
   HAL_CHECK(leave_report(report_on(account(loop), times, faults_.records()), options_));
   for (const KeptRecording& recording : recordings_->kept())
-    fmt::print("recording: {}, {} volumes{}\n", recording.file.string(), recording.kept,
-               recording.not_kept > 0 ? fmt::format(", {} not kept", recording.not_kept) : "");
+    say("recording: {}, {} volumes{}\n", recording.file.string(), recording.kept,
+        recording.not_kept > 0 ? fmt::format(", {} not kept", recording.not_kept) : "");
   return {};
 }
 

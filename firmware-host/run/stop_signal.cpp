@@ -1,28 +1,18 @@
 #include "firmware-host/run/stop_signal.h"
 
-#include <csignal>
-
 #include <sys/signalfd.h>
 #include <unistd.h>
 
 namespace octascope::firmware_host {
 
-namespace {
-
-sigset_t stop_signals() {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  return set;
-}
-
-} // namespace
-
-StopSignal::StopSignal() {
-  const sigset_t set = stop_signals();
-  pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  descriptor_ = signalfd(-1, &set, SFD_NONBLOCK | SFD_CLOEXEC);
+StopSignal::StopSignal(HangUp hang_up) {
+  sigemptyset(&signals_);
+  sigaddset(&signals_, SIGINT);
+  sigaddset(&signals_, SIGTERM);
+  if (hang_up == HangUp::ends)
+    sigaddset(&signals_, SIGHUP);
+  pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  descriptor_ = signalfd(-1, &signals_, SFD_NONBLOCK | SFD_CLOEXEC);
 }
 
 StopSignal::~StopSignal() {
@@ -34,8 +24,7 @@ bool StopSignal::requested() {
   signalfd_siginfo info{};
   if (!requested_ && read(descriptor_, &info, sizeof info) == sizeof info) {
     requested_ = true;
-    const sigset_t set = stop_signals();
-    pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+    pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
   }
   return requested_;
 }

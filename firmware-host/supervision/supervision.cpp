@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <syslog.h>
 
+#include "firmware-host/terminal/terminal.h"
 #include "hal/linux/realtime.h"
 #include "pipeline/files/atomic_file.h"
 
@@ -36,11 +37,11 @@ FaultJournal::Sink sink_of(const SupervisionSetup& setup) {
                        : FaultJournal::Sink{[](const JournalEntry&) {}};
 }
 
-void say(const SupervisionSetup& setup, int priority, const std::string& message) {
+void note(const SupervisionSetup& setup, int priority, const std::string& message) {
   if (setup.journal)
     send_to_journal({priority, message});
   else
-    fmt::print(stderr, "octascope run: {}\n", message);
+    warn("octascope run: {}\n", message);
 }
 
 std::string text_of(const fs::path& file) {
@@ -72,7 +73,8 @@ void Supervision::check_last_run() {
   switch (marker_->last_run()) {
   case RunMarker::LastRun::orderly: return;
   case RunMarker::LastRun::power_lost:
-    say(setup_, LOG_NOTICE, "the machine was switched off, or hung, while octascope ran last time");
+    note(setup_, LOG_NOTICE,
+         "the machine was switched off, or hung, while octascope ran last time");
     return;
   case RunMarker::LastRun::crashed: break;
   }
@@ -83,7 +85,7 @@ void Supervision::check_last_run() {
                                     reports.back().string());
   faults_.add(pipeline::Fault::restarted_after_crash, message, clock_.now());
   if (!setup_.journal) // there, it is told with the other faults
-    say(setup_, LOG_WARNING, message);
+    note(setup_, LOG_WARNING, message);
 }
 
 void Supervision::start(hal::TimePoint process_start) {
@@ -141,9 +143,9 @@ void Supervision::step(hal::TimePoint now) {
   }
   if (setup_.journal && !volume_told_ && picture_.volume_frames() > 0) {
     volume_told_ = true;
-    say(setup_, LOG_INFO,
-        fmt::format("the first volume is in the picture, {:.1f} s after the start",
-                    hal::to_seconds(now - process_start_)));
+    note(setup_, LOG_INFO,
+         fmt::format("the first volume is in the picture, {:.1f} s after the start",
+                     hal::to_seconds(now - process_start_)));
   }
   if (watchdog_.settles(picture_.volume_frames(), now))
     manager_.set_watchdog(*manager_.watchdog_interval());
@@ -157,6 +159,7 @@ void Supervision::step(hal::TimePoint now) {
 
 void Supervision::look(hal::TimePoint now) {
   threads_.complain(faults_, now);
+  static_cast<void>(hal::linux_backend::demote_runaways(longest_without_wait));
   host_.look(faults_, now);
   journal_.update(faults_.records(), now);
   std::optional<std::string> line;

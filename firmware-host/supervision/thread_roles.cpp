@@ -77,6 +77,7 @@ pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& f
       return;
     if (const auto made = hal::linux_backend::make_this_thread_realtime(known.priority); !made)
       faults.add(pipeline::Fault::no_realtime, made.error().message, clock.now());
+    static_cast<void>(hal::linux_backend::demote_runaways(longest_without_wait));
   };
 }
 

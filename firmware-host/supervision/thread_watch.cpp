@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "hal/linux/realtime.h"
+
 namespace octascope::firmware_host {
 
 namespace {
@@ -18,12 +20,13 @@ struct WatchedRole {
   // Far more than a step ever takes: 50 ms of waiting for most, one B-scan for a worker. Opening a
   // device is a step, too, and some drivers and libcamera take seconds for it.
   hal::Duration limit;
+  bool waits_in_each_step = true; // workers may have much to do
 };
 
 constexpr std::array watched_roles{
     WatchedRole{"camera", Fault::line_camera_stuck_thread, 5s},
     WatchedRole{"volumes", Fault::pipeline_stuck_thread, 3s},
-    WatchedRole{"worker", Fault::pipeline_stuck_thread, 3s},
+    WatchedRole{"worker", Fault::pipeline_stuck_thread, 3s, false},
     WatchedRole{"controls", Fault::control_input_stuck_thread, 5s},
     WatchedRole{"scope", Fault::scope_camera_stuck_thread, 10s},
     WatchedRole{"phase", Fault::pipeline_stuck_thread, 10s},
@@ -43,6 +46,8 @@ void ThreadWatch::enlist(const pipeline::ThreadRole& role, hal::TimePoint now) {
   watched.limit = known->limit;
   watched.heartbeat.beat(now);
   pipeline::Heartbeat::give_this_thread(&watched.heartbeat);
+  if (known->waits_in_each_step)
+    hal::linux_backend::expect_waits(watched.demoted);
 }
 
 std::vector<ThreadState> ThreadWatch::states(hal::TimePoint now) const {
@@ -56,9 +61,16 @@ std::vector<ThreadState> ThreadWatch::states(hal::TimePoint now) const {
   return states;
 }
 
-void ThreadWatch::complain(pipeline::FaultLog& faults, hal::TimePoint now) const {
+void ThreadWatch::complain(pipeline::FaultLog& faults, hal::TimePoint now) {
   const std::lock_guard lock{mutex_};
-  for (const Watched& watched : threads_) {
+  for (Watched& watched : threads_) {
+    if (watched.demoted.exchange(false))
+      faults.add(pipeline::Fault::ran_away,
+                 fmt::format("the thread \"{}\" computed for {} s without waiting, expected a wait "
+                             "in each step: it has real-time priority no longer, so that "
+                             "everything else goes on; start the program again",
+                             watched.name, hal::to_seconds(longest_without_wait)),
+                 now);
     const auto last = watched.heartbeat.last();
     if (last && now - *last > watched.limit)
       faults.add(watched.when_stuck,

@@ -1,6 +1,7 @@
-// Notices threads that make no progress.
+// Notices threads that make no progress, and real-time threads that never wait.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <list>
 #include <mutex>
@@ -13,6 +14,9 @@
 #include "pipeline/threads/worker_pool.h"
 
 namespace octascope::firmware_host {
+
+// Of a real-time thread whose steps wait; short enough for the program to be ended within a second.
+inline constexpr hal::Duration longest_without_wait = std::chrono::milliseconds{700};
 
 struct ThreadState {
   std::string name;        // "camera", "worker 1"
@@ -34,8 +38,9 @@ public:
 
   std::vector<ThreadState> states(hal::TimePoint now) const;
 
-  // Reports one fault per stuck thread, for the device or part that it serves.
-  void complain(pipeline::FaultLog& faults, hal::TimePoint now) const;
+  // Reports one fault per stuck thread, for the device or part that it serves, and one for each that
+  // lost its real-time priority since the last call.
+  void complain(pipeline::FaultLog& faults, hal::TimePoint now);
 
 private:
   struct Watched {
@@ -43,6 +48,7 @@ private:
     pipeline::Fault when_stuck{};
     hal::Duration limit;
     pipeline::Heartbeat heartbeat;
+    std::atomic<bool> demoted{false}; // hal/linux/realtime.h
   };
 
   mutable std::mutex mutex_;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "pipeline/files/file_name.h"
 #include "pipeline/vessels/clusters/cluster_builder.h"
 #include "pipeline/vessels/clusters/cluster_file.h"
 #include "pipeline/vessels/files/swc_writer.h"
@@ -10,7 +11,7 @@ namespace octascope::firmware_host {
 
 hal::Result<> write_tree(const std::filesystem::path& file, const pipeline::VesselTree& tree,
                          std::string provenance, const std::function<void(double)>& progress) {
-  if (file.extension() == ".swc")
+  if (pipeline::file_ending(file) == ".swc")
     return pipeline::write_swc(file, tree, pipeline::LengthUnit::um, progress);
   const pipeline::ClusterArrays arrays = pipeline::build_clusters(tree);
   return pipeline::write_cluster_file(

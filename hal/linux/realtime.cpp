@@ -1,6 +1,8 @@
 #include "hal/linux/realtime.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <string>
 #include <system_error>
 
@@ -23,6 +25,19 @@ ErrorCode error_code_of(int error) {
   return error == EPERM || error == EACCES ? ErrorCode::denied : ErrorCode::system;
 }
 
+thread_local constinit std::atomic<bool>* demoted_here = nullptr;
+
+// Runs in the thread that did not wait.
+void demote_this_thread(int /*signal*/) {
+  if (demoted_here == nullptr)
+    return;
+  const int error = errno;
+  const sched_param ordinary{};
+  if (::sched_setscheduler(0, SCHED_OTHER, &ordinary) == 0)
+    demoted_here->store(true, std::memory_order_relaxed);
+  errno = error;
+}
+
 } // namespace
 
 void name_this_thread(std::string_view name) {
@@ -39,6 +54,29 @@ Result<> make_this_thread_realtime(int priority) {
   return fail(error_code_of(error), "no real-time priority (" + system_message(error) +
                                         "): ticks may jitter; allow it with LimitRTPRIO=49 in the "
                                         "service unit, or \"@video - rtprio 49\" in limits.conf");
+}
+
+Result<> demote_runaways(Duration limit) {
+  struct sigaction action {};
+  action.sa_handler = demote_this_thread;
+  action.sa_flags = SA_RESTART;
+  rlimit allowed{};
+  bool set =
+      ::sigaction(SIGXCPU, &action, nullptr) == 0 && ::getrlimit(RLIMIT_RTTIME, &allowed) == 0;
+  if (set) {
+    const auto limit_us = std::chrono::duration_cast<std::chrono::microseconds>(limit).count();
+    allowed.rlim_cur = std::min(static_cast<rlim_t>(limit_us), allowed.rlim_max);
+    set = ::setrlimit(RLIMIT_RTTIME, &allowed) == 0;
+  }
+  if (set)
+    return {};
+  return fail(ErrorCode::system,
+              "real-time threads that never wait would not be noticed ({}), expected a limit",
+              system_message(errno));
+}
+
+void expect_waits(std::atomic<bool>& demoted) {
+  demoted_here = &demoted;
 }
 
 std::vector<int> allowed_cores() {

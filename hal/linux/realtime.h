@@ -1,9 +1,11 @@
 // Real-time scheduling and locked memory, if the system allows them.
 #pragma once
 
+#include <atomic>
 #include <string_view>
 #include <vector>
 
+#include "hal/clock.h"
 #include "hal/result.h"
 
 namespace octascope::hal::linux_backend {
@@ -14,6 +16,16 @@ void name_this_thread(std::string_view name);
 // SCHED_FIFO for the calling thread. `priority` 1…49: below the kernel's threaded interrupts (50),
 // which deliver the data. ErrorCode::denied: the privilege is missing; the message has the remedy.
 Result<> make_this_thread_realtime(int priority);
+
+// A real-time thread that never waits keeps a core from everything else, and so the program from
+// being ended. demote_runaways() has the kernel notice (RLIMIT_RTTIME) when such a thread computed
+// for longer than the limit without a wait. If it said with expect_waits() that each of its steps
+// waits for something, it becomes an ordinary thread, and `demoted` is set, which must outlive it.
+// Threads that did not say so, workers with much to do, are left alone; nothing is ended.
+//
+// The kernel raises the limit each time: call demote_runaways() once a second.
+Result<> demote_runaways(Duration limit);
+void expect_waits(std::atomic<bool>& demoted);
 
 // The cores that taskset, cgroups and the service unit allow the process, in ascending order.
 std::vector<int> allowed_cores();

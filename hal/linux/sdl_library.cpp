@@ -27,6 +27,7 @@ bool find_all(void* library, SdlLibrary& sdl) {
          find(library, "SDL_CreateWindow", sdl.create_window) &&
          find(library, "SDL_DestroyWindow", sdl.destroy_window) &&
          find(library, "SDL_GetWindowDisplayMode", sdl.get_window_display_mode) &&
+         find(library, "SDL_GetWindowWMInfo", sdl.get_window_wm_info) &&
          find(library, "SDL_ShowCursor", sdl.show_cursor) &&
          find(library, "SDL_PollEvent", sdl.poll_event) &&
          find(library, "SDL_GL_SetAttribute", sdl.gl_set_attribute) &&

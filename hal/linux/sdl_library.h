@@ -4,6 +4,8 @@
 
 #include <SDL.h>
 
+struct SDL_SysWMinfo;
+
 #include "hal/result.h"
 
 namespace octascope::hal::linux_backend {
@@ -22,6 +24,7 @@ struct SdlLibrary {
   decltype(&SDL_CreateWindow) create_window = nullptr;
   decltype(&SDL_DestroyWindow) destroy_window = nullptr;
   decltype(&SDL_GetWindowDisplayMode) get_window_display_mode = nullptr;
+  SDL_bool (*get_window_wm_info)(SDL_Window*, SDL_SysWMinfo*) = nullptr;
   decltype(&SDL_ShowCursor) show_cursor = nullptr;
   decltype(&SDL_PollEvent) poll_event = nullptr;
   decltype(&SDL_GL_SetAttribute) gl_set_attribute = nullptr;

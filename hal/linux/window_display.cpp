@@ -1,10 +1,12 @@
 #include "hal/linux/window_display.h"
 
+#include <atomic>
 #include <optional>
 
 #include <GLES3/gl3.h>
 
 #include "hal/linux/sdl_library.h"
+#include "hal/linux/x11_connection.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -67,6 +69,7 @@ struct WindowDisplay::Window {
   SDL_Window* window = nullptr;
   SDL_GLContext context = nullptr;
   bool video = false;
+  std::atomic<bool> lost{false}; // its X server went away
 
   explicit Window(const SdlLibrary& loaded) : sdl{loaded} {}
   Window(const Window&) = delete;
@@ -120,6 +123,7 @@ struct WindowDisplay::Window {
       return refuse(ErrorCode::unsupported, "no window for GLES could be made",
                     "a window system with EGL or GLX for GLES 3; install libegl1 and "
                     "libgl1-mesa-dri");
+    survive_lost_x_server(sdl, window, lost);
     context = sdl.gl_create_context(window);
     if (context == nullptr)
       return refuse(ErrorCode::unsupported, "no GLES 3 context could be made",
@@ -164,14 +168,14 @@ Result<> WindowDisplay::do_open(const DisplayConfig& config) {
 
 int WindowDisplay::do_width() const {
   int width = 0;
-  if (window_ != nullptr)
+  if (window_ != nullptr && !window_->lost)
     window_->sdl.gl_get_drawable_size(window_->window, &width, nullptr);
   return width;
 }
 
 int WindowDisplay::do_height() const {
   int height = 0;
-  if (window_ != nullptr)
+  if (window_ != nullptr && !window_->lost)
     window_->sdl.gl_get_drawable_size(window_->window, nullptr, &height);
   return height;
 }
@@ -180,8 +184,16 @@ Result<Flip> WindowDisplay::do_present() {
   if (window_ == nullptr)
     return fail(ErrorCode::absent, "window display: not open; open() it first");
   const TimePoint submitted = clock_.now();
-  window_->sdl.gl_swap_window(window_->window);
-  glFinish();
+  if (!window_->lost) {
+    window_->sdl.gl_swap_window(window_->window);
+    glFinish();
+  }
+  if (window_->lost) { // before, or by that
+    set_state(DeviceState::failed);
+    return fail(ErrorCode::disconnected,
+                "window display: the X server has gone away, expected it to stay; the window comes "
+                "back when it does");
+  }
   const TimePoint completed =
       pacer_.completed({.submitted = submitted, .stamp = std::nullopt, .received = clock_.now()});
   clock_.sleep_until(pacer_.next_allowed());
@@ -189,7 +201,7 @@ Result<Flip> WindowDisplay::do_present() {
 }
 
 std::size_t WindowDisplay::do_poll_events(std::span<DisplayEvent> events) {
-  if (window_ == nullptr)
+  if (window_ == nullptr || window_->lost)
     return 0;
   std::size_t count = 0;
   SDL_Event event;

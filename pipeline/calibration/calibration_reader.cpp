@@ -8,6 +8,7 @@
 
 #include "pipeline/calibration/calibration.h"
 #include "pipeline/files/config_document.h"
+#include "pipeline/files/file_name.h"
 #include "pipeline/files/text_curve.h"
 
 namespace octascope::pipeline {
@@ -107,7 +108,7 @@ std::vector<double> CalibrationReader::read_curve(const fs::path& path) {
 
 // Counts by pixel: text when the name says so, else 32-bit floats.
 std::vector<float> CalibrationReader::read_spectrum(const fs::path& path) {
-  if (path.extension() == ".txt") {
+  if (const std::string ending = file_ending(path); ending == ".txt" || ending == ".csv") {
     const std::vector<double> counts = read_curve(path);
     return {counts.begin(), counts.end()};
   }

@@ -113,6 +113,15 @@ std::string toml(const FoundCalibration& found, const CurveNames& names) {
                             toml_text(p.created), toml_text(p.verdict));
 }
 
+constexpr std::string_view k_linear_ending = "_k_linear.txt";
+constexpr std::string_view dispersion_ending = "_dispersion_rad.txt";
+constexpr std::string_view background_ending = "_background_f32.raw";
+constexpr std::string_view source_ending = "_source_f32.raw";
+
+std::filesystem::path beside(const std::filesystem::path& file, std::string_view ending) {
+  return file.parent_path() / (file.stem().string() + std::string{ending});
+}
+
 struct Output {
   std::filesystem::path file;
   std::string text;
@@ -120,28 +129,32 @@ struct Output {
 
 } // namespace
 
+std::vector<std::filesystem::path> curves_beside(const std::filesystem::path& file) {
+  return {beside(file, k_linear_ending), beside(file, dispersion_ending),
+          beside(file, background_ending), beside(file, source_ending)};
+}
+
 hal::Result<> write_calibration(const FoundCalibration& found, const std::filesystem::path& file) {
   const Calibration& calibration = found.calibration;
   std::vector<Output> outputs;
-  const auto beside = [&](std::string_view ending, std::string text) {
-    std::string name = file.stem().string() + std::string{ending};
-    outputs.push_back({file.parent_path() / name, std::move(text)});
-    return name;
+  const auto write_beside = [&](std::string_view ending, std::string text) {
+    outputs.push_back({beside(file, ending), std::move(text)});
+    return outputs.back().file.filename().string();
   };
   CurveNames names;
   if (found.wavelength_polynomial_nm.empty())
     names.k_linear =
-        beside("_k_linear.txt", curve_text("fractional pixel positions uniform in wavenumber",
-                                           calibration.positions));
+        write_beside(k_linear_ending, curve_text("fractional pixel positions uniform in wavenumber",
+                                                 calibration.positions));
   if (found.dispersion_polynomial_rad.empty() && !calibration.dispersion_rad.empty())
     names.dispersion =
-        beside("_dispersion_rad.txt",
-               curve_text("phase in rad over the k-linear samples, multiplies as exp(+i)",
-                          calibration.dispersion_rad));
+        write_beside(dispersion_ending,
+                     curve_text("phase in rad over the k-linear samples, multiplies as exp(+i)",
+                                calibration.dispersion_rad));
   if (calibration.background_mode == BackgroundMode::file)
-    names.background = beside("_background_f32.raw", raw_floats(calibration.background));
+    names.background = write_beside(background_ending, raw_floats(calibration.background));
   if (calibration.shaping)
-    names.source = beside("_source_f32.raw", raw_floats(calibration.shaping->source));
+    names.source = write_beside(source_ending, raw_floats(calibration.shaping->source));
   outputs.push_back({file, toml(found, names)});
   for (std::size_t i = 0; i + 1 < outputs.size(); ++i) {
     if (outputs[i].file.lexically_normal() == file.lexically_normal())

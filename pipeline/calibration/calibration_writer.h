@@ -27,6 +27,9 @@ struct FoundCalibration {
   Provenance provenance;
 };
 
+// The curve files that write_calibration() may write with `file`.
+std::vector<std::filesystem::path> curves_beside(const std::filesystem::path& file);
+
 // Writes `file` (TOML) and, where needed, beside it <stem>_k_linear.txt and
 // <stem>_dispersion_rad.txt (17 digits), <stem>_background_f32.raw and <stem>_source_f32.raw (dark
 // counts subtracted). All are completely written under temporary names before the first is renamed;

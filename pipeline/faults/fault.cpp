@@ -35,6 +35,8 @@ constexpr std::array fault_table{
                "Pedal does not answer: its driver hangs"},
     FaultFacts{Fault::scope_camera_stuck_thread, Device::scope_camera, "stuck_thread",
                "Microscope camera does not answer"},
+    FaultFacts{Fault::ran_away, Device::pipeline, "ran_away",
+               "The program misbehaves: start it again", 20s},
     FaultFacts{Fault::overrun, Device::pipeline, "overrun",
                "Reconstruction is too slow: volumes are lost"},
     FaultFacts{Fault::late_tick, Device::pipeline, "late_tick",

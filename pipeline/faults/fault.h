@@ -42,6 +42,7 @@ enum class Fault : std::uint8_t {
   pipeline_stuck_thread,
   control_input_stuck_thread,
   scope_camera_stuck_thread,
+  ran_away,
   overrun,
   late_tick,
   silent,

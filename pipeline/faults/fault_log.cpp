@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "hal/plain_text.h"
+
 namespace octascope::pipeline {
 
 void FaultLog::add(Fault fault, std::string_view message, hal::TimePoint when,
@@ -9,7 +11,7 @@ void FaultLog::add(Fault fault, std::string_view message, hal::TimePoint when,
   const std::lock_guard lock{mutex_};
   FaultRecord& record = records_[index_of(fault)];
   if (record.count == 0) {
-    record = {fault, std::string{message}, 0, when, when};
+    record = {fault, hal::printable_lines(message), 0, when, when};
     order_[kinds_++] = fault;
   }
   record.count += count;

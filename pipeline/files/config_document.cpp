@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include "hal/plain_text.h"
 #include "pipeline/files/toml_text.h"
 
 namespace octascope::pipeline {
@@ -20,13 +21,18 @@ using hal::ErrorCode;
 
 namespace {
 
+struct Complaint {
+  unsigned line = 0; // in the file, from 1; 0: of what is not there
+  std::string text;
+};
+
 // What all tables of one document share.
 struct Shared {
   toml::table table; // owns all nodes
   fs::path file;
   std::string text;
   std::vector<NamedFile> named;
-  std::vector<std::string> complaints;
+  std::vector<Complaint> complaints;
 };
 
 std::string describe(const toml::node& node) {
@@ -38,6 +44,11 @@ std::string describe(const toml::node& node) {
   if (words.size() > longest)
     words = words.substr(0, longest) + "…";
   return words;
+}
+
+std::optional<std::string> plain_text(const toml::node& node) {
+  auto text = node.value_exact<std::string>();
+  return text && hal::is_plain_text(*text) ? text : std::nullopt;
 }
 
 bool begins_code_point(char byte) {
@@ -90,8 +101,9 @@ struct ConfigTable::Node {
     const std::string place = name.empty() ? "" : fmt::format("[{}] ", name);
     const unsigned line = where == nullptr ? 0U : where->source().begin.line;
     shared->complaints.push_back(
-        line == 0 ? fmt::format("{}: {}{}", shared->file.string(), place, message)
-                  : fmt::format("{}:{}: {}{}", shared->file.string(), line, place, message));
+        {line, line == 0
+                   ? fmt::format("{}: {}{}", shared->file.string(), place, message)
+                   : fmt::format("{}:{}: {}{}", shared->file.string(), line, place, message)});
   }
 
   void complain_value(std::string_view key, const toml::node& found, std::string_view expected) {
@@ -124,6 +136,23 @@ struct ConfigTable::Node {
     node->name = name.empty() ? std::move(child_name) : name + "." + child_name;
     children.push_back(node);
     return node;
+  }
+
+  // Files whose names nothing else was wrong with.
+  void complain_about_missing_files() const {
+    for (const NamedFile& named : shared->named) {
+      std::error_code error;
+      const fs::file_status status = fs::status(named.file, error);
+      if ((fs::exists(status) && !fs::is_directory(status)) ||
+          std::ranges::find(shared->complaints, named.line, &Complaint::line) !=
+              shared->complaints.end())
+        continue;
+      shared->complaints.push_back(
+          {named.line,
+           fmt::format("{}:{}: found {}, {}, expected a file", shared->file.string(), named.line,
+                       named.file.string(),
+                       fs::exists(status) ? "which is a folder" : "which is not there")});
+    }
   }
 
   // The first key, in this table or below, that was never asked for.
@@ -179,9 +208,9 @@ std::string ConfigTable::text(std::string_view key, std::string_view fallback) {
   const toml::node* found = node_->find(key);
   if (found == nullptr)
     return std::string{fallback};
-  if (const auto value = found->value_exact<std::string>())
-    return *value;
-  node_->complain_value(key, *found, "a text in quotes");
+  if (auto value = plain_text(*found))
+    return std::move(*value);
+  node_->complain_value(key, *found, "a text in quotes, without control characters");
   return std::string{fallback};
 }
 
@@ -232,22 +261,24 @@ std::vector<std::string> ConfigTable::texts(std::string_view key) {
   const toml::node* found = node_->find(key);
   if (found == nullptr)
     return {};
-  if (const auto one = found->value_exact<std::string>())
-    return {*one};
+  if (auto one = plain_text(*found))
+    return {std::move(*one)};
   const toml::array* array = found->as_array();
   if (array == nullptr) {
-    node_->complain_value(key, *found, "a text in quotes, or a list of them, [..]");
+    node_->complain_value(key, *found,
+                          "a text in quotes, or a list of them, [..], without control characters");
     return {};
   }
   std::vector<std::string> values;
   values.reserve(array->size());
   for (const toml::node& element : *array) {
-    const auto value = element.value_exact<std::string>();
+    auto value = plain_text(element);
     if (!value) {
-      node_->complain_value(fmt::format("{}[{}]", key, values.size()), element, "a text in quotes");
+      node_->complain_value(fmt::format("{}[{}]", key, values.size()), element,
+                            "a text in quotes, without control characters");
       return {};
     }
-    values.push_back(*value);
+    values.push_back(std::move(*value));
   }
   return values;
 }
@@ -370,13 +401,20 @@ hal::Result<std::string> ConfigDocument::text_naming(std::span<const std::string
 
 hal::Result<> ConfigDocument::finish() const {
   root_.node_->complain_about_unknown_keys();
-  const auto& complaints = root_.node_->shared->complaints;
-  return complaints.empty() ? hal::Result<>{}
-                            : hal::fail(ErrorCode::invalid_argument, complaints.front());
+  root_.node_->complain_about_missing_files();
+  auto& complaints = root_.node_->shared->complaints;
+  std::ranges::stable_sort(complaints, {}, &Complaint::line);
+  if (complaints.empty())
+    return {};
+  return hal::fail(ErrorCode::invalid_argument,
+                   fmt::to_string(fmt::join(this->complaints(), "\n")));
 }
 
 std::vector<std::string> ConfigDocument::complaints() const {
-  return root_.node_->shared->complaints;
+  std::vector<std::string> texts;
+  for (const Complaint& complaint : root_.node_->shared->complaints)
+    texts.push_back(complaint.text);
+  return texts;
 }
 
 } // namespace octascope::pipeline

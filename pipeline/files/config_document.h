@@ -84,12 +84,12 @@ public:
 
   ConfigTable root() const { return root_; }
 
-  // Returns the first complaint, if any, as an Error. Call it after everything was read: keys that
-  // were never read are complaints too.
+  // Returns the complaints, if any, as an Error, a line each, in the order of the file. Call it after
+  // everything was read: keys that were never read are complaints, too, and files that are named but
+  // not there.
   hal::Result<> finish() const;
 
-  // All complaints, once finish() was called: for people who fix a file. Later ones may be
-  // consequences of earlier ones.
+  // The same, one by one. Later ones may be consequences of earlier ones.
   std::vector<std::string> complaints() const;
 
   // The files read with path() whose keys are present, in the order of reading.

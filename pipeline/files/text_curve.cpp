@@ -15,6 +15,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "hal/plain_text.h"
+
 namespace octascope::pipeline {
 
 namespace fs = std::filesystem;
@@ -73,11 +75,6 @@ std::optional<double> finite_number(std::string_view text) {
   return value;
 }
 
-std::string shortened(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  return text.size() <= longest ? std::string{text} : std::string{text.substr(0, longest)} + "…";
-}
-
 // Calls take(line number from 1, text) for every line that holds more than blanks and a comment,
 // until it returns an Error.
 template <typename Take> hal::Result<> for_each_line(std::string_view rest, Take take) {
@@ -130,13 +127,13 @@ hal::Result<std::vector<double>> parse_numbers(const fs::path& file, std::size_t
             if (values.size() == most)
               return hal::fail(ErrorCode::bad_data,
                                "{}:{}: found one number more (\"{}\"), expected {} {}",
-                               file.string(), line, shortened(text), bound, most);
+                               file.string(), line, hal::shortened(text), bound, most);
             const auto value = finite_number(text);
             if (!value)
               return hal::fail(ErrorCode::bad_data,
                                "{}:{}: found \"{}\" as number {} of {}, expected one finite number "
                                "with a decimal point",
-                               file.string(), line, shortened(text), values.size(), count);
+                               file.string(), line, hal::shortened(text), values.size(), count);
             values.push_back(*value);
             return {};
           });
@@ -171,7 +168,7 @@ hal::Result<std::vector<TextRow>> read_text_rows(const fs::path& file, std::size
   const auto take = [&](std::size_t line, std::string_view text) -> hal::Result<> {
     const auto refuse = [&](std::string_view expected) {
       return hal::fail(ErrorCode::bad_data, "{}:{}: found \"{}\", expected {}", file.string(), line,
-                       shortened(text), expected);
+                       hal::shortened(text), expected);
     };
     if (rows.size() == most)
       return refuse(fmt::format("the end: {} lines are the most", most));

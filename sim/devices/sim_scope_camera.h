@@ -25,7 +25,7 @@ struct SimScopeCameraOptions {
   int height = 480;
 };
 
-// Draws 30 pictures per second of the loop, each when first needed, and delivers them in place, so
+// Draws 30 pictures per second of the loop, 300 at most, each when first needed, and delivers them in place, so
 // that from the second loop on streaming costs next to nothing. Frame n is exposed n periods after
 // start(). Frames that are not fetched, or that find all four buffers on loan, are lost together
 // with their sequence numbers.

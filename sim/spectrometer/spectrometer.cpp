@@ -20,10 +20,9 @@ struct Bound {
 } // namespace
 
 hal::Result<> SpectrometerConfig::validate() const {
-  if (samples < 16 || samples > 16384 || samples % 2 != 0)
+  if (samples < 16 || samples > 65536)
     return hal::fail(hal::ErrorCode::invalid_argument,
-                     "spectrometer: samples is {}, expected an even number from 16 to 16384",
-                     samples);
+                     "spectrometer: samples is {}, expected 16 to 65536", samples);
   const double full_scale = std::ldexp(1.0, significant_bits);
   // r[m] rises where 4·bow·(1 + skew) < 1, which these bounds ensure.
   const Bound bounds[] = {

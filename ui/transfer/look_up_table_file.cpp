@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/files/file_name.h"
 #include "pipeline/files/png_image.h"
 #include "pipeline/files/text_curve.h"
 #include "ui/transfer/transfer_curve.h"
@@ -111,10 +112,7 @@ hal::Result<LookUpTable> read_strip(const fs::path& file) {
 } // namespace
 
 hal::Result<LookUpTable> read_look_up_table(const fs::path& file) {
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-  return ending == ".png" ? read_strip(file) : read_text(file);
+  return pipeline::file_ending(file) == ".png" ? read_strip(file) : read_text(file);
 }
 
 } // namespace octascope::ui

@@ -10,7 +10,9 @@
 #include "firmware-host/commands/bench/bench_command.h"
 #include "firmware-host/commands/bench/bench_display.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
 #include "firmware-host/run/volume_source.h"
+#include "firmware-host/terminal/terminal.h"
 
 namespace octascope::firmware_host {
 
@@ -28,26 +30,26 @@ struct BenchDisplayArguments {
 };
 
 void print_text(const DisplayBenchReport& report) {
-  fmt::print("{}\n{}\nvolume {} x {} x {}, window {:.1f} dB from {:.1f} dB; eight directions\n\n"
-             "technique drawn by   size       step   opacity      ms p50  ms p95  difference\n",
-             report.cpu, report.gl_renderer, report.geometry.depths, report.geometry.a_scans,
-             report.geometry.b_scans, report.window_size_db, report.window_offset_db);
+  say("{}\n{}\nvolume {} x {} x {}, window {:.1f} dB from {:.1f} dB; eight directions\n\n"
+      "technique drawn by   size       step   opacity      ms p50  ms p95  difference\n",
+      report.cpu, report.gl_renderer, report.geometry.depths, report.geometry.a_scans,
+      report.geometry.b_scans, report.window_size_db, report.window_offset_db);
   for (const DisplayBenchResult& result : report.cases)
-    fmt::print("{:<9} {:<10} {:<10} 1/{:<4} {:<11} {:>7.1f} {:>7.1f}  {}\n",
-               to_string(result.what.technique),
-               result.what.backend == ui::RayBackend::processor ? "processor" : "gl",
-               fmt::format("{}x{}", result.what.width, result.what.height), result.what.steps,
-               result.what.opaque ? "opaque" : "translucent", result.ms_p50, result.ms_p95,
-               result.difference ? fmt::format("{:.2f}", *result.difference) : "-");
-  fmt::print("\nupload {:.2f} ms a volume; occupancy {:.3f} ms a B-scan\n", report.upload_ms_p50,
-             report.occupancy_ms_per_b_scan);
+    say("{:<9} {:<10} {:<10} 1/{:<4} {:<11} {:>7.1f} {:>7.1f}  {}\n",
+        to_string(result.what.technique),
+        result.what.backend == ui::RayBackend::processor ? "processor" : "gl",
+        fmt::format("{}x{}", result.what.width, result.what.height), result.what.steps,
+        result.what.opaque ? "opaque" : "translucent", result.ms_p50, result.ms_p95,
+        result.difference ? fmt::format("{:.2f}", *result.difference) : "-");
+  say("\nupload {:.2f} ms a volume; occupancy {:.3f} ms a B-scan\n", report.upload_ms_p50,
+      report.occupancy_ms_per_b_scan);
   if (const auto& live = report.live)
-    fmt::print("live at 1280x720: first picture after {:.0f} ms; {:.1f} frames/s while the view "
-               "turns, knob to frame {:.0f} ms (p95 {:.0f}); last line to frame {:.0f} ms (p95 "
-               "{:.0f}), at rest {:.0f} ms (p95 {:.0f})\n",
-               live->start_to_first_picture_ms, live->frames_per_s, live->knob_to_frame_ms_p50,
-               live->knob_to_frame_ms_p95, live->latency_ms_p50, live->latency_ms_p95,
-               live->resting_latency_ms_p50, live->resting_latency_ms_p95);
+    say("live at 1280x720: first picture after {:.0f} ms; {:.1f} frames/s while the view "
+        "turns, knob to frame {:.0f} ms (p95 {:.0f}); last line to frame {:.0f} ms (p95 "
+        "{:.0f}), at rest {:.0f} ms (p95 {:.0f})\n",
+        live->start_to_first_picture_ms, live->frames_per_s, live->knob_to_frame_ms_p50,
+        live->knob_to_frame_ms_p95, live->latency_ms_p50, live->latency_ms_p95,
+        live->resting_latency_ms_p50, live->resting_latency_ms_p95);
 }
 
 int run(const BenchDisplayArguments& arguments) {
@@ -78,7 +80,7 @@ int run(const BenchDisplayArguments& arguments) {
   if (!report)
     return complain("bench display", report.error());
   if (arguments.as_json)
-    fmt::print("{}\n", to_json(*report));
+    say("{}\n", to_json(*report));
   else
     print_text(*report);
   return exit_done;
@@ -91,10 +93,14 @@ void add_bench_display_command(CLI::App& bench, int& exit_status) {
   CLI::App* command = bench.add_subcommand(
       "display", "Milliseconds a picture of each technique, and of the whole appliance");
   command->add_flag("--json", arguments->as_json, "One JSON object");
-  command->add_option("--volume", arguments->volume,
-                      "Volume to draw (NRRD); else the simulated eye, 512 x 300 x 80");
-  command->add_option("--size", arguments->size,
-                      "Of the pictures, as 1280x720; else 640x360, 1280x720 and 1920x1080");
+  command
+      ->add_option("--volume", arguments->volume,
+                   "Volume to draw (NRRD); else the simulated eye, 512 x 300 x 80")
+      ->type_name("FILE");
+  command
+      ->add_option("--size", arguments->size,
+                   "Of the pictures, as 1280x720; else 640x360, 1280x720 and 1920x1080")
+      ->type_name("WxH");
   std::vector<std::string> names;
   for (const ui::Technique technique : ui::all_techniques)
     names.emplace_back(to_string(technique));
@@ -106,9 +112,10 @@ void add_bench_display_command(CLI::App& bench, int& exit_status) {
   command
       ->add_option("--seconds", arguments->seconds,
                    "About how long the drawing is measured (90 if not given)")
-      ->check(CLI::Range(0.1, 3600.0));
-  command->add_option("--dump", arguments->dump,
-                      "Folder for the volume and each case's picture (PNG)");
+      ->check(within(0.1, 3600.0));
+  command
+      ->add_option("--dump", arguments->dump, "Folder for the volume and each case's picture (PNG)")
+      ->type_name("FOLDER");
   command->add_flag("--no-live", arguments->no_live, "Leave out the run of the whole appliance");
   command->footer("Example: octascope bench display --json --dump pictures");
   command->callback([arguments, &exit_status] { exit_status = run(*arguments); });

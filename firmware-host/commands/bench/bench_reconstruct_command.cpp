@@ -6,6 +6,8 @@
 #include "firmware-host/commands/bench/bench_command.h"
 #include "firmware-host/commands/bench/bench_reconstruct.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
+#include "firmware-host/terminal/terminal.h"
 
 namespace octascope::firmware_host {
 
@@ -19,19 +21,19 @@ void add_bench_reconstruct_command(CLI::App& bench, int& exit_status) {
       "reconstruct", "Lines a second of each path, relative to bare FFTW transforms");
   command->add_flag("--json", options->as_json, "One JSON object");
   command->add_option("--seconds", options->seconds, "About how long to measure (30 if not given)")
-      ->check(CLI::Range(0.1, 3600.0));
+      ->check(within(0.1, 3600.0));
   command->footer("Example: octascope bench reconstruct --json");
   command->callback([options, &exit_status] {
     const auto report = bench_reconstruct(options->seconds);
     if (!report) {
-      fmt::print(stderr, "octascope bench reconstruct: {}\n", report.error().message);
+      warn("octascope bench reconstruct: {}\n", report.error().message);
       exit_status = exit_failed;
       return;
     }
     if (options->as_json)
-      fmt::print("{}\n", to_json(*report));
+      say("{}\n", to_json(*report));
     else
-      fmt::print("{}", to_text(*report));
+      say("{}", to_text(*report));
     exit_status = exit_done;
   });
 }

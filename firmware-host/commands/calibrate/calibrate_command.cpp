@@ -7,6 +7,8 @@
 
 #include "firmware-host/commands/calibrate/calibrate.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
+#include "firmware-host/terminal/terminal.h"
 
 namespace octascope::firmware_host {
 
@@ -40,7 +42,7 @@ hal::Result<std::vector<double>> parse_lines(std::string_view text) {
 
 int run(CalibrateCommandLine& line) {
   const auto complain = [](const hal::Error& error, int status = exit_wrong_use) {
-    fmt::print(stderr, "octascope calibrate: {}\n", error.message);
+    warn("octascope calibrate: {}\n", error.message);
     return status;
   };
   const auto lines = parse_lines(line.lines);
@@ -59,9 +61,9 @@ int run(CalibrateCommandLine& line) {
   if (!verdict)
     return complain(verdict.error(), exit_failed);
   if (line.json)
-    fmt::print("{}\n", to_json(*verdict));
+    say("{}\n", to_json(*verdict));
   else
-    fmt::print("{}", to_text(*verdict));
+    say("{}", to_text(*verdict));
   return exit_done;
 }
 
@@ -104,7 +106,7 @@ void add_mirror_options(CLI::App& command, CalibrateOptions& options) {
   command
       .add_option("--distance-um", options.mirror_distance_um,
                   "Distance between the two mirrors: gives the depth spacing")
-      ->check(CLI::Range(1e-3, 1e9))
+      ->check(within(1e-3, 1e9))
       ->type_name("UM");
 }
 
@@ -132,7 +134,7 @@ void add_other_options(CLI::App& command, CalibrateCommandLine& line) {
   command
       .add_option("--samples", options.samples,
                   "Samples of a line, when a file has several (they are averaged)")
-      ->check(CLI::Range(pipeline::fewest_samples, pipeline::most_samples))
+      ->check(within(pipeline::fewest_samples, pipeline::most_samples))
       ->type_name("N");
   const std::map<std::string, hal::SampleType> types{
       {"u8", hal::SampleType::u8}, {"u16", hal::SampleType::u16}, {"f32", hal::SampleType::f32}};
@@ -149,10 +151,10 @@ void add_other_options(CLI::App& command, CalibrateCommandLine& line) {
   command
       .add_option("--bits", options.significant_bits,
                   "Bits of a sample: tells what is saturated (all of its type if not given)")
-      ->check(CLI::Range(1, 16))
+      ->check(within(1, 16))
       ->type_name("BITS");
   command.add_option("--spacing-um", options.spacing_um, "Depth spacing of a bin, when known")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(within(1e-3, 1e6))
       ->type_name("UM");
   command
       .add_option(
@@ -160,7 +162,7 @@ void add_other_options(CLI::App& command, CalibrateCommandLine& line) {
           "Of the medium in which depths are to be told, 1.38 for tissue: the spacing found "
           "from --distance-um is divided by it (1, air, if not given), --spacing-um holds "
           "in it")
-      ->check(CLI::Range(pipeline::least_refractive_index, pipeline::most_refractive_index))
+      ->check(within(pipeline::least_refractive_index, pipeline::most_refractive_index))
       ->type_name("N");
   command
       .add_option(

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "pipeline/calibration/calibration.h"
+#include "pipeline/files/file_name.h"
 #include "pipeline/files/text_curve.h"
 
 namespace octascope::firmware_host {
@@ -131,13 +132,14 @@ hal::Result<Recording> read_recording(const std::filesystem::path& file, const S
 } // namespace
 
 bool is_text(const std::filesystem::path& file) {
-  return file.extension() == ".txt" || file.extension() == ".csv";
+  const std::string ending = pipeline::file_ending(file);
+  return ending == ".txt" || ending == ".csv";
 }
 
 SampleType spectrum_type(const std::filesystem::path& file, std::optional<SampleType> given) {
   if (given)
     return *given;
-  const std::string name = file.filename().string();
+  const std::string name = pipeline::small_letters(file.filename().string());
   if (name.find("f32") != std::string::npos)
     return SampleType::f32;
   if (name.find("u8") != std::string::npos && name.find("u16") == std::string::npos)

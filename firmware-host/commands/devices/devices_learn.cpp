@@ -10,6 +10,7 @@
 #include "firmware-host/commands/command.h"
 #include "firmware-host/configuration/control_device_file.h"
 #include "firmware-host/run/stop_signal.h"
+#include "firmware-host/terminal/terminal.h"
 #include "hal/linux/hid/learning/learning_session.h"
 #include "hal/linux/monotonic_clock.h"
 
@@ -55,11 +56,11 @@ void listen(LearningSession& session, const LearnOptions& options, hal::Clock& c
   while (!stop.requested()) {
     const auto lines = session.listen(50ms);
     if (!lines) {
-      fmt::print(stderr, "{}\n", lines.error().message);
+      warn("{}\n", lines.error().message);
       return;
     }
     for (const std::string& line : *lines)
-      fmt::print("  {}\n", line);
+      say("  {}\n", line);
     if (!lines->empty())
       last = clock.now();
     std::fflush(stdout);
@@ -73,8 +74,7 @@ bool write(const std::filesystem::path& file, const std::string& text) {
   out << text;
   out.close();
   if (!out)
-    fmt::print(stderr, "{}: not written; is its folder there, and may you write to it?\n",
-               file.string());
+    warn("{}: not written; is its folder there, and may you write to it?\n", file.string());
   return static_cast<bool>(out);
 }
 
@@ -83,9 +83,9 @@ int write_files(const hal::linux_backend::ControlModel& model, const LearnOption
   const std::string profile = options.out.string() + ".profile.toml";
   if (!write(device, control_device_text(model)) || !write(profile, first_profile_text(model)))
     return exit_failed;
-  fmt::print("{} switches learned. Say in the configuration:\n[controls]\ndevice = \"{}\"\n"
-             "file = \"{}\"\nand give each switch its action in {}.\n",
-             model.switches, device, profile, profile);
+  say("{} switches learned. Say in the configuration:\n[controls]\ndevice = \"{}\"\n"
+      "file = \"{}\"\nand give each switch its action in {}.\n",
+      model.switches, device, profile, profile);
   return exit_done;
 }
 
@@ -96,7 +96,7 @@ int learn_control(const LearnOptions& options) {
   hal::linux_backend::MonotonicClock clock;
   std::string usb = options.usb;
   if (usb.empty()) {
-    fmt::print("Plug the new device in now, or pull it out and put it in again.\n");
+    say("Plug the new device in now, or pull it out and put it in again.\n");
     std::fflush(stdout);
     usb = wait_for_new_device(clock, stop);
     if (usb.empty())
@@ -104,20 +104,19 @@ int learn_control(const LearnOptions& options) {
   }
   auto session = LearningSession::listen_to(nodes_of(usb));
   if (!session) {
-    fmt::print(stderr, "{}: {}\n", usb, session.error().message);
+    warn("{}: {}\n", usb, session.error().message);
     return exit_failed;
   }
-  fmt::print("Listening to {}. Press each switch and let it go, one after the other, the left one "
-             "first. Ctrl+C ends it, or {} s without a press.\n",
-             usb, options.quiet_s);
+  say("Listening to {}. Press each switch and let it go, one after the other, the left one "
+      "first. Ctrl+C ends it, or {} s without a press.\n",
+      usb, options.quiet_s);
   std::fflush(stdout);
   listen(*session, options, clock, stop);
   const auto model = session->learned();
   if (!model) {
-    fmt::print(stderr,
-               "{}: no switch was learned, expected at least one to be pressed and let go "
-               "alone; try again\n",
-               usb);
+    warn("{}: no switch was learned, expected at least one to be pressed and let go "
+         "alone; try again\n",
+         usb);
     return exit_failed;
   }
   return write_files(*model, options);

@@ -13,6 +13,7 @@
 
 #include "firmware-host/commands/command.h"
 #include "firmware-host/diagnosis/health_check.h"
+#include "firmware-host/terminal/terminal.h"
 #include "hal/linux/monotonic_clock.h"
 
 namespace octascope::firmware_host {
@@ -30,9 +31,9 @@ const char* word(Verdict verdict) {
 
 void print_text(const std::vector<HealthCheck>& checks) {
   for (const HealthCheck& check : checks) {
-    fmt::print("{:<8} {:<19} {}\n", word(check.verdict), check.subject, check.found);
+    say("{:<8} {:<19} {}\n", word(check.verdict), check.subject, check.found);
     if (!check.remedy.empty())
-      fmt::print("{:<28} → {}\n", "", check.remedy);
+      say("{:<28} → {}\n", "", check.remedy);
   }
 }
 
@@ -44,7 +45,7 @@ void print_json(const std::vector<HealthCheck>& checks) {
                     {"found", check.found},
                     {"remedy", check.remedy},
                     {"mend", check.remedy}}); // its old name
-  fmt::print("{}\n", nlohmann::ordered_json{{"checks", json}}.dump(2));
+  say("{}\n", nlohmann::ordered_json{{"checks", json}}.dump(2));
 }
 
 } // namespace
@@ -58,7 +59,8 @@ void add_doctor_command(CLI::App& program, int& exit_status) {
                   "Examples:\n"
                   "  octascope doctor\n"
                   "  octascope doctor --config octascope.toml");
-  command->add_option("--config", *file, "Check this configuration and nothing else (TOML)");
+  command->add_option("--config", *file, "Check this configuration and nothing else")
+      ->type_name("FILE.toml");
   command->add_flag("--json", *as_json, "One JSON object");
   command->callback([as_json, file, &exit_status] {
     hal::linux_backend::MonotonicClock clock;

@@ -10,6 +10,7 @@
 #include "firmware-host/commands/devices/status_text.h"
 #include "firmware-host/supervision/service_manager.h"
 #include "firmware-host/supervision/status_server.h"
+#include "firmware-host/terminal/terminal.h"
 
 namespace octascope::firmware_host {
 
@@ -30,10 +31,10 @@ int show_status(const StatusArguments& arguments) {
   const auto answer = ask_status(socket_of(arguments));
   const auto shown = arguments.as_json ? answer : answer.and_then(status_words);
   if (!shown) {
-    fmt::print(stderr, "octascope status: {}\n", shown.error().message);
+    warn("octascope status: {}\n", shown.error().message);
     return exit_failed;
   }
-  fmt::print("{}", *shown);
+  say("{}", *shown);
   return exit_done;
 }
 
@@ -46,9 +47,11 @@ void add_status_command(CLI::App& program, int& exit_status) {
       "Example: octascope status --json\n"
       "The answer comes from the appliance on this machine, over a local socket that its "
       "group may use; nothing listens on a network.");
-  command->add_option("--socket", arguments->socket,
-                      "The appliance's socket; else status.sock in $RUNTIME_DIRECTORY, else in "
-                      "/run/octascope");
+  command
+      ->add_option("--socket", arguments->socket,
+                   "The appliance's socket; else status.sock in $RUNTIME_DIRECTORY, else in "
+                   "/run/octascope")
+      ->type_name("SOCKET");
   command->add_flag("--json", arguments->as_json, "One JSON object");
   command->callback([arguments, &exit_status] { exit_status = show_status(*arguments); });
 }

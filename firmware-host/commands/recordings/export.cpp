@@ -6,6 +6,7 @@
 
 #include "firmware-host/commands/recordings/export_place.h"
 #include "firmware-host/commands/recordings/volume_exporter.h"
+#include "pipeline/files/file_name.h"
 #include "pipeline/recordings/recording_reader.h"
 #include "pipeline/volume/level_scale.h"
 
@@ -49,6 +50,17 @@ hal::Result<ExportPlace> choose_place(const ExportOptions& options, std::size_t 
                              options.b_scan ? fmt::format("-b-scan-{:04}", *options.b_scan)
                                             : std::string{"-en-face"},
                              volumes);
+}
+
+hal::Result<> check_apart(const ExportOptions& options, const ExportPlace& place,
+                          const Chosen& chosen) {
+  for (std::size_t n = chosen.first; n < chosen.first + chosen.count; ++n) {
+    if (pipeline::is_same_file(place.file_of(n), options.recording))
+      return hal::fail(ErrorCode::invalid_argument,
+                       "{} is the recording itself; expected another --out: nothing was written",
+                       place.file_of(n).string());
+  }
+  return {};
 }
 
 // One for all pictures, so that they can be compared.
@@ -99,6 +111,7 @@ hal::Result<ExportOutcome> export_recording(const ExportOptions& asked,
   HAL_TRY(const auto chosen, choose_volumes(options, reader.volumes().size()));
   HAL_CHECK(check_b_scan(options, facts.geometry.b_scans));
   HAL_TRY(auto place, choose_place(options, chosen.count));
+  HAL_CHECK(check_apart(options, place, chosen));
   pipeline::Volume volume{facts.geometry};
   // Pictures from above have a contrast of their own.
   if (!options.window && (options.format == ExportFormat::dicom || options.b_scan)) {

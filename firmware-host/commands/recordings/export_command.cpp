@@ -9,8 +9,11 @@
 
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
 #include "firmware-host/commands/recordings/export.h"
 #include "firmware-host/report/progress_line.h"
+#include "firmware-host/terminal/terminal.h"
+#include "pipeline/files/file_name.h"
 #include "pipeline/volume/level_scale.h"
 
 namespace octascope::firmware_host {
@@ -41,7 +44,7 @@ hal::Result<ExportFormat> format_of(const ExportCommandLine& line) {
   if (!line.to.empty())
     return formats().at(line.to).format;
   for (const auto& [word, format] : formats()) {
-    if (std::filesystem::path{line.out}.extension() == format.extension)
+    if (pipeline::file_ending(line.out) == format.extension)
       return format.format;
   }
   return hal::fail(hal::ErrorCode::invalid_argument,
@@ -93,22 +96,21 @@ hal::Result<ExportOptions> options_of(const ExportCommandLine& line) {
 
 void tell(const ExportOutcome& outcome) {
   if (outcome.volumes == 1)
-    fmt::print("{}: 1 volume\n", outcome.first.string());
+    say("{}: 1 volume\n", outcome.first.string());
   else
-    fmt::print("{} to {}: {} volumes\n", outcome.first.string(), outcome.last.filename().string(),
-               outcome.volumes);
+    say("{} to {}: {} volumes\n", outcome.first.string(), outcome.last.filename().string(),
+        outcome.volumes);
   if (outcome.simulated)
-    fmt::print("SIMULATED: some or all of it is not the patient's\n");
+    say("SIMULATED: some or all of it is not the patient's\n");
   if (outcome.window)
-    fmt::print("black is {:.1f} dB, white {:.1f} dB\n", outcome.window->offset_db,
-               outcome.window->offset_db + outcome.window->size_db);
+    say("black is {:.1f} dB, white {:.1f} dB\n", outcome.window->offset_db,
+        outcome.window->offset_db + outcome.window->size_db);
   if (!outcome.pixels.empty())
-    fmt::print("{}\n", outcome.pixels);
+    say("{}\n", outcome.pixels);
   if (outcome.missing_b_scans > 0)
-    fmt::print(stderr,
-               "octascope export: warning: {} B-scans are missing in the recording; in the files "
-               "they are at the lowest level, {} dB\n",
-               outcome.missing_b_scans, pipeline::lowest_level_db);
+    warn("octascope export: warning: {} B-scans are missing in the recording; in the files "
+         "they are at the lowest level, {} dB\n",
+         outcome.missing_b_scans, pipeline::lowest_level_db);
 }
 
 int run(const ExportCommandLine& line) {
@@ -127,6 +129,7 @@ void add_picture_options(CLI::App& command, ExportCommandLine& line) {
                           .add_option("--bscan", line.b_scan,
                                       "PNG: the B-scan to draw, from 0; without it the volume is "
                                       "drawn from above (en face)")
+                          ->check(within(0, 65535))
                           ->type_name("I");
   command
       .add_option("--window", line.window,

@@ -9,6 +9,7 @@
 
 #include "firmware-host/commands/size_text.h"
 #include "pipeline/files/atomic_file.h"
+#include "pipeline/files/file_name.h"
 
 namespace octascope::firmware_host {
 
@@ -20,7 +21,7 @@ namespace {
 constexpr std::array<std::string_view, 4> known_extensions{".nrrd", ".dcm", ".png", ".h5"};
 
 bool is_other_format(const fs::path& out, const std::string& extension) {
-  const std::string found = out.extension().string();
+  const std::string found = pipeline::file_ending(out);
   return found != extension && std::ranges::find(known_extensions, found) != known_extensions.end();
 }
 
@@ -44,7 +45,7 @@ hal::Result<ExportPlace> ExportPlace::choose(const fs::path& out, const std::str
     return hal::fail(ErrorCode::invalid_argument,
                      "--out is {}, expected a name ending with {}, or a folder", out.string(),
                      extension);
-  if (!fs::is_directory(status) && out.extension() == extension) {
+  if (!fs::is_directory(status) && pipeline::file_ending(out) == extension) {
     if (volumes != 1)
       return hal::fail(
           ErrorCode::invalid_argument,

@@ -13,6 +13,7 @@
 #include "firmware-host/commands/recordings/info.h"
 #include "firmware-host/commands/recordings/recording_summary.h"
 #include "firmware-host/commands/size_text.h"
+#include "firmware-host/terminal/terminal.h"
 #include "pipeline/recordings/recording_reader.h"
 #include "pipeline/volume/level_scale.h"
 
@@ -103,62 +104,61 @@ void print_json(const RecordingReport& report) {
   if (facts.eye != pipeline::Eye::not_said)
     json["eye"] = to_string(facts.eye);
   // Names that people gave may be no UTF-8.
-  fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  say("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 void print_volumes(const RecordingReport& report) {
   const RecordingSummary& s = report.summary;
   if (s.volumes == 0) {
-    fmt::print("  volumes      none\n");
+    say("  volumes      none\n");
     return;
   }
-  fmt::print("  volumes      {}, 0 to {}; the appliance's {} to {}\n", s.volumes, s.volumes - 1,
-             s.first_index, s.last_index);
-  fmt::print("  duration     {:.2f} s", s.duration_s);
+  say("  volumes      {}, 0 to {}; the appliance's {} to {}\n", s.volumes, s.volumes - 1,
+      s.first_index, s.last_index);
+  say("  duration     {:.2f} s", s.duration_s);
   if (s.rate_hz)
-    fmt::print(", {:.2f} volumes/s", *s.rate_hz);
-  fmt::print("; planned one in {:.1f} ms\n", 1000 * report.facts.volume_period_s);
+    say(", {:.2f} volumes/s", *s.rate_hz);
+  say("; planned one in {:.1f} ms\n", 1000 * report.facts.volume_period_s);
 }
 
 void print_losses(const RecordingReport& report) {
   const RecordingSummary& s = report.summary;
   if (s.gaps == 0)
-    fmt::print("  lost         no volume between the first and the last\n");
+    say("  lost         no volume between the first and the last\n");
   else
-    fmt::print("  lost         volumes: {}, gaps: {}, the longest of {}\n", s.volumes_in_gaps,
-               s.gaps, s.longest_gap);
+    say("  lost         volumes: {}, gaps: {}, the longest of {}\n", s.volumes_in_gaps, s.gaps,
+        s.longest_gap);
   if (!report.end.finished)
-    fmt::print("               how many the disk was too slow for is not known: not finished\n");
+    say("               how many the disk was too slow for is not known: not finished\n");
   else if (report.end.not_kept > 0)
-    fmt::print("               not kept because the disk was too slow: {}\n", report.end.not_kept);
-  fmt::print("               B-scans: {}, lines: {}; saturated lines: {}\n", s.lost_b_scans,
-             s.lost_lines, s.saturated_lines);
+    say("               not kept because the disk was too slow: {}\n", report.end.not_kept);
+  say("               B-scans: {}, lines: {}; saturated lines: {}\n", s.lost_b_scans, s.lost_lines,
+      s.saturated_lines);
 }
 
 void print_text(const RecordingReport& report) {
   const RecordingFacts& facts = report.facts;
   const VolumeGeometry& g = facts.geometry;
-  fmt::print("{}: {}\n", report.name,
-             facts.simulated ? "SIMULATED, some or all of it is not the patient's" : "a recording");
-  fmt::print("  begun        {}, by {}\n", facts.begun, facts.recorded_by);
-  fmt::print("  source       {}\n", facts.source);
-  fmt::print("  subject      {}\n", facts.subject.empty() ? "not said" : facts.subject);
-  fmt::print("  eye          {}\n", to_string(facts.eye));
+  say("{}: {}\n", report.name,
+      facts.simulated ? "SIMULATED, some or all of it is not the patient's" : "a recording");
+  say("  begun        {}, by {}\n", facts.begun, facts.recorded_by);
+  say("  source       {}\n", facts.source);
+  say("  subject      {}\n", facts.subject.empty() ? "not said" : facts.subject);
+  say("  eye          {}\n", to_string(facts.eye));
   print_volumes(report);
-  fmt::print("  geometry     {} depths × {} A-scans × {} B-scans\n", g.depths, g.a_scans,
-             g.b_scans);
-  fmt::print("               every {:.4g} × {:.4g} × {:.4g} µm: {:.4g} × {:.4g} × {:.4g} mm\n",
-             g.depth_spacing_um, g.a_spacing_um, g.b_spacing_um, g.depth_mm(), g.a_mm(), g.b_mm());
-  fmt::print("               depths hold {}\n",
-             g.refractive_index ? fmt::format("for a refractive index of {}", *g.refractive_index)
-                                : "for a medium that nobody said");
-  fmt::print("  levels       counts 0 to 255, {} dB and {} dB a count, to {} dB\n",
-             pipeline::lowest_level_db, pipeline::level_step_db, pipeline::highest_level_db);
-  fmt::print("  size         {}\n", size_words(report.bytes));
-  fmt::print("  finished     {}\n",
-             report.end.finished
-                 ? "yes"
-                 : "no: it is being written, or power or program was lost; what is there is whole");
+  say("  geometry     {} depths × {} A-scans × {} B-scans\n", g.depths, g.a_scans, g.b_scans);
+  say("               every {:.4g} × {:.4g} × {:.4g} µm: {:.4g} × {:.4g} × {:.4g} mm\n",
+      g.depth_spacing_um, g.a_spacing_um, g.b_spacing_um, g.depth_mm(), g.a_mm(), g.b_mm());
+  say("               depths hold {}\n",
+      g.refractive_index ? fmt::format("for a refractive index of {}", *g.refractive_index)
+                         : "for a medium that nobody said");
+  say("  levels       counts 0 to 255, {} dB and {} dB a count, to {} dB\n",
+      pipeline::lowest_level_db, pipeline::level_step_db, pipeline::highest_level_db);
+  say("  size         {}\n", size_words(report.bytes));
+  say("  finished     {}\n",
+      report.end.finished
+          ? "yes"
+          : "no: it is being written, or power or program was lost; what is there is whole");
   print_losses(report);
 }
 
@@ -167,7 +167,7 @@ int run(const InfoCommandLine& line) {
   if (!report)
     return complain("info", report.error());
   if (line.configuration)
-    fmt::print("{}", report->facts.configuration);
+    say("{}", report->facts.configuration);
   else if (line.json)
     print_json(*report);
   else

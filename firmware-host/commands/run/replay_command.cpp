@@ -6,6 +6,7 @@
 
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
 #include "firmware-host/configuration/run_options.h"
 #include "firmware-host/run/appliance.h"
 #include "firmware-host/run/stop_signal.h"
@@ -46,9 +47,10 @@ void add_time_options(CLI::App& command, ReplayArguments& a) {
   command
       .add_option("--rate", a.rate,
                   "How fast: 2 is twice as fast as it was recorded (1 if not given)")
-      ->check(CLI::Range(pipeline::slowest_replay, pipeline::fastest_replay));
+      ->check(within(pipeline::slowest_replay, pipeline::fastest_replay));
   command.add_flag("--once", a.once, "End after the last volume, and do not begin anew");
-  command.add_option("--from", a.from, "The first volume to show, counted from 0 (0 if not given)");
+  command.add_option("--from", a.from, "The first volume to show, counted from 0 (0 if not given)")
+      ->check(within(0, 1000000000));
 }
 
 } // namespace

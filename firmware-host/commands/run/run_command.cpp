@@ -9,11 +9,13 @@
 
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
 #include "firmware-host/configuration/run_options.h"
 #include "firmware-host/run/appliance.h"
 #include "firmware-host/run/stop_signal.h"
 #include "firmware-host/supervision/crash_report.h"
 #include "firmware-host/supervision/service_manager.h"
+#include "firmware-host/terminal/terminal.h"
 #include "pipeline/scan/scan_plan.h"
 #include "ui/controls/legend_lines.h"
 
@@ -82,11 +84,12 @@ int run(const char* command, const RunArguments& arguments) {
   const auto options = options_of(arguments);
   if (!options)
     return complain(command, options.error());
-  StopSignal stop_signal; // before the first thread
+  const auto state = service_folders().state;
+  StopSignal stop_signal{state ? HangUp::reloads : HangUp::ends}; // before the first thread
   CrashReport crash_report;
-  if (const auto state = service_folders().state)
+  if (state)
     if (const auto kept = crash_report.keep_in(crash_folder(*state)); !kept)
-      fmt::print(stderr, "octascope {}: {}\n", command, kept.error().message);
+      warn("octascope {}: {}\n", command, kept.error().message);
   auto appliance = Appliance::assemble(*options, &crash_report);
   if (!appliance)
     return complain(command, appliance.error());
@@ -98,17 +101,23 @@ int run(const char* command, const RunArguments& arguments) {
 void add_options(CLI::App& command, RunArguments& a) {
   add_show_options(command, a.show);
   command.add_flag("--sim", a.simulate, "Use the simulated devices, whatever is plugged in");
-  command.add_option("--spectra", a.spectra,
-                     "Play raw spectra (u16, little-endian, [B][A][N]) instead of a phantom");
-  command.add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024");
-  command.add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)");
+  command
+      .add_option("--spectra", a.spectra,
+                  "Play raw spectra (u16, little-endian, [B][A][N]) instead of a phantom")
+      ->type_name("FILE");
+  command.add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024")
+      ->type_name("B,A,N");
+  command.add_option("--calibration", a.calibration, "Calibration of the spectrometer")
+      ->type_name("FILE.toml");
   command.add_option("--phantom", a.phantom, "What the simulated camera sees");
   command.add_flag("--bidirectional", a.bidirectional,
                    "Scan there and back, without fly-back, whatever the configuration says");
   command.add_option("--repeats", a.repeats, "Sweeps of each B-scan, averaged (1 to 4)")
-      ->check(CLI::Range(1, pipeline::ScanPlan::most_repeats));
-  command.add_option("--faults", a.faults, "Faults that the simulated devices suffer (TOML)");
-  command.add_option("--controls", a.controls, "What the simulated pedal and knob do (TOML)");
+      ->check(within(1, pipeline::ScanPlan::most_repeats));
+  command.add_option("--faults", a.faults, "Faults that the simulated devices suffer")
+      ->type_name("FILE.toml");
+  command.add_option("--controls", a.controls, "What the simulated pedal and knob do")
+      ->type_name("FILE.toml");
   command.add_option("--subject", a.subject,
                      "Whose recordings these are, as they shall say it; not kept for later runs");
   command.add_option("--eye", a.eye, "Of which eye they are")

@@ -13,11 +13,13 @@
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/bench/bench_timing.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
 #include "firmware-host/commands/tree_options.h"
 #include "firmware-host/commands/vessels/vessel_text.h"
 #include "firmware-host/commands/vessels/vessels.h"
 #include "firmware-host/commands/vessels/vessels_bench.h"
 #include "firmware-host/report/progress_line.h"
+#include "firmware-host/terminal/terminal.h"
 #include "firmware-host/vessels/vessel_source.h"
 #include "pipeline/vessels/clusters/cluster_unpacker.h"
 #include "sim/coronary_tree/coronary_tree.h"
@@ -57,7 +59,7 @@ hal::Result<VesselsBenchOptions> options_of(const VesselsBenchCommandLine& line)
     options.width = size[0];
     options.height = size[1];
   }
-  options.progress = [](std::string_view words) { fmt::print(stderr, "{}\n", words); };
+  options.progress = [](std::string_view words) { warn("{}\n", words); };
   return options;
 }
 
@@ -120,9 +122,9 @@ hal::Result<> bench(const VesselsBenchCommandLine& line) {
   HAL_TRY(const auto loaded, line.file.empty() ? grow(line) : load(line));
   HAL_TRY(const auto report, bench_vessels(loaded.vessels.clusters(), options));
   if (line.as_json)
-    fmt::print("{}\n", to_json(loaded.tree, report));
+    say("{}\n", to_json(loaded.tree, report));
   else
-    fmt::print("{}", to_text(loaded.tree, report));
+    say("{}", to_text(loaded.tree, report));
   return {};
 }
 
@@ -154,7 +156,7 @@ void add_options(CLI::App& command, VesselsBenchCommandLine& line) {
   command
       .add_option("--seconds", line.options.seconds,
                   "About how long each method is measured in each view")
-      ->check(CLI::Range(0.01, 3600.0))
+      ->check(within(0.01, 3600.0))
       ->capture_default_str();
   command.add_option("--dump", line.dump, "Folder for each case's picture (PNG)")
       ->type_name("FOLDER");
@@ -165,7 +167,7 @@ void add_options(CLI::App& command, VesselsBenchCommandLine& line) {
       "Fly from the whole tree along the LAD to a close look, too: how far the hybrid is "
       "from quads, and whether anything pops up");
   command.add_option("--places", line.places, "At so many places of the flight, two frames each")
-      ->check(CLI::Range(1, 100'000))
+      ->check(within(1, 100'000))
       ->capture_default_str();
   command.add_flag("--no-build", line.no_build,
                    "Do not unpack the file and build its clusters again, to measure that");
@@ -195,7 +197,7 @@ void add_bench_vessels_command(CLI::App& bench, int& exit_status) {
   command->add_option("file", line->file, "Vessel tree; one is grown if not given")
       ->type_name("FILE");
   command->add_option("--segments", line->segments, "Of the tree that is grown")
-      ->check(CLI::Range(sim::fewest_coronary_segments, sim::most_coronary_segments))
+      ->check(within(sim::fewest_coronary_segments, sim::most_coronary_segments))
       ->capture_default_str();
   add_options(*command, *line);
   command->footer("Example: octascope bench vessels --segments 1000000 --json");

@@ -11,6 +11,7 @@
 #include "firmware-host/commands/tree_options.h"
 #include "firmware-host/commands/vessels/vessels.h"
 #include "firmware-host/report/progress_line.h"
+#include "firmware-host/terminal/terminal.h"
 #include "firmware-host/version/version.h"
 #include "firmware-host/vessels/vessel_files.h"
 #include "pipeline/vessels/files/tree_file.h"
@@ -46,7 +47,7 @@ hal::Result<> run(const VesselsConvertCommandLine& line) {
     HAL_CHECK(write_tree(line.out, read->tree, provenance_of(*read, line.file),
                          [&](double done) { progress.update(done); }));
   }
-  fmt::print("{}: {} nodes written\n", line.out.string(), read->tree.nodes());
+  say("{}: {} nodes written\n", line.out.string(), read->tree.nodes());
   return {};
 }
 
@@ -62,7 +63,7 @@ void add_vessels_convert_command(CLI::App& vessels, int& exit_status) {
   command
       ->add_option("--out", line->out, "File to write: .swc for SWC, else our own format, .vessels")
       ->required()
-      ->type_name("FILE");
+      ->type_name("FILE.swc|.vessels");
   add_tree_options(*command, line->tree);
   command->footer("The file appears complete or not at all. Our own format is eight times smaller, "
                   "is drawn without\nreading it first, and rounds places and radii: `vessels info` "

@@ -1,7 +1,8 @@
 // octascope vessels generate: a heart's arteries, drawn by lot from what was measured.
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <thread>
@@ -12,9 +13,11 @@
 
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
 #include "firmware-host/commands/vessels/morphometry_json.h"
 #include "firmware-host/commands/vessels/vessels.h"
 #include "firmware-host/report/progress_line.h"
+#include "firmware-host/terminal/terminal.h"
 #include "firmware-host/vessels/vessel_files.h"
 #include "sim/coronary_tree/coronary_tree.h"
 #include "sim/coronary_tree/morphometry_table.h"
@@ -45,7 +48,7 @@ void print_json(const VesselsGenerateCommandLine& line, const sim::CoronaryTree&
                     {"lowest_order", coronary.lowest_order},
                     {"murray_ratio_below_50_um", table.murray_ratio}};
   json["table"] = morphometry_json(table);
-  fmt::print("{}\n", json.dump(2));
+  say("{}\n", json.dump(2));
 }
 
 hal::Result<> run(const VesselsGenerateCommandLine& line) {
@@ -69,9 +72,9 @@ hal::Result<> run(const VesselsGenerateCommandLine& line) {
     print_json(line, coronary, took.count());
     return {};
   }
-  fmt::print("{} segments, {} nodes, seed {}, grown in {:.1f} s\n\n{}", line.segments,
-             coronary.tree.nodes(), line.seed, took.count(),
-             sim::to_text(sim::compare_with_published(coronary)));
+  say("{} segments, {} nodes, seed {}, grown in {:.1f} s\n\n{}", line.segments,
+      coronary.tree.nodes(), line.seed, took.count(),
+      sim::to_text(sim::compare_with_published(coronary)));
   return {};
 }
 
@@ -86,14 +89,17 @@ void add_vessels_generate_command(CLI::App& vessels, int& exit_status) {
                    fmt::format("Exactly so many, {} to {}", sim::fewest_coronary_segments,
                                sim::most_coronary_segments))
       ->required()
+      ->check(within(sim::fewest_coronary_segments, sim::most_coronary_segments))
       ->type_name("N");
   command->add_option("--seed", line->seed, "The same seed gives the same file (1 if not given)")
+      ->check(within(std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("S");
   command
       ->add_option("--out", line->out, "File to write: .swc for SWC, else our own format, .vessels")
       ->required()
-      ->type_name("FILE");
+      ->type_name("FILE.swc|.vessels");
   command->add_option("--threads", line->threads, "One a core if not given; changes only the time")
+      ->check(within(1, 1024))
       ->type_name("N");
   command->add_flag("--json", line->json, "The table as one JSON object");
   command->footer(

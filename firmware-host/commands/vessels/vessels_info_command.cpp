@@ -18,6 +18,7 @@
 #include "firmware-host/commands/vessels/morphometry_json.h"
 #include "firmware-host/commands/vessels/vessels.h"
 #include "firmware-host/report/progress_line.h"
+#include "firmware-host/terminal/terminal.h"
 #include "pipeline/vessels/files/tree_file.h"
 #include "pipeline/vessels/tree_summary.h"
 #include "sim/coronary_tree/morphometry_table.h"
@@ -192,53 +193,52 @@ void print_json(const FileReport& report) {
   if (report.morphometry)
     add_morphometry(*report.morphometry, json);
   // The name of a radius array and a provenance may be no UTF-8.
-  fmt::print("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
+  say("{}\n", json.dump(2, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 void print_orders(const TreeFile& file, const TreeSummary& summary) {
-  fmt::print("\norders, from the {}\n  order   segments   mean diameter    length\n",
-             source_of_orders(file));
+  say("\norders, from the {}\n  order   segments   mean diameter    length\n",
+      source_of_orders(file));
   for (std::size_t i = summary.orders.size(); i-- > 0;) {
     const pipeline::OrderSummary& order = summary.orders[i];
     if (order.segments > 0)
-      fmt::print("  {:5} {:10} {:12.1f} µm {:9.3g} m\n", i, order.segments,
-                 1000 * order.mean_diameter_mm, order.length_mm / 1000);
+      say("  {:5} {:10} {:12.1f} µm {:9.3g} m\n", i, order.segments, 1000 * order.mean_diameter_mm,
+          order.length_mm / 1000);
   }
 }
 
 void print_facts(const VesselFacts& facts, const FileReport& report) {
-  fmt::print("  from: {}\n", facts.provenance);
-  fmt::print("  checksums good; {} bytes, {:.3f} a segment\n", report.bytes,
-             bytes_a_segment(report));
-  fmt::print("  rounded: places by {:.3g} µm at most, radii by {:.3g} %\n", facts.error.position_um,
-             100 * facts.error.relative_radius);
+  say("  from: {}\n", facts.provenance);
+  say("  checksums good; {} bytes, {:.3f} a segment\n", report.bytes, bytes_a_segment(report));
+  say("  rounded: places by {:.3g} µm at most, radii by {:.3g} %\n", facts.error.position_um,
+      100 * facts.error.relative_radius);
 }
 
 void print_text(const FileReport& report) {
   const TreeFile& file = report.file;
   const TreeSummary& summary = report.summary;
   static constexpr const char* kinds[] = {"SWC", "VTP", "our own format"}; // as file.counts
-  fmt::print("{}: {}, lengths in {}\n", report.name, kinds[file.counts.index()],
-             file.unit == pipeline::LengthUnit::um ? "µm" : "mm");
+  say("{}: {}, lengths in {}\n", report.name, kinds[file.counts.index()],
+      file.unit == pipeline::LengthUnit::um ? "µm" : "mm");
   if (const VesselFacts* facts = facts_of(file))
     print_facts(*facts, report);
-  fmt::print("  {} nodes, {} segments, {} roots, {} branch points, {} tips\n", summary.nodes,
-             summary.segments, summary.roots, summary.branch_points, summary.tips);
+  say("  {} nodes, {} segments, {} roots, {} branch points, {} tips\n", summary.nodes,
+      summary.segments, summary.roots, summary.branch_points, summary.tips);
   const auto& low = summary.lowest_mm;
   const auto& high = summary.highest_mm;
-  fmt::print("  bounds {:g} to {:g}, {:g} to {:g}, {:g} to {:g} mm\n", low[0], high[0], low[1],
-             high[1], low[2], high[2]);
-  fmt::print("  radii {:g} to {:g} µm, {:.4g} m of vessels\n", 1000 * summary.smallest_radius_mm,
-             1000 * summary.largest_radius_mm, summary.length_mm / 1000);
-  fmt::print("  branches");
+  say("  bounds {:g} to {:g}, {:g} to {:g}, {:g} to {:g} mm\n", low[0], high[0], low[1], high[1],
+      low[2], high[2]);
+  say("  radii {:g} to {:g} µm, {:.4g} m of vessels\n", 1000 * summary.smallest_radius_mm,
+      1000 * summary.largest_radius_mm, summary.length_mm / 1000);
+  say("  branches");
   for (std::size_t i = summary.branches.size(); i-- > 0;)
-    fmt::print(" {} {}{}", branch_names[i], summary.branches[i], i == 0 ? "\n" : ",");
+    say(" {} {}{}", branch_names[i], summary.branches[i], i == 0 ? "\n" : ",");
   print_orders(file, summary);
-  fmt::print("\nread\n");
+  say("\nread\n");
   for (const PolicyCount& policy : policy_counts(file))
-    fmt::print("  {:10} {}\n", policy.count, policy.words);
+    say("  {:10} {}\n", policy.count, policy.words);
   if (report.morphometry)
-    fmt::print("\n{}", sim::to_text(*report.morphometry));
+    say("\n{}", sim::to_text(*report.morphometry));
 }
 
 int run(const VesselsInfoCommandLine& line) {

@@ -13,6 +13,7 @@
 
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/vessels/vessels.h"
+#include "firmware-host/terminal/terminal.h"
 #include "firmware-host/version/version.h"
 #include "pipeline/files/text_curve.h"
 #include "pipeline/vessels/point_registration.h"
@@ -111,7 +112,7 @@ std::string to_json(const PointRegistration& found, const VesselsRegisterCommand
 
 int run(const VesselsRegisterCommandLine& line) {
   const auto complain = [](std::string_view message) {
-    fmt::print(stderr, "octascope vessels register: {}\n", message);
+    warn("octascope vessels register: {}\n", message);
     return exit_failed;
   };
   const auto read = read_pairs(line.points);
@@ -123,7 +124,7 @@ int run(const VesselsRegisterCommandLine& line) {
   if (const auto written = pipeline::write_registration(registration_of(line, *found), line.out);
       !written)
     return complain(written.error().message);
-  fmt::print("{}", line.json ? to_json(*found, line) + "\n" : to_text(*found, *read));
+  say("{}", line.json ? to_json(*found, line) + "\n" : to_text(*found, *read));
   return exit_done;
 }
 

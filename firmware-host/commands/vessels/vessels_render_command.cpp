@@ -9,11 +9,13 @@
 
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
 #include "firmware-host/commands/tree_options.h"
 #include "firmware-host/commands/vessels/vessel_text.h"
 #include "firmware-host/commands/vessels/vessels.h"
 #include "firmware-host/commands/vessels/vessels_render.h"
 #include "firmware-host/report/progress_line.h"
+#include "firmware-host/terminal/terminal.h"
 #include "firmware-host/vessels/vessel_source.h"
 #include "pipeline/files/atomic_file.h"
 
@@ -64,8 +66,7 @@ hal::Result<> render(const VesselsRenderCommandLine& line) {
   if (!vessels)
     return tl::make_unexpected(vessels.error());
   HAL_TRY(const auto rendering, render_vessels(vessels->clusters(), options));
-  fmt::print(stderr, "{}: {}\n{}\n", line.method, describe(rendering.account),
-             describe(rendering.view));
+  warn("{}: {}\n{}\n", line.method, describe(rendering.account), describe(rendering.view));
   return pipeline::write_png(line.out, rendering.picture);
 }
 
@@ -83,19 +84,20 @@ void add_view_options(CLI::App& command, VesselsRenderCommandLine& line) {
       ->check(CLI::IsMember(names_of(views_by_name())))
       ->capture_default_str();
   command.add_option("--yaw", options.yaw_deg, "Degrees about the tree's y axis (35 if not given)")
-      ->check(CLI::Range(-360.0, 360.0));
+      ->check(within(-360.0, 360.0));
   command.add_option("--tilt", options.tilt_deg, "Degrees from above (15 if not given)")
-      ->check(CLI::Range(-90.0, 90.0));
+      ->check(within(-90.0, 90.0));
   command
       .add_option("--target", line.target_mm, "What is looked at, in mm; the view's if not given")
       ->delimiter(',')
+      ->check(within(-1e6F, 1e6F))
       ->expected(3)
       ->type_name("X,Y,Z");
   command
       .add_option("--mm-per-pixel", options.mm_per_pixel, "At the target; the view's if not given")
-      ->check(CLI::Range(1e-5, 1e3));
+      ->check(within(1e-5, 1e3));
   command.add_option("--zoom", options.zoom, "So many times nearer")
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(within(1e-3, 1e6))
       ->capture_default_str();
 }
 
@@ -104,16 +106,12 @@ void add_picture_options(CLI::App& command, VesselsRenderCommandLine& line) {
       ->check(CLI::IsMember(method_names()))
       ->capture_default_str();
   command.add_option("--sectors", line.options.tubes.sectors, "Of tubes: even, 4 to 32")
-      ->check(CLI::Validator{[](std::string& text) {
-                               int sectors = 0;
-                               const bool fine = CLI::detail::lexical_cast(text, sectors) &&
-                                                 sectors >= 4 && sectors <= 32 && sectors % 2 == 0;
-                               return fine ? std::string{}
-                                           : fmt::format("found {}, expected an even number from 4 "
-                                                         "to 32",
-                                                         text);
-                             },
-                             "4 to 32"})
+      ->check(within(4, 32))
+      ->check([](const std::string& text) {
+        return (text.back() - '0') % 2 == 0
+                   ? std::string{}
+                   : fmt::format("found {}, expected an even number from 4 to 32", text);
+      })
       ->capture_default_str();
   command.add_option("--branch", line.branch, "Only that one (all if not given)")
       ->check(CLI::IsMember(names_of(branches_by_name())));

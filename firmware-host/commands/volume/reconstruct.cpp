@@ -14,6 +14,7 @@
 
 #include "firmware-host/commands/level_picture.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
+#include "firmware-host/terminal/terminal.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/reconstruction/reconstructor.h"
 #include "pipeline/volume/level_scale.h"
@@ -148,10 +149,11 @@ void VolumeReconstruction::show_progress() {
   std::unique_lock lock{mutex_};
   while (!finished_.wait_for(lock, std::chrono::milliseconds{200}, [&] { return running_ == 0; })) {
     if (terminal)
-      fmt::print(stderr, "\r{} of {} B-scans", done_.load(), spectra_.shape().b_scans);
+      firmware_host::show_progress(
+          fmt::format("{} of {} B-scans", done_.load(), spectra_.shape().b_scans));
   }
   if (terminal)
-    fmt::print(stderr, "\r\033[K");
+    firmware_host::show_progress("");
 }
 
 unsigned worker_count(const ReconstructOptions& options) {
@@ -221,8 +223,7 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
   HAL_CHECK(work.run(worker_count(options)));
   HAL_CHECK(writer.commit());
   if (work.saturated_lines() > 0)
-    fmt::print(stderr, "warning: {} of {} lines are saturated\n", work.saturated_lines(),
-               options.shape.lines());
+    warn("warning: {} of {} lines are saturated\n", work.saturated_lines(), options.shape.lines());
   if (!options.picture)
     return {};
   return pipeline::write_png(*options.picture,

@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "firmware-host/commands/numbers.h"
 #include "firmware-host/commands/volume/reconstruct.h"
+#include "firmware-host/terminal/terminal.h"
 
 namespace octascope::firmware_host {
 
@@ -44,7 +46,7 @@ const std::map<std::string, TypeAndBits>& types() {
 
 int run(const ReconstructCommandLine& line) {
   const auto complain = [](const hal::Error& error, int status) {
-    fmt::print(stderr, "octascope reconstruct: {}\n", error.message);
+    warn("octascope reconstruct: {}\n", error.message);
     return status;
   };
   const auto shape = pipeline::SpectraShape::parse(line.shape);
@@ -96,6 +98,7 @@ void add_reconstruct_command(CLI::App& app, int& exit_status) {
       ->add_option("--shift", line->shift,
                    "Bits to shift each sample to the right: left-justified 12-bit counts need "
                    "--dtype u12 --shift 4")
+      ->check(within(0, 15))
       ->type_name("BITS");
   command
       ->add_option("--calibration", line->calibration,
@@ -105,8 +108,9 @@ void add_reconstruct_command(CLI::App& app, int& exit_status) {
       ->required()
       ->type_name("FILE.nrrd");
   command->add_flag("--u8", line->u8, "Write the display's 8-bit counts instead of float dB");
-  CLI::Option* b_scan =
-      command->add_option("--bscan", line->b_scan, "B-scan to draw, from 0")->type_name("I");
+  CLI::Option* b_scan = command->add_option("--bscan", line->b_scan, "B-scan to draw, from 0")
+                            ->check(within(0, 65535))
+                            ->type_name("I");
   CLI::Option* png = command
                          ->add_option("--png", line->png,
                                       "Picture of that B-scan: rows are depths, columns A-scans")

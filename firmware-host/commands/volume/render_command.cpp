@@ -11,10 +11,12 @@
 
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/numbers.h"
 #include "firmware-host/commands/tree_options.h"
 #include "firmware-host/commands/volume/render.h"
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/run/volume_source.h"
+#include "firmware-host/terminal/terminal.h"
 #include "firmware-host/vessels/vessel_patient_check.h"
 #include "firmware-host/vessels/vessel_place.h"
 #include "pipeline/files/atomic_file.h"
@@ -65,19 +67,9 @@ const std::map<std::string, ui::VesselColouring>& vessel_colourings() {
   return all;
 }
 
-CLI::Validator within(const ui::NumberRange& range) {
-  return CLI::Validator{[range](std::string& text) {
-                          float value = 0;
-                          return read_number(text, value, range)
-                                     ? std::string{}
-                                     : fmt::format("found {}, expected a number from {} to {}",
-                                                   text, range.lowest, range.highest);
-                        },
-                        fmt::format("{} to {}", range.lowest, range.highest)};
-}
-
-CLI::Validator within(ui::Action action) {
-  return within(range_of(action));
+CLI::Validator within_range_of(ui::Action action) {
+  const ui::NumberRange range = range_of(action);
+  return within(range.lowest, range.highest);
 }
 
 hal::Result<VolumeRequest> request_of(const RenderArguments& a) {
@@ -190,10 +182,9 @@ hal::Result<> render(const RenderArguments& arguments) {
   HAL_TRY(const auto loaded, load_volume(request));
   HAL_TRY(const auto vessels, vessels_of(arguments, loaded.whose));
   if (vessels.placed && !vessels.placed->volume_from_tree)
-    fmt::print(stderr,
-               "octascope render: {} is not registered: it lies in the middle of the "
-               "volume (--registration)\n",
-               arguments.vessels);
+    warn("octascope render: {} is not registered: it lies in the middle of the "
+         "volume (--registration)\n",
+         arguments.vessels);
   options.vessels = vessels.placed;
   HAL_TRY(const auto picture, render_volume(loaded.volume, options));
   return pipeline::write_png(arguments.out, picture);
@@ -214,6 +205,7 @@ void add_volume_options(CLI::App& command, RenderArguments& a) {
   a.at = command
              .add_option("--at", a.volume_number,
                          "Which volume of a recording, counted from 0 (0 if not given)")
+             ->check(within(0, 1000000000))
              ->needs(volume);
   CLI::Option* spectra =
       command
@@ -241,13 +233,13 @@ void add_look_options(CLI::App& command, RenderArguments& a) {
   command.add_option("--technique", a.technique, "How the volume is drawn (rays if not given)")
       ->check(CLI::IsMember(techniques));
   command.add_option("--yaw", a.view.yaw_deg, "Degrees about the depth axis")
-      ->check(within(ui::Action::rotate))
+      ->check(within_range_of(ui::Action::rotate))
       ->capture_default_str();
   command.add_option("--tilt", a.view.tilt_deg, "Degrees above the surface's plane")
-      ->check(within(ui::Action::tilt))
+      ->check(within_range_of(ui::Action::tilt))
       ->capture_default_str();
   command.add_option("--distance", a.view.distance, "In half-diagonals of the volume")
-      ->check(within(ui::Action::distance))
+      ->check(within_range_of(ui::Action::distance))
       ->capture_default_str();
   command
       .add_option("--window", a.window,
@@ -257,7 +249,7 @@ void add_look_options(CLI::App& command, RenderArguments& a) {
   a.opacity = command
                   .add_option("--opacity", a.view.opacity,
                               "Of a voxel at the top of the window (0.5 if not given)")
-                  ->check(within({0.01F, 1, 0}));
+                  ->check(within(0.01F, 1.0F));
   command.add_option("--transfer", a.transfer,
                      "Transfer function: window, smooth, surface or the configuration's own");
   command.add_option("--colours", a.colours, "Colour map: grey, amber, blue-green or dawn");
@@ -280,7 +272,7 @@ void add_vessel_options(CLI::App& command, RenderArguments& a) {
       ->needs(vessels);
   command
       .add_option("--vessel-opacity", a.view.vessel_opacity, "0 shows none, 1 hides what is behind")
-      ->check(within(ui::Action::vessel_opacity))
+      ->check(within_range_of(ui::Action::vessel_opacity))
       ->needs(vessels)
       ->capture_default_str();
   std::vector<std::string> colourings;
@@ -306,10 +298,10 @@ void add_picture_options(CLI::App& command, RenderArguments& a) {
                             ->check(CLI::IsMember(words(stereo_modes())))
                             ->capture_default_str();
   command.add_option("--parallax", a.view.parallax_deg, "Degrees between the eyes")
-      ->check(within(ui::Action::parallax))
+      ->check(within_range_of(ui::Action::parallax))
       ->needs(stereo);
   command.add_option("--steps", a.steps, "Samples along the longest edge of the volume")
-      ->check(CLI::Range(1, 4096))
+      ->check(within(1, 4096))
       ->capture_default_str();
   command
       .add_option("--drawn-by", a.drawn_by,

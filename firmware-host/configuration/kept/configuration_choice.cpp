@@ -21,8 +21,10 @@ hal::Result<ChosenConfiguration> choose_configuration(const RunOptions& options,
   ChosenConfiguration own;
   own.wanted = wanted_file(options, state_folder);
   if (!state_folder) {
-    HAL_TRY(auto read, configuration_of(options));
-    own.configuration = std::move(read);
+    if (own.wanted) {
+      HAL_TRY(auto read, load_whole_configuration(*own.wanted, options));
+      own.configuration = std::move(read);
+    }
     own.used = own.wanted;
     return own;
   }
@@ -59,6 +61,7 @@ std::optional<ChosenConfiguration> next_choice(const ChosenConfiguration& chosen
 }
 
 std::string short_reason(std::string message, const fs::path& file) {
+  message = message.substr(0, message.find('\n')); // of several faults, the first
   if (!file.has_parent_path())
     return message;
   const std::string folder = file.parent_path().string() + "/";

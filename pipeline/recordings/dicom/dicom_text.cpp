@@ -5,46 +5,21 @@
 
 #include <fmt/format.h>
 
+#include "hal/plain_text.h"
+
 namespace octascope::pipeline {
 
 namespace {
 
 constexpr std::size_t longest_long_string = 64;
 
-// The bytes of the character at the beginning; 0 where there is none of UTF-8 (RFC 3629).
-std::size_t character_length(std::string_view text) {
-  const auto first = static_cast<unsigned char>(text.front());
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                             : first >= 0xE0 && first < 0xF0 ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  if (length > text.size())
-    return 0;
-  for (const char c : text.substr(1, length == 0 ? 0 : length - 1)) {
-    if ((static_cast<unsigned char>(c) & 0xC0) != 0x80)
-      return 0;
-  }
-  // Longer than need be, half of a pair, or beyond the last character.
-  const auto second = static_cast<unsigned char>(text.size() > 1 ? text[1] : 0);
-  const bool overlong = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-  const bool no_character = (first == 0xED && second > 0x9F) || (first == 0xF4 && second > 0x8F);
-  return overlong || no_character ? 0 : length;
-}
-
-bool is_control(std::string_view character) {
-  const auto first = static_cast<unsigned char>(character[0]);
-  return first < 0x20 || first == 0x7F ||
-         (first == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0);
-}
-
 } // namespace
 
 bool is_long_string(std::string_view text) {
   std::size_t characters = 0;
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
-    if (length == 0 || text.front() == '\\' || is_control(text.substr(0, length)))
+    const std::size_t length = hal::utf8_character_length(text);
+    if (length == 0 || text.front() == '\\' || hal::is_control_character(text.substr(0, length)))
       return false;
     text.remove_prefix(length);
     ++characters;
@@ -56,11 +31,11 @@ std::string to_long_string(std::string_view text) {
   std::string fitting;
   for (std::size_t characters = 0; !text.empty() && characters < longest_long_string;
        ++characters) {
-    const std::size_t length = character_length(text);
+    const std::size_t length = hal::utf8_character_length(text);
     const std::string_view character = text.substr(0, std::max<std::size_t>(length, 1));
     if (length == 0)
       fitting += '?';
-    else if (is_control(character))
+    else if (hal::is_control_character(character))
       fitting += ' ';
     else
       fitting += character == "\\" ? std::string_view{"/"} : character;

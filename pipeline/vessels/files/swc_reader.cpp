@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "hal/plain_text.h"
 #include "pipeline/files/input_file.h"
 #include "pipeline/vessels/files/swc_comments.h"
 #include "pipeline/vessels/files/swc_row.h"
@@ -78,7 +79,7 @@ hal::Result<> SwcReader::take_comment(std::string_view line) {
     const std::string_view declared = unit_word(unit_);
     if (word != declared)
       return refuse(counts_.rows, swc_unit_comment.size() + 1,
-                    fmt::format("\"{}\", the unit it was written in", shown_token(word)),
+                    fmt::format("\"{}\", the unit it was written in", hal::shortened(word)),
                     fmt::format("{}, the unit declared for it (--unit)", declared));
   }
   return {};

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "hal/plain_text.h"
 #include "pipeline/vessels/files/decimal.h"
 #include "pipeline/vessels/files/swc_reader.h"
 
@@ -66,7 +67,7 @@ private:
       fault_.found = fmt::format("{} of {} numbers", field, swc_fields);
       fault_.expected = fmt::format("the {} here: id type x y z radius parent", name);
     } else {
-      fault_.found = fmt::format("\"{}\" as {}", shown_token(token), name);
+      fault_.found = fmt::format("\"{}\" as {}", hal::shortened(token), name);
       fault_.expected = expected_of(field);
     }
     return false;
@@ -138,7 +139,7 @@ private:
     if (at_end(at_) || *at_ == '#')
       return true;
     fault_.at = at_;
-    fault_.found = fmt::format("\"{}\" behind the parent", shown_token(token_at(at_)));
+    fault_.found = fmt::format("\"{}\" behind the parent", hal::shortened(token_at(at_)));
     fault_.expected = fmt::format("the end of the row after {} numbers", swc_fields);
     return false;
   }
@@ -164,16 +165,6 @@ std::string_view swc_token(std::string_view line, int field) {
   for (int i = 0; i < field; ++i)
     at = skip_blanks(at + token_at(at).size());
   return token_at(at);
-}
-
-std::string shown_token(std::string_view token) {
-  constexpr std::size_t longest = 40;
-  std::string shown{token.substr(0, longest)};
-  for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
-      c = '?';
-  }
-  return token.size() > longest ? shown + "…" : shown;
 }
 
 } // namespace octascope::pipeline

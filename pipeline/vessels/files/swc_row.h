@@ -37,7 +37,4 @@ SwcLine read_swc_line(std::string_view line, int shift, SwcRow& row, SwcRowFault
 // The token of a field that is known to be there, for messages.
 std::string_view swc_token(std::string_view line, int field);
 
-// A token shortened for a message, without control characters.
-std::string shown_token(std::string_view token);
-
 } // namespace octascope::pipeline

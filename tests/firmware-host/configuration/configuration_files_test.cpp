@@ -17,6 +17,7 @@ namespace octascope::firmware_host {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using ui::ConfigurationState;
@@ -197,11 +198,17 @@ TEST_F(ConfigurationFiles, that_are_broken_end_a_run_at_a_console) {
 TEST_F(ConfigurationFiles, have_all_their_faults_told) {
   folder_.write("etc/octascope.toml", "[scan]\nb_scans = 0\n[display]\nwidht = 3\nopacity = 7\n");
   EXPECT_THAT(configuration_complaints(own()),
-              ElementsAre(HasSubstr(":2: [scan] b_scans is 0"), HasSubstr(":5: [display] opacity"),
-                          HasSubstr(":4: [display] unknown key \"widht\"")));
+              ElementsAre(HasSubstr(":2: [scan] b_scans is 0"),
+                          HasSubstr(":4: [display] unknown key \"widht\""),
+                          HasSubstr(":5: [display] opacity")));
   write_configuration("b_scans = 20");
   fs::remove(folder_ / "etc/tables/k.txt");
   EXPECT_THAT(configuration_complaints(own()), ElementsAre(HasSubstr("k.txt")));
+  folder_.write("etc/octascope.toml", "[sim]\nfaults = \"f.toml\"\ncontrols = \"c.toml\"\n"
+                                      "[recordings]\nfolder = \"octascope.toml\"\n");
+  EXPECT_THAT(configuration_complaints(own()),
+              ElementsAre(HasSubstr(":2: found "), HasSubstr(":3: found "),
+                          AllOf(HasSubstr("[recordings] folder is"), HasSubstr("is a file"))));
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // A run as a user starts it: picture, report, and its end by Ctrl-C.
 #include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -126,9 +127,8 @@ TEST_P(RunEnds, at_once_by_a_signal_with_report_and_picture) {
   ASSERT_NO_THROW(expect_contract(read_report(report_file)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, RunEnds, testing::Values(SIGINT, SIGTERM), [](const auto& test) {
-  return std::string{test.param == SIGINT ? "sigint" : "sigterm"};
-});
+INSTANTIATE_TEST_SUITE_P(Signals, RunEnds, testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& test) { return std::string{sigabbrev_np(test.param)}; });
 
 } // namespace
 } // namespace octascope::tests

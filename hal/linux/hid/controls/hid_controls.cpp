@@ -13,6 +13,8 @@ namespace octascope::hal::linux_backend {
 
 namespace {
 
+constexpr Duration longest_wait_for_udev = std::chrono::seconds{3}; // at the machine's start
+
 constexpr std::size_t most_files = ControlBoard::most_ports + 2; // and the two watches
 
 std::string found_instead(const std::vector<HidNode>& nodes) {
@@ -51,7 +53,13 @@ Result<> HidControls::do_open() {
                 "HID controls: open while {}, expected absent; call close first",
                 to_string(state()));
   // Watched before they are looked for: what is plugged in between is not missed.
-  const Result<> opened = watch().and_then([this] { return open_all(); });
+  Result<> opened = watch().and_then([this] { return open_all(); });
+  // Its node is there, and about to be given to our group.
+  for (const TimePoint latest = clock_.now() + longest_wait_for_udev;
+       !opened && opened.error().code == ErrorCode::absent && udev_is_at_work() &&
+       clock_.now() < latest;
+       opened = open_all())
+    clock_.sleep_for(std::chrono::milliseconds{50});
   if (!opened) {
     do_close();
     return opened;
@@ -75,29 +83,35 @@ Result<> HidControls::open_all() {
   const std::vector<HidNode> nodes = survey_hid();
   std::vector<ServingControl> serving;
   std::vector<Error> refused;
+  std::optional<Error> not_yet;
   for (const PluggedControl& control : known_controls(nodes, models_))
-    open_one(control, serving, refused);
+    open_one(control, serving, refused, not_yet);
   publish(std::move(serving), refused);
   if (!ports_.empty())
     return {};
   if (!refused.empty())
     return tl::make_unexpected(refused.front());
+  if (not_yet)
+    return tl::make_unexpected(*not_yet);
   return fail(ErrorCode::absent,
-              "HID controls: found {}, expected a pedal or knob that is listed in docs/DEVICES.md; "
-              "plug one in, or teach a new one with `octascope devices --learn`",
+              "HID controls: found {}, expected a pedal or knob that is listed in docs/DEVICES.md "
+              "(in /usr/share/doc/octascope); plug one in, or teach a new one with `octascope "
+              "devices --learn`",
               found_instead(nodes));
 }
 
 void HidControls::open_one(const PluggedControl& control, std::vector<ServingControl>& serving,
-                           std::vector<Error>& refused) {
+                           std::vector<Error>& refused, std::optional<Error>& not_yet) {
   std::vector<Port> opened;
   for (const HidNode& node : control.nodes) {
     auto file = ControlPort::open(node, control.model);
     const Result<> started = file ? (*file)->start() : tl::make_unexpected(file.error());
     if (started)
       opened.push_back({std::move(*file), node.node});
-    else if (started.error().code != ErrorCode::absent) // it may go while we look
+    else if (started.error().code != ErrorCode::absent)
       refused.push_back(started.error());
+    else // it went while we looked, or udev is not through with it
+      not_yet = started.error();
   }
   if (opened.empty())
     return;

@@ -60,7 +60,7 @@ private:
   Result<> watch();
   Result<> open_all();
   void open_one(const PluggedControl& control, std::vector<ServingControl>& serving,
-                std::vector<Error>& refused);
+                std::vector<Error>& refused, std::optional<Error>& not_yet);
   void close_ports();
   void publish(std::vector<ServingControl> serving, const std::vector<Error>& refused);
 
