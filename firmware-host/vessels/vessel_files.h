@@ -10,9 +10,12 @@
 
 namespace octascope::firmware_host {
 
-// ".swc": SWC in micrometres; any other name: our own format. The file appears complete or not at
+// Before the work: ErrorCode::invalid_argument for an ending of another format than SWC and ours.
+hal::Result<> check_tree_name(const std::filesystem::path& file);
+
+// ".swc" in whatever letters: SWC in micrometres; ".vessels" or no ending: our own format. The file appears complete or not at
 // all. `provenance`, for people, says where the tree came from; only our format keeps it. Errors as
-// write_swc() and write_cluster_file().
+// check_tree_name(), write_swc() and write_cluster_file().
 hal::Result<> write_tree(const std::filesystem::path& file, const pipeline::VesselTree& tree,
                          std::string provenance, const std::function<void(double)>& progress = {});
 
