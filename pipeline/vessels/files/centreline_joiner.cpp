@@ -183,17 +183,24 @@ private:
     std::vector<Node> starts;
     std::uint64_t begin = 0;
     for (const std::uint64_t end : lines_.ends) {
-      const auto line = std::span{lines_.points}.subspan(begin, end - begin);
-      begin = end;
-      if (line.size() < 2 || node_of_[line.front()] == none)
+      Node start = none;
+      Node last = none;
+      for (; begin < end; ++begin) {
+        const Node node = node_of_[lines_.points[begin]];
+        if (node == none) // of a piece without length
+          continue;
+        if (start == none)
+          start = node;
+        else if (node != last)
+          led_to[node] = true;
+        last = node;
+      }
+      if (start == none)
         continue;
-      starts.push_back(node_of_[line.front()]);
-      Mouths& of_piece = mouths[graph_.piece_of(starts.back())];
-      note_mouth(of_piece.first_start, of_piece.one_start, starts.back());
-      note_mouth(of_piece.first_end, of_piece.one_end, node_of_[line.back()]);
-      for (std::size_t i = 1; i < line.size(); ++i)
-        if (node_of_[line[i]] != node_of_[line[i - 1]])
-          led_to[node_of_[line[i]]] = true;
+      starts.push_back(start);
+      Mouths& of_piece = mouths[graph_.piece_of(start)];
+      note_mouth(of_piece.first_start, of_piece.one_start, start);
+      note_mouth(of_piece.first_end, of_piece.one_end, last);
     }
     place_.assign(nodes, none);
     // First from where all lines lead to; then from where lines begin and none leads to; then what
