@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "pipeline/vessels/files/centreline_joiner.h"
+#include "pipeline/vessels/centrelines/centreline_joiner.h"
 #include "pipeline/vessels/files/tree_reading.h"
 #include "tests/fuzz/tree_check.h"
 

@@ -9,8 +9,8 @@
 #include <pugixml.hpp>
 
 #include "pipeline/files/input_file.h"
-#include "pipeline/vessels/files/centreline_joiner.h"
-#include "pipeline/vessels/files/line_ends.h"
+#include "pipeline/vessels/centrelines/centreline_joiner.h"
+#include "pipeline/vessels/centrelines/line_ends.h"
 #include "pipeline/vessels/files/vtp_data.h"
 #include "pipeline/vessels/vessel_orders.h"
 

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "pipeline/vessels/files/centreline_joiner.h"
+#include "pipeline/vessels/centrelines/centreline_joiner.h"
 
 namespace octascope::tests {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/vessels/files/segment_geometry.h"
+#include "pipeline/vessels/centrelines/segment_geometry.h"
 
 namespace octascope::pipeline {
 

@@ -1,4 +1,4 @@
-#include "pipeline/vessels/files/centreline_run.h"
+#include "pipeline/vessels/centrelines/centreline_run.h"
 
 #include <algorithm>
 #include <cmath>

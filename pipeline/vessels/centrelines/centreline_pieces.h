@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/vessels/files/centreline_joiner.h"
+#include "pipeline/vessels/centrelines/centreline_joiner.h"
 
 namespace octascope::pipeline {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "pipeline/vessels/files/centreline_joiner.h"
-#include "pipeline/vessels/files/centreline_pieces.h"
+#include "pipeline/vessels/centrelines/centreline_joiner.h"
+#include "pipeline/vessels/centrelines/centreline_pieces.h"
 
 namespace octascope::pipeline {
 

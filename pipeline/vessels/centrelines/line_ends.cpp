@@ -1,4 +1,4 @@
-#include "pipeline/vessels/files/line_ends.h"
+#include "pipeline/vessels/centrelines/line_ends.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <tuple>
 #include <utility>
 
-#include "pipeline/vessels/files/point_index.h"
-#include "pipeline/vessels/files/segment_geometry.h"
+#include "pipeline/vessels/centrelines/point_index.h"
+#include "pipeline/vessels/centrelines/segment_geometry.h"
 
 namespace octascope::pipeline {
 LineEnds::LineEnds(const Centrelines& lines, const CentrelinePieces& pieces, double precision)

@@ -1,4 +1,4 @@
-#include "pipeline/vessels/files/centreline_graph.h"
+#include "pipeline/vessels/centrelines/centreline_graph.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "pipeline/vessels/files/centreline_joiner.h"
+#include "pipeline/vessels/centrelines/centreline_joiner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/vessels/files/centreline_graph.h"
-#include "pipeline/vessels/files/centreline_pieces.h"
-#include "pipeline/vessels/files/centreline_run.h"
-#include "pipeline/vessels/files/line_ends.h"
+#include "pipeline/vessels/centrelines/centreline_graph.h"
+#include "pipeline/vessels/centrelines/centreline_pieces.h"
+#include "pipeline/vessels/centrelines/centreline_run.h"
+#include "pipeline/vessels/centrelines/line_ends.h"
 
 namespace octascope::pipeline {
 namespace {

@@ -1,4 +1,4 @@
-#include "pipeline/vessels/files/centreline_pieces.h"
+#include "pipeline/vessels/centrelines/centreline_pieces.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pipeline/vessels/files/segment_geometry.h"
+#include "pipeline/vessels/centrelines/segment_geometry.h"
 
 namespace octascope::pipeline {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/vessels/files/centreline_graph.h"
+#include "pipeline/vessels/centrelines/centreline_graph.h"
 
 namespace octascope::pipeline {
 
