@@ -12,7 +12,8 @@ namespace octascope::pipeline {
 namespace {
 
 constexpr double smallest_scale_fault = 0.05;
-constexpr double largest_residual = 0.5; // of the spread
+constexpr double smallest_mirror_fault = 0.02; // left over by a turn, of the spread
+constexpr double largest_residual = 0.5;       // of the spread
 
 // 0.999 quantiles by the number of pairs from 3 on: two-sided t with 3N − 7 degrees of freedom, F
 // with 3N − 6 and 3N − 6. More pairs than these have the last ones, which are a little too large.
@@ -113,11 +114,10 @@ std::optional<std::string> misfit_of(std::span<const PointPair> pairs,
   const auto as_turned =
       other_scale ? turned : Fit{registration.volume_from_tree, registration.rms_mm};
   const auto as_mirrored = other_scale ? mirrored : fit_of(pairs, 1, true);
-  const double rounding = 1e-9 * wide;
   const double factor = std::sqrt(by_pairs(fishers_f, pairs.size()));
   const bool is_mirrored =
-      as_mirrored &&
-      (!as_turned || as_turned->rms_mm > factor * std::max(as_mirrored->rms_mm, rounding));
+      as_mirrored && (!as_turned || (as_turned->rms_mm > factor * as_mirrored->rms_mm &&
+                                     as_turned->rms_mm > smallest_mirror_fault * wide));
   std::string words;
   if (other_scale)
     words = in_words(1 / scale);

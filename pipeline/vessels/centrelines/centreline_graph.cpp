@@ -99,15 +99,16 @@ void CentrelineGraph::look_ahead(Edge from, const Position& point, double reach,
       if (e == back)
         continue;
       onward = e;
-      ++ways;
+      if (++ways > 1)
+        break;
     }
     if (ways == 0)
       break;
     if (ways > 1) {
       const std::size_t before = found.size();
-      for (Edge e = first_edge(end(edge)); e != none; e = next_edge(e))
+      for (Edge e = first_edge(end(edge)); e != none && budget > 0; e = next_edge(e))
         if (e != back)
-          look_ahead(e, point, left, budget, found);
+          look_ahead(e, point, left, --budget, found);
       const bool passed =
           std::any_of(found.begin() + static_cast<std::ptrdiff_t>(before), found.end(),
                       [&](const Foot& foot) { return foot.distance <= best.distance; });

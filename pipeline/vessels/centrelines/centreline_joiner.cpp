@@ -20,6 +20,10 @@ using Foot = CentrelineGraph::Foot;
 using Node = CentrelineGraph::Node;
 constexpr std::uint32_t none = CentrelineGraph::none;
 
+// That a line is compared with where it begins, the newest first: else a star of lines would take the
+// square of their number.
+constexpr std::size_t most_ways_at_start = 256;
+
 // Coordinates that went through single precision, a few times.
 double precision_of(const Centrelines& lines) {
   double largest = 0;
@@ -52,7 +56,8 @@ private:
     const CentrelinePoint point = point_of(number);
     std::vector<Foot> places;
     const auto away_from = [&](Node node) {
-      for (auto e = graph_.first_edge(node); e != none; e = graph_.next_edge(e))
+      for (auto e = graph_.first_edge(node); e != none && places.size() < most_ways_at_start;
+           e = graph_.next_edge(e))
         places.push_back(graph_.foot_on(e, point.position));
     };
     const std::uint32_t group = ends_.group_of(end);
@@ -116,13 +121,12 @@ private:
     line_.clear();
     for (const std::uint64_t point : points)
       line_.push_back(point_of(point));
-    const bool numbered = node_of_[points.front()] != none;
     const auto note = [&](std::size_t i, const Foot& foot) {
       if (node_of_[points[i]] == none)
         node_of_[points[i]] = graph_.nearer_end(foot);
     };
     note(0, *std::ranges::min_element(start, {}, &Foot::distance));
-    const CentrelineRun run = follower_.follow(line_, start, numbered, note);
+    const CentrelineRun run = follower_.follow(line_, start, note);
     const Node fork =
         run.own == points.size() ? graph_.nearer_end(run.fork) : graph_.node_at(run.fork);
     const auto others = points.begin() + static_cast<std::ptrdiff_t>(run.own);

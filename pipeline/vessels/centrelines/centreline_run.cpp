@@ -64,7 +64,7 @@ double CentrelineFollower::fork_of(double limit) const {
 }
 
 CentrelineRun CentrelineFollower::follow(std::span<const CentrelinePoint> line,
-                                         std::span<const Foot> start, bool fixed_start,
+                                         std::span<const Foot> start,
                                          const std::function<void(std::size_t, Foot)>& on) {
   ways_.assign(start.begin(), start.end());
   Foot near = *std::ranges::min_element(start, {}, &Foot::distance);
@@ -103,7 +103,7 @@ CentrelineRun CentrelineFollower::follow(std::span<const CentrelinePoint> line,
   }
   if (!parted)
     return {line.size(), near};
-  const double fork = fixed_start && last == 0 ? 0 : fork_of(limit);
+  const double fork = last == 0 ? 0 : fork_of(limit); // what leaves at once began there
   const auto first_behind = [&](double travelled, double part_of_step) {
     std::size_t i = 1;
     while (i + 1 < travelled_.size() &&

