@@ -40,6 +40,9 @@ public:
   Node nearer_end(const Foot& foot) const {
     return foot.along < 0.5 ? beginning(foot.edge) : end(foot.edge);
   }
+  bool is_tip(const Foot& foot) const {
+    return foot.along == 1 && next_edge(first_edge(end(foot.edge))) == none;
+  }
   double radius_at(const Foot& foot) const;
   Foot foot_on(Edge edge, const Position& point) const;
 

@@ -87,8 +87,14 @@ CentrelineRun CentrelineFollower::follow(std::span<const CentrelinePoint> line,
         parted = foot.distance > limit;
       }
       if (parted) {
+        // Where it comes nearer again, it passes another vessel.
+        if (foot.distance < 0.9 * leaving_.back().distance) {
+          clear = true;
+          break;
+        }
         leaving_.push_back({travelled, foot.distance});
-        clear = foot.distance > clear_beyond * limit ||
+        // Beyond a tip the distance grows with the line's length, whatever their directions.
+        clear = graph_.is_tip(foot) || foot.distance > clear_beyond * limit ||
                 travelled - leaving_.front().travelled > longest_leave * limit;
       } else {
         near = foot;

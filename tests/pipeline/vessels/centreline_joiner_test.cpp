@@ -197,6 +197,32 @@ TEST_F(CentrelineJoiner, joins_ends_by_the_radius) {
   }
 }
 
+// One line a vessel, each begun at a point of the trunk and away from it at once.
+TEST_F(CentrelineJoiner, begins_vessels_where_they_were_drawn) {
+  const Polyline trunk = straight({200, 0, 0}, {230, 0, 0}, 1.5);
+  std::vector<Polyline> lines{trunk};
+  std::size_t points = trunk.size();
+  for (std::size_t i = 1; i <= 10; ++i) {
+    const tests::LinePosition& from = trunk[i * 25].at;
+    const double angle = number(0.4, 2.7);
+    const double around = 2 * static_cast<double>(i); // none near another
+    lines.push_back(straight(from,
+                             tests::along(from,
+                                          {std::cos(angle), std::sin(angle) * std::cos(around),
+                                           std::sin(angle) * std::sin(around)},
+                                          8),
+                             1));
+    points += lines.back().size() - 1;
+  }
+  std::ranges::shuffle(lines, random);
+  const JoinedCentrelines joined = join_centrelines(tests::as_centrelines(lines));
+  EXPECT_NEAR(static_cast<double>(joined.tree.nodes()), static_cast<double>(points), 3);
+  const Shape found = shape_of(joined.tree);
+  EXPECT_EQ(found.roots, 1);
+  EXPECT_EQ(found.forks, 10);
+  EXPECT_NEAR(found.length_mm, 30 + 10 * 8, 0.1);
+}
+
 // Two mouths and two tips, each joined with each by a line: what flows together parts again.
 TEST_F(CentrelineJoiner, joins_lines_from_two_mouths) {
   const Polyline middle = straight({210, 0, 0}, {225, 0, 0}, 1.5);
