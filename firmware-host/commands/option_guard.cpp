@@ -33,7 +33,9 @@ bool is_file(const CLI::Option& option) {
   return option.get_type_name().starts_with("FILE");
 }
 
-bool is_written(const CLI::Option& option) {
+bool is_written(const CLI::App& command, const CLI::Option& option) {
+  if (option.get_name() == "--registration") // of a phantom's vessels, beside them
+    return command.get_name() == "generate";
   constexpr std::array<std::string_view, 5> written{"--out", "--snapshot", "--report", "--png",
                                                     "--picture"};
   return std::ranges::find(written, option.get_name()) != written.end();
@@ -92,7 +94,7 @@ void check_files(const CLI::App& command) {
   std::vector<UsedFile> written;
   for (const CLI::Option* const option : command.get_options()) {
     for (const std::string& file : option->results()) {
-      if (is_written(*option))
+      if (is_written(command, *option))
         add_written(command, option->get_name(), file, written);
       else if (is_file(*option))
         add_read(option->get_name(), file, read);
@@ -117,10 +119,10 @@ void check_files(const CLI::App& command) {
   }
 }
 
-void guard_option(CLI::Option& option) {
+void guard_option(const CLI::App& command, CLI::Option& option) {
   const bool may_be_empty = option.get_name() == "--subject";
   option.check([may_be_empty](const std::string& text) { return check_text(text, may_be_empty); });
-  if (const auto endings = endings_of(option); is_written(option) && !endings.empty())
+  if (const auto endings = endings_of(option); is_written(command, option) && !endings.empty())
     option.check([endings](const std::string& file) { return check_ending(file, endings); });
 }
 
@@ -129,7 +131,7 @@ void guard_option(CLI::Option& option) {
 void guard_options(CLI::App& command) {
   for (CLI::Option* const option : command.get_options()) {
     if (takes_text(*option))
-      guard_option(*option);
+      guard_option(command, *option);
   }
   command.parse_complete_callback([&command] { check_files(command); });
   for (CLI::App* const subcommand : command.get_subcommands({}))

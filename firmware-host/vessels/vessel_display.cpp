@@ -79,6 +79,9 @@ void VesselDisplay::advance(ui::Renderer* renderer, ui::ViewActions& actions) {
   if (status_.state == ui::VesselStatus::State::loading)
     status_.progress = loader_.progress();
   status_.registered = setup_.registration.has_value();
+  status_.residual_mm = std::nullopt;
+  if (setup_.registration)
+    status_.residual_mm = setup_.registration->provenance.residual_mm;
 }
 
 void VesselDisplay::take_loaded(ui::Renderer* renderer, ui::ViewActions& actions) {

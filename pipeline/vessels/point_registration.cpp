@@ -109,7 +109,39 @@ std::array<std::array<double, 3>, 3> rotation_of(const std::array<double, quater
            {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}}};
 }
 
-hal::Result<RigidTransform> fit(std::span<const PointPair> pairs) {
+double distance_left(const RigidTransform& transform, const PointPair& pair) {
+  const Point found = transform.apply(pair.tree);
+  return std::hypot(found[0] - pair.volume[0], found[1] - pair.volume[1],
+                    found[2] - pair.volume[2]);
+}
+
+double rms(std::span<const double> values) {
+  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+                   static_cast<double>(values.size()));
+}
+
+std::vector<double> leave_each_out(std::span<const PointPair> pairs) {
+  std::vector<double> errors;
+  std::vector<PointPair> others(pairs.begin(), pairs.end());
+  if (pairs.size() <= fewest_point_pairs)
+    return errors;
+  others.pop_back();
+  for (std::size_t i = pairs.size(); i-- > 0;) {
+    // `others` are all but pair i.
+    const auto transform = fit_points(others);
+    if (!transform)
+      return {};
+    errors.push_back(distance_left(*transform, pairs[i]));
+    if (i > 0)
+      others[i - 1] = pairs[i];
+  }
+  std::ranges::reverse(errors);
+  return errors;
+}
+
+} // namespace
+
+hal::Result<RigidTransform> fit_points(std::span<const PointPair> pairs) {
   HAL_CHECK(check_spread(pairs, &PointPair::tree, "tree's"));
   HAL_CHECK(check_spread(pairs, &PointPair::volume, "volume's"));
   // Horn's matrix N; its greatest eigenvalue's vector is the turn.
@@ -133,44 +165,19 @@ hal::Result<RigidTransform> fit(std::span<const PointPair> pairs) {
   return transform;
 }
 
-double distance_left(const RigidTransform& transform, const PointPair& pair) {
-  const Point found = transform.apply(pair.tree);
-  return std::hypot(found[0] - pair.volume[0], found[1] - pair.volume[1],
-                    found[2] - pair.volume[2]);
+double rms_distance_mm(const RigidTransform& transform, std::span<const PointPair> pairs) {
+  std::vector<double> distances;
+  for (const PointPair& pair : pairs)
+    distances.push_back(distance_left(transform, pair));
+  return rms(distances);
 }
-
-double rms(std::span<const double> values) {
-  return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
-                   static_cast<double>(values.size()));
-}
-
-std::vector<double> leave_each_out(std::span<const PointPair> pairs) {
-  std::vector<double> errors;
-  std::vector<PointPair> others(pairs.begin(), pairs.end());
-  if (pairs.size() <= fewest_point_pairs)
-    return errors;
-  others.pop_back();
-  for (std::size_t i = pairs.size(); i-- > 0;) {
-    // `others` are all but pair i.
-    const auto transform = fit(others);
-    if (!transform)
-      return {};
-    errors.push_back(distance_left(*transform, pairs[i]));
-    if (i > 0)
-      others[i - 1] = pairs[i];
-  }
-  std::ranges::reverse(errors);
-  return errors;
-}
-
-} // namespace
 
 hal::Result<PointRegistration> register_points(std::span<const PointPair> pairs) {
   if (pairs.size() < fewest_point_pairs)
     return hal::fail(hal::ErrorCode::invalid_argument,
                      "found {} pairs of points, expected at least {}", pairs.size(),
                      fewest_point_pairs);
-  HAL_TRY(const auto transform, fit(pairs));
+  HAL_TRY(const auto transform, fit_points(pairs));
   PointRegistration registration;
   registration.volume_from_tree = transform;
   for (const PointPair& pair : pairs)

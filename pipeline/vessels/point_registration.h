@@ -35,4 +35,10 @@ struct PointRegistration {
 // than three pairs, and for points that coincide or lie on a line, about which the tree could turn.
 hal::Result<PointRegistration> register_points(std::span<const PointPair> pairs);
 
+// The transform alone, of at least three pairs.
+hal::Result<RigidTransform> fit_points(std::span<const PointPair> pairs);
+
+// Root of the mean square distance that the transform leaves over.
+double rms_distance_mm(const RigidTransform& transform, std::span<const PointPair> pairs);
+
 } // namespace octascope::pipeline

@@ -9,10 +9,12 @@
 #include <array>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "hal/result.h"
 #include "pipeline/scan/scan_plan.h"
 #include "sim/phantoms/phantom_column.h"
+#include "sim/phantoms/phantom_vessels.h"
 
 namespace octascope::sim {
 
@@ -53,6 +55,9 @@ public:
   // instrument.
   virtual float picture_width_mm() const = 0;
   virtual Look look(float x_mm, float y_mm) const = 0;
+
+  // Its vessels, each after the one that it leaves; depths below the first depth bin.
+  virtual std::vector<VesselSegment> vessels() const = 0;
 
   // The moving instrument, or null. Valid for the phantom's lifetime.
   virtual const Instrument* instrument() const = 0;

@@ -23,6 +23,12 @@ float specular(float peak_counts, float radius_mm, float r_mm) {
   return peak_counts * std::exp(-slope * slope / (2 * 0.06F * 0.06F));
 }
 
+// The iris is rounded towards the pupil.
+float iris_rounding_mm(float r_mm) {
+  const float edge = std::min((r_mm - AnteriorEye::pupil_mm) / 0.25F, 1.0F);
+  return 0.15F * (1 - std::sqrt(edge * (2 - edge)));
+}
+
 InstrumentPath forceps_path() {
   InstrumentPath path;
   path.hinge = {4.9F, 1.9F, 2.2F};
@@ -161,19 +167,36 @@ void AnteriorEye::fill_sclera(Column& column, float x_mm, float y_mm, float r_mm
                        Layer{.backscatter_counts = 48, .attenuation_per_mm = 3.5F});
 }
 
-void AnteriorEye::fill_iris(Column& column, float x_mm, float y_mm, float r_mm) const {
-  // Rounded towards the pupil.
+float AnteriorEye::iris_top_mm(float x_mm, float y_mm, float r_mm) const {
   const float edge = std::min((r_mm - pupil_mm) / 0.25F, 1.0F);
-  const float round = 0.15F * (1 - std::sqrt(edge * (2 - edge)));
+  return iris_front_mm(r_mm) + iris_fold(x_mm, y_mm, r_mm) * edge + iris_rounding_mm(r_mm);
+}
+
+void AnteriorEye::fill_iris(Column& column, float x_mm, float y_mm, float r_mm) const {
   const float fold = iris_fold(x_mm, y_mm, r_mm);
-  const float front = iris_front_mm(r_mm) + fold * edge + round;
-  const float back = iris_front_mm(r_mm) + iris_thickness_mm - round;
+  const float front = iris_top_mm(x_mm, y_mm, r_mm);
+  const float back = iris_front_mm(r_mm) + iris_thickness_mm - iris_rounding_mm(r_mm);
   const float anterior = 24 - 70 * std::clamp(fold, -0.2F, 0.2F);
   column.add(Layer{front, front + 0.05F, anterior, 1.2F});
   column.add(Layer{front + 0.05F, back - 0.06F, 17, 1.9F, Grain::granules, 0.6F});
   iris_vessels_.fill(column, x_mm, y_mm, front, back - 0.06F,
                      Layer{.backscatter_counts = 40, .attenuation_per_mm = 3});
   column.add(Layer{back - 0.06F, back, 34, 14}); // pigment: little comes through
+}
+
+std::vector<VesselSegment> AnteriorEye::vessels() const {
+  std::vector<VesselSegment> placed;
+  const auto from_axis = [](float x_mm, float y_mm) { return std::hypot(x_mm - axis_x_mm, y_mm); };
+  append_below(placed, iris_vessels_, [&](float x_mm, float y_mm) -> std::optional<float> {
+    const float r_mm = from_axis(x_mm, y_mm);
+    if (r_mm <= pupil_mm || r_mm >= limbus_mm)
+      return std::nullopt;
+    return iris_top_mm(x_mm, y_mm, r_mm);
+  });
+  append_below(placed, limbal_vessels_, [&](float x_mm, float y_mm) -> std::optional<float> {
+    return cornea_front_mm(from_axis(x_mm, y_mm));
+  });
+  return placed;
 }
 
 Look AnteriorEye::look(float x_mm, float y_mm) const {

@@ -22,6 +22,7 @@ public:
   void fill(Column& column, double phase, float x_mm, float y_mm) const override;
   float picture_width_mm() const override { return 15; }
   Look look(float x_mm, float y_mm) const override;
+  std::vector<VesselSegment> vessels() const override;
   const Instrument* instrument() const override { return &forceps_; }
 
   // The geometry, in mm below the first depth bin; `r_mm` from the eye's axis.
@@ -38,6 +39,7 @@ private:
   void fill_cornea(Column& column, float r_mm) const;
   void fill_sclera(Column& column, float x_mm, float y_mm, float r_mm) const;
   void fill_iris(Column& column, float x_mm, float y_mm, float r_mm) const;
+  float iris_top_mm(float x_mm, float y_mm, float r_mm) const; // with its folds
   float iris_fold(float x_mm, float y_mm, float r_mm) const;
 
   std::uint64_t seed_;

@@ -76,6 +76,13 @@ void PlasticCap::fill(Column& column, double /*phase*/, float x_mm, float y_mm) 
                  Layer{.backscatter_counts = 45, .attenuation_per_mm = 1.5F});
 }
 
+std::vector<VesselSegment> PlasticCap::vessels() const {
+  std::vector<VesselSegment> placed;
+  append_below(placed, channels_,
+               [](float x_mm, float y_mm) -> std::optional<float> { return outer_mm(x_mm, y_mm); });
+  return placed;
+}
+
 Look PlasticCap::look(float x_mm, float y_mm) const {
   constexpr Rgb plastic{0.16F, 0.42F, 0.70F};
   constexpr Rgb table{0.30F, 0.31F, 0.33F};

@@ -119,6 +119,21 @@ void NailFold::fill_nail(Column& column, float x_mm, float y_mm, bool open) cons
                     Layer{.backscatter_counts = 60, .attenuation_per_mm = 3});
 }
 
+std::vector<VesselSegment> NailFold::vessels() const {
+  std::vector<VesselSegment> placed;
+  append_below(placed, skin_vessels_, [&](float x_mm, float y_mm) -> std::optional<float> {
+    if (y_mm > fold_y_mm(x_mm))
+      return std::nullopt;
+    return skin_top_mm(x_mm, y_mm);
+  });
+  append_below(placed, bed_vessels_, [&](float x_mm, float y_mm) -> std::optional<float> {
+    if (y_mm <= root_y_mm)
+      return std::nullopt;
+    return nail_top_mm(x_mm, y_mm) + nail_thickness_mm(y_mm);
+  });
+  return placed;
+}
+
 Look NailFold::look(float x_mm, float y_mm) const {
   constexpr Rgb skin{0.86F, 0.63F, 0.52F};
   constexpr Rgb red{0.74F, 0.28F, 0.24F};

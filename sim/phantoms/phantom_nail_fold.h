@@ -18,6 +18,7 @@ public:
   void fill(Column& column, double phase, float x_mm, float y_mm) const override;
   float picture_width_mm() const override { return 6; }
   Look look(float x_mm, float y_mm) const override;
+  std::vector<VesselSegment> vessels() const override;
   const Instrument* instrument() const override { return nullptr; }
 
   static constexpr float root_y_mm = -1.15F; // beginning of the nail, under the skin

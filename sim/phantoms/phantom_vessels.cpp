@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "sim/spectrometer/noise.h"
 
@@ -78,14 +79,14 @@ std::vector<VesselSegment> grow_vessels(VesselPoint root, float heading_rad, flo
   return segments;
 }
 
-VesselBed::VesselBed(std::vector<VesselSegment> segments) {
-  if (segments.empty())
+VesselBed::VesselBed(std::vector<VesselSegment> segments) : segments_{std::move(segments)} {
+  if (segments_.empty())
     return;
   constexpr float far = std::numeric_limits<float>::max();
   float x_max = -far;
   float y_max = -far;
   x_min_mm_ = y_min_mm_ = far;
-  for (const VesselSegment& s : segments) {
+  for (const VesselSegment& s : segments_) {
     x_min_mm_ = std::min({x_min_mm_, s.from.x_mm - s.radius_mm, s.to.x_mm - s.radius_mm});
     y_min_mm_ = std::min({y_min_mm_, s.from.y_mm - s.radius_mm, s.to.y_mm - s.radius_mm});
     x_max = std::max({x_max, s.from.x_mm + s.radius_mm, s.to.x_mm + s.radius_mm});
@@ -95,12 +96,12 @@ VesselBed::VesselBed(std::vector<VesselSegment> segments) {
   rows_ = static_cast<int>((y_max - y_min_mm_) / cell_mm) + 1;
   // Counted before they are put in place: an eye has ten thousands, each in several cells.
   first_of_cell_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1);
-  for (const VesselSegment& s : segments)
+  for (const VesselSegment& s : segments_)
     for_each_cell_near(s, [&](std::size_t cell) { ++first_of_cell_[cell + 1]; });
   std::partial_sum(first_of_cell_.begin(), first_of_cell_.end(), first_of_cell_.begin());
   std::vector<std::uint32_t> next{first_of_cell_.begin(), first_of_cell_.end() - 1};
   of_cells_.resize(first_of_cell_.back());
-  for (const VesselSegment& s : segments)
+  for (const VesselSegment& s : segments_)
     for_each_cell_near(s, [&](std::size_t cell) { of_cells_[next[cell]++] = s; });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,9 @@ public:
   void fill(Column& column, float x_mm, float y_mm, float surface_mm, float deepest_mm,
             const Layer& blood) const;
 
+  // As given: depths below the surface.
+  std::span<const VesselSegment> segments() const { return segments_; }
+
   // For the view from above: visibility of a vessel at (x, y), 0 … 1, decreasing with depth.
   float visibility(float x_mm, float y_mm, float sight_mm) const;
 
@@ -44,6 +48,7 @@ private:
   template <class Visit> void for_each_cell_near(const VesselSegment& s, const Visit& visit) const;
   std::span<const VesselSegment> segments_near(float x_mm, float y_mm) const;
 
+  std::vector<VesselSegment> segments_;
   float x_min_mm_ = 0;
   float y_min_mm_ = 0;
   int columns_ = 0;
@@ -51,5 +56,20 @@ private:
   std::vector<std::uint32_t> first_of_cell_; // rows × columns + 1
   std::vector<VesselSegment> of_cells_;
 };
+
+// Appends a bed's segments with their depths below the first depth bin. `surface(x, y)` is the
+// tissue's there; nothing: there is none, and the segments at that place are left out.
+template <class Surface>
+void append_below(std::vector<VesselSegment>& to, const VesselBed& bed, const Surface& surface) {
+  for (VesselSegment s : bed.segments()) {
+    const std::optional<float> from = surface(s.from.x_mm, s.from.y_mm);
+    const std::optional<float> end = surface(s.to.x_mm, s.to.y_mm);
+    if (!from || !end)
+      continue;
+    s.from.depth_mm += *from;
+    s.to.depth_mm += *end;
+    to.push_back(s);
+  }
+}
 
 } // namespace octascope::sim

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -5,6 +6,7 @@
 #include "sim/phantoms/phantom.h"
 #include "sim/phantoms/phantom_anterior_eye.h"
 #include "sim/phantoms/phantom_profile.h"
+#include "sim/phantoms/phantom_tree.h"
 #include "tests/support/fails_with.h"
 
 namespace octascope::sim {
@@ -77,6 +79,34 @@ TEST_P(EveryPhantom, has_vessels_and_tissue_within_the_depth_range) {
   EXPECT_EQ(with_tissue, places);
   EXPECT_GT(with_vessel, places / 50);
   EXPECT_LT(with_vessel, places / 2);
+}
+
+// Its nodes lie in blood, but where the nail hides it, and the registration brings them to the voxels that the twin makes there.
+TEST_P(EveryPhantom, has_a_tree_of_its_vessels_in_its_volume) {
+  const PhantomTree made = phantom_tree(*phantom_);
+  const pipeline::VesselTree& tree = made.tree;
+  ASSERT_GT(tree.nodes(), 100U);
+  std::size_t in_blood = 0;
+  std::size_t roots = 0;
+  Column column;
+  for (std::size_t i = 0; i < tree.nodes(); ++i) {
+    const auto [x, y, z] = tree.positions_mm[i];
+    phantom_->fill(column, 0, x, y);
+    in_blood += std::ranges::any_of(column.layers(), [&, depth = z](const Layer& layer) {
+      return layer.flowing && layer.top_mm <= depth && depth <= layer.bottom_mm;
+    });
+    roots += tree.parents[i] == pipeline::no_parent;
+    const pipeline::Point at = made.volume_from_tree.apply({x, y, z});
+    // The middle of voxel (a, b, d) is seen at the depth of bin d by the beam's place of a and b.
+    EXPECT_NEAR(at[0] / (field_.a_spacing_um / 1000) - 0.5,
+                double{x} / (field_.a_spacing_um / 1000) + (field_.a_scans - 1) / 2.0, 1e-3);
+    EXPECT_NEAR(at[1] / (field_.b_spacing_um / 1000) - 0.5,
+                double{y} / (field_.b_spacing_um / 1000) + (field_.b_scans - 1) / 2.0, 1e-3);
+    EXPECT_NEAR(at[2] / (field_.depth_spacing_um / 1000) - 0.5,
+                double{z} / (field_.depth_spacing_um / 1000), 1e-3);
+  }
+  EXPECT_GT(static_cast<double>(in_blood), 0.9 * static_cast<double>(tree.nodes()));
+  EXPECT_LT(roots, tree.nodes() / 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Phantom, EveryPhantom, testing::ValuesIn(phantom_names),

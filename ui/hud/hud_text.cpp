@@ -156,14 +156,31 @@ void compose_cells(HudText& hud, const ViewState& view, const Status& status) {
   format_recording(recording, status.recording);
 }
 
+// A nudge by hand leaves the residual of the points behind.
+void compose_registration(FixedText<40>& text, const ViewState& view, const VesselStatus& vessels) {
+  if (view.vessel_nudge.any())
+    text.format("adjusted by hand");
+  else if (!vessels.residual_mm)
+    text.format("residual unknown");
+  else if (*vessels.residual_mm < 0.9995)
+    text.format("residual {:.0f} µm", *vessels.residual_mm * 1000);
+  else
+    text.format("residual {:.4g} mm", *vessels.residual_mm);
+}
+
 void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels) {
   hud.vessels.shown = vessels.state == VesselStatus::State::shown && view.vessels_visible &&
                       view.vessel_opacity > 0;
   if (!hud.vessels.shown)
     return;
   hud.vessels.registered = vessels.registered;
+  if (vessels.registered)
+    compose_registration(hud.vessels.registration, view, vessels);
   hud.vessels.colouring = view.vessel_colouring;
-  hud.vessels.branches = vessels.branches;
+  // SWC leaves their types to any program: they are the heart's where all three are there.
+  const auto& [others, rca, lad, lcx] = vessels.branches;
+  if (rca && lad && lcx)
+    hud.vessels.branches = {others, rca, lad, lcx};
   if (view.vessel_account)
     hud.vessels.account = vessels.account;
 }

@@ -53,13 +53,14 @@ struct Caption {
   bool operator==(const Caption&) const = default;
 };
 
-// The legend of the vessel colours, and the segment counts.
+// The legend of the vessel colours, how the vessels were registered, and the segment counts.
 struct VesselMarks {
   bool shown = false;
   bool registered = false;
+  FixedText<40> registration; // how good it is; empty: there is none
   VesselColouring colouring = VesselColouring::branch;
-  std::array<bool, pipeline::vessel_branch_count> branches{};
-  std::optional<SegmentCounts> account; // if requested
+  std::array<bool, pipeline::vessel_branch_count> branches{}; // that are named
+  std::optional<SegmentCounts> account;                       // if requested
   bool operator==(const VesselMarks&) const = default;
 };
 

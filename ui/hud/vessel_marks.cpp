@@ -26,7 +26,7 @@ struct MarkRow {
   bool swatch = false;
 };
 struct MarkRows {
-  std::array<MarkRow, 9> rows;
+  std::array<MarkRow, 10> rows;
   std::size_t count = 0;
   MarkRow& add() { return rows[count++]; }
 };
@@ -43,11 +43,9 @@ void add_colours(MarkRows& rows, const VesselMarks& marks) {
                                                                               "RCA", "LAD", "LCX"};
   switch (marks.colouring) {
   case VesselColouring::branch:
-    // One colour alone says nothing.
-    if (std::ranges::count(marks.branches, true) > 1 || !marks.branches[0])
-      for (std::size_t i = 0; i < names.size(); ++i)
-        if (marks.branches[i])
-          add_colour(rows, branch_colours[i], names[i]);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (marks.branches[i])
+        add_colour(rows, branch_colours[i], names[i]);
     return;
   case VesselColouring::order:
     add_colour(rows, order_colours.front(), "order 0: capillary");
@@ -84,6 +82,8 @@ void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& 
   }
   MarkRows rows;
   add_colours(rows, marks);
+  if (!marks.registration.view().empty())
+    rows.add().words = marks.registration;
   if (marks.account)
     add_account(rows, *marks.account);
   if (rows.count == 0)

@@ -38,8 +38,9 @@ struct Losses {
 struct VesselStatus {
   enum class State : std::uint8_t { none, loading, shown, failed };
   State state = State::none;
-  float progress = 0;      // of loading, 0…1
-  bool registered = false; // to the volume; else its place in the picture has no meaning
+  float progress = 0;                // of loading, 0…1
+  bool registered = false;           // to the volume; else its place in the picture has no meaning
+  std::optional<double> residual_mm; // of the registration; empty: it is not from points
   std::array<bool, pipeline::vessel_branch_count> branches{}; // the branches that it has
   SegmentCounts account;                                      // of the last frame that drew it
   bool operator==(const VesselStatus&) const = default;

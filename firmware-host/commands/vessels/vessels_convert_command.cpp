@@ -34,6 +34,7 @@ std::string provenance_of(const pipeline::TreeFile& read, const std::filesystem:
 }
 
 hal::Result<> run(const VesselsConvertCommandLine& line) {
+  HAL_CHECK(check_tree_name(line.out)); // before the work, not after it
   pipeline::TreeReadOptions options = line.tree.options();
   auto read = [&] {
     ProgressLine progress{fmt::format("reading {}", line.file.string())};
@@ -61,7 +62,7 @@ void add_vessels_convert_command(CLI::App& vessels, int& exit_status) {
       ->required()
       ->type_name("FILE");
   command
-      ->add_option("--out", line->out, "File to write: .swc for SWC, else our own format, .vessels")
+      ->add_option("--out", line->out, "File to write: .vessels for our own format, .swc for SWC")
       ->required()
       ->type_name("FILE.swc|.vessels");
   add_tree_options(*command, line->tree);

@@ -1,8 +1,10 @@
 // octascope vessels register: pairs of points to where a tree lies in a volume.
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "pipeline/files/text_curve.h"
 #include "pipeline/vessels/point_registration.h"
 #include "pipeline/vessels/registration.h"
+#include "pipeline/vessels/registration_misfit.h"
 
 namespace octascope::firmware_host {
 
@@ -31,6 +34,7 @@ struct VesselsRegisterCommandLine {
   std::filesystem::path out;
   std::string author;
   std::string subject, eye;
+  bool accept_misfit = false;
   bool json = false;
 };
 
@@ -45,6 +49,11 @@ hal::Result<PairsOfFile> read_pairs(const std::filesystem::path& file) {
   PairsOfFile read;
   for (const pipeline::TextRow& row : rows) {
     const auto& n = row.numbers;
+    for (const double c : n)
+      if (std::fabs(c) > pipeline::largest_coordinate_mm)
+        return hal::fail(hal::ErrorCode::bad_data,
+                         "{}:{}: found the coordinate {:g} mm, expected at most {:g} mm",
+                         file.string(), row.line, c, pipeline::largest_coordinate_mm);
     read.pairs.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
     read.lines.push_back(row.line);
   }
@@ -52,7 +61,8 @@ hal::Result<PairsOfFile> read_pairs(const std::filesystem::path& file) {
 }
 
 pipeline::Registration registration_of(const VesselsRegisterCommandLine& line,
-                                       const PointRegistration& found) {
+                                       const PointRegistration& found,
+                                       const std::optional<std::string>& misfit) {
   pipeline::Registration registration;
   registration.volume_from_tree = found.volume_from_tree;
   registration.whose = {.subject = line.subject,
@@ -63,7 +73,8 @@ pipeline::Registration registration_of(const VesselsRegisterCommandLine& line,
       .created = fmt::format(
           "{:%Y-%m-%dT%H:%M:%SZ}",
           fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))),
-      .method = "least squares of point pairs (Horn 1987)",
+      .method = fmt::format("least squares of point pairs (Horn 1987){}{}",
+                            misfit ? "; misfit accepted: " : "", misfit.value_or("")),
       .source = line.points.filename().string(),
       .points = static_cast<int>(found.residuals_mm.size()),
       .residual_mm = found.rms_mm};
@@ -121,9 +132,18 @@ int run(const VesselsRegisterCommandLine& line) {
   const auto found = pipeline::register_points(read->pairs);
   if (!found)
     return complain(fmt::format("{}: {}", line.points.string(), found.error().message));
-  if (const auto written = pipeline::write_registration(registration_of(line, *found), line.out);
+  const auto misfit = pipeline::misfit_of(read->pairs, *found);
+  if (misfit && !line.accept_misfit)
+    return complain(fmt::format("{}: no turn and shift brings the points together: {}; expected "
+                                "both sides in mm and right-handed (--accept-misfit writes the "
+                                "registration even so)",
+                                line.points.string(), *misfit));
+  if (const auto written =
+          pipeline::write_registration(registration_of(line, *found, misfit), line.out);
       !written)
     return complain(written.error().message);
+  if (misfit)
+    warn("octascope vessels register: accepted: {}\n", *misfit);
   say("{}", line.json ? to_json(*found, line) + "\n" : to_text(*found, *read));
   return exit_done;
 }
@@ -152,6 +172,9 @@ void add_vessels_register_command(CLI::App& vessels, int& exit_status) {
                    "Whose vessels they are: they are then drawn in no other one's picture")
       ->type_name("ID");
   command->add_option("--eye", line->eye, "Of which eye")->check(CLI::IsMember({"left", "right"}));
+  command->add_flag("--accept-misfit", line->accept_misfit,
+                    "Write what no turn and shift explains, too: another scale (by more than 5 %), "
+                    "a mirrored side, a residual of more than half of the spread");
   command->add_flag("--json", line->json, "The result as one JSON object");
   command->footer("At least three pairs that do not lie on a line; with four, each is also "
                   "compared with where the others put it.\n"

@@ -35,8 +35,6 @@ struct TreeReadOptions {
   bool forest = false; // several roots are fine
   bool strict = false; // a parent in a later row is not
   ZeroRadius zero_radius = ZeroRadius::parent;
-  // VTP: points that are no farther apart are one.
-  float join_within_mm = 1e-4F;
   TreeLimits limits;
   // Called on the reader's thread with how much of the file is read, 0 to 1; may be empty.
   std::function<void(double)> progress;

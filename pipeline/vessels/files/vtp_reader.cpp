@@ -9,7 +9,8 @@
 #include <pugixml.hpp>
 
 #include "pipeline/files/input_file.h"
-#include "pipeline/vessels/files/centreline_joiner.h"
+#include "pipeline/vessels/centrelines/centreline_joiner.h"
+#include "pipeline/vessels/centrelines/line_ends.h"
 #include "pipeline/vessels/files/vtp_data.h"
 #include "pipeline/vessels/vessel_orders.h"
 
@@ -264,7 +265,7 @@ hal::Result<VtpTree> VtpReader::join() {
     return refuse(
         fmt::format("{} points, no line and {} other cells", counts_.points, counts_.other_cells),
         "centrelines: lines with a radius at every point");
-  JoinedCentrelines joined = join_centrelines(lines_, double{options_.join_within_mm});
+  JoinedCentrelines joined = join_centrelines(lines_);
   if (!joined.loop.empty())
     return refuse(fmt::format("a loop: two ways to {}", joined.loop), "a tree");
   VtpTree result;
@@ -278,8 +279,8 @@ hal::Result<VtpTree> VtpReader::join() {
   counts_.short_lines = joined.short_lines;
   counts_.roots = static_cast<std::uint64_t>(std::ranges::count(result.tree.parents, no_parent));
   if (counts_.roots > 1 && !options_.forest)
-    return refuse(fmt::format("{} pieces that are not connected within {:g} mm", counts_.roots,
-                              options_.join_within_mm),
+    return refuse(fmt::format("{} pieces: no end of one lies within {:g} of the radius of another",
+                              counts_.roots, end_within_radii),
                   "one; several are allowed as a forest (--forest)");
   HAL_TRY(const auto zeros, mend_zero_radii(result.tree, options_.zero_radius, name_));
   counts_.zero_radii = zeros;

@@ -22,7 +22,7 @@ struct VtpCounts {
   std::uint64_t points = 0; // in the file
   std::uint64_t lines = 0;
   std::uint64_t nodes = 0;         // = points − merged − unused
-  std::uint64_t merged_points = 0; // at another's place
+  std::uint64_t merged_points = 0; // of vessels that another line gave
   std::uint64_t unused_points = 0; // in no line
   std::uint64_t short_lines = 0;   // of one point or none
   std::uint64_t other_cells = 0;   // vertices, polygons, strips

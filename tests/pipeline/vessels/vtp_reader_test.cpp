@@ -116,19 +116,19 @@ TEST(VtpReader, joins_lines_at_one_place) {
   EXPECT_EQ(read.unit, LengthUnit::mm);
 }
 
-TEST(VtpReader, joins_ends_within_the_tolerance_only) {
+TEST(VtpReader, joins_ends_within_a_tenth_of_the_radius_only) {
   Text text;
-  text.points = "0 0 0  1 0 0  2 0 0  1.00009 0 0  1 1 0";
+  text.points = "0 0 0  1 0 0  2 0 0  1 0 0.19  1 1 0";
   EXPECT_EQ(good(text.file()).counts.nodes, 4U);
-  text.points = "0 0 0  1 0 0  2 0 0  1.0002 0 0  1 1 0";
-  EXPECT_THAT(refusal(text.file()), HasSubstr("found 2 pieces that are not connected within 0.0001 "
-                                              "mm, expected one; several are allowed as a forest"));
+  text.points = "0 0 0  1 0 0  2 0 0  1 0 0.21  1 1 0";
+  EXPECT_THAT(refusal(text.file()), HasSubstr("found 2 pieces: no end of one lies within 0.1 of "
+                                              "the radius of another, expected one; several are "
+                                              "allowed as a forest"));
   TreeReadOptions options;
   options.forest = true;
   EXPECT_EQ(good(text.file(), options).counts.roots, 2U);
-  options = {};
-  options.join_within_mm = 0.001F;
-  EXPECT_EQ(good(text.file(), options).counts.roots, 1U);
+  text.radii = "3 2 1 2.2 0.5";
+  EXPECT_EQ(refusal(text.file()).find("found 2 pieces"), 7U); // the trunk's is the smaller one
 }
 
 // The branch comes first in the file, and begins on the trunk: the trunk's mouth is the root.

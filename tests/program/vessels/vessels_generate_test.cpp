@@ -56,6 +56,51 @@ TEST(VesselsGenerate, writes_our_own_format_that_info_tells_in_full) {
   EXPECT_THAT(text.out, HasSubstr("Murray"));
 }
 
+// What the twin shows of a phantom and what is drawn over it lie in one place.
+TEST(VesselsGenerate, writes_a_phantoms_vessels_with_their_place) {
+  const ScratchFolder folder;
+  for (const char* phantom : {"anterior_eye", "nail_fold", "cap"}) {
+    const std::string tree = folder / (std::string{phantom} + ".VESSELS");
+    const std::string place = folder / (std::string{phantom} + ".toml");
+    const ProgramResult made = run_well({"vessels", "generate", "--phantom", phantom, "--out", tree,
+                                         "--registration", place, "--json"});
+    EXPECT_GT(json::parse(made.out)["segments"], 100) << phantom;
+    const json info = json::parse(run_well({"vessels", "info", tree, "--json"}).out);
+    EXPECT_EQ(info["kind"], "vessels");
+    EXPECT_EQ(info["segments"], json::parse(made.out)["segments"]);
+    EXPECT_EQ(info["branches"]["unknown"], info["segments"]);
+    const ProgramResult drawn =
+        run_well({"render", "--phantom", phantom, "--vessels", tree, "--registration", place,
+                  "--size", "160x100", "--out", folder / "drawn.png"});
+    EXPECT_EQ(drawn.err, "") << phantom; // registered
+  }
+  const ProgramResult neither = run_octascope({"vessels", "generate", "--out", folder / "x.swc"});
+  EXPECT_EQ(neither.exit_status, 2);
+  EXPECT_THAT(neither.err, HasSubstr("neither --segments nor --phantom"));
+}
+
+TEST(VesselsGenerate, goes_by_the_ending_in_whatever_letters) {
+  const ScratchFolder folder;
+  const std::string swc = folder / "heart.Swc";
+  run_well({"vessels", "generate", "--segments", "1000", "--out", swc});
+  EXPECT_EQ(json::parse(run_octascope({"vessels", "info", swc, "--json"}).out)["kind"], "swc");
+  run_well({"vessels", "convert", swc, "--forest", "--out", folder / "heart"});
+  EXPECT_EQ(json::parse(run_well({"vessels", "info", folder / "heart", "--json"}).out)["kind"],
+            "vessels");
+  for (const char* name : {"x.npy", "x.vtp", "x.SWC.gz"})
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"vessels", "generate", "--segments", "1000"},
+          {"vessels", "generate", "--phantom", "cap"},
+          {"vessels", "convert", swc, "--forest"}}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"--out", folder / name});
+      const ProgramResult refused = run_octascope(words);
+      EXPECT_EQ(refused.exit_status, 2) << refused.describe();
+      EXPECT_THAT(refused.err, testing::AllOf(HasSubstr(".swc"), HasSubstr(".vessels")));
+    }
+  EXPECT_EQ(folder.count(), 2);
+}
+
 TEST(VesselsGenerate, refuses_a_number_out_of_range) {
   const ScratchFolder folder;
   const ProgramResult result =

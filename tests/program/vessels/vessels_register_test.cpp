@@ -58,6 +58,27 @@ TEST(VesselsRegister, says_which_line_is_off) {
   EXPECT_THAT(result.out, HasSubstr("mm rms over 5 pairs"));
 }
 
+// As the tree's points are in micrometres.
+constexpr std::string_view in_um = "0 0 0 1 2 3\n5000 0 0 1 7 3\n0 4000 0 -3 2 3\n0 0 2000 1 2 5\n"
+                                   "1000 1000 1000 0 3 4\n";
+
+TEST(VesselsRegister, refuses_what_no_turn_and_shift_explains_unless_it_is_accepted) {
+  const ScratchFolder folder;
+  const ProgramResult refused = register_points(folder, in_um);
+  EXPECT_EQ(refused.exit_status, 1);
+  EXPECT_THAT(refused.err,
+              HasSubstr("1000 times as wide as the volume's: is the tree in micrometres?"));
+  EXPECT_THAT(refused.err, HasSubstr("--accept-misfit"));
+  EXPECT_EQ(folder.count(), 1);
+  const ProgramResult accepted = register_points(folder, in_um, {"--accept-misfit"});
+  ASSERT_EQ(accepted.exit_status, 0) << accepted.describe();
+  const auto loaded = pipeline::Registration::load(folder / "out.toml");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_THAT(loaded->provenance.method,
+              HasSubstr("misfit accepted: the tree's points spread 1000"));
+  EXPECT_GT(loaded->provenance.residual_mm.value_or(0), 1000);
+}
+
 TEST(VesselsRegister, refuses_bad_points_and_writes_nothing) {
   const auto refuse = [](std::string_view points, std::string_view expected) {
     const ScratchFolder folder;
@@ -73,6 +94,9 @@ TEST(VesselsRegister, refuses_bad_points_and_writes_nothing) {
   refuse("0 0 0 1 2 3\n1 0 0 nan 2 3\n", "pairs.csv:2");
   refuse("0 0 0 1 2 3\n1 0 0 2 2 3\n", "found 2 pairs of points, expected at least 3");
   refuse("0 0 0 1 2 3\n1 0 0 2 2 3\n2 0 0 3 2 3\n", "the tree could turn about the line");
+  refuse("0 0 0 1 2 3\n1 0 0 2 2 3\n2 0 -3e200 3 2 3\n",
+         "pairs.csv:3: found the coordinate -3e+200 mm, expected at most 1e+06 mm");
+  refuse("0 0 0 1 2 3\n1 0 0 1e999 2 3\n", "pairs.csv:2");
   refuse("", "is empty");
   EXPECT_EQ(run_octascope({"vessels", "register"}).exit_status, 2);
   EXPECT_EQ(run_octascope({"vessels"}).exit_status, 2);

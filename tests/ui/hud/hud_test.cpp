@@ -145,6 +145,42 @@ TEST(HudText, vessels_say_whether_they_are_where_they_seem_to_be) {
   EXPECT_EQ(badges_of(status), std::vector<std::string>{});
 }
 
+TEST(HudText, branches_are_named_in_the_hearts_arteries_only) {
+  Status status = live_status();
+  status.vessels.state = VesselStatus::State::shown;
+  const auto named = [&](std::array<bool, pipeline::vessel_branch_count> branches) {
+    status.vessels.branches = branches;
+    return compose_hud_text({}, status, {}).vessels.branches;
+  };
+  constexpr std::array<bool, pipeline::vessel_branch_count> none{};
+  for (const auto& generic : {std::array{true, false, false, false},
+                              {false, false, false, true},
+                              {true, false, false, true},
+                              {false, true, true, false}})
+    EXPECT_EQ(named(generic), none);
+  EXPECT_EQ(named({false, true, true, true}), (std::array{false, true, true, true}));
+  EXPECT_EQ(named({true, true, true, true}), (std::array{true, true, true, true}));
+}
+
+TEST(HudText, vessels_say_how_well_they_were_registered) {
+  Status status = live_status();
+  status.vessels.state = VesselStatus::State::shown;
+  const auto told = [&](const ViewState& view = {}) {
+    return std::string{compose_hud_text(view, status, {}).vessels.registration.view()};
+  };
+  status.vessels.residual_mm = 0.0123;
+  EXPECT_EQ(told(), "") << "not registered";
+  status.vessels.registered = true;
+  EXPECT_EQ(told(), "residual 12 µm");
+  status.vessels.residual_mm = 2160.2284;
+  EXPECT_EQ(told(), "residual 2160 mm");
+  ViewState moved;
+  moved.vessel_nudge.turn_deg[1] = 0.5F;
+  EXPECT_EQ(told(moved), "adjusted by hand");
+  status.vessels.residual_mm.reset();
+  EXPECT_EQ(told(), "residual unknown");
+}
+
 TEST(HudText, merged_vessels_and_their_account_are_told) {
   Status status = live_status();
   status.vessels.state = VesselStatus::State::shown;
