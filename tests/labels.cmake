@@ -28,7 +28,7 @@ set(clock
 set(slow
   "bidirectional\\."
   "coronary_tree\\."
-  "firmware_host\\.(BenchReconstruct|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."
+  "firmware_host\\.(BenchReconstruct|EveryKey|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."
   "firmware_host\\.(Scenes|Techniques)/"
   "pipeline\\.(all/InputTypes|ScanLagEstimator|ReconstructorRealData)\\."
   "ui\\.(Allocation|GoldenLayout|GoldenPicture|HudInAllLayouts|HudInAllSizes|HudPicture)\\."
