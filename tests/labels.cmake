@@ -31,7 +31,7 @@ set(slow
   "firmware_host\\.(BenchReconstruct|EveryKey|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."
   "firmware_host\\.(Scenes|Techniques)/"
   "pipeline\\.(all/InputTypes|ScanLagEstimator|ReconstructorRealData)\\."
-  "ui\\.(Allocation|GoldenLayout|GoldenPicture|HudInAllLayouts|HudInAllSizes|HudPicture)\\."
+  "ui\\.(Allocation|EverySize|GoldenLayout|GoldenPicture|HudInAllLayouts|HudInAllSizes|HudPicture)\\."
   "ui\\.(Isas/RayCasterIsa|LegendPicture|StereoPicture|Techniques/|VolumePainterTest)"
   "ui\\.(VolumeTechniquesTest|Vessel(Agreement|FlightTest|Merging|Methods|OverlayTest|Splatter))\\.")
 
