@@ -29,7 +29,7 @@ set(slow
   "bidirectional\\."
   "coronary_tree\\."
   "firmware_host\\.(BenchReconstruct|EveryKey|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."
-  "firmware_host\\.(Scenes|Techniques)/"
+  "firmware_host\\.(Phantoms|Scenes|Techniques)/"
   "pipeline\\.(all/InputTypes|ScanLagEstimator|ReconstructorRealData)\\."
   "ui\\.(Allocation|EverySize|GoldenLayout|GoldenPicture|HudInAllLayouts|HudInAllSizes|HudPicture)\\."
   "ui\\.(Isas/RayCasterIsa|LegendPicture|StereoPicture|Techniques/|VolumePainterTest)"
