@@ -156,8 +156,7 @@ TEST_F(Window, made_small_and_large_again_goes_on) {
                             {"replay", recorded, "--display", "window", "--duration", "100"}))
                       : start();
     ASSERT_TRUE(run);
-    if (replay)
-      ASSERT_TRUE(run->wait_for_thread("octa-replay", 60s));
+    ASSERT_TRUE(!replay || run->wait_for_thread("octa-replay", 60s));
     for (const char* size : {"300 200", "40 30", "1 1", "900 100", "800 450"})
       on_window(fmt::format("windowsize --sync {}", size));
     on_window("windowfocus --sync key q");
