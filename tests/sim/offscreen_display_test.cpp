@@ -94,7 +94,7 @@ TEST(PictureMemory, is_there_or_the_size_is_refused_in_words) {
   EXPECT_TRUE(sim::check_picture_memory(16384, 16384, 16 * gib));
   EXPECT_TRUE(sim::check_picture_memory(1, 16384, gib / 64));
   EXPECT_THAT(sim::check_picture_memory(16384, 16384, 2 * gib),
-              FailsWith(hal::ErrorCode::invalid_argument, "16384x16384", "9.0 GiB", "2.0 GiB",
+              FailsWith(hal::ErrorCode::invalid_argument, "16384x16384", "11.0 GiB", "2.0 GiB",
                         "choose a smaller size"));
 }
 
