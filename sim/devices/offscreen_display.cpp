@@ -64,8 +64,8 @@ tl::unexpected<hal::Error> no_gles(std::string_view found) {
 } // namespace
 
 hal::Result<> check_picture_memory(int width, int height, std::uint64_t available_bytes) {
-  // The most that any takes: the picture 4; of vessels that the processor draws, with their depth, 32;
-  // read back, twice, 8.
+  // The most that any takes: the picture 4; vessels that the processor draws, with their depth,
+  // 32; read back, twice, 8.
   constexpr std::uint64_t bytes_per_pixel = 44;
   const std::uint64_t needed =
       bytes_per_pixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);

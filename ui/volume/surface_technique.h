@@ -15,8 +15,8 @@
 namespace octascope::ui {
 
 // The level of a view's surface, as a count. Smoothing has calmed the noise, so that no confetti
-// comes of a level near it; at the middle of the window thin layers and an instrument's metal, which
-// smoothing darkens, would be left out where every other technique shows them.
+// comes of a level near it; at the middle of the window thin layers and an instrument's metal,
+// which smoothing darkens, would be left out where every other technique shows them.
 float surface_level(const ViewState& view);
 
 // A separate thread makes the mesh (pipeline/surface/iso_surface_thread.h). Until a new mesh is

@@ -1,6 +1,9 @@
 // Every command that draws, in pictures of every size.
 #include <array>
+#include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
