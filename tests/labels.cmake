@@ -28,10 +28,10 @@ set(clock
 set(slow
   "bidirectional\\."
   "coronary_tree\\."
-  "firmware_host\\.(BenchReconstruct|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."
-  "firmware_host\\.(Scenes|Techniques)/"
+  "firmware_host\\.(BenchReconstruct|EveryKey|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."
+  "firmware_host\\.(Phantoms|Scenes|Techniques)/"
   "pipeline\\.(all/InputTypes|ScanLagEstimator|ReconstructorRealData)\\."
-  "ui\\.(Allocation|GoldenLayout|GoldenPicture|HudInAllLayouts|HudInAllSizes|HudPicture)\\."
+  "ui\\.(Allocation|EverySize|GoldenLayout|GoldenPicture|HudInAllLayouts|HudInAllSizes|HudPicture)\\."
   "ui\\.(Isas/RayCasterIsa|LegendPicture|StereoPicture|Techniques/|VolumePainterTest)"
   "ui\\.(VolumeTechniquesTest|Vessel(Agreement|FlightTest|Merging|Methods|OverlayTest|Splatter))\\.")
 

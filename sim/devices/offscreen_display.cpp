@@ -1,7 +1,11 @@
 #include "sim/devices/offscreen_display.h"
 
 #include <array>
-#include <cstring>
+#include <charconv>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
 
 #define EGL_NO_X11
 #include <EGL/egl.h>
@@ -33,6 +37,23 @@ EGLDisplay find_display() {
   return EGL_NO_DISPLAY;
 }
 
+// Linux would rather end the program, or another, than refuse memory. Where the system does not say
+// how much there is, nothing is refused.
+std::uint64_t available_memory() {
+  constexpr std::string_view key = "MemAvailable:";
+  std::ifstream in{"/proc/meminfo"};
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key))
+      continue;
+    const std::size_t digits = line.find_first_of("0123456789");
+    std::uint64_t kib = 0;
+    if (digits != line.npos &&
+        std::from_chars(line.data() + digits, line.data() + line.size(), kib).ec == std::errc{})
+      return kib * 1024;
+  }
+  return std::numeric_limits<std::uint64_t>::max();
+}
+
 tl::unexpected<hal::Error> no_gles(std::string_view found) {
   return hal::fail(ErrorCode::unsupported,
                    "offscreen display: {} (EGL error 0x{:04x}), expected an EGL with GLES 3; "
@@ -41,6 +62,22 @@ tl::unexpected<hal::Error> no_gles(std::string_view found) {
 }
 
 } // namespace
+
+hal::Result<> check_picture_memory(int width, int height, std::uint64_t available_bytes) {
+  // The most that any takes: the picture 4; vessels that the processor draws, with their depth,
+  // 32; read back, twice, 8.
+  constexpr std::uint64_t bytes_per_pixel = 44;
+  const std::uint64_t needed =
+      bytes_per_pixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+  if (needed <= available_bytes)
+    return {};
+  constexpr double gib = 1 << 30;
+  return hal::fail(
+      ErrorCode::invalid_argument,
+      "offscreen display: a picture of {}x{} takes {:.1f} GiB of memory to draw, found "
+      "{:.1f} GiB available; choose a smaller size or end other programs",
+      width, height, static_cast<double>(needed) / gib, static_cast<double>(available_bytes) / gib);
+}
 
 // The EGL display itself is never terminated: EGL shares it within the process, and another
 // context may live on it.
@@ -109,6 +146,7 @@ struct OffscreenDisplay::Surface {
           ErrorCode::invalid_argument,
           "offscreen display: size is {}x{}, expected at most {} either way on this machine", width,
           height, largest);
+    HAL_CHECK(check_picture_memory(width, height, available_memory()));
     glGenRenderbuffers(1, &colour);
     glBindRenderbuffer(GL_RENDERBUFFER, colour);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);

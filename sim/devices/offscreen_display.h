@@ -5,12 +5,17 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 
 #include "hal/clock.h"
 #include "hal/display.h"
 
 namespace octascope::sim {
+
+// Whether a picture of that size can be drawn by the processor, kept and written as a file with so
+// much memory. ErrorCode::invalid_argument, in words, if not.
+hal::Result<> check_picture_memory(int width, int height, std::uint64_t available_bytes);
 
 class OffscreenDisplay final : public hal::Display {
 public:
@@ -33,7 +38,8 @@ private:
   std::string_view do_backend() const override { return "offscreen"; }
   bool do_simulated() const override { return true; }
   // ErrorCode::unsupported: this machine has no EGL that can draw GLES 3 without a window.
-  // ErrorCode::invalid_argument: invalid size or refresh rate.
+  // ErrorCode::invalid_argument: invalid size or refresh rate, or too large a picture for this
+  // machine's memory.
   hal::Result<> do_open(const hal::DisplayConfig& config) override;
   int do_width() const override { return width_; }
   int do_height() const override { return height_; }

@@ -88,5 +88,15 @@ TEST_F(OffscreenDisplay, refuses_a_size_beyond_the_gpu) {
   EXPECT_THAT(display_.open(config), FailsWith(hal::ErrorCode::invalid_argument, "1000000x720"));
 }
 
+// Linux ends a program that takes more memory than there is; so it is said before.
+TEST(PictureMemory, is_there_or_the_size_is_refused_in_words) {
+  constexpr std::uint64_t gib = 1 << 30;
+  EXPECT_TRUE(sim::check_picture_memory(16384, 16384, 16 * gib));
+  EXPECT_TRUE(sim::check_picture_memory(1, 16384, gib / 64));
+  EXPECT_THAT(sim::check_picture_memory(16384, 16384, 2 * gib),
+              FailsWith(hal::ErrorCode::invalid_argument, "16384x16384", "11.0 GiB", "2.0 GiB",
+                        "choose a smaller size"));
+}
+
 } // namespace
 } // namespace octascope::tests

@@ -17,11 +17,12 @@ int wrapped(int value, int count) {
 
 } // namespace
 
-ViewActions::ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu)
+ViewActions::ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu,
+                         ChoiceNames names)
     : initial_{initial.clamped()}, state_{initial_}, b_scans_{b_scans}, menu_{std::move(menu)} {
   state_.selected = menu_.front();
   set_b_scans(b_scans);
-  set_choices({});
+  set_choices(std::move(names));
 }
 
 void ViewActions::change_menu(std::vector<Action> menu) {

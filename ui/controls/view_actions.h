@@ -36,8 +36,10 @@ enum class Done : std::uint8_t { pressed, turned };
 class ViewActions {
 public:
   // `initial` is the state that reset_view restores; `b_scans` limits the B-scan position; `menu`
-  // is what next_parameter goes through, never empty.
-  ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu);
+  // is what next_parameter goes through, never empty; `names` are of what the view's transfer
+  // function and colour map are chosen from.
+  ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu,
+              ChoiceNames names = {});
 
   // Keeps the selected action if the new menu has it, else selects the menu's first.
   void change_menu(std::vector<Action> menu);

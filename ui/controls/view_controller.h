@@ -23,7 +23,8 @@ namespace octascope::ui {
 class ViewController {
 public:
   // `initial` is the state that reset_view restores; `b_scans` limits the B-scan position.
-  ViewController(const ViewState& initial, int b_scans, ControlProfile profile);
+  ViewController(const ViewState& initial, int b_scans, ControlProfile profile,
+                 ChoiceNames names = {});
 
   // Switches to the profile of another device. The view stays; no switch counts as held.
   void change_profile(ControlProfile profile);

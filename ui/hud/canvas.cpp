@@ -104,6 +104,8 @@ void Canvas::ring(glm::vec2 centre, float radius, Colour colour, float width) {
 }
 
 void Canvas::stripes(const Rect& rect, Colour colour, float pitch, float width) {
+  constexpr float least_pitch = 8; // of which the longest picture has a few thousand
+  pitch = std::max(pitch, least_pitch);
   const Clip clip{*this, rect};
   const auto height = static_cast<float>(rect.height);
   const auto bottom = static_cast<float>(rect.bottom());

@@ -44,7 +44,7 @@ public:
   void quad(const std::array<glm::vec2, 4>& corners, Colour colour);
   void dot(glm::vec2 centre, float radius, Colour colour);
   void ring(glm::vec2 centre, float radius, Colour colour, float width);
-  // Diagonal stripes within the rectangle.
+  // Diagonal stripes within the rectangle, no closer than eight pixels.
   void stripes(const Rect& rect, Colour colour, float pitch, float width);
 
   // Clips drawing to the rectangle during its lifetime.

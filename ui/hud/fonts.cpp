@@ -9,9 +9,13 @@
 #include <imgui.h>
 #include <imgui_freetype.h>
 
+#include "ui/layout/layout.h"
+
 namespace octascope::ui {
 
 namespace {
+
+constexpr float badge_pixels = 34; // the largest, on a picture 720 high
 
 struct StyleFace {
   std::span<const unsigned char> file;
@@ -22,8 +26,15 @@ std::array<StyleFace, text_style_count> faces(const Typeface& typeface) {
   return {{{typeface.medium, 22},
            {typeface.medium, 24},
            {typeface.semi_bold, 28},
-           {typeface.semi_bold, 34}}};
+           {typeface.semi_bold, badge_pixels}}};
 }
+
+// ImGui's FreeType builder writes a glyph of more pixels past the end of its buffer (256 KiB, four
+// bytes a pixel). No glyph is larger than its line each way. All of them, at the largest unit, take
+// a texture of 2048 × 8192, which every GL has that takes pictures 4320 pixels high.
+constexpr float most_glyph_pixels = 65536;
+constexpr float largest_line = largest_unit * badge_pixels;
+static_assert(largest_line * largest_line <= most_glyph_pixels);
 
 // Latin-1, dashes, ellipsis, minus.
 constexpr std::array<ImWchar, 7> glyph_ranges{0x20, 0xFF, 0x2010, 0x2026, 0x2212, 0x2212, 0};
@@ -45,6 +56,11 @@ void Fonts::Destroy::operator()(ImFontAtlas* atlas) const {
 }
 
 hal::Result<Fonts> Fonts::create(float unit, const Typeface& typeface) {
+  if (!(unit > 0 && unit <= largest_unit))
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "heads-up display: letters are scaled by {}, expected more than 0 and at most "
+                     "{}",
+                     unit, largest_unit);
   Fonts result;
   ImFontAtlas& atlas = *result.atlas_;
   atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();

@@ -37,7 +37,8 @@ Typeface inter();
 // Threads: as gl/objects.h.
 class Fonts {
 public:
-  // `unit` as in Layout. ErrorCode::unsupported: this GL does not support so large a texture.
+  // `unit` as in Layout. ErrorCode::invalid_argument: the letters would be larger than the atlas
+  // can hold. ErrorCode::unsupported: this GL does not support so large a texture.
   // ErrorCode::system: FreeType cannot build the glyphs.
   static hal::Result<Fonts> create(float unit, const Typeface& typeface = inter());
 

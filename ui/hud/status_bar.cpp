@@ -96,7 +96,7 @@ void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text) 
   for (std::size_t i = 0; i < shown.size(); ++i)
     shown[i] = !text.cells[i].label.empty();
   for (const std::size_t dispensable : HudText::dispensable_cells)
-    if (needed > columns.left) {
+    if (shown[dispensable] && needed > columns.left) {
       shown[dispensable] = false;
       needed -= cell_width(canvas, text.cells[dispensable]) + gap;
     }

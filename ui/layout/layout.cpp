@@ -85,7 +85,8 @@ Plan::Plan(int width, int height, const PictureAspects& aspects, LayoutKind kind
     : aspects_{aspects} {
   layout_.kind = kind;
   // Narrow pictures scale with their width, so that the status bar still fits.
-  layout_.unit = std::min(static_cast<float>(height) / 720, static_cast<float>(width) / 1200);
+  layout_.unit =
+      std::min({static_cast<float>(height) / 720, static_cast<float>(width) / 1200, largest_unit});
   const int bar = std::min(length(bar_length), std::max(1, height / 3));
   layout_.status_bar = {0, height - bar, width, bar};
   body_ = {0, 0, width, std::max(1, height - bar)};

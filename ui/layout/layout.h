@@ -22,6 +22,10 @@ struct Rect {
   bool operator==(const Rect&) const = default;
 };
 
+// What sizes grow to: that of a picture 4320 pixels high (8K). Letters have a largest size
+// (ui/hud/fonts.h), and what surrounds them does not grow without them.
+inline constexpr float largest_unit = 6;
+
 // A panel that is empty is not drawn.
 struct Panel {
   Rect frame;
@@ -42,7 +46,8 @@ struct PictureAspects {
 
 struct Layout {
   LayoutKind kind = LayoutKind::volume; // the layout actually used: see lay_out()
-  float unit = 1;                       // scale of all sizes: 1 for a picture 720 pixels high
+  float unit = 1;                       // scale of all sizes: 1 for a picture 720 pixels high, at
+                                        // most largest_unit
   Rect view;                            // the volume
   Rect view_frame;                      // around it if it has a plate and a title, else empty
   Rect view_title;

@@ -17,11 +17,12 @@ Rect EyeFrame::place(const Rect& rect) const {
   const auto along = [](int at, int from, int to) {
     return static_cast<int>(std::int64_t{at} * to / from);
   };
-  const int left = along(rect.x, width, target.width);
-  const int top = along(rect.y, height, target.height);
-  return {target.x + left, target.y + top,
-          std::max(1, along(rect.right(), width, target.width) - left),
-          std::max(1, along(rect.bottom(), height, target.height) - top)};
+  // Of the smallest pictures a rectangle may lie outside: a pixel of the eye's own half is left.
+  const int left = std::min(along(rect.x, width, target.width), target.width - 1);
+  const int top = std::min(along(rect.y, height, target.height), target.height - 1);
+  const int right = std::min(along(rect.right(), width, target.width), target.width);
+  const int bottom = std::min(along(rect.bottom(), height, target.height), target.height);
+  return {target.x + left, target.y + top, std::max(1, right - left), std::max(1, bottom - top)};
 }
 
 EyeFrame eye_frame(StereoMode mode, StereoEye eye, int width, int height) {
@@ -29,11 +30,11 @@ EyeFrame eye_frame(StereoMode mode, StereoEye eye, int width, int height) {
   const bool second = eye == StereoEye::right;
   if (mode == StereoMode::side_by_side) {
     frame.target.width = std::max(1, width / 2);
-    frame.target.x = second ? frame.target.width : 0;
+    frame.target.x = second ? std::min(frame.target.width, width - frame.target.width) : 0;
   }
   if (mode == StereoMode::top_bottom) {
     frame.target.height = std::max(1, height / 2);
-    frame.target.y = second ? frame.target.height : 0;
+    frame.target.y = second ? std::min(frame.target.height, height - frame.target.height) : 0;
   }
   return frame;
 }

@@ -13,10 +13,18 @@ hal::Result<RayCastPicture> RayCastPicture::create() {
 }
 
 // With room for full quality at once: a finer picture later asks for no memory.
-void RayCastPicture::resize(int width, int height, const Rect& rect) {
+hal::Result<> RayCastPicture::resize(int width, int height, const Rect& rect) {
+  texture_ = gl::make_picture_texture(GL_RGBA8, width, height);
+  GLint has_memory = GL_FALSE;
+  glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_IMMUTABLE_FORMAT, &has_memory);
+  if (has_memory == GL_FALSE)
+    return hal::fail(hal::ErrorCode::system,
+                     "volume display: the driver has no texture of {}x{} (GL error 0x{:04x}); "
+                     "choose a smaller size",
+                     width, height, glGetError());
   image_.make_room(rect.width, rect.height);
   image_.resize(width, height);
-  texture_ = gl::make_picture_texture(GL_RGBA8, width, height);
+  return {};
 }
 
 // Straight from memory: where the processor casts rays it is GL, too, and a pixel buffer would be
@@ -71,7 +79,7 @@ hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene
     return {};
   drawn_.reset();
   if (key.width != image_.width || key.height != image_.height)
-    resize(key.width, key.height, rect);
+    HAL_CHECK(resize(key.width, key.height, rect));
   HAL_CHECK(cast(caster, scene, mode, key));
   upload_image();
   drawn_ = key;

@@ -31,7 +31,7 @@ public:
 
 private:
   explicit RayCastPicture(gl::PicturePass pass) : pass_{std::move(pass)} {}
-  void resize(int width, int height, const Rect& rect);
+  hal::Result<> resize(int width, int height, const Rect& rect);
   hal::Result<> cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                      const VolumePictureKey& key);
   void upload_image();

@@ -20,15 +20,16 @@ namespace {
 // that its light and shade can be seen.
 constexpr float colour_place = 0.8F;
 
-float surface_level(const ViewState& view) {
-  return pipeline::level_count(view.window_offset_db + view.window_size_db / 2);
-}
-
 const void* offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
 }
 
 } // namespace
+
+float surface_level(const ViewState& view) {
+  constexpr float place = 0.25F; // in the window
+  return pipeline::level_count(view.window_offset_db + place * view.window_size_db);
+}
 
 hal::Result<std::unique_ptr<SurfaceTechnique>>
 SurfaceTechnique::create(TransferSet transfers, pipeline::ThreadSetup threads) {

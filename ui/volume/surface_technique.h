@@ -1,4 +1,4 @@
-// The iso-surface, as a solid: where the level passes the middle of the display window.
+// The iso-surface, as a solid: where the level passes a quarter of the display window.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +13,11 @@
 #include "ui/volume/volume_technique.h"
 
 namespace octascope::ui {
+
+// The level of a view's surface, as a count. Smoothing has calmed the noise, so that no confetti
+// comes of a level near it; at the middle of the window thin layers and an instrument's metal,
+// which smoothing darkens, would be left out where every other technique shows them.
+float surface_level(const ViewState& view);
 
 // A separate thread makes the mesh (pipeline/surface/iso_surface_thread.h). Until a new mesh is
 // finished, for a new volume or a changed window, the last one is drawn; before the first, nothing.

@@ -31,6 +31,17 @@ auto scheduling_of(const Configuration& c) {
                   c.neighbour_weights.after);
 }
 
+// What of the controls is opened once; their profile is changed as they are used.
+auto control_devices_of(const Configuration& c) {
+  return std::tie(c.devices.control_device, c.devices.keyboards);
+}
+
+bool same_devices(const DeviceConfig& a, DeviceConfig b) {
+  b.control_device = a.control_device;
+  b.keyboards = a.keyboards;
+  return a == b;
+}
+
 auto screen_of(const Configuration& c) {
   return std::tie(c.width, c.height, c.fullscreen);
 }
@@ -53,12 +64,15 @@ std::vector<std::string> changes_for_a_restart(const Configuration& used,
     if (!same)
       sections.emplace_back(section);
   };
-  compare(used.plan == next.plan, "[scan]");
+  compare(used.plan == next.plan && used.depth_spacing_said == next.depth_spacing_said, "[scan]");
   compare(same_lens(used.objective, next.objective), "[microscope]");
   compare(used.calibration == next.calibration, "[calibration]");
   compare(scheduling_of(used) == scheduling_of(next), "[pipeline]");
-  compare(used.devices == next.devices, "[devices]");
+  compare(same_devices(used.devices, next.devices), "[devices]");
   compare(screen_of(used) == screen_of(next), "[display] size");
+  compare(control_devices_of(used) == control_devices_of(next), "[controls] devices");
+  compare(used.metrics == next.metrics, "[observation]");
+  compare(used.recording_folder == next.recording_folder, "[recordings]");
   compare(twins_of(used) == twins_of(next), "[sim]");
   return sections;
 }

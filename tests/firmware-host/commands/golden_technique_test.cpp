@@ -34,9 +34,7 @@ firmware_host::VolumeRequest request_for(const std::string& scene) {
 
 // Nearly what the automatic windows are; those move by a step when a few voxels differ by a count,
 // as they do between processors, and an iso-surface with them.
-ui::DisplayWindow window_for(const std::string& scene, ui::Technique technique) {
-  if (scene == "nail_fold" && technique == ui::Technique::surface)
-    return {-20, 38}; // the level of the nail plate, which is thin
+ui::DisplayWindow window_for(const std::string& scene) {
   if (scene == "anterior_eye")
     return {-10, 23};
   if (scene == "nail_fold")
@@ -66,7 +64,7 @@ protected:
     RenderOptions options;
     options.view.technique = technique;
     options.view.box_visible = false;
-    options.window = window_for(GetParam(), technique);
+    options.window = window_for(GetParam());
     options.width = width;
     options.height = height;
     return options;

@@ -146,6 +146,25 @@ TEST_F(Window, is_turned_by_keys_and_ended_by_q) {
   EXPECT_GT(count_different(turned, unturned, middle, 20), middle.width * middle.height / 50);
 }
 
+// However small it is made: live, and of a replay, whose status bar has fewer cells.
+TEST_F(Window, made_small_and_large_again_goes_on) {
+  const std::string recorded = folder_ / "recorded.h5";
+  run_well({"record", "--sim", "--config", write_small_configuration(folder_), "--display",
+            "offscreen", "--volumes", "1", "--out", recorded});
+  for (const bool replay : {false, true}) {
+    auto run = replay ? std::make_unique<ProgramRun>(octascope_command(
+                            {"replay", recorded, "--display", "window", "--duration", "100"}))
+                      : start();
+    ASSERT_TRUE(run);
+    ASSERT_TRUE(!replay || run->wait_for_thread("octa-replay", 60s));
+    for (const char* size : {"300 200", "40 30", "1 1", "900 100", "800 450"})
+      on_window(fmt::format("windowsize --sync {}", size));
+    on_window("windowfocus --sync key q");
+    const ProgramResult result = run->wait(30s);
+    EXPECT_EQ(result.exit_status, 0) << result.describe();
+  }
+}
+
 TEST_F(Window, closed_ends_the_program) {
   auto run = start();
   ASSERT_TRUE(run);

@@ -21,20 +21,6 @@ constexpr std::array sizes{std::pair{1920, 1080}, std::pair{1280, 720},  std::pa
                            std::pair{1024, 768},  std::pair{1600, 1200}, std::pair{1280, 1024}};
 constexpr PictureAspects aspects{3.0 / 1.792, 1, 4.0 / 3, true};
 
-// Everything at once, as long as it gets.
-Status worst_status() {
-  Status status = live_status();
-  status.freshness = {Liveness::veiled, std::chrono::seconds{3599}, {}};
-  status.missing_b_scans = 80;
-  status.saturated_lines = 23'456;
-  status.losses = {12'345, 67, 8};
-  status.reduced_quality = 0.67F;
-  status.notice = "Camera lost: looking for it again";
-  status.vessels.state = VesselStatus::State::shown; // and not registered
-  status.recording = {.on = true, .lasted = std::chrono::seconds{5999}};
-  return status;
-}
-
 class HudInAllSizes : public GlTest {};
 
 TEST_F(HudInAllSizes, capital_letters_are_as_high_as_two_metres_need) {

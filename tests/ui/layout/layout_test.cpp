@@ -40,6 +40,9 @@ std::vector<Case> cases() {
                              {1600, 1200},
                              {1280, 1024},
                              {640, 360},
+                             {7680, 4320},
+                             {14000, 8000},
+                             {16384, 16384},
                              {720, 1280},
                              {1080, 1920}})
     for (const LayoutKind kind : kinds)
@@ -105,6 +108,19 @@ TEST(Layout, nothing_overlaps_but_the_inset_and_everything_is_inside) {
     for (const Rect& plate : plates)
       ASSERT_TRUE(l.kind == LayoutKind::volume || !overlap(l.marks, plate));
   }
+}
+
+// However small or long: letters of some size, and a place for the volume.
+TEST(Layout, of_every_size_has_letters_and_a_volume) {
+  for (const LayoutKind kind : kinds)
+    for (int width = 1; width <= 16384; width += width < 40 ? 1 : width / 9)
+      for (int height = 1; height <= 16384; height += height < 40 ? 1 : height / 9) {
+        const Layout l = lay_out(width, height, {}, kind);
+        ASSERT_GT(l.unit, 0) << width << "x" << height;
+        ASSERT_LE(l.unit, largest_unit) << width << "x" << height;
+        ASSERT_FALSE(l.view.empty()) << width << "x" << height;
+        ASSERT_FALSE(l.status_bar.empty()) << width << "x" << height;
+      }
 }
 
 TEST(Layout, pictures_have_their_physical_aspect) {

@@ -27,6 +27,19 @@ ui::Status live_status() {
   return status;
 }
 
+ui::Status worst_status() {
+  ui::Status status = live_status();
+  status.freshness = {ui::Liveness::veiled, std::chrono::seconds{3599}, {}};
+  status.missing_b_scans = 80;
+  status.saturated_lines = 23'456;
+  status.losses = {12'345, 67, 8};
+  status.reduced_quality = 0.67F;
+  status.notice = "Camera lost: looking for it again";
+  status.vessels.state = ui::VesselStatus::State::shown; // and not registered
+  status.recording = {.on = true, .lasted = std::chrono::seconds{5999}};
+  return status;
+}
+
 void mark_incomplete(pipeline::Volume& volume) {
   for (const int b : {11, 12, 13}) {
     volume.b_scan_states[static_cast<std::size_t>(b)] = pipeline::BScanState::missing;

@@ -14,6 +14,9 @@ namespace octascope::tests {
 // A machine in good order, on its twins.
 ui::Status live_status();
 
+// Everything that can be said at once, as long as it gets.
+ui::Status worst_status();
+
 // Marks three B-scans around the twelfth as missing, with their voxels 0, and two as saturated.
 void mark_incomplete(pipeline::Volume& volume);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipeline/vessels/clusters/cluster_builder.h"
+#include "tests/support/fails_with.h"
 #include "tests/support/vessels/random_tree.h"
 #include "tests/ui/support/gl_test.h"
 #include "ui/gl/picture_pass.h"
@@ -106,6 +107,16 @@ void main() { o_colour = vec4(0.0, 0.0, 1.0, 1.0); gl_FragDepth = u_depth; }
 }
 
 // Draws nothing and counts what it was given.
+// Its texture would have 2 GiB, which drivers do not count.
+TEST_F(HybridMethod, refuses_the_largest_picture_in_words) {
+  auto splats = ui::SplatPicture::create();
+  ASSERT_TRUE(splats) << splats.error().message;
+  ui::DepthImage image;
+  image.width = image.height = 16384;
+  EXPECT_THAT(splats->draw(image, camera_),
+              FailsWith(hal::ErrorCode::unsupported, "16384x16384", "choose a smaller size"));
+}
+
 class CountingShare final : public ui::GlShare {
   hal::Result<ui::SegmentCounts> do_draw(const ui::VesselScene& scene,
                                          const ui::VesselSplit& split) override {

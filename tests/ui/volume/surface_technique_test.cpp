@@ -56,8 +56,8 @@ protected:
     view_.yaw_deg = 0;
     view_.tilt_deg = 0;
     view_.distance = 4;
-    view_.window_offset_db = 0;
-    view_.window_size_db = 40; // the surface at 20 dB
+    view_.window_offset_db = 10;
+    view_.window_size_db = 40; // the surface at 20 dB, a quarter up
   }
   void TearDown() override {
     technique_.reset();
@@ -166,7 +166,7 @@ TEST_F(SurfaceTechniqueTest, follows_the_window_and_has_the_colours_of_its_map) 
   technique_->show(ball());
   draw_finished();
   const auto at_first = static_cast<double>(opaque_pixels());
-  view_.window_offset_db = 6; // 6 dB more: 0.3 mm further in
+  view_.window_offset_db = 16; // 6 dB more: 0.3 mm further in
   draw_finished();
   const double smaller =
       std::pow(static_cast<double>(silhouette(radius_mm - 0.3F) / silhouette(radius_mm)), 2);

@@ -8,6 +8,13 @@
 
 namespace octascope::ui {
 
+namespace {
+
+// Drivers count a picture's bytes in 32 bits, with a sign; llvmpipe crashes at the next one.
+constexpr std::size_t most_bytes = 0x7FFF'FFFF;
+
+} // namespace
+
 static_assert(std::endian::native == std::endian::little, "a pixel's colour is its first half");
 
 hal::Result<SplatPicture> SplatPicture::create() {
@@ -18,6 +25,11 @@ hal::Result<SplatPicture> SplatPicture::create() {
 hal::Result<> SplatPicture::upload(const DepthImage& image) {
   const std::size_t bytes = static_cast<std::size_t>(image.width) *
                             static_cast<std::size_t>(image.height) * sizeof(DepthPixel);
+  if (bytes > most_bytes)
+    return hal::fail(hal::ErrorCode::unsupported,
+                     "vessels: a picture of {}x{} has {} bytes for the processor to draw, expected "
+                     "at most {}; choose a smaller size, or let GL draw all",
+                     image.width, image.height, bytes, most_bytes);
   if (image.width != width_ || image.height != height_) {
     uploader_ = gl::PixelUploader::create(bytes);
     texture_ = gl::Texture::make();

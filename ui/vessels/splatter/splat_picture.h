@@ -17,7 +17,8 @@ public:
   static hal::Result<SplatPicture> create();
 
   // Draws over the whole viewport, which must be as large as the image, with GL_LESS; pixels
-  // without a vessel are unchanged. Leaves the depth test off.
+  // without a vessel are unchanged. Leaves the depth test off. ErrorCode::unsupported: drivers do
+  // not count so many bytes.
   hal::Result<> draw(const DepthImage& image, const Camera& camera);
 
 private:
