@@ -40,6 +40,7 @@ hal::Result<pipeline::ScanPlan> recorded_plan(const pipeline::SpectraShape& shap
   plan.refractive_index = calibration.refractive_index;
   plan.a_spacing_um = calibration.a_spacing_um;
   plan.b_spacing_um = calibration.b_spacing_um;
+  plan.assumed_spacings = calibration.assumed_spacings;
   if (configuration.objective)
     configuration.objective->scale(plan);
   if (plan.sweeps() != shape.b_scans)
@@ -129,6 +130,7 @@ hal::Result<> play_phantom(const RunOptions& options, const Configuration& confi
 
   const sim::Spectrometer& spectrometer = (*made)->spectrometer();
   twins.plan = (*made)->plan();
+  twins.plan.assumed_spacings = {}; // the phantom is made for them
   if (calibration)
     twins.plan.refractive_index = medium_of(twins.plan, twins.calibration);
   if (!calibration) { // the one that fits the simulated spectrometer exactly

@@ -53,6 +53,13 @@ hal::Result<VolumeFile> kind_of(const std::filesystem::path& file) {
                    expected);
 }
 
+// Not of a NRRD, whose reader says it.
+void remark_assumed(LoadedVolume& loaded) {
+  if (const pipeline::AssumedSpacings& assumed = loaded.volume.geometry.assumed; assumed.any())
+    loaded.remarks.push_back("its spacings are assumed, not measured: " + assumed.words() +
+                             "; [depth] of a calibration gives them");
+}
+
 hal::Result<LoadedVolume> read_recorded(const std::filesystem::path& file, std::size_t at) {
   HAL_TRY(auto reader, pipeline::RecordingReader::open(file));
   if (reader.volumes().empty())
@@ -65,6 +72,7 @@ hal::Result<LoadedVolume> read_recorded(const std::filesystem::path& file, std::
   const pipeline::RecordingFacts& facts = reader.facts();
   LoadedVolume loaded{pipeline::Volume{facts.geometry}, {facts.subject, facts.eye}};
   HAL_CHECK(reader.read(at, loaded.volume));
+  remark_assumed(loaded);
   return loaded;
 }
 
@@ -156,7 +164,9 @@ hal::Result<LoadedVolume> reconstruct(const VolumeRequest& request) {
                // Not whichever is faster just now: the same levels each time.
                .path = pipeline::ReconstructionPath::fftw}));
   HAL_TRY(const auto average, pipeline::NeighbourAverage::create(configuration.neighbour_weights));
-  return LoadedVolume{build_volume(twins, reconstructor, average), {}};
+  LoadedVolume loaded{build_volume(twins, reconstructor, average), {}};
+  remark_assumed(loaded);
+  return loaded;
 }
 
 } // namespace

@@ -61,6 +61,9 @@ private:
 // The longest header line in bytes, without its line end; the reader refuses longer ones.
 inline constexpr std::size_t longest_nrrd_line = 4096;
 
+// The key of VolumeGeometry::assumed, in words.
+inline constexpr std::string_view nrrd_assumed_spacings = "assumed_spacings";
+
 struct NrrdVolume {
   VolumeGeometry geometry;
   // In the file's type, [b][a][z], depth fastest.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "pipeline/files/nrrd.h"
 #include "pipeline/files/nrrd_header.h"
 
 namespace octascope::pipeline {
@@ -119,6 +120,7 @@ hal::Result<VolumeGeometry> Geometry::read() {
                                            "-a 0 -sp SPACING` sets those of an axis");
     remarks_.emplace_back("it has neither spacings nor space directions: 1 mm is assumed for all "
                           "three axes");
+    geometry.assumed = {true, true, true};
     return geometry;
   }
   constexpr double least_mm = 1e-6;
@@ -130,6 +132,11 @@ hal::Result<VolumeGeometry> Geometry::read() {
   geometry.depth_spacing_um = (*found)[0] * 1000;
   geometry.a_spacing_um = (*found)[1] * 1000;
   geometry.b_spacing_um = (*found)[2] * 1000;
+  if (const std::string* words = header_.find_key(nrrd_assumed_spacings))
+    geometry.assumed = AssumedSpacings::parse(*words);
+  if (geometry.assumed.any())
+    remarks_.push_back(
+        fmt::format("its spacings are assumed, not measured: {}", geometry.assumed.words()));
   return geometry;
 }
 

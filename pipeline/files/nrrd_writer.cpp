@@ -56,6 +56,8 @@ std::string header(const VolumeGeometry& g, NrrdType type, const NrrdNotes& note
           "encoding: raw\n";
   if (type == NrrdType::uint8)
     text += fmt::format("lowest_level_db:={}\nlevel_step_db:={}\n", lowest_level_db, level_step_db);
+  if (g.assumed.any())
+    text += fmt::format("{}:={}\n", nrrd_assumed_spacings, g.assumed.words());
   if (g.refractive_index)
     text += fmt::format("refractive_index:={}\n", *g.refractive_index);
   for (const auto& [key, value] : notes)

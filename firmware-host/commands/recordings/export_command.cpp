@@ -104,6 +104,9 @@ void tell(const ExportOutcome& outcome) {
                outcome.window->offset_db + outcome.window->size_db);
   if (!outcome.pixels.empty())
     fmt::print("{}\n", outcome.pixels);
+  if (!outcome.assumed_spacings.empty())
+    fmt::print(stderr, "octascope export: warning: spacings are assumed, not measured: {}\n",
+               outcome.assumed_spacings);
   if (outcome.missing_b_scans > 0)
     fmt::print(stderr,
                "octascope export: warning: {} B-scans are missing in the recording; in the files "

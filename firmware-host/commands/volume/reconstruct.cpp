@@ -194,9 +194,9 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
   static_cast<void>(cache.save()); // what was not kept is measured again; the doctor says why
 
   const pipeline::VolumeGeometry geometry{
-      reconstructor.depths(),        options.shape.a_scans,     options.shape.b_scans,
-      calibration->bin_spacing_um(), calibration->a_spacing_um, calibration->b_spacing_um,
-      calibration->refractive_index};
+      reconstructor.depths(),        options.shape.a_scans,        options.shape.b_scans,
+      calibration->bin_spacing_um(), calibration->a_spacing_um,    calibration->b_spacing_um,
+      calibration->refractive_index, calibration->assumed_spacings};
   HAL_TRY(auto writer,
           pipeline::NrrdWriter::create(options.volume, geometry,
                                        options.display_counts ? pipeline::NrrdType::uint8
@@ -204,6 +204,12 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
   VolumeReconstruction work{options, format, spectra, reconstructor, writer};
   HAL_CHECK(work.run(worker_count(options)));
   HAL_CHECK(writer.commit());
+  if (geometry.assumed.any())
+    fmt::print(stderr,
+               "octascope reconstruct: warning: spacings are assumed: {} ({:.4g}, {:.4g}, {:.4g} "
+               "µm); [depth] of a calibration gives them\n",
+               geometry.assumed.words(), geometry.depth_spacing_um, geometry.a_spacing_um,
+               geometry.b_spacing_um);
   if (work.saturated_lines() > 0)
     fmt::print(stderr, "warning: {} of {} lines are saturated\n", work.saturated_lines(),
                options.shape.lines());

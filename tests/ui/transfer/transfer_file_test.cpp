@@ -97,6 +97,24 @@ TEST_F(LookUpTableFile, of_a_strip_with_transparency_has_both) {
   EXPECT_EQ(table->colours->front(), (Colour{1, 0, 0}));
 }
 
+// The least profile that libpng writes: a header and no tags.
+void add_profile(png_structp png, png_infop info) {
+  std::string profile(132, '\0');
+  const auto put = [&](std::size_t at, std::string_view bytes) {
+    profile.replace(at, bytes.size(), bytes);
+  };
+  const bool grey = (png_get_color_type(png, info) & PNG_COLOR_MASK_COLOR) == 0;
+  put(3, "\x84");
+  put(12, "mntr");
+  put(16, grey ? "GRAY" : "RGB ");
+  put(20, "XYZ ");
+  put(36, "acsp");
+  put(68, {"\0\0\xf6\xd6\0\1\0\0\0\0\xd3\x2d", 12}); // D50
+  png_set_iCCP(png, info, "none", PNG_COMPRESSION_TYPE_BASE,
+               reinterpret_cast<png_const_bytep>(profile.data()), 132);
+  EXPECT_NE(png_get_valid(png, info, PNG_INFO_iCCP), 0U);
+}
+
 // With what a file can say about its colours, by libpng's own writer.
 struct ColourChunk {
   const char* name;
@@ -110,6 +128,7 @@ const ColourChunk colour_chunks[] = {
      [](png_structp png, png_infop info) {
        png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_SATURATION);
      }},
+    {"iCCP", add_profile},
     {"cHRM of another screen", [](png_structp png, png_infop info) {
        png_set_gAMA(png, info, 0.55);
        png_set_cHRM(png, info, 0.3127, 0.329, 0.68, 0.32, 0.265, 0.69, 0.15, 0.06);
