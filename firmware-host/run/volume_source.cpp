@@ -54,10 +54,12 @@ hal::Result<VolumeFile> kind_of(const std::filesystem::path& file) {
 }
 
 // Not of a NRRD, whose reader says it.
-void remark_assumed(LoadedVolume& loaded) {
+void remark_assumed(const std::filesystem::path& file, LoadedVolume& loaded) {
   if (const pipeline::AssumedSpacings& assumed = loaded.volume.geometry.assumed; assumed.any())
-    loaded.remarks.push_back("its spacings are assumed, not measured: " + assumed.words() +
-                             "; [depth] of a calibration gives them");
+    loaded.remarks.push_back(
+        fmt::format("{}: its spacings are assumed, not measured: {}; [depth] of a "
+                    "calibration gives them",
+                    file.string(), assumed.words()));
 }
 
 hal::Result<LoadedVolume> read_recorded(const std::filesystem::path& file, std::size_t at) {
@@ -72,7 +74,7 @@ hal::Result<LoadedVolume> read_recorded(const std::filesystem::path& file, std::
   const pipeline::RecordingFacts& facts = reader.facts();
   LoadedVolume loaded{pipeline::Volume{facts.geometry}, {facts.subject, facts.eye}};
   HAL_CHECK(reader.read(at, loaded.volume));
-  remark_assumed(loaded);
+  remark_assumed(file, loaded);
   return loaded;
 }
 
@@ -165,7 +167,8 @@ hal::Result<LoadedVolume> reconstruct(const VolumeRequest& request) {
                .path = pipeline::ReconstructionPath::fftw}));
   HAL_TRY(const auto average, pipeline::NeighbourAverage::create(configuration.neighbour_weights));
   LoadedVolume loaded{build_volume(twins, reconstructor, average), {}};
-  remark_assumed(loaded);
+  if (request.recording) // a phantom is made for its spacings
+    remark_assumed(request.recording->file, loaded);
   return loaded;
 }
 

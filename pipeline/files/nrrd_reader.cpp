@@ -114,6 +114,38 @@ struct Scale {
   bool operator==(const Scale&) const = default;
 };
 
+template <class Value> Value value_at(const std::byte* at, bool swap) {
+  std::array<std::byte, sizeof(Value)> bytes;
+  std::memcpy(bytes.data(), at, sizeof(Value));
+  if (swap)
+    std::ranges::reverse(bytes);
+  return std::bit_cast<Value>(bytes);
+}
+
+template <class Value, class Level>
+hal::Result<std::vector<Level>> read_levels(const NrrdHeader& header, NrrdBytes& bytes,
+                                            const NrrdSize& size, bool swap, const Scale& scale) {
+  const std::size_t count = size.bytes / sizeof(Value);
+  constexpr std::size_t values_at_once = std::size_t{1} << 16;
+  std::vector<std::byte> some(std::min(count, values_at_once) * sizeof(Value));
+  std::vector<Level> levels(count);
+  for (std::size_t done = 0; done < count; done += values_at_once) {
+    const std::size_t values = std::min(count - done, values_at_once);
+    HAL_TRY(const auto got, bytes.read(std::span{some}.first(values * sizeof(Value))));
+    if (got < values * sizeof(Value))
+      return size.refuse(header, done * sizeof(Value) + got);
+    for (std::size_t i = 0; i < values; ++i) {
+      const auto value = value_at<Value>(some.data() + i * sizeof(Value), swap);
+      if constexpr (std::is_same_v<Level, std::uint8_t>)
+        levels[done + i] = value;
+      else
+        levels[done + i] =
+            static_cast<float>(scale.at_zero + static_cast<double>(value) * scale.step);
+    }
+  }
+  return levels;
+}
+
 class NrrdReader {
 public:
   explicit NrrdReader(NrrdHeader header) : header_(std::move(header)) {}
@@ -128,9 +160,6 @@ private:
   hal::Result<Scale> scale_of_keys(ValueType type) const;
   hal::Result<Scale> scale(ValueType type) const;
   hal::Result<> note_what_follows(NrrdBytes& bytes, std::size_t b_scan_bytes);
-  template <class Value, class Level>
-  hal::Result<std::vector<Level>> read_levels(NrrdBytes& bytes, const NrrdSize& size, bool swap,
-                                              const Scale& scale);
 
   NrrdHeader header_;
   std::vector<std::string> remarks_;
@@ -152,9 +181,10 @@ hal::Result<NrrdVolume> NrrdReader::read(std::span<const std::byte> data) {
     HAL_TRY(const auto bytes, NrrdBytes::open(header_, data, size));
     NrrdVolume volume{geometry, {}};
     if (std::is_same_v<Value, std::uint8_t> && scale == Scale{lowest_level_db, level_step_db}) {
-      HAL_TRY(volume.levels, read_levels<std::uint8_t, std::uint8_t>(*bytes, size, swap, scale));
+      HAL_TRY(volume.levels,
+              read_levels<std::uint8_t, std::uint8_t>(header_, *bytes, size, swap, scale));
     } else {
-      HAL_TRY(volume.levels, read_levels<Value, float>(*bytes, size, swap, scale));
+      HAL_TRY(volume.levels, read_levels<Value, float>(header_, *bytes, size, swap, scale));
     }
     HAL_CHECK(note_what_follows(*bytes, geometry.b_scan_voxels() * sizeof(Value)));
     volume.remarks = std::move(remarks_);
@@ -233,38 +263,6 @@ hal::Result<Scale> NrrdReader::scale(ValueType type) const {
     const double step = (range[1] - range[0]) / (static_cast<double>(Limits::max()) - least + 1);
     return of_keys.behind({range[0] + (0.5 - least) * step, step});
   });
-}
-
-template <class Value> Value value_at(const std::byte* at, bool swap) {
-  std::array<std::byte, sizeof(Value)> bytes;
-  std::memcpy(bytes.data(), at, sizeof(Value));
-  if (swap)
-    std::ranges::reverse(bytes);
-  return std::bit_cast<Value>(bytes);
-}
-
-template <class Value, class Level>
-hal::Result<std::vector<Level>> NrrdReader::read_levels(NrrdBytes& bytes, const NrrdSize& size,
-                                                        bool swap, const Scale& scale) {
-  const std::size_t count = size.bytes / sizeof(Value);
-  constexpr std::size_t values_at_once = std::size_t{1} << 16;
-  std::vector<std::byte> some(std::min(count, values_at_once) * sizeof(Value));
-  std::vector<Level> levels(count);
-  for (std::size_t done = 0; done < count; done += values_at_once) {
-    const std::size_t values = std::min(count - done, values_at_once);
-    HAL_TRY(const auto got, bytes.read(std::span{some}.first(values * sizeof(Value))));
-    if (got < values * sizeof(Value))
-      return size.refuse(header_, done * sizeof(Value) + got);
-    for (std::size_t i = 0; i < values; ++i) {
-      const auto value = value_at<Value>(some.data() + i * sizeof(Value), swap);
-      if constexpr (std::is_same_v<Level, std::uint8_t>)
-        levels[done + i] = value;
-      else
-        levels[done + i] =
-            static_cast<float>(scale.at_zero + static_cast<double>(value) * scale.step);
-    }
-  }
-  return levels;
 }
 
 // As teem does, less than a B-scan behind the volume is no part of it; more says that sizes or type

@@ -172,7 +172,7 @@ std::vector<BadInput> bad_inputs() {
       bad("render_with_a_missing_calibration",
           "render --spectra @spectra.raw --shape 4,8,32 --calibration @nowhere.toml --out @r.png",
           1, {"nowhere.toml", "No such file"}),
-      bad("render_with_a_missing_strip", draw + "--config @strip.toml", 1,
+      bad("render_with_a_missing_strip", draw + "--config @strip.toml", 2,
           {"nowhere.png", "No such file"}),
       bad("render_missing_vessels_alone", "vessels render @nowhere.swc --out @r.png", 1,
           {"nowhere.swc", "No such file"}),
