@@ -46,8 +46,12 @@ if(OCTASCOPE_DISPLAY)
   add_library(octascope_hdf5 STATIC ${CMAKE_SOURCE_DIR}/cmake/hdf5_without_network.cpp)
   target_include_directories(octascope_hdf5 SYSTEM PUBLIC ${hdf5_INCLUDE_DIRS})
   target_link_options(octascope_hdf5 INTERFACE LINKER:--undefined=H5FD_ros3_init)
-  target_link_libraries(octascope_hdf5 PUBLIC
-    ${OCTASCOPE_HDF5_ARCHIVE} ${OCTASCOPE_SZ} ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
+  # A target, so that zlib stands behind it on the link line whoever else needs zlib, too.
+  add_library(octascope_hdf5_archive STATIC IMPORTED)
+  set_target_properties(octascope_hdf5_archive PROPERTIES IMPORTED_LOCATION ${OCTASCOPE_HDF5_ARCHIVE})
+  target_link_libraries(octascope_hdf5_archive INTERFACE
+    ${OCTASCOPE_SZ} ZLIB::ZLIB ${CMAKE_DL_LIBS} m)
+  target_link_libraries(octascope_hdf5 PUBLIC octascope_hdf5_archive)
   # DCMTK's own lists of its libraries bring networks, sound and XML along; a file needs three.
   add_library(octascope_dcmtk INTERFACE)
   foreach(library dcmdata oflog ofstd)

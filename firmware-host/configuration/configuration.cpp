@@ -33,6 +33,8 @@ void read_scan(ConfigTable root, Configuration& configuration) {
   configuration.depth_spacing_said = scan.has("depth_spacing_um");
   plan.a_spacing_um = scan.number("a_spacing_um", plan.a_spacing_um, spacings_um);
   plan.b_spacing_um = scan.number("b_spacing_um", plan.b_spacing_um, spacings_um);
+  plan.assumed_spacings = {!configuration.depth_spacing_said, !scan.has("a_spacing_um"),
+                           !scan.has("b_spacing_um")};
   plan.bidirectional = scan.boolean("bidirectional", plan.bidirectional);
   plan.turn_around_lines = scan.integer("turn_around_lines", plan.turn_around_lines, {0, 65536});
   plan.scan_lag_a_scans =
@@ -232,7 +234,9 @@ hal::Result<Configuration> configuration_of(const RunOptions& options) {
 }
 
 pipeline::ScanPlan plan_of(const RunOptions& options, const Configuration& configuration) {
-  pipeline::ScanPlan plan = configuration.plan.value_or(pipeline::ScanPlan{});
+  pipeline::ScanPlan nothing_said;
+  nothing_said.assumed_spacings = {true, true, true};
+  pipeline::ScanPlan plan = configuration.plan.value_or(nothing_said);
   override_plan(options, configuration, plan);
   return plan;
 }

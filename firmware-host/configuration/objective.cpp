@@ -31,10 +31,14 @@ std::optional<Objective> read_objective(pipeline::ConfigTable& entry) {
 
 void Objective::scale(pipeline::ScanPlan& plan) const {
   constexpr double um_per_mm = 1000;
-  if (a_mm)
+  if (a_mm) {
     plan.a_spacing_um = *a_mm * um_per_mm / plan.a_scans;
-  if (b_mm)
+    plan.assumed_spacings.a_scans = false;
+  }
+  if (b_mm) {
     plan.b_spacing_um = *b_mm * um_per_mm / plan.b_scans;
+    plan.assumed_spacings.b_scans = false;
+  }
 }
 
 std::optional<ui::DisplayWindow> read_window(pipeline::ConfigTable& table) {

@@ -18,6 +18,7 @@ enum class DisplayChoice : std::uint8_t { automatic, kms, window, offscreen };
 struct RecordingOptions {
   std::filesystem::path file;
   pipeline::SpectraShape shape;
+  pipeline::SpectrumFormat format{shape.samples, hal::SampleType::u16}; // u8 or u16
 };
 
 // For `octascope replay`: volumes come from a file and no camera is used.

@@ -78,8 +78,10 @@ hal::Result<> Devices::make_real_spectra(const DeviceChoices& choices, const Run
   plan_ = plan_of(options, configuration);
   HAL_TRY(auto calibration, real_calibration(options, configuration, plan_));
   calibration_ = std::move(calibration);
-  if (is_calibrated(options, configuration) && !configuration.depth_spacing_said)
+  if (is_calibrated(options, configuration) && !configuration.depth_spacing_said) {
     plan_.depth_spacing_um = calibration_.depth_spacing_um;
+    plan_.assumed_spacings.depth = calibration_.assumed_spacings.depth;
+  }
   plan_.refractive_index = medium_of(plan_, calibration_);
   plan_.zero_padding = calibration_.zero_padding;
   format_ = real_->line_format();

@@ -40,6 +40,7 @@ hal::Result<pipeline::ScanPlan> recorded_plan(const pipeline::SpectraShape& shap
   plan.refractive_index = calibration.refractive_index;
   plan.a_spacing_um = calibration.a_spacing_um;
   plan.b_spacing_um = calibration.b_spacing_um;
+  plan.assumed_spacings = calibration.assumed_spacings;
   if (configuration.objective)
     configuration.objective->scale(plan);
   if (plan.sweeps() != shape.b_scans)
@@ -54,12 +55,26 @@ hal::Result<pipeline::ScanPlan> recorded_plan(const pipeline::SpectraShape& shap
   return plan.validate().map([&] { return plan; });
 }
 
+// Where not every bit counts, other counts are of another type. Read once from the beginning to the
+// end, so only then.
+hal::Result<> check_counts(const pipeline::SpectraFile& file,
+                           const pipeline::SpectrumFormat& format) {
+  const pipeline::SpectrumFormat all_bits{format.samples, format.type};
+  if (format.significant_bits + format.right_shift == all_bits.significant_bits)
+    return {};
+  for (int b = 0; b < file.shape().b_scans; ++b)
+    if (const auto fault = file.find_above_full_scale(b, format))
+      return hal::fail(hal::ErrorCode::bad_data, "{}; another --dtype or --shift", *fault);
+  return {};
+}
+
 hal::Result<> play_recording(const RunOptions& options, const Configuration& configuration,
                              Twins& twins) {
   const RecordingOptions& recording = *options.recording;
-  auto file = pipeline::SpectraFile::open(recording.file, recording.shape, hal::SampleType::u16);
+  auto file = pipeline::SpectraFile::open(recording.file, recording.shape, recording.format.type);
   if (!file)
     return pass_on(file.error());
+  HAL_CHECK(check_counts(*file, recording.format));
   const auto shared = std::make_shared<pipeline::SpectraFile>(std::move(*file));
 
   twins.calibration = pipeline::Calibration::identity(recording.shape.samples);
@@ -74,15 +89,15 @@ hal::Result<> play_recording(const RunOptions& options, const Configuration& con
     return pass_on(plan.error());
   twins.plan = *plan;
 
-  const std::byte* first = shared->b_scan(0).data();
-  const std::size_t samples =
-      recording.shape.lines() * static_cast<std::size_t>(recording.shape.samples);
   auto spectra = sim::RecordedSpectra::make(
-      {.samples = {reinterpret_cast<const std::uint16_t*>(first), samples},
+      {.samples = {shared->b_scan(0).data(),
+                   recording.shape.lines() * recording.format.line_bytes()},
+       .type = recording.format.type,
        .b_scans = recording.shape.b_scans,
        .a_scans = recording.shape.a_scans,
        .samples_per_line = recording.shape.samples,
-       .significant_bits = 16,
+       .significant_bits = recording.format.significant_bits,
+       .right_shift = recording.format.right_shift,
        .name = recording.file.filename().string(),
        .keep_alive = shared});
   if (!spectra)
@@ -115,6 +130,7 @@ hal::Result<> play_phantom(const RunOptions& options, const Configuration& confi
 
   const sim::Spectrometer& spectrometer = (*made)->spectrometer();
   twins.plan = (*made)->plan();
+  twins.plan.assumed_spacings = {}; // the phantom is made for them
   if (calibration)
     twins.plan.refractive_index = medium_of(twins.plan, twins.calibration);
   if (!calibration) { // the one that fits the simulated spectrometer exactly

@@ -180,6 +180,10 @@ void LiveSource::make_calibrated_camera() {
 
 void LiveSource::make_recordings() {
   const pipeline::ScanPlan& plan = devices_->plan();
+  if (plan.assumed_spacings.any())
+    warn("octascope run: warning: spacings are assumed, not measured: {}; [depth] of a "
+         "calibration gives them\n",
+         plan.assumed_spacings.words());
   recordings_ = std::make_unique<RunRecorder>(
       RecordingSetup{.folder = recording_folder(configuration_),
                      .file = options_.record_to,

@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <fstream>
+#include <limits>
 #include <span>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <variant>
+
+#include <fmt/format.h>
 
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/devices/twins.h"
 #include "hal/linux/monotonic_clock.h"
 #include "pipeline/acquisition/b_scan_builder.h"
 #include "pipeline/acquisition/volume_assembler.h"
+#include "pipeline/files/input_file.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/reconstruction/reconstructor.h"
 #include "pipeline/recordings/recording_reader.h"
@@ -24,13 +27,39 @@ namespace octascope::firmware_host {
 
 namespace {
 
-// HDF5 begins with these bytes, whatever the file is called.
-bool is_recording(const std::filesystem::path& file) {
-  constexpr std::string_view signature{"\x89HDF\r\n\x1a\n", 8};
-  std::array<char, signature.size()> begin{};
-  std::ifstream in{file, std::ios::binary};
-  in.read(begin.data(), begin.size());
-  return in && std::string_view{begin.data(), begin.size()} == signature;
+enum class VolumeFile : std::uint8_t { nrrd, recording };
+
+// By how it begins, whatever it is called. A file that is not there, or is no file, is told as that,
+// before anything else that was asked about it.
+hal::Result<VolumeFile> kind_of(const std::filesystem::path& file) {
+  constexpr std::string_view expected = "a NRRD volume or a recording (HDF5)";
+  constexpr std::string_view recording{"\x89HDF\r\n\x1a\n", 8};
+  const auto input = pipeline::InputFile::open(file, expected, UINT64_MAX);
+  if (!input && input.error().code == hal::ErrorCode::absent)
+    return hal::fail(hal::ErrorCode::absent, "{}: there is no such file, expected {}",
+                     file.string(), expected);
+  if (!input)
+    return tl::make_unexpected(input.error());
+  std::array<char, recording.size()> buffer{};
+  HAL_TRY(const auto filled, input->read(buffer));
+  std::string_view beginning{buffer.data(), filled};
+  if (beginning == recording)
+    return VolumeFile::recording;
+  if (beginning.starts_with("\xEF\xBB\xBF")) // an editor's mark of UTF-8
+    beginning.remove_prefix(3);
+  if (beginning.starts_with("NRRD"))
+    return VolumeFile::nrrd;
+  return hal::fail(hal::ErrorCode::bad_data, "{}: begins like neither, expected {}", file.string(),
+                   expected);
+}
+
+// Not of a NRRD, whose reader says it.
+void remark_assumed(const std::filesystem::path& file, LoadedVolume& loaded) {
+  if (const pipeline::AssumedSpacings& assumed = loaded.volume.geometry.assumed; assumed.any())
+    loaded.remarks.push_back(
+        fmt::format("{}: its spacings are assumed, not measured: {}; [depth] of a "
+                    "calibration gives them",
+                    file.string(), assumed.words()));
 }
 
 hal::Result<LoadedVolume> read_recorded(const std::filesystem::path& file, std::size_t at) {
@@ -45,24 +74,47 @@ hal::Result<LoadedVolume> read_recorded(const std::filesystem::path& file, std::
   const pipeline::RecordingFacts& facts = reader.facts();
   LoadedVolume loaded{pipeline::Volume{facts.geometry}, {facts.subject, facts.eye}};
   HAL_CHECK(reader.read(at, loaded.volume));
+  remark_assumed(file, loaded);
   return loaded;
 }
 
+// As the display's counts. What these cannot hold goes to the nearest, and NaN to the lowest; of
+// minus infinity, the level of no signal at all, nothing is said.
+void quantise(std::span<const float> levels, pipeline::Volume& volume,
+              std::vector<std::string>& remarks) {
+  std::size_t nans = 0;
+  std::size_t outside = 0;
+  std::ranges::transform(levels, volume.levels.begin(), [&](float level) -> std::uint8_t {
+    if (std::isnan(level)) {
+      ++nans;
+      return 0;
+    }
+    const bool beyond = level < pipeline::lowest_level_db || level > pipeline::highest_level_db;
+    if (beyond && level != -std::numeric_limits<float>::infinity())
+      ++outside;
+    return pipeline::quantise_level(level);
+  });
+  if (nans > 0)
+    remarks.push_back(fmt::format("{} of its {} values are NaN, and drawn as the lowest level",
+                                  nans, levels.size()));
+  if (outside > levels.size() / 2)
+    remarks.push_back(fmt::format("{} of its {} values are not within {} to {} dB, beyond which no "
+                                  "level is told apart: are they decibels?",
+                                  outside, levels.size(), pipeline::lowest_level_db,
+                                  pipeline::highest_level_db));
+}
+
 hal::Result<LoadedVolume> read_volume(const std::filesystem::path& file) {
-  HAL_TRY(const auto nrrd, pipeline::read_nrrd(file));
-  pipeline::Volume volume{nrrd.geometry};
-  std::visit(
-      [&](const auto& levels) {
-        std::ranges::transform(levels, volume.levels.begin(), [](auto level) {
-          if constexpr (std::is_same_v<decltype(level), float>)
-            return pipeline::quantise_level(level);
-          else
-            return level;
-        });
-      },
-      nrrd.levels);
-  std::ranges::fill(volume.b_scan_states, pipeline::BScanState::good);
-  return LoadedVolume{std::move(volume), {}};
+  HAL_TRY(auto nrrd, pipeline::read_nrrd(file));
+  LoadedVolume loaded{pipeline::Volume{nrrd.geometry}, {}, std::move(nrrd.remarks)};
+  if (const auto* counts = std::get_if<std::vector<std::uint8_t>>(&nrrd.levels))
+    std::ranges::copy(*counts, loaded.volume.levels.begin());
+  else
+    quantise(std::get<std::vector<float>>(nrrd.levels), loaded.volume, loaded.remarks);
+  for (std::string& remark : loaded.remarks)
+    remark.insert(0, file.string() + ": ");
+  std::ranges::fill(loaded.volume.b_scan_states, pipeline::BScanState::good);
+  return loaded;
 }
 
 // The sweeps of one volume, one after the other, the way the workers take them.
@@ -114,7 +166,10 @@ hal::Result<LoadedVolume> reconstruct(const VolumeRequest& request) {
                // Not whichever is faster just now: the same levels each time.
                .path = pipeline::ReconstructionPath::fftw}));
   HAL_TRY(const auto average, pipeline::NeighbourAverage::create(configuration.neighbour_weights));
-  return LoadedVolume{build_volume(twins, reconstructor, average), {}};
+  LoadedVolume loaded{build_volume(twins, reconstructor, average), {}};
+  if (request.recording) // a phantom is made for its spacings
+    remark_assumed(request.recording->file, loaded);
+  return loaded;
 }
 
 } // namespace
@@ -129,7 +184,8 @@ hal::Result<LoadedVolume> load_volume(const VolumeRequest& request) {
                      sources);
   if (!request.file)
     return reconstruct(request);
-  if (is_recording(*request.file))
+  HAL_TRY(const auto kind, kind_of(*request.file));
+  if (kind == VolumeFile::recording)
     return read_recorded(*request.file, request.at.value_or(0));
   if (request.at)
     return hal::fail(hal::ErrorCode::invalid_argument,

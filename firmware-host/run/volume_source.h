@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "firmware-host/configuration/run_options.h"
 #include "hal/result.h"
@@ -23,7 +24,8 @@ struct VolumeRequest {
 
 struct LoadedVolume {
   pipeline::Volume volume;
-  pipeline::PatientEye whose; // from the recording; otherwise not said
+  pipeline::PatientEye whose;            // from the recording; otherwise not said
+  std::vector<std::string> remarks = {}; // what was assumed or left out, for the user
 };
 
 // As the running appliance would show it: the same calibration, reconstruction and averaging of

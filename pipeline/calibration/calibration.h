@@ -50,6 +50,7 @@ struct Calibration {
   std::optional<double> refractive_index; // of that medium: 1 is air; empty: unknown
   double a_spacing_um = 10;
   double b_spacing_um = 37.5;
+  AssumedSpacings assumed_spacings{true, true, true}; // those that the file does not give
 
   // The whole file, or an Error that names file, line or index, what was found and what was
   // expected. `expected_samples`: samples per line of the spectra.

@@ -298,6 +298,8 @@ void CalibrationReader::read_depth() {
       depth.number("a_spacing_um", calibration_.a_spacing_um, spacing_range_um);
   calibration_.b_spacing_um =
       depth.number("b_spacing_um", calibration_.b_spacing_um, spacing_range_um);
+  calibration_.assumed_spacings = {!depth.has("spacing_um"), !depth.has("a_spacing_um"),
+                                   !depth.has("b_spacing_um")};
 }
 
 // For people only; a calibration that the program found has it.

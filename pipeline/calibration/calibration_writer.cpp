@@ -101,11 +101,18 @@ std::string toml(const FoundCalibration& found, const CurveNames& names) {
   else if (!names.dispersion.empty())
     text += fmt::format("[dispersion]\ntable = {}\nsign = 1\n\n", toml_text(names.dispersion));
   text += options_toml(c, names.background, names.source);
-  text += fmt::format("[depth]{}\nspacing_um = {}\n",
-                      found.spacing_known ? "" : " # not measured: assumed", c.depth_spacing_um);
+  // What is assumed is no key, so that whoever reads the file knows it, too.
+  const auto spacing = [](std::string_view key, double um, bool known) {
+    return known ? fmt::format("{} = {}\n", key, um)
+                 : fmt::format("# {} = {} # assumed, not measured\n", key, um);
+  };
+  // An index without the spacing that it belongs to would be refused.
+  text += "[depth]\n" + spacing("spacing_um", c.depth_spacing_um,
+                                found.spacing_known || c.refractive_index.has_value());
   if (c.refractive_index)
     text += fmt::format("refractive_index = {}\n", *c.refractive_index);
-  text += fmt::format("a_spacing_um = {}\nb_spacing_um = {}\n\n", c.a_spacing_um, c.b_spacing_um);
+  text += spacing("a_spacing_um", c.a_spacing_um, !c.assumed_spacings.a_scans) +
+          spacing("b_spacing_um", c.b_spacing_um, !c.assumed_spacings.b_scans) + "\n";
   const Provenance& p = found.provenance;
   return text + fmt::format("[provenance]\nprogram = {}\nmethod = {}\ninputs = {}\ncreated = {}\n"
                             "verdict = {}\n",

@@ -23,7 +23,7 @@ struct FoundCalibration {
   Calibration calibration; // positions and dispersion go to curve files beside the TOML
   std::vector<double> wavelength_polynomial_nm;  // if not empty, written instead of positions
   std::vector<double> dispersion_polynomial_rad; // if not empty, written instead of phases
-  bool spacing_known = false;                    // if not, [depth] says that the spacing is assumed
+  bool spacing_known = false;                    // if not, [depth] has its spacing as a comment
   Provenance provenance;
 };
 

@@ -1,6 +1,9 @@
-// Volumes as NRRD files: attached header, raw little-endian data, sizes depth A B, spacings in mm.
+// Volumes as NRRD files, axes depth, A-scan, B-scan, with spacings that are converted to and from
+// the files' units.
 //
-// Format: NRRD0005 of the Teem library, so that its `unu` and other viewers can open them.
+// Format: https://teem.sourceforge.net/nrrd/format.html. What is written has an attached header and
+// raw little-endian data, and lies in the volume's frame (pipeline/vessels/registration.h) in mm, so
+// that 3D Slicer, ITK and Teem's `unu` place it there.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +11,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -57,17 +61,27 @@ private:
 // The longest header line in bytes, without its line end; the reader refuses longer ones.
 inline constexpr std::size_t longest_nrrd_line = 4096;
 
+// The key of VolumeGeometry::assumed, in words.
+inline constexpr std::string_view nrrd_assumed_spacings = "assumed_spacings";
+
 struct NrrdVolume {
   VolumeGeometry geometry;
   // In the file's type, [b][a][z], depth fastest.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> levels;
+  std::vector<std::string> remarks = {}; // when read: what was assumed or left out, a sentence each
 };
 
 hal::Result<> write_nrrd(const std::filesystem::path& file, const NrrdVolume& volume);
 
-// Reads files from NrrdWriter, and files from other programs with the same three axes: attached
-// header, type uint8 or float, raw, little-endian, spacings optional (default 1 mm). Refuses
-// anything else, with what was found and what was expected.
+// Reads files from NrrdWriter and from other programs, attached or detached, raw or gzip, of any
+// number type and byte order. 8-bit counts stay what they are (level_scale.h); all other types are
+// levels in dB, and become float. Where the header says otherwise, its scale holds: the keys
+// `lowest_level_db` and `level_step_db`, `old min` and `old max` of quantised values. Refuses what it
+// cannot place or does not know, with what was found, what was expected and the way round.
+// ErrorCode::absent, denied, invalid_argument: as InputFile.
 hal::Result<NrrdVolume> read_nrrd(const std::filesystem::path& file);
+
+// An attached file that is in memory; `name` is for messages.
+hal::Result<NrrdVolume> parse_nrrd(std::span<const std::byte> file, std::string_view name);
 
 } // namespace octascope::pipeline

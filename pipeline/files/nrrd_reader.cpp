@@ -1,18 +1,22 @@
 #include <algorithm>
 #include <array>
-#include <cerrno>
+#include <bit>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <map>
-#include <optional>
+#include <cstring>
+#include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
-#include <system_error>
+#include <type_traits>
 
 #include <fmt/format.h>
 
+#include "pipeline/files/input_file.h"
 #include "pipeline/files/nrrd.h"
+#include "pipeline/files/nrrd_bytes.h"
+#include "pipeline/files/nrrd_header.h"
+#include "pipeline/volume/level_scale.h"
 
 namespace octascope::pipeline {
 
@@ -21,180 +25,297 @@ using hal::ErrorCode;
 
 namespace {
 
-using Fields = std::map<std::string, std::string, std::less<>>;
+constexpr std::string_view expected_file = "a NRRD volume";
 
-// A header is small: what has none in its first lines is no NRRD file.
-constexpr int most_header_lines = 256;
+enum class ValueType : std::uint8_t {
+  int8,
+  uint8,
+  int16,
+  uint16,
+  int32,
+  uint32,
+  int64,
+  uint64,
+  float32,
+  float64
+};
+
+// As the format spells them, and all other spellings that it knows.
+struct TypeName {
+  std::string_view name;
+  ValueType type;
+};
+constexpr TypeName type_names[] = {{"signed char", ValueType::int8},
+                                   {"int8", ValueType::int8},
+                                   {"int8_t", ValueType::int8},
+                                   {"uchar", ValueType::uint8},
+                                   {"unsigned char", ValueType::uint8},
+                                   {"uint8", ValueType::uint8},
+                                   {"uint8_t", ValueType::uint8},
+                                   {"short", ValueType::int16},
+                                   {"short int", ValueType::int16},
+                                   {"signed short", ValueType::int16},
+                                   {"signed short int", ValueType::int16},
+                                   {"int16", ValueType::int16},
+                                   {"int16_t", ValueType::int16},
+                                   {"ushort", ValueType::uint16},
+                                   {"unsigned short", ValueType::uint16},
+                                   {"unsigned short int", ValueType::uint16},
+                                   {"uint16", ValueType::uint16},
+                                   {"uint16_t", ValueType::uint16},
+                                   {"int", ValueType::int32},
+                                   {"signed int", ValueType::int32},
+                                   {"int32", ValueType::int32},
+                                   {"int32_t", ValueType::int32},
+                                   {"uint", ValueType::uint32},
+                                   {"unsigned int", ValueType::uint32},
+                                   {"uint32", ValueType::uint32},
+                                   {"uint32_t", ValueType::uint32},
+                                   {"longlong", ValueType::int64},
+                                   {"long long", ValueType::int64},
+                                   {"long long int", ValueType::int64},
+                                   {"signed long long", ValueType::int64},
+                                   {"signed long long int", ValueType::int64},
+                                   {"int64", ValueType::int64},
+                                   {"int64_t", ValueType::int64},
+                                   {"ulonglong", ValueType::uint64},
+                                   {"unsigned long long", ValueType::uint64},
+                                   {"unsigned long long int", ValueType::uint64},
+                                   {"uint64", ValueType::uint64},
+                                   {"uint64_t", ValueType::uint64},
+                                   {"float", ValueType::float32},
+                                   {"double", ValueType::float64}};
+
+// Calls `use` with a value of the type.
+template <class Use> auto with_type(ValueType type, Use use) {
+  switch (type) {
+  case ValueType::int8: return use(std::int8_t{});
+  case ValueType::uint8: return use(std::uint8_t{});
+  case ValueType::int16: return use(std::int16_t{});
+  case ValueType::uint16: return use(std::uint16_t{});
+  case ValueType::int32: return use(std::int32_t{});
+  case ValueType::uint32: return use(std::uint32_t{});
+  case ValueType::int64: return use(std::int64_t{});
+  case ValueType::uint64: return use(std::uint64_t{});
+  case ValueType::float64: return use(double{});
+  case ValueType::float32: break;
+  }
+  return use(float{});
+}
+
+// What a stored value means: level = at_zero + value × step.
+struct Scale {
+  double at_zero = 0;
+  double step = 1;
+
+  Scale behind(const Scale& first) const {
+    return {at_zero + first.at_zero * step, first.step * step};
+  }
+  bool operator==(const Scale&) const = default;
+};
+
+template <class Value> Value value_at(const std::byte* at, bool swap) {
+  std::array<std::byte, sizeof(Value)> bytes;
+  std::memcpy(bytes.data(), at, sizeof(Value));
+  if (swap)
+    std::ranges::reverse(bytes);
+  return std::bit_cast<Value>(bytes);
+}
+
+template <class Value, class Level>
+hal::Result<std::vector<Level>> read_levels(const NrrdHeader& header, NrrdBytes& bytes,
+                                            const NrrdSize& size, bool swap, const Scale& scale) {
+  const std::size_t count = size.bytes / sizeof(Value);
+  constexpr std::size_t values_at_once = std::size_t{1} << 16;
+  std::vector<std::byte> some(std::min(count, values_at_once) * sizeof(Value));
+  std::vector<Level> levels(count);
+  for (std::size_t done = 0; done < count; done += values_at_once) {
+    const std::size_t values = std::min(count - done, values_at_once);
+    HAL_TRY(const auto got, bytes.read(std::span{some}.first(values * sizeof(Value))));
+    if (got < values * sizeof(Value))
+      return size.refuse(header, done * sizeof(Value) + got);
+    for (std::size_t i = 0; i < values; ++i) {
+      const auto value = value_at<Value>(some.data() + i * sizeof(Value), swap);
+      if constexpr (std::is_same_v<Level, std::uint8_t>)
+        levels[done + i] = value;
+      else
+        levels[done + i] =
+            static_cast<float>(scale.at_zero + static_cast<double>(value) * scale.step);
+    }
+  }
+  return levels;
+}
 
 class NrrdReader {
 public:
-  explicit NrrdReader(fs::path file) : file_(std::move(file)) {}
+  explicit NrrdReader(NrrdHeader header) : header_(std::move(header)) {}
 
-  hal::Result<NrrdVolume> read();
+  // `data`: the data file's bytes, or those behind an attached header.
+  hal::Result<NrrdVolume> read(std::span<const std::byte> data);
 
 private:
-  tl::unexpected<hal::Error> refuse(std::string_view found, std::string_view expected) const {
-    return hal::fail(ErrorCode::bad_data, "{}: found {}, expected {}", file_.string(), found,
-                     expected);
-  }
-  hal::Result<> open();
-  hal::Result<> read_fields();
-  std::optional<std::string> next_line();
-  hal::Result<> expect(std::string_view field, std::initializer_list<std::string_view> values);
-  template <class Number> hal::Result<std::array<Number, 3>> three(std::string_view field) const;
-  hal::Result<VolumeGeometry> geometry() const;
-  template <class Voxel> hal::Result<NrrdVolume> read_voxels(const VolumeGeometry& geometry);
+  hal::Result<> check_dimension() const;
+  hal::Result<ValueType> type() const;
+  hal::Result<bool> swapped(ValueType type) const;
+  hal::Result<Scale> scale_of_keys(ValueType type) const;
+  hal::Result<Scale> scale(ValueType type) const;
+  hal::Result<> note_what_follows(NrrdBytes& bytes, std::size_t b_scan_bytes);
 
-  fs::path file_;
-  std::ifstream in_;
-  Fields fields_;
+  NrrdHeader header_;
+  std::vector<std::string> remarks_;
 };
 
-hal::Result<NrrdVolume> NrrdReader::read() {
-  HAL_CHECK(open());
-  HAL_CHECK(read_fields()
-                .and_then([&] { return expect("dimension", {"3"}); })
-                .and_then([&] { return expect("encoding", {"raw"}); })
-                .and_then([&] {
-                  return expect("type", {"uint8", "uchar", "unsigned char", "float"});
-                }));
-  const bool is_float = fields_["type"] == "float";
-  if (is_float || fields_.contains("endian")) {
-    HAL_CHECK(expect("endian", {"little"}));
-  }
-  HAL_TRY(const auto found, geometry());
-  return is_float ? read_voxels<float>(found) : read_voxels<std::uint8_t>(found);
+hal::Result<NrrdVolume> NrrdReader::read(std::span<const std::byte> data) {
+  HAL_CHECK(check_dimension());
+  HAL_TRY(const auto type, this->type());
+  HAL_TRY(const bool swap, swapped(type));
+  HAL_TRY(const auto scale, this->scale(type));
+  HAL_TRY(const auto geometry, nrrd_geometry(header_, remarks_));
+  return with_type(type, [&](auto zero) -> hal::Result<NrrdVolume> {
+    using Value = decltype(zero);
+    const std::size_t count = geometry.voxels();
+    const NrrdSize size{count * sizeof(Value),
+                        fmt::format("{} = {} × {} × {} × {}", count * sizeof(Value),
+                                    geometry.depths, geometry.a_scans, geometry.b_scans,
+                                    sizeof(Value))};
+    HAL_TRY(const auto bytes, NrrdBytes::open(header_, data, size));
+    NrrdVolume volume{geometry, {}};
+    if (std::is_same_v<Value, std::uint8_t> && scale == Scale{lowest_level_db, level_step_db}) {
+      HAL_TRY(volume.levels,
+              read_levels<std::uint8_t, std::uint8_t>(header_, *bytes, size, swap, scale));
+    } else {
+      HAL_TRY(volume.levels, read_levels<Value, float>(header_, *bytes, size, swap, scale));
+    }
+    HAL_CHECK(note_what_follows(*bytes, geometry.b_scan_voxels() * sizeof(Value)));
+    volume.remarks = std::move(remarks_);
+    return volume;
+  });
 }
 
-hal::Result<> NrrdReader::open() {
-  std::error_code error;
-  const fs::file_status status = fs::status(file_, error);
-  if (status.type() == fs::file_type::not_found)
-    return hal::fail(ErrorCode::absent, "{}: there is no such file, expected a NRRD volume",
-                     file_.string());
-  if (!fs::is_regular_file(status))
-    return refuse(fs::is_directory(status) ? "a directory" : "no regular file", "a NRRD volume");
-  in_.open(file_, std::ios::binary);
-  if (!in_)
-    return hal::fail(ErrorCode::denied, "{}: cannot be opened: {}", file_.string(),
-                     std::generic_category().message(errno));
+hal::Result<> NrrdReader::check_dimension() const {
+  HAL_TRY(const auto dimension, header_.integer("dimension"));
+  if (dimension != 3)
+    return header_.refuse_field("dimension", "3: depth, A-scans, B-scans; `unu slice` takes one "
+                                             "volume out of several");
   return {};
 }
 
-// Without its end; nothing at the end of the file or when the line is longer than any of a header.
-std::optional<std::string> NrrdReader::next_line() {
-  std::string line;
-  for (int c = in_.get(); c != std::char_traits<char>::eof(); c = in_.get()) {
-    if (c == '\n') {
-      if (!line.empty() && line.back() == '\r')
-        line.pop_back();
-      return line;
-    }
-    if (line.size() == longest_nrrd_line)
-      return std::nullopt;
-    line.push_back(static_cast<char>(c));
+hal::Result<ValueType> NrrdReader::type() const {
+  const std::string* found = header_.find("type");
+  if (found != nullptr) {
+    const auto* const known =
+        std::ranges::find(type_names, in_small_letters(*found), &TypeName::name);
+    if (known != std::end(type_names))
+      return known->type;
   }
-  return std::nullopt;
+  return header_.refuse_field("type", "uint8, float, double or an integer of 8 to 64 bits");
 }
 
-hal::Result<> NrrdReader::read_fields() {
-  const auto magic = next_line();
-  if (!magic || magic->size() != 8 || !magic->starts_with("NRRD000"))
-    return refuse("no NRRD magic in its first line", "NRRD0001 to NRRD0005");
-  for (int count = 0; count < most_header_lines; ++count) {
-    const auto line = next_line();
-    if (!line)
-      return refuse("a header that does not end", "an empty line before the data");
-    if (line->empty())
-      return {};
-    const std::size_t colon = line->find(':');
-    const bool key_and_value = colon != std::string::npos && line->substr(colon, 2) == ":=";
-    if (line->front() == '#' || key_and_value)
-      continue;
-    if (colon == std::string::npos || line->substr(colon, 2) != ": ")
-      return refuse(fmt::format("the header line \"{}\"", *line), "\"field: value\"");
-    const std::string name = line->substr(0, colon);
-    if (name == "data file" || name == "datafile" || name.find("skip") != std::string::npos)
-      return refuse(fmt::format("the field \"{}\"", name), "the data right behind the header");
-    if (!fields_.emplace(name, line->substr(colon + 2)).second)
-      return refuse(fmt::format("the field \"{}\" twice", name), "it once");
-  }
-  return refuse(fmt::format("more than {} header lines", most_header_lines), "fewer");
+hal::Result<bool> NrrdReader::swapped(ValueType type) const {
+  if (with_type(type, [](auto zero) { return sizeof(zero); }) == 1)
+    return false;
+  const std::string* found = header_.find("endian");
+  const std::string order = found == nullptr ? "" : in_small_letters(*found);
+  if (order == "little" || order == "big")
+    return order == "big";
+  return header_.refuse_field("endian", "little or big, for a type of several bytes");
 }
 
-hal::Result<> NrrdReader::expect(std::string_view field,
-                                 std::initializer_list<std::string_view> values) {
-  const auto found = fields_.find(field);
-  if (found == fields_.end())
-    return refuse(fmt::format("no field \"{}\"", field), "it in the header");
-  if (std::ranges::find(values, found->second) == values.end())
-    return refuse(fmt::format("{}: {}", field, found->second),
-                  fmt::format("{}: {}", field, *values.begin()));
+// Ours write them for 8-bit counts; they hold for whatever type another program made of these.
+hal::Result<Scale> NrrdReader::scale_of_keys(ValueType type) const {
+  const auto number = [&](std::string_view key, double otherwise) -> hal::Result<double> {
+    const std::string* text = header_.find_key(key);
+    if (text == nullptr)
+      return otherwise;
+    double value = 0;
+    const char* const end = text->data() + text->size();
+    const auto [stop, error] = std::from_chars(text->data(), end, value);
+    if (error != std::errc{} || stop != end || !std::isfinite(value))
+      return header_.refuse(fmt::format("{}:={}", key, text->substr(0, 80)), "a number");
+    return value;
+  };
+  const bool counts = type == ValueType::uint8 && header_.find("old min") == nullptr;
+  Scale scale;
+  HAL_TRY(scale.at_zero, number("lowest_level_db", counts ? lowest_level_db : 0));
+  HAL_TRY(scale.step, number("level_step_db", counts ? level_step_db : 1));
+  return scale;
+}
+
+// With `old min` and `old max` integers are what they were quantised to, as `unu quantize` does it:
+// 2^bits cells, a value in the middle of its cell.
+hal::Result<Scale> NrrdReader::scale(ValueType type) const {
+  HAL_TRY(const auto of_keys, scale_of_keys(type));
+  const bool is_float = type == ValueType::float32 || type == ValueType::float64;
+  if (is_float || (header_.find("old min") == nullptr && header_.find("old max") == nullptr))
+    return of_keys;
+  std::array<double, 2> range{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const char* const field = i == 0 ? "old min" : "old max";
+    const std::string* text = header_.find(field);
+    const char* const end = text == nullptr ? nullptr : text->data() + text->size();
+    if (text == nullptr || std::from_chars(text->data(), end, range[i]).ptr != end ||
+        !std::isfinite(range[i]))
+      return header_.refuse_field(field, "a number; both old min and old max, or neither");
+  }
+  return with_type(type, [&](auto zero) -> Scale {
+    using Limits = std::numeric_limits<decltype(zero)>;
+    const double least = static_cast<double>(Limits::lowest());
+    const double step = (range[1] - range[0]) / (static_cast<double>(Limits::max()) - least + 1);
+    return of_keys.behind({range[0] + (0.5 - least) * step, step});
+  });
+}
+
+// As teem does, less than a B-scan behind the volume is no part of it; more says that sizes or type
+// are not those of the data.
+hal::Result<> NrrdReader::note_what_follows(NrrdBytes& bytes, std::size_t b_scan_bytes) {
+  std::array<std::byte, 4096> some{};
+  std::size_t surplus = 0;
+  for (std::size_t got = some.size(); got == some.size() && surplus < b_scan_bytes;) {
+    HAL_TRY(got, bytes.read(some));
+    surplus += got;
+  }
+  if (surplus >= b_scan_bytes)
+    return header_.refuse("data for more B-scans than sizes says",
+                          "sizes and type to be those of the data");
+  if (surplus > 0)
+    remarks_.push_back(fmt::format("{} bytes behind the volume are left out", surplus));
   return {};
 }
 
-template <class Number>
-hal::Result<std::array<Number, 3>> NrrdReader::three(std::string_view field) const {
-  const auto found = fields_.find(field);
-  if (found == fields_.end())
-    return refuse(fmt::format("no field \"{}\"", field), "it in the header");
-  std::array<Number, 3> numbers{};
-  const char* at = found->second.data();
-  const char* const end = at + found->second.size();
-  for (Number& number : numbers) {
-    while (at != end && *at == ' ')
-      ++at;
-    const auto [stop, error] = std::from_chars(at, end, number);
-    if (error != std::errc{})
-      return refuse(fmt::format("{}: {}", field, found->second), "three numbers");
-    at = stop;
-  }
-  if (!std::all_of(at, end, [](char c) { return c == ' '; }))
-    return refuse(fmt::format("{}: {}", field, found->second), "three numbers");
-  return numbers;
-}
-
-hal::Result<VolumeGeometry> NrrdReader::geometry() const {
-  HAL_TRY(const auto sizes, three<int>("sizes"));
-  constexpr int most = 1 << 20; // three of them stay within 64 bits
-  for (const int size : sizes) {
-    if (size < 1 || size > most)
-      return refuse(fmt::format("the size {}", size), fmt::format("1 to {}", most));
-  }
-  VolumeGeometry geometry{sizes[0], sizes[1], sizes[2], 1000, 1000, 1000};
-  if (fields_.contains("spacings")) {
-    HAL_TRY(const auto spacings_mm, three<double>("spacings"));
-    for (const double spacing : spacings_mm) {
-      if (!std::isfinite(spacing) || spacing <= 0)
-        return refuse(fmt::format("the spacing {}", spacing), "more than 0 mm");
-    }
-    geometry.depth_spacing_um = spacings_mm[0] * 1000;
-    geometry.a_spacing_um = spacings_mm[1] * 1000;
-    geometry.b_spacing_um = spacings_mm[2] * 1000;
-  }
-  return geometry;
-}
-
-template <class Voxel>
-hal::Result<NrrdVolume> NrrdReader::read_voxels(const VolumeGeometry& geometry) {
-  const auto header_bytes = static_cast<std::uintmax_t>(in_.tellg());
-  std::error_code error;
-  const std::uintmax_t found = fs::file_size(file_, error) - header_bytes;
-  const std::uintmax_t expected = geometry.voxels() * sizeof(Voxel);
-  if (error || found != expected)
-    return refuse(fmt::format("{} bytes of data", found),
-                  fmt::format("{} = {} × {} × {} × {}", expected, geometry.depths, geometry.a_scans,
-                              geometry.b_scans, sizeof(Voxel)));
-  std::vector<Voxel> voxels(geometry.voxels());
-  if (!in_.read(reinterpret_cast<char*>(voxels.data()), static_cast<std::streamsize>(expected)))
-    return hal::fail(ErrorCode::system, "{}: cannot be read to its end", file_.string());
-  return NrrdVolume{geometry, std::move(voxels)};
+std::string_view text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 } // namespace
 
+hal::Result<NrrdVolume> parse_nrrd(std::span<const std::byte> file, std::string_view name) {
+  HAL_TRY(auto header, NrrdHeader::parse(text_of(file), std::string{name}));
+  if (header.find("data file") != nullptr)
+    return header.refuse_field("data file", "the data behind the header");
+  const auto data = file.subspan(header.bytes());
+  return NrrdReader{std::move(header)}.read(data);
+}
+
 hal::Result<NrrdVolume> read_nrrd(const fs::path& file) {
-  return NrrdReader{file}.read();
+  HAL_TRY(const auto input, InputFile::open(file, expected_file, UINT64_MAX));
+  if (input.bytes() == 0)
+    return hal::fail(ErrorCode::bad_data, "{}: is empty, expected {}", file.string(),
+                     expected_file);
+  HAL_TRY(const auto mapped, input.map());
+  HAL_TRY(auto header, NrrdHeader::parse(text_of(mapped.bytes()), file.string()));
+  if (header.find("data file") == nullptr) {
+    const auto data = mapped.bytes().subspan(header.bytes());
+    return NrrdReader{std::move(header)}.read(data);
+  }
+  const fs::path data_path = file.parent_path() / *header.find("data file");
+  HAL_TRY(
+      const auto data,
+      InputFile::open(data_path, fmt::format("the data file of {}", file.string()), UINT64_MAX));
+  if (data.bytes() == 0)
+    return hal::fail(ErrorCode::bad_data, "{}: is empty, expected the data of {}",
+                     data_path.string(), file.string());
+  HAL_TRY(const auto mapped_data, data.map());
+  return NrrdReader{std::move(header)}.read(mapped_data.bytes());
 }
 
 } // namespace octascope::pipeline

@@ -40,15 +40,24 @@ std::string header(const VolumeGeometry& g, NrrdType type, const NrrdNotes& note
   text += fmt::format("type: {}\n", type == NrrdType::uint8 ? "uint8" : "float");
   text += "dimension: 3\n";
   text += fmt::format("sizes: {} {} {}\n", g.depths, g.a_scans, g.b_scans);
-  // Twelve digits: a division by 1000 leaves dust in the last of the sixteen.
-  text += fmt::format("spacings: {:.12g} {:.12g} {:.12g}\n", g.depth_spacing_um / 1000,
-                      g.a_spacing_um / 1000, g.b_spacing_um / 1000);
-  text += "units: \"mm\" \"mm\" \"mm\"\n"
+  // The frame of pipeline/vessels/registration.h, whose origin is the first voxel's corner; that of
+  // the format is its middle. Twelve digits: a division by 1000 leaves dust in the last of the
+  // sixteen.
+  const double depth = g.depth_spacing_um / 1000;
+  const double a = g.a_spacing_um / 1000;
+  const double b = g.b_spacing_um / 1000;
+  text += "space: 3D-right-handed\n"
+          "space units: \"mm\" \"mm\" \"mm\"\n";
+  text += fmt::format("space directions: (0,0,{:.12g}) ({:.12g},0,0) (0,{:.12g},0)\n", depth, a, b);
+  text += fmt::format("space origin: ({:.12g},{:.12g},{:.12g})\n", a / 2, b / 2, depth / 2);
+  text += "kinds: domain domain domain\n"
           "labels: \"depth\" \"A-scan\" \"B-scan\"\n"
           "endian: little\n"
           "encoding: raw\n";
   if (type == NrrdType::uint8)
     text += fmt::format("lowest_level_db:={}\nlevel_step_db:={}\n", lowest_level_db, level_step_db);
+  if (g.assumed.any())
+    text += fmt::format("{}:={}\n", nrrd_assumed_spacings, g.assumed.words());
   if (g.refractive_index)
     text += fmt::format("refractive_index:={}\n", *g.refractive_index);
   for (const auto& [key, value] : notes)

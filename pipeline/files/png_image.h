@@ -41,7 +41,18 @@ hal::Result<> write_png(const std::filesystem::path& file, const Image& image,
 // Grey files become grey, all others RGB; transparent pixels are blended onto black.
 hal::Result<Image> read_png(const std::filesystem::path& file);
 
-// The same, but files with transparency become RGB and opacity, not premultiplied.
-hal::Result<Image> read_png_with_opacity(const std::filesystem::path& file);
+// A picture whose pixels are numbers: value / greatest, as they are in the file.
+struct NumberImage {
+  int width = 0;
+  int height = 0;
+  int channels = 0;                  // 1: grey, 2: grey and opacity, 3: RGB, 4: RGB and opacity
+  int greatest = 0;                  // 255 or 65535
+  std::vector<std::uint16_t> values; // rows from the top without padding
+};
+
+// What a file says about colour (gAMA, sRGB, cHRM, iCCP) changes nothing, opacity is not multiplied
+// in, and 16 bits stay 16; a palette is resolved, and 1, 2 and 4 bits become 8. Up to `most_pixels`
+// on each side. ErrorCode::absent, denied, invalid_argument: as InputFile.
+hal::Result<NumberImage> read_png_numbers(const std::filesystem::path& file, int most_pixels);
 
 } // namespace octascope::pipeline

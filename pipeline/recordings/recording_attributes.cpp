@@ -150,6 +150,10 @@ public:
       error_ = bad(name, fmt::format("found {}, expected more than zero", value)).value();
   }
   // Older recordings do not have it.
+  void read_if_there(const char* name, std::string& value) {
+    if (H5Aexists(file_, name) > 0)
+      read(name, value);
+  }
   void read(const char* name, std::optional<double>& value) {
     if (error_ || H5Aexists(file_, name) <= 0)
       return;
@@ -194,6 +198,7 @@ bool write_facts(hid_t file, const RecordingFacts& facts) {
          write_real(file, "depth_spacing_um", g.depth_spacing_um) &&
          write_real(file, "a_spacing_um", g.a_spacing_um) &&
          write_real(file, "b_spacing_um", g.b_spacing_um) &&
+         write_text(file, "assumed_spacings", g.assumed.words()) &&
          write_real(file, "refractive_index", g.refractive_index.value_or(medium_not_said)) &&
          write_real(file, "volume_period_s", facts.volume_period_s) &&
          write_text(file, "recorded_by", facts.recorded_by) &&
@@ -219,6 +224,9 @@ hal::Result<RecordingFacts> read_facts(hid_t file) {
   reader.read("depth_spacing_um", facts.geometry.depth_spacing_um);
   reader.read("a_spacing_um", facts.geometry.a_spacing_um);
   reader.read("b_spacing_um", facts.geometry.b_spacing_um);
+  std::string assumed;
+  reader.read_if_there("assumed_spacings", assumed);
+  facts.geometry.assumed = AssumedSpacings::parse(assumed);
   reader.read("refractive_index", facts.geometry.refractive_index);
   reader.read("volume_period_s", facts.volume_period_s);
   reader.read("recorded_by", facts.recorded_by);

@@ -32,6 +32,7 @@ struct ScanPlan {
   double a_spacing_um = 10;
   double b_spacing_um = 37.5;
   std::optional<double> refractive_index{}; // in which depth_spacing_um holds; empty: unknown
+  AssumedSpacings assumed_spacings{};
 
   bool bidirectional = false;
   int turn_around_lines = 8; // bidirectional: at the end of each frame; best no fewer than the lag
@@ -68,7 +69,8 @@ struct ScanPlan {
             depth_spacing_um / zero_padding,
             a_spacing_um,
             b_spacing_um,
-            refractive_index};
+            refractive_index,
+            assumed_spacings};
   }
 
   // Counts within reason and positive rates and spacings; the message names the first that is not,

@@ -24,11 +24,12 @@ hal::Result<> check_size(const SpectraRecording& r) {
   const std::uint64_t expected = static_cast<std::uint64_t>(r.b_scans) *
                                  static_cast<std::uint64_t>(r.a_scans) *
                                  static_cast<std::uint64_t>(r.samples_per_line);
-  if (r.samples.size() == expected)
+  const std::uint64_t found = r.samples.size() / bytes_per_sample(r.type);
+  if (found == expected)
     return {};
   return hal::fail(ErrorCode::invalid_argument,
                    "{}: has {} samples, expected {} for {} B-scans of {} A-scans of {} samples",
-                   r.name, r.samples.size(), expected, r.b_scans, r.a_scans, r.samples_per_line);
+                   r.name, found, expected, r.b_scans, r.a_scans, r.samples_per_line);
 }
 
 } // namespace
@@ -42,6 +43,7 @@ hal::Result<std::unique_ptr<RecordedSpectra>> RecordedSpectra::make(SpectraRecor
           .and_then(
               [&] { return check_count(r, "the number of samples", r.samples_per_line, 1, most); })
           .and_then([&] { return check_count(r, "significant_bits", r.significant_bits, 1, 16); })
+          .and_then([&] { return check_count(r, "right_shift", r.right_shift, 0, 15); })
           .and_then([&] { return check_count(r, "fly_back_lines", fly_back_lines, 0, most); })
           .and_then([&] { return check_size(r); }));
   return std::unique_ptr<RecordedSpectra>{
@@ -52,16 +54,16 @@ RecordedSpectra::RecordedSpectra(SpectraRecording recording, int fly_back_lines)
     : recording_(std::move(recording)), format_{.samples_per_line = recording_.samples_per_line,
                                                 .lines_per_frame =
                                                     recording_.a_scans + fly_back_lines,
-                                                .sample_type = hal::SampleType::u16,
+                                                .sample_type = recording_.type,
                                                 .significant_bits = recording_.significant_bits,
-                                                .right_shift = 0},
+                                                .right_shift = recording_.right_shift},
       frame_samples_(recording_.samples) {
   if (fly_back_lines > 0)
     add_fly_back(fly_back_lines);
 }
 
 void RecordedSpectra::add_fly_back(int fly_back_lines) {
-  const auto line = static_cast<std::size_t>(recording_.samples_per_line);
+  const std::size_t line = format_.line_bytes();
   const auto a_scans = static_cast<std::size_t>(recording_.a_scans);
   const auto back = static_cast<std::size_t>(fly_back_lines);
   with_fly_back_.resize(static_cast<std::size_t>(recording_.b_scans) * (a_scans + back) * line);
@@ -79,8 +81,7 @@ void RecordedSpectra::add_fly_back(int fly_back_lines) {
 
 std::span<const std::byte> RecordedSpectra::frame(std::uint64_t, int b_scan) const {
   const std::size_t frame_bytes = format_.frame_bytes();
-  return std::as_bytes(frame_samples_)
-      .subspan(static_cast<std::size_t>(b_scan) * frame_bytes, frame_bytes);
+  return frame_samples_.subspan(static_cast<std::size_t>(b_scan) * frame_bytes, frame_bytes);
 }
 
 std::string RecordedSpectra::description() const {

@@ -13,14 +13,16 @@
 namespace octascope::sim {
 
 // One volume of raw spectra in the order [sweep][line][sample] (for a plain scan: B-scan and
-// A-scan), 16-bit counts in the machine's (little-endian) byte order. The caller opens the file;
+// A-scan), counts in the machine's (little-endian) byte order. The caller opens the file;
 // `keep_alive` owns the memory of `samples`.
 struct SpectraRecording {
-  std::span<const std::uint16_t> samples;
+  std::span<const std::byte> samples;
+  hal::SampleType type = hal::SampleType::u16; // u8 or u16
   int b_scans = 0;
   int a_scans = 0;
   int samples_per_line = 0;
   int significant_bits = 16;
+  int right_shift = 0;
   std::string name; // of the file, for display
   std::shared_ptr<const void> keep_alive;
 };
@@ -45,8 +47,8 @@ private:
 
   SpectraRecording recording_;
   hal::LineFormat format_;
-  std::vector<std::uint16_t> with_fly_back_;     // empty if there is none
-  std::span<const std::uint16_t> frame_samples_; // all frames, contiguous
+  std::vector<std::byte> with_fly_back_;     // empty if there is none
+  std::span<const std::byte> frame_samples_; // all frames, contiguous
 };
 
 } // namespace octascope::sim

@@ -36,7 +36,8 @@ def read_volume(path):
         if separator:
             fields[key] = value
     sizes = [int(size) for size in fields["sizes"].split()]
-    spacings = [float(spacing) for spacing in fields["spacings"].split()]
+    directions = fields["space directions"].strip("()").split(") (")
+    spacings = [math.hypot(*map(float, direction.split(","))) for direction in directions]
     if fields["type"] not in ("uint8", "unsigned char", "uchar"):
         sys.exit(f"{path}: type is {fields['type']}, expected uint8")
     levels = numpy.frombuffer(content, numpy.uint8, math.prod(sizes), end)

@@ -15,7 +15,7 @@ SpectraRecording recording() {
     for (int a = 0; a < 4; ++a)
       for (int n = 0; n < 3; ++n)
         counts->push_back(static_cast<std::uint16_t>(100 * b + 10 * a + n));
-  return {.samples = *counts,
+  return {.samples = std::as_bytes(std::span{*counts}),
           .b_scans = 2,
           .a_scans = 4,
           .samples_per_line = 3,
@@ -41,7 +41,7 @@ TEST(RecordedSpectra, plays_the_recording_where_it_lies_for_ever) {
                                                .significant_bits = 16,
                                                .right_shift = 0}));
   EXPECT_EQ(spectra.sweeps(), 2);
-  EXPECT_EQ(spectra.frame(7, 0).data(), std::as_bytes(original.samples).data());
+  EXPECT_EQ(spectra.frame(7, 0).data(), original.samples.data());
   EXPECT_EQ(first_samples(spectra.frame(1'000'000, 1)), (std::vector{100, 110, 120, 130}));
   EXPECT_THAT(spectra.description(), HasSubstr("recording mirror.raw"));
 }

@@ -22,7 +22,7 @@ inline std::unique_ptr<RecordedSpectra> numbered_spectra(int b_scans, int lines,
     for (int line = 0; line < lines; ++line)
       for (int n = 0; n < samples; ++n)
         counts->push_back(static_cast<std::uint16_t>(b * 512 + line * 16 + n % 16));
-  auto spectra = RecordedSpectra::make({.samples = *counts,
+  auto spectra = RecordedSpectra::make({.samples = std::as_bytes(std::span{*counts}),
                                         .b_scans = b_scans,
                                         .a_scans = lines,
                                         .samples_per_line = samples,

@@ -50,7 +50,7 @@ hal::Result<LookUpTable> read_text(const fs::path& file) {
 // The picture's longer side along `entries`, the other across.
 class Strip {
 public:
-  explicit Strip(const pipeline::Image& image)
+  explicit Strip(const pipeline::NumberImage& image)
       : image_{image}, lies_{image.width >= image.height}, entries_{static_cast<std::size_t>(
                                                                std::max(image.width,
                                                                         image.height))},
@@ -58,20 +58,20 @@ public:
 
   std::size_t entries() const { return entries_; }
   std::size_t rows() const { return rows_; }
-  std::span<const std::uint8_t> pixel(std::size_t entry, std::size_t row) const {
+  std::span<const std::uint16_t> pixel(std::size_t entry, std::size_t row) const {
     const auto channels = static_cast<std::size_t>(image_.channels);
     const std::size_t at = lies_ ? row * entries_ + entry : entry * rows_ + row;
-    return std::span{image_.pixels}.subspan(at * channels, channels);
+    return std::span{image_.values}.subspan(at * channels, channels);
   }
 
 private:
-  const pipeline::Image& image_;
+  const pipeline::NumberImage& image_;
   bool lies_;
   std::size_t entries_;
   std::size_t rows_;
 };
 
-hal::Result<> check(const fs::path& file, const pipeline::Image& image, const Strip& strip) {
+hal::Result<> check(const fs::path& file, const pipeline::NumberImage& image, const Strip& strip) {
   const auto refuse = [&](std::string found) {
     return hal::fail(ErrorCode::bad_data,
                      "{}: found {}, expected a strip of 2 to {} pixels whose rows along it are all "
@@ -88,21 +88,24 @@ hal::Result<> check(const fs::path& file, const pipeline::Image& image, const St
 }
 
 hal::Result<LookUpTable> read_strip(const fs::path& file) {
-  HAL_TRY(const auto image, pipeline::read_png_with_opacity(file));
+  HAL_TRY(const auto image, pipeline::read_png_numbers(file, most_entries));
   const Strip strip{image};
   HAL_CHECK(check(file, image, strip));
   LookUpTable table;
   std::vector<TransferTable::Colour> colours;
   for (std::size_t entry = 0; entry < strip.entries(); ++entry) {
     std::array<float, 4> values{};
-    std::ranges::transform(strip.pixel(entry, 0), values.begin(),
-                           [](std::uint8_t value) { return static_cast<float>(value) / 255; });
+    std::ranges::transform(strip.pixel(entry, 0), values.begin(), [&](std::uint16_t value) {
+      return static_cast<float>(value) / static_cast<float>(image.greatest);
+    });
     const float ramp = static_cast<float>(entry) / static_cast<float>(strip.entries() - 1);
-    table.opacities.push_back(image.channels == 1   ? values[0]
-                              : image.channels == 4 ? values[3]
-                                                    : ramp);
+    const bool grey = image.channels <= 2;
+    const bool with_opacity = image.channels % 2 == 0;
+    table.opacities.push_back(with_opacity ? values[static_cast<std::size_t>(image.channels) - 1]
+                              : grey       ? values[0]
+                                           : ramp);
     if (image.channels > 1)
-      colours.push_back({values[0], values[1], values[2]});
+      colours.push_back({values[0], values[grey ? 0 : 1], values[grey ? 0 : 2]});
   }
   if (!colours.empty())
     table.colours = std::move(colours);

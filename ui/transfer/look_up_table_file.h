@@ -18,7 +18,8 @@ struct LookUpTable {
 
 // The extension selects the format:
 // - .png: a strip along its longer side, from the left or from the top, constant across. Grey is
-//   opacity; RGB is colour, with the window's own ramp as opacity; RGB with transparency is both.
+//   opacity; RGB is colour, with the window's own ramp as opacity; with transparency it is both. An
+//   entry is a pixel's value / 255, or with 16 bits / 65535, whatever the file says about colour.
 // - any other: text, one entry per line, `opacity` or `red, green, blue, opacity`, all from 0 to 1;
 //   for the syntax see pipeline/files/text_curve.h.
 // The error names file and line, what was found, what was expected and what to do.

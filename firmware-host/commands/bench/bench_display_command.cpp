@@ -72,6 +72,8 @@ int run(const BenchDisplayArguments& arguments) {
   const auto loaded = load_volume(request);
   if (!loaded)
     return complain("bench display", loaded.error());
+  for (const std::string& remark : loaded->remarks)
+    warn("octascope bench display: {}\n", remark);
   options.seconds = arguments.seconds;
   options.live = !arguments.no_live;
   if (!arguments.dump.empty())

@@ -125,6 +125,7 @@ hal::Result<ExportOutcome> export_recording(const ExportOptions& asked,
                         .last = place.file_of(chosen.first + chosen.count - 1),
                         .window = options.window,
                         .simulated = facts.simulated,
+                        .assumed_spacings = facts.geometry.assumed.words(),
                         .pixels = pixels_in_words(options, facts.geometry)};
   const auto done =
       place.prepare(exporter->file_bytes() * chosen.count, chosen.first).and_then([&] {

@@ -36,7 +36,8 @@ struct ExportOutcome {
   std::optional<ui::DisplayWindow> window; // used to show the volumes
   std::size_t missing_b_scans = 0;         // in the exported volumes
   bool simulated = false;
-  std::string pixels; // PNG: their pixel size, as text
+  std::string assumed_spacings; // VolumeGeometry::assumed, in words; empty: none
+  std::string pixels;           // PNG: their pixel size, as text
 };
 
 // Files appear complete or not at all, replace files of the same name, and are readable by their

@@ -107,6 +107,9 @@ void tell(const ExportOutcome& outcome) {
         outcome.window->offset_db + outcome.window->size_db);
   if (!outcome.pixels.empty())
     say("{}\n", outcome.pixels);
+  if (!outcome.assumed_spacings.empty())
+    warn("octascope export: warning: spacings are assumed, not measured: {}\n",
+         outcome.assumed_spacings);
   if (outcome.missing_b_scans > 0)
     warn("octascope export: warning: {} B-scans are missing in the recording; in the files "
          "they are at the lowest level, {} dB\n",

@@ -55,6 +55,7 @@ ordered_json geometry_json(const VolumeGeometry& g) {
       {"refractive_index", g.refractive_index ? ordered_json(*g.refractive_index) : ordered_json()},
       {"a_spacing_um", g.a_spacing_um},
       {"b_spacing_um", g.b_spacing_um},
+      {"assumed_spacings", g.assumed.words()},
       {"extent_mm", {{"depth", g.depth_mm()}, {"a", g.a_mm()}, {"b", g.b_mm()}}}};
 }
 
@@ -149,6 +150,8 @@ void print_text(const RecordingReport& report) {
   say("  geometry     {} depths × {} A-scans × {} B-scans\n", g.depths, g.a_scans, g.b_scans);
   say("               every {:.4g} × {:.4g} × {:.4g} µm: {:.4g} × {:.4g} × {:.4g} mm\n",
       g.depth_spacing_um, g.a_spacing_um, g.b_spacing_um, g.depth_mm(), g.a_mm(), g.b_mm());
+  if (g.assumed.any())
+    say("               assumed, not measured: the spacings of {}\n", g.assumed.words());
   say("               depths hold {}\n",
       g.refractive_index ? fmt::format("for a refractive index of {}", *g.refractive_index)
                          : "for a medium that nobody said");

@@ -10,6 +10,7 @@
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/numbers.h"
+#include "firmware-host/commands/spectra_type.h"
 #include "firmware-host/configuration/run_options.h"
 #include "firmware-host/run/appliance.h"
 #include "firmware-host/run/stop_signal.h"
@@ -26,6 +27,7 @@ namespace {
 // As text, the way CLI11 collects it.
 struct RunArguments {
   std::string spectra, shape, calibration, faults, controls, phantom, record_to, subject, eye;
+  SpectraTypeArguments type;
   bool simulate = false;
   bool bidirectional = false;
   int repeats = 0;
@@ -51,9 +53,9 @@ hal::Result<RecordingOptions> recording_of(const RunArguments& a) {
   if (a.shape.empty())
     return hal::fail(hal::ErrorCode::invalid_argument,
                      "--spectra needs --shape B,A,N: B-scans, A-scans, samples");
-  return pipeline::SpectraShape::parse(a.shape).map([&](const pipeline::SpectraShape& shape) {
-    return RecordingOptions{a.spectra, shape};
-  });
+  HAL_TRY(const auto shape, pipeline::SpectraShape::parse(a.shape));
+  HAL_TRY(const auto format, camera_format(shape.samples, a.type));
+  return RecordingOptions{a.spectra, shape, format};
 }
 
 hal::Result<RunOptions> options_of(const RunArguments& a) {
@@ -101,12 +103,14 @@ int run(const char* command, const RunArguments& arguments) {
 void add_options(CLI::App& command, RunArguments& a) {
   add_show_options(command, a.show);
   command.add_flag("--sim", a.simulate, "Use the simulated devices, whatever is plugged in");
-  command
-      .add_option("--spectra", a.spectra,
-                  "Play raw spectra (u16, little-endian, [B][A][N]) instead of a phantom")
-      ->type_name("FILE");
+  CLI::Option* spectra =
+      command
+          .add_option("--spectra", a.spectra,
+                      "Play raw spectra (little-endian, [B][A][N]) instead of a phantom")
+          ->type_name("FILE");
   command.add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024")
       ->type_name("B,A,N");
+  add_spectra_type_options(command, a.type, spectra);
   command.add_option("--calibration", a.calibration, "Calibration of the spectrometer")
       ->type_name("FILE.toml");
   command.add_option("--phantom", a.phantom, "What the simulated camera sees");

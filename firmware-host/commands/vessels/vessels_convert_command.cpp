@@ -34,7 +34,6 @@ std::string provenance_of(const pipeline::TreeFile& read, const std::filesystem:
 }
 
 hal::Result<> run(const VesselsConvertCommandLine& line) {
-  HAL_CHECK(check_tree_name(line.out)); // before the work, not after it
   pipeline::TreeReadOptions options = line.tree.options();
   auto read = [&] {
     ProgressLine progress{fmt::format("reading {}", line.file.string())};

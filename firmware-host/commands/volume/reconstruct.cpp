@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "firmware-host/commands/level_picture.h"
+#include "firmware-host/commands/spectra_type.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
 #include "firmware-host/terminal/terminal.h"
 #include "pipeline/files/nrrd.h"
@@ -162,24 +163,6 @@ unsigned worker_count(const ReconstructOptions& options) {
   return std::min(wanted, static_cast<unsigned>(options.shape.b_scans));
 }
 
-hal::Result<pipeline::SpectrumFormat> format_of(const ReconstructOptions& options) {
-  pipeline::SpectrumFormat format{options.shape.samples, options.type};
-  if (options.type == hal::SampleType::f32 && options.right_shift != 0)
-    return hal::fail(ErrorCode::invalid_argument,
-                     "--shift is {}, but f32 cannot be shifted, expected 0", options.right_shift);
-  const int bits = format.significant_bits;
-  format.right_shift = options.right_shift;
-  format.significant_bits = options.significant_bits.value_or(bits - options.right_shift);
-  if (options.right_shift < 0 || format.significant_bits < 1 ||
-      format.significant_bits + options.right_shift > bits)
-    return hal::fail(
-        ErrorCode::invalid_argument,
-        "--shift is {}, expected 0 to {}: the sample has {} bits, {} of them significant",
-        options.right_shift, bits - options.significant_bits.value_or(1), bits,
-        options.significant_bits.value_or(bits));
-  return format;
-}
-
 hal::Result<> check(const ReconstructOptions& options) {
   if (options.picture &&
       (options.picture_b_scan < 0 || options.picture_b_scan >= options.shape.b_scans))
@@ -196,7 +179,8 @@ hal::Result<> check(const ReconstructOptions& options) {
 hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
   HAL_CHECK(check(options));
   const int samples = options.shape.samples;
-  HAL_TRY(const auto format, format_of(options));
+  HAL_TRY(const auto format,
+          spectrum_format(samples, {options.type, options.significant_bits}, options.right_shift));
   HAL_TRY(auto spectra, pipeline::SpectraFile::open(options.spectra, options.shape, options.type));
   hal::Result<pipeline::Calibration> calibration = pipeline::Calibration::identity(samples);
   if (options.calibration)
@@ -212,9 +196,9 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
   static_cast<void>(cache.save()); // what was not kept is measured again; the doctor says why
 
   const pipeline::VolumeGeometry geometry{
-      reconstructor.depths(),        options.shape.a_scans,     options.shape.b_scans,
-      calibration->bin_spacing_um(), calibration->a_spacing_um, calibration->b_spacing_um,
-      calibration->refractive_index};
+      reconstructor.depths(),        options.shape.a_scans,        options.shape.b_scans,
+      calibration->bin_spacing_um(), calibration->a_spacing_um,    calibration->b_spacing_um,
+      calibration->refractive_index, calibration->assumed_spacings};
   HAL_TRY(auto writer,
           pipeline::NrrdWriter::create(options.volume, geometry,
                                        options.display_counts ? pipeline::NrrdType::uint8
@@ -222,6 +206,11 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
   VolumeReconstruction work{options, format, spectra, reconstructor, writer};
   HAL_CHECK(work.run(worker_count(options)));
   HAL_CHECK(writer.commit());
+  if (geometry.assumed.any())
+    warn("octascope reconstruct: warning: spacings are assumed: {} ({:.4g}, {:.4g}, {:.4g} "
+         "µm); [depth] of a calibration gives them\n",
+         geometry.assumed.words(), geometry.depth_spacing_um, geometry.a_spacing_um,
+         geometry.b_spacing_um);
   if (work.saturated_lines() > 0)
     warn("warning: {} of {} lines are saturated\n", work.saturated_lines(), options.shape.lines());
   if (!options.picture)

@@ -1,14 +1,12 @@
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "firmware-host/commands/numbers.h"
+#include "firmware-host/commands/spectra_type.h"
 #include "firmware-host/commands/volume/reconstruct.h"
 #include "firmware-host/terminal/terminal.h"
 
@@ -23,26 +21,13 @@ constexpr int wrong_use = 2;
 struct ReconstructCommandLine {
   std::string spectra;
   std::string shape;
-  std::string type = "u16";
-  int shift = 0;
+  SpectraTypeArguments type;
   std::string calibration;
   std::string out;
   bool u8 = false;
   int b_scan = 0;
   std::string png;
 };
-
-// What --dtype says: cameras of 10, 12 and 14 bits are u16 with fewer significant ones. u16 and u8
-// leave open how many there are: what the shift leaves.
-using TypeAndBits = std::pair<hal::SampleType, std::optional<int>>;
-const std::map<std::string, TypeAndBits>& types() {
-  using hal::SampleType;
-  static const std::map<std::string, TypeAndBits> all{
-      {"u8", {SampleType::u8, {}}},   {"u10", {SampleType::u16, 10}},
-      {"u12", {SampleType::u16, 12}}, {"u14", {SampleType::u16, 14}},
-      {"u16", {SampleType::u16, {}}}, {"f32", {SampleType::f32, {}}}};
-  return all;
-}
 
 int run(const ReconstructCommandLine& line) {
   const auto complain = [](const hal::Error& error, int status) {
@@ -55,8 +40,10 @@ int run(const ReconstructCommandLine& line) {
   ReconstructOptions options;
   options.spectra = line.spectra;
   options.shape = *shape;
-  std::tie(options.type, options.significant_bits) = types().at(line.type);
-  options.right_shift = line.shift;
+  const SpectraType type = spectra_type_of(line.type);
+  options.type = type.type;
+  options.significant_bits = type.significant_bits;
+  options.right_shift = line.type.shift;
   options.volume = line.out;
   options.display_counts = line.u8;
   options.picture_b_scan = line.b_scan;
@@ -78,28 +65,17 @@ int run(const ReconstructCommandLine& line) {
 void add_reconstruct_command(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand("reconstruct", "Raw spectra to a volume of levels (NRRD)");
   auto line = std::make_shared<ReconstructCommandLine>();
-  command
-      ->add_option("--spectra", line->spectra,
-                   "Raw spectra, little-endian, [B-scan][A-scan][sample]")
-      ->required()
-      ->type_name("FILE");
+  CLI::Option* spectra = command
+                             ->add_option("--spectra", line->spectra,
+                                          "Raw spectra, little-endian, [B-scan][A-scan][sample]")
+                             ->required()
+                             ->type_name("FILE");
   command
       ->add_option("--shape", line->shape,
                    "B-scans, A-scans per B-scan and samples per line, like 100,100,1024")
       ->required()
       ->type_name("B,A,N");
-  command
-      ->add_option("--dtype", line->type,
-                   "Type of a sample (u16 if not given); u10, u12 and u14 take 16 bits")
-      ->check(CLI::IsMember({"u8", "u10", "u12", "u14", "u16", "f32"}))
-      ->type_name("u8|u10|u12|u14|u16|f32")
-      ->option_text("u8|u10|u12|u14|u16|f32");
-  command
-      ->add_option("--shift", line->shift,
-                   "Bits to shift each sample to the right: left-justified 12-bit counts need "
-                   "--dtype u12 --shift 4")
-      ->check(within(0, 15))
-      ->type_name("BITS");
+  add_spectra_type_options(*command, line->type, spectra);
   command
       ->add_option("--calibration", line->calibration,
                    "Calibration; without it no resampling and no dispersion, Hann window")

@@ -12,6 +12,7 @@
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/numbers.h"
+#include "firmware-host/commands/spectra_type.h"
 #include "firmware-host/commands/tree_options.h"
 #include "firmware-host/commands/volume/render.h"
 #include "firmware-host/configuration/configuration.h"
@@ -30,6 +31,7 @@ namespace {
 // As text, the way CLI11 collects it; what is not given stays as RenderOptions and ViewState begin.
 struct RenderArguments {
   std::string configuration, volume, spectra, shape, calibration, phantom;
+  SpectraTypeArguments type;
   std::string technique, size, window, transfer, colours, vessels, registration;
   std::string stereo = "off", drawn_by = "auto", out;
   ui::ViewState view = [] {
@@ -84,10 +86,10 @@ hal::Result<VolumeRequest> request_of(const RenderArguments& a) {
     request.calibration = a.calibration;
   if (a.spectra.empty())
     return request;
-  return pipeline::SpectraShape::parse(a.shape).map([&](const pipeline::SpectraShape& shape) {
-    request.recording = RecordingOptions{a.spectra, shape};
-    return request;
-  });
+  HAL_TRY(const auto shape, pipeline::SpectraShape::parse(a.shape));
+  HAL_TRY(const auto format, camera_format(shape.samples, a.type));
+  request.recording = RecordingOptions{a.spectra, shape, format};
+  return request;
 }
 
 // The place of the item with that name.
@@ -180,6 +182,8 @@ hal::Result<> render(const RenderArguments& arguments) {
   // Said before the work, not after it.
   HAL_CHECK(pipeline::AtomicFile::create(arguments.out));
   HAL_TRY(const auto loaded, load_volume(request));
+  for (const std::string& remark : loaded.remarks)
+    warn("octascope render: {}\n", remark);
   HAL_TRY(const auto vessels, vessels_of(arguments, loaded.whose));
   if (vessels.placed && !vessels.placed->volume_from_tree)
     warn("octascope render: {} is not registered: it lies in the middle of the "
@@ -210,7 +214,7 @@ void add_volume_options(CLI::App& command, RenderArguments& a) {
   CLI::Option* spectra =
       command
           .add_option("--spectra", a.spectra,
-                      "Or raw spectra (u16, little-endian, [B][A][N]), reconstructed as run does")
+                      "Or raw spectra (little-endian, [B][A][N]), reconstructed as run does")
           ->type_name("FILE");
   CLI::Option* shape =
       command
@@ -218,6 +222,7 @@ void add_volume_options(CLI::App& command, RenderArguments& a) {
           ->type_name("B,A,N")
           ->needs(spectra);
   spectra->needs(shape);
+  add_spectra_type_options(command, a.type, spectra);
   command.add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)")
       ->type_name("FILE.toml")
       ->needs(spectra);

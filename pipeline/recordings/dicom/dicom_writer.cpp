@@ -94,6 +94,8 @@ std::string comments(const RecordingFacts& facts, const Volume& volume, const Re
   std::string text = facts.simulated ? "SIMULATED: some or all of it is not the patient's.\n" : "";
   text += fmt::format("Volume {} of the recording begun {}, from {}; it came as number {}.", n,
                       facts.begun, facts.source, entry.index);
+  if (const AssumedSpacings& assumed = facts.geometry.assumed; assumed.any())
+    text += fmt::format("\nSpacings that are assumed, not measured: {}.", assumed.words());
   if (volume.missing_b_scans() > 0)
     text += fmt::format("\nMissing B-scans (frames from 0), black: {}.", missing_b_scans(volume));
   if (entry.saturated_lines > 0)

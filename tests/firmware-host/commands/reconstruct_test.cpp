@@ -158,6 +158,28 @@ TEST_F(ReconstructCommand, zero_padding_halves_the_spacing) {
   EXPECT_NEAR(volume.geometry.depth_spacing_um, 1.5, 1e-9);
 }
 
+// In the file, for whoever reads it, and on the terminal.
+TEST_F(ReconstructCommand, says_which_spacings_are_assumed) {
+  const auto remarks = [&](const std::string& depth) -> std::vector<std::string> {
+    const std::string calibration = folder.write(
+        "c.toml", "[spectrometer]\nsamples = 32\n[k_linear]\npolynomial = [0.0, 31.0]\n"
+                  "[depth]\n" +
+                      depth);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(depth.empty() ? reconstruct({}) : reconstruct({"--calibration", calibration}), 0);
+    const std::string terminal = testing::internal::GetCapturedStderr();
+    const auto volume = tests::must(pipeline::read_nrrd(out));
+    EXPECT_EQ(terminal.empty(), volume.remarks.empty()) << terminal;
+    EXPECT_THAT(terminal, HasSubstr(volume.geometry.assumed.words()));
+    return volume.remarks;
+  };
+  using testing::ElementsAre;
+  EXPECT_THAT(remarks(""), ElementsAre(HasSubstr("not measured: depth, A-scan, B-scan")));
+  EXPECT_THAT(remarks("spacing_um = 3.0\n"),
+              ElementsAre(HasSubstr("not measured: A-scan, B-scan")));
+  EXPECT_THAT(remarks("spacing_um = 3\na_spacing_um = 9\nb_spacing_um = 9\n"), testing::IsEmpty());
+}
+
 TEST_F(ReconstructCommand, wrong_use_is_2) {
   EXPECT_EQ(run_octascope({"reconstruct"}), 2);
   EXPECT_EQ(reconstruct({}, "5,4"), 2);

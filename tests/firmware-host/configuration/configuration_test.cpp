@@ -142,6 +142,7 @@ TEST_F(ConfigurationFile, a_plan_that_names_little_keeps_the_other_defaults) {
   const auto c = tests::must(load("[scan]\nb_scans = 10\n"));
   pipeline::ScanPlan expected;
   expected.b_scans = 10;
+  expected.assumed_spacings = {true, true, true};
   EXPECT_EQ(c.plan, expected);
 }
 

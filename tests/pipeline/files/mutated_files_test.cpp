@@ -161,6 +161,16 @@ TEST_F(MutatedFiles, pictures) {
                                                static_cast<std::size_t>(read->channels));
             return {};
           });
+  try_all(tests::whole_file(folder / "good.png"), "numbers.png",
+          [](const fs::path& file) -> std::string {
+            const auto read = read_png_numbers(file, 4096);
+            if (!read)
+              return read.error().message;
+            EXPECT_EQ(read->values.size(), static_cast<std::size_t>(read->width) *
+                                               static_cast<std::size_t>(read->height) *
+                                               static_cast<std::size_t>(read->channels));
+            return {};
+          });
 }
 
 TEST_F(MutatedFiles, spectra) {

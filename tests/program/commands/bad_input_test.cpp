@@ -28,6 +28,7 @@ struct BadInput {
 void lay_out_files(const ScratchFolder& folder) {
   const std::vector<std::uint16_t> counts(4 * 8 * 32, 1000);
   folder.write_values<std::uint16_t>("spectra.raw", counts);
+  folder.write_values<std::uint16_t>("deep.raw", std::vector<std::uint16_t>(4 * 8 * 32, 2000));
   folder.write("empty", "");
   std::filesystem::create_directory(folder / "folder");
   std::string rising;
@@ -56,6 +57,8 @@ void lay_out_files(const ScratchFolder& folder) {
   folder.write("range.toml", "[scan]\nline_rate_hz = -5\n");
   folder.write("faults.toml", "[[fault]]\ndevice = \"line_camera\"\nkind = \"unplug\"\nat_s = 1\n"
                               "duration_s = 1\nhow_bad = 3\n");
+  folder.write("strip.toml", "[[transfer]]\nname = \"mine\"\nkind = \"table\"\n"
+                             "file = \"nowhere.png\"\n");
   folder.write("controls.toml", "[[event]]\ntime_s = 1\nswitch = 7\nvalue = 1\n");
 }
 
@@ -150,8 +153,37 @@ std::vector<BadInput> bad_inputs() {
       bad("render_to_nowhere", "render --phantom cap", 2, {"--out", "required"}),
       bad("render_of_a_missing_volume", "render --volume @nowhere.nrrd --out @r.png", 1,
           {"nowhere.nrrd", "no such file"}),
+      bad("render_one_of_a_missing_volume", "render --volume @nowhere.h5 --at 0 --out @r.png", 1,
+          {"nowhere.h5", "no such file", "a NRRD volume or a recording"}),
+      bad("render_of_a_folder", "render --volume @folder --at 0 --out @r.png", 2,
+          {"folder", "is a directory", "a NRRD volume or a recording"}),
       bad("render_of_what_is_no_volume", "render --volume @spectra.raw --out @r.png", 1,
-          {"spectra.raw", "expected"}),
+          {"spectra.raw", "expected a NRRD volume or a recording"}),
+      bad("render_one_of_what_is_no_volume", "render --volume @spectra.raw --at 1 --out @r.png", 1,
+          {"spectra.raw", "expected a NRRD volume or a recording"}),
+      bad("render_with_missing_vessels", draw + "--vessels @nowhere.swc", 1,
+          {"nowhere.swc", "No such file"}),
+      bad("render_with_a_missing_registration",
+          draw + "--vessels @nowhere.swc --registration @nowhere.toml", 1,
+          {"nowhere.toml", "No such file"}),
+      bad("render_of_missing_spectra",
+          "render --spectra @nowhere.raw --shape 4,8,32 --calibration @nowhere.toml --out @r.png",
+          1, {"nowhere.raw", "No such file"}),
+      bad("render_with_a_missing_calibration",
+          "render --spectra @spectra.raw --shape 4,8,32 --calibration @nowhere.toml --out @r.png",
+          1, {"nowhere.toml", "No such file"}),
+      bad("render_with_a_missing_strip", draw + "--config @strip.toml", 2,
+          {"nowhere.png", "No such file"}),
+      bad("render_missing_vessels_alone", "vessels render @nowhere.swc --out @r.png", 1,
+          {"nowhere.swc", "No such file"}),
+      bad("run_of_floats", play + "--dtype f32", 2,
+          {"--dtype is f32", "u8, u10, u12, u14 or u16", "octascope reconstruct"}),
+      bad("render_of_floats",
+          "render --spectra @spectra.raw --shape 4,8,32 --dtype f32 --out @r.png", 2,
+          {"--dtype is f32", "octascope reconstruct"}),
+      bad("run_of_more_bits_than_said", "run --spectra @deep.raw --shape 4,8,32 --dtype u10", 1,
+          {"deep.raw: B-scan 0, A-scan 0, sample 0 is 2000", "at most 1023", "another --dtype"}),
+      bad("run_of_a_type_without_spectra", "run --sim --dtype u8", 2, {"--dtype", "--spectra"}),
       bad("render_of_spectra_without_shape", "render --spectra @spectra.raw --out @r.png", 2,
           {"--spectra", "--shape"}),
       bad("render_into_no_folder", "render --phantom cap --out @nowhere/r.png", 1,

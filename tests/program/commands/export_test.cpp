@@ -13,6 +13,7 @@
 #include "tests/program/program_support.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/small_recording.h"
+#include "tests/support/must.h"
 
 namespace octascope::tests {
 namespace {
@@ -125,6 +126,29 @@ TEST_F(Export, to_nrrd_of_8_bits_holds_the_counts) {
   ASSERT_TRUE(read) << read.error().message;
   expect_geometry(read->geometry);
   EXPECT_EQ(std::get<std::vector<std::uint8_t>>(read->levels), small_recording_volume(3).levels);
+}
+
+TEST_F(Export, says_which_spacings_are_assumed) {
+  pipeline::RecordingFacts facts = small_recording_facts();
+  facts.geometry.assumed = {.depth = true, .a_scans = false, .b_scans = true};
+  const std::string assumed = folder / "assumed.h5";
+  auto writer = must(pipeline::RecordingWriter::create(assumed, facts));
+  Volume volume = small_recording_volume(0);
+  volume.geometry = facts.geometry;
+  ASSERT_TRUE(writer.append(volume, small_recording_entry(0)));
+  ASSERT_TRUE(writer.finish({}));
+  const auto said = [&](const char* name) {
+    const ProgramResult result =
+        run_well({"export", assumed, "--volumes", "0", "--out", folder / name});
+    EXPECT_THAT(result.err, HasSubstr("assumed, not measured: depth, B-scan"));
+    return whole_file(folder / name);
+  };
+  EXPECT_THAT(said("v.nrrd"), HasSubstr("\nassumed_spacings:=depth, B-scan\n"));
+  EXPECT_THAT(said("v.dcm"), HasSubstr("Spacings that are assumed, not measured: depth, B-scan."));
+  EXPECT_THAT(run_well({"info", assumed}).out, HasSubstr("the spacings of depth, B-scan"));
+  EXPECT_THAT(run_well({"render", "--volume", assumed, "--out", folder / "v.png"}).err,
+              HasSubstr("assumed.h5: its spacings are assumed, not measured: depth, B-scan"));
+  EXPECT_THAT(run({"--volumes", "0", "--out", folder / "v.nrrd"}).err, Not(HasSubstr("assumed")));
 }
 
 TEST_F(Export, takes_the_volumes_that_are_asked_for) {

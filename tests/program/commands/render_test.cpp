@@ -1,5 +1,6 @@
 // octascope render as a user runs it: each option changes the picture as it says.
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 
 #include "pipeline/files/nrrd.h"
 #include "tests/program/program_support.h"
+#include "tests/support/files/mutation.h"
 
 namespace octascope::tests {
 namespace {
@@ -146,6 +148,72 @@ TEST_F(Render, casts_rays_with_the_processor_or_with_gl_as_told) {
 
 TEST_F(Render, samples_as_finely_as_told) {
   EXPECT_GT(different(render({"--steps", "8"}), render({"--steps", "512"})), 200);
+}
+
+// The volume as another program would write it, with these fields instead of ours.
+std::string with_fields(const std::string& volume, const std::string& fields) {
+  const std::size_t begin = volume.find("space:");
+  return volume.substr(0, begin) + fields + volume.substr(volume.find("kinds:"));
+}
+
+TEST_F(Render, draws_the_same_of_any_header_that_says_the_same) {
+  const std::string ours = whole_file(folder_ / "volume.nrrd");
+  const pipeline::Image expected = render({"--box"});
+  const std::string again = folder_ / "again.nrrd";
+  for (const char* fields : {"spacings: 0.03 0.04 0.05\nunits: \"mm\" \"mm\" \"mm\"\n",
+                             "spacings: 30 40 50\nunits: \"um\" \"um\" \"um\"\n",
+                             "space: RAS\nspace units: \"m\" \"m\" \"m\"\n"
+                             "space directions: (-3e-5,0,0) (0,-4e-5,0) (0,0,5e-5)\n"}) {
+    folder_.write("again.nrrd", with_fields(ours, fields));
+    const ProgramResult result =
+        run_well({"render", "--volume", again, "--out", folder_ / "again.png", "--size", "200x120",
+                  "--window", "10,40", "--box"});
+    EXPECT_EQ(result.err, "") << fields;
+    EXPECT_EQ(read_snapshot(folder_ / "again.png"), expected) << fields;
+  }
+  folder_.write("again.nrrd", with_fields(ours, ""));
+  EXPECT_THAT(run_well({"render", "--volume", again, "--out", folder_ / "again.png"}).err,
+              HasSubstr("1 mm is assumed for all three axes"));
+}
+
+TEST_F(Render, says_when_values_are_no_decibels) {
+  pipeline::NrrdVolume bright{{4, 3, 2, 30, 40, 50}, std::vector<float>(24, 30000)};
+  std::get<std::vector<float>>(bright.levels)[5] = std::nanf("");
+  ASSERT_TRUE(pipeline::write_nrrd(folder_ / "bright.nrrd", bright));
+  const ProgramResult result =
+      run_well({"render", "--volume", folder_ / "bright.nrrd", "--out", folder_ / "out.png"});
+  EXPECT_THAT(result.err, HasSubstr("1 of its 24 values are NaN"));
+  EXPECT_THAT(result.err, HasSubstr("23 of its 24 values are not within -40 to 87.5 dB"));
+}
+
+// Counts of 10 bits are the same in 16, shifted or not; those of 8 in bytes.
+TEST_F(Render, takes_spectra_of_every_integer_type) {
+  std::vector<std::uint16_t> counts;
+  std::vector<std::uint16_t> shifted;
+  std::vector<std::uint8_t> bytes;
+  for (int i = 0; i < 8 * 9 * 64; ++i) {
+    const int count = 100 + (i * i / 7 + 13 * i) % 150;
+    counts.push_back(static_cast<std::uint16_t>(count));
+    shifted.push_back(static_cast<std::uint16_t>(count << 6));
+    bytes.push_back(static_cast<std::uint8_t>(count));
+  }
+  folder_.write_values<std::uint16_t>("16.raw", counts);
+  folder_.write_values<std::uint16_t>("left.raw", shifted);
+  folder_.write_values<std::uint8_t>("8.raw", bytes);
+  const auto draw = [&](const char* spectra, std::vector<std::string> more) {
+    std::vector<std::string> words{
+        "render", "--spectra", folder_ / spectra, "--shape", "8,9,64", "--out", folder_ / "out.png",
+        "--size", "160x90",    "--window",        "-10,40"};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_THAT(run_well(words).err, HasSubstr("spacings are assumed, not measured: depth"));
+    return read_snapshot(folder_ / "out.png");
+  };
+  const pipeline::Image expected = draw("16.raw", {});
+  EXPECT_EQ(draw("16.raw", {"--dtype", "u10"}), expected);
+  EXPECT_EQ(draw("16.raw", {"--dtype", "u14"}), expected);
+  EXPECT_EQ(draw("left.raw", {"--dtype", "u10", "--shift", "6"}), expected);
+  EXPECT_EQ(draw("left.raw", {"--shift", "6"}), expected);
+  EXPECT_EQ(draw("8.raw", {"--dtype", "u8"}), expected);
 }
 
 TEST_F(Render, draws_the_smallest_picture) {

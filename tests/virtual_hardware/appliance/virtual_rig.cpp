@@ -126,7 +126,7 @@ read_virtual_rig_spectra(const std::filesystem::path& file) {
                      fmt::format("{} cannot be read, or has less than {} samples; write it with "
                                  "'virtual_rig spectra'",
                                  file.string(), count));
-  sim::SpectraRecording recording{.samples = *samples,
+  sim::SpectraRecording recording{.samples = std::as_bytes(std::span{*samples}),
                                   .b_scans = plan.sweeps(),
                                   .a_scans = plan.lines_per_frame(),
                                   .samples_per_line = plan.samples,

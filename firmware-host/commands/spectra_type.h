@@ -1,0 +1,38 @@
+// --dtype and --shift: what a sample of raw spectra is.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "hal/result.h"
+#include "pipeline/reconstruction/spectrum_format.h"
+
+namespace octascope::firmware_host {
+
+// As text, the way CLI11 collects it.
+struct SpectraTypeArguments {
+  std::string type = "u16";
+  int shift = 0;
+};
+
+// Both need `spectra`.
+void add_spectra_type_options(CLI::App& command, SpectraTypeArguments& arguments,
+                              CLI::Option* spectra);
+
+struct SpectraType {
+  hal::SampleType type = hal::SampleType::u16;
+  std::optional<int> significant_bits; // empty: what the shift leaves
+};
+SpectraType spectra_type_of(const SpectraTypeArguments& arguments);
+
+// ErrorCode::invalid_argument where type, bits and shift do not go together.
+hal::Result<pipeline::SpectrumFormat> spectrum_format(int samples, const SpectraType& type,
+                                                      int right_shift);
+
+// The same for what plays spectra as a camera does, which counts: f32 is refused.
+hal::Result<pipeline::SpectrumFormat> camera_format(int samples,
+                                                    const SpectraTypeArguments& arguments);
+
+} // namespace octascope::firmware_host
