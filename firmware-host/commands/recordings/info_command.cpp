@@ -62,6 +62,8 @@ ordered_json losses_json(const RecordingReport& report) {
   ordered_json json{{"gaps", s.gaps},
                     {"volumes_in_gaps", s.volumes_in_gaps},
                     {"longest_gap", s.longest_gap},
+                    {"pauses", s.pauses},
+                    {"paused_s", s.paused_s},
                     {"volumes_not_kept", nullptr},
                     {"b_scans", s.lost_b_scans},
                     {"lines", s.lost_lines},
@@ -127,6 +129,11 @@ void print_losses(const RecordingReport& report) {
   else
     fmt::print("  lost         volumes: {}, gaps: {}, the longest of {}\n", s.volumes_in_gaps,
                s.gaps, s.longest_gap);
+  if (s.pauses > 0)
+    fmt::print(
+        "               pauses: {}, {:.1f} s in all, in which the machine slept or its clock "
+        "was set\n",
+        s.pauses, s.paused_s);
   if (!report.end.finished)
     fmt::print("               how many the disk was too slow for is not known: not finished\n");
   else if (report.end.not_kept > 0)
