@@ -107,6 +107,26 @@ void RunRecorder::note_counts() {
   const pipeline::RecorderStatus status = recorder_.status();
   kept_.back().kept = status.kept;
   kept_.back().not_kept = status.not_kept;
+  kept_.back().failure = recorder_.failure();
+}
+
+hal::Result<> RunRecorder::outcome() const {
+  if (!setup_.file || kept_.empty())
+    return {};
+  const KeptRecording& recording = kept_.front();
+  if (!recording.is_there())
+    return tl::make_unexpected(*recording.failure);
+  const std::string holds = recording.kept > 0 ? fmt::format("it holds {} volumes", recording.kept)
+                                               : "it holds no volume";
+  if (recording.failure)
+    return hal::fail(recording.failure->code, "{}; {}", recording.failure->message, holds);
+  if (recording.kept == 0)
+    return hal::fail(
+        hal::ErrorCode::bad_data, "{}: {}: {}", recording.file.string(), holds,
+        recording.not_kept > 0
+            ? fmt::format("its disk was too slow for the {} that came", recording.not_kept)
+            : std::string{"none came while it was recorded"});
+  return {};
 }
 
 ui::RecordingStatus RunRecorder::status(hal::TimePoint now) const {

@@ -27,6 +27,9 @@ struct KeptRecording {
   std::filesystem::path file;
   std::uint64_t kept = 0;
   std::uint64_t not_kept = 0;
+  std::optional<hal::Error> failure{}; // as Recorder::failure()
+
+  bool is_there() const { return !failure || failure->code != hal::ErrorCode::absent; }
 };
 
 // Bound to the render thread; the recorder documents its own threads.
@@ -49,6 +52,9 @@ public:
 
   // After stop(): every recording of the run, in order.
   const std::vector<KeptRecording>& kept() const { return kept_; }
+
+  // After stop(): whether the setup's file, if any, holds all that was asked for.
+  hal::Result<> outcome() const;
 
   // To be called on the fixed-rate thread.
   void offer(const pipeline::Volume& volume) { recorder_.offer(volume); }

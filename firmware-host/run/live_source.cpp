@@ -89,6 +89,7 @@ public:
   void ending() override { supervision_.stop(); }
   void stop() override;
   hal::Result<> report(const RenderLoop& loop, const RunTimes& times) const override;
+  hal::Result<> outcome() const override { return recordings_->outcome(); }
 
 private:
   bool wait_for_udev();
@@ -294,8 +295,9 @@ RunStatistics LiveSource::account(const RenderLoop& loop) const {
 hal::Result<> LiveSource::report(const RenderLoop& loop, const RunTimes& times) const {
   HAL_CHECK(leave_report(report_on(account(loop), times, faults_.records()), options_));
   for (const KeptRecording& recording : recordings_->kept())
-    say("recording: {}, {} volumes{}\n", recording.file.string(), recording.kept,
-        recording.not_kept > 0 ? fmt::format(", {} not kept", recording.not_kept) : "");
+    if (recording.is_there() && recording.kept > 0)
+      say("recording: {}, {} volumes{}\n", recording.file.string(), recording.kept,
+          recording.not_kept > 0 ? fmt::format(", {} not kept", recording.not_kept) : "");
   return {};
 }
 

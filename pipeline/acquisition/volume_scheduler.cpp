@@ -50,7 +50,8 @@ TickDecision VolumeScheduler::tick(hal::TimePoint now) {
 
 std::optional<std::uint32_t> VolumeScheduler::pulsed(hal::TimePoint when) {
   count(counts_.planned);
-  const hal::TimePoint end = sweeps_.pulsed(++last_number_, when);
+  last_number_ = counts_.planned.load(std::memory_order_relaxed);
+  const hal::TimePoint end = sweeps_.pulsed(last_number_, when);
   count(counts_.triggered);
   if (free_.empty()) {
     count_lost_volume();

@@ -56,7 +56,7 @@ struct FrameDecision {
 };
 
 struct FinishedVolume {
-  std::uint64_t number = 0;                 // of its pulse, from 1
+  std::uint64_t number = 0; // of its tick, from 1: those that brought no pulse are counted, too
   hal::TimePoint first_line{}, last_line{}; // of the first frame to arrive; the latest of all
   std::int32_t lost_b_scans = 0, lost_lines = 0;
 };
@@ -171,7 +171,7 @@ private:
   std::array<PendingVolume, pool_size> pending_;
   std::vector<std::uint32_t> free_; // buffers of the pool to build in
   std::vector<BScanJob> to_submit_; // jobs of the last decision
-  std::uint64_t last_number_ = 0;
+  std::uint64_t last_number_ = 0;   // of the last pulse; 0: none yet
   hal::TimePoint next_tick_;
   Counts counts_;
 };

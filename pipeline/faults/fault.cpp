@@ -76,6 +76,8 @@ constexpr std::array fault_table{
                "The disk is full: pictures may be lost"},
     FaultFacts{Fault::recording_disk_full, Device::recording, "disk_full",
                "The disk is full: the recording ended", 20s},
+    FaultFacts{Fault::recording_gone, Device::recording, "gone",
+               "The recording ended: its file was removed", 20s},
     FaultFacts{Fault::recording_not_kept, Device::recording, "not_kept",
                "The recording ended: its disk fails", 20s},
     FaultFacts{Fault::recording_not_finished, Device::recording, "not_finished",

@@ -63,6 +63,7 @@ enum class Fault : std::uint8_t {
   low_memory,
   disk_full,
   recording_disk_full,
+  recording_gone,
   recording_not_kept,
   recording_not_finished,
   recording_not_begun,

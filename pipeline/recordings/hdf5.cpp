@@ -23,4 +23,14 @@ std::string hdf5_reason() {
   return reason.empty() ? "HDF5 gives no reason" : reason;
 }
 
+const char* name_of(H5T_class_t type) {
+  switch (type) {
+  case H5T_INTEGER: return "whole numbers";
+  case H5T_FLOAT: return "numbers";
+  case H5T_STRING: return "texts";
+  case H5T_COMPOUND: return "records";
+  default: return "another type";
+  }
+}
+
 } // namespace octascope::pipeline

@@ -51,4 +51,7 @@ private:
 // The innermost reason of HDF5's last failure on this thread, in its words.
 std::string hdf5_reason();
 
+// What values of such a type are, for messages.
+const char* name_of(H5T_class_t type);
+
 } // namespace octascope::pipeline

@@ -26,6 +26,10 @@ void copy(const Volume& from, Volume& to) {
   std::ranges::copy(from.b_scan_states, to.b_scan_states.begin());
 }
 
+Fault fault_of_writing(const hal::Error& error, Fault other) {
+  return error.code == hal::ErrorCode::absent ? Fault::recording_gone : other;
+}
+
 std::int64_t wall_clock_ns() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::system_clock::now().time_since_epoch())
@@ -66,6 +70,7 @@ bool Recorder::begin(std::filesystem::path file, RecordingFacts facts) {
     const std::lock_guard lock{mutex_};
     file_ = std::move(file);
     facts_ = std::move(facts);
+    failure_.reset();
   }
   kept_.store(0, std::memory_order_relaxed);
   not_kept_.store(0, std::memory_order_relaxed);
@@ -105,6 +110,11 @@ RecorderStatus Recorder::status() const {
           .since = hal::TimePoint{hal::Duration{since_ns_.load(std::memory_order_relaxed)}},
           .kept = kept_.load(std::memory_order_relaxed),
           .not_kept = not_kept_.load(std::memory_order_relaxed)};
+}
+
+std::optional<hal::Error> Recorder::failure() const {
+  const std::lock_guard lock{mutex_};
+  return failure_;
 }
 
 void Recorder::make_places() {
@@ -167,7 +177,7 @@ bool Recorder::open() {
   }
   auto made = RecordingWriter::create(open_file_, facts);
   if (!made) {
-    faults_.add(Fault::recording_not_begun, made.error().message, clock_.now());
+    fail(Fault::recording_not_begun, made.error());
     return false;
   }
   writer_.emplace(std::move(*made));
@@ -187,22 +197,23 @@ void Recorder::write_waiting() {
   if (!writer_ || clock_.now() - synced_ < between_syncs)
     return;
   if (const auto synced = writer_->sync(); !synced)
-    give_up(Fault::recording_not_kept, synced.error().message);
+    give_up(fault_of_writing(synced.error(), Fault::recording_not_kept), synced.error());
   synced_ = clock_.now();
 }
 
 void Recorder::write(const Place& place) {
   std::error_code error;
-  const auto room = std::filesystem::space(open_file_.parent_path(), error);
+  const auto room = std::filesystem::space(open_file_, error);
   if (!error && room.available < room_left_alone + place.volume.levels.size()) {
     give_up(Fault::recording_disk_full,
-            fmt::format("{}: the recording ended: only {} MB are left on its disk, and "
-                        "{} stay free for the machine; free some room",
-                        open_file_.string(), room.available >> 20, room_left_alone >> 20));
+            {hal::ErrorCode::system,
+             fmt::format("{}: the recording ended: only {} MB are left on its disk, and "
+                         "{} stay free for the machine; free some room",
+                         open_file_.string(), room.available >> 20, room_left_alone >> 20)});
     return;
   }
   if (const auto appended = writer_->append(place.volume, place.entry); !appended) {
-    give_up(Fault::recording_not_kept, appended.error().message);
+    give_up(Fault::recording_not_kept, appended.error());
     return;
   }
   kept_.fetch_add(1, std::memory_order_relaxed);
@@ -214,15 +225,21 @@ void Recorder::finish() {
   const auto finished = writer_->finish({.not_kept = not_kept_.load(std::memory_order_relaxed)});
   writer_.reset();
   if (!finished)
-    faults_.add(Fault::recording_not_finished, finished.error().message, clock_.now());
+    fail(fault_of_writing(finished.error(), Fault::recording_not_finished), finished.error());
 }
 
 // What is in the file stays there, marked as well as it can still be.
-void Recorder::give_up(Fault fault, const std::string& message) {
+void Recorder::give_up(Fault fault, const hal::Error& error) {
   taking_.store(0, std::memory_order_relaxed);
-  faults_.add(fault, message, clock_.now());
+  fail(fault, error);
   static_cast<void>(writer_->finish({.not_kept = not_kept_.load(std::memory_order_relaxed)}));
   writer_.reset();
+}
+
+void Recorder::fail(Fault fault, const hal::Error& error) {
+  faults_.add(fault, error.message, clock_.now());
+  const std::lock_guard lock{mutex_};
+  failure_ = error;
 }
 
 } // namespace octascope::pipeline

@@ -28,8 +28,8 @@ struct RecorderStatus {
 
 // The fixed-rate thread offers each volume and never waits: the volume is copied to a free place,
 // or counted as not kept. A writing thread empties the places. A recording ends before the disk is
-// full, or when writing fails; both are faults of the device "recording". The volumes written by
-// then stay in the file.
+// full, when writing fails, or when its file is removed, moved or replaced; each is a fault of the
+// device "recording". The volumes written by then stay in the file.
 class Recorder {
 public:
   // `places`: how many volumes may wait for the disk. The thread allocates all of them when it
@@ -52,6 +52,9 @@ public:
 
   // Any thread.
   RecorderStatus status() const;
+  // Of this recording, or of the last: why it did not begin, ended by itself, or is no longer there
+  // (ErrorCode::absent). Empty: nothing of that.
+  std::optional<hal::Error> failure() const;
 
 private:
   enum class State : std::uint8_t {
@@ -74,7 +77,8 @@ private:
   void write_waiting();
   void write(const Place& place);
   void finish();
-  void give_up(Fault fault, const std::string& message);
+  void give_up(Fault fault, const hal::Error& error);
+  void fail(Fault fault, const hal::Error& error);
 
   const VolumeGeometry geometry_;
   hal::Clock& clock_;
@@ -91,9 +95,10 @@ private:
   std::atomic<bool> stopping_{false};
   Wakeup wakeup_;
 
-  std::mutex mutex_; // of what is to begin
+  mutable std::mutex mutex_; // of what is to begin, and of how it went
   std::filesystem::path file_;
   RecordingFacts facts_;
+  std::optional<hal::Error> failure_;
 
   // The thread's.
   std::optional<RecordingWriter> writer_;

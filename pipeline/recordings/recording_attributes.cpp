@@ -1,12 +1,15 @@
 #include "pipeline/recordings/recording_attributes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "pipeline/recordings/recording_layout.h"
+#include "pipeline/recordings/variable_text.h"
 #include "pipeline/volume/level_scale.h"
 
 namespace octascope::pipeline {
@@ -51,39 +54,56 @@ tl::unexpected<hal::Error> bad(const char* name, const std::string& what) {
   return hal::fail(hal::ErrorCode::bad_data, "attribute {}: {}", name, what);
 }
 
-// A scalar attribute of one class of types.
+// A scalar attribute, and its type.
 struct FoundAttribute {
   Hdf5Handle attribute;
   Hdf5Handle type;
 };
 
-hal::Result<FoundAttribute> find(hid_t file, const char* name, H5T_class_t wanted,
-                                 const char* expected) {
+// `takes`: of which classes it may be.
+hal::Result<FoundAttribute> find(hid_t file, const char* name,
+                                 std::initializer_list<H5T_class_t> takes, const char* expected) {
   FoundAttribute found;
   found.attribute = Hdf5Handle{H5Aopen(file, name, H5P_DEFAULT), H5Aclose};
   if (!found.attribute.valid())
     return bad(name, fmt::format("found none, expected {}", expected));
   found.type = Hdf5Handle{H5Aget_type(found.attribute), H5Tclose};
+  const H5T_class_t type_class = H5Tget_class(found.type);
+  if (std::ranges::find(takes, type_class) == takes.end())
+    return bad(name, fmt::format("found {}, expected {}", name_of(type_class), expected));
   const Hdf5Handle space{H5Aget_space(found.attribute), H5Sclose};
-  if (H5Tget_class(found.type) != wanted || H5Sget_simple_extent_npoints(space) != 1)
-    return bad(name, fmt::format("found another type, expected {}", expected));
+  if (const hssize_t count = H5Sget_simple_extent_npoints(space); count != 1)
+    return bad(name, fmt::format("found {} values, expected {}", count, expected));
   return found;
 }
 
-hal::Result<std::string> read_text(hid_t file, const char* name) {
-  HAL_TRY(const auto found, find(file, name, H5T_STRING, "a text"));
+// Filled up as the file's type says.
+hal::Result<std::string> read_fixed_text(const FoundAttribute& found) {
   const std::size_t size = H5Tget_size(found.type);
-  if (H5Tis_variable_str(found.type) > 0 || size == 0 || size > longest_text)
-    return bad(name, fmt::format("found a text of {} bytes, expected a fixed length of at most {}",
-                                 size, longest_text));
+  if (size == 0 || size > longest_text)
+    return hal::fail(hal::ErrorCode::bad_data, "found a text of {} bytes, expected at most {}",
+                     size, longest_text);
   std::string text(size, '\0');
   if (H5Aread(found.attribute, found.type, text.data()) < 0)
-    return bad(name, "cannot be read: " + hdf5_reason());
-  return text.substr(0, text.find('\0'));
+    return hal::fail(hal::ErrorCode::bad_data, "cannot be read: " + hdf5_reason());
+  if (H5Tget_strpad(found.type) == H5T_STR_SPACEPAD)
+    text.resize(text.find_last_not_of(' ') + 1);
+  return text;
 }
 
+hal::Result<std::string> read_text(hid_t file, const char* name) {
+  HAL_TRY(const auto found, find(file, name, {H5T_STRING}, "a text"));
+  const auto text = H5Tis_variable_str(found.type) > 0
+                        ? read_variable_text(found.attribute, longest_text)
+                        : read_fixed_text(found);
+  if (!text)
+    return bad(name, text.error().message);
+  return text->substr(0, text->find('\0'));
+}
+
+// Other programs write truth as an enumeration.
 hal::Result<std::int64_t> read_whole(hid_t file, const char* name) {
-  HAL_TRY(const auto found, find(file, name, H5T_INTEGER, "a whole number"));
+  HAL_TRY(const auto found, find(file, name, {H5T_INTEGER, H5T_ENUM}, "a whole number"));
   std::int64_t value = 0;
   if (H5Aread(found.attribute, H5T_NATIVE_INT64, &value) < 0)
     return bad(name, "cannot be read: " + hdf5_reason());
@@ -91,7 +111,7 @@ hal::Result<std::int64_t> read_whole(hid_t file, const char* name) {
 }
 
 hal::Result<double> read_real(hid_t file, const char* name) {
-  HAL_TRY(const auto found, find(file, name, H5T_FLOAT, "a number"));
+  HAL_TRY(const auto found, find(file, name, {H5T_FLOAT, H5T_INTEGER}, "a number"));
   double value = 0;
   if (H5Aread(found.attribute, H5T_NATIVE_DOUBLE, &value) < 0)
     return bad(name, "cannot be read: " + hdf5_reason());
@@ -107,10 +127,13 @@ hal::Result<> expect(hid_t file, const char* name, double expected) {
 
 hal::Result<> check_format(hid_t file) {
   const auto format = read_text(file, "format");
-  if (!format || *format != recording_layout::format_name)
+  if (!format)
+    return hal::fail(hal::ErrorCode::bad_data, "is no recording of octascope: {}",
+                     format.error().message);
+  if (*format != recording_layout::format_name)
     return hal::fail(hal::ErrorCode::bad_data,
                      "is no recording of octascope: found the format \"{}\", expected \"{}\"",
-                     format ? *format : "", recording_layout::format_name);
+                     *format, recording_layout::format_name);
   HAL_TRY(const auto version, read_whole(file, "format_version"));
   if (version != recording_layout::format_version)
     return bad("format_version", fmt::format("found {}, this program reads {}", version,

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "pipeline/recordings/hdf5.h"
+#include "pipeline/recordings/hdf5_head.h"
 #include "pipeline/recordings/recording_attributes.h"
 #include "pipeline/recordings/recording_layout.h"
 
@@ -33,19 +34,24 @@ namespace {
 constexpr unsigned read_attempts = 22;
 
 // One that was never finished counts as being written; one that was finished and then cut off does
-// not, though HDF5 1.14 would read it so and take zeros for what is missing.
+// not, though HDF5 1.14 would read it so and take zeros for what is missing. Between the two looks a
+// writer may finish.
 hal::Result<Hdf5Handle> open_file(const std::filesystem::path& path) {
   const Hdf5Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   H5Pset_metadata_read_attempts(access, read_attempts);
-  Hdf5Handle file{H5Fopen(path.c_str(), H5F_ACC_RDONLY, access), H5Fclose};
-  if (!file.valid() && hdf5_reason().find("truncated") == std::string::npos)
-    file = {H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access), H5Fclose};
-  if (!file.valid()) // asked now: HDF5 forgets it with the next call
-    return hal::fail(hal::ErrorCode::bad_data,
-                     "is no recording, or a damaged one; expected a file that octascope record "
-                     "or a pedal made: " +
-                         hdf5_reason());
-  return file;
+  std::string reason;
+  for (const unsigned mode : {H5F_ACC_RDONLY, H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5F_ACC_RDONLY}) {
+    const bool swmr = (mode & H5F_ACC_SWMR_READ) != 0;
+    if (const Hdf5Head head = read_hdf5_head(path);
+        swmr && (!head.open_for_swmr || head.is_truncated()))
+      break;
+    Hdf5Handle file{H5Fopen(path.c_str(), mode, access), H5Fclose};
+    if (file.valid())
+      return file;
+    if (reason.empty() || swmr) // HDF5 forgets it with the next call
+      reason = hdf5_reason();
+  }
+  return tl::make_unexpected(refusal_of_hdf5(path, reason));
 }
 
 // HDF5's own limit for a chunk, and more volumes than a year has: what a file claims beyond them is
@@ -53,8 +59,55 @@ hal::Result<Hdf5Handle> open_file(const std::filesystem::path& path) {
 constexpr std::size_t most_voxels = 0xFFFFFFFF;
 constexpr hsize_t most_volumes = 500'000'000;
 
-const char* words_for(H5T_class_t type) {
-  return type == H5T_INTEGER ? "whole numbers" : type == H5T_COMPOUND ? "records" : "another type";
+// Nor is what a file of its size cannot hold, even if another program packed it: deflate, the
+// tightest of HDF5's own filters, makes no more of a byte.
+constexpr double most_bytes_of_a_byte = 1032;
+
+double bytes_of(std::span<const hsize_t> sizes, std::size_t element_bytes) {
+  double bytes = static_cast<double>(element_bytes);
+  for (const hsize_t size : sizes)
+    bytes *= static_cast<double>(size);
+  return bytes;
+}
+
+// Of a dataset that holds something: all of it, and one chunk.
+hal::Result<> check_claims(hid_t file, hid_t dataset, const char* name,
+                           std::span<const hsize_t> sizes, std::size_t element_bytes) {
+  hsize_t file_bytes = 0;
+  if (H5Fget_filesize(file, &file_bytes) < 0)
+    return hal::fail(hal::ErrorCode::bad_data, "its size cannot be found: " + hdf5_reason());
+  const Hdf5Handle made{H5Dget_create_plist(dataset), H5Pclose};
+  std::array<hsize_t, 4> chunk{};
+  double claimed = bytes_of(sizes, element_bytes);
+  if (claimed > 0 && H5Pget_layout(made) == H5D_CHUNKED &&
+      H5Pget_chunk(made, static_cast<int>(chunk.size()), chunk.data()) > 0)
+    claimed = std::max(claimed, bytes_of(std::span{chunk}.first(sizes.size()), element_bytes));
+  if (claimed <= most_bytes_of_a_byte * static_cast<double>(file_bytes))
+    return {};
+  return hal::fail(hal::ErrorCode::bad_data,
+                   "/{}: found {:.4g} bytes of it claimed, expected what a file of {} bytes can "
+                   "hold: the file is damaged, or another program changed it",
+                   name, claimed, file_bytes);
+}
+
+// Every number of a RecordedVolume.
+hal::Result<> check_entry_type(hid_t metadata) {
+  const Hdf5Handle found{H5Dget_type(metadata), H5Tclose};
+  const Hdf5Handle expected = layout::ledger_type();
+  for (int i = 0; i < H5Tget_nmembers(expected); ++i) {
+    char* const name = H5Tget_member_name(expected, static_cast<unsigned>(i));
+    const std::string member{name};
+    H5free_memory(name);
+    const int there = H5Tget_member_index(found, member.c_str());
+    const H5T_class_t type =
+        there < 0 ? H5T_NO_CLASS : H5Tget_member_class(found, static_cast<unsigned>(there));
+    if (type != H5T_INTEGER && type != H5T_FLOAT)
+      return hal::fail(hal::ErrorCode::bad_data,
+                       "/{}: found no numbers named {}, expected them: the file is damaged, or "
+                       "another program changed it",
+                       layout::metadata, member);
+  }
+  return {};
 }
 
 // A dataset whose dimensions but the first are `expected`; the first is put into `volumes`.
@@ -81,8 +134,9 @@ hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t t
     return hal::fail(hal::ErrorCode::bad_data,
                      "/{}: found {} of {}, expected [volumes{}{}] of {}, as the attributes say: "
                      "the file is damaged, or another program changed it",
-                     name, sizes, words_for(H5Tget_class(type)), expected.size() > 1 ? ", " : "",
-                     fmt::join(expected.subspan(1), ", "), words_for(type_class));
+                     name, sizes, name_of(H5Tget_class(type)), expected.size() > 1 ? ", " : "",
+                     fmt::join(expected.subspan(1), ", "), name_of(type_class));
+  HAL_CHECK(check_claims(file, dataset, name, sizes, H5Tget_size(type)));
   volumes = found[0];
   return dataset;
 }
@@ -127,6 +181,9 @@ hal::Result<> check_file(const std::filesystem::path& path) {
     return hal::fail(hal::ErrorCode::absent, "there is no such file");
   if (std::filesystem::is_directory(status))
     return hal::fail(hal::ErrorCode::invalid_argument, "found a folder, expected a recording");
+  if (!std::filesystem::is_regular_file(status)) // HDF5 would wait for what comes out of a pipe
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "found a pipe or a device, expected a recording");
   if (::access(path.c_str(), R_OK) != 0)
     return hal::fail(hal::ErrorCode::denied,
                      std::string{"cannot be read: "} + std::strerror(errno));
@@ -182,6 +239,8 @@ hal::Result<RecordingReader> RecordingReader::open(const std::filesystem::path& 
                                      std::array<hsize_t, 1>{}, counts[2]);
   if (!metadata)
     return refused(metadata.error());
+  if (const auto checked = check_entry_type(*metadata); !checked)
+    return refused(checked.error());
   if (geometry.voxels() > most_voxels || std::ranges::min(counts) > most_volumes)
     return refused(
         {hal::ErrorCode::bad_data,

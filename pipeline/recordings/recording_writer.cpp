@@ -1,11 +1,17 @@
 #include "pipeline/recordings/recording_writer.h"
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <string>
+#include <thread>
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include "pipeline/recordings/descriptor.h"
 #include "pipeline/recordings/hdf5.h"
 #include "pipeline/recordings/recording_attributes.h"
 #include "pipeline/recordings/recording_layout.h"
@@ -17,21 +23,6 @@ namespace layout = recording_layout;
 namespace {
 
 constexpr hsize_t entries_a_chunk = 256;
-
-class Descriptor {
-public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0)
-      ::close(number_);
-  }
-  operator int() const { return number_; }
-
-private:
-  int number_;
-};
 
 // A dataset that grows along its first dimension. Chunks are not cached: each is written once,
 // whole.
@@ -80,6 +71,11 @@ struct RecordingWriter::File {
                      reason.find("No space") == std::string::npos ? ""
                                                                   : "; free some room on the disk");
   }
+  hal::Result<> check_place() const;
+  bool is_lost() const { // no name leads to it any more
+    struct stat own = {};
+    return ::fstat(descriptor, &own) == 0 && own.st_nlink == 0;
+  }
   bool make_datasets();
   bool append_levels(const Volume& volume);
   bool flush() { return H5Dflush(levels) >= 0 && H5Dflush(states) >= 0 && H5Dflush(metadata) >= 0; }
@@ -91,6 +87,35 @@ struct RecordingWriter::File {
   bool broken = false;
   Hdf5Handle file, levels, states, metadata, entry_type; // the file closes last but for its types
 };
+
+// A name of the open file itself, wherever it has been moved to.
+std::string own_name(int descriptor) {
+  return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+bool is_file(const std::filesystem::path& path, const struct stat& file) {
+  struct stat found = {};
+  return ::stat(path.c_str(), &found) == 0 && found.st_dev == file.st_dev &&
+         found.st_ino == file.st_ino;
+}
+
+hal::Result<> RecordingWriter::File::check_place() const {
+  struct stat own = {};
+  if (::fstat(descriptor, &own) != 0)
+    return hal::fail(hal::ErrorCode::system, "{}: cannot be looked at: {}", path.string(),
+                     std::strerror(errno));
+  if (is_file(path, own))
+    return {};
+  std::error_code error;
+  const bool replaced = std::filesystem::exists(path, error);
+  const auto moved_to = std::filesystem::read_symlink(own_name(descriptor), error);
+  return hal::fail(hal::ErrorCode::absent,
+                   "{}: {} while it was being recorded: what was recorded {}", path.string(),
+                   replaced ? "another file took its place" : "was removed or moved",
+                   own.st_nlink == 0        ? std::string{"is lost"}
+                   : is_file(moved_to, own) ? fmt::format("is in {}", moved_to.string())
+                                            : std::string{"has another name"});
+}
 
 bool RecordingWriter::File::make_datasets() {
   entry_type = layout::ledger_type();
@@ -169,10 +194,23 @@ hal::Result<> RecordingWriter::append(const Volume& volume, const RecordedVolume
 
 hal::Result<> RecordingWriter::sync() {
   if (::fdatasync(file_->descriptor) == 0)
-    return {};
+    return file_->check_place();
   file_->broken = true;
   return hal::fail(hal::ErrorCode::system, "{}: cannot be written to the disk: {}",
                    file_->path.string(), std::strerror(errno));
+}
+
+// A reader that is just opening it holds it locked for a moment.
+Hdf5Handle open_once_more(const std::string& name) {
+  using namespace std::chrono_literals;
+  constexpr int attempts = 50;
+  Hdf5Handle file;
+  for (int i = 0; i < attempts && !file.valid(); ++i) {
+    if (i > 0)
+      std::this_thread::sleep_for(20ms);
+    file = {H5Fopen(name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
+  }
+  return file;
 }
 
 // Attributes cannot change while readers may look on: the file is closed and opened once more.
@@ -184,7 +222,9 @@ hal::Result<> RecordingWriter::finish(const RecordingEnd& end) {
     closed = handle->close() >= 0 && closed;
   if (!closed)
     return f.failed("cannot be closed");
-  const Hdf5Handle again{H5Fopen(f.path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
+  if (f.is_lost())
+    return f.check_place();
+  const Hdf5Handle again = open_once_more(own_name(f.descriptor));
   RecordingEnd finished = end;
   finished.finished = true;
   if (!again.valid() || !write_end(again, finished) || H5Fflush(again, H5F_SCOPE_LOCAL) < 0)

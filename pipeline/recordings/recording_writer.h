@@ -29,10 +29,10 @@ public:
   // Of the facts' geometry. After an Error nothing more can be appended.
   hal::Result<> append(const Volume& volume, const RecordedVolume& entry);
 
-  // To the disk; waits for it.
+  // To the disk; waits for it. ErrorCode::absent: the file is no longer there under its name.
   hal::Result<> sync();
 
-  // Closes the file and marks it as finished.
+  // Closes the file and marks it as finished; then as sync().
   hal::Result<> finish(const RecordingEnd& end);
 
 private:

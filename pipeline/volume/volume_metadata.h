@@ -10,7 +10,9 @@
 namespace octascope::pipeline {
 
 struct VolumeMetadata {
-  std::uint64_t index = 0; // counts the volumes that were triggered, from 1; 0: no volume yet
+  // Counts the planned volumes, from 1, also those that were never triggered: a gap is what was lost.
+  // 0: no volume yet.
+  std::uint64_t index = 0;
 
   hal::TimePoint pulsed;     // rising edge of the trigger pulse
   hal::TimePoint first_line; // camera timestamps, of what came

@@ -14,6 +14,7 @@
 #include "firmware-host/commands/recordings/recording_summary.h"
 #include "firmware-host/commands/size_text.h"
 #include "firmware-host/terminal/terminal.h"
+#include "hal/plain_text.h"
 #include "pipeline/recordings/recording_reader.h"
 #include "pipeline/volume/level_scale.h"
 
@@ -64,6 +65,8 @@ ordered_json losses_json(const RecordingReport& report) {
   ordered_json json{{"gaps", s.gaps},
                     {"volumes_in_gaps", s.volumes_in_gaps},
                     {"longest_gap", s.longest_gap},
+                    {"pauses", s.pauses},
+                    {"paused_s", s.paused_s},
                     {"volumes_not_kept", nullptr},
                     {"b_scans", s.lost_b_scans},
                     {"lines", s.lost_lines},
@@ -129,6 +132,10 @@ void print_losses(const RecordingReport& report) {
   else
     say("  lost         volumes: {}, gaps: {}, the longest of {}\n", s.volumes_in_gaps, s.gaps,
         s.longest_gap);
+  if (s.pauses > 0)
+    say("               pauses: {}, {:.1f} s in all, in which the machine slept or its clock "
+        "was set\n",
+        s.pauses, s.paused_s);
   if (!report.end.finished)
     say("               how many the disk was too slow for is not known: not finished\n");
   else if (report.end.not_kept > 0)
@@ -142,9 +149,9 @@ void print_text(const RecordingReport& report) {
   const VolumeGeometry& g = facts.geometry;
   say("{}: {}\n", report.name,
       facts.simulated ? "SIMULATED, some or all of it is not the patient's" : "a recording");
-  say("  begun        {}, by {}\n", facts.begun, facts.recorded_by);
-  say("  source       {}\n", facts.source);
-  say("  subject      {}\n", facts.subject.empty() ? "not said" : facts.subject);
+  say("  begun        {}, by {}\n", hal::printable(facts.begun), hal::printable(facts.recorded_by));
+  say("  source       {}\n", hal::printable(facts.source));
+  say("  subject      {}\n", facts.subject.empty() ? "not said" : hal::printable(facts.subject));
   say("  eye          {}\n", to_string(facts.eye));
   print_volumes(report);
   say("  geometry     {} depths × {} A-scans × {} B-scans\n", g.depths, g.a_scans, g.b_scans);

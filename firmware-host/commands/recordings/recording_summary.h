@@ -19,6 +19,10 @@ struct RecordingSummary {
   std::uint64_t gaps = 0;            // places where volumes are missing between two others
   std::uint64_t volumes_in_gaps = 0; // number of missing volumes
   std::uint64_t longest_gap = 0;     // in volumes
+  // Where the wall clock went on and the volumes' own clock did not: the machine slept, or its
+  // clock was set. No volume was planned in that time.
+  std::uint64_t pauses = 0;
+  double paused_s = 0; // together
   std::int64_t lost_b_scans = 0;
   std::int64_t lost_lines = 0;
   std::int64_t saturated_lines = 0;

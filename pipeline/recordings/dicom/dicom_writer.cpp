@@ -144,8 +144,10 @@ void put_equipment(DicomItem& item, const RecordingFacts& facts, const std::stri
 
 void put_geometry(DicomItem& item, const VolumeGeometry& g, const std::string& slice_locations_mm) {
   item.put(DCM_NumberOfFrames, EVR_IS, std::to_string(g.b_scans));
-  item.put(DCM_FrameIncrementPointer, DCM_SliceLocationVector);
-  item.put(DCM_SliceLocationVector, EVR_DS, slice_locations_mm);
+  if (g.b_scans > 1) { // of a single frame nothing says what comes next (PS3.3, C.7.6.6)
+    item.put(DCM_FrameIncrementPointer, DCM_SliceLocationVector);
+    item.put(DCM_SliceLocationVector, EVR_DS, slice_locations_mm);
+  }
   item.put(DCM_Rows, static_cast<std::uint16_t>(g.depths));
   item.put(DCM_Columns, static_cast<std::uint16_t>(g.a_scans));
   // Between rows first.

@@ -107,6 +107,41 @@ TEST(RecordingSummaries, find_gaps_and_sum_what_was_lost) {
   EXPECT_EQ(summarise(volumes, 0.1).gaps, 0U);
 }
 
+// Older recordings give an index to what was triggered alone. A tick that was held up for less than a
+// period lost nothing.
+TEST(RecordingSummaries, tell_a_pause_by_the_index_or_by_the_times) {
+  using Times = std::vector<std::pair<std::uint64_t, double>>; // index and planned periods
+  const auto lost = [](const Times& times) {
+    std::vector<RecordedVolume> volumes;
+    for (const auto& [index, periods] : times)
+      volumes.push_back(
+          {.index = index, .first_line_ns = static_cast<std::int64_t>(periods * 100'000'000)});
+    return summarise(volumes, 0.1).volumes_in_gaps;
+  };
+  EXPECT_EQ(lost({{1, 0}, {2, 1}, {3, 22.02}, {4, 23}}), 20U);
+  EXPECT_EQ(lost({{1, 0}, {2, 1}, {23, 22.02}, {24, 23}}), 20U);
+  EXPECT_EQ(lost({{1, 0}, {2, 1}, {23, 22.99}, {24, 23}}), 20U);
+  EXPECT_EQ(lost({{1, 0}, {2, 1.99}, {3, 2}, {4, 3.9}}), 0U);
+  EXPECT_EQ(lost({{1, 0}, {2, 9e10}}), 89'999'999'999U);
+  EXPECT_EQ(lost({{1, 5}, {2, 0}}), 0U);
+}
+
+TEST(RecordingSummaries, tell_of_a_machine_that_slept_by_the_wall_clock) {
+  std::vector<RecordedVolume> volumes;
+  for (int n = 0; n < 4; ++n)
+    volumes.push_back({.index = static_cast<std::uint64_t>(n + 1),
+                       .first_line_ns = n * std::int64_t{100'000'000},
+                       .published_ns = n * std::int64_t{100'000'000},
+                       .wall_clock_ns = n * std::int64_t{101'000'000}});
+  EXPECT_EQ(summarise(volumes, 0.1).pauses, 0U) << "a clock that is a little fast";
+  volumes[2].wall_clock_ns += 3'500'000'000;
+  volumes[3].wall_clock_ns += 3'500'000'000;
+  const RecordingSummary found = summarise(volumes, 0.1);
+  EXPECT_EQ(found.pauses, 1U);
+  EXPECT_NEAR(found.paused_s, 3.5, 0.01);
+  EXPECT_EQ(found.volumes_in_gaps, 0U) << "none was planned";
+}
+
 TEST(PicturesToScale, are_as_large_as_what_they_show) {
   pipeline::Image grey{10, 4, 1};
   for (std::size_t i = 0; i < grey.pixels.size(); ++i)

@@ -33,6 +33,33 @@ TEST_F(VolumeSchedulerTest, ticks_that_were_slept_through_are_lost_volumes) {
   EXPECT_EQ(counters.triggered, 0U);
 }
 
+// What a recording keeps as the index: its gaps tell of pauses.
+TEST_F(VolumeSchedulerTest, a_volumes_number_counts_the_ticks_that_brought_none) {
+  const auto number_at = [&](int n) {
+    const std::uint32_t buffer = scheduler.pulsed(tick(n)).value();
+    deliver(tick(n), 0, 8);
+    const VolumeDecision decision = next(tick(n + 1) - moment);
+    EXPECT_EQ(decision.action, Action::publish);
+    scheduler.published(buffer, false);
+    return decision.volume.number;
+  };
+  EXPECT_EQ(scheduler.tick(tick(0)).slept_through, 0U);
+  scheduler.not_ready(); // nothing was planned before the camera streams
+  scheduler.tick(tick(1));
+  EXPECT_EQ(number_at(1), 1U);
+  EXPECT_EQ(scheduler.tick(tick(22)).slept_through, 20U);
+  EXPECT_EQ(number_at(22), 22U);
+  scheduler.tick(tick(23));
+  scheduler.not_ready();
+  scheduler.tick(tick(24));
+  scheduler.pulse_failed();
+  scheduler.tick(tick(25));
+  EXPECT_EQ(number_at(25), 25U);
+  const VolumeCounters counters = scheduler.counters();
+  EXPECT_EQ(counters.planned, 25U);
+  EXPECT_EQ(counters.lost_volumes, 22U);
+}
+
 TEST_F(VolumeSchedulerTest, a_frame_is_submitted_as_it_comes_and_in_its_place) {
   const std::uint32_t buffer = pulse(first_tick).value();
   for (const int sweep : {3, 1, 0, 2, 7, 6, 5, 4}) { // the time decides, not the order
