@@ -72,10 +72,7 @@ struct RecordingWriter::File {
                                                                   : "; free some room on the disk");
   }
   hal::Result<> check_place() const;
-  bool is_lost() const { // no name leads to it any more
-    struct stat own = {};
-    return ::fstat(descriptor, &own) == 0 && own.st_nlink == 0;
-  }
+  Hdf5Handle open_once_more() const;
   bool make_datasets();
   bool append_levels(const Volume& volume);
   bool flush() { return H5Dflush(levels) >= 0 && H5Dflush(states) >= 0 && H5Dflush(metadata) >= 0; }
@@ -200,17 +197,16 @@ hal::Result<> RecordingWriter::sync() {
                    file_->path.string(), std::strerror(errno));
 }
 
-// A reader that is just opening it holds it locked for a moment.
-Hdf5Handle open_once_more(const std::string& name) {
+// By whatever name it has now. A reader that is just opening it holds it locked for a moment.
+Hdf5Handle RecordingWriter::File::open_once_more() const {
   using namespace std::chrono_literals;
   constexpr int attempts = 50;
-  Hdf5Handle file;
-  for (int i = 0; i < attempts && !file.valid(); ++i) {
-    if (i > 0)
-      std::this_thread::sleep_for(20ms);
-    file = {H5Fopen(name.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
+  Hdf5Handle again{H5Fopen(own_name(descriptor).c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
+  for (int i = 1; i < attempts && !again.valid() && check_place(); ++i) {
+    std::this_thread::sleep_for(20ms);
+    again = {H5Fopen(own_name(descriptor).c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
   }
-  return file;
+  return again;
 }
 
 // Attributes cannot change while readers may look on: the file is closed and opened once more.
@@ -222,13 +218,14 @@ hal::Result<> RecordingWriter::finish(const RecordingEnd& end) {
     closed = handle->close() >= 0 && closed;
   if (!closed)
     return f.failed("cannot be closed");
-  if (f.is_lost())
-    return f.check_place();
-  const Hdf5Handle again = open_once_more(own_name(f.descriptor));
+  const Hdf5Handle again = f.open_once_more();
   RecordingEnd finished = end;
   finished.finished = true;
-  if (!again.valid() || !write_end(again, finished) || H5Fflush(again, H5F_SCOPE_LOCAL) < 0)
-    return f.failed("cannot be marked as finished");
+  if (!again.valid() || !write_end(again, finished) || H5Fflush(again, H5F_SCOPE_LOCAL) < 0) {
+    const auto failed = f.failed("cannot be marked as finished");
+    HAL_CHECK(f.check_place()); // the better reason
+    return failed;
+  }
   return sync();
 }
 

@@ -150,6 +150,8 @@ void add_record_command(CLI::App& program, int& exit_status) {
       program.add_subcommand("record", "Run the appliance and keep its volumes (HDF5)");
   command->footer("Example:\n"
                   "  octascope record --out eye.h5 --sim --duration 20 --eye left\n"
+                  "Status 1 where the file holds no volume, is gone, or the recording ended before "
+                  "the run.\n"
                   "In a run that is under way, r or the pedal's recording begins and ends one.\n"
                   "octascope info, export and replay take it from there.");
   command->add_option("--out", arguments->record_to, "The recording: a file that is not there yet")

@@ -109,7 +109,7 @@ TEST_F(Notice, a_picture_that_could_not_be_kept_is_told) {
 }
 
 TEST_F(Notice, a_recording_that_ended_by_itself_is_told) {
-  for (const char* kind : {"disk_full", "not_kept", "not_finished", "not_begun"})
+  for (const char* kind : {"disk_full", "gone", "not_kept", "not_finished", "not_begun"})
     EXPECT_NE(of({fault("recording", kind, 0s)}), "") << kind;
 }
 

@@ -150,6 +150,25 @@ TEST_F(RecorderTest, tells_what_cannot_be_begun_and_tries_again) {
   EXPECT_TRUE(RecordingReader::open(folder / "b.h5")->end().finished);
 }
 
+TEST_F(RecorderTest, ends_where_its_file_is_removed_and_says_why) {
+  recorder.start({});
+  begin(folder / "a.h5");
+  recorder.offer(small_recording_volume(0));
+  wait_until([&] { return recorder.status().kept == 1; });
+  EXPECT_FALSE(recorder.failure());
+  std::filesystem::remove(folder / "a.h5");
+  wait_until([&] { return !recorder.status().on; });
+  ASSERT_EQ(faults.records().size(), 1U);
+  EXPECT_EQ(faults.records()[0].kind, Fault::recording_gone);
+  EXPECT_EQ(tests::must(recorder.failure()).code, hal::ErrorCode::absent);
+  wait_until([&] { return recorder.begin(folder / "b.h5", small_recording_facts()); });
+  EXPECT_FALSE(recorder.failure()) << "of the new one";
+  wait_until([&] { return recorder.status().on; });
+  std::filesystem::remove(folder / "b.h5");
+  recorder.stop(); // before it looked
+  EXPECT_EQ(tests::must(recorder.failure()).code, hal::ErrorCode::absent);
+}
+
 TEST_F(RecorderTest, finishes_when_it_is_stopped) {
   recorder.start({});
   begin(folder / "a.h5");

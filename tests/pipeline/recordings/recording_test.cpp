@@ -1,5 +1,6 @@
 // Recordings: what is written is read again, at any moment, and however the writer ended.
 #include <csignal>
+#include <functional>
 #include <random>
 
 #include <fmt/format.h>
@@ -187,6 +188,48 @@ TEST_F(Recording, that_outgrows_the_disk_says_so_and_keeps_what_it_has) {
   ASSERT_GT(WEXITSTATUS(status), 0);
   const auto reader = tests::must(RecordingReader::open(file));
   EXPECT_GE(reader.volumes().size() + 1, static_cast<std::size_t>(WEXITSTATUS(status)));
+}
+
+// What becomes of its file while it is written: told, and nobody else's file is touched.
+TEST_F(Recording, knows_where_its_file_has_gone) {
+  const auto other = folder / "other.h5";
+  const auto told_after = [&](const std::function<void()>& happen) {
+    std::filesystem::remove(file);
+    std::filesystem::remove(other);
+    auto writer = tests::must(RecordingWriter::create(file, small_recording_facts()));
+    append_small_volumes(writer, 0, 3);
+    EXPECT_TRUE(writer.sync());
+    happen();
+    const auto synced = tests::error_of(writer.sync());
+    EXPECT_EQ(synced.code, hal::ErrorCode::absent);
+    EXPECT_THAT(synced.message, HasSubstr(file.string() + ": "));
+    const auto finished = tests::error_of(writer.finish({}));
+    EXPECT_EQ(finished.code, hal::ErrorCode::absent);
+    EXPECT_EQ(finished.message, synced.message);
+    return finished.message;
+  };
+  EXPECT_THAT(told_after([&] { std::filesystem::remove(file); }),
+              AllOf(HasSubstr("was removed or moved"), HasSubstr("what was recorded is lost")));
+
+  EXPECT_THAT(told_after([&] { std::filesystem::rename(file, other); }),
+              AllOf(HasSubstr("was removed or moved"), HasSubstr("is in " + other.string())));
+  const auto moved = tests::must(RecordingReader::open(other));
+  EXPECT_TRUE(moved.end().finished);
+  EXPECT_EQ(moved.volumes().size(), 3U);
+
+  EXPECT_THAT(told_after([&] {
+                folder.write("r.new", "mine");
+                std::filesystem::rename(folder / "r.new", file);
+              }),
+              AllOf(HasSubstr("another file took its place"), HasSubstr("is lost")));
+  EXPECT_EQ(tests::whole_file(file), "mine");
+
+  EXPECT_THAT(told_after([&] {
+                std::filesystem::create_hard_link(file, other);
+                std::filesystem::remove(file);
+              }),
+              HasSubstr("has another name"));
+  EXPECT_EQ(tests::must(RecordingReader::open(other)).volumes().size(), 3U);
 }
 
 TEST_F(Recording, refuses_what_is_none) {

@@ -1,8 +1,10 @@
 // Recordings of a running appliance, by command and by pedal.
 #include <csignal>
+#include <functional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "pipeline/recordings/recording_reader.h"
 #include "tests/program/program_support.h"
@@ -82,6 +84,82 @@ TEST(Record, needs_a_folder_that_is_there) {
   const ProgramResult result = run_octascope(words);
   EXPECT_EQ(result.exit_status, 1);
   EXPECT_THAT(result.err, HasSubstr("none"));
+}
+
+// What was asked for with --out and is not there at the end: told last, on stderr, by the status, and
+// never praised.
+ProgramResult record_while(const ScratchFolder& folder, const std::function<void()>& happen) {
+  ProgramRun run{octascope_command(small_record(folder, {"--duration", "100"}))};
+  EXPECT_TRUE(run.wait_for_thread("octa-recorder", 60s));
+  for (int i = 0; i < 600; ++i) {
+    const auto reader = pipeline::RecordingReader::open(folder / "r.h5");
+    if (reader && !reader->volumes().empty())
+      break;
+    std::this_thread::sleep_for(100ms);
+  }
+  happen();
+  run.send_signal(SIGINT);
+  return run.wait(60s);
+}
+
+TEST(Record, fails_where_its_file_is_gone_at_the_end) {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder / "r.h5";
+  const auto fails = [&](const std::function<void()>& happen) {
+    const ProgramResult result = record_while(folder, happen);
+    EXPECT_EQ(result.exit_status, 1) << result.describe();
+    EXPECT_THAT(result.out, testing::Not(HasSubstr("recording: ")));
+    EXPECT_THAT(result.err, HasSubstr("octascope record: " + file.string() + ": "));
+    std::filesystem::remove(file);
+    return result.err;
+  };
+  EXPECT_THAT(fails([&] { std::filesystem::remove(file); }), HasSubstr("is lost"));
+  EXPECT_THAT(fails([&] {
+                folder.write("new.h5", "mine");
+                std::filesystem::rename(folder / "new.h5", file);
+              }),
+              HasSubstr("another file took its place"));
+  EXPECT_THAT(fails([&] { std::filesystem::rename(file, folder / "moved.h5"); }),
+              HasSubstr("is in " + (folder / "moved.h5").string()));
+  EXPECT_TRUE(open_recording(folder / "moved.h5").end().finished);
+}
+
+// A disk of that size, for one program alone; empty: none can be made here.
+std::vector<std::string> with_small_disk(const std::filesystem::path& place,
+                                         const std::string& size) {
+  std::vector<std::string> words{"unshare",
+                                 ::geteuid() == 0 ? "-m" : "-rm",
+                                 "sh",
+                                 "-c",
+                                 "mount -t tmpfs -o size=" + size + " tmpfs \"$0\" && \"$@\"",
+                                 place};
+  std::vector<std::string> nothing = words;
+  nothing.emplace_back("true");
+  return run_program(nothing).exit_status == 0 ? words : std::vector<std::string>{};
+}
+
+TEST(Record, fails_where_the_disk_is_full_from_the_first_volume_on_or_later) {
+  const ScratchFolder folder;
+  const std::filesystem::path disk = folder / "disk";
+  std::filesystem::create_directory(disk);
+  const auto recorded = [&](const std::string& size) {
+    std::vector<std::string> words = with_small_disk(disk, size);
+    auto record = octascope_command(small_record(folder, {"--volumes", "6"}));
+    record.back() = disk / "r.h5";
+    words.insert(words.end(), record.begin(), record.end());
+    return run_program(words);
+  };
+  if (with_small_disk(disk, "1m").empty())
+    GTEST_SKIP() << "no disk can be mounted here";
+  const ProgramResult none = recorded("200m");
+  EXPECT_EQ(none.exit_status, 1) << none.describe();
+  EXPECT_THAT(none.out, testing::Not(HasSubstr("recording: ")));
+  EXPECT_THAT(none.err,
+              testing::AllOf(HasSubstr("are left on its disk"), HasSubstr("it holds no volume")));
+  const ProgramResult some = recorded("262260k"); // 256 MB stay free: room for some is left
+  EXPECT_EQ(some.exit_status, 1) << some.describe();
+  EXPECT_THAT(some.err, testing::ContainsRegex("it holds [1-9] volumes"));
+  EXPECT_THAT(some.out, HasSubstr("recording: "));
 }
 
 // As at a power cut, but for the disk's own part in it.
