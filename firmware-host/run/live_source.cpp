@@ -175,6 +175,10 @@ void LiveSource::make_calibrated_camera() {
   const auto& file = options_.calibration ? options_.calibration : configuration_.calibration;
   if (file && camera.empty() && !options_.recording)
     fmt::print(stderr, "octascope run: {}\n", words_on_unnamed_camera(*file));
+  if (!file)
+    return;
+  if (const auto doubt = pipeline::doubt_about_k_table(devices_->calibration(), *file))
+    fmt::print(stderr, "octascope run: {}\n", *doubt);
 }
 
 void LiveSource::make_recordings() {
