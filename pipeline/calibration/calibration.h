@@ -64,7 +64,8 @@ struct Calibration {
   // expected. `expected_samples`: samples per line of the spectra.
   static hal::Result<Calibration> load(const std::filesystem::path& file, int expected_samples);
 
-  // Used when no calibration is given: no resampling, no dispersion, Hann window, running background.
+  // Used when no calibration is given: no resampling, no dispersion, Hann window, a running
+  // background.
   static Calibration identity(int samples);
 
   // The number of depth bins of an A-scan, and their spacing.

@@ -29,7 +29,7 @@ hal::Result<std::vector<double>> positions_from_wavelength(std::span<const doubl
 
 // Where a strictly monotone curve over pixels takes values that are uniform between its ends: a
 // table of wavenumbers, in any unit, becomes positions. Positions between two pixels are
-// interpolated linearly, which is right within 1e-4 pixels where steps change by 1e-3 of their size.
+// interpolated linearly: right within 1e-4 pixels where steps change by 1e-3 of their size.
 std::vector<double> invert_curve(std::span<const double> curve);
 
 // How far, in pixels, positions are at most from those that the same curve would give as

@@ -82,14 +82,14 @@ public:
   const PathDecision& path_decision() const;
 
   Workspace make_workspace() const;
-  // BackgroundMode::running only: hands out the background of each B-scan, in order. `sweeps`: B-scans
-  // a volume, each repeat counted.
+  // BackgroundMode::running only: hands out the background of each B-scan, in order. `sweeps`:
+  // B-scans a volume, each repeat counted.
   std::optional<RunningBackground> make_running_background(int sweeps) const;
 
   // `frame` begins with the a_scans() kept lines, aligned for its sample type; the fly-back lines
   // after them are not read. `levels` has levels() values [a][z], depth fastest.
   // `running`: with BackgroundMode::running, the result of RunningBackground::add() for this
-  // B-scan; ignored otherwise. Without it this B-scan's mean is taken, as with BackgroundMode::mean.
+  // B-scan; ignored otherwise. Without it this B-scan's mean is taken, as with mode "mean".
   // Neither allocates, locks nor logs.
   BScanOutcome reconstruct_b_scan(Workspace& workspace, std::span<const std::byte> frame,
                                   std::span<std::uint8_t> levels,

@@ -93,8 +93,8 @@ void VolumeReconstruction::work() {
   finished_.notify_all();
 }
 
-// Nothing was before the first B-scan, but what comes after it is at hand: as if the volume had been
-// before.
+// Nothing was before the first B-scan, but what comes after it is at hand: as if the volume had
+// been before.
 void VolumeReconstruction::look_ahead() {
   for (int b = 0; running_background_ && b < spectra_.shape().b_scans; ++b)
     running_background_->add(spectra_.b_scan(b));

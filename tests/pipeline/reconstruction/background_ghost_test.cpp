@@ -1,5 +1,6 @@
-// What the background leaves in a B-scan of the twin: a line through all A-scans at the depth of what
-// is level in some of them. The simulated spectrometer's own background, which is known, leaves none.
+// What the background leaves in a B-scan of the twin: a line through all A-scans at the depth of
+// what is level in some of them. The simulated spectrometer's own background, which is known,
+// leaves none.
 #include <algorithm>
 #include <span>
 #include <vector>
@@ -53,8 +54,8 @@ protected:
     return floor;
   }
 
-  // By how many decibels the background's line stands out, at the worst depth behind the rest of the
-  // background at zero delay.
+  // By how many decibels the background's line stands out, at the worst depth behind the rest of
+  // the background at zero delay.
   float ghost_db(const Reconstructor& made, int b_scan, std::span<const float> background) const {
     const auto true_counts = loop->spectrometer().mean_counts({});
     const std::vector<float> truth(true_counts.begin(), true_counts.end());
