@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "firmware-host/terminal/terminal.h"
 #include "hal/linux/realtime.h"
 
 namespace octascope::firmware_host {
