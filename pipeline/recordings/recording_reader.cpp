@@ -14,6 +14,7 @@
 #include "pipeline/recordings/hdf5_head.h"
 #include "pipeline/recordings/recording_attributes.h"
 #include "pipeline/recordings/recording_layout.h"
+#include "pipeline/recordings/trial.h"
 
 namespace octascope::pipeline {
 
@@ -203,55 +204,47 @@ RecordingReader::~RecordingReader() {
 
 hal::Result<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
   const Hdf5Silence silence;
-  const auto refused = [&](const hal::Error& error) {
-    return hal::fail(error.code, "{}: {}", path.string(), error.message);
-  };
-  if (const auto checked = check_file(path); !checked)
-    return refused(checked.error());
+  auto opened = check_file(path)
+                    .and_then([&] { return try_apart([&] { read_indices(load(path)); }); })
+                    .and_then([&] { return load(path); });
+  if (!opened)
+    return hal::fail(opened.error().code, "{}: {}", path.string(), opened.error().message);
+  return RecordingReader{std::move(*opened)};
+}
+
+hal::Result<std::unique_ptr<RecordingReader::File>>
+RecordingReader::load(const std::filesystem::path& path) {
   auto opened = std::make_unique<File>();
   opened->path = path;
-  auto file = open_file(path);
-  if (!file)
-    return refused(file.error());
-  opened->file = std::move(*file);
-  auto facts = read_facts(opened->file);
-  if (!facts)
-    return refused(facts.error());
-  opened->facts = std::move(*facts);
-  const auto end = read_end(opened->file);
-  if (!end)
-    return refused(end.error());
-  opened->end = *end;
-
+  HAL_TRY(opened->file, open_file(path));
+  HAL_TRY(opened->facts, read_facts(opened->file));
+  HAL_TRY(opened->end, read_end(opened->file));
   const VolumeGeometry& geometry = opened->facts.geometry;
   std::array<hsize_t, 3> counts{};
-  auto levels = open_dataset(opened->file, layout::levels, H5T_INTEGER,
-                             layout::levels_size(geometry, 0), counts[0]);
-  if (!levels)
-    return refused(levels.error());
-  opened->levels = std::move(*levels);
-  auto states = open_dataset(opened->file, layout::b_scan_states, H5T_INTEGER,
-                             layout::states_size(geometry, 0), counts[1]);
-  if (!states)
-    return refused(states.error());
-  opened->states = std::move(*states);
-  const auto metadata = open_dataset(opened->file, layout::metadata, H5T_COMPOUND,
-                                     std::array<hsize_t, 1>{}, counts[2]);
-  if (!metadata)
-    return refused(metadata.error());
-  if (const auto checked = check_entry_type(*metadata); !checked)
-    return refused(checked.error());
-  if (geometry.voxels() > most_voxels || std::ranges::min(counts) > most_volumes)
-    return refused(
-        {hal::ErrorCode::bad_data,
-         fmt::format("found {} volumes of {} voxels, expected at most {} of {}",
-                     std::ranges::min(counts), geometry.voxels(), most_volumes, most_voxels)});
+  HAL_TRY(opened->levels, open_dataset(opened->file, layout::levels, H5T_INTEGER,
+                                       layout::levels_size(geometry, 0), counts[0]));
+  HAL_TRY(opened->states, open_dataset(opened->file, layout::b_scan_states, H5T_INTEGER,
+                                       layout::states_size(geometry, 0), counts[1]));
+  HAL_TRY(const auto metadata, open_dataset(opened->file, layout::metadata, H5T_COMPOUND,
+                                            std::array<hsize_t, 1>{}, counts[2]));
+  HAL_CHECK(check_entry_type(metadata));
   // Of one that broke off, the last volume may lack its entry.
-  auto entries = read_entries(*metadata, std::ranges::min(counts));
-  if (!entries)
-    return refused(entries.error());
-  opened->volumes = std::move(*entries);
-  return RecordingReader{std::move(opened)};
+  const hsize_t volumes = std::ranges::min(counts);
+  if (geometry.voxels() > most_voxels || volumes > most_volumes)
+    return hal::fail(hal::ErrorCode::bad_data,
+                     "found {} volumes of {} voxels, expected at most {} of {}", volumes,
+                     geometry.voxels(), most_volumes, most_voxels);
+  HAL_TRY(opened->volumes, read_entries(metadata, volumes));
+  return opened;
+}
+
+// All that HDF5 looks at when volumes are read, but for the volumes themselves.
+void RecordingReader::read_indices(const hal::Result<std::unique_ptr<File>>& opened) {
+  if (!opened)
+    return;
+  hsize_t chunks = 0;
+  for (const hid_t dataset : {hid_t{(*opened)->levels}, hid_t{(*opened)->states}})
+    H5Dget_num_chunks(dataset, H5S_ALL, &chunks);
 }
 
 const RecordingFacts& RecordingReader::facts() const {
