@@ -39,6 +39,17 @@ const std::map<std::string, DisplayChoice>& displays() {
   return all;
 }
 
+// A tree is read while the run goes on, and one that cannot be read is a fault of the run; but a name
+// that leads nowhere is a slip of whoever gave it.
+hal::Result<> check_there(std::string_view option, const std::string& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (file.empty() || (std::filesystem::exists(status) && !std::filesystem::is_directory(status)))
+    return {};
+  return hal::fail(hal::ErrorCode::absent, "{} is {}, {}, expected a file", option, file,
+                   std::filesystem::exists(status) ? "a folder" : "and there is no such file");
+}
+
 } // namespace
 
 void add_show_options(CLI::App& command, ShowArguments& a) {
@@ -69,6 +80,8 @@ void add_show_options(CLI::App& command, ShowArguments& a) {
 }
 
 hal::Result<> read_show_options(const ShowArguments& a, RunOptions& options) {
+  HAL_CHECK(check_there("--vessels", a.vessels));
+  HAL_CHECK(check_there("--registration", a.registration));
   options.configuration = path_of(a.configuration);
   options.display = displays().at(a.display);
   options.vessels = path_of(a.vessels);

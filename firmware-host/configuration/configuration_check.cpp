@@ -77,8 +77,12 @@ std::vector<std::string> named_file_complaints(const std::filesystem::path& file
 
 hal::Result<Configuration> load_whole_configuration(const std::filesystem::path& file,
                                                     const RunOptions& options) {
-  HAL_TRY(auto configuration, load_configuration(file));
-  const auto complaints = named_file_complaints(file, configuration, options);
+  HAL_TRY(const auto document, pipeline::ConfigDocument::load(file));
+  auto configuration = read_configuration(document);
+  document.complain_about_missing_files();
+  std::vector<std::string> complaints = document.complaints();
+  if (configuration && complaints.empty())
+    complaints = named_file_complaints(file, *configuration, options);
   if (!complaints.empty())
     return hal::fail(hal::ErrorCode::invalid_argument, "{}", fmt::join(complaints, "\n"));
   return configuration;

@@ -209,6 +209,21 @@ std::optional<HealthCheck> check_camera_of_calibration(const std::filesystem::pa
   return good("calibration", words_on_unnamed_camera(*configuration->calibration));
 }
 
+// Likewise.
+std::optional<HealthCheck> check_k_table(const std::filesystem::path& file) {
+  const auto configuration = load_configuration(file);
+  if (!configuration || !configuration->calibration)
+    return std::nullopt;
+  const int samples = configuration->plan.value_or(pipeline::ScanPlan{}).samples;
+  const auto calibration = pipeline::Calibration::load(*configuration->calibration, samples);
+  if (!calibration)
+    return std::nullopt;
+  if (auto doubt = pipeline::doubt_about_k_table(*calibration, *configuration->calibration))
+    return HealthCheck{"calibration", Verdict::limited, std::move(*doubt),
+                       "see docs/CALIBRATION.md, The k curve"};
+  return std::nullopt;
+}
+
 } // namespace
 
 std::vector<HealthCheck> check_health(hal::Clock& clock) {
@@ -240,6 +255,8 @@ std::vector<HealthCheck> check_configuration(const std::optional<std::filesystem
     checks.push_back(good("configuration", used->string()));
     if (auto unnamed = check_camera_of_calibration(*used))
       checks.push_back(std::move(*unnamed));
+    if (auto doubt = check_k_table(*used))
+      checks.push_back(std::move(*doubt));
   }
   return checks;
 }

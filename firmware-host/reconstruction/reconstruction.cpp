@@ -5,6 +5,9 @@
 #include <thread>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "firmware-host/terminal/terminal.h"
 #include "hal/linux/realtime.h"
 
 namespace octascope::firmware_host {
@@ -12,11 +15,17 @@ namespace octascope::firmware_host {
 hal::Result<std::unique_ptr<Reconstruction>>
 Reconstruction::make(const Devices& devices, const Configuration& configuration,
                      ReconstructionCache& cache) {
+  pipeline::Calibration calibration = devices.calibration();
+  const pipeline::ScanPlan& plan = devices.plan();
+  if (const auto words = pipeline::replace_background_of_few_lines(
+          calibration, plan.converted_lines(), plan.sweeps()))
+    warn("octascope run: {}\n", *words);
   HAL_TRY(auto made,
-          pipeline::Reconstructor::create({.calibration = devices.calibration(),
+          pipeline::Reconstructor::create({.calibration = calibration,
                                            .format = pipeline::SpectrumFormat{devices.format()},
-                                           .a_scans = devices.plan().converted_lines(),
-                                           .memory = &cache}));
+                                           .a_scans = plan.converted_lines(),
+                                           .memory = &cache,
+                                           .limit_saturated_lines = true}));
   static_cast<void>(cache.save()); // what was not kept is measured again; the doctor says why
   HAL_TRY(const auto average, pipeline::NeighbourAverage::create(configuration.neighbour_weights));
   const std::size_t workers = configuration.workers > 0
@@ -37,7 +46,7 @@ Reconstruction::Reconstruction(pipeline::Reconstructor reconstructor,
 
 pipeline::VolumeThreadSetup Reconstruction::volume_thread_setup(const pipeline::ScanPlan& plan,
                                                                 int camera_buffers) {
-  if (auto running = reconstructor_.make_running_background())
+  if (auto running = reconstructor_.make_running_background(plan.sweeps()))
     backgrounds_.emplace(std::move(*running), reconstructor_.samples(), camera_buffers);
   return {
       .plan = plan,

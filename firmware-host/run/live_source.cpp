@@ -177,6 +177,10 @@ void LiveSource::make_calibrated_camera() {
   const auto& file = options_.calibration ? options_.calibration : configuration_.calibration;
   if (file && camera.empty() && !options_.recording)
     warn("octascope run: {}\n", words_on_unnamed_camera(*file));
+  if (!file)
+    return;
+  if (const auto doubt = pipeline::doubt_about_k_table(devices_->calibration(), *file))
+    warn("octascope run: {}\n", *doubt);
 }
 
 void LiveSource::make_recordings() {

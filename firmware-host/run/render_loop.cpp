@@ -388,6 +388,11 @@ void RenderLoop::lose_display(const hal::Error& error) {
 }
 
 bool RenderLoop::display_ready() {
+  // One that failed while its events were read is not drawn on: even that would talk to it.
+  if (renderer_ && parts_.display.state() == hal::DeviceState::failed) {
+    if (const auto flip = parts_.display.present(); !flip)
+      lose_display(flip.error());
+  }
   if (renderer_)
     return true;
   const hal::TimePoint now = parts_.clock.now();

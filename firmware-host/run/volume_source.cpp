@@ -124,9 +124,15 @@ pipeline::Volume build_volume(const Twins& twins, const pipeline::Reconstructor&
   pipeline::Volume volume{plan.geometry()};
   volume.occupancy = pipeline::Occupancy{plan.geometry(), pipeline::blank_depth_bins};
   auto workspace = reconstructor.make_workspace();
+  // As if the volume had been before: its background is that of the whole volume.
+  std::span<const float> background;
+  auto running = reconstructor.make_running_background(plan.sweeps());
+  for (int sweep = 0; running && sweep < plan.sweeps(); ++sweep)
+    background = running->add(twins.spectra->frame(0, sweep));
   pipeline::BScanBuilder builder{
       plan, 1, [&](std::size_t, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
-        return reconstructor.reconstruct_b_scan(workspace, frame.bytes, levels).saturated_lines;
+        return reconstructor.reconstruct_b_scan(workspace, frame.bytes, levels, background)
+            .saturated_lines;
       }};
   pipeline::VolumeAssembler assembler{plan.geometry(), average};
   assembler.begin(volume);
@@ -164,7 +170,8 @@ hal::Result<LoadedVolume> reconstruct(const VolumeRequest& request) {
                .format = pipeline::SpectrumFormat{twins.format},
                .a_scans = twins.plan.converted_lines(),
                // Not whichever is faster just now: the same levels each time.
-               .path = pipeline::ReconstructionPath::fftw}));
+               .path = pipeline::ReconstructionPath::fftw,
+               .limit_saturated_lines = true}));
   HAL_TRY(const auto average, pipeline::NeighbourAverage::create(configuration.neighbour_weights));
   LoadedVolume loaded{build_volume(twins, reconstructor, average), {}};
   if (request.recording) // a phantom is made for its spacings

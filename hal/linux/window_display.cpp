@@ -1,6 +1,5 @@
 #include "hal/linux/window_display.h"
 
-#include <atomic>
 #include <optional>
 
 #include <GLES3/gl3.h>
@@ -64,18 +63,34 @@ std::optional<DisplayEvent> translate(const SDL_Event& event, TimePoint time) {
 
 } // namespace
 
+namespace {
+
+// SDL keeps the broken connection for the life of the program.
+Error server_gone(ErrorCode code) {
+  return {code, "window display: the X server has gone away, expected it to stay; the run goes on "
+                "without a window: end it, and start it again when the server is back"};
+}
+
+} // namespace
+
 struct WindowDisplay::Window {
   SdlLibrary sdl;
   SDL_Window* window = nullptr;
   SDL_GLContext context = nullptr;
   bool video = false;
-  std::atomic<bool> lost{false}; // its X server went away
+  int socket = -1;
+  bool lost = false; // its X server went away
+
+  // Before each call that talks to the server.
+  bool is_lost() { return lost = lost || has_hung_up(socket); }
 
   explicit Window(const SdlLibrary& loaded) : sdl{loaded} {}
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   ~Window() {
+    if (is_lost()) // SDL would wait for answers that no server gives, without end
+      return;
     if (context != nullptr)
       sdl.gl_delete_context(context);
     if (window != nullptr)
@@ -123,7 +138,7 @@ struct WindowDisplay::Window {
       return refuse(ErrorCode::unsupported, "no window for GLES could be made",
                     "a window system with EGL or GLX for GLES 3; install libegl1 and "
                     "libgl1-mesa-dri");
-    survive_lost_x_server(sdl, window, lost);
+    socket = x11_socket(sdl, window);
     context = sdl.gl_create_context(window);
     if (context == nullptr)
       return refuse(ErrorCode::unsupported, "no GLES 3 context could be made",
@@ -150,6 +165,8 @@ Result<> WindowDisplay::do_open(const DisplayConfig& config) {
   if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
     return fail(ErrorCode::invalid_argument, "window display: refresh_hz is {}, expected 1 to 1000",
                 config.refresh_hz);
+  if (server_gone_)
+    return tl::make_unexpected(server_gone(ErrorCode::absent));
   HAL_TRY(const auto sdl, SdlLibrary::load());
   auto window = std::make_unique<Window>(sdl);
   HAL_CHECK(window->start_video());
@@ -168,32 +185,35 @@ Result<> WindowDisplay::do_open(const DisplayConfig& config) {
 
 int WindowDisplay::do_width() const {
   int width = 0;
-  if (window_ != nullptr && !window_->lost)
+  if (window_ != nullptr && !window_->is_lost())
     window_->sdl.gl_get_drawable_size(window_->window, &width, nullptr);
   return width;
 }
 
 int WindowDisplay::do_height() const {
   int height = 0;
-  if (window_ != nullptr && !window_->lost)
+  if (window_ != nullptr && !window_->is_lost())
     window_->sdl.gl_get_drawable_size(window_->window, nullptr, &height);
   return height;
+}
+
+bool WindowDisplay::is_lost() {
+  if (window_->is_lost()) {
+    server_gone_ = true;
+    set_state(DeviceState::failed);
+  }
+  return server_gone_;
 }
 
 Result<Flip> WindowDisplay::do_present() {
   if (window_ == nullptr)
     return fail(ErrorCode::absent, "window display: not open; open() it first");
   const TimePoint submitted = clock_.now();
-  if (!window_->lost) {
-    window_->sdl.gl_swap_window(window_->window);
-    glFinish();
-  }
-  if (window_->lost) { // before, or by that
-    set_state(DeviceState::failed);
-    return fail(ErrorCode::disconnected,
-                "window display: the X server has gone away, expected it to stay; the window comes "
-                "back when it does");
-  }
+  glFinish(); // so that drawing is not a part of the call that talks to the server
+  if (is_lost())
+    return tl::make_unexpected(server_gone(ErrorCode::disconnected));
+  window_->sdl.gl_swap_window(window_->window);
+  glFinish();
   const TimePoint completed =
       pacer_.completed({.submitted = submitted, .stamp = std::nullopt, .received = clock_.now()});
   clock_.sleep_until(pacer_.next_allowed());
@@ -201,7 +221,7 @@ Result<Flip> WindowDisplay::do_present() {
 }
 
 std::size_t WindowDisplay::do_poll_events(std::span<DisplayEvent> events) {
-  if (window_ == nullptr || window_->lost)
+  if (window_ == nullptr || is_lost())
     return 0;
   std::size_t count = 0;
   SDL_Event event;

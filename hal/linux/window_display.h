@@ -31,12 +31,14 @@ private:
   Result<Flip> do_present() override;
   std::size_t do_poll_events(std::span<DisplayEvent> events) override;
   void do_close() override;
+  bool is_lost();
 
   Clock& clock_;
   std::unique_ptr<Window> window_;
   Duration refresh_period_{};
   FlipPacer pacer_;
   std::uint64_t flips_ = 0;
+  bool server_gone_ = false;
 };
 
 } // namespace octascope::hal::linux_backend

@@ -4,6 +4,8 @@
 #include <numeric>
 #include <string_view>
 
+#include <fmt/format.h>
+
 namespace octascope::pipeline {
 
 using hal::ErrorCode;
@@ -27,6 +29,22 @@ hal::Result<> check_curve(std::string_view name, const std::vector<Value>& curve
 }
 
 } // namespace
+
+std::optional<std::string> doubt_about_k_table(const Calibration& calibration,
+                                               const std::filesystem::path& file) {
+  constexpr double matters_pixels = 0.5;
+  if (calibration.k_table != KTable::unsaid)
+    return std::nullopt;
+  const double distance = distance_the_other_way_round(calibration.positions);
+  if (distance < matters_pixels)
+    return std::nullopt;
+  return fmt::format(
+      "{}: [k_linear] table is taken for pixels by wavenumber; if it is wavenumbers by pixel, as "
+      "some makers' are, the picture is blurred and positions are off by up to {:.1f} pixels. Say "
+      "table_gives = \"pixel\" or \"wavenumber\"; `octascope calibrate --calibration {} --tissue "
+      "SPECTRA --shape B,A,N --out NEW` tells which",
+      file.string(), distance, file.string());
+}
 
 Calibration Calibration::identity(int samples) {
   Calibration calibration;

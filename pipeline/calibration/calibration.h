@@ -21,9 +21,17 @@ namespace octascope::pipeline {
 
 enum class BackgroundMode : std::uint8_t {
   mean,    // of the kept lines of each B-scan
-  running, // mean over the last B-scans in order (background.h)
+  running, // mean over the volumes before (background.h)
   file,    // a recorded spectrum
   none,
+};
+
+// What the values of [k_linear] table are.
+enum class KTable : std::uint8_t {
+  none,       // there is no table
+  unsaid,     // taken for pixels
+  pixel,      // by wavenumber
+  wavenumber, // by pixel
 };
 
 // Limits for the samples of a line.
@@ -35,9 +43,10 @@ struct Calibration {
   int samples = 1024;
   std::string camera; // hal::LineCamera::identity() of the camera it was made with; empty: unknown
   std::vector<double> positions; // r[m], fractional pixels in [0, samples−1], uniform in k
+  KTable k_table = KTable::none; // where the positions came from
   Interpolation interpolation = Interpolation::sinc8;
   std::vector<double> dispersion_rad; // θ[m], sign included; empty: none
-  BackgroundMode background_mode = BackgroundMode::mean;
+  BackgroundMode background_mode = BackgroundMode::running;
   std::vector<float> background; // counts after the right shift; only for BackgroundMode::file
   FixedPatternRemoval fixed_pattern;
   // w[m]: the factors that are applied. Their origin, for the file, is `shaping` if set, else
@@ -56,7 +65,8 @@ struct Calibration {
   // expected. `expected_samples`: samples per line of the spectra.
   static hal::Result<Calibration> load(const std::filesystem::path& file, int expected_samples);
 
-  // Used when no calibration is given: no resampling, no dispersion, Hann window, mean background.
+  // Used when no calibration is given: no resampling, no dispersion, Hann window, a running
+  // background.
   static Calibration identity(int samples);
 
   // The number of depth bins of an A-scan, and their spacing.
@@ -66,6 +76,11 @@ struct Calibration {
   // Every curve has `samples` finite values and every position lies on the line.
   hal::Result<> validate() const;
 };
+
+// What to tell of a table that may be meant the other way round, as it does not say what it gives
+// and that matters; nothing otherwise. `file`: of the calibration.
+std::optional<std::string> doubt_about_k_table(const Calibration& calibration,
+                                               const std::filesystem::path& file);
 
 // The camera that a calibration names; empty: none. Reads and checks nothing else in it.
 hal::Result<std::string> calibration_camera(const std::filesystem::path& file);

@@ -44,6 +44,7 @@ private:
   std::vector<double> read_curve(const fs::path& path);
   std::vector<float> read_spectrum(const fs::path& path);
   void check_positions(const std::string& source, bool measured);
+  void read_wavenumbers(const std::string& source);
   void keep(hal::Error error) {
     if (!error_)
       error_ = std::move(error);
@@ -127,6 +128,9 @@ void CalibrationReader::read_k_linear() {
   calibration_.interpolation = static_cast<Interpolation>(interpolation);
 
   const auto table = k_linear.path("table");
+  const bool wavenumbers = k_linear.choice("table_gives", 0, {"pixel", "wavenumber"}) == 1;
+  if (k_linear.has("table_gives") && !table)
+    k_linear.complain("table_gives is given, but no table that it belongs to");
   const auto polynomial = k_linear.numbers("polynomial");
   const auto wavelength = k_linear.numbers("wavelength_polynomial_nm");
   const int forms =
@@ -141,7 +145,13 @@ void CalibrationReader::read_k_linear() {
   }
   if (table) {
     calibration_.positions = read_curve(*table);
-    check_positions(table->string(), true);
+    calibration_.k_table = wavenumbers                   ? KTable::wavenumber
+                           : k_linear.has("table_gives") ? KTable::pixel
+                                                         : KTable::unsaid;
+    if (wavenumbers)
+      read_wavenumbers(table->string());
+    else
+      check_positions(table->string(), true);
   } else if (!polynomial.empty()) {
     calibration_.positions = evaluate_unit_polynomial(polynomial, calibration_.samples);
     check_positions(file_.string() + ": [k_linear] polynomial", false);
@@ -170,6 +180,29 @@ void CalibrationReader::check_positions(const std::string& source, bool measured
     keep({ErrorCode::bad_data, fmt::format("{}: {}", source, *fault)});
   for (double& position : calibration_.positions)
     position = std::clamp(position, 0.0, static_cast<double>(calibration_.samples - 1));
+}
+
+// The table's values, in whatever unit, become positions. They are judged as positions are, once
+// they span as many steps as there are pixels.
+void CalibrationReader::read_wavenumbers(const std::string& source) {
+  std::vector<double> curve = std::exchange(calibration_.positions, {});
+  if (curve.empty())
+    return;
+  for (std::size_t p = 1; p < curve.size(); ++p) {
+    if (curve.back() > curve.front() ? curve[p] > curve[p - 1] : curve[p] < curve[p - 1])
+      continue;
+    return keep({ErrorCode::bad_data,
+                 fmt::format("{}: wavenumbers are not monotone: pixel {} has {}, pixel {} has {}",
+                             source, p - 1, curve[p - 1], p, curve[p])});
+  }
+  const double first = curve.front();
+  const double step = (curve.back() - first) / static_cast<double>(curve.size() - 1);
+  for (double& k : curve)
+    k = (k - first) / step;
+  if (const auto jump = find_position_jump(curve))
+    return keep({ErrorCode::bad_data,
+                 fmt::format("{}: of the wavenumbers, in mean steps: {}", source, *jump)});
+  calibration_.positions = invert_curve(curve);
 }
 
 void CalibrationReader::read_dispersion() {
@@ -201,8 +234,9 @@ void CalibrationReader::read_dispersion() {
 
 void CalibrationReader::read_background() {
   ConfigTable background = root_.table("background");
-  calibration_.background_mode = static_cast<BackgroundMode>(background.choice(
-      "mode", static_cast<std::size_t>(BackgroundMode::mean), {"mean", "running", "file", "none"}));
+  calibration_.background_mode = static_cast<BackgroundMode>(
+      background.choice("mode", static_cast<std::size_t>(BackgroundMode::running),
+                        {"mean", "running", "file", "none"}));
   const auto file = background.path("file");
   const bool wanted = calibration_.background_mode == BackgroundMode::file;
   if (wanted != background.has("file")) {

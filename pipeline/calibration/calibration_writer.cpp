@@ -91,9 +91,10 @@ std::string toml(const FoundCalibration& found, const CurveNames& names) {
   if (!c.camera.empty())
     text += fmt::format("camera = {}\n", toml_text(c.camera));
   text += "\n[k_linear]\n";
-  text += names.k_linear.empty() ? fmt::format("wavelength_polynomial_nm = {}\n",
-                                               toml_numbers(found.wavelength_polynomial_nm))
-                                 : fmt::format("table = {}\n", toml_text(names.k_linear));
+  text += names.k_linear.empty()
+              ? fmt::format("wavelength_polynomial_nm = {}\n",
+                            toml_numbers(found.wavelength_polynomial_nm))
+              : fmt::format("table = {}\ntable_gives = \"pixel\"\n", toml_text(names.k_linear));
   text += fmt::format("interpolation = \"{}\"\n\n", name_of(c.interpolation));
   if (!found.dispersion_polynomial_rad.empty())
     text += fmt::format("[dispersion]\npolynomial = {}\nsign = 1\n\n",

@@ -111,6 +111,33 @@ hal::Result<std::vector<double>> positions_from_wavelength(std::span<const doubl
   return positions;
 }
 
+std::vector<double> invert_curve(std::span<const double> curve) {
+  const std::size_t last = curve.size() - 1;
+  const bool rising = curve[last] > curve[0];
+  std::vector<double> positions(curve.size());
+  std::size_t p = 0;
+  for (std::size_t m = 0; m <= last; ++m) {
+    const double target =
+        curve[0] + (curve[last] - curve[0]) * (static_cast<double>(m) / static_cast<double>(last));
+    while (p + 1 < last && (rising ? curve[p + 1] <= target : curve[p + 1] >= target))
+      ++p;
+    positions[m] =
+        std::clamp(static_cast<double>(p) + (target - curve[p]) / (curve[p + 1] - curve[p]), 0.0,
+                   static_cast<double>(last));
+  }
+  return positions;
+}
+
+double distance_the_other_way_round(std::span<const double> positions) {
+  std::vector<double> other = invert_curve(positions);
+  if (positions.back() < positions.front())
+    std::ranges::reverse(other);
+  double farthest = 0;
+  for (std::size_t m = 0; m < other.size(); ++m)
+    farthest = std::max(farthest, std::abs(other[m] - positions[m]));
+  return farthest;
+}
+
 std::optional<std::string> find_position_fault(std::span<const double> positions) {
   const bool rising = positions.back() > positions.front();
   const auto last_pixel = static_cast<double>(positions.size() - 1);
@@ -130,7 +157,8 @@ std::optional<std::string> find_position_fault(std::span<const double> positions
   }
   if (inside < positions.size() / 2)
     return fmt::format("only {} of {} positions lie on the line, expected most of them within 0 "
-                       "to {} (pixels, not nm)",
+                       "to {} (pixels, not nm; a table of wavenumbers needs table_gives = "
+                       "\"wavenumber\")",
                        inside, positions.size(), last_pixel);
   return std::nullopt;
 }

@@ -27,6 +27,15 @@ std::vector<double> evaluate_unit_polynomial(std::span<const double> coefficient
 hal::Result<std::vector<double>> positions_from_wavelength(std::span<const double> coefficients_nm,
                                                            int samples);
 
+// Where a strictly monotone curve over pixels takes values that are uniform between its ends: a
+// table of wavenumbers, in any unit, becomes positions. Positions between two pixels are
+// interpolated linearly: right within 1e-4 pixels where steps change by 1e-3 of their size.
+std::vector<double> invert_curve(std::span<const double> curve);
+
+// How far, in pixels, positions are at most from those that the same curve would give as
+// wavenumbers by pixel.
+double distance_the_other_way_round(std::span<const double> positions);
+
 // Describes what is wrong with a curve of positions, naming index and values: not finite, not
 // strictly monotone (rising or falling), or mostly outside the line. Empty if it is good.
 std::optional<std::string> find_position_fault(std::span<const double> positions);

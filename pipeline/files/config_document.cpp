@@ -401,18 +401,20 @@ hal::Result<std::string> ConfigDocument::text_naming(std::span<const std::string
 
 hal::Result<> ConfigDocument::finish() const {
   root_.node_->complain_about_unknown_keys();
+  const auto& complaints = root_.node_->shared->complaints;
+  return complaints.empty() ? hal::Result<>{}
+                            : hal::fail(ErrorCode::invalid_argument, complaints.front().text);
+}
+
+void ConfigDocument::complain_about_missing_files() const {
   root_.node_->complain_about_missing_files();
-  auto& complaints = root_.node_->shared->complaints;
-  std::ranges::stable_sort(complaints, {}, &Complaint::line);
-  if (complaints.empty())
-    return {};
-  return hal::fail(ErrorCode::invalid_argument,
-                   fmt::to_string(fmt::join(this->complaints(), "\n")));
 }
 
 std::vector<std::string> ConfigDocument::complaints() const {
+  std::vector<Complaint> sorted = root_.node_->shared->complaints;
+  std::ranges::stable_sort(sorted, {}, &Complaint::line);
   std::vector<std::string> texts;
-  for (const Complaint& complaint : root_.node_->shared->complaints)
+  for (const Complaint& complaint : sorted)
     texts.push_back(complaint.text);
   return texts;
 }

@@ -84,12 +84,15 @@ public:
 
   ConfigTable root() const { return root_; }
 
-  // Returns the complaints, if any, as an Error, a line each, in the order of the file. Call it after
-  // everything was read: keys that were never read are complaints, too, and files that are named but
-  // not there.
+  // Returns the first complaint, if any, as an Error. Call it after everything was read: keys that
+  // were never read are complaints too.
   hal::Result<> finish() const;
 
-  // The same, one by one. Later ones may be consequences of earlier ones.
+  // Adds a complaint for each of named_files() that is not there, unless there is one already.
+  void complain_about_missing_files() const;
+
+  // All complaints, once finish() was called, in the order of the file: for people who fix it. Later
+  // ones may be consequences of earlier ones.
   std::vector<std::string> complaints() const;
 
   // The files read with path() whose keys are present, in the order of reading.

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "hal/line_camera.h"
@@ -11,10 +13,6 @@
 #include "pipeline/reconstruction/spectrum_format.h"
 
 namespace octascope::pipeline {
-
-// How many B-scans the running mean looks back: the first ones are averaged evenly, after that
-// each new one counts for a sixteenth.
-inline constexpr int running_mean_b_scans = 16;
 
 // The mean over the lines of a B-scan, in counts after the right shift. For one thread; measure()
 // allocates nothing.
@@ -33,33 +31,56 @@ private:
   std::vector<double> mean_;
 };
 
-// The running mean of BackgroundMode::running.
+// Names the background that leaves something of so few lines, puts it into `calibration` and
+// returns what to tell the user; nothing where the calibration's own does. A line less its own mean
+// is nothing: of B-scans of one A-scan the mean over several B-scans is taken, of a single line none.
+std::optional<std::string> replace_background_of_few_lines(Calibration& calibration, int a_scans,
+                                                           int b_scans);
+
+// The background of BackgroundMode::running: the mean over the volumes before, which follows slow
+// changes of the light.
+//
+// The mean of a single B-scan contains what is level in it (the apex of a cornea, a forceps), takes
+// it away there and leaves its negative in all other A-scans, as a line through the whole B-scan.
+// Over volumes a level place is a small share, and what moves by half a wavelength cancels
+// (RECONSTRUCTION.md has the figures). Some lines of each B-scan are enough, each time others;
+// saturated ones are left out.
 //
 // It depends on the order of the B-scans, but workers finish them in any order. So the one thread
 // that distributes B-scans calls add() for each of them, in order, and passes the current mean on
 // with the B-scan. This needs no lock and no waiting, gives the same result for any number of
-// workers and a background for the first B-scan, and sums the lines only once. The alternatives
-// lack some of that: a mean for each worker (it sees B-scans by chance), for each B-scan position
-// (it takes still tissue for background), or one a volume (none for the first, and volumes
-// overlap).
+// workers and a background for the first B-scan. A mean for each worker would see B-scans by
+// chance, one for each B-scan position would take still tissue for background.
 //
 // Not thread-safe; add() allocates nothing.
 class RunningBackground {
 public:
-  RunningBackground(const SpectrumFormat& format, int a_scans);
+  // `sweeps`: frames a volume. The first B-scans are averaged evenly, after that each new one
+  // counts for 1/window().
+  RunningBackground(const SpectrumFormat& format, int a_scans, int sweeps);
 
-  // Takes the kept lines of the next B-scan (Reconstructor::reconstruct_b_scan() says what a frame
-  // is) and returns the mean over it and those before, N values, unchanged until the next call.
+  // Takes some of the kept lines of the next B-scan (Reconstructor::reconstruct_b_scan() says what
+  // a frame is) and returns the mean over it and those before, N values, unchanged until the next
+  // call.
   std::span<const float> add(std::span<const std::byte> frame) noexcept;
 
-  // As if no B-scan had been seen.
-  void reset() { b_scans_seen_ = 0; }
+  // How many B-scans it looks back: those of two volumes, and not fewer than 64.
+  int window() const { return window_; }
+  // Every how many lines of a B-scan are taken.
+  int stride() const { return stride_; }
 
 private:
+  // Into sums_; returns the number of lines.
+  template <class Count> int sum_lines_below(const Count* counts, std::uint32_t limit) noexcept;
+  int sum_frame_below(std::span<const std::byte> frame, std::uint32_t limit) noexcept;
+
   SpectrumFormat format_;
   int a_scans_;
+  int window_;
+  int stride_;
+  int first_ = 0; // line of the next B-scan
   int b_scans_seen_ = 0;
-  LineMean b_scan_;
+  std::vector<float> sums_;  // of less than 64 lines: exact for 16 bits
   std::vector<double> mean_; // in double precision, so that a long run does not drift
   std::vector<float> values_;
 };

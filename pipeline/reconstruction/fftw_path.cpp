@@ -34,6 +34,13 @@ void write_levels(const float* bins, int depths, float* levels) {
   levels_db(bins, depths, levels);
 }
 
+// The line is read after the transform of the one before it; until then it comes to the cache.
+template <class Count> void fetch(const Count* line, int samples) {
+  constexpr int apart = 64 / static_cast<int>(sizeof(Count));
+  for (int p = 0; p < samples; p += apart)
+    __builtin_prefetch(line + p);
+}
+
 } // namespace
 
 hal::Result<FftwPath> FftwPath::make(const Calibration& calibration, const SpectrumFormat& format,
@@ -79,16 +86,19 @@ void FftwPath::transform_line(Buffers& buffers) const noexcept {
 
 template <class Count, class Level>
 int FftwPath::reconstruct(const Count* counts, int lines, const float* background, Buffers& buffers,
-                          Level* levels) const noexcept {
+                          Level* levels, std::uint8_t* saturated) const noexcept {
   const std::uint32_t full_scale = format_.full_scale();
   const auto depths = static_cast<std::size_t>(depths_);
-  int saturated = 0;
+  int saturated_lines = 0;
   for (int a = 0; a < lines; ++a) {
     const auto line = static_cast<std::size_t>(a);
     const std::uint32_t highest =
         load_line(counts + line * static_cast<std::size_t>(format_.samples), background,
                   format_.right_shift, format_.samples, buffers.line.get());
-    saturated += highest >= full_scale ? 1 : 0;
+    saturated[a] = highest >= full_scale ? 1 : 0;
+    saturated_lines += saturated[a];
+    if (a + 1 < lines)
+      fetch(counts + (line + 1) * static_cast<std::size_t>(format_.samples), format_.samples);
     transform_line(buffers);
     if (buffers.fixed_pattern)
       std::copy_n(buffers.bins.get(), 2 * depths, buffers.fixed_pattern->a_scan(a));
@@ -101,20 +111,20 @@ int FftwPath::reconstruct(const Count* counts, int lines, const float* backgroun
       write_levels(buffers.fixed_pattern->a_scan(a), depths_,
                    levels + static_cast<std::size_t>(a) * depths);
   }
-  return saturated;
+  return saturated_lines;
 }
 
-template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffers&,
+template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffers&, std::uint8_t*,
                                    std::uint8_t*) const noexcept;
-template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffers&,
-                                   float*) const noexcept;
-template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&,
+template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffers&, float*,
                                    std::uint8_t*) const noexcept;
-template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&,
-                                   float*) const noexcept;
-template int FftwPath::reconstruct(const float*, int, const float*, Buffers&,
+template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&, std::uint8_t*,
                                    std::uint8_t*) const noexcept;
-template int FftwPath::reconstruct(const float*, int, const float*, Buffers&,
-                                   float*) const noexcept;
+template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&, float*,
+                                   std::uint8_t*) const noexcept;
+template int FftwPath::reconstruct(const float*, int, const float*, Buffers&, std::uint8_t*,
+                                   std::uint8_t*) const noexcept;
+template int FftwPath::reconstruct(const float*, int, const float*, Buffers&, float*,
+                                   std::uint8_t*) const noexcept;
 
 } // namespace octascope::pipeline

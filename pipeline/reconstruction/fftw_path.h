@@ -36,11 +36,11 @@ public:
   Buffers make_buffers() const;
 
   // Lines without gaps → levels, calibration.depths() each. `background` has N values in counts
-  // after the shift. Returns the number of lines with a count at full scale. Count: std::uint8_t,
-  // std::uint16_t or float; Level: std::uint8_t or float (dB).
+  // after the shift. `saturated`: by line, whether a count is at full scale; returns the number of
+  // such lines. Count: std::uint8_t, std::uint16_t or float; Level: std::uint8_t or float (dB).
   template <class Count, class Level>
   int reconstruct(const Count* counts, int lines, const float* background, Buffers& buffers,
-                  Level* levels) const noexcept;
+                  Level* levels, std::uint8_t* saturated) const noexcept;
 
 private:
   FftwPath() = default;

@@ -62,6 +62,19 @@ OCTASCOPE_INLINE void sum_shifted_counts(const Count* counts, int lines, int rig
       sum[p] += static_cast<std::uint32_t>(counts[p] >> right_shift);
 }
 
+template <class Count>
+OCTASCOPE_INLINE bool add_counts_below(const Count* counts, std::uint32_t limit, int right_shift,
+                                       int samples, float* sum) {
+  Count highest = 0;
+  for (int p = 0; p < samples; ++p)
+    highest = counts[p] > highest ? counts[p] : highest;
+  if (static_cast<std::uint32_t>(highest >> right_shift) >= limit)
+    return false;
+  for (int p = 0; p < samples; ++p)
+    sum[p] += static_cast<float>(counts[p] >> right_shift);
+  return true;
+}
+
 // Four lanes everywhere: a tap window of 8 is two of them, and adding up the lanes of four windows
 // at once takes three shuffled additions, fewer than with wider registers.
 using Lanes = float __attribute__((vector_size(16)));
@@ -185,6 +198,25 @@ void sum_lines(const std::uint16_t* counts, int lines, int right_shift, int samp
 OCTASCOPE_CPU_CLONES
 void sum_lines(const float* counts, int lines, int, int samples, double* sum) {
   sum_counts(counts, lines, samples, sum);
+}
+
+OCTASCOPE_CPU_CLONES
+bool add_line_below(const std::uint8_t* counts, std::uint32_t limit, int right_shift, int samples,
+                    float* sum) {
+  return add_counts_below(counts, limit, right_shift, samples, sum);
+}
+
+OCTASCOPE_CPU_CLONES
+bool add_line_below(const std::uint16_t* counts, std::uint32_t limit, int right_shift, int samples,
+                    float* sum) {
+  return add_counts_below(counts, limit, right_shift, samples, sum);
+}
+
+OCTASCOPE_CPU_CLONES
+bool add_line_below(const float* counts, std::uint32_t, int, int samples, float* sum) {
+  for (int p = 0; p < samples; ++p)
+    sum[p] += counts[p];
+  return true;
 }
 
 ShapeLine shape_line_kernel(int taps_width, bool complex_factors) {

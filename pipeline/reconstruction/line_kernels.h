@@ -25,6 +25,16 @@ void sum_lines(const std::uint16_t* counts, int lines, int right_shift, int samp
 // Floats are summed in double precision.
 void sum_lines(const float* counts, int lines, int right_shift, int samples, double* sum);
 
+// sum += counts >> right_shift, unless one of them is at least `limit` after the shift. Says
+// whether it was added.
+bool add_line_below(const std::uint8_t* counts, std::uint32_t limit, int right_shift, int samples,
+                    float* sum);
+bool add_line_below(const std::uint16_t* counts, std::uint32_t limit, int right_shift, int samples,
+                    float* sum);
+// Floats have no full scale: always added.
+bool add_line_below(const float* counts, std::uint32_t limit, int right_shift, int samples,
+                    float* sum);
+
 // Interpolated counts times the factor of each sample: window, dispersion phase and 1/N in one.
 // `first`, `weights`: ResamplingTaps. `factors`: complex (re, im, re, im …) or real. Buffers and
 // tables are padded to a multiple of 4 samples.

@@ -59,6 +59,35 @@ std::string line_case(const ReconstructionSetup& setup, const FusedPath& fused) 
                      summed ? "mean" : "given", fused.isa());
 }
 
+// `levels` [line][z]: each saturated line becomes the lower, at each depth, of itself and the
+// brighter of the nearest unsaturated lines before and behind it. Where there is none, all stay.
+template <class Level>
+void limit_lines(std::span<const std::uint8_t> saturated, Level* levels, std::size_t depths) {
+  const std::size_t lines = saturated.size();
+  const auto next_good = [&](std::size_t line) {
+    while (line < lines && saturated[line] != 0)
+      ++line;
+    return line;
+  };
+  std::size_t before = lines; // none
+  std::size_t behind = next_good(0);
+  if (behind == lines)
+    return;
+  for (std::size_t a = 0; a < lines; ++a) {
+    if (saturated[a] == 0) {
+      before = a;
+      continue;
+    }
+    if (behind < a)
+      behind = next_good(a);
+    const Level* left = levels + (before < lines ? before : behind) * depths;
+    const Level* right = levels + (behind < lines ? behind : before) * depths;
+    Level* line = levels + a * depths;
+    for (std::size_t z = 0; z < depths; ++z)
+      line[z] = std::min(line[z], std::max(left[z], right[z]));
+  }
+}
+
 } // namespace
 
 // Everything that is the same for all B-scans.
@@ -66,6 +95,7 @@ struct Reconstructor::Plan {
   SpectrumFormat format;
   int a_scans;
   int depths;
+  bool limit_saturated_lines;
   BackgroundMode background_mode;
   std::vector<float> recorded_background;
   FftwPath fftw;
@@ -78,7 +108,6 @@ struct Reconstructor::Plan {
 
   template <class Count>
   const float* background_of(Workspace::Buffers& buffers, const Count* counts, int lines,
-                             std::span<const std::byte> frame,
                              std::span<const float> running) const noexcept;
   template <class Count, class Level>
   int run(const std::optional<FusedPath>& path, Workspace::Buffers& buffers, int lines,
@@ -95,19 +124,17 @@ struct Reconstructor::Plan {
 
 struct Reconstructor::Workspace::Buffers {
   LineMean mean;
-  std::optional<RunningBackground> running;
   std::vector<float> background;
+  std::vector<std::uint8_t> saturated; // by line
   FftwPath::Buffers fftw;
   std::optional<FusedPath::Buffers> fused;
 };
 
 std::unique_ptr<Reconstructor::Workspace::Buffers> Reconstructor::Plan::make_buffers() const {
-  std::unique_ptr<Workspace::Buffers> buffers{
-      new Workspace::Buffers{LineMean{format.samples}, std::nullopt,
-                             std::vector<float>(static_cast<std::size_t>(format.samples)),
-                             fftw.make_buffers(), std::nullopt}};
-  if (background_mode == BackgroundMode::running)
-    buffers->running.emplace(format, a_scans);
+  std::unique_ptr<Workspace::Buffers> buffers{new Workspace::Buffers{
+      LineMean{format.samples}, std::vector<float>(static_cast<std::size_t>(format.samples)),
+      std::vector<std::uint8_t>(static_cast<std::size_t>(a_scans)), fftw.make_buffers(),
+      std::nullopt}};
   if (background_mode == BackgroundMode::file)
     buffers->background = recorded_background;
   if (fused) {
@@ -119,16 +146,16 @@ std::unique_ptr<Reconstructor::Workspace::Buffers> Reconstructor::Plan::make_buf
 
 template <class Count>
 const float* Reconstructor::Plan::background_of(Workspace::Buffers& buffers, const Count* counts,
-                                                int lines, std::span<const std::byte> frame,
+                                                int lines,
                                                 std::span<const float> running) const noexcept {
-  if (background_mode == BackgroundMode::mean) {
+  if (background_mode == BackgroundMode::running && !running.empty()) {
+    assert(running.size() == buffers.background.size());
+    return running.data();
+  }
+  if (background_mode == BackgroundMode::mean || background_mode == BackgroundMode::running) {
     buffers.mean.measure(counts, lines, format.right_shift);
     std::ranges::transform(buffers.mean.values(), buffers.background.begin(),
                            [](double mean) { return static_cast<float>(mean); });
-  }
-  if (background_mode == BackgroundMode::running) {
-    assert(running.empty() || running.size() == buffers.background.size());
-    return running.empty() ? buffers.running->add(frame).data() : running.data();
   }
   return buffers.background.data();
 }
@@ -138,15 +165,17 @@ int Reconstructor::Plan::run(const std::optional<FusedPath>& path, Workspace::Bu
                              int lines, std::span<const std::byte> frame, Level* levels,
                              std::span<const float> running) const noexcept {
   const auto* counts = reinterpret_cast<const Count*>(frame.data());
-  const float* background = background_of(buffers, counts, lines, frame, running);
+  const float* background = background_of(buffers, counts, lines, running);
   if constexpr (!std::is_same_v<Count, float>) {
     if (path) {
       if (background_mode == BackgroundMode::mean || background_mode == BackgroundMode::running)
         path->set_background(background, *buffers.fused);
-      return path->reconstruct(frame.data(), lines, format.full_scale(), *buffers.fused, levels);
+      return path->reconstruct(frame.data(), lines, format.full_scale(), *buffers.fused, levels,
+                               buffers.saturated.data());
     }
   }
-  return fftw.reconstruct(counts, lines, background, buffers.fftw, levels);
+  return fftw.reconstruct(counts, lines, background, buffers.fftw, levels,
+                          buffers.saturated.data());
 }
 
 template <class Level>
@@ -168,13 +197,16 @@ BScanOutcome Reconstructor::Plan::b_scan(Workspace::Buffers& buffers,
                                          std::span<const float> running) const noexcept {
   assert(frame.size() >= format.line_bytes() * static_cast<std::size_t>(a_scans));
   assert(levels.size() >= static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(depths));
-  return {dispatch(fused, buffers, a_scans, frame, levels.data(), running)};
+  const int saturated = dispatch(fused, buffers, a_scans, frame, levels.data(), running);
+  if (saturated > 0 && limit_saturated_lines)
+    limit_lines(buffers.saturated, levels.data(), static_cast<std::size_t>(depths));
+  return {saturated};
 }
 
 PathTimes Reconstructor::Plan::measure_paths() const {
   // A short B-scan: large ones take no longer by the line, and only delay the start.
   const int lines = std::min(a_scans, 64);
-  // A running background is given, as live; the workspace's own one wants whole frames.
+  // A running background is given, as live.
   const std::vector<float> given(static_cast<std::size_t>(format.samples));
   const auto buffers = make_buffers();
   std::vector<std::byte> frame(format.line_bytes() * static_cast<std::size_t>(lines));
@@ -212,10 +244,6 @@ Reconstructor::Workspace::Workspace(std::unique_ptr<Buffers> buffers)
 Reconstructor::Workspace::Workspace(Workspace&&) noexcept = default;
 Reconstructor::Workspace& Reconstructor::Workspace::operator=(Workspace&&) noexcept = default;
 Reconstructor::Workspace::~Workspace() = default;
-void Reconstructor::Workspace::reset_background() {
-  if (buffers_->running)
-    buffers_->running->reset();
-}
 
 hal::Result<Reconstructor> Reconstructor::create(const ReconstructionSetup& setup) {
   HAL_CHECK(check(setup));
@@ -224,6 +252,7 @@ hal::Result<Reconstructor> Reconstructor::create(const ReconstructionSetup& setu
   auto plan = std::make_unique<Plan>(Plan{.format = setup.format,
                                           .a_scans = setup.a_scans,
                                           .depths = calibration.depths(),
+                                          .limit_saturated_lines = setup.limit_saturated_lines,
                                           .background_mode = calibration.background_mode,
                                           .recorded_background = calibration.background,
                                           .fftw = std::move(fftw),
@@ -264,10 +293,10 @@ const PathDecision& Reconstructor::path_decision() const {
 Reconstructor::Workspace Reconstructor::make_workspace() const {
   return Workspace{plan_->make_buffers()};
 }
-std::optional<RunningBackground> Reconstructor::make_running_background() const {
+std::optional<RunningBackground> Reconstructor::make_running_background(int sweeps) const {
   if (plan_->background_mode != BackgroundMode::running)
     return std::nullopt;
-  return RunningBackground{plan_->format, plan_->a_scans};
+  return RunningBackground{plan_->format, plan_->a_scans, sweeps};
 }
 
 BScanOutcome Reconstructor::reconstruct_b_scan(Workspace& workspace,

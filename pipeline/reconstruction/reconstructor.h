@@ -35,6 +35,9 @@ struct ReconstructionSetup {
   // Borrowed while the Reconstructor is made: keeps the times that `automatic` measures. nullptr:
   // they are measured each time, for some milliseconds.
   PathMemory* memory = nullptr;
+  // For pictures: a saturated line, lit up at all depths by clipping, is made no brighter at any
+  // depth than the nearest unsaturated ones on either side of it.
+  bool limit_saturated_lines = false;
 };
 
 struct BScanOutcome {
@@ -51,9 +54,6 @@ public:
     Workspace(Workspace&&) noexcept;
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
-
-    // Forgets the workspace's own running background, as if no B-scan had been seen.
-    void reset_background();
 
   private:
     friend class Reconstructor;
@@ -82,14 +82,15 @@ public:
   const PathDecision& path_decision() const;
 
   Workspace make_workspace() const;
-  // BackgroundMode::running only: hands out the background of each B-scan, in order.
-  std::optional<RunningBackground> make_running_background() const;
+  // BackgroundMode::running only: hands out the background of each B-scan, in order. `sweeps`:
+  // B-scans a volume, each repeat counted.
+  std::optional<RunningBackground> make_running_background(int sweeps) const;
 
   // `frame` begins with the a_scans() kept lines, aligned for its sample type; the fly-back lines
   // after them are not read. `levels` has levels() values [a][z], depth fastest.
   // `running`: with BackgroundMode::running, the result of RunningBackground::add() for this
-  // B-scan; ignored otherwise. Without it the workspace averages the B-scans that it sees, which is
-  // right if one worker sees all of them in order. Neither allocates, locks nor logs.
+  // B-scan; ignored otherwise. Without it this B-scan's mean is taken, as with mode "mean".
+  // Neither allocates, locks nor logs.
   BScanOutcome reconstruct_b_scan(Workspace& workspace, std::span<const std::byte> frame,
                                   std::span<std::uint8_t> levels,
                                   std::span<const float> running = {}) const noexcept;

@@ -199,8 +199,8 @@ void compose_reduction(HudText& hud, const Status& status) {
 
 std::string_view word_for(pipeline::BScanState state) {
   switch (state) {
-  case pipeline::BScanState::missing: return " missing";
-  case pipeline::BScanState::saturated: return " saturated";
+  case pipeline::BScanState::missing: return "missing";
+  case pipeline::BScanState::saturated: return "saturated";
   case pipeline::BScanState::good: return "";
   }
   return "";
@@ -214,10 +214,14 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
   hud.en_face.title.format("En face");
   hud.scope.title.format("Microscope");
   if (shown.volume) {
-    hud.b_scan.note.format("{} of {}{}", view.b_scan + 1, shown.geometry.b_scans,
-                           word_for(shown.b_scan));
-    if (shown.b_scan != pipeline::BScanState::good)
+    hud.b_scan.note.format("{} of {}", view.b_scan + 1, shown.geometry.b_scans);
+    if (shown.b_scan != pipeline::BScanState::good) {
+      // In one piece: "41 of 80 missing" by itself would read as a count.
+      hud.b_scan.title.format("{}", "");
+      hud.b_scan.note.format("B-scan {} of {}: {}", view.b_scan + 1, shown.geometry.b_scans,
+                             word_for(shown.b_scan));
       hud.b_scan.note_tone = Tone::warning;
+    }
     hud.en_face.note.format("mean, auto contrast");
   }
   if (!shown.scope || !shown.scope_time) {

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <thread>
 #include <utility>
@@ -112,14 +113,17 @@ private:
 };
 
 // Levels of line `a` in double precision: sums as they stand in books, the transform included.
+// `running`: the background, with BackgroundMode::running.
 std::vector<double> reference_levels_db(std::span<const std::uint16_t> b_scan, std::size_t a,
-                                        const pipeline::Calibration& calibration) {
+                                        const pipeline::Calibration& calibration,
+                                        std::span<const float> running) {
   std::vector<double> line(samples);
-  if (calibration.background_mode == BackgroundMode::file)
-    std::ranges::transform(calibration.background, line.begin(), [](float b) { return -b; });
-  else
+  if (calibration.background_mode == BackgroundMode::mean)
     for (std::size_t i = 0; i < b_scan.size(); ++i)
       line[i % samples] -= static_cast<double>(b_scan[i]) / a_scans;
+  else
+    std::ranges::transform(running.empty() ? std::span{calibration.background} : running,
+                           line.begin(), [](float b) { return -b; });
   for (std::size_t p = 0; p < samples; ++p)
     line[p] += b_scan[a * samples + p];
   const auto taps =
@@ -158,6 +162,7 @@ public:
     for (int thread = 0; thread < what.threads; ++thread) {
       workspaces_.push_back(reconstructor_.make_workspace());
       levels_.emplace_back(reconstructor_.levels());
+      running_.push_back(reconstructor_.make_running_background(ring_b_scans));
     }
   }
 
@@ -212,17 +217,23 @@ private:
 
   void reconstruct(std::size_t b_scan, std::size_t thread) {
     const std::span counts{ring_.data() + b_scan * b_scan_counts, b_scan_counts};
-    reconstructor_.reconstruct_b_scan(workspaces_[thread], std::as_bytes(counts), levels_[thread]);
+    auto& running = running_[thread];
+    reconstructor_.reconstruct_b_scan(workspaces_[thread], std::as_bytes(counts), levels_[thread],
+                                      running ? running->add(std::as_bytes(counts))
+                                              : std::span<const float>{});
   }
 
   void check(const pipeline::Calibration& calibration) {
     constexpr std::size_t checked_lines = 6;
     reconstruct(3, 0);
     const std::span counts{ring_.data() + 3 * b_scan_counts, b_scan_counts};
+    auto running = reconstructor_.make_running_background(ring_b_scans);
+    const auto background =
+        running ? running->add(std::as_bytes(counts)) : std::span<const float>{};
     int differing = 0;
     for (std::size_t i = 0; i < checked_lines; ++i) {
       const std::size_t a = i * (a_scans - 1) / (checked_lines - 1);
-      const auto reference = reference_levels_db(counts, a, calibration);
+      const auto reference = reference_levels_db(counts, a, calibration, background);
       for (std::size_t z = 0; z < reference.size(); ++z) {
         const int expected = pipeline::quantise_level(static_cast<float>(reference[z]));
         const int error = std::abs(expected - levels_[0][a * reference.size() + z]);
@@ -237,6 +248,7 @@ private:
   const std::vector<std::uint16_t>& ring_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_;
   std::vector<std::vector<std::uint8_t>> levels_;
+  std::vector<std::optional<pipeline::RunningBackground>> running_;
   std::size_t next_ = 0;
   BenchResult result_;
 };
@@ -263,6 +275,7 @@ std::vector<BenchCase> all_cases() {
     for (const auto interpolation :
          {Interpolation::sinc8, Interpolation::cubic, Interpolation::linear})
       for (const auto& [dispersion, background] : {std::pair{true, BackgroundMode::file},
+                                                   {true, BackgroundMode::running},
                                                    {true, BackgroundMode::mean},
                                                    {false, BackgroundMode::file}})
         for (const int threads : {1, 2}) {

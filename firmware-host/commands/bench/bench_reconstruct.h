@@ -14,8 +14,8 @@ namespace octascope::firmware_host {
 inline constexpr int bench_samples = 1024;
 
 // What is measured: 300 lines of 1024 u16 samples a B-scan, Hann window, a chirp of 70 pixels,
-// 8-bit levels. The background is recorded, or the mean of the B-scan's lines: then they are read
-// twice.
+// 8-bit levels. The background is recorded; or runs, each thread with its own, where live one
+// thread has it for all; or is the mean of the B-scan's lines: then they are read twice.
 struct BenchCase {
   pipeline::ReconstructionPath path = pipeline::ReconstructionPath::fftw;
   std::string isa;
@@ -44,7 +44,7 @@ struct BenchReport {
 };
 
 // Measures every path, instruction set and interpolation, with and without dispersion, on one and
-// two threads; with dispersion, both backgrounds. Takes about `seconds` in all.
+// two threads; with dispersion, all three backgrounds. Takes about `seconds` in all.
 hal::Result<BenchReport> bench_reconstruct(double seconds);
 
 std::string to_text(const BenchReport& report);

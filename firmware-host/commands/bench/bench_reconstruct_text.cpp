@@ -27,7 +27,13 @@ const char* interpolation_name(Interpolation interpolation) {
 }
 
 const char* background_name(BackgroundMode background) {
-  return background == BackgroundMode::file ? "recorded" : "mean";
+  switch (background) {
+  case BackgroundMode::file: return "recorded";
+  case BackgroundMode::running: return "running";
+  case BackgroundMode::none: return "none";
+  case BackgroundMode::mean: break;
+  }
+  return "mean";
 }
 
 } // namespace

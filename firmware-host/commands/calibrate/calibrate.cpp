@@ -22,6 +22,7 @@ namespace {
 
 using hal::ErrorCode;
 using pipeline::Calibration;
+using pipeline::KTable;
 using pipeline::SampleSide;
 
 std::string_view name_of(SampleSide side) {
@@ -47,6 +48,8 @@ private:
   hal::Result<> use_mirrors();
   hal::Result<> read_tissue();
   hal::Result<> use_tissue();
+  pipeline::TissueDispersion dispersion_with(const Calibration& calibration) const;
+  void judge_table(pipeline::TissueDispersion& dispersion);
   hal::Result<std::vector<double>> read(const std::filesystem::path& file, bool refuse_saturated);
   hal::Result<> subtract_darks(std::size_t mirror, std::vector<double>& line);
   hal::Result<> choose_side(const std::array<pipeline::Fringe, 2>& fringes);
@@ -248,16 +251,58 @@ hal::Result<> CalibrationRun::read_tissue() {
   return {};
 }
 
-hal::Result<> CalibrationRun::use_tissue() {
-  pipeline::TissueSharpness measure{found_.calibration};
+pipeline::TissueDispersion CalibrationRun::dispersion_with(const Calibration& calibration) const {
+  pipeline::TissueSharpness measure{calibration};
   for (const auto& b_scan : tissue_b_scans_)
     measure.add_b_scan(b_scan);
-  const auto dispersion = pipeline::find_tissue_dispersion(measure, samples_);
+  return pipeline::find_tissue_dispersion(measure, samples_);
+}
+
+// A curve the wrong way round leaves twice the chirp, which no dispersion makes up for at more than
+// one depth: the tissue stays blurred.
+void CalibrationRun::judge_table(pipeline::TissueDispersion& dispersion) {
+  constexpr double matters_pixels = 0.5;
+  constexpr double clearly = 1.02;
+  Calibration& c = found_.calibration;
+  if (c.k_table == KTable::none ||
+      pipeline::distance_the_other_way_round(c.positions) < matters_pixels)
+    return;
+  Calibration other = c;
+  other.positions = pipeline::invert_curve(c.positions);
+  auto other_dispersion = dispersion_with(other);
+  const bool said = c.k_table != KTable::unsaid;
+  const bool kept_wins = dispersion.sharpness_after > clearly * other_dispersion.sharpness_after;
+  const bool other_wins = other_dispersion.sharpness_after > clearly * dispersion.sharpness_after;
+  TableVerdict table{c.k_table == KTable::wavenumber ? "wavenumber" : "pixel",
+                     "as the file says",
+                     dispersion.sharpness_after,
+                     other_dispersion.sharpness_after,
+                     {}};
+  if (said && other_wins)
+    table.warning = "the tissue is sharper the other way round: see whether table_gives is right";
+  if (!said)
+    table.source = kept_wins || other_wins ? "by the tissue's sharpness" : "assumed";
+  if (!said && !kept_wins && !other_wins)
+    table.warning =
+        "the tissue does not tell which way round the table is meant: say table_gives = "
+        "\"pixel\" or \"wavenumber\", or take tissue with more structure";
+  if (!said && other_wins) {
+    table.gives = "wavenumber";
+    std::swap(table.sharpness, table.other_sharpness);
+    c.positions = std::move(other.positions);
+    dispersion = std::move(other_dispersion);
+  }
+  verdict_.table = std::move(table);
+}
+
+hal::Result<> CalibrationRun::use_tissue() {
+  auto dispersion = dispersion_with(found_.calibration);
   if (!(dispersion.sharpness_before > 0))
     return hal::fail(
         ErrorCode::bad_data,
         "{}: no interference: the B-scans that were looked at do not change from line to line",
         options_.tissue->string());
+  judge_table(dispersion);
   found_.calibration.dispersion_rad = dispersion.theta_rad;
   found_.dispersion_polynomial_rad = dispersion.unit_polynomial_rad;
   verdict_.method += ", dispersion from tissue";

@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -38,6 +40,14 @@ hal::Result<std::vector<double>> parse_lines(std::string_view text) {
     at = more ? next + 1 : next;
   }
   return lines;
+}
+
+// CLI11's transformer takes the values themselves, too, as numbers: names are asked for before it.
+template <class Value> std::vector<std::string> names_of(const std::map<std::string, Value>& map) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : map)
+    names.push_back(name);
+  return names;
 }
 
 int run(CalibrateCommandLine& line) {
@@ -101,6 +111,7 @@ void add_mirror_options(CLI::App& command, CalibrateOptions& options) {
                   "Which mirrors lie on the side of zero delay where samples lie (both if not "
                   "given, or what makes the tissue sharpest)")
       ->transform(CLI::CheckedTransformer(sides))
+      ->transform(CLI::IsMember(names_of(sides)))
       ->type_name("both|first|second|none")
       ->option_text("both|first|second|none");
   command
@@ -142,10 +153,12 @@ void add_other_options(CLI::App& command, CalibrateCommandLine& line) {
       .add_option("--dtype", options.type,
                   "Type of a sample (as the file's name says, like x_f32.raw, else u16)")
       ->transform(CLI::CheckedTransformer(types))
+      ->transform(CLI::IsMember(names_of(types)))
       ->type_name("u8|u16|f32")
       ->option_text("u8|u16|f32");
   command.add_option("--tissue-dtype", options.tissue_type, "Likewise, of the tissue")
       ->transform(CLI::CheckedTransformer(types))
+      ->transform(CLI::IsMember(names_of(types)))
       ->type_name("u8|u16|f32")
       ->option_text("u8|u16|f32");
   command

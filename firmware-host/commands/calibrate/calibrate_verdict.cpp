@@ -115,6 +115,11 @@ std::string to_text(const CalibrationVerdict& v) {
     text += fmt::format("tissue sharpness {:.6g} -> {:.6g} ({:+.1f} %) with the dispersion\n",
                         v.tissue->sharpness_before, v.tissue->sharpness_after,
                         100 * (v.tissue->sharpness_after / v.tissue->sharpness_before - 1));
+  if (v.table)
+    text +=
+        fmt::format("table gives {}s ({}): tissue sharpness {:.6g}, the other way round {:.6g}\n{}",
+                    v.table->gives, v.table->source, v.table->sharpness, v.table->other_sharpness,
+                    v.table->warning.empty() ? "" : "warning: " + v.table->warning + "\n");
   return text +
          fmt::format("k curve monotone, steps {:.4f} to {:.4f} pixels; dispersion {:.3f} rad "
                      "rms\n",
@@ -155,6 +160,12 @@ std::string to_json(const CalibrationVerdict& v) {
     if (!v.tissue->polynomial_rad.empty())
       json["tissue"]["dispersion_polynomial_rad"] = v.tissue->polynomial_rad;
   }
+  if (v.table)
+    json["table"] = {{"gives", v.table->gives},
+                     {"source", v.table->source},
+                     {"sharpness", v.table->sharpness},
+                     {"other_sharpness", v.table->other_sharpness},
+                     {"warning", v.table->warning}};
   // A file's name need not be UTF-8.
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

@@ -34,6 +34,15 @@ struct TissueVerdict {
   std::vector<double> polynomial_rad; // of m/(N−1), if found from the tissue
 };
 
+// Which way round the given calibration's table of the k curve was taken.
+struct TableVerdict {
+  std::string gives;          // pixel or wavenumber
+  std::string source;         // how that is known
+  double sharpness = 0;       // of the tissue, each with the dispersion that suits it
+  double other_sharpness = 0; // the other way round
+  std::string warning;        // empty: none
+};
+
 struct CalibrationVerdict {
   std::string method;
   std::string file; // that was written
@@ -45,8 +54,9 @@ struct CalibrationVerdict {
   std::string side_source; // how that was determined
   std::optional<LampVerdict> lamp;
   std::optional<TissueVerdict> tissue;
-  bool monotone = true;         // all others are refused
-  double least_step_pixels = 0; // smallest increase of r[m] from sample to sample
+  std::optional<TableVerdict> table; // where it matters
+  bool monotone = true;              // all others are refused
+  double least_step_pixels = 0;      // smallest increase of r[m] from sample to sample
   double greatest_step_pixels = 0;
   double dispersion_rms_rad = 0;
 

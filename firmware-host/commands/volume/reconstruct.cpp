@@ -34,7 +34,8 @@ public:
                        const pipeline::Reconstructor& reconstructor,
                        const pipeline::NrrdWriter& writer)
       : options_(options), format_(format), spectra_(spectra), reconstructor_(reconstructor),
-        writer_(writer), running_background_(reconstructor.make_running_background()) {}
+        writer_(writer),
+        running_background_(reconstructor.make_running_background(spectra.shape().b_scans)) {}
 
   hal::Result<> run(unsigned threads);
 
@@ -44,6 +45,7 @@ public:
 
 private:
   void work();
+  void look_ahead();
   int take_next(std::vector<float>& running);
   hal::Result<> check_counts(int b_scan) const;
   template <class Level> hal::Result<> reconstruct_all();
@@ -69,6 +71,7 @@ private:
 };
 
 hal::Result<> VolumeReconstruction::run(unsigned threads) {
+  look_ahead();
   running_ = threads;
   std::vector<std::jthread> workers;
   for (unsigned i = 0; i < threads; ++i)
@@ -90,6 +93,13 @@ void VolumeReconstruction::work() {
     outcome_ = std::move(result);
   --running_;
   finished_.notify_all();
+}
+
+// Nothing was before the first B-scan, but what comes after it is at hand: as if the volume had
+// been before.
+void VolumeReconstruction::look_ahead() {
+  for (int b = 0; running_background_ && b < spectra_.shape().b_scans; ++b)
+    running_background_->add(spectra_.b_scan(b));
 }
 
 // The number of a B-scan that nobody has yet, and its running background; B when all are taken.
@@ -187,6 +197,12 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
     calibration = pipeline::Calibration::load(*options.calibration, samples);
   if (!calibration)
     return tl::make_unexpected(calibration.error());
+  if (const auto words = pipeline::replace_background_of_few_lines(
+          *calibration, options.shape.a_scans, options.shape.b_scans))
+    warn("warning: {}\n", *words);
+  if (options.calibration)
+    if (const auto doubt = pipeline::doubt_about_k_table(*calibration, *options.calibration))
+      warn("warning: {}\n", *doubt);
   ReconstructionCache cache;
   HAL_TRY(const auto reconstructor,
           pipeline::Reconstructor::create({.calibration = *calibration,

@@ -69,29 +69,31 @@ void FusedPath::set_background(const float* background, Buffers& buffers) const 
 
 template <class Level>
 int FusedPath::reconstruct(const std::byte* counts, int lines, std::uint32_t full_scale,
-                           Buffers& buffers, Level* levels) const noexcept {
+                           Buffers& buffers, Level* levels,
+                           std::uint8_t* saturated) const noexcept {
   const auto samples = static_cast<std::size_t>(tables_.samples);
   const std::size_t line_bytes = samples * (kind_ == RawKind::u8 ? 1 : 2);
-  int saturated = 0;
+  int saturated_lines = 0;
   for (int a = 0; a < lines; ++a) {
     const std::byte* line = counts + static_cast<std::size_t>(a) * line_bytes;
     const std::byte* next =
         counts + static_cast<std::size_t>(std::min(a + lines_ahead, lines - 1)) * line_bytes;
     const bool reached = first_pass_(tables_, line, next, full_scale << tables_.right_shift,
                                      buffers.background.data(), buffers.work.data());
-    saturated += reached ? 1 : 0;
+    saturated[a] = reached ? 1 : 0;
+    saturated_lines += saturated[a];
     Level* profile = levels + static_cast<std::size_t>(a) * (samples / 2);
     if constexpr (std::is_same_v<Level, float>)
       kernels_->finish_db(tables_, buffers.work.data(), profile);
     else
       kernels_->finish_u8(tables_, buffers.work.data(), profile);
   }
-  return saturated;
+  return saturated_lines;
 }
 
-template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&,
+template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&, std::uint8_t*,
                                     std::uint8_t*) const noexcept;
-template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&,
-                                    float*) const noexcept;
+template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&, float*,
+                                    std::uint8_t*) const noexcept;
 
 } // namespace octascope::pipeline

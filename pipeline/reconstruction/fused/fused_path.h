@@ -33,11 +33,11 @@ public:
   // Once per B-scan, before its lines: `background` has N values in counts after the shift.
   void set_background(const float* background, Buffers& buffers) const noexcept;
 
-  // Lines without gaps → levels, N/2 each. Returns the number of lines with a shifted count of at
-  // least `full_scale`. Level: std::uint8_t or float (dB).
+  // Lines without gaps → levels, N/2 each. `saturated`: by line, whether a shifted count is at
+  // least `full_scale`; returns the number of such lines. Level: std::uint8_t or float (dB).
   template <class Level>
   int reconstruct(const std::byte* counts, int lines, std::uint32_t full_scale, Buffers& buffers,
-                  Level* levels) const noexcept;
+                  Level* levels, std::uint8_t* saturated) const noexcept;
 
 private:
   FusedPath(FusedTables tables, const FusedKernels& kernels, RawKind kind);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -18,12 +19,13 @@
 #include "pipeline/calibration_finder/tissue_sharpness.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/files/png_image.h"
+#include "sim/spectra/volume_loop.h"
 #include "sim/spectrometer/spectrometer.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/files/tissue_calibration.h"
 #include "tests/support/must.h"
 #include "tests/support/pictures/tissue_surface.h"
-#include "tests/support/program/built_places.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -250,6 +252,54 @@ TEST_F(CalibrateCommand, wrong_use_is_2) {
   expect_refusal({"--mirror", near, "--mirror", far}, 1, "no");
 }
 
+// The simulated spectrometer's curve both ways, with and without a word on which it is.
+TEST_F(CalibrateCommand, tissue_tells_which_way_round_a_table_is_meant) {
+  auto config = tests::must(sim::suggested_loop("nail_fold"));
+  config.volumes = 1;
+  config.plan.a_scans = 100;
+  config.plan.b_scans = 4;
+  const auto loop = tests::must(sim::VolumeLoop::make(config));
+  const pipeline::ScanPlan& plan = loop->plan();
+  std::string tissue;
+  for (int b = 0; b < plan.b_scans; ++b) {
+    const auto frame = loop->frame(0, b);
+    tissue.append(reinterpret_cast<const char*>(frame.data()), frame.size());
+  }
+  folder.write("tissue.raw", tissue);
+  const auto write_table = [&](std::string_view name, const std::vector<double>& curve) {
+    folder.write(name, fmt::format("{}\n", fmt::join(curve, "\n")));
+  };
+  const sim::Spectrometer& model = loop->spectrometer();
+  write_table("pixel.txt", model.true_k_positions());
+  write_table("wavenumber.txt", model.k_of_pixel());
+  for (const std::string is : {"pixel", "wavenumber"}) {
+    for (const std::string said : {"", "pixel", "wavenumber"}) {
+      SCOPED_TRACE(is + ", said " + said);
+      const auto file = folder.write(
+          "given.toml",
+          fmt::format("[spectrometer]\nsamples = 1024\n[k_linear]\ntable = \"{}.txt\"\n{}", is,
+                      said.empty() ? "" : fmt::format("table_gives = \"{}\"\n", said)));
+      const auto outcome =
+          calibrate({"--calibration", file.string(), "--tissue", (folder / "tissue.raw").string(),
+                     "--shape", fmt::format("4,{},1024", plan.lines_per_frame()), "--json"});
+      ASSERT_EQ(outcome.status, 0) << outcome.messages;
+      const auto table = nlohmann::json::parse(outcome.out).at("table");
+      const bool wrong = !said.empty() && said != is;
+      fmt::print("  {} said \"{}\": {}\n", is, said, table.dump());
+      EXPECT_EQ(table.at("gives"), said.empty() ? is : said);
+      EXPECT_EQ(table.at("source"),
+                said.empty() ? "by the tissue's sharpness" : "as the file says");
+      EXPECT_EQ(table.at("warning") != "", wrong);
+      const auto found = tests::must(pipeline::Calibration::load(out, 1024));
+      EXPECT_EQ(found.k_table, pipeline::KTable::pixel);
+      double farthest = 0;
+      for (std::size_t m = 0; m < found.positions.size(); ++m)
+        farthest = std::max(farthest, std::abs(found.positions[m] - model.true_k_positions()[m]));
+      EXPECT_EQ(farthest > 1, wrong) << farthest;
+    }
+  }
+}
+
 double tissue_sharpness(const pipeline::Calibration& calibration) {
   const auto spectra = pipeline::SpectraFile::open(tests::test_data_folder() /
                                                        "sd-oct-tissue/spectra_u16_100x100x1024.raw",
@@ -280,8 +330,7 @@ TEST_F(CalibrateCommand, real_mirrors_and_tissue) {
   for (const auto& mirror : verdict["mirrors"])
     EXPECT_LE(mirror["fwhm_after_bins"].get<double>(), 2.5);
   const auto found = pipeline::Calibration::load(out, 1024);
-  const auto supplied = pipeline::Calibration::load(
-      tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024);
+  const auto supplied = pipeline::Calibration::load(tests::TissueCalibration{}.file(), 1024);
   ASSERT_TRUE(found && supplied);
   const double share = tissue_sharpness(*found) / tissue_sharpness(*supplied);
   fmt::print("  tissue: {:.1f} % of the sharpness with the supplied curves\n", 100 * share);

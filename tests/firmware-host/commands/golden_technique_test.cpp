@@ -9,7 +9,7 @@
 #include "firmware-host/commands/volume/render.h"
 #include "firmware-host/run/volume_source.h"
 #include "tests/support/files/test_data.h"
-#include "tests/support/program/built_places.h"
+#include "tests/support/files/tissue_calibration.h"
 #include "tests/ui/support/golden.h"
 #include "tests/ui/support/picture_file.h"
 #include "tests/ui/support/structural_similarity.h"
@@ -21,14 +21,15 @@ using firmware_host::RenderOptions;
 
 constexpr const char* tissue_spectra = "sd-oct-tissue/spectra_u16_100x100x1024.raw";
 
-firmware_host::VolumeRequest request_for(const std::string& scene) {
+firmware_host::VolumeRequest request_for(const std::string& scene,
+                                         const TissueCalibration& calibration) {
   firmware_host::VolumeRequest request;
   if (scene != "tissue") {
     request.phantom = scene;
     return request;
   }
   request.recording = {test_data_folder() / tissue_spectra, {100, 100, 1024}};
-  request.calibration = source_folder() / "tests/calibrations/sd-oct-tissue.toml";
+  request.calibration = calibration.file();
   return request;
 }
 
@@ -49,7 +50,7 @@ protected:
   void SetUp() override {
     if (GetParam() == "tissue")
       OCTASCOPE_REQUIRE_TEST_DATA(tissue_spectra);
-    auto loaded = firmware_host::load_volume(request_for(GetParam()));
+    auto loaded = firmware_host::load_volume(request_for(GetParam(), TissueCalibration{}));
     ASSERT_TRUE(loaded) << loaded.error().message;
     volume_ = std::move(loaded->volume);
   }

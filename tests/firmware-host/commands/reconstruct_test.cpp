@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,9 +17,9 @@
 #include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/files/tissue_calibration.h"
 #include "tests/support/must.h"
 #include "tests/support/pictures/tissue_surface.h"
-#include "tests/support/program/built_places.h"
 
 namespace octascope::firmware_host {
 namespace {
@@ -119,8 +120,8 @@ TEST_F(ReconstructCommand, takes_every_type) {
 TEST_F(ReconstructCommand, refuses_what_does_not_fit_the_type) {
   EXPECT_EQ(reconstruct({"--dtype", "u10"}), 1); // some have 12 bits
   EXPECT_EQ(reconstruct({"--dtype", "u12", "--shift", "5"}), 1);
-  EXPECT_EQ(reconstruct({"--dtype", "u16", "--shift", "-1"}), 1);
-  EXPECT_EQ(reconstruct({"--dtype", "u16", "--shift", "16"}), 1);
+  EXPECT_EQ(reconstruct({"--dtype", "u16", "--shift", "-1"}), 2);
+  EXPECT_EQ(reconstruct({"--dtype", "u16", "--shift", "16"}), 2);
   EXPECT_EQ(reconstruct({"--dtype", "u12", "--shift", "x"}), 2);
   EXPECT_FALSE(std::filesystem::exists(out));
   ReconstructOptions options;
@@ -216,10 +217,39 @@ TEST_F(ReconstructCommand, floats_must_be_finite) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+// Less their own mean such lines are silence: another background is taken, and told.
+TEST_F(ReconstructCommand, lines_that_their_own_mean_would_silence_are_there) {
+  const auto calibration =
+      folder.write("mean.toml", "[spectrometer]\nsamples = 32\n[k_linear]\npolynomial = [0, 31]\n"
+                                "[background]\nmode = \"mean\"\n");
+  struct Case {
+    std::string shape;
+    std::size_t lines;
+    std::vector<std::string> more;
+    std::string warning;
+  };
+  for (const Case& c :
+       {Case{"1,1,32", 1, {}, "a single line"}, Case{"20,1,32", 20, {}, ""},
+        Case{"20,1,32", 20, {"--calibration", calibration.string()}, "B-scans of one A-scan"}}) {
+    spectra = folder
+                  .write_values<std::uint16_t>(
+                      "few.raw", std::span<const std::uint16_t>{counts}.first(32 * c.lines))
+                  .string();
+    testing::internal::CaptureStderr();
+    ASSERT_EQ(reconstruct(c.more, c.shape), 0);
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr(c.warning));
+    const auto volume = tests::must(pipeline::read_nrrd(out));
+    const auto& levels = std::get<std::vector<float>>(volume.levels);
+    ASSERT_EQ(levels.size(), 16 * c.lines);
+    for (std::size_t line = 0; line < c.lines; ++line)
+      EXPECT_GT(std::ranges::max(std::span{levels}.subspan(16 * line, 16)), 20);
+  }
+}
+
 TEST_F(ReconstructCommand, real_tissue_has_its_sloping_surface) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
-  const std::string calibration =
-      (tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml").string();
+  const tests::TissueCalibration file;
+  const std::string calibration = file.file().string();
   spectra = (tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw").string();
   ASSERT_EQ(reconstruct({"--calibration", calibration}, "100,100,1024"), 0);
   const auto volume = tests::must(pipeline::read_nrrd(out));

@@ -11,8 +11,8 @@
 #include "sim/phantoms/phantom.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/files/tissue_calibration.h"
 #include "tests/support/must.h"
-#include "tests/support/program/built_places.h"
 #include "tests/support/spectra/scattering_spectra.h"
 
 namespace octascope::firmware_host {
@@ -68,8 +68,8 @@ TEST(UpperBorderOf, simulated_tissue_is_told_where_it_crosses_zero_delay) {
 class RealTissue : public testing::Test {
 protected:
   static constexpr pipeline::SpectraShape shape{100, 100, 1024};
-  const std::filesystem::path calibration =
-      tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml";
+  const tests::TissueCalibration calibration_file;
+  const std::filesystem::path calibration = calibration_file.file();
   const std::filesystem::path spectra =
       tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw";
 };

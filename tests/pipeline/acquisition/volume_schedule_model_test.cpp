@@ -137,7 +137,7 @@ private:
 
   void pulse() {
     auto& volume = *volumes_.emplace_back(std::make_unique<TrueVolume>());
-    volume.number = volumes_.size();
+    volume.number = planned_;
     volume.begin =
         volumes_.size() == 1
             ? now_

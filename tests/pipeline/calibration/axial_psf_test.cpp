@@ -12,7 +12,7 @@
 #include "pipeline/files/text_curve.h"
 #include "pipeline/reconstruction/reconstructor.h"
 #include "tests/support/files/test_data.h"
-#include "tests/support/program/built_places.h"
+#include "tests/support/files/tissue_calibration.h"
 #include "tests/support/spectra/reference_chain.h"
 
 namespace octascope::pipeline {
@@ -74,8 +74,7 @@ double fwhm_bins(const std::vector<float>& line, const Calibration& calibration)
 
 TEST(AxialPsf, both_mirrors_are_sharp_with_the_supplied_curves) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/mirror1_f32_1024.raw");
-  const auto loaded =
-      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", samples);
+  const auto loaded = Calibration::load(tests::TissueCalibration{}.file(), samples);
   ASSERT_TRUE(loaded) << loaded.error().message;
   for (const int mirror : {1, 2}) {
     const auto line = interferogram(mirror);

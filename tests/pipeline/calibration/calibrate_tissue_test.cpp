@@ -10,7 +10,7 @@
 #include "pipeline/reconstruction/spectra_file.h"
 #include "sim/spectrometer/spectrometer.h"
 #include "tests/support/files/test_data.h"
-#include "tests/support/program/built_places.h"
+#include "tests/support/files/tissue_calibration.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -64,8 +64,7 @@ TEST(TissueSharpness, finds_dispersion_and_its_sign) {
 
 TEST(TissueSharpness, real_tissue_is_as_sharp_as_with_the_supplied_curves) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
-  const auto supplied =
-      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024);
+  const auto supplied = Calibration::load(tests::TissueCalibration{}.file(), 1024);
   const auto spectra =
       SpectraFile::open(tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw",
                         {100, 100, 1024}, hal::SampleType::u16);

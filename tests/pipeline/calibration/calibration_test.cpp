@@ -8,8 +8,8 @@
 #include "pipeline/calibration/calibration.h"
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/files/tissue_calibration.h"
 #include "tests/support/must.h"
-#include "tests/support/program/built_places.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -99,7 +99,7 @@ TEST_F(CalibrationFile, may_say_the_medium_of_its_depths) {
 TEST_F(CalibrationFile, has_defaults) {
   const auto c = tests::must(load(straight));
   EXPECT_EQ(c.interpolation, Interpolation::sinc8);
-  EXPECT_EQ(c.background_mode, BackgroundMode::mean);
+  EXPECT_EQ(c.background_mode, BackgroundMode::running);
   EXPECT_TRUE(c.dispersion_rad.empty());
   EXPECT_EQ(c.positions, Calibration::identity(samples).positions);
   EXPECT_EQ(c.window, Calibration::identity(samples).window);
@@ -117,6 +117,60 @@ TEST_F(CalibrationFile, wavelengths_become_positions_uniform_in_k) {
                 1e-12);
 }
 
+// A spectrometer's wavenumbers by pixel, in rad/um, rad/m, or as an index of 0 to N−1, become the
+// positions that its wavelengths give.
+TEST_F(CalibrationFile, wavenumbers_become_positions) {
+  for (const bool rising_wavelength : {true, false}) {
+    const double a1 = rising_wavelength ? 1.1 : -1.1;
+    const double a2 = 0.004;
+    const auto k = [&](int p) { return 2000 * std::numbers::pi / (800 + a1 * p + a2 * p * p); };
+    const auto expected = tests::must(load(fmt::format(
+        "{}[k_linear]\nwavelength_polynomial_nm = [800.0, {}, {}]\n", spectrometer, a1, a2)));
+    for (const auto& [scale, offset] :
+         {std::pair{1.0, 0.0}, {1e6, 0.0}, {63 / (k(63) - k(0)), -63 * k(0) / (k(63) - k(0))}}) {
+      std::string table;
+      for (int p = 0; p < samples; ++p)
+        table += fmt::format("{:.9g}\n", scale * k(p) + offset);
+      folder.write("k.txt", table);
+      const auto c = tests::must(load(with_table + "table_gives = \"wavenumber\"\n"));
+      EXPECT_EQ(c.k_table, KTable::wavenumber);
+      for (std::size_t m = 0; m < samples; ++m)
+        ASSERT_NEAR(c.positions[m], expected.positions[m], 2e-3) << m;
+      EXPECT_FALSE(doubt_about_k_table(c, "c.toml"));
+    }
+  }
+}
+
+// r(m) bends by 12 pixels: the other way round it would bend by as much to the other side.
+TEST_F(CalibrationFile, a_table_says_which_way_round_it_is_meant) {
+  std::string bent;
+  for (int m = 0; m < samples; ++m)
+    bent += fmt::format("{}\n", m + 48.0 * m / 63 * (63 - m) / 63);
+  folder.write("k.txt", bent);
+  const auto unsaid = tests::must(load(with_table));
+  const auto told = tests::must(doubt_about_k_table(unsaid, "c.toml"));
+  EXPECT_THAT(told, HasSubstr("c.toml: [k_linear] table is taken for pixels by wavenumber"));
+  EXPECT_THAT(told, HasSubstr("table_gives"));
+  EXPECT_NEAR(distance_the_other_way_round(unsaid.positions), 23.19, 0.01);
+  const auto pixels = tests::must(load(with_table + "table_gives = \"pixel\"\n"));
+  EXPECT_EQ(pixels.positions, unsaid.positions);
+  EXPECT_FALSE(doubt_about_k_table(pixels, "c.toml"));
+  const auto turned = tests::must(load(with_table + "table_gives = \"wavenumber\"\n"));
+  for (std::size_t m = 1; m + 1 < samples; ++m)
+    ASSERT_LT(turned.positions[m], static_cast<double>(m)) << "it bends to the other side";
+  folder.write("k.txt", curve(samples));
+  EXPECT_FALSE(doubt_about_k_table(tests::must(load(with_table)), "c.toml")) << "straight";
+
+  EXPECT_THAT(refusal(with_table + "table_gives = \"nm\"\n"),
+              HasSubstr("table_gives is 'nm', expected one of \"pixel\", \"wavenumber\""));
+  EXPECT_THAT(refusal(straight + "table_gives = \"pixel\"\n"), HasSubstr("no table"));
+  const std::string wavenumbers = with_table + "table_gives = \"wavenumber\"\n";
+  folder.write("k.txt", curve(32, 7, 0.001) + curve(32, 7.02, 0.001));
+  EXPECT_THAT(refusal(wavenumbers), HasSubstr("k.txt: wavenumbers are not monotone: pixel 31 has"));
+  folder.write("k.txt", curve(32, 7, 0.001) + curve(32, 7.1, 0.001));
+  EXPECT_THAT(refusal(wavenumbers), HasSubstr("positions jump: position 31"));
+}
+
 TEST_F(CalibrationFile, falling_positions_are_monotone_too) {
   folder.write("k.txt", curve(64, 63, -1));
   EXPECT_TRUE(load(with_table));
@@ -124,8 +178,7 @@ TEST_F(CalibrationFile, falling_positions_are_monotone_too) {
 
 TEST_F(CalibrationFile, the_supplied_curves_pass) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/k_linear.txt");
-  const auto c = tests::must(
-      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024));
+  const auto c = tests::must(Calibration::load(tests::TissueCalibration{}.file(), 1024));
   EXPECT_EQ(c.positions.front(), 0);
   EXPECT_NEAR(c.positions.back(), 1022.93, 0.01);
   EXPECT_EQ(c.dispersion_rad.size(), 1024U);

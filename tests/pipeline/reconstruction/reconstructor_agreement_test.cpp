@@ -15,7 +15,7 @@
 #include "pipeline/reconstruction/reconstructor.h"
 #include "tests/support/files/calibrations.h"
 #include "tests/support/files/test_data.h"
-#include "tests/support/program/built_places.h"
+#include "tests/support/files/tissue_calibration.h"
 #include "tests/support/spectra/reference_chain.h"
 
 namespace octascope::pipeline {
@@ -31,7 +31,6 @@ void expect_agreement(const Reconstructor& reconstructor, const std::vector<Coun
   std::vector<std::uint8_t> counts(reconstructor.levels());
   std::vector<float> db(reconstructor.levels());
   reconstructor.reconstruct_b_scan(workspace, std::as_bytes(std::span{raw}), counts);
-  workspace.reset_background();
   reconstructor.reconstruct_b_scan_db(workspace, std::as_bytes(std::span{raw}), db);
   ASSERT_EQ(reference.size(), counts.size());
   const bool fused = reconstructor.path() == ReconstructionPath::fused;
@@ -202,8 +201,7 @@ INSTANTIATE_TEST_SUITE_P(windows_and_backgrounds, Agreement,
 
 TEST(ReconstructorRealData, agrees_with_the_reference) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
-  const auto calibration =
-      Calibration::load(tests::source_folder() / "tests/calibrations/sd-oct-tissue.toml", 1024);
+  const auto calibration = Calibration::load(tests::TissueCalibration{}.file(), 1024);
   ASSERT_TRUE(calibration) << calibration.error().message;
   std::ifstream in{tests::test_data_folder() / "sd-oct-tissue/spectra_u16_100x100x1024.raw",
                    std::ios::binary};

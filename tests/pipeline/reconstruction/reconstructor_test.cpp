@@ -193,15 +193,61 @@ TEST(Reconstructor, a_running_background_remembers) {
   ASSERT_TRUE(reconstructor);
   auto workspace = reconstructor->make_workspace();
   std::vector<float> db(reconstructor->levels());
+  auto running = tests::must(reconstructor->make_running_background(1));
   const std::vector<std::byte> first(2 * samples, std::byte{100});
   const std::vector<std::byte> second(2 * samples, std::byte{200});
-  reconstructor->reconstruct_b_scan_db(workspace, first, db);
+  reconstructor->reconstruct_b_scan_db(workspace, first, db, running.add(first));
   EXPECT_LT(db[0], -100);
-  reconstructor->reconstruct_b_scan_db(workspace, second, db);
+  reconstructor->reconstruct_b_scan_db(workspace, second, db, running.add(second));
   EXPECT_NEAR(db[0], 20 * std::log10(50.0), 0.01);
-  workspace.reset_background();
-  reconstructor->reconstruct_b_scan_db(workspace, second, db);
-  EXPECT_LT(db[0], -100);
+}
+
+// On both paths: a line at full scale is a wall of light, the third line clips a little.
+TEST(Reconstructor, saturated_lines_are_no_brighter_than_their_neighbours) {
+  constexpr int samples = 256;
+  constexpr int lines = 7;
+  for (const auto path : {ReconstructionPath::fftw, ReconstructionPath::fused}) {
+    Calibration calibration = tests::chirped_calibration(samples, 5);
+    calibration.background_mode = BackgroundMode::none;
+    SpectrumFormat format{samples, hal::SampleType::u16};
+    format.significant_bits = 12;
+    const auto made = tests::must(Reconstructor::create({.calibration = calibration,
+                                                         .format = format,
+                                                         .a_scans = lines,
+                                                         .path = path,
+                                                         .limit_saturated_lines = true}));
+    const auto drawn = noise(samples * lines, 8); // below full scale
+    std::vector<std::uint16_t> frame(drawn.begin(), drawn.end());
+    const auto of = [&] {
+      auto workspace = made.make_workspace();
+      std::vector<std::uint8_t> levels(made.levels());
+      const int saturated =
+          made.reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), levels)
+              .saturated_lines;
+      return std::pair{levels, saturated};
+    };
+    const auto good = of().first;
+    for (const int line : {0, 3, 4})
+      std::fill_n(frame.begin() + line * samples, samples, std::uint16_t{4095});
+    const auto [limited, saturated] = of();
+    EXPECT_EQ(saturated, 3);
+    const std::size_t depths = good.size() / lines;
+    const auto brighter = [&](std::size_t left, std::size_t right, std::size_t z) {
+      return std::max(good[left * depths + z], good[right * depths + z]);
+    };
+    for (std::size_t z = 0; z < depths; ++z) {
+      ASSERT_LE(limited[z], good[1 * depths + z]) << "one neighbour only";
+      for (const std::size_t line : {3U, 4U})
+        ASSERT_LE(limited[line * depths + z], brighter(2, 5, z));
+      for (const std::size_t line : {1U, 2U, 5U, 6U})
+        ASSERT_EQ(limited[line * depths + z], good[line * depths + z]);
+    }
+    EXPECT_EQ(limited[0], good[depths]) << "light at zero delay";
+
+    std::ranges::fill(frame, std::uint16_t{4095});
+    EXPECT_EQ(of().second, lines);
+    EXPECT_GT(of().first.front(), limited[0]) << "no neighbour: shown as it is";
+  }
 }
 
 } // namespace

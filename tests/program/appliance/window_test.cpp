@@ -178,19 +178,5 @@ TEST_F(Window, closed_ends_the_program) {
   EXPECT_GE(read_report(report_)["volumes"]["displayed"], 1);
 }
 
-TEST_F(Window, whose_server_goes_away_is_a_lost_display_and_no_end) {
-  auto run = start();
-  ASSERT_TRUE(run);
-  screen_.end();
-  std::this_thread::sleep_for(1s);
-  ASSERT_TRUE(run->running()) << run->wait(1s).describe();
-  run->send_signal(SIGHUP); // as of the terminal that goes with it
-  const ProgramResult result = run->wait(30s);
-  EXPECT_EQ(result.exit_status, 1) << "there is no picture for --snapshot: " << result.describe();
-  const nlohmann::json report = read_report(report_);
-  EXPECT_GE(report["volumes"]["displayed"], 1);
-  EXPECT_FALSE(find_fault(report, "display", "disconnected").is_null());
-}
-
 } // namespace
 } // namespace octascope::tests

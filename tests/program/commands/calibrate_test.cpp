@@ -14,7 +14,7 @@
 #include "pipeline/files/text_curve.h"
 #include "tests/program/program_support.h"
 #include "tests/support/files/test_data.h"
-#include "tests/support/program/built_places.h"
+#include "tests/support/files/tissue_calibration.h"
 
 namespace octascope::tests {
 namespace {
@@ -79,7 +79,8 @@ TEST(Calibrate, sharpens_the_real_mirrors_by_itself_in_either_order_and_from_tex
 TEST(Calibrate, finds_the_sign_of_dispersion_on_the_real_tissue_alone) {
   OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/spectra_u16_100x100x1024.raw");
   const ScratchFolder folder;
-  const std::string supplied = (source_folder() / "tests/calibrations/sd-oct-tissue.toml").string();
+  const TissueCalibration calibration;
+  const std::string supplied = calibration.file().string();
   const json verdict =
       calibrate({"--calibration", supplied, "--tissue", real("spectra_u16_100x100x1024.raw"),
                  "--shape", "100,100,1024", "--out", folder / "found.toml"});

@@ -6,7 +6,7 @@
 
 #include "tests/program/program_support.h"
 #include "tests/support/files/test_data.h"
-#include "tests/support/program/built_places.h"
+#include "tests/support/files/tissue_calibration.h"
 
 namespace octascope::tests {
 namespace {
@@ -80,15 +80,12 @@ TEST(Recording, real_spectra_show_their_surface) {
   EXPECT_GT(bright_share(picture, layout.en_face.frame, 60), 0.05);
 }
 
-TEST(Recording, the_shipped_calibration_fits_the_shipped_command) {
+TEST(Recording, the_calibration_of_the_measurements_fits_them) {
   OCTASCOPE_REQUIRE_TEST_DATA(spectra_file);
-  const auto shipped = source_folder() / "tests/calibrations/sd-oct-tissue.toml";
-  const auto beside = source_folder() / "../shared/data" / spectra_file;
-  if (!std::filesystem::exists(beside))
-    GTEST_SKIP() << "no " << beside << ", where the calibration's curves are looked for";
+  const TissueCalibration calibration;
   const ScratchFolder folder;
-  run_well({"reconstruct", "--spectra", beside, "--shape", "100,100,1024", "--calibration", shipped,
-            "--out", folder / "v.nrrd"});
+  run_well({"reconstruct", "--spectra", test_data_folder() / spectra_file, "--shape",
+            "100,100,1024", "--calibration", calibration.file(), "--out", folder / "v.nrrd"});
 }
 
 std::string unu() {

@@ -106,7 +106,8 @@ TEST(VesselsGenerate, refuses_a_number_out_of_range) {
   const ProgramResult result =
       run_octascope({"vessels", "generate", "--segments", "999", "--out", folder / "heart.swc"});
   EXPECT_EQ(result.exit_status, 2);
-  EXPECT_THAT(result.err, HasSubstr("999 segments asked for, expected 1000 to 20000000"));
+  EXPECT_THAT(result.err,
+              HasSubstr("--segments: found \"999\", expected a number from 1000 to 20000000"));
   EXPECT_TRUE(listing(folder.path()).empty());
 }
 

@@ -68,16 +68,11 @@ VirtualScreen::VirtualScreen() {
   close(ends[0]);
 }
 
-void VirtualScreen::end() {
+VirtualScreen::~VirtualScreen() {
   if (server_ <= 0)
     return;
   kill(server_, SIGTERM);
   waitpid(server_, nullptr, 0);
-  server_ = 0;
-}
-
-VirtualScreen::~VirtualScreen() {
-  end();
   unsetenv("DISPLAY");
 }
 

@@ -15,9 +15,6 @@ public:
   VirtualScreen& operator=(const VirtualScreen&) = delete;
   ~VirtualScreen();
 
-  // The server goes away, with whatever is on it.
-  void end();
-
   bool running() const { return server_ > 0; }
   // "not running: …" otherwise.
   const std::string& problem() const { return problem_; }

@@ -65,6 +65,24 @@ TEST(HudText, badges_say_what_is_not_live) {
   EXPECT_EQ(badges_of(status)[3], "4 lines saturated");
 }
 
+// "41 of 80 missing" by itself would read as a count.
+TEST(HudText, a_b_scan_that_is_not_whole_is_named) {
+  ShownPictures shown;
+  shown.volume = true;
+  shown.geometry.b_scans = 80;
+  ViewState view;
+  view.b_scan = 40;
+  const auto caption = [&](pipeline::BScanState state) {
+    shown.b_scan = state;
+    return compose_hud_text(view, live_status(), shown).b_scan;
+  };
+  EXPECT_EQ(caption(pipeline::BScanState::good).title.view(), "B-scan");
+  EXPECT_EQ(caption(pipeline::BScanState::good).note.view(), "41 of 80");
+  EXPECT_EQ(caption(pipeline::BScanState::missing).title.view(), "") << "not twice";
+  EXPECT_EQ(caption(pipeline::BScanState::missing).note.view(), "B-scan 41 of 80: missing");
+  EXPECT_EQ(caption(pipeline::BScanState::saturated).note.view(), "B-scan 41 of 80: saturated");
+}
+
 // Whatever else is true of it: REPLAY comes first, and nothing in words or marks says live.
 TEST(HudText, a_replay_says_so_with_date_and_time_in_every_state) {
   Status status = live_status();
