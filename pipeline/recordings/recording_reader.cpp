@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "pipeline/recordings/hdf5.h"
@@ -156,6 +157,26 @@ hal::Result<std::vector<RecordedVolume>> read_entries(hid_t metadata, hsize_t co
   return entries;
 }
 
+// Of what was cut off a file after it was opened HDF5 reads zeros, and no error.
+hal::Result<> check_end(hid_t file, hid_t levels, std::size_t n) {
+  const std::array<hsize_t, 4> chunk{n, 0, 0, 0};
+  unsigned filters = 0;
+  haddr_t address = HADDR_UNDEF;
+  hsize_t bytes = 0;
+  void* descriptor = nullptr;
+  struct stat status = {};
+  if (H5Dget_chunk_info_by_coord(levels, chunk.data(), &filters, &address, &bytes) < 0 ||
+      address == HADDR_UNDEF || H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor) < 0 ||
+      ::fstat(*static_cast<const int*>(descriptor), &status) != 0)
+    return {}; // another program chose the chunks: nothing is known
+  const auto file_bytes = static_cast<std::uint64_t>(status.st_size);
+  if (address <= file_bytes && bytes <= file_bytes - address)
+    return {};
+  return hal::fail(hal::ErrorCode::bad_data,
+                   "was truncated after it was opened: found {} bytes, expected {} at least",
+                   file_bytes, address + bytes);
+}
+
 bool read_row(hid_t dataset, std::span<const hsize_t> size, std::size_t n, void* row) {
   std::array<hsize_t, 4> start{};
   std::array<hsize_t, 4> count{};
@@ -265,6 +286,9 @@ hal::Result<> RecordingReader::read(std::size_t n, Volume& volume) {
         hal::ErrorCode::invalid_argument,
         "{}: volume {} is asked for, expected 0 to {}, into one of the recording's geometry",
         file_->path.string(), n, static_cast<std::int64_t>(file_->volumes.size()) - 1);
+  if (const auto checked = check_end(file_->file, file_->levels, n); !checked)
+    return hal::fail(checked.error().code, "{}: volume {}: {}", file_->path.string(), n,
+                     checked.error().message);
   if (!read_row(file_->levels, layout::levels_size(geometry, 0), n, volume.levels.data()) ||
       !read_row(file_->states, layout::states_size(geometry, 0), n, volume.b_scan_states.data()))
     return hal::fail(hal::ErrorCode::bad_data, "{}: volume {} cannot be read: {}",
