@@ -8,12 +8,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "pipeline/recordings/hdf5.h"
 #include "pipeline/recordings/hdf5_head.h"
 #include "pipeline/recordings/recording_attributes.h"
 #include "pipeline/recordings/recording_layout.h"
+#include "pipeline/recordings/trial.h"
 
 namespace octascope::pipeline {
 
@@ -155,6 +157,26 @@ hal::Result<std::vector<RecordedVolume>> read_entries(hid_t metadata, hsize_t co
   return entries;
 }
 
+// Of what was cut off a file after it was opened HDF5 reads zeros, and no error.
+hal::Result<> check_end(hid_t file, hid_t levels, std::size_t n) {
+  const std::array<hsize_t, 4> chunk{n, 0, 0, 0};
+  unsigned filters = 0;
+  haddr_t address = HADDR_UNDEF;
+  hsize_t bytes = 0;
+  void* descriptor = nullptr;
+  struct stat status = {};
+  if (H5Dget_chunk_info_by_coord(levels, chunk.data(), &filters, &address, &bytes) < 0 ||
+      address == HADDR_UNDEF || H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor) < 0 ||
+      ::fstat(*static_cast<const int*>(descriptor), &status) != 0)
+    return {}; // another program chose the chunks: nothing is known
+  const auto file_bytes = static_cast<std::uint64_t>(status.st_size);
+  if (address <= file_bytes && bytes <= file_bytes - address)
+    return {};
+  return hal::fail(hal::ErrorCode::bad_data,
+                   "was truncated after it was opened: found {} bytes, expected {} at least",
+                   file_bytes, address + bytes);
+}
+
 bool read_row(hid_t dataset, std::span<const hsize_t> size, std::size_t n, void* row) {
   std::array<hsize_t, 4> start{};
   std::array<hsize_t, 4> count{};
@@ -203,55 +225,47 @@ RecordingReader::~RecordingReader() {
 
 hal::Result<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
   const Hdf5Silence silence;
-  const auto refused = [&](const hal::Error& error) {
-    return hal::fail(error.code, "{}: {}", path.string(), error.message);
-  };
-  if (const auto checked = check_file(path); !checked)
-    return refused(checked.error());
+  auto opened = check_file(path)
+                    .and_then([&] { return try_apart([&] { read_indices(load(path)); }); })
+                    .and_then([&] { return load(path); });
+  if (!opened)
+    return hal::fail(opened.error().code, "{}: {}", path.string(), opened.error().message);
+  return RecordingReader{std::move(*opened)};
+}
+
+hal::Result<std::unique_ptr<RecordingReader::File>>
+RecordingReader::load(const std::filesystem::path& path) {
   auto opened = std::make_unique<File>();
   opened->path = path;
-  auto file = open_file(path);
-  if (!file)
-    return refused(file.error());
-  opened->file = std::move(*file);
-  auto facts = read_facts(opened->file);
-  if (!facts)
-    return refused(facts.error());
-  opened->facts = std::move(*facts);
-  const auto end = read_end(opened->file);
-  if (!end)
-    return refused(end.error());
-  opened->end = *end;
-
+  HAL_TRY(opened->file, open_file(path));
+  HAL_TRY(opened->facts, read_facts(opened->file));
+  HAL_TRY(opened->end, read_end(opened->file));
   const VolumeGeometry& geometry = opened->facts.geometry;
   std::array<hsize_t, 3> counts{};
-  auto levels = open_dataset(opened->file, layout::levels, H5T_INTEGER,
-                             layout::levels_size(geometry, 0), counts[0]);
-  if (!levels)
-    return refused(levels.error());
-  opened->levels = std::move(*levels);
-  auto states = open_dataset(opened->file, layout::b_scan_states, H5T_INTEGER,
-                             layout::states_size(geometry, 0), counts[1]);
-  if (!states)
-    return refused(states.error());
-  opened->states = std::move(*states);
-  const auto metadata = open_dataset(opened->file, layout::metadata, H5T_COMPOUND,
-                                     std::array<hsize_t, 1>{}, counts[2]);
-  if (!metadata)
-    return refused(metadata.error());
-  if (const auto checked = check_entry_type(*metadata); !checked)
-    return refused(checked.error());
-  if (geometry.voxels() > most_voxels || std::ranges::min(counts) > most_volumes)
-    return refused(
-        {hal::ErrorCode::bad_data,
-         fmt::format("found {} volumes of {} voxels, expected at most {} of {}",
-                     std::ranges::min(counts), geometry.voxels(), most_volumes, most_voxels)});
+  HAL_TRY(opened->levels, open_dataset(opened->file, layout::levels, H5T_INTEGER,
+                                       layout::levels_size(geometry, 0), counts[0]));
+  HAL_TRY(opened->states, open_dataset(opened->file, layout::b_scan_states, H5T_INTEGER,
+                                       layout::states_size(geometry, 0), counts[1]));
+  HAL_TRY(const auto metadata, open_dataset(opened->file, layout::metadata, H5T_COMPOUND,
+                                            std::array<hsize_t, 1>{}, counts[2]));
+  HAL_CHECK(check_entry_type(metadata));
   // Of one that broke off, the last volume may lack its entry.
-  auto entries = read_entries(*metadata, std::ranges::min(counts));
-  if (!entries)
-    return refused(entries.error());
-  opened->volumes = std::move(*entries);
-  return RecordingReader{std::move(opened)};
+  const hsize_t volumes = std::ranges::min(counts);
+  if (geometry.voxels() > most_voxels || volumes > most_volumes)
+    return hal::fail(hal::ErrorCode::bad_data,
+                     "found {} volumes of {} voxels, expected at most {} of {}", volumes,
+                     geometry.voxels(), most_volumes, most_voxels);
+  HAL_TRY(opened->volumes, read_entries(metadata, volumes));
+  return opened;
+}
+
+// All that HDF5 looks at when volumes are read, but for the volumes themselves.
+void RecordingReader::read_indices(const hal::Result<std::unique_ptr<File>>& opened) {
+  if (!opened)
+    return;
+  hsize_t chunks = 0;
+  for (const hid_t dataset : {hid_t{(*opened)->levels}, hid_t{(*opened)->states}})
+    H5Dget_num_chunks(dataset, H5S_ALL, &chunks);
 }
 
 const RecordingFacts& RecordingReader::facts() const {
@@ -272,6 +286,9 @@ hal::Result<> RecordingReader::read(std::size_t n, Volume& volume) {
         hal::ErrorCode::invalid_argument,
         "{}: volume {} is asked for, expected 0 to {}, into one of the recording's geometry",
         file_->path.string(), n, static_cast<std::int64_t>(file_->volumes.size()) - 1);
+  if (const auto checked = check_end(file_->file, file_->levels, n); !checked)
+    return hal::fail(checked.error().code, "{}: volume {}: {}", file_->path.string(), n,
+                     checked.error().message);
   if (!read_row(file_->levels, layout::levels_size(geometry, 0), n, volume.levels.data()) ||
       !read_row(file_->states, layout::states_size(geometry, 0), n, volume.b_scan_states.data()))
     return hal::fail(hal::ErrorCode::bad_data, "{}: volume {} cannot be read: {}",

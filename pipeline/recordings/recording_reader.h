@@ -14,8 +14,9 @@ namespace octascope::pipeline {
 // Bound to one thread at a time.
 class RecordingReader {
 public:
-  // Checks the whole structure. ErrorCode::bad_data: no recording, a damaged one, or one of a newer
-  // version; the message says what was found and expected.
+  // Checks the whole structure, in a process of its own first: HDF5 crashes on some damaged files.
+  // ErrorCode::bad_data: no recording, a damaged one, or one of a newer version; busy: another
+  // program has locked it, or left it marked as open. The message says what was found and expected.
   static hal::Result<RecordingReader> open(const std::filesystem::path& file);
   RecordingReader(RecordingReader&&) noexcept;
   RecordingReader& operator=(RecordingReader&&) noexcept;
@@ -34,6 +35,8 @@ public:
 private:
   struct File;
   explicit RecordingReader(std::unique_ptr<File> file);
+  static hal::Result<std::unique_ptr<File>> load(const std::filesystem::path& path);
+  static void read_indices(const hal::Result<std::unique_ptr<File>>& opened);
 
   std::unique_ptr<File> file_;
 };

@@ -243,6 +243,25 @@ TEST_F(Recording, refuses_what_is_none) {
   EXPECT_THAT(refusal(other), HasSubstr("is no recording of octascope"));
 }
 
+TEST_F(Recording, tells_of_volumes_that_were_cut_off_while_it_was_open) {
+  write_small_recording(file, 40);
+  auto reader = tests::must(RecordingReader::open(file));
+  Volume volume{reader.facts().geometry};
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 5'000);
+  int unread = 0;
+  for (std::size_t n = 0; n < 40; ++n) {
+    const auto read = reader.read(n, volume);
+    if (read) {
+      EXPECT_EQ(volume.levels, small_recording_volume(n).levels) << n;
+    } else {
+      EXPECT_THAT(read.error().message, HasSubstr("was truncated after it was opened"));
+      ++unread;
+    }
+  }
+  EXPECT_GE(unread, 5'000 / 420);
+  EXPECT_LT(unread, 40);
+}
+
 TEST_F(Recording, refuses_what_was_cut_off) {
   write_small_recording(file, 3);
   std::filesystem::resize_file(file, std::filesystem::file_size(file) * 2 / 3);
