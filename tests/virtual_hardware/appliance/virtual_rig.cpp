@@ -62,6 +62,7 @@ hal::Result<> write_virtual_rig_configuration(const std::filesystem::path& folde
   found.calibration = pipeline::Calibration::identity(p.samples);
   found.calibration.positions = spectrometer.true_k_positions();
   found.calibration.dispersion_rad = spectrometer.true_dispersion_rad();
+  found.spacing_known = true; // the phantom's own
   found.provenance = {"bench", "the phantom's own", "none", "now", "exact"};
   const bool at_boot = start == VirtualRigStart::at_boot;
   std::filesystem::create_directories(folder);
