@@ -109,7 +109,8 @@ void check_files(const CLI::App& command) {
       throw CLI::ValidationError(
           out.option, fmt::format("{} is a file that {} reads; expected another name: nothing "
                                   "was written",
-                                  out.file.string(), in->option));
+                                  out.file.string(),
+                                  in->option.starts_with("--") ? in->option : "the command"));
     const auto before = written.begin() + static_cast<std::ptrdiff_t>(i);
     if (const auto first = std::find_if(written.begin(), before, is_out); first != before)
       throw CLI::ValidationError(

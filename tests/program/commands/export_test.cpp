@@ -327,7 +327,7 @@ TEST_F(Export, refuses_wrong_use) {
       {{"--to", "tiff", "--out", out}, {"tiff", "nrrd"}},
       {{"--to", "dicom", "--out", v + ".png", "--volumes", "1"}, {"v.png", "ending with .dcm"}},
       {{"--to", "nrrd", "--out", recording},
-       {"r.h5", "is a file that file reads", "nothing was written"}},
+       {"r.h5", "is a file that the command reads", "nothing was written"}},
       {{"--out", v + ".nrrd"}, {"v.nrrd", "one file for 5 volumes", "expected a folder"}},
       {{"--to", "nrrd", "--out", out, "--volumes", "5"}, {"volume 5", "has 0 to 4"}},
       {{"--to", "nrrd", "--out", out, "--volumes", "2-9"}, {"volume 9", "has 0 to 4"}},

@@ -93,4 +93,18 @@ pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& g) {
   return volume;
 }
 
+pipeline::Volume ball_volume(int n, double radius_mm) {
+  pipeline::Volume volume = uniform_volume({n, n, n, 25, 25, 25}, 0);
+  for (int b = 0; b < n; ++b)
+    for (int a = 0; a < n; ++a)
+      for (int z = 0; z < n; ++z) {
+        const auto mm = [n](int i) { return (i + 0.5 - n / 2.0) * 0.025; };
+        const double distance = std::sqrt(mm(a) * mm(a) + mm(b) * mm(b) + mm(z) * mm(z));
+        const double share = std::clamp((radius_mm - distance) / 0.05 + 0.5, 0.0, 1.0);
+        volume.b_scan(b)[static_cast<std::size_t>(a * n + z)] =
+            static_cast<std::uint8_t>(std::lround(200 * share));
+      }
+  return volume;
+}
+
 } // namespace octascope::tests

@@ -9,6 +9,10 @@ namespace octascope::tests {
 // Every voxel of every good B-scan has that count.
 pipeline::Volume uniform_volume(const pipeline::VolumeGeometry& geometry, std::uint8_t count);
 
+// A ball of 200 counts in the middle of n voxels each way, 25 µm apart, whose surface is a ramp of two
+// voxels.
+pipeline::Volume ball_volume(int n, double radius_mm);
+
 // Tissue: three layers under a wavy surface, vessels (bright walls, dark lumen) within, a bright
 // sphere on it and the noise floor above, with speckle from a fixed seed. The same on every
 // machine.

@@ -292,19 +292,8 @@ TEST_F(VolumeTechniquesTest, oblique_rays_are_longer_and_so_more_opaque) {
 }
 
 TEST_F(VolumeTechniquesTest, sphere_has_the_silhouette_of_its_cone_of_tangents) {
-  constexpr int n = 96;
-  pipeline::Volume volume = uniform_volume({n, n, n, 25, 25, 25}, 0);
   constexpr double radius_mm = 0.9;
-  for (int b = 0; b < n; ++b)
-    for (int a = 0; a < n; ++a)
-      for (int z = 0; z < n; ++z) {
-        const auto mm = [](int i) { return (i + 0.5 - n / 2.0) * 0.025; };
-        const double distance = std::sqrt(mm(a) * mm(a) + mm(b) * mm(b) + mm(z) * mm(z));
-        // A ramp of two voxels whose middle is the sphere's surface.
-        const double share = std::clamp((radius_mm - distance) / 0.05 + 0.5, 0.0, 1.0);
-        volume.b_scan(b)[static_cast<std::size_t>(a * n + z)] =
-            static_cast<std::uint8_t>(std::lround(200 * share));
-      }
+  const pipeline::Volume volume = ball_volume(96, radius_mm);
   stage_->show(volume);
   StageSettings settings;
   settings.width = 200;
