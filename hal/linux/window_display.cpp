@@ -78,25 +78,28 @@ struct WindowDisplay::Window {
   SDL_Window* window = nullptr;
   SDL_GLContext context = nullptr;
   bool video = false;
-  int socket = -1;
-  bool lost = false; // its X server went away
-
-  // Before each call that talks to the server.
-  bool is_lost() { return lost = lost || has_hung_up(socket); }
+  X11Connection server;
+  SDL_Point last_size{0, 0};
 
   explicit Window(const SdlLibrary& loaded) : sdl{loaded} {}
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
   ~Window() {
-    if (is_lost()) // SDL would wait for answers that no server gives, without end
-      return;
-    if (context != nullptr)
-      sdl.gl_delete_context(context);
-    if (window != nullptr)
-      sdl.destroy_window(window);
-    if (video)
-      sdl.quit_sub_system(SDL_INIT_VIDEO);
+    server.talk([this] { // without a server SDL would wait for answers without end
+      if (context != nullptr)
+        sdl.gl_delete_context(context);
+      if (window != nullptr)
+        sdl.destroy_window(window);
+      if (video)
+        sdl.quit_sub_system(SDL_INIT_VIDEO);
+    });
+  }
+
+  // Of a window that is gone, its last one.
+  SDL_Point size() {
+    server.talk([this] { sdl.gl_get_drawable_size(window, &last_size.x, &last_size.y); });
+    return last_size;
   }
 
   tl::unexpected<Error> refuse(ErrorCode fault, std::string_view found,
@@ -138,7 +141,7 @@ struct WindowDisplay::Window {
       return refuse(ErrorCode::unsupported, "no window for GLES could be made",
                     "a window system with EGL or GLX for GLES 3; install libegl1 and "
                     "libgl1-mesa-dri");
-    socket = x11_socket(sdl, window);
+    server.watch(sdl, window);
     context = sdl.gl_create_context(window);
     if (context == nullptr)
       return refuse(ErrorCode::unsupported, "no GLES 3 context could be made",
@@ -184,36 +187,29 @@ Result<> WindowDisplay::do_open(const DisplayConfig& config) {
 }
 
 int WindowDisplay::do_width() const {
-  int width = 0;
-  if (window_ != nullptr && !window_->is_lost())
-    window_->sdl.gl_get_drawable_size(window_->window, &width, nullptr);
-  return width;
+  return window_ != nullptr ? window_->size().x : 0;
 }
 
 int WindowDisplay::do_height() const {
-  int height = 0;
-  if (window_ != nullptr && !window_->is_lost())
-    window_->sdl.gl_get_drawable_size(window_->window, nullptr, &height);
-  return height;
-}
-
-bool WindowDisplay::is_lost() {
-  if (window_->is_lost()) {
-    server_gone_ = true;
-    set_state(DeviceState::failed);
-  }
-  return server_gone_;
+  return window_ != nullptr ? window_->size().y : 0;
 }
 
 Result<Flip> WindowDisplay::do_present() {
   if (window_ == nullptr)
     return fail(ErrorCode::absent, "window display: not open; open() it first");
   const TimePoint submitted = clock_.now();
-  glFinish(); // so that drawing is not a part of the call that talks to the server
-  if (is_lost())
+  const bool shown = window_->server.talk([this] {
+    window_->sdl.gl_swap_window(window_->window);
+    // A driver asks the server for the window's size when the next frame begins: here, then, and not
+    // in the midst of drawing.
+    std::array<std::uint8_t, 4> pixel{};
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
+  });
+  if (!shown) {
+    set_state(DeviceState::failed);
     return tl::make_unexpected(server_gone(ErrorCode::disconnected));
-  window_->sdl.gl_swap_window(window_->window);
-  glFinish();
+  }
   const TimePoint completed =
       pacer_.completed({.submitted = submitted, .stamp = std::nullopt, .received = clock_.now()});
   clock_.sleep_until(pacer_.next_allowed());
@@ -221,17 +217,24 @@ Result<Flip> WindowDisplay::do_present() {
 }
 
 std::size_t WindowDisplay::do_poll_events(std::span<DisplayEvent> events) {
-  if (window_ == nullptr || is_lost())
+  if (window_ == nullptr)
     return 0;
   std::size_t count = 0;
   SDL_Event event;
-  while (count < events.size() && window_->sdl.poll_event(&event) != 0)
-    if (const auto translated = translate(event, clock_.now()))
+  bool found = true;
+  while (count < events.size() && found) {
+    if (!window_->server.talk([&] { found = window_->sdl.poll_event(&event) != 0; })) {
+      set_state(DeviceState::failed);
+      break;
+    }
+    if (const auto translated = found ? translate(event, clock_.now()) : std::nullopt)
       events[count++] = *translated;
+  }
   return count;
 }
 
 void WindowDisplay::do_close() {
+  server_gone_ = server_gone_ || (window_ != nullptr && window_->server.is_lost());
   window_.reset();
   set_state(DeviceState::absent);
 }

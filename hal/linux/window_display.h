@@ -31,7 +31,6 @@ private:
   Result<Flip> do_present() override;
   std::size_t do_poll_events(std::span<DisplayEvent> events) override;
   void do_close() override;
-  bool is_lost();
 
   Clock& clock_;
   std::unique_ptr<Window> window_;

@@ -178,5 +178,21 @@ TEST_F(Window, closed_ends_the_program) {
   EXPECT_GE(read_report(report_)["volumes"]["displayed"], 1);
 }
 
+// A lost display: the run goes on to its end, without a window.
+TEST_F(Window, whose_server_goes_away_is_a_lost_display) {
+  const std::string recording = folder_ / "recording.h5";
+  ProgramRun run{octascope_command(
+      {"record", "--sim", "--config", write_small_configuration(folder_), "--display", "window",
+       "--duration", sanitized ? "12" : "6", "--out", recording, "--report", report_})};
+  ASSERT_TRUE(run.wait_for_thread("octa-camera", 60s));
+  std::this_thread::sleep_for(sanitized ? 4s : 1s);
+  screen_.end();
+  const ProgramResult result = run.wait(60s);
+  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  EXPECT_THAT(result.out, testing::HasSubstr("the X server has gone away"));
+  EXPECT_GE(read_report(report_)["volumes"]["displayed"], 1);
+  run_well({"info", recording}); // finished
+}
+
 } // namespace
 } // namespace octascope::tests

@@ -68,12 +68,17 @@ VirtualScreen::VirtualScreen() {
   close(ends[0]);
 }
 
-VirtualScreen::~VirtualScreen() {
+void VirtualScreen::end() {
   if (server_ <= 0)
     return;
   kill(server_, SIGTERM);
   waitpid(server_, nullptr, 0);
+  server_ = 0;
   unsetenv("DISPLAY");
+}
+
+VirtualScreen::~VirtualScreen() {
+  end();
 }
 
 } // namespace octascope::tests

@@ -15,6 +15,9 @@ public:
   VirtualScreen& operator=(const VirtualScreen&) = delete;
   ~VirtualScreen();
 
+  // As when it crashes, or its user logs out. Does nothing if it does not run.
+  void end();
+
   bool running() const { return server_ > 0; }
   // "not running: …" otherwise.
   const std::string& problem() const { return problem_; }
