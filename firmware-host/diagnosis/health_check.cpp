@@ -16,6 +16,7 @@
 #include "firmware-host/devices/real_devices.h"
 #include "firmware-host/diagnosis/hardware_checks.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
+#include "hal/linux/monotonic_clock.h"
 #include "hal/linux/realtime.h"
 #include "pipeline/calibration/calibration.h"
 #include "pipeline/reconstruction/reconstructor.h"
@@ -23,6 +24,7 @@
 #include "sim/devices/offscreen_display.h"
 #include "sim/spectrometer/spectrometer.h"
 #include "ui/gl/context_info.h"
+#include "ui/volume/volume_texture.h"
 
 namespace octascope::firmware_host {
 
@@ -224,6 +226,21 @@ std::optional<HealthCheck> check_k_table(const std::filesystem::path& file) {
   return std::nullopt;
 }
 
+// Likewise. Without GL here there may be some where it is used.
+std::optional<HealthCheck> check_volume_size(const std::filesystem::path& file) {
+  const auto configuration = load_configuration(file);
+  hal::linux_backend::MonotonicClock clock;
+  sim::OffscreenDisplay display{clock};
+  if (!configuration || !display.open({.width = 64, .height = 64}))
+    return std::nullopt;
+  const auto plan = configuration->plan.value_or(pipeline::ScanPlan{});
+  const auto fits = ui::VolumeTexture::check_size(plan.geometry());
+  if (fits)
+    return std::nullopt;
+  return HealthCheck{"graphics", Verdict::fails, fits.error().message,
+                     "lower [scan] samples, a_scans or b_scans"};
+}
+
 } // namespace
 
 std::vector<HealthCheck> check_health(hal::Clock& clock) {
@@ -253,10 +270,10 @@ std::vector<HealthCheck> check_configuration(const std::optional<std::filesystem
          "so has man octascope.toml"});
   if (checks.empty()) {
     checks.push_back(good("configuration", used->string()));
-    if (auto unnamed = check_camera_of_calibration(*used))
-      checks.push_back(std::move(*unnamed));
-    if (auto doubt = check_k_table(*used))
-      checks.push_back(std::move(*doubt));
+    for (const auto& check :
+         {check_camera_of_calibration(*used), check_k_table(*used), check_volume_size(*used)})
+      if (check)
+        checks.push_back(*check);
   }
   return checks;
 }

@@ -9,6 +9,7 @@
 #include "ui/controls/simulated_control.h"
 #include "ui/gl/context_info.h"
 #include "ui/transfer/histogram.h"
+#include "ui/volume/volume_texture.h"
 
 namespace octascope::firmware_host {
 
@@ -29,7 +30,7 @@ bool brings_volumes(ui::Liveness liveness) {
 RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
     : parts_(parts), setup_(std::move(setup)), legend_(ui::make_legend(setup_.controls)),
       key_legend_(ui::make_key_legend()),
-      controller_(setup_.view, setup_.b_scans, setup_.controls, setup_.transfers.names()),
+      controller_(setup_.view, setup_.geometry.b_scans, setup_.controls, setup_.transfers.names()),
       governor_({}) {
   if (setup_.restored_view)
     controller_.actions().replace(controller_.actions().initial(), *setup_.restored_view);
@@ -65,7 +66,8 @@ void RenderLoop::change_transfers(ui::TransferSet transfers) {
 }
 
 hal::Result<> RenderLoop::open() {
-  return open_display();
+  HAL_CHECK(open_display());
+  return ui::VolumeTexture::check_size(setup_.geometry);
 }
 
 hal::Result<> RenderLoop::open_display() {

@@ -67,7 +67,7 @@ struct RenderLoopSetup {
   std::optional<ui::ViewState> restored_view;
   bool window_restored = false; // the first volume then sets only what reset_view goes back to
   ui::FreshnessLimits freshness;
-  int b_scans = 80;
+  pipeline::VolumeGeometry geometry; // of the volumes to come
   int lines_per_frame = 379;
   std::optional<ui::ScanField> scan_field;
   HostStatus host; // initial
@@ -92,7 +92,8 @@ public:
   RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup);
   ~RenderLoop();
 
-  // Opens the display unless it is open. An Error is final: there is nothing to show anything on.
+  // Opens the display unless it is open. An Error is final: there is nothing to show anything on, or
+  // it cannot show the volumes to come.
   hal::Result<> open();
 
   // One round: input, newest volume, and a frame if something changed. Waits at most one refresh.

@@ -15,17 +15,21 @@ hal::Result<> check(const pipeline::Volume& volume) {
                      "depths x {} A-scans x {} B-scans",
                      volume.levels.size(), volume.b_scan_states.size(), g.depths, g.a_scans,
                      g.b_scans);
-  GLint largest = 0;
-  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
-  if (std::max({g.depths, g.a_scans, g.b_scans}) > largest)
-    return hal::fail(hal::ErrorCode::unsupported,
-                     "volume display: found {} depths x {} A-scans x {} B-scans, expected at most "
-                     "{} along each axis on this GPU; scan fewer",
-                     g.depths, g.a_scans, g.b_scans, largest);
-  return {};
+  return VolumeTexture::check_size(g);
 }
 
 } // namespace
+
+hal::Result<> VolumeTexture::check_size(const pipeline::VolumeGeometry& geometry) {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &largest);
+  if (std::max({geometry.depths, geometry.a_scans, geometry.b_scans}) > largest)
+    return hal::fail(hal::ErrorCode::unsupported,
+                     "volume display: found {} depths x {} A-scans x {} B-scans, expected at most "
+                     "{} along each axis on this GPU; lower [scan] samples, a_scans or b_scans",
+                     geometry.depths, geometry.a_scans, geometry.b_scans, largest);
+  return {};
+}
 
 void VolumeTexture::allocate(const pipeline::VolumeGeometry& geometry) {
   for (gl::Texture& texture : textures_) {

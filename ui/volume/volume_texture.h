@@ -17,8 +17,11 @@ namespace octascope::ui {
 // Threads: as gl/objects.h. Allocates only when the geometry changes.
 class VolumeTexture {
 public:
-  // Copies the levels before it returns. ErrorCode::unsupported: larger than this GL's 3D textures.
-  // ErrorCode::bad_data: fewer voxels than the geometry says. On errors the previous volume stays.
+  // Whether the GL that is current here has textures for it. ErrorCode::unsupported: it has not.
+  static hal::Result<> check_size(const pipeline::VolumeGeometry& geometry);
+
+  // Copies the levels before it returns. Errors: check_size()'s;
+  // ErrorCode::bad_data: fewer voxels than the geometry says. The previous volume stays.
   hal::Result<> upload(const pipeline::Volume& volume);
 
   bool empty() const { return !textures_[front_]; }

@@ -212,6 +212,21 @@ TEST(DoctorOfConfigurations, tells_everything_that_is_wrong) {
   run_well({"doctor", "--config", (source_folder() / "deploy/example.toml").string()});
 }
 
+// No GPU has 3D textures of 32768.
+TEST(DoctorOfConfigurations, tells_of_volumes_that_the_display_cannot_show_and_run_does_not_begin) {
+  const ScratchFolder folder;
+  const fs::path file =
+      folder.write("c.toml", "[scan]\nsamples = 65536\na_scans = 8\nb_scans = 4\n");
+  const ProgramResult doctor = run_octascope({"doctor", "--config", file});
+  EXPECT_EQ(doctor.exit_status, 1) << doctor.describe();
+  EXPECT_THAT(doctor.out,
+              HasSubstr("found 32768 depths x 8 A-scans x 4 B-scans, expected at most"));
+  const ProgramResult run = run_octascope(
+      {"run", "--sim", "--config", file, "--display", "offscreen", "--duration", "1"});
+  EXPECT_EQ(run.exit_status, 1) << run.describe();
+  EXPECT_THAT(run.err, HasSubstr("found 32768 depths x 8 A-scans x 4 B-scans, expected at most"));
+}
+
 TEST(DoctorOfConfigurations, tells_of_a_calibration_that_names_no_camera) {
   const ScratchFolder folder;
   folder.write("k.toml",
