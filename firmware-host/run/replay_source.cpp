@@ -7,6 +7,7 @@
 #include "firmware-host/report/run_outputs.h"
 #include "firmware-host/run/run_source.h"
 #include "firmware-host/supervision/thread_roles.h"
+#include "firmware-host/terminal/terminal.h"
 #include "pipeline/recordings/recording_reader.h"
 #include "pipeline/recordings/replay/replay_thread.h"
 
@@ -87,6 +88,8 @@ hal::Result<> ReplaySource::open() {
           .rate = wanted.rate, .once = wanted.once, .most_volumes = options_.volumes},
       clock_, faults_, news_);
   volumes_->seek(wanted.from);
+  if (const auto& assumed = volumes_->facts().geometry.assumed; assumed.any())
+    warn("octascope replay: warning: spacings are assumed, not measured: {}\n", assumed.words());
   return {};
 }
 

@@ -176,6 +176,10 @@ hal::Result<LoadedVolume> reconstruct(const VolumeRequest& request) {
   LoadedVolume loaded{build_volume(twins, reconstructor, average), {}};
   if (request.recording) // a phantom is made for its spacings
     remark_assumed(request.recording->file, loaded);
+  if (request.calibration) {
+    if (auto doubt = pipeline::doubt_about_k_table(twins.calibration, *request.calibration))
+      loaded.remarks.push_back(std::move(*doubt));
+  }
   return loaded;
 }
 

@@ -148,6 +148,8 @@ TEST_F(Export, says_which_spacings_are_assumed) {
   EXPECT_THAT(run_well({"info", assumed}).out, HasSubstr("the spacings of depth, B-scan"));
   EXPECT_THAT(run_well({"render", "--volume", assumed, "--out", folder / "v.png"}).err,
               HasSubstr("assumed.h5: its spacings are assumed, not measured: depth, B-scan"));
+  EXPECT_THAT(run_well({"replay", assumed, "--display", "offscreen", "--once"}).err,
+              HasSubstr("assumed, not measured: depth, B-scan"));
   EXPECT_THAT(run({"--volumes", "0", "--out", folder / "v.nrrd"}).err, Not(HasSubstr("assumed")));
 }
 
