@@ -269,9 +269,11 @@ std::vector<HealthCheck> check_configuration(const std::optional<std::filesystem
          "fix it; docs/CONFIGURATION.md (in /usr/share/doc/octascope) has every key, and "
          "so has man octascope.toml"});
   if (checks.empty()) {
-    checks.push_back(good("configuration", used->string()));
-    for (const auto& check :
-         {check_camera_of_calibration(*used), check_k_table(*used), check_volume_size(*used)})
+    if (auto too_large = check_volume_size(*used))
+      checks.push_back(std::move(*too_large));
+    else
+      checks.push_back(good("configuration", used->string()));
+    for (const auto& check : {check_camera_of_calibration(*used), check_k_table(*used)})
       if (check)
         checks.push_back(*check);
   }
