@@ -238,7 +238,7 @@ std::optional<HealthCheck> check_volume_size(const std::filesystem::path& file) 
   if (fits)
     return std::nullopt;
   return HealthCheck{"graphics", Verdict::fails, fits.error().message,
-                     "lower [scan] samples, a_scans or b_scans"};
+                     "lower them, or show it with a GPU that has larger textures"};
 }
 
 } // namespace
