@@ -57,6 +57,7 @@ struct LineFrame {
   TimePoint first_line;       // exposure times of the first and the last line
   TimePoint last_line;
   FrameIntegrity integrity = FrameIntegrity::good;
+  TimePoint fetched{}; // when the host had it; whoever takes it from the camera notes it
 };
 
 // Threads: open, start, wait_frame, stop and close from one thread at a time (the camera thread);

@@ -41,6 +41,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> calibration;
   std::optional<std::filesystem::path> snapshot;
   std::optional<std::filesystem::path> report;
+  std::optional<std::filesystem::path> trace;    // of a run
   std::optional<std::filesystem::path> faults;   // fault script for the twins
   std::optional<std::filesystem::path> controls; // what the pedal's twin does, and when
   std::optional<std::string> phantom;

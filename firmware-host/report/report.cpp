@@ -38,6 +38,16 @@ Json rays_to_json(const RunReport& report) {
           {"shader_ms", rounded(hal::to_ms(report.rays->shader))}};
 }
 
+Json stages_to_json(const RunReport& report) {
+  Json json = {{"histogram_ms", StageSummary::most_ms}};
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    const StageSummary& stage = report.stages[i];
+    Json& place = json[std::string{name_of(static_cast<Stage>(i))}];
+    place = {{"ms", to_json(stage.lengths)}, {"histogram", stage.histogram}};
+  }
+  return json;
+}
+
 Json scan_to_json(const RunReport& report) {
   const pipeline::ScanPlan& plan = report.plan;
   Json scan = {{"bidirectional", plan.bidirectional},
@@ -141,6 +151,7 @@ std::string to_json(const RunReport& r) {
         {"upload", to_json(r.upload)},
         {"draw", to_json(r.draw)}}},
       {"latency_ms", to_json(r.counters.latency)},
+      {"latency_stages", stages_to_json(r)},
       {"control_ms", to_json(r.control)},
       {"rays", rays_to_json(r)},
       {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware-host/ledger/passage.h"
 #include "firmware-host/supervision/appliance_status.h"
 #include "firmware-host/supervision/run_counters.h"
 #include "hal/clock.h"
@@ -32,6 +33,15 @@ struct ShownPicture {
   bool another_camera = false; // than the calibration's
 };
 
+// Volumes by length: those below most_ms of the first bin, of the second…, and above the last.
+struct StageSummary {
+  static constexpr std::array most_ms{0.1,  0.2,  0.5,  1.0,   2.0,   5.0,
+                                      10.0, 20.0, 50.0, 100.0, 200.0, 500.0};
+
+  pipeline::DurationSummary lengths;
+  std::array<std::uint64_t, most_ms.size() + 1> histogram{};
+};
+
 struct RunReport {
   bool simulated = false;
   std::string source;                // what the spectra were
@@ -50,6 +60,7 @@ struct RunReport {
   RunCounters counters; // complete once the threads have ended
   double duration_s = 0;
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, control;
+  std::array<StageSummary, stage_count> stages; // of the latency
   std::optional<ui::RayTrial> rays;
   std::optional<double> first_picture_s; // since the process began
   ShownPicture picture;

@@ -8,7 +8,7 @@
 namespace octascope::firmware_host {
 
 hal::Result<> check_outputs(const RunOptions& options) {
-  for (const auto& file : {options.snapshot, options.report}) {
+  for (const auto& file : {options.snapshot, options.report, options.trace}) {
     if (!file)
       continue;
     HAL_CHECK(pipeline::AtomicFile::create(*file));
@@ -25,6 +25,12 @@ hal::Result<> leave_snapshot(const RunOptions& options,
                      options.snapshot->string());
   HAL_CHECK(pipeline::write_png(*options.snapshot, *picture));
   say("snapshot: {}\n", options.snapshot->string());
+  return {};
+}
+
+hal::Result<> leave_trace(const Trace& trace, const RunOptions& options, hal::TimePoint started) {
+  HAL_CHECK(trace.write(*options.trace, started));
+  say("trace:    {}\n", options.trace->string());
   return {};
 }
 

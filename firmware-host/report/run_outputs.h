@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "firmware-host/configuration/run_options.h"
+#include "firmware-host/ledger/trace.h"
 #include "firmware-host/terminal/terminal.h"
 #include "hal/result.h"
 #include "pipeline/files/png_image.h"
@@ -30,5 +31,8 @@ hal::Result<> leave_report(const Report& report, const RunOptions& options) {
 // gone.
 hal::Result<> leave_snapshot(const RunOptions& options,
                              const std::optional<pipeline::Image>& picture);
+
+// Writes the trace that was requested, and prints its path.
+hal::Result<> leave_trace(const Trace& trace, const RunOptions& options, hal::TimePoint started);
 
 } // namespace octascope::firmware_host

@@ -91,6 +91,8 @@ public:
     controls_->stop();
     HAL_CHECK(source_->report(*loop_, times_));
     HAL_CHECK(leave_snapshot(options_, picture));
+    if (trace_)
+      HAL_CHECK(leave_trace(*trace_, options_, times_.started));
     return source_->outcome();
   }
 
@@ -114,6 +116,7 @@ private:
   std::unique_ptr<RunSource> source_; // it watches every thread, and so outlives those below
   std::unique_ptr<pipeline::ControlThread> controls_;
   std::unique_ptr<VesselDisplay> vessels_;
+  std::unique_ptr<Trace> trace_; // null: not asked for
   std::unique_ptr<RenderLoop> loop_;
   bool has_cameras_ = false;
   HostStatus host_;
@@ -129,6 +132,8 @@ void AssembledAppliance::make_render_loop(ui::ControlProfile profile) {
   source_->configure(setup);
   setup.view.b_scan = setup.geometry.b_scans / 2;
   setup.host.configuration = live_configuration_.state();
+  if (options_.trace)
+    trace_ = std::make_unique<Trace>(setup.geometry.b_scans);
   live_configuration_.configure(setup);
   host_ = setup.host;
   sim::SimControlInput* const controls = devices_->simulated_controls();
@@ -151,7 +156,8 @@ void AssembledAppliance::make_render_loop(ui::ControlProfile profile) {
                   : [controls](const hal::ControlEvent& event) { controls->inject(event); },
           .threads = source_->thread_setup(),
           .vessels = vessels_.get(),
-          .proof = source.proof},
+          .proof = source.proof,
+          .trace = trace_.get()},
       std::move(setup));
 }
 

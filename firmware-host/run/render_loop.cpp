@@ -232,7 +232,8 @@ void RenderLoop::take_volume() {
     parts_.faults.add(pipeline::Device::display, shown.error(), begin);
     return;
   }
-  statistics_.upload.add(parts_.clock.now() - begin);
+  showing_ = {.taken = begin, .uploaded = parts_.clock.now(), .drawn = {}, .flipped = {}};
+  statistics_.upload.add(showing_.uploaded - showing_.taken);
   if (setup_.window_from_first_volume && !status_writer_.has_volume()) {
     if (const auto window = ui::suggest_window(*newest))
       set_first_window(*window);
@@ -326,6 +327,7 @@ void RenderLoop::draw_if_changed() {
   drawn_liveness_ = status().freshness.liveness;
   if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
     keep_picture();
+  showing_.drawn = parts_.clock.now();
   const auto flip = display.present();
   if (!flip)
     lose_display(flip.error());
@@ -352,11 +354,24 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
     if (!statistics_.first_picture)
       statistics_.first_picture = flip.completed;
     statistics_.latency.add(flip.completed - *undisplayed_last_line_);
+    showing_.flipped = flip.completed;
+    note_passage();
     undisplayed_last_line_.reset();
   }
   // Also one that a lost display showed only when it was back; that delay is no latency of ours.
   if (std::exchange(volume_undisplayed_, false))
     ++statistics_.volumes_displayed;
+}
+
+// One that is replayed has come no such way.
+void RenderLoop::note_passage() {
+  if (volume_->work.empty())
+    return;
+  const auto lengths = stages_of(volume_->metadata, showing_);
+  for (std::size_t i = 0; i < stage_count; ++i)
+    statistics_.stages[i].add(lengths[i]);
+  if (parts_.trace != nullptr)
+    parts_.trace->add(*volume_, showing_);
 }
 
 // What the frame says was judged in this turn, so it is true, unless drawing and showing it took so

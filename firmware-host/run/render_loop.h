@@ -8,6 +8,8 @@
 #include <optional>
 #include <string_view>
 
+#include "firmware-host/ledger/passage.h"
+#include "firmware-host/ledger/trace.h"
 #include "firmware-host/run/status_writer.h"
 #include "firmware-host/supervision/picture_proof.h"
 #include "firmware-host/vessels/vessel_display.h"
@@ -55,6 +57,7 @@ struct RenderLoopParts {
   pipeline::ThreadSetup threads;    // for threads that help drawing
   VesselDisplay* vessels = nullptr; // null: no vessels
   PictureProof* proof = nullptr;    // null: nobody asks for proof
+  Trace* trace = nullptr;           // null: nobody asks for one
 };
 
 struct RenderLoopSetup {
@@ -77,6 +80,7 @@ struct FrameStatistics {
   pipeline::DurationStatistics upload;
   pipeline::DurationStatistics draw;
   pipeline::DurationStatistics latency;
+  StageStatistics stages;               // of it, for volumes from the pipeline
   pipeline::DurationStatistics control; // pedal or knob → end of the first frame that shows it
   std::uint64_t frames_drawn = 0;
   std::uint64_t frames_missed = 0;
@@ -145,6 +149,7 @@ private:
   void update_status();
   void draw_if_changed();
   void flip_done(const hal::Flip& flip, hal::TimePoint begin);
+  void note_passage();
   void lose_display(const hal::Error& error);
   void prove_picture(const hal::Flip& flip);
   void look_for_display(const hal::Error& error, hal::TimePoint now);
@@ -174,6 +179,7 @@ private:
   std::optional<hal::TimePoint> undisplayed_control_; // time of the oldest event not shown yet
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume not shown yet
   bool volume_undisplayed_ = false;                     // volume_ has not been in a frame yet
+  Showing showing_;                                     // of volume_, so far
   std::uint64_t last_flip_ = 0;                // its number since this opening of the display
   std::optional<hal::TimePoint> presented_;    // time of the last presentation, seen or not
   std::optional<hal::TimePoint> display_lost_; // empty while it is present

@@ -48,6 +48,10 @@ void add_frames(RunReport& report, const FrameStatistics& frames) {
   report.upload = frames.upload.summary();
   report.draw = frames.draw.summary();
   report.control = frames.control.summary();
+  for (std::size_t i = 0; i < stage_count; ++i) {
+    report.stages[i].lengths = frames.stages[i].summary();
+    frames.stages[i].histogram(StageSummary::most_ms, report.stages[i].histogram);
+  }
   report.rays = frames.rays;
 }
 

@@ -154,7 +154,9 @@ void Acquisition::receive(const hal::LineFrame& frame) {
     camera_.release(frame.buffer);
     return;
   }
-  frames_[static_cast<std::size_t>(frame.buffer)] = frame;
+  hal::LineFrame& kept = frames_[static_cast<std::size_t>(frame.buffer)];
+  kept = frame;
+  kept.fetched = clock_.now();
   on_loan_.fetch_add(1, std::memory_order_acq_rel);
   good_.fetch_add(1, std::memory_order_relaxed);
   if (const auto dropped = queue_.push_dropping_oldest(static_cast<std::uint32_t>(frame.buffer))) {

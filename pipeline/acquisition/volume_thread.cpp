@@ -33,6 +33,7 @@ std::string complaint_about(FrameVerdict verdict, std::uint64_t sequence) {
 std::vector<Volume> make_pool(const VolumeGeometry& geometry, std::size_t size) {
   Volume volume{geometry};
   volume.occupancy = Occupancy{geometry, blank_depth_bins};
+  volume.work.resize(volume.b_scan_states.size());
   return std::vector<Volume>(size, volume);
 }
 
@@ -167,10 +168,10 @@ void VolumeThread::begin_volume(std::uint32_t buffer, hal::TimePoint pulsed) {
   workplace.alignment = SweepAlignment{setup_.plan, scan_lag_.in_use_a_scans()};
   workplace.sketch = scan_lag_.borrow();
   std::ranges::fill(workplace.sweeps, Sweeps{});
-  workplace.work_ns.store(0, std::memory_order_relaxed);
   workplace.saturated_lines.store(0, std::memory_order_relaxed);
   Volume& volume = volumes_[buffer];
   std::fill(volume.b_scan_states.begin(), volume.b_scan_states.end(), BScanState::missing);
+  std::ranges::fill(volume.work, BScanWork{});
   workplace.assembler->begin(volume);
   volume.metadata = {};
   volume.metadata.pulsed = pulsed;
@@ -185,9 +186,19 @@ void VolumeThread::place(const hal::LineFrame& frame) {
   }
   workplaces_[decision.buffer].sweeps[static_cast<std::size_t>(decision.b_scan)]
                                      [static_cast<std::size_t>(decision.repeat)] = frame;
+  note_last(volumes_[decision.buffer].metadata, frame);
   if (setup_.observe)
     setup_.observe(frame);
   submit(decision.submit);
+}
+
+// Frames come in order but for a camera's whims.
+void VolumeThread::note_last(VolumeMetadata& metadata, const hal::LineFrame& frame) const {
+  if (frame.last_line < metadata.last_line)
+    return;
+  metadata.last_line = frame.last_line;
+  metadata.fetched = frame.fetched;
+  metadata.placed = clock_.now();
 }
 
 // The sweep that it should have been counts as lost when its volume is finished.
@@ -227,7 +238,7 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   release(sweeps);
   workplace.assembler->built(b);
   workplace.saturated_lines.fetch_add(saturated, std::memory_order_relaxed);
-  workplace.work_ns.fetch_add((clock_.now() - begin).count(), std::memory_order_relaxed);
+  volumes_[buffer].work[b_scan] = {begin, clock_.now(), static_cast<std::uint32_t>(worker)};
   scheduler_.b_scan_made(buffer);
   arrived_.post();
 }
@@ -266,7 +277,7 @@ void VolumeThread::publish(std::uint32_t buffer, const FinishedVolume& finished)
     scan_lag_.finished();
   const hal::TimePoint begin = clock_.now();
   workplace.assembler->finish();
-  fill_ledger(volume.metadata, workplace, finished);
+  fill_ledger(volume, workplace, finished);
   const hal::TimePoint assembled = clock_.now();
   volume.metadata.assemble = assembled - begin;
   volume.metadata.published = assembled;
@@ -281,14 +292,18 @@ void VolumeThread::publish(std::uint32_t buffer, const FinishedVolume& finished)
     setup_.observe_volume(volume);
 }
 
-void VolumeThread::fill_ledger(VolumeMetadata& metadata, const Workplace& workplace,
+void VolumeThread::fill_ledger(Volume& volume, const Workplace& workplace,
                                const FinishedVolume& finished) {
+  VolumeMetadata& metadata = volume.metadata;
   metadata.index = finished.number;
   metadata.first_line = finished.first_line;
   metadata.last_line = finished.last_line;
   metadata.lost_b_scans = finished.lost_b_scans;
   metadata.lost_lines = finished.lost_lines;
-  metadata.reconstruct = hal::Duration{workplace.work_ns.load(std::memory_order_relaxed)};
+  for (const BScanWork& work : volume.work) {
+    metadata.reconstruct += work.end - work.begin;
+    metadata.built = std::max(metadata.built, work.end);
+  }
   metadata.saturated_lines = workplace.saturated_lines.load(std::memory_order_relaxed);
   scheduler_.count_saturated_lines(metadata.saturated_lines);
   if (metadata.saturated_lines > 0)

@@ -88,7 +88,6 @@ private:
     DownsampledSweep* sketch = nullptr;
     std::unique_ptr<VolumeAssembler> assembler;
     std::vector<Sweeps> sweeps; // by B-scan
-    std::atomic<std::int64_t> work_ns{0};
     std::atomic<int> saturated_lines{0};
   };
 
@@ -102,6 +101,7 @@ private:
   bool trigger_ready();
   void begin_volume(std::uint32_t buffer, hal::TimePoint pulsed);
   void place(const hal::LineFrame& frame);
+  void note_last(VolumeMetadata& metadata, const hal::LineFrame& frame) const;
   void refuse(const hal::LineFrame& frame, FrameVerdict verdict);
   void submit(std::span<const BScanJob> jobs);
   void release(Sweeps& sweeps);
@@ -109,8 +109,7 @@ private:
   void finish_due_volumes(hal::TimePoint looked_until);
   void lose(std::uint32_t buffer);
   void publish(std::uint32_t buffer, const FinishedVolume& finished);
-  void fill_ledger(VolumeMetadata& metadata, const Workplace& workplace,
-                   const FinishedVolume& finished);
+  void fill_ledger(Volume& volume, const Workplace& workplace, const FinishedVolume& finished);
 
   VolumeThreadSetup setup_;
   hal::GalvoTrigger& trigger_;

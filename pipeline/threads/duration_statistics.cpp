@@ -46,4 +46,14 @@ DurationSummary DurationStatistics::summary() const {
   return {total, percentile(0.5), percentile(0.95), max_ms};
 }
 
+void DurationStatistics::histogram(std::span<const double> most_ms,
+                                   std::span<std::uint64_t> counts) const {
+  std::ranges::fill(counts, 0U);
+  for (std::size_t bin = 0; bin < bins; ++bin) {
+    const auto bound = std::ranges::upper_bound(most_ms, middle_of_bin_ms(bin));
+    counts[static_cast<std::size_t>(bound - most_ms.begin())] +=
+        counts_[bin].load(std::memory_order_relaxed);
+  }
+}
+
 } // namespace octascope::pipeline

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
+#include <span>
 
 #include "hal/clock.h"
 
@@ -23,6 +24,9 @@ class DurationStatistics {
 public:
   void add(hal::Duration duration);
   DurationSummary summary() const;
+  // Counts those shorter than each bound, in rising order, and not than the one before; the last
+  // count is of the rest. `counts` has one more than `most_ms`.
+  void histogram(std::span<const double> most_ms, std::span<std::uint64_t> counts) const;
 
 private:
   static constexpr std::size_t bins = 1024;

@@ -19,6 +19,12 @@ enum class BScanState : std::uint8_t {
   saturated, // has saturated lines: shown and marked
 };
 
+// A worker's turn at a B-scan: conversion, alignment, averaging.
+struct BScanWork {
+  hal::TimePoint begin{}, end{};
+  std::uint32_t worker = 0;
+};
+
 // Levels are 8-bit counts (level_scale.h has the decibels), in the order [b][a][z], depth fastest.
 // Volumes come from a pool made at start-up; the vectors never change size afterwards.
 struct Volume {
@@ -44,6 +50,7 @@ struct Volume {
   std::vector<BScanState> b_scan_states;
   // Set in volumes from the pipeline; empty() where it was not built.
   Occupancy occupancy;
+  std::vector<BScanWork> work; // by B-scan, likewise; `end` is zero of those that nobody built
   VolumeMetadata metadata;
 };
 

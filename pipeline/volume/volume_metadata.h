@@ -17,6 +17,10 @@ struct VolumeMetadata {
   hal::TimePoint pulsed;     // rising edge of the trigger pulse
   hal::TimePoint first_line; // camera timestamps, of what came
   hal::TimePoint last_line;
+  // Of the frame that was exposed last, on its way from thread to thread.
+  hal::TimePoint fetched{}; // the camera thread had it
+  hal::TimePoint placed{};  // the fixed-rate thread knew its B-scan
+  hal::TimePoint built{};   // the last of all B-scans was made
   hal::TimePoint published; // when the renderer could take it
 
   hal::Duration reconstruct{}; // work of all workers, summed

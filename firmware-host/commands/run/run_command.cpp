@@ -26,7 +26,8 @@ namespace {
 
 // As text, the way CLI11 collects it.
 struct RunArguments {
-  std::string spectra, shape, calibration, faults, controls, phantom, record_to, subject, eye;
+  std::string spectra, shape, calibration, faults, controls, phantom, record_to, subject, eye,
+      trace;
   SpectraTypeArguments type;
   bool simulate = false;
   bool bidirectional = false;
@@ -64,6 +65,7 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
   o.calibration = path_of(a.calibration);
   o.faults = path_of(a.faults);
   o.controls = path_of(a.controls);
+  o.trace = path_of(a.trace);
   o.simulate = a.simulate;
   if (!a.phantom.empty())
     o.phantom = a.phantom;
@@ -102,6 +104,11 @@ int run(const char* command, const RunArguments& arguments) {
 
 void add_options(CLI::App& command, RunArguments& a) {
   add_show_options(command, a.show);
+  command
+      .add_option("--trace", a.trace,
+                  "Write here what each thread did for the last 1000 volumes that were shown; "
+                  "open it with ui.perfetto.dev or chrome://tracing")
+      ->type_name("FILE.json");
   command.add_flag("--sim", a.simulate, "Use the simulated devices, whatever is plugged in");
   CLI::Option* spectra =
       command

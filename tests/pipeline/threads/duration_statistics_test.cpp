@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -25,6 +26,15 @@ TEST(DurationStatistics, percentiles_are_right_within_two_percent) {
   EXPECT_NEAR(s.p50_ms / all[10000 - 1], 1.0, 0.02);
   EXPECT_NEAR(s.p95_ms / all[19000 - 1], 1.0, 0.02);
   EXPECT_NEAR(s.max_ms, all.back(), 1e-5);
+}
+
+TEST(DurationStatistics, a_histogram_counts_each_once) {
+  DurationStatistics statistics;
+  for (const double ms : {0.0, 0.05, 0.5, 0.5, 3.0, 90.0, 5000.0})
+    statistics.add(hal::from_seconds(ms * 1e-3));
+  std::array<std::uint64_t, 4> counts{9, 9, 9, 9};
+  statistics.histogram(std::array{0.1, 1.0, 100.0}, counts);
+  EXPECT_EQ(counts, (std::array<std::uint64_t, 4>{2, 2, 2, 1}));
 }
 
 TEST(DurationStatistics, is_zero_when_empty) {
