@@ -1,6 +1,6 @@
 #include "firmware-host/commands/arguments.h"
 
-#include <charconv>
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <span>
@@ -11,6 +11,7 @@
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/numbers.h"
 #include "firmware-host/terminal/terminal.h"
+#include "hal/number_text.h"
 
 namespace octascope::firmware_host {
 
@@ -18,17 +19,17 @@ namespace {
 
 // Whole numbers of 1 to `most`, parted by `separator`, as many as `values` holds.
 bool parse_counts(std::string_view text, char separator, int most, std::span<int> values) {
-  const char* at = text.data();
-  const char* const end = text.data() + text.size();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (i > 0 && (at == end || *at++ != separator))
+    if (i > 0) {
+      if (!text.starts_with(separator))
+        return false;
+      text.remove_prefix(1);
+    }
+    values[i] = hal::take_number<int>(text).value_or(0);
+    if (values[i] < 1 || values[i] > most)
       return false;
-    const auto [next, error] = std::from_chars(at, end, values[i]);
-    if (error != std::errc{} || values[i] < 1 || values[i] > most)
-      return false;
-    at = next;
   }
-  return at == end;
+  return text.empty();
 }
 
 const std::map<std::string, DisplayChoice>& displays() {
@@ -116,9 +117,9 @@ hal::Result<std::array<int, 2>> parse_size(std::string_view text) {
 }
 
 bool read_number(std::string_view text, float& value, const ui::NumberRange& range) {
-  const char* const end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && at == end && value >= range.lowest && value <= range.highest;
+  const auto number = hal::number_of<float>(text);
+  value = number.value_or(0.0F);
+  return number && value >= range.lowest && value <= range.highest;
 }
 
 hal::Result<ui::DisplayWindow> parse_window(std::string_view text) {
@@ -137,18 +138,13 @@ hal::Result<ui::DisplayWindow> parse_window(std::string_view text) {
 }
 
 hal::Result<VolumeRange> parse_volumes(std::string_view text) {
-  VolumeRange range;
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, range.first);
-  if (first.ec == std::errc{} && first.ptr == end)
-    range.last = range.first;
-  bool good = first.ec == std::errc{} && (first.ptr == end || *first.ptr == '-');
-  if (good && first.ptr != end && first.ptr + 1 != end) {
-    const auto last = std::from_chars(first.ptr + 1, end, range.last.emplace());
-    good = last.ec == std::errc{} && last.ptr == end && *range.last >= range.first;
-  }
-  if (good)
-    return range;
+  using Number = decltype(VolumeRange::first);
+  const std::size_t dash = std::min(text.find('-'), text.size());
+  const std::string_view after = text.substr(std::min(dash + 1, text.size()));
+  const auto first = hal::number_of<Number>(text.substr(0, dash));
+  const auto last = dash == text.size() ? first : hal::number_of<Number>(after);
+  if (first && (after.empty() || (last && *last >= *first)))
+    return VolumeRange{*first, last};
   return hal::fail(hal::ErrorCode::invalid_argument,
                    "--volumes is \"{}\", expected one volume, counted from 0, or a range, as in "
                    "12, 10-20, or 10- to the last",

@@ -1,9 +1,8 @@
 #include "firmware-host/configuration/control_device_file.h"
 
-#include <charconv>
-
 #include <fmt/format.h>
 
+#include "hal/number_text.h"
 #include "pipeline/files/config_document.h"
 
 namespace octascope::firmware_host {
@@ -15,11 +14,7 @@ using pipeline::ConfigTable;
 namespace {
 
 std::optional<std::uint16_t> hex4(std::string_view text) {
-  std::uint16_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
-  if (text.size() != 4 || error != std::errc{} || end != text.data() + text.size())
-    return std::nullopt;
-  return value;
+  return text.size() == 4 ? hal::number_of<std::uint16_t>(text, 16) : std::nullopt;
 }
 
 void read_usb(ConfigTable& root, ControlModel& model) {

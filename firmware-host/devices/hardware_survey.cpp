@@ -11,50 +11,17 @@
 
 #include "firmware-host/devices/node_access.h"
 #include "hal/linux/kms/drm/edid.h"
+#include "hal/linux/system/system_files.h"
 
 namespace octascope::firmware_host {
 
 namespace fs = std::filesystem;
 
+using hal::linux_backend::entries;
+using hal::linux_backend::first_line;
+using hal::linux_backend::text_after;
+
 namespace {
-
-std::string first_line(const fs::path& file) {
-  std::ifstream in{file};
-  std::string line;
-  std::getline(in, line);
-  return line;
-}
-
-// The value after `key=` in a uevent file.
-std::string uevent_value(const fs::path& file, std::string_view key) {
-  std::ifstream in{file};
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with(key) && line.size() > key.size() && line[key.size()] == '=')
-      return line.substr(key.size() + 1);
-  }
-  return {};
-}
-
-// The digits at the end of a name, so that video10 comes after video2.
-std::pair<std::string, unsigned long> natural(const fs::path& path) {
-  const std::string name = path.filename().string();
-  const auto digits = name.find_last_not_of("0123456789") + 1;
-  return {name.substr(0, digits),
-          digits < name.size() ? std::strtoul(name.c_str() + digits, nullptr, 10) : 0};
-}
-
-// The folders in `folder` whose names start with `prefix`, in the order of their names.
-std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
-  std::vector<fs::path> found;
-  std::error_code error;
-  for (fs::directory_iterator it{folder, error}, end; !error && it != end; it.increment(error)) {
-    if (it->path().filename().string().starts_with(prefix))
-      found.push_back(it->path());
-  }
-  std::ranges::sort(found,
-                    [](const fs::path& a, const fs::path& b) { return natural(a) < natural(b); });
-  return found;
-}
 
 std::string node_of(const fs::path& entry, std::string_view folder = "/dev/") {
   return std::string{folder} + entry.filename().string();
@@ -111,7 +78,7 @@ FoundDevice connector(const fs::path& entry, const std::string& status, const fs
 
 std::vector<std::string> interfaces_without_driver(const fs::path& sys) {
   std::vector<std::string> idle;
-  for (const fs::path& entry : entries(sys / "bus/usb/devices", "")) {
+  for (const fs::path& entry : entries(sys / "bus/usb/devices")) {
     const std::string kind = first_line(entry / "bInterfaceClass");
     std::error_code error;
     if (fs::exists(entry / "driver", error))
@@ -125,7 +92,7 @@ std::vector<std::string> interfaces_without_driver(const fs::path& sys) {
 }
 
 bool has_graphics_card(const fs::path& sys) {
-  for (const fs::path& entry : entries(sys / "bus/pci/devices", ""))
+  for (const fs::path& entry : entries(sys / "bus/pci/devices"))
     if (first_line(entry / "class").starts_with("0x03"))
       return true;
   return false;
@@ -134,7 +101,7 @@ bool has_graphics_card(const fs::path& sys) {
 bool rules_installed(const fs::path& root) {
   for (const char* folder : {"etc/udev/rules.d", "usr/lib/udev/rules.d", "lib/udev/rules.d",
                              "usr/local/lib/udev/rules.d", "run/udev/rules.d"})
-    for (const fs::path& file : entries(root / folder, ""))
+    for (const fs::path& file : entries(root / folder))
       if (file.filename().string().find("octascope") != std::string::npos)
         return true;
   return false;
@@ -175,11 +142,11 @@ HardwareSurvey survey_hardware(const fs::path& root, const Person& person) {
     add(survey.media, {.node = node_of(entry), .name = first_line(entry / "model")});
   for (const fs::path& entry : entries(sys / "bus/gpio/devices", "gpiochip"))
     add(survey.gpio,
-        {.node = node_of(entry), .name = uevent_value(entry / "uevent", "OF_FULLNAME")});
+        {.node = node_of(entry), .name = text_after("OF_FULLNAME=", entry / "uevent")});
   for (const fs::path& entry : entries(sys / "class/hidraw", "hidraw")) {
     FoundDevice device{.node = node_of(entry),
-                       .name = uevent_value(entry / "device/uevent", "HID_NAME")};
-    add_fact(device, "product", product_of(uevent_value(entry / "device/uevent", "HID_ID")));
+                       .name = text_after("HID_NAME=", entry / "device/uevent")};
+    add_fact(device, "product", product_of(text_after("HID_ID=", entry / "device/uevent")));
     add(survey.hid, std::move(device));
   }
   for (const fs::path& entry : entries(sys / "class/input", "event")) {

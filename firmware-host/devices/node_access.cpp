@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "hal/linux/system/system_files.h"
+
 namespace octascope::firmware_host {
 
 namespace fs = std::filesystem;
@@ -122,9 +124,8 @@ std::map<std::string, std::string> holders_of_nodes(const fs::path& root) {
     const std::string pid = it->path().filename().string();
     if (pid == own || pid.find_first_not_of("0123456789") != std::string::npos)
       continue;
-    std::string name;
-    std::getline(std::ifstream{it->path() / "comm"}, name);
-    const std::string holder = fmt::format("{} ({})", name, pid);
+    const std::string holder =
+        fmt::format("{} ({})", hal::linux_backend::first_line(it->path() / "comm"), pid);
     std::error_code ignored; // it ended meanwhile, or is another user's
     for (fs::directory_iterator file{it->path() / "fd", ignored}, none; !ignored && file != none;
          file.increment(ignored)) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <cstdlib>
 #include <string_view>
 #include <thread>
 
@@ -18,6 +18,7 @@
 #include "firmware-host/reconstruction/reconstruction_cache.h"
 #include "hal/linux/monotonic_clock.h"
 #include "hal/linux/realtime.h"
+#include "hal/linux/system/system_files.h"
 #include "pipeline/calibration/calibration.h"
 #include "pipeline/reconstruction/reconstructor.h"
 #include "pipeline/scan/scan_plan.h"
@@ -81,13 +82,8 @@ HealthCheck check_locked_memory() {
 
 HealthCheck check_memory() {
   constexpr double needed_gib = 1.5;
-  std::ifstream in{"/proc/meminfo"};
-  double available_gib = 0;
-  for (std::string line; std::getline(in, line);) {
-    constexpr std::string_view key = "MemAvailable:";
-    if (line.starts_with(key))
-      available_gib = std::stod(line.substr(key.size())) * 1024 / gib;
-  }
+  const std::string kib = hal::linux_backend::text_after("MemAvailable:", "/proc/meminfo");
+  const double available_gib = std::strtod(kib.c_str(), nullptr) * 1024 / gib;
   const std::string found = fmt::format("{:.1f} GiB available", available_gib);
   if (available_gib >= needed_gib)
     return good("memory", found);

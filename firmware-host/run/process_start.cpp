@@ -1,13 +1,14 @@
 #include "firmware-host/run/process_start.h"
 
 #include <algorithm>
-#include <charconv>
 #include <ctime>
-#include <fstream>
 #include <string>
 #include <string_view>
 
 #include <unistd.h>
+
+#include "hal/linux/system/system_files.h"
+#include "hal/number_text.h"
 
 namespace octascope::firmware_host {
 
@@ -16,15 +17,13 @@ namespace {
 // Field 22 of proc_pid_stat(5): ticks since the system was booted. The second field, the program's
 // name in brackets, may hold anything, brackets and spaces included: counting begins behind it.
 double start_s_after_boot() {
-  std::string stat;
-  std::getline(std::ifstream{"/proc/self/stat"}, stat);
+  const std::string stat = hal::linux_backend::first_line("/proc/self/stat");
   std::string_view rest = stat;
   rest.remove_prefix(std::min(rest.rfind(')') + 1, rest.size()));
   constexpr int fields_before = 20;
   for (int i = 0; i < fields_before; ++i)
     rest.remove_prefix(std::min(rest.find(' ') + 1, rest.size()));
-  long long ticks = -1;
-  std::from_chars(rest.data(), rest.data() + rest.size(), ticks);
+  const auto ticks = hal::take_number<long long>(rest).value_or(-1);
   return static_cast<double>(ticks) / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 

@@ -1,8 +1,6 @@
 #include "firmware-host/supervision/host_watch.h"
 
 #include <algorithm>
-#include <charconv>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -10,60 +8,33 @@
 #include <fmt/format.h>
 #include <sys/statvfs.h>
 
+#include "hal/linux/system/system_files.h"
+#include "hal/number_text.h"
+
 namespace octascope::firmware_host {
 
 namespace fs = std::filesystem;
 
+using hal::linux_backend::entries;
+using hal::linux_backend::first_line;
+using hal::linux_backend::text_after;
+
 namespace {
 
-std::optional<std::string> first_line(const fs::path& file) {
-  std::ifstream in{file};
-  std::string line;
-  return std::getline(in, line) ? std::optional{line} : std::nullopt;
-}
-
+// The number that the text begins with, after blanks.
 template <class Number> std::optional<Number> number_in(std::string_view text) {
-  while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
-    text.remove_prefix(1);
-  Number value{};
-  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-  return read.ec == std::errc{} ? std::optional{value} : std::nullopt;
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  return hal::take_number<Number>(text);
 }
 
 template <class Number> std::optional<Number> number_of(const fs::path& file) {
-  const auto line = first_line(file);
-  return line ? number_in<Number>(*line) : std::nullopt;
+  return number_in<Number>(first_line(file));
 }
 
 // "MemAvailable:   12345 kB"
 std::optional<std::uint64_t> bytes_of(const fs::path& file, std::string_view key) {
-  std::ifstream in{file};
-  for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with(key))
-      continue;
-    const auto kib = number_in<std::uint64_t>(std::string_view{line}.substr(key.size()));
-    return kib ? std::optional{*kib * 1024} : std::nullopt;
-  }
-  return std::nullopt;
-}
-
-// "full avg10=0.12 avg60=…"
-std::optional<double> stall_of(const fs::path& file) {
-  constexpr std::string_view key = "full avg10=";
-  std::ifstream in{file};
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(key))
-      return number_in<double>(std::string_view{line}.substr(key.size()));
-  return std::nullopt;
-}
-
-std::vector<fs::path> entries(const fs::path& folder, std::string_view prefix) {
-  std::vector<fs::path> found;
-  std::error_code error;
-  for (fs::directory_iterator it{folder, error}, end; !error && it != end; it.increment(error))
-    if (it->path().filename().string().starts_with(prefix))
-      found.push_back(it->path());
-  return found;
+  const auto kib = number_in<std::uint64_t>(text_after(key, file));
+  return kib ? std::optional{*kib * 1024} : std::nullopt;
 }
 
 // Where the kernel slows things down ("passive") or has the machine switched off ("hot",
@@ -73,9 +44,9 @@ bool is_beyond_trip(const fs::path& zone, int millidegrees) {
     const std::string name = file.filename().string();
     if (!name.ends_with("_temp"))
       continue;
-    const auto type = first_line(zone / (name.substr(0, name.size() - 4) + "type"));
+    const std::string type = first_line(zone / (name.substr(0, name.size() - 4) + "type"));
     const auto trip = number_of<int>(file);
-    if (type && *type != "active" && trip && *trip > 0 && millidegrees >= *trip)
+    if (!type.empty() && type != "active" && trip && *trip > 0 && millidegrees >= *trip)
       return true;
   }
   return false;
@@ -115,7 +86,8 @@ double mebibytes(std::uint64_t bytes) {
 HostFindings find_out_about_host(const fs::path& root) {
   HostFindings findings;
   findings.available_bytes = bytes_of(root / "proc/meminfo", "MemAvailable:");
-  findings.memory_stall_percent = stall_of(root / "proc/pressure/memory");
+  findings.memory_stall_percent =
+      number_in<double>(text_after("full avg10=", root / "proc/pressure/memory"));
   findings.resident_bytes = bytes_of(root / "proc/self/status", "VmRSS:");
   find_heat(root, findings);
   return findings;

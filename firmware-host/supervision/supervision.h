@@ -10,12 +10,12 @@
 #include <string>
 #include <thread>
 
+#include "firmware-host/crash/crash_report.h"
+#include "firmware-host/crash/run_marker.h"
 #include "firmware-host/supervision/appliance_status.h"
-#include "firmware-host/supervision/crash_report.h"
 #include "firmware-host/supervision/fault_journal.h"
 #include "firmware-host/supervision/host_watch.h"
 #include "firmware-host/supervision/picture_proof.h"
-#include "firmware-host/supervision/run_marker.h"
 #include "firmware-host/supervision/service_manager.h"
 #include "firmware-host/supervision/status_server.h"
 #include "firmware-host/supervision/thread_watch.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "firmware-host/supervision/crash_report.h"
+#include "firmware-host/crash/crash_report.h"
 #include "hal/linux/realtime.h"
 
 namespace octascope::firmware_host {

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "hal/number_text.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/files/nrrd_header.h"
 
@@ -65,10 +65,10 @@ std::optional<Vector> take_vector(std::string_view& text) {
       return std::nullopt;
     text.remove_prefix(1);
     skip_spaces();
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), vector[i]);
-    if (error != std::errc{} || !std::isfinite(vector[i]))
+    const auto number = hal::take_number<double>(text);
+    if (!number || !std::isfinite(*number))
       return std::nullopt;
-    text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+    vector[i] = *number;
   }
   skip_spaces();
   if (!text.starts_with(')'))

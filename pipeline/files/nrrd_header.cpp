@@ -1,10 +1,10 @@
 #include "pipeline/files/nrrd_header.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
+#include "hal/number_text.h"
 #include "pipeline/files/nrrd.h"
 
 namespace octascope::pipeline {
@@ -52,12 +52,7 @@ std::optional<std::string_view> next_line(std::string_view text, std::size_t& at
 // The next number of a list; empty: there is none.
 std::optional<double> next_number(std::string_view& text) {
   text = without_blanks(text);
-  double number = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{})
-    return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
-  return number;
+  return hal::take_number<double>(text);
 }
 
 // The next word, in quotes or up to a space; empty: there is none.
@@ -157,12 +152,9 @@ hal::Result<std::optional<long long>> NrrdHeader::integer(std::string_view field
   const std::string* text = find(field);
   if (text == nullptr)
     return Maybe{};
-  long long number = 0;
-  const char* const end = text->data() + text->size();
-  const auto [stop, error] = std::from_chars(text->data(), end, number);
-  if (error != std::errc{} || stop != end)
-    return refuse_field(field, "a whole number");
-  return Maybe{number};
+  if (const auto number = hal::number_of<long long>(*text))
+    return Maybe{number};
+  return refuse_field(field, "a whole number");
 }
 
 hal::Result<std::optional<std::array<double, 3>>>

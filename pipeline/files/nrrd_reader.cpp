@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -12,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "hal/number_text.h"
 #include "pipeline/files/input_file.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/files/nrrd_bytes.h"
@@ -227,12 +227,10 @@ hal::Result<Scale> NrrdReader::scale_of_keys(ValueType type) const {
     const std::string* text = header_.find_key(key);
     if (text == nullptr)
       return otherwise;
-    double value = 0;
-    const char* const end = text->data() + text->size();
-    const auto [stop, error] = std::from_chars(text->data(), end, value);
-    if (error != std::errc{} || stop != end || !std::isfinite(value))
+    const auto value = hal::number_of<double>(*text);
+    if (!value || !std::isfinite(*value))
       return header_.refuse(fmt::format("{}:={}", key, text->substr(0, 80)), "a number");
-    return value;
+    return *value;
   };
   const bool counts = type == ValueType::uint8 && header_.find("old min") == nullptr;
   Scale scale;
@@ -252,10 +250,10 @@ hal::Result<Scale> NrrdReader::scale(ValueType type) const {
   for (std::size_t i = 0; i < 2; ++i) {
     const char* const field = i == 0 ? "old min" : "old max";
     const std::string* text = header_.find(field);
-    const char* const end = text == nullptr ? nullptr : text->data() + text->size();
-    if (text == nullptr || std::from_chars(text->data(), end, range[i]).ptr != end ||
-        !std::isfinite(range[i]))
+    const auto value = text == nullptr ? std::nullopt : hal::number_of<double>(*text);
+    if (!value || !std::isfinite(*value))
       return header_.refuse_field(field, "a number; both old min and old max, or neither");
+    range[i] = *value;
   }
   return with_type(type, [&](auto zero) -> Scale {
     using Limits = std::numeric_limits<decltype(zero)>;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -15,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "hal/number_text.h"
 #include "hal/plain_text.h"
 
 namespace octascope::pipeline {
@@ -68,11 +68,8 @@ std::string_view trim(std::string_view text) {
 std::optional<double> finite_number(std::string_view text) {
   if (text.size() > 1 && text.front() == '+' && text[1] != '-')
     text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
+  const auto value = hal::number_of<double>(text);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 // Calls take(line number from 1, text) for every line that holds more than blanks and a comment,

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "hal/number_text.h"
 
 namespace octascope::pipeline {
 
@@ -49,11 +49,10 @@ hal::Result<SpectraShape> SpectraShape::parse(std::string_view text) {
     const std::size_t comma = rest.find(',');
     if ((comma == std::string_view::npos) != (i + 1 == counts.size()))
       return refuse();
-    const std::string_view number = rest.substr(0, comma);
-    const char* number_end = number.data() + number.size();
-    const auto [end, error] = std::from_chars(number.data(), number_end, counts[i]);
-    if (error != std::errc{} || end != number_end)
+    const auto count = hal::number_of<int>(rest.substr(0, comma));
+    if (!count)
       return refuse();
+    counts[i] = *count;
     rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
   }
   const SpectraShape shape{counts[0], counts[1], counts[2]};

@@ -154,7 +154,9 @@ TEST_P(ScopeCameraContract, with_all_buffers_on_loan_the_wait_ends_empty_and_the
   open_and_start();
   std::vector<int> loans;
   for (int i = 0; i < 256; ++i) {
-    const auto frame = camera_.wait_frame(std::chrono::milliseconds{200});
+    // A camera that is merely slow, on a machine that others use, must not look like one that has
+    // nothing to fill.
+    const auto frame = camera_.wait_frame(patience);
     ASSERT_TRUE(frame) << frame.error().message;
     if (!*frame)
       break;
@@ -162,19 +164,17 @@ TEST_P(ScopeCameraContract, with_all_buffers_on_loan_the_wait_ends_empty_and_the
   }
   ASSERT_LT(loans.size(), 256U) << "no camera has that many buffers";
   EXPECT_EQ(camera_.state(), hal::DeviceState::streaming);
+
+  const hal::TimePoint before = rig_.clock->now();
+  const auto none = camera_.wait_frame(std::chrono::milliseconds{1});
+  ASSERT_TRUE(none) << none.error().message;
+  EXPECT_FALSE(*none) << "there is no buffer for one";
+  EXPECT_LT(rig_.clock->now() - before, std::chrono::milliseconds{500}) << "a wait keeps its limit";
+  EXPECT_EQ(camera_.state(), hal::DeviceState::streaming);
+
   camera_.release(loans.front());
   const hal::ScopeFrame frame = next_frame();
   EXPECT_EQ(frame.buffer, loans.front());
-}
-
-TEST_P(ScopeCameraContract, a_wait_keeps_its_limit) {
-  open_and_start();
-  const hal::TimePoint before = rig_.clock->now();
-  const auto frame = camera_.wait_frame(std::chrono::milliseconds{1});
-  ASSERT_TRUE(frame);
-  EXPECT_FALSE(*frame) << "a frame before its first exposure was over";
-  EXPECT_LT(rig_.clock->now() - before, std::chrono::milliseconds{500});
-  EXPECT_EQ(camera_.state(), hal::DeviceState::streaming);
 }
 
 TEST_P(ScopeCameraContract, releases_of_what_is_not_on_loan_are_ignored) {

@@ -96,6 +96,16 @@ TEST(SimScopeCamera, a_pupil_is_dark_and_a_sclera_is_bright) {
   EXPECT_GT(brightness(6.5, -4.5), 300);
 }
 
+TEST(SimScopeCamera, no_frame_comes_before_its_exposure_is_over) {
+  VirtualClock clock;
+  const auto camera = *SimScopeCamera::make(eye_options(), clock);
+  ASSERT_TRUE(camera->open({640, 480, 30}));
+  ASSERT_TRUE(camera->start());
+  const auto frame = camera->wait_frame(std::chrono::milliseconds{33});
+  ASSERT_TRUE(frame);
+  EXPECT_FALSE(*frame);
+}
+
 TEST(SimScopeCamera, frames_that_nobody_fetched_are_missing_from_the_sequence) {
   VirtualClock clock;
   const auto camera = *SimScopeCamera::make(eye_options(), clock);

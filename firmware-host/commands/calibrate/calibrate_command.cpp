@@ -1,4 +1,3 @@
-#include <charconv>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/numbers.h"
 #include "firmware-host/terminal/terminal.h"
+#include "hal/number_text.h"
 
 namespace octascope::firmware_host {
 
@@ -26,18 +26,15 @@ struct CalibrateCommandLine {
 // "nm,nm,…"
 hal::Result<std::vector<double>> parse_lines(std::string_view text) {
   std::vector<double> lines;
-  const char* at = text.data();
-  const char* const end = text.data() + text.size();
-  while (at != end) {
-    double value = 0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    const bool more = next != end && *next == ',' && next + 1 != end;
-    if (error != std::errc{} || (next != end && !more))
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const auto value = hal::number_of<double>(rest.substr(0, comma));
+    if (!value || comma + 1 == rest.size())
       return hal::fail(hal::ErrorCode::invalid_argument,
                        "--lines is \"{}\", expected wavelengths in nm, as in 810.37,826.45,840.82",
                        text);
-    lines.push_back(value);
-    at = more ? next + 1 : next;
+    lines.push_back(*value);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
   }
   return lines;
 }

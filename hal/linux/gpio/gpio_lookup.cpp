@@ -1,12 +1,13 @@
 #include "hal/linux/gpio/gpio_lookup.h"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "hal/linux/system/system_error.h"
+#include "hal/linux/system/system_files.h"
+#include "hal/number_text.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -15,14 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view prefix = "gpiochip";
-
-std::optional<unsigned> whole_number(std::string_view text) {
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size())
-    return std::nullopt;
-  return value;
-}
 
 std::string file_name(const std::string& node) {
   return fs::path{node}.filename().string();
@@ -37,8 +30,8 @@ std::optional<ChipAndOffset> chip_and_offset(std::string_view wanted) {
   const std::size_t colon = wanted.find(':');
   if (!wanted.starts_with(prefix) || colon == std::string_view::npos)
     return std::nullopt;
-  const auto offset = whole_number(wanted.substr(colon + 1));
-  if (!whole_number(wanted.substr(prefix.size(), colon - prefix.size())) || !offset)
+  const auto offset = number_of<unsigned>(wanted.substr(colon + 1));
+  if (!number_of<unsigned>(wanted.substr(prefix.size(), colon - prefix.size())) || !offset)
     return std::nullopt;
   return ChipAndOffset{wanted.substr(0, colon), *offset};
 }
@@ -80,19 +73,10 @@ Result<GpioLineAddress> by_offset(const GpioSurvey& survey, std::string_view wan
 } // namespace
 
 GpioSurvey survey_gpio(const fs::path& dev) {
-  std::vector<std::pair<unsigned, std::string>> nodes;
-  std::error_code error;
-  for (fs::directory_iterator it{dev, error}, end; !error && it != end; it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (!name.starts_with(prefix))
-      continue;
-    if (const auto number = whole_number(std::string_view{name}.substr(prefix.size())))
-      nodes.emplace_back(*number, it->path().string());
-  }
-  std::ranges::sort(nodes);
+  const std::vector<std::string> nodes = numbered_entries(dev, prefix);
   GpioSurvey survey;
   survey.udev_at_work = udev_is_at_work(); // before: it may be done at any moment
-  for (const auto& [number, node] : nodes) {
+  for (const std::string& node : nodes) {
     if (auto chip = describe_gpio_chip(node))
       survey.chips.push_back(std::move(*chip));
     else if (chip.error().code == ErrorCode::denied && survey.udev_at_work)

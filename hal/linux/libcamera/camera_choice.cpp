@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "hal/linux/system/system_error.h"
+#include "hal/linux/system/system_files.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -30,39 +31,11 @@ std::optional<std::size_t> first(const std::vector<LibcameraFound>& found, Suits
   return static_cast<std::size_t>(it - found.begin());
 }
 
-// The media nodes, and of them the first that may not be opened.
-struct MediaNodes {
-  int count = 0;
-  std::string refused;
-};
-
-MediaNodes media_nodes(const fs::path& root) {
-  MediaNodes nodes;
-  std::error_code error;
-  for (fs::directory_iterator it{root / "dev", error}, end; !error && it != end;
-       it.increment(error)) {
-    const std::string name = it->path().filename().string();
-    if (!name.starts_with("media"))
-      continue;
-    ++nodes.count;
-    const bool allowed = ::access(it->path().c_str(), R_OK | W_OK) == 0;
-    if (!allowed && (nodes.refused.empty() || "/dev/" + name < nodes.refused))
-      nodes.refused = "/dev/" + name;
-  }
-  return nodes;
-}
-
 // Each architecture has a folder of its own in usr/lib.
 bool has_ipa_modules(const fs::path& root) {
-  std::error_code error;
-  for (fs::directory_iterator it{root / "usr/lib", error}, end; !error && it != end;
-       it.increment(error)) {
-    std::error_code none;
-    for (const auto& module : fs::directory_iterator{it->path() / "libcamera", none})
-      if (module.path().filename().string().starts_with("ipa_"))
-        return true;
-  }
-  return false;
+  return std::ranges::any_of(entries(root / "usr/lib"), [](const fs::path& folder) {
+    return !entries(folder / "libcamera", "ipa_").empty();
+  });
 }
 
 } // namespace
@@ -94,28 +67,30 @@ Error explain_absence(const fs::path& root) {
     return {ErrorCode::absent,
             "scope camera: no udev daemon runs, and libcamera finds no camera without one; start "
             "it: sudo systemctl start systemd-udevd systemd-udev-trigger"};
-  const MediaNodes nodes = media_nodes(root);
-  if (!nodes.refused.empty() && udev_is_at_work(root))
-    return {ErrorCode::absent, fmt::format("scope camera: udev has not gone through {} yet; it is "
-                                           "tried again by itself",
-                                           nodes.refused)};
-  if (!nodes.refused.empty())
+  const std::vector<fs::path> nodes = entries(root / "dev", "media");
+  const auto refused = std::ranges::find_if(
+      nodes, [](const fs::path& node) { return ::access(node.c_str(), R_OK | W_OK) != 0; });
+  if (refused != nodes.end() && udev_is_at_work(root))
+    return {ErrorCode::absent, fmt::format("scope camera: udev has not gone through /dev/{} yet; "
+                                           "it is tried again by itself",
+                                           refused->filename().string())};
+  if (refused != nodes.end())
     return {ErrorCode::denied,
-            fmt::format("scope camera: {} is there, but this user may not open it; join its "
+            fmt::format("scope camera: /dev/{} is there, but this user may not open it; join its "
                         "group: sudo usermod -aG video $USER, then log in again",
-                        nodes.refused)};
-  if (nodes.count > 0 && !has_ipa_modules(root))
+                        refused->filename().string())};
+  if (!nodes.empty() && !has_ipa_modules(root))
     return {ErrorCode::absent,
             "scope camera: a camera may be there, but the modules by which libcamera steers "
             "cameras are not installed: sudo apt-get install libcamera-ipa"};
-  if (nodes.count == 0)
+  if (nodes.empty())
     return {ErrorCode::absent, "scope camera: no camera is plugged in (there is no /dev/media*); "
                                "check the plug and the cable; it is tried again by itself"};
   return {ErrorCode::absent,
           fmt::format("scope camera: {} media device{} plugged in, but libcamera knows no camera "
                       "among them; LIBCAMERA_LOG_LEVELS=*:DEBUG says why, `cam --list` lists what "
                       "it knows",
-                      nodes.count, nodes.count == 1 ? " is" : "s are")};
+                      nodes.size(), nodes.size() == 1 ? " is" : "s are")};
 }
 
 } // namespace octascope::hal::linux_backend

@@ -1,11 +1,12 @@
 #include "hal/linux/v4l2/camera_identity.h"
 
-#include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
+
+#include "hal/linux/system/system_files.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -23,13 +24,6 @@ std::string trimmed(std::string_view text) {
   if (first == std::string_view::npos)
     return {};
   return std::string{text.substr(first, text.find_last_not_of(blank) - first + 1)};
-}
-
-std::string first_line(const fs::path& file) {
-  std::ifstream in{file};
-  std::string line;
-  std::getline(in, line);
-  return trimmed(line);
 }
 
 std::string plain(std::string_view text) {
@@ -56,7 +50,7 @@ std::string usb_serial_number(const fs::path& folder) {
   for (int i = 0; !error && i < most_levels; ++i, level = level.parent_path()) {
     // Other buses have files of this name that mean something else.
     if (fs::exists(level / "idVendor", error))
-      return first_line(level / "serial");
+      return trimmed(first_line(level / "serial"));
   }
   return {};
 }

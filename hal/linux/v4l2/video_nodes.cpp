@@ -1,44 +1,19 @@
 #include "hal/linux/v4l2/video_nodes.h"
 
 #include <algorithm>
-#include <charconv>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "hal/linux/system/system_files.h"
+
 namespace octascope::hal::linux_backend {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::optional<int> number_of(std::string_view name) {
-  constexpr std::string_view prefix = "video";
-  if (!name.starts_with(prefix))
-    return std::nullopt;
-  name.remove_prefix(prefix.size());
-  int number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (error != std::errc{} || end != name.data() + name.size())
-    return std::nullopt;
-  return number;
-}
-
-} // namespace
-
 std::vector<std::string> video_nodes(const fs::path& dev) {
-  std::vector<std::pair<int, std::string>> found;
-  std::error_code error;
-  for (fs::directory_iterator it{dev, error}, end; !error && it != end; it.increment(error)) {
-    if (const auto number = number_of(it->path().filename().string()))
-      found.emplace_back(*number, it->path().string());
-  }
-  std::ranges::sort(found);
-  std::vector<std::string> nodes;
-  for (auto& [number, node] : found)
-    nodes.push_back(std::move(node));
-  return nodes;
+  return numbered_entries(dev, "video");
 }
 
 LineCameraCandidate assess_line_camera(const std::string& node, const LineFormat& wanted) {

@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <optional>
-#include <system_error>
 #include <type_traits>
 
 #include <fmt/format.h>
 #include <zlib.h>
+
+#include "hal/number_text.h"
 
 namespace octascope::pipeline {
 namespace {
@@ -241,12 +241,11 @@ hal::Result<std::vector<Number>> read_ascii(const pugi::xml_node& array, std::ui
     if (rest.empty())
       break;
     const std::string_view token = rest.substr(0, rest.find_first_of(blanks));
-    Number number{};
-    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), number);
-    if (error != std::errc{} || end != token.data() + token.size() || !allowed(number))
+    const auto number = hal::number_of<Number>(token);
+    if (!number || !allowed(*number))
       return refuse(array, fmt::format("\"{:.40}\" as number {}", token, numbers.size() + 1),
                     std::is_integral_v<Number> ? "a whole number, 0 or more" : "a finite number");
-    numbers.push_back(number);
+    numbers.push_back(*number);
     rest.remove_prefix(token.size());
   }
   if (numbers.size() != count)

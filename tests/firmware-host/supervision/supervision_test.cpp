@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware-host/commands/devices/status_text.h"
+#include "firmware-host/crash/run_marker.h"
 #include "firmware-host/supervision/appliance_status.h"
 #include "firmware-host/supervision/fault_journal.h"
-#include "firmware-host/supervision/run_marker.h"
 #include "firmware-host/supervision/thread_watch.h"
 #include "firmware-host/supervision/watchdog.h"
 #include "tests/support/files/scratch_folder.h"

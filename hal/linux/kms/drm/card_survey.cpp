@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -15,23 +14,11 @@
 #include "hal/linux/kms/drm/format_blob.h"
 #include "hal/linux/kms/drm/object_properties.h"
 #include "hal/linux/system/system_error.h"
+#include "hal/linux/system/system_files.h"
 
 namespace octascope::hal::linux_backend::kms {
 
 namespace {
-
-constexpr std::string_view drm_folder = "/dev/dri";
-
-// 4 of "card4"; −1: not the name of a card.
-int card_number(std::string_view name) {
-  constexpr std::string_view prefix = "card";
-  if (!name.starts_with(prefix))
-    return -1;
-  name.remove_prefix(prefix.size());
-  int number = -1;
-  const auto [rest, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  return error == std::errc{} && rest == name.data() + name.size() ? number : -1;
-}
 
 std::string driver_of(const FileDescriptor& file) {
   const DrmVersion version{drmGetVersion(file.get())};
@@ -141,17 +128,7 @@ std::vector<Plane> read_planes(const FileDescriptor& file) {
 } // namespace
 
 std::vector<std::string> card_nodes() {
-  std::vector<std::pair<int, std::string>> found;
-  std::error_code ignored; // no folder: no cards
-  for (std::filesystem::directory_iterator entry{drm_folder, ignored}, end;
-       !ignored && entry != end; entry.increment(ignored))
-    if (const int number = card_number(entry->path().filename().string()); number >= 0)
-      found.emplace_back(number, entry->path().string());
-  std::ranges::sort(found);
-  std::vector<std::string> nodes;
-  for (auto& [number, node] : found)
-    nodes.push_back(std::move(node));
-  return nodes;
+  return numbered_entries("/dev/dri", "card");
 }
 
 Card read_card(const FileDescriptor& file, const std::string& node) {

@@ -1,11 +1,12 @@
 #include "hal/linux/kms/mode/mode_choice.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <drm_mode.h>
 #include <fmt/format.h>
+
+#include "hal/number_text.h"
 
 namespace octascope::hal::linux_backend::kms {
 
@@ -20,17 +21,6 @@ tl::unexpected<Error> not_a_mode(std::string_view text) {
       "kms display: mode is \"{}\", expected \"preferred\", \"1920x1080\", \"1920x1080@60\" or, "
       "with computed timings, \"1920x1080M@60\" ({} to {} pixels either way, 1 to 1000 Hz)",
       text, smallest, largest);
-}
-
-// The number at the front of `text`, which it shortens.
-template <class Number> std::optional<Number> take_number(std::string_view& text) {
-  Number value{};
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{})
-    return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
-  return value;
 }
 
 bool take(std::string_view& text, char expected) {

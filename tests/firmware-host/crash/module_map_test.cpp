@@ -12,8 +12,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "firmware-host/supervision/module_map.h"
-#include "firmware-host/supervision/signal_text.h"
+#include "firmware-host/crash/module_map.h"
+#include "firmware-host/crash/signal_text.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/scratch_folder.h"
 

@@ -1,4 +1,4 @@
-#include "firmware-host/supervision/module_map.h"
+#include "firmware-host/crash/module_map.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "firmware-host/supervision/run_marker.h"
+#include "firmware-host/crash/run_marker.h"
 
 #include <fstream>
 #include <optional>

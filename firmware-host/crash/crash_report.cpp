@@ -1,4 +1,4 @@
-#include "firmware-host/supervision/crash_report.h"
+#include "firmware-host/crash/crash_report.h"
 
 #include <algorithm>
 #include <array>
@@ -17,8 +17,8 @@
 #include <ucontext.h>
 #include <unistd.h>
 
-#include "firmware-host/supervision/module_map.h"
-#include "firmware-host/supervision/signal_text.h"
+#include "firmware-host/crash/module_map.h"
+#include "firmware-host/crash/signal_text.h"
 #include "firmware-host/version/version.h"
 
 namespace octascope::firmware_host {
