@@ -14,6 +14,7 @@
 #include "ui/panels/en_face_panel.h"
 #include "ui/panels/scope_panel.h"
 #include "ui/scene/volume_painter.h"
+#include "ui/view/action_table.h"
 #include "ui/view/camera.h"
 
 namespace octascope::ui {
@@ -83,6 +84,8 @@ struct Renderer::Parts {
   std::optional<Fonts> fonts{};
   float fonts_unit = 0;
   std::vector<pipeline::BScanState> states{};
+  StateTexture state_texture{};
+  Crop crop{}; // of the flat pictures
   std::optional<LevelShares> levels{};
   std::uint64_t level_uploads = 0;
   std::uint64_t scope_uploads = 0;
@@ -108,8 +111,8 @@ struct Renderer::Parts {
 
 ViewState Renderer::Parts::fitted(const ViewState& view) const {
   ViewState fitted = view.clamped();
-  if (!states.empty())
-    fitted.b_scan = std::min(fitted.b_scan, static_cast<int>(states.size()) - 1);
+  if (!volume.empty())
+    fit_indices(fitted, volume.texture().geometry());
   return fitted;
 }
 
@@ -121,6 +124,7 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
     scene.shown.b_scan = states[static_cast<std::size_t>(view.b_scan)];
     scene.extents_mm = box_extents_mm(volume.texture().geometry());
     scene.states = states;
+    scene.crop = crop;
     scene.levels = levels ? &*levels : nullptr;
   }
   scene.shown.scope = scope_shown;
@@ -147,8 +151,9 @@ Layout Renderer::Parts::layout(int width, int height, LayoutKind kind) const {
   PictureAspects aspects;
   if (!volume.empty()) {
     const pipeline::VolumeGeometry& g = volume.texture().geometry();
-    aspects.b_scan = g.a_mm() / g.depth_mm();
-    aspects.en_face = g.a_mm() / g.b_mm();
+    aspects.b_scan = crop.a_mm(g) / crop.depth_mm(g);
+    aspects.crossed = crop.b_mm(g) / crop.depth_mm(g);
+    aspects.en_face = crop.a_mm(g) / crop.b_mm(g);
   }
   aspects.has_scope = scope_shown;
   if (scope_shown)
@@ -195,11 +200,15 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   canvas_renderer.draw(under_volume, frame, height);
   if (has_volume) {
     volume.composite(eye, view_rect, height);
-    if (places.b_scan.shown())
-      b_scan_panel.draw(volume.texture(), shown.shown.b_scan, view,
-                        frame.place(places.b_scan.picture), height);
+    const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
+      if (panel.shown())
+        b_scan_panel.draw(volume.texture(), state_texture, direction, view, crop,
+                          frame.place(panel.picture), height);
+    };
+    draw_b_scan(places.b_scan, ScanDirection::fast);
+    draw_b_scan(places.crossed, ScanDirection::slow);
     if (places.en_face.shown())
-      en_face_panel.draw(frame.place(places.en_face.picture), height);
+      en_face_panel.draw(state_texture, crop, frame.place(places.en_face.picture), height);
   }
   canvas_renderer.draw(overlay, frame, height);
   return {};
@@ -261,6 +270,7 @@ Renderer::~Renderer() = default;
 hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
   HAL_CHECK(parts_->volume.show(volume));
   parts_->en_face_panel.show(volume);
+  parts_->state_texture.upload(volume);
   parts_->states.assign(volume.b_scan_states.begin(), volume.b_scan_states.end());
   return {};
 }

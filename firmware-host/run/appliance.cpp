@@ -127,7 +127,8 @@ void AssembledAppliance::make_render_loop(ui::ControlProfile profile) {
   setup.display = display_config(options_, configuration_);
   setup.controls = std::move(profile);
   source_->configure(setup);
-  setup.view.b_scan = setup.b_scans / 2;
+  setup.view.b_scan = setup.volume.b_scans / 2;
+  setup.view.a_scan = setup.volume.a_scans / 2;
   setup.host.configuration = live_configuration_.state();
   live_configuration_.configure(setup);
   host_ = setup.host;

@@ -225,7 +225,7 @@ void LiveSource::make_threads() {
 
 void LiveSource::configure(RenderLoopSetup& setup) const {
   const pipeline::ScanPlan& plan = devices_->plan();
-  setup.b_scans = plan.b_scans;
+  setup.volume = plan.geometry();
   setup.freshness = {plan.tick_period(), configuration_.veil_after};
   setup.lines_per_frame = plan.lines_per_frame();
   setup.scan_field = devices_->scan_field();

@@ -67,7 +67,7 @@ struct RenderLoopSetup {
   std::optional<ui::ViewState> restored_view;
   bool window_restored = false; // the first volume then sets only what reset_view goes back to
   ui::FreshnessLimits freshness;
-  int b_scans = 80;
+  pipeline::VolumeGeometry volume = pipeline::ScanPlan{}.geometry(); // limits positions in it
   int lines_per_frame = 379;
   std::optional<ui::ScanField> scan_field;
   HostStatus host; // initial

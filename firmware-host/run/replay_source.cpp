@@ -33,7 +33,7 @@ public:
   }
   void configure(RenderLoopSetup& setup) const override {
     const pipeline::RecordingFacts& facts = volumes_->facts();
-    setup.b_scans = facts.geometry.b_scans;
+    setup.volume = facts.geometry;
     setup.host.simulated = facts.simulated;
     setup.host.recording_patient =
         recording_patient(facts); // before the first volume has come, too

@@ -9,7 +9,9 @@
 #include "pipeline/volume/volume.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
+#include "ui/layout/crop.h"
 #include "ui/layout/layout.h"
+#include "ui/panels/state_texture.h"
 
 namespace octascope::ui {
 
@@ -21,9 +23,10 @@ public:
   // Projects on the CPU (one to two milliseconds for 300 × 80 × 512) and uploads the projection.
   void show(const pipeline::Volume& volume);
 
-  // Fills `rect` of the bound framebuffer; missing B-scans are hatched, saturated ones marked at
+  // Fills `rect` of the bound framebuffer with what the crop leaves; missing B-scans are hatched, saturated ones marked at
   // the right border.
-  void draw(const Rect& rect, int target_height) const;
+  void draw(const StateTexture& states, const Crop& crop, const Rect& rect,
+            int target_height) const;
 
 private:
   explicit EnFacePanel(gl::PicturePass pass);
@@ -31,13 +34,12 @@ private:
 
   gl::PicturePass pass_;
   gl::Texture projection_;
-  gl::Texture states_;
   std::vector<std::uint32_t> sums_;
   std::vector<std::uint8_t> grey_;
   int a_scans_ = 0;
   int b_scans_ = 0;
   struct {
-    GLint projection, states, hatch, mark_width, mark;
+    GLint projection, states, corner, extent, hatch, mark_width, mark;
   } uniforms_;
 };
 

@@ -28,6 +28,7 @@ enum class Action : std::uint8_t {
   stereo,
   parallax,
   b_scan,
+  crossed_b_scan, // the position of the one across all B-scans
   vessels,
   vessel_opacity,
   vessel_colours,

@@ -63,6 +63,11 @@ ValueText signed_degrees(float value) {
   return text("{:+.1f}°", value);
 }
 
+// `detent` voxels a detent.
+template <auto Count> constexpr Number index_along(int ViewState::*index, float detent) {
+  return {
+      .index = index, .count = Count, .range = {0, last_index, detent}, .words = counted_from_one};
+}
 constexpr Number shift_along(std::size_t axis) {
   return {.nudge = &VesselNudge::shift_mm,
           .axis = axis,
@@ -129,8 +134,10 @@ constexpr std::array<ActionRow, action_count> table{{
      Number{.number = &ViewState::parallax_deg, .range = {-10, 10, 0.25F}, .words = fine_degrees},
      "parallax_deg", drawn | kept | needs_stereo},
     {Action::b_scan, "b_scan", "B-scan", continuous, keys(back('['), forth(']')),
-     Number{.index = &ViewState::b_scan, .range = {0, last_b_scan, 1}, .words = counted_from_one},
-     "b_scan", home},
+     index_along<&Geometry::b_scans>(&ViewState::b_scan, 1), "b_scan", home},
+    {Action::crossed_b_scan, "crossed_b_scan", "Crossed B-scan", continuous,
+     keys(back(';'), forth('\'')),
+     index_along<&Geometry::a_scans>(&ViewState::a_scan, 4), "a_scan", home},
 
     {Action::vessels, "vessels", "Vessels", toggle, keys(key('v')),
      Flag{&ViewState::vessels_visible, "shown", "hidden"}, "vessels", drawn | home | kept},
@@ -210,18 +217,29 @@ void Number::set(ViewState& view, float value) const {
     (view.vessel_nudge.*nudge)[axis] = fitting;
 }
 
+void Number::fit(ViewState& view, const Geometry& volume) const {
+  if (count != nullptr)
+    view.*index = std::clamp(view.*index, 0, std::max(volume.*count - 1, 0));
+}
+
 std::span<const ActionRow, action_count> action_table() {
   return table;
 }
 
-NumberRange range_of(Action action, int b_scans) {
+NumberRange range_of(Action action, const Geometry& volume) {
   const Number* number = number_of(action);
   if (number == nullptr)
     return {};
   NumberRange range = number->range;
-  if (range.highest == last_b_scan)
-    range.highest = static_cast<float>(std::max(b_scans - 1, 1));
+  if (number->count != nullptr)
+    range.highest = static_cast<float>(std::max(volume.*number->count - 1, 1));
   return range;
+}
+
+void fit_indices(ViewState& view, const Geometry& volume) {
+  for (const ActionRow& row : table)
+    if (const auto* number = std::get_if<Number>(&row.value))
+      number->fit(view, volume);
 }
 
 ActionKind kind_of(Action action) {

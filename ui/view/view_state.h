@@ -66,6 +66,7 @@ struct ViewState {
   bool legend_visible = false; // what each control does
   bool legend_of_keys = false; // shows the keys instead
   int b_scan = 40;             // index of the panel's B-scan on the slow axis
+  int a_scan = 150;            // index on the fast axis, where the crossed B-scan lies
 
   Action selected = Action::window_offset; // what the knob controls
   Echo echo;
