@@ -129,6 +129,9 @@ void AssembledAppliance::make_render_loop(ui::ControlProfile profile) {
   source_->configure(setup);
   setup.view.b_scan = setup.volume.b_scans / 2;
   setup.view.a_scan = setup.volume.a_scans / 2;
+  setup.view.mark_1_a = setup.volume.a_scans / 3;
+  setup.view.mark_2_a = setup.volume.a_scans * 2 / 3;
+  setup.view.mark_1_depth = setup.view.mark_2_depth = setup.volume.depths / 3;
   setup.host.configuration = live_configuration_.state();
   live_configuration_.configure(setup);
   host_ = setup.host;

@@ -88,6 +88,7 @@ void ViewActions::turn(Action action, double detents) {
   }
   number->set(state_, number->of(state_) + static_cast<float>(change));
   number->fit(state_, volume_);
+  state_.calliper = state_.calliper || moves_mark(action);
 }
 
 void ViewActions::begin_driving(Action action, hal::TimePoint time) {

@@ -47,8 +47,12 @@ void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene);
 
-// Where the crossed B-scans lie: in each other, in the en-face picture, and in the scan's field in
-// the microscope's picture, each in a colour of its own.
+// The ticks of a depth ruler: 1, 2 or 5 times a power of ten of a millimetre, the smallest such step
+// that is at least `least_mm`. Pure.
+double round_ruler_step_mm(double least_mm);
+
+// Depth rulers of the B-scans, the calliper, and where the crossed B-scans lie: in each other, in the
+// en-face picture, and in the scan's field in the microscope's picture, each in a colour of its own.
 void draw_scan_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
                      const HudScene& scene);
 void draw_scan_field(Canvas& canvas, const Rect& rect, const ScanField& field,

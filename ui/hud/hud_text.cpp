@@ -224,7 +224,7 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
                              word_for(shown.b_scan));
       hud.b_scan.note_tone = Tone::warning;
     }
-    hud.en_face.note.format("mean, auto contrast");
+    hud.en_face.note.format("below the surface");
   }
   if (!shown.scope || !shown.scope_time) {
     hud.scope.note.format("no picture");

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
+#include "ui/hud/calliper.h"
 #include "ui/hud/hud.h"
 
 namespace octascope::ui {
@@ -58,12 +60,92 @@ void draw_cut(Canvas& canvas, const Rect& picture, Colour own, float place, Colo
   draw_ends(canvas, down(picture, place), other, unit);
 }
 
+// Along the right border: a tick a round length, the depth from zero delay beside it, and four short
+// ticks between.
+void draw_ruler(Canvas& canvas, const Rect& picture, const Section& shown, double depth_mm,
+                float unit) {
+  const double mm_per_pixel = depth_mm * static_cast<double>(shown.length()) / picture.height;
+  const float letters = canvas.text_height(TextStyle::label);
+  const double step_mm = round_ruler_step_mm(mm_per_pixel * 1.6 * static_cast<double>(letters));
+  const bool in_mm = step_mm >= 0.1;
+  const auto right = static_cast<float>(picture.right());
+  const double first_mm = depth_mm * static_cast<double>(shown.from);
+  const double last_mm = depth_mm * static_cast<double>(shown.to);
+  const auto tick = [&](float y, float length, float width, Colour colour) {
+    canvas.line({right - length, y}, {right, y}, palette::ink.faded(160), width + 2 * unit);
+    canvas.line({right - length, y}, {right, y}, colour, width);
+  };
+  bool said = false; // the unit: once, at the first
+  constexpr int parts = 5;
+  const double part_mm = step_mm / parts;
+  for (auto i = static_cast<int>(std::ceil(first_mm / part_mm)); i * part_mm <= last_mm; ++i) {
+    const float y =
+        static_cast<float>(picture.y) + static_cast<float>((i * part_mm - first_mm) / mm_per_pixel);
+    if (i % parts != 0) {
+      tick(y, 5 * unit, std::max(1.0F, unit), palette::quiet_text);
+      continue;
+    }
+    tick(y, 11 * unit, std::max(1.0F, 2 * unit), palette::text);
+    const float top = y - letters / 2;
+    if (top < static_cast<float>(picture.y) || top + letters > static_cast<float>(picture.bottom()))
+      continue;
+    FixedText<16> words;
+    words.format("{:g}{}", i * part_mm * (in_mm ? 1 : 1e3), said ? "" : in_mm ? " mm" : " µm");
+    said = true;
+    canvas.shadowed_text(
+        {right - 15 * unit - canvas.text_width(TextStyle::label, words.view()), top},
+        TextStyle::label, palette::text, words.view());
+  }
+}
+
+// Crosses in the voxels, the line between them, and the distance in the upper left corner.
+void draw_calliper(Canvas& canvas, const Rect& picture, const ViewState& view,
+                   const HudScene& scene, float unit) {
+  const pipeline::VolumeGeometry& volume = scene.shown.geometry;
+  const auto place = [&](int a, int depth) {
+    const float across =
+        scene.crop.a.place_of((static_cast<float>(a) + 0.5F) / static_cast<float>(volume.a_scans));
+    const float down = scene.crop.depth.place_of((static_cast<float>(depth) + 0.5F) /
+                                                 static_cast<float>(volume.depths));
+    return glm::vec2{static_cast<float>(picture.x) + across * static_cast<float>(picture.width),
+                     static_cast<float>(picture.y) + down * static_cast<float>(picture.height)};
+  };
+  const std::array marks{place(view.mark_1_a, view.mark_1_depth),
+                         place(view.mark_2_a, view.mark_2_depth)};
+  const Canvas::Clip clip{canvas, picture};
+  const auto draw = [&](Colour colour, float width) {
+    canvas.line(marks[0], marks[1], colour.faded(static_cast<std::uint8_t>(colour.a * 2 / 3)),
+                width);
+    for (const glm::vec2 mark : marks) {
+      canvas.line(mark - glm::vec2{9 * unit, 0}, mark + glm::vec2{9 * unit, 0}, colour, width);
+      canvas.line(mark - glm::vec2{0, 9 * unit}, mark + glm::vec2{0, 9 * unit}, colour, width);
+    }
+  };
+  const float thin = std::max(1.0F, 1.5F * unit);
+  draw(palette::ink.faded(160), thin + 2 * unit);
+  draw(palette::calliper, thin);
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    canvas.shadowed_text(marks[i] + glm::vec2{6 * unit, 2 * unit}, TextStyle::label,
+                         palette::calliper, i == 0 ? "1" : "2");
+  canvas.shadowed_text(
+      {static_cast<float>(picture.x) + 8 * unit, static_cast<float>(picture.y) + 6 * unit},
+      TextStyle::label, palette::calliper, words_of(calliper_distance(view, volume)).view());
+}
+
 glm::vec2 to_pixels(const Rect& rect, const ScanField::Corner& corner) {
   return {static_cast<float>(rect.x) + corner.x * static_cast<float>(rect.width),
           static_cast<float>(rect.y) + corner.y * static_cast<float>(rect.height)};
 }
 
 } // namespace
+
+double round_ruler_step_mm(double least_mm) {
+  const double power = std::pow(10.0, std::floor(std::log10(least_mm)));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (digit * power >= least_mm)
+      return digit * power;
+  return 10 * power;
+}
 
 void draw_scan_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
                      const HudScene& scene) {
@@ -75,10 +157,17 @@ void draw_scan_marks(Canvas& canvas, const Layout& layout, const ViewState& view
     draw_line(canvas, down(layout.en_face.picture, a_place), palette::crossed, u);
     draw_line(canvas, across(layout.en_face.picture, b_place), palette::accent, u);
   }
-  if (layout.b_scan.shown())
+  const double depth_mm = scene.shown.geometry.depth_mm();
+  if (layout.b_scan.shown()) {
     draw_cut(canvas, layout.b_scan.picture, palette::accent, a_place, palette::crossed, u);
-  if (layout.crossed.shown())
+    draw_ruler(canvas, layout.b_scan.picture, scene.crop.depth, depth_mm, u);
+    if (view.calliper)
+      draw_calliper(canvas, layout.b_scan.picture, view, scene, u);
+  }
+  if (layout.crossed.shown()) {
     draw_cut(canvas, layout.crossed.picture, palette::crossed, b_place, palette::accent, u);
+    draw_ruler(canvas, layout.crossed.picture, scene.crop.depth, depth_mm, u);
+  }
 }
 
 void draw_scan_field(Canvas& canvas, const Rect& rect, const ScanField& field,

@@ -17,9 +17,9 @@ struct Section {
 };
 
 struct Crop {
-  Section depth;
-  Section a; // the fast axis
-  Section b; // the slow axis
+  Section depth{};
+  Section a{}; // the fast axis
+  Section b{}; // the slow axis
 
   // Extents of what is shown.
   double depth_mm(const pipeline::VolumeGeometry& volume) const {

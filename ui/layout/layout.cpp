@@ -80,7 +80,8 @@ private:
   Rect inner(const Rect& rect) const; // without a gap all around
   void place_view(const Rect& frame);
   void place_marks_above();
-  void place_scans(const Rect& cell);
+  void place_b_scans(const Rect& cell);
+  void place_en_face(const Rect& cell);
   void b_scan_above_crossed();
   void b_scan_beside_crossed();
   void place_b_scan(const Rect& frame);
@@ -142,7 +143,7 @@ void Plan::place_marks_above() {
 }
 
 // The two crossed B-scans in one cell, where each keeps half of what one alone would have; else one.
-void Plan::place_scans(const Rect& cell) {
+void Plan::place_b_scans(const Rect& cell) {
   const int gap = length(gap_length);
   layout_.b_scan = make_panel(cell, layout_.unit, aspects_.b_scan);
   const double alone = area(layout_.b_scan.picture);
@@ -158,6 +159,25 @@ void Plan::place_scans(const Rect& cell) {
   }
 }
 
+// With the crossed B-scan beside it, where it has no place yet and would be a quarter of the other
+// one's size.
+void Plan::place_en_face(const Rect& cell) {
+  layout_.en_face = make_panel(cell, layout_.unit, aspects_.en_face);
+  if (layout_.crossed.shown())
+    return;
+  const int gap = length(gap_length);
+  Rect own = cell;
+  own.width = layout_.en_face.picture.width + 2 * gap;
+  const Rect rest{own.right() + gap, cell.y, cell.right() - own.right() - gap, cell.height};
+  if (rest.width < length(48))
+    return;
+  const Panel crossed = make_panel(rest, layout_.unit, aspects_.crossed);
+  if (area(crossed.picture) < area(layout_.b_scan.picture) / 4)
+    return;
+  layout_.en_face = make_panel(own, layout_.unit, aspects_.en_face);
+  layout_.crossed = crossed;
+}
+
 void Plan::volume() {
   layout_.kind = LayoutKind::volume;
   Rect strip;
@@ -170,13 +190,11 @@ void Plan::volume() {
     room = inner(strip);
   layout_.legend = room;
   const int count = aspects_.has_scope ? 3 : 2;
-  const auto next = [&](int index, double aspect) {
-    return make_panel(part(room, index, count, gap, !tall()), layout_.unit, aspect);
-  };
-  place_scans(part(room, 0, count, gap, !tall()));
-  layout_.en_face = next(1, aspects_.en_face);
+  const auto next = [&](int index) { return part(room, index, count, gap, !tall()); };
+  place_b_scans(next(0));
+  place_en_face(next(1));
   if (aspects_.has_scope)
-    layout_.scope = next(2, aspects_.scope);
+    layout_.scope = make_panel(next(2), layout_.unit, aspects_.scope);
   layout_.large = layout_.view;
   layout_.stage = layout_.view;
 }
@@ -279,7 +297,7 @@ void Plan::microscope() {
                                    : static_cast<double>(free.width) / whole.width;
   if (free_share >= 0.22) {
     layout_.legend = free;
-    place_scans(part(free, 0, 2, gap, !tall()));
+    place_b_scans(part(free, 0, 2, gap, !tall()));
     place_view(part(free, 1, 2, gap, !tall()));
   } else {
     frame = whole;
@@ -311,14 +329,14 @@ void Plan::quad() {
   };
   if (aspects_.has_scope) {
     place_view(cell(0, 0));
-    place_scans(cell(1, 0));
-    layout_.en_face = make_panel(cell(0, 1), layout_.unit, aspects_.en_face);
+    place_b_scans(cell(1, 0));
+    place_en_face(cell(0, 1));
     layout_.scope = make_panel(cell(1, 1), layout_.unit, aspects_.scope);
   } else {
     place_view(part(whole, 0, 2, gap, tall()));
     const Rect rest = part(whole, 1, 2, gap, tall());
-    place_scans(part(rest, 0, 2, gap, !tall()));
-    layout_.en_face = make_panel(part(rest, 1, 2, gap, !tall()), layout_.unit, aspects_.en_face);
+    place_b_scans(part(rest, 0, 2, gap, !tall()));
+    place_en_face(part(rest, 1, 2, gap, !tall()));
   }
   layout_.legend = aspects_.has_scope ? layout_.scope.frame : layout_.b_scan.frame;
   layout_.large = layout_.view;

@@ -23,16 +23,15 @@ EnFacePanel::EnFacePanel(gl::PicturePass pass)
 void EnFacePanel::allocate(int a_scans, int b_scans) {
   a_scans_ = a_scans;
   b_scans_ = b_scans;
-  sums_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
-  grey_.resize(sums_.size());
+  grey_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
   projection_ = gl::make_picture_texture(GL_R8, a_scans, b_scans);
 }
 
-void EnFacePanel::show(const pipeline::Volume& volume) {
+void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue) {
   if (volume.geometry.a_scans != a_scans_ || volume.geometry.b_scans != b_scans_)
     allocate(volume.geometry.a_scans, volume.geometry.b_scans);
-  project_sum(volume, sums_);
-  stretch_contrast(volume, sums_, grey_);
+  project_slab(volume, tissue, grey_);
+  stretch_contrast(volume, grey_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glBindTexture(GL_TEXTURE_2D, projection_.name());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, a_scans_, b_scans_, GL_RED, GL_UNSIGNED_BYTE,

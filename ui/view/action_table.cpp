@@ -138,6 +138,18 @@ constexpr std::array<ActionRow, action_count> table{{
     {Action::crossed_b_scan, "crossed_b_scan", "Crossed B-scan", continuous,
      keys(back(';'), forth('\'')),
      index_along<&Geometry::a_scans>(&ViewState::a_scan, 4), "a_scan", home},
+    {Action::zoom_to_tissue, "zoom_to_tissue", "Zoom to tissue", toggle, keys(key('0')),
+     Flag{&ViewState::zoom_to_tissue, "on", "off"}, "zoom_to_tissue", home | kept},
+    {Action::calliper, "calliper", "Calliper", toggle, keys(key('5')),
+     Flag{&ViewState::calliper, "shown", "hidden"}, "calliper", home},
+    {Action::mark_1_across, "mark_1_across", "Mark 1, across", continuous, keys(key('6')),
+     index_along<&Geometry::a_scans>(&ViewState::mark_1_a, 1), "mark_1_a", home},
+    {Action::mark_1_depth, "mark_1_depth", "Mark 1, depth", continuous, keys(key('7')),
+     index_along<&Geometry::depths>(&ViewState::mark_1_depth, 1), "mark_1_depth", home},
+    {Action::mark_2_across, "mark_2_across", "Mark 2, across", continuous, keys(key('8')),
+     index_along<&Geometry::a_scans>(&ViewState::mark_2_a, 1), "mark_2_a", home},
+    {Action::mark_2_depth, "mark_2_depth", "Mark 2, depth", continuous, keys(key('9')),
+     index_along<&Geometry::depths>(&ViewState::mark_2_depth, 1), "mark_2_depth", home},
 
     {Action::vessels, "vessels", "Vessels", toggle, keys(key('v')),
      Flag{&ViewState::vessels_visible, "shown", "hidden"}, "vessels", drawn | home | kept},
@@ -257,6 +269,10 @@ std::string_view label_of(Action action) {
 std::optional<Action> action_named(std::string_view name) {
   const auto found = std::ranges::find(table, name, &ActionRow::name);
   return found == table.end() ? std::nullopt : std::optional{found->action};
+}
+
+bool moves_mark(Action action) {
+  return action >= Action::mark_1_across && action <= Action::mark_2_depth;
 }
 
 bool changes_window(Action action) {
