@@ -19,6 +19,7 @@
 #include "pipeline/controls/control_thread.h"
 #include "pipeline/controls/scope_thread.h"
 #include "pipeline/faults/fault_log.h"
+#include "pipeline/scan/scan_plan.h"
 #include "pipeline/threads/duration_statistics.h"
 #include "pipeline/threads/retry_delay.h"
 #include "pipeline/threads/wakeup.h"

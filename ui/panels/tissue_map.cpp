@@ -57,6 +57,17 @@ std::size_t next_of(const std::uint8_t* bytes, std::size_t from, std::size_t end
   return from;
 }
 
+// A glaring surface has side lobes above it: it begins where it is much brighter, if that is near.
+std::size_t past_side_lobes(const std::uint8_t* column, std::size_t first, std::size_t end) {
+  constexpr std::size_t reach = 5;
+  constexpr int much = 20; // 10 dB
+  std::size_t brightest = first;
+  for (std::size_t k = first; k < std::min(first + reach, end); ++k)
+    if (column[k] > column[brightest])
+      brightest = k;
+  return brightest < end && column[brightest] > column[first] + much ? brightest : first;
+}
+
 // The outermost entries that have at least `least`, as a section in whole steps.
 Section section_of(std::span<const std::uint32_t> counts, double least) {
   const auto has = [&](std::uint32_t count) { return count >= least; };
@@ -133,7 +144,7 @@ void TissueMap::find_begins(const pipeline::Occupancy& occupancy, int row, std::
     if ((a + static_cast<std::size_t>(row)) % depth_sampling == 0)
       for (std::size_t k = 0; k < depths; ++k)
         at_depth_[k] += tissue[k];
-    const std::size_t first = next_of(tissue, 0, depths, 1);
+    const std::size_t first = past_side_lobes(column, next_of(tissue, 0, depths, 1), depths);
     std::size_t behind = depths;
     for (std::size_t end = next_of(tissue, first, depths, 0); end < depths;) {
       const std::size_t next = next_of(tissue, end, depths, 1);

@@ -184,7 +184,7 @@ firmware_host::RenderLoopSetup LoopStage::setup() {
   setup.display.height = 360;
   setup.controls = profile();
   setup.window_from_first_volume = false;
-  setup.b_scans = plan().b_scans;
+  setup.volume = plan().geometry();
   return setup;
 }
 
