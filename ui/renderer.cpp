@@ -14,6 +14,7 @@
 #include "ui/panels/en_face_panel.h"
 #include "ui/panels/scope_panel.h"
 #include "ui/scene/volume_painter.h"
+#include "ui/view/action_table.h"
 #include "ui/view/camera.h"
 
 namespace octascope::ui {
@@ -83,6 +84,10 @@ struct Renderer::Parts {
   std::optional<Fonts> fonts{};
   float fonts_unit = 0;
   std::vector<pipeline::BScanState> states{};
+  StateTexture state_texture{};
+  pipeline::VolumeGeometry shown_geometry{};
+  TissueMap tissue{};
+  SteadyCrop crop{}; // of the flat pictures
   std::optional<LevelShares> levels{};
   std::uint64_t level_uploads = 0;
   std::uint64_t scope_uploads = 0;
@@ -97,7 +102,10 @@ struct Renderer::Parts {
   DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height,
                           const DrawQuality& quality) const;
   hal::Duration spent_on_vessels() const;
-  Layout layout(int width, int height, LayoutKind kind) const;
+  Crop crop_of(const ViewState& view) const {
+    return view.zoom_to_tissue ? crop.current() : Crop{};
+  }
+  Layout layout(int width, int height, const ViewState& view) const;
   hal::Result<> prepare_fonts(float unit);
   void fill_canvases(const DrawnPicture& picture, const Layout& places, const HudScene& shown);
   hal::Result<> draw(const DrawnPicture& picture);
@@ -108,8 +116,8 @@ struct Renderer::Parts {
 
 ViewState Renderer::Parts::fitted(const ViewState& view) const {
   ViewState fitted = view.clamped();
-  if (!states.empty())
-    fitted.b_scan = std::min(fitted.b_scan, static_cast<int>(states.size()) - 1);
+  if (!volume.empty())
+    fit_indices(fitted, volume.texture().geometry());
   return fitted;
 }
 
@@ -121,6 +129,7 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
     scene.shown.b_scan = states[static_cast<std::size_t>(view.b_scan)];
     scene.extents_mm = box_extents_mm(volume.texture().geometry());
     scene.states = states;
+    scene.crop = crop_of(view);
     scene.levels = levels ? &*levels : nullptr;
   }
   scene.shown.scope = scope_shown;
@@ -143,17 +152,19 @@ hal::Duration Renderer::Parts::spent_on_vessels() const {
   return volume.vessels() != nullptr ? volume.vessels()->spent() : hal::Duration{};
 }
 
-Layout Renderer::Parts::layout(int width, int height, LayoutKind kind) const {
+Layout Renderer::Parts::layout(int width, int height, const ViewState& view) const {
   PictureAspects aspects;
   if (!volume.empty()) {
     const pipeline::VolumeGeometry& g = volume.texture().geometry();
-    aspects.b_scan = g.a_mm() / g.depth_mm();
-    aspects.en_face = g.a_mm() / g.b_mm();
+    const Crop shown = crop_of(view);
+    aspects.b_scan = shown.a_mm(g) / shown.depth_mm(g);
+    aspects.crossed = shown.b_mm(g) / shown.depth_mm(g);
+    aspects.en_face = shown.a_mm(g) / shown.b_mm(g);
   }
   aspects.has_scope = scope_shown;
   if (scope_shown)
     aspects.scope = scope_panel.aspect();
-  return lay_out(width, height, aspects, kind);
+  return lay_out(width, height, aspects, view.layout);
 }
 
 hal::Result<> Renderer::Parts::prepare_fonts(float unit) {
@@ -195,11 +206,15 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   canvas_renderer.draw(under_volume, frame, height);
   if (has_volume) {
     volume.composite(eye, view_rect, height);
-    if (places.b_scan.shown())
-      b_scan_panel.draw(volume.texture(), shown.shown.b_scan, view,
-                        frame.place(places.b_scan.picture), height);
+    const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
+      if (panel.shown())
+        b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown.crop,
+                          frame.place(panel.picture), height);
+    };
+    draw_b_scan(places.b_scan, ScanDirection::fast);
+    draw_b_scan(places.crossed, ScanDirection::slow);
     if (places.en_face.shown())
-      en_face_panel.draw(frame.place(places.en_face.picture), height);
+      en_face_panel.draw(state_texture, shown.crop, frame.place(places.en_face.picture), height);
   }
   canvas_renderer.draw(overlay, frame, height);
   return {};
@@ -229,7 +244,7 @@ hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& view, const Layou
 }
 
 hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
-  const Layout places = layout(picture.width, picture.height, picture.view.layout);
+  const Layout places = layout(picture.width, picture.height, picture.view);
   HAL_CHECK(prepare_fonts(places.unit));
   clear(picture.width, picture.height);
   const std::uint64_t before = volume.drawings();
@@ -260,7 +275,13 @@ Renderer::~Renderer() = default;
 
 hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
   HAL_CHECK(parts_->volume.show(volume));
-  parts_->en_face_panel.show(volume);
+  parts_->tissue.update(parts_->volume.occupancy(), volume.b_scan_states);
+  if (parts_->shown_geometry != volume.geometry)
+    parts_->crop = {};
+  parts_->shown_geometry = volume.geometry;
+  parts_->crop.follow(parts_->tissue.extents());
+  parts_->en_face_panel.show(volume, parts_->tissue);
+  parts_->state_texture.upload(volume);
   parts_->states.assign(volume.b_scan_states.begin(), volume.b_scan_states.end());
   return {};
 }

@@ -72,16 +72,17 @@ pipeline::Image draw_b_scan(const pipeline::Volume& volume, int b_scan,
 pipeline::Image draw_en_face(const pipeline::Volume& volume,
                              const std::optional<ui::DisplayWindow>& window) {
   pipeline::Image image{volume.geometry.a_scans, volume.geometry.b_scans, 1};
-  std::vector<std::uint32_t> sums(image.pixels.size());
-  ui::project_sum(volume, sums);
-  if (!window) {
-    ui::stretch_contrast(volume, sums, image.pixels);
-    return image;
-  }
-  const auto depths = static_cast<float>(volume.geometry.depths);
-  std::ranges::transform(sums, image.pixels.begin(), [&](std::uint32_t sum) {
-    return grey_in(*window, static_cast<float>(sum) / depths);
-  });
+  pipeline::Occupancy occupancy{volume.geometry, pipeline::blank_depth_bins};
+  occupancy.update(volume);
+  ui::TissueMap tissue;
+  tissue.update(occupancy, volume.b_scan_states);
+  ui::project_slab(volume, tissue, image.pixels);
+  if (window)
+    std::ranges::transform(image.pixels, image.pixels.begin(), [&](std::uint8_t level) {
+      return grey_in(*window, static_cast<float>(level));
+    });
+  else
+    ui::stretch_contrast(volume, image.pixels);
   return image;
 }
 

@@ -20,9 +20,8 @@ pipeline::Image draw_b_scan(std::span<const float> levels_db, int depths, int a_
 pipeline::Image draw_b_scan(const pipeline::Volume& volume, int b_scan,
                             const ui::DisplayWindow& window);
 
-// From above: the mean of each A-scan's counts, one pixel an A-scan, the fast axis to the right,
-// the first B-scan at the top. Scaled by the window or, without one, with the contrast of the
-// display's en-face picture.
+// From above: the display's en-face picture, one pixel an A-scan, the fast axis to the right, the
+// first B-scan at the top. Scaled by the window or, without one, with the display's contrast.
 pipeline::Image draw_en_face(const pipeline::Volume& volume,
                              const std::optional<ui::DisplayWindow>& window);
 

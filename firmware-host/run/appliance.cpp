@@ -131,6 +131,10 @@ void AssembledAppliance::make_render_loop(ui::ControlProfile profile) {
   setup.controls = std::move(profile);
   source_->configure(setup);
   setup.view.b_scan = setup.geometry.b_scans / 2;
+  setup.view.a_scan = setup.geometry.a_scans / 2;
+  setup.view.mark_1_a = setup.geometry.a_scans / 3;
+  setup.view.mark_2_a = setup.geometry.a_scans * 2 / 3;
+  setup.view.mark_1_depth = setup.view.mark_2_depth = setup.geometry.depths / 3;
   setup.host.configuration = live_configuration_.state();
   if (options_.trace)
     trace_ = std::make_unique<Trace>(setup.geometry.b_scans);

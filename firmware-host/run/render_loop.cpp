@@ -30,7 +30,7 @@ bool brings_volumes(ui::Liveness liveness) {
 RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
     : parts_(parts), setup_(std::move(setup)), legend_(ui::make_legend(setup_.controls)),
       key_legend_(ui::make_key_legend()),
-      controller_(setup_.view, setup_.geometry.b_scans, setup_.controls, setup_.transfers.names()),
+      controller_(setup_.view, setup_.geometry, setup_.controls, setup_.transfers.names()),
       governor_({}) {
   if (setup_.restored_view)
     controller_.actions().replace(controller_.actions().initial(), *setup_.restored_view);

@@ -21,6 +21,7 @@
 #include "pipeline/controls/control_thread.h"
 #include "pipeline/controls/scope_thread.h"
 #include "pipeline/faults/fault_log.h"
+#include "pipeline/scan/scan_plan.h"
 #include "pipeline/threads/duration_statistics.h"
 #include "pipeline/threads/retry_delay.h"
 #include "pipeline/threads/wakeup.h"
@@ -70,7 +71,7 @@ struct RenderLoopSetup {
   std::optional<ui::ViewState> restored_view;
   bool window_restored = false; // the first volume then sets only what reset_view goes back to
   ui::FreshnessLimits freshness;
-  pipeline::VolumeGeometry geometry; // of the volumes to come
+  pipeline::VolumeGeometry geometry = pipeline::ScanPlan{}.geometry(); // of the volumes to come
   int lines_per_frame = 379;
   std::optional<ui::ScanField> scan_field;
   HostStatus host; // initial

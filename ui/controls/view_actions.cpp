@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/controls/view_text.h"
 
@@ -17,11 +18,11 @@ int wrapped(int value, int count) {
 
 } // namespace
 
-ViewActions::ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu,
+ViewActions::ViewActions(const ViewState& initial, const Geometry& volume, std::vector<Action> menu,
                          ChoiceNames names)
-    : initial_{initial.clamped()}, state_{initial_}, b_scans_{b_scans}, menu_{std::move(menu)} {
+    : initial_{initial.clamped()}, state_{initial_}, volume_{volume}, menu_{std::move(menu)} {
   state_.selected = menu_.front();
-  set_b_scans(b_scans);
+  set_volume(volume);
   set_choices(std::move(names));
 }
 
@@ -34,12 +35,12 @@ void ViewActions::change_menu(std::vector<Action> menu) {
 void ViewActions::replace(const ViewState& initial, const ViewState& state) {
   initial_ = initial.clamped();
   state_ = state.clamped();
-  set_b_scans(b_scans_);
+  set_volume(volume_);
 }
 
-void ViewActions::set_b_scans(int b_scans) {
-  b_scans_ = std::max(b_scans, 1);
-  state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
+void ViewActions::set_volume(const Geometry& volume) {
+  volume_ = volume;
+  fit_indices(state_, volume_);
 }
 
 void ViewActions::set_window(float offset_db, float size_db) {
@@ -77,13 +78,17 @@ void ViewActions::turn(Action action, double detents) {
   const Number* number = number_of(action);
   if (number == nullptr)
     return;
-  if (action == Action::b_scan) {
-    b_scan_rest_ += detents;
-    detents = std::trunc(b_scan_rest_);
-    b_scan_rest_ -= detents;
+  double change = detents * static_cast<double>(number->range.detent);
+  if (number->index != nullptr) {
+    if (std::exchange(rest_of_, action) != action)
+      index_rest_ = 0;
+    index_rest_ += change;
+    change = std::trunc(index_rest_);
+    index_rest_ -= change;
   }
-  number->set(state_, number->of(state_) + static_cast<float>(detents) * number->range.detent);
-  state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
+  number->set(state_, number->of(state_) + static_cast<float>(change));
+  number->fit(state_, volume_);
+  state_.calliper = state_.calliper || moves_mark(action);
 }
 
 void ViewActions::begin_driving(Action action, hal::TimePoint time) {
@@ -156,7 +161,7 @@ void ViewActions::reset_view() {
   for (const ActionRow& row : action_table())
     if (row.has(trait::home))
       std::visit([&](const auto& value) { value.copy(initial_, state_); }, row.value);
-  state_.b_scan = std::min(state_.b_scan, b_scans_ - 1);
+  fit_indices(state_, volume_);
 }
 
 void ViewActions::forget_nudge() {

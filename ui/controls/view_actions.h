@@ -35,10 +35,10 @@ enum class Done : std::uint8_t { pressed, turned };
 // Threads: one at a time. Pure: no clock.
 class ViewActions {
 public:
-  // `initial` is the state that reset_view restores; `b_scans` limits the B-scan position; `menu`
+  // `initial` is the state that reset_view restores; `volume` limits positions in it; `menu`
   // is what next_parameter goes through, never empty; `names` are of what the view's transfer
   // function and colour map are chosen from.
-  ViewActions(const ViewState& initial, int b_scans, std::vector<Action> menu,
+  ViewActions(const ViewState& initial, const Geometry& volume, std::vector<Action> menu,
               ChoiceNames names = {});
 
   // Keeps the selected action if the new menu has it, else selects the menu's first.
@@ -55,7 +55,7 @@ public:
   // reloading the configuration.
   void replace(const ViewState& initial, const ViewState& state);
 
-  void set_b_scans(int b_scans);
+  void set_volume(const Geometry& volume);
   void set_window(float offset_db, float size_db); // also for reset_view
   void set_choices(ChoiceNames names);
   void set_vessels_loaded(bool loaded) { vessels_loaded_ = loaded; }
@@ -93,8 +93,9 @@ private:
 
   ViewState initial_;
   ViewState state_;
-  int b_scans_;
-  double b_scan_rest_ = 0; // fraction of a B-scan turned so far
+  Geometry volume_;
+  Action rest_of_ = Action::b_scan; // the index turned last, and
+  double index_rest_ = 0;           // the fraction of a voxel turned so far
   std::vector<Action> menu_;
   ChoiceNames names_;
   bool vessels_loaded_ = false;

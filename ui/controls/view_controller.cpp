@@ -22,9 +22,9 @@ bool is_quit(const hal::DisplayEvent& event) {
 
 } // namespace
 
-ViewController::ViewController(const ViewState& initial, int b_scans, ControlProfile profile,
-                               ChoiceNames names)
-    : profile_{std::move(profile)}, actions_{initial, b_scans, profile_.menu, std::move(names)},
+ViewController::ViewController(const ViewState& initial, const Geometry& volume,
+                               ControlProfile profile, ChoiceNames names)
+    : profile_{std::move(profile)}, actions_{initial, volume, profile_.menu, std::move(names)},
       recogniser_{profile_.switch_bindings(), profile_.times} {
   told_.reserve(most_told_at_once);
 }

@@ -22,8 +22,8 @@ namespace octascope::ui {
 // and sticks depend on it.
 class ViewController {
 public:
-  // `initial` is the state that reset_view restores; `b_scans` limits the B-scan position.
-  ViewController(const ViewState& initial, int b_scans, ControlProfile profile,
+  // `initial` is the state that reset_view restores; `volume` limits positions in it.
+  ViewController(const ViewState& initial, const Geometry& volume, ControlProfile profile,
                  ChoiceNames names = {});
 
   // Switches to the profile of another device. The view stays; no switch counts as held.

@@ -180,7 +180,8 @@ void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness
   if (liveness == Liveness::waiting || liveness == Liveness::live)
     return;
   const float u = layout.unit;
-  for (const Rect& rect : {layout.view, layout.b_scan.picture, layout.en_face.picture}) {
+  for (const Rect& rect :
+       {layout.view, layout.b_scan.picture, layout.crossed.picture, layout.en_face.picture}) {
     if (rect.empty())
       continue;
     if (liveness == Liveness::veiled) {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "ui/view/action_table.h"
-
 namespace octascope::ui {
 
 namespace {
@@ -12,7 +10,7 @@ constexpr std::string_view chosen_words = "The knob turns";
 
 } // namespace
 
-ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scans) {
+ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, const Geometry& volume) {
   ParameterEcho echo;
   echo.visible = now < view.echo.until;
   if (!echo.visible)
@@ -22,7 +20,7 @@ ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scan
   echo.name = label_of(action);
   echo.value = view.echo.words;
   if (const Number* number = number_of(action)) {
-    const NumberRange range = range_of(action, b_scans);
+    const NumberRange range = range_of(action, volume);
     const float value = number->of(view);
     if (echo.value.empty())
       echo.value = number->words(value);

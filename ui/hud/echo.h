@@ -5,6 +5,7 @@
 
 #include "ui/hud/canvas.h"
 #include "ui/layout/layout.h"
+#include "ui/view/action_table.h"
 #include "ui/view/fixed_text.h"
 #include "ui/view/view_state.h"
 
@@ -20,8 +21,8 @@ struct ParameterEcho {
   bool operator==(const ParameterEcho&) const = default;
 };
 
-// `b_scans`: of the shown volume. Pure.
-ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scans);
+// `volume`: the shown one. Pure.
+ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, const Geometry& volume);
 
 // At the bottom of its place in the layout, as wide as its text.
 void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);

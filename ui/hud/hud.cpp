@@ -87,7 +87,7 @@ void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene
 
 void draw_hud_ground(Canvas& canvas, const Layout& layout) {
   const float rounding = 4 * layout.unit;
-  for (const Panel* panel : {&layout.b_scan, &layout.en_face, &layout.scope})
+  for (const Panel* panel : {&layout.b_scan, &layout.crossed, &layout.en_face, &layout.scope})
     if (panel->shown())
       canvas.plate(panel->frame, palette::panel, rounding);
   canvas.plate(layout.status_bar, palette::panel);

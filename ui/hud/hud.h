@@ -10,6 +10,7 @@
 #include "ui/hud/canvas.h"
 #include "ui/hud/hud_text.h"
 #include "ui/hud/window_histogram.h"
+#include "ui/layout/crop.h"
 #include "ui/layout/layout.h"
 #include "ui/layout/scan_field.h"
 #include "ui/view/camera.h"
@@ -23,6 +24,7 @@ struct HudScene {
   Camera camera{}; // of the eye being drawn
   glm::vec3 extents_mm{0};
   std::span<const pipeline::BScanState> states; // of the volume's B-scans
+  Crop crop;                                    // of the flat pictures
   std::optional<ScanField> scan_field;
   const LevelShares* levels = nullptr; // of the volume; null: no histogram
 };
@@ -44,6 +46,17 @@ void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness
 void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene);
+
+// The ticks of a depth ruler: 1, 2 or 5 times a power of ten of a millimetre, the smallest such step
+// that is at least `least_mm`. Pure.
+double round_ruler_step_mm(double least_mm);
+
+// Depth rulers of the B-scans, the calliper, and where the crossed B-scans lie: in each other, in the
+// en-face picture, and in the scan's field in the microscope's picture, each in a colour of its own.
+void draw_scan_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
+                     const HudScene& scene);
+void draw_scan_field(Canvas& canvas, const Rect& rect, const ScanField& field,
+                     const ViewState& view, const ShownPictures& shown, float unit);
 
 // Markers in the volume's space: the wire-frame box, the plane of the panel's B-scan, and missing
 // or saturated B-scans. `in_front` selects the parts in front of the volume, drawn over its

@@ -211,10 +211,12 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
   hud.volume.title.format("Volume");
   hud.volume.note = hud.reduced;
   hud.b_scan.title.format("B-scan");
+  hud.crossed.title.format("Crossed B-scan");
   hud.en_face.title.format("En face");
   hud.scope.title.format("Microscope");
   if (shown.volume) {
     hud.b_scan.note.format("{} of {}", view.b_scan + 1, shown.geometry.b_scans);
+    hud.crossed.note.format("{} of {}", view.a_scan + 1, shown.geometry.a_scans);
     if (shown.b_scan != pipeline::BScanState::good) {
       // In one piece: "41 of 80 missing" by itself would read as a count.
       hud.b_scan.title.format("{}", "");
@@ -222,7 +224,7 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
                              word_for(shown.b_scan));
       hud.b_scan.note_tone = Tone::warning;
     }
-    hud.en_face.note.format("mean, auto contrast");
+    hud.en_face.note.format("below the surface");
   }
   if (!shown.scope || !shown.scope_time) {
     hud.scope.note.format("no picture");
@@ -247,7 +249,7 @@ HudText compose_hud_text(const ViewState& view, const Status& status, const Show
   compose_reduction(hud, status);
   compose_captions(hud, view, status, shown);
   hud.window_changing = status.now < view.echo.until && changes_window(view.echo.action);
-  hud.echo = compose_echo(view, status.now, shown.geometry.b_scans);
+  hud.echo = compose_echo(view, status.now, shown.geometry);
   if (view.legend_visible)
     hud.legend = view.legend_of_keys ? status.key_legend : status.legend;
   hud.selected = view.selected;

@@ -85,6 +85,7 @@ struct HudText {
   std::array<StatusCell, 8> cells; // unused if the label is empty
   Caption volume;                  // if it is not the large picture
   Caption b_scan;
+  Caption crossed;
   Caption en_face;
   Caption scope;
   bool scope_stale = false;

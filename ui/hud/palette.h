@@ -29,6 +29,8 @@ inline constexpr Colour box_behind{58, 69, 79};
 inline constexpr Colour cube_surface{150, 166, 180}; // the side of the orientation cube
 inline constexpr Colour histogram{120, 134, 148};
 inline constexpr Colour accent{102, 200, 255}; // positions and the knob's parameter
+inline constexpr Colour calliper{255, 240, 120};
+inline constexpr Colour crossed{255, 140, 214}; // the crossed B-scan's position
 // Colours of states. Distinguishable for colour-blind people; no state is shown by colour alone.
 inline constexpr Colour good{90, 190, 160};
 inline constexpr Colour warning{255, 186, 74}; // STALE, missing, saturated, lost

@@ -43,43 +43,6 @@ void draw_words_over(Canvas& canvas, const Rect& rect, Colour colour, std::strin
   canvas.text({x, y}, TextStyle::body, colour, words);
 }
 
-void draw_position_line(Canvas& canvas, const Rect& rect, float share, float unit) {
-  const float y = static_cast<float>(rect.y) + static_cast<float>(rect.height) * share;
-  const auto left = static_cast<float>(rect.x);
-  const auto right = static_cast<float>(rect.right());
-  canvas.line({left, y}, {right, y}, palette::accent.faded(150), std::max(1.0F, 1.2F * unit));
-  // Short and bright at both ends, where they hide nothing.
-  canvas.line({left - 6 * unit, y}, {left + 6 * unit, y}, palette::accent, 3 * unit);
-  canvas.line({right - 6 * unit, y}, {right + 6 * unit, y}, palette::accent, 3 * unit);
-}
-
-glm::vec2 to_pixels(const Rect& rect, const ScanField::Corner& corner) {
-  return {static_cast<float>(rect.x) + corner.x * static_cast<float>(rect.width),
-          static_cast<float>(rect.y) + corner.y * static_cast<float>(rect.height)};
-}
-
-void draw_scan_field(Canvas& canvas, const Rect& rect, const ScanField& field, float unit) {
-  for (std::size_t i = 0; i < field.corners.size(); ++i)
-    canvas.line(to_pixels(rect, field.corners[i]),
-                to_pixels(rect, field.corners[(i + 1) % field.corners.size()]), palette::accent,
-                2 * unit);
-  canvas.dot(to_pixels(rect, field.corners[0]), 4 * unit, palette::accent);
-}
-
-// Where the B-scan of the panel lies in it.
-void draw_position_in_field(Canvas& canvas, const Rect& rect, const ScanField& field, float share,
-                            float unit) {
-  const auto between = [&](std::size_t from, std::size_t to) {
-    const glm::vec2 a = to_pixels(rect, field.corners[from]);
-    return a + share * (to_pixels(rect, field.corners[to]) - a);
-  };
-  const glm::vec2 begin = between(0, 3);
-  const glm::vec2 end = between(1, 2);
-  canvas.line(begin, end, palette::accent.faded(170), std::max(1.0F, 1.5F * unit));
-  for (const glm::vec2 at : {begin, end})
-    canvas.dot(at, 3 * unit, palette::accent);
-}
-
 void draw_panel_scale(Canvas& canvas, const Rect& rect, double width_mm, float unit,
                       std::string_view medium = {}) {
   draw_scale_bar(
@@ -140,32 +103,31 @@ void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
   const float u = layout.unit;
   draw_caption(canvas, layout.view_title, text.volume, u);
   draw_caption(canvas, layout.b_scan.title, text.b_scan, u);
+  draw_caption(canvas, layout.crossed.title, text.crossed, u);
   draw_caption(canvas, layout.en_face.title, text.en_face, u);
   draw_caption(canvas, layout.scope.title, text.scope, u);
   const ShownPictures& shown = scene.shown;
-  const float share = (static_cast<float>(view.b_scan) + 0.5F) /
-                      static_cast<float>(std::max(shown.geometry.b_scans, 1));
+  const Crop& crop = scene.crop;
   if (shown.volume && layout.b_scan.shown()) {
     const Rect& picture = layout.b_scan.picture;
     if (shown.b_scan == pipeline::BScanState::missing)
       draw_words_over(canvas, picture, palette::warning, "B-scan missing", u);
     if (shown.b_scan == pipeline::BScanState::saturated)
       canvas.frame(picture, palette::warning, 2 * u);
-    draw_panel_scale(canvas, picture, shown.geometry.a_mm(), u,
+    draw_panel_scale(canvas, picture, crop.a_mm(shown.geometry), u,
                      medium_words(shown.geometry.refractive_index).view());
   }
-  if (shown.volume && layout.en_face.shown()) {
-    draw_position_line(canvas, layout.en_face.picture, share, u);
-    draw_panel_scale(canvas, layout.en_face.picture, shown.geometry.a_mm(), u);
-  }
+  if (shown.volume && layout.crossed.shown())
+    draw_panel_scale(canvas, layout.crossed.picture, crop.b_mm(shown.geometry), u,
+                     medium_words(shown.geometry.refractive_index).view());
+  if (shown.volume && layout.en_face.shown())
+    draw_panel_scale(canvas, layout.en_face.picture, crop.a_mm(shown.geometry), u);
+  if (shown.volume)
+    draw_scan_marks(canvas, layout, view, scene);
   if (shown.scope && layout.scope.shown() && text.scope_stale)
     canvas.frame(layout.scope.picture, palette::warning, 4 * u);
-  if (shown.scope && layout.scope.shown() && scene.scan_field && !text.scope_stale) {
-    const Canvas::Clip clip{canvas, layout.scope.picture};
-    draw_scan_field(canvas, layout.scope.picture, *scene.scan_field, u);
-    if (shown.volume)
-      draw_position_in_field(canvas, layout.scope.picture, *scene.scan_field, share, u);
-  }
+  if (shown.scope && layout.scope.shown() && scene.scan_field && !text.scope_stale)
+    draw_scan_field(canvas, layout.scope.picture, *scene.scan_field, view, scene.shown, u);
 }
 
 } // namespace octascope::ui

@@ -7,7 +7,8 @@ namespace octascope::ui {
 
 namespace {
 
-constexpr double column_share = 0.3; // of the width
+constexpr double column_share = 0.3;       // of the width
+constexpr double wide_column_share = 0.39; // with the crossed B-scan at its head
 constexpr double inset_share = 0.26; // less than a quarter of any picture that it lies over is hid
 
 // Lengths at unit 1.
@@ -16,6 +17,10 @@ constexpr float title_length = 34;
 constexpr float bar_length = 76;
 constexpr float marks_length = 60; // one row of badges
 constexpr float edge = 16;         // from the borders of a picture to what lies over it
+
+double area(const Rect& rect) {
+  return static_cast<double>(rect.width) * rect.height;
+}
 
 int scaled(float unit, float length) {
   return std::max(1, static_cast<int>(std::lround(unit * length)));
@@ -75,6 +80,14 @@ private:
   Rect inner(const Rect& rect) const; // without a gap all around
   void place_view(const Rect& frame);
   void place_marks_above();
+  void place_b_scans(const Rect& cell);
+  void place_en_face(const Rect& cell);
+  void b_scan_above_crossed();
+  void b_scan_beside_crossed();
+  void place_b_scan(const Rect& frame);
+  void place_small(const Rect& room, bool downwards);
+  Rect take_head(Rect& room, double aspect, double most_share) const;
+  Rect beside_large(const Rect& strip) const;
 
   PictureAspects aspects_;
   Layout layout_;
@@ -129,6 +142,42 @@ void Plan::place_marks_above() {
   body_.height = std::max(1, body_.height - height);
 }
 
+// The two crossed B-scans in one cell, where each keeps half of what one alone would have; else one.
+void Plan::place_b_scans(const Rect& cell) {
+  const int gap = length(gap_length);
+  layout_.b_scan = make_panel(cell, layout_.unit, aspects_.b_scan);
+  const double alone = area(layout_.b_scan.picture);
+  for (const bool downwards : {false, true}) {
+    const Panel first = make_panel(part(cell, 0, 2, gap, downwards), layout_.unit, aspects_.b_scan);
+    const Panel second =
+        make_panel(part(cell, 1, 2, gap, downwards), layout_.unit, aspects_.crossed);
+    if (area(first.picture) < alone / 2 || area(second.picture) < alone / 2)
+      continue;
+    layout_.b_scan = first;
+    layout_.crossed = second;
+    return;
+  }
+}
+
+// With the crossed B-scan beside it, where it has no place yet and would be a quarter of the other
+// one's size.
+void Plan::place_en_face(const Rect& cell) {
+  layout_.en_face = make_panel(cell, layout_.unit, aspects_.en_face);
+  if (layout_.crossed.shown())
+    return;
+  const int gap = length(gap_length);
+  Rect own = cell;
+  own.width = layout_.en_face.picture.width + 2 * gap;
+  const Rect rest{own.right() + gap, cell.y, cell.right() - own.right() - gap, cell.height};
+  if (rest.width < length(48))
+    return;
+  const Panel crossed = make_panel(rest, layout_.unit, aspects_.crossed);
+  if (area(crossed.picture) < area(layout_.b_scan.picture) / 4)
+    return;
+  layout_.en_face = make_panel(own, layout_.unit, aspects_.en_face);
+  layout_.crossed = crossed;
+}
+
 void Plan::volume() {
   layout_.kind = LayoutKind::volume;
   Rect strip;
@@ -141,38 +190,90 @@ void Plan::volume() {
     room = inner(strip);
   layout_.legend = room;
   const int count = aspects_.has_scope ? 3 : 2;
-  const auto next = [&](int index, double aspect) {
-    return make_panel(part(room, index, count, gap, !tall()), layout_.unit, aspect);
-  };
-  layout_.b_scan = next(0, aspects_.b_scan);
-  layout_.en_face = next(1, aspects_.en_face);
+  const auto next = [&](int index) { return part(room, index, count, gap, !tall()); };
+  place_b_scans(next(0));
+  place_en_face(next(1));
   if (aspects_.has_scope)
-    layout_.scope = next(2, aspects_.scope);
+    layout_.scope = make_panel(next(2), layout_.unit, aspects_.scope);
   layout_.large = layout_.view;
   layout_.stage = layout_.view;
 }
 
+// The crossed B-scan at the head of a wider column, or below the large one: where both are larger.
 void Plan::b_scan() {
   place_marks_above();
+  Plan below{*this};
+  below.b_scan_above_crossed();
+  if (!tall())
+    b_scan_beside_crossed();
+  if (tall() || area(below.layout_.b_scan.picture) + area(below.layout_.crossed.picture) >
+                    area(layout_.b_scan.picture) + area(layout_.crossed.picture))
+    *this = below;
+}
+
+// Takes off a frame as high as its picture needs at that width, but at most that share.
+Rect Plan::take_head(Rect& room, double aspect, double most_share) const {
+  const int around = room.height - room_of(room, layout_.unit).height;
+  const int needed =
+      around + static_cast<int>(std::ceil(room_of(room, layout_.unit).width / aspect));
+  Rect head = room;
+  head.height = std::min(needed, static_cast<int>(room.height * most_share));
+  room.y = head.bottom() + length(gap_length);
+  room.height -= head.height + length(gap_length);
+  return head;
+}
+
+void Plan::b_scan_above_crossed() {
   Rect strip;
-  const Rect rest = take_strip(strip, column_share);
-  const int gap = length(gap_length);
-  const Rect frame = inner(rest);
-  layout_.b_scan = make_panel(frame, layout_.unit, aspects_.b_scan);
-  Rect room = inner(strip);
-  if (!tall()) { // a gap between large and small, not two
-    room.x -= gap;
-    room.width += gap;
-  }
+  const Rect whole = inner(take_strip(strip, column_share));
+  Rect rest = whole;
+  const Rect head = take_head(rest, aspects_.b_scan, 0.7);
+  const Panel crossed = make_panel(rest, layout_.unit, aspects_.crossed);
+  const bool readable = std::min(crossed.picture.width, crossed.picture.height) >= length(48);
+  if (readable)
+    layout_.crossed = crossed;
+  place_b_scan(readable ? head : whole);
+  Rect room = beside_large(strip);
   layout_.legend = room;
+  place_small(room, !tall());
+}
+
+void Plan::b_scan_beside_crossed() {
+  Rect strip;
+  place_b_scan(inner(take_strip(strip, wide_column_share)));
+  Rect room = beside_large(strip);
+  layout_.legend = room;
+  layout_.crossed =
+      make_panel(take_head(room, aspects_.crossed, 0.6), layout_.unit, aspects_.crossed);
+  place_small(room, false);
+}
+
+void Plan::place_b_scan(const Rect& frame) {
+  layout_.b_scan = make_panel(frame, layout_.unit, aspects_.b_scan);
+  layout_.large = layout_.b_scan.picture;
+  layout_.stage = room_of(frame, layout_.unit);
+}
+
+// A gap between large and small, not two.
+Rect Plan::beside_large(const Rect& strip) const {
+  Rect room = inner(strip);
+  if (!tall()) {
+    room.x -= length(gap_length);
+    room.width += length(gap_length);
+  }
+  return room;
+}
+
+// Volume, en face and microscope.
+void Plan::place_small(const Rect& room, bool downwards) {
   const int count = aspects_.has_scope ? 3 : 2;
-  const auto next = [&](int index) { return part(room, index, count, gap, !tall()); };
+  const auto next = [&](int index) {
+    return part(room, index, count, length(gap_length), downwards);
+  };
   place_view(next(0));
   layout_.en_face = make_panel(next(1), layout_.unit, aspects_.en_face);
   if (aspects_.has_scope)
     layout_.scope = make_panel(next(2), layout_.unit, aspects_.scope);
-  layout_.large = layout_.b_scan.picture;
-  layout_.stage = room_of(frame, layout_.unit);
 }
 
 void Plan::microscope() {
@@ -196,7 +297,7 @@ void Plan::microscope() {
                                    : static_cast<double>(free.width) / whole.width;
   if (free_share >= 0.22) {
     layout_.legend = free;
-    layout_.b_scan = make_panel(part(free, 0, 2, gap, !tall()), layout_.unit, aspects_.b_scan);
+    place_b_scans(part(free, 0, 2, gap, !tall()));
     place_view(part(free, 1, 2, gap, !tall()));
   } else {
     frame = whole;
@@ -228,14 +329,14 @@ void Plan::quad() {
   };
   if (aspects_.has_scope) {
     place_view(cell(0, 0));
-    layout_.b_scan = make_panel(cell(1, 0), layout_.unit, aspects_.b_scan);
-    layout_.en_face = make_panel(cell(0, 1), layout_.unit, aspects_.en_face);
+    place_b_scans(cell(1, 0));
+    place_en_face(cell(0, 1));
     layout_.scope = make_panel(cell(1, 1), layout_.unit, aspects_.scope);
   } else {
     place_view(part(whole, 0, 2, gap, tall()));
     const Rect rest = part(whole, 1, 2, gap, tall());
-    layout_.b_scan = make_panel(part(rest, 0, 2, gap, !tall()), layout_.unit, aspects_.b_scan);
-    layout_.en_face = make_panel(part(rest, 1, 2, gap, !tall()), layout_.unit, aspects_.en_face);
+    place_b_scans(part(rest, 0, 2, gap, !tall()));
+    place_en_face(part(rest, 1, 2, gap, !tall()));
   }
   layout_.legend = aspects_.has_scope ? layout_.scope.frame : layout_.b_scan.frame;
   layout_.large = layout_.view;

@@ -41,6 +41,7 @@ struct PictureAspects {
   double en_face = 1;
   double scope = 4.0 / 3;
   bool has_scope = true; // there is a microscope picture
+  double crossed = 1.6;  // the crossed B-scan
   bool operator==(const PictureAspects&) const = default;
 };
 
@@ -53,6 +54,7 @@ struct Layout {
   Rect view_title;
   bool inset = false; // the view lies over the microscope's picture, at its lower right corner
   Panel b_scan;
+  Panel crossed; // the crossed B-scan, where there is room
   Panel en_face;
   Panel scope;
   Rect status_bar;
@@ -71,7 +73,9 @@ struct Layout {
 };
 
 // volume: the volume at the left, about 70 % of the width; the other pictures in a column at its
-// right. b_scan: the same, with the B-scan at the left and the volume in the column. microscope:
+// right. b_scan: the same, with the B-scan at the left and the volume in the column; the crossed
+// B-scan is below it or at the head of the column, in the other layouts beside it if both keep half
+// of the room. microscope:
 // the microscope picture at the left; the volume, and the B-scan if there is room, beside it, or
 // the volume as an inset. quad: four of equal size. If pictures are taller than wide, a row below
 // replaces the column. The status bar is at the bottom. Without a microscope picture the others

@@ -1,5 +1,5 @@
-// The en-face panel: the mean of the volume along depth, with automatic contrast; fast axis to the
-// right, B-scans downwards, the first at the top.
+// The en-face panel: the slab of the volume that a surgeon looks for (ui/panels/projection.h), with
+// automatic contrast; fast axis to the right, B-scans downwards, the first at the top.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,10 @@
 #include "pipeline/volume/volume.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
+#include "ui/layout/crop.h"
 #include "ui/layout/layout.h"
+#include "ui/panels/state_texture.h"
+#include "ui/panels/tissue_map.h"
 
 namespace octascope::ui {
 
@@ -18,12 +21,14 @@ class EnFacePanel {
 public:
   static hal::Result<EnFacePanel> create();
 
-  // Projects on the CPU (one to two milliseconds for 300 × 80 × 512) and uploads the projection.
-  void show(const pipeline::Volume& volume);
+  // Projects on the CPU (about a millisecond for 300 × 80 × 512) and uploads the projection.
+  // `tissue`: of the same volume.
+  void show(const pipeline::Volume& volume, const TissueMap& tissue);
 
-  // Fills `rect` of the bound framebuffer; missing B-scans are hatched, saturated ones marked at
+  // Fills `rect` of the bound framebuffer with what the crop leaves; missing B-scans are hatched, saturated ones marked at
   // the right border.
-  void draw(const Rect& rect, int target_height) const;
+  void draw(const StateTexture& states, const Crop& crop, const Rect& rect,
+            int target_height) const;
 
 private:
   explicit EnFacePanel(gl::PicturePass pass);
@@ -31,13 +36,11 @@ private:
 
   gl::PicturePass pass_;
   gl::Texture projection_;
-  gl::Texture states_;
-  std::vector<std::uint32_t> sums_;
   std::vector<std::uint8_t> grey_;
   int a_scans_ = 0;
   int b_scans_ = 0;
   struct {
-    GLint projection, states, hatch, mark_width, mark;
+    GLint projection, states, corner, extent, hatch, mark_width, mark;
   } uniforms_;
 };
 

@@ -1,4 +1,4 @@
-// The hatching of missing data, the same in every panel.
+// The hatching of missing data and the mark of saturated data, the same in every panel.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 #include "embedded_shaders.h"
 #include <GLES3/gl3.h>
 
+#include "ui/hud/palette.h"
 #include "ui/layout/layout.h"
 
 namespace octascope::ui {
@@ -23,6 +24,15 @@ inline void set_hatch(GLint uniform, const Rect& rect, int target_height) {
   glUniform3f(uniform, static_cast<float>(rect.x),
               static_cast<float>(target_height - rect.bottom()),
               static_cast<float>(target_height) / 60);
+}
+
+// Of the picture's side along which a saturated B-scan is marked.
+inline constexpr float mark_share = 0.04F;
+
+inline void set_mark_colour(GLint uniform) {
+  constexpr Colour mark = palette::warning;
+  glUniform3f(uniform, static_cast<float>(mark.r) / 255, static_cast<float>(mark.g) / 255,
+              static_cast<float>(mark.b) / 255);
 }
 
 } // namespace octascope::ui

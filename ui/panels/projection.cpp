@@ -2,78 +2,97 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace octascope::ui {
 
 namespace {
 
-// As many levels as surely add up in 16 bits, which vector instructions add fastest.
-constexpr std::size_t chunk = 256;
+// Of the slab, from where the brick with the surface begins: beyond the surface's glare, which is as
+// wide as the spectrometer blurs it.
+constexpr double slab_begin_mm = 0.1;
+constexpr int slab_begin_voxels = 16;
+constexpr double slab_mm = 0.4;
 
-std::uint32_t sum_of(const std::uint8_t* line, std::size_t depths) {
-  std::uint32_t sum = 0;
-  for (std::size_t begin = 0; begin < depths; begin += chunk) {
-    const std::size_t end = std::min(begin + chunk, depths);
-    std::uint16_t part = 0;
-    for (std::size_t z = begin; z < end; ++z)
-      part = static_cast<std::uint16_t>(part + line[z]);
-    sum += part;
-  }
-  return sum;
+int voxels_of(double mm, const pipeline::VolumeGeometry& volume) {
+  return static_cast<int>(std::lround(mm * 1e3 / volume.depth_spacing_um));
 }
 
-struct Span {
-  std::uint32_t lowest;
-  std::uint32_t highest;
+// Without a remainder, the loop is all vectors.
+constexpr int lanes = 16;
+
+std::uint8_t highest_of(const std::uint8_t* levels, int count) {
+  std::uint8_t highest = 0;
+  for (int i = 0; i < count; ++i)
+    highest = std::max(highest, levels[i]);
+  return highest;
+}
+
+int in_whole_lanes(int count) {
+  return (count + lanes - 1) / lanes * lanes;
+}
+
+struct Range {
+  std::uint8_t lowest = 0;
+  std::uint8_t highest = 1;
 };
 
-// The range of the sums without 1 % at either end, to one part in 1024 of the largest possible.
-Span robust_range(const pipeline::Volume& volume, std::span<const std::uint32_t> sums) {
-  constexpr std::size_t bins = 1024;
-  std::array<std::uint32_t, bins + 1> histogram{};
+// Without 1 % at either end.
+Range robust_range(const pipeline::Volume& volume, std::span<const std::uint8_t> levels) {
+  std::array<std::uint32_t, 256> histogram{};
   const auto a_scans = static_cast<std::size_t>(volume.geometry.a_scans);
-  const std::uint64_t largest = 255U * static_cast<std::uint64_t>(volume.geometry.depths);
   std::uint32_t count = 0;
   for (std::size_t b = 0; b < volume.b_scan_states.size(); ++b) {
     if (volume.b_scan_states[b] == pipeline::BScanState::missing)
       continue;
-    for (const std::uint32_t sum : sums.subspan(b * a_scans, a_scans))
-      ++histogram[static_cast<std::size_t>(sum * std::uint64_t{bins} / largest)];
+    for (const std::uint8_t level : levels.subspan(b * a_scans, a_scans))
+      ++histogram[level];
     count += static_cast<std::uint32_t>(a_scans);
   }
-  const auto value_at = [&](std::uint32_t rank) {
-    std::size_t bin = 0;
-    for (std::uint32_t below = histogram[0]; below <= rank && bin < bins; below += histogram[bin])
-      ++bin;
-    return bin;
-  };
   if (count == 0)
-    return {0, 1};
-  const std::size_t low = value_at(count / 100);
-  const std::size_t high = value_at(count - 1 - count / 100);
-  return {static_cast<std::uint32_t>(low * largest / bins),
-          static_cast<std::uint32_t>((high + 1) * largest / bins)};
+    return {};
+  const auto value_at = [&](std::uint32_t rank) {
+    std::size_t level = 0;
+    for (std::uint32_t below = histogram[0]; below <= rank && level < 255;
+         below += histogram[level])
+      ++level;
+    return static_cast<std::uint8_t>(level);
+  };
+  return {value_at(count / 100), value_at(count - 1 - count / 100)};
 }
 
 } // namespace
 
-void project_sum(const pipeline::Volume& volume, std::span<std::uint32_t> out) {
-  const auto depths = static_cast<std::size_t>(volume.geometry.depths);
+void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
+                  std::span<std::uint8_t> out) {
+  const pipeline::VolumeGeometry& geometry = volume.geometry;
+  const int slab_begin = std::max(voxels_of(slab_begin_mm, geometry), slab_begin_voxels);
+  const int slab = std::clamp(in_whole_lanes(voxels_of(slab_mm, geometry)), 1, geometry.depths);
   const std::uint8_t* line = volume.levels.data();
-  for (std::uint32_t& sum : out) {
-    sum = sum_of(line, depths);
-    line += depths;
-  }
+  std::size_t i = 0;
+  for (int b = 0; b < geometry.b_scans; ++b)
+    for (int a = 0; a < geometry.a_scans; ++a, line += geometry.depths) {
+      const TissueMap::Begin begin = tissue.begin_of(b, a);
+      // Behind a gap a little more of the gap is no loss.
+      const int count = begin.behind_gap ? std::min(in_whole_lanes(geometry.depths - begin.depth),
+                                                    geometry.depths)
+                                         : slab;
+      const int from = begin.behind_gap
+                           ? geometry.depths - count
+                           : std::min(begin.depth + slab_begin, geometry.depths - slab);
+      out[i++] = highest_of(line + from, count);
+    }
 }
 
-void stretch_contrast(const pipeline::Volume& volume, std::span<const std::uint32_t> sums,
-                      std::span<std::uint8_t> out) {
-  const Span range = robust_range(volume, sums);
-  const float scale = 255.0F / static_cast<float>(std::max(range.highest - range.lowest, 1U));
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    const std::uint32_t inside = std::clamp(sums[i], range.lowest, range.highest);
-    out[i] = static_cast<std::uint8_t>(static_cast<float>(inside - range.lowest) * scale + 0.5F);
-  }
+void stretch_contrast(const pipeline::Volume& volume, std::span<std::uint8_t> levels) {
+  const Range range = robust_range(volume, levels);
+  const int extent = std::max(range.highest - range.lowest, 1);
+  std::array<std::uint8_t, 256> greys;
+  for (int level = 0; level < 256; ++level)
+    greys[static_cast<std::size_t>(level)] = static_cast<std::uint8_t>(
+        (std::clamp(level - range.lowest, 0, extent) * 255 + extent / 2) / extent);
+  for (std::uint8_t& level : levels)
+    level = greys[level];
 }
 
 } // namespace octascope::ui

@@ -1,20 +1,26 @@
-// Projections along depth, for the en-face picture. Pure.
+// The projection of a volume for the en-face picture. Pure.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
 #include "pipeline/volume/volume.h"
+#include "ui/panels/tissue_map.h"
 
 namespace octascope::ui {
 
-// Sums the levels of every A-scan. `out` is [b][a], a_scans · b_scans values.
-void project_sum(const pipeline::Volume& volume, std::span<std::uint32_t> out);
+// The highest level of each A-scan in a slab that follows the surface, just below it, so that
+// neither the glare of the surface nor what lies deep hides what a surgeon touches. Where a gap lies
+// behind a front layer, such as the anterior chamber behind the cornea, all that lies behind the gap
+// is taken instead: iris, lens and instruments.
+//
+// `out` is [b][a], a_scans · b_scans values.
+void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
+                  std::span<std::uint8_t> out);
 
-// Converts sums to grey values: the darkest 1 % of the received A-scans become 0, the brightest 1 %
-// become 255, linear between. The display window is not used: it is for single voxels, whose mean
-// lies in a much narrower range that depends on how much of the depth is tissue.
-void stretch_contrast(const pipeline::Volume& volume, std::span<const std::uint32_t> sums,
-                      std::span<std::uint8_t> out);
+// Converts projected levels to grey values in place: the darkest 1 % of the received A-scans become
+// 0, the brightest 1 % become 255, linear between. The display window is not used: it is for single
+// voxels, the highest of which lie in a narrower range.
+void stretch_contrast(const pipeline::Volume& volume, std::span<std::uint8_t> levels);
 
 } // namespace octascope::ui

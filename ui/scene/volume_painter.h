@@ -63,7 +63,8 @@ public:
 
   bool empty() const { return texture_.empty(); }
   const VolumeTexture& texture() const { return texture_; }
-  std::uint64_t uploads() const { return uploads_; } // the number of volumes shown
+  const pipeline::Occupancy& occupancy() const { return occupancy_; } // of the shown volume
+  std::uint64_t uploads() const { return uploads_; }                  // the number of volumes shown
 
   // The number of pictures that update() drew; unchanged pictures are not redrawn.
   std::uint64_t drawings() const;

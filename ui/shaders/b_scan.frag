@@ -1,19 +1,42 @@
-// One B-scan: the fast axis to the right, depth downwards, windowed by formula 1 of the OCT paper.
+// A cross-section of the volume, depth downwards, windowed by formula 1 of the OCT paper: along a
+// B-scan, or across all of them.
 precision highp sampler3D;
+precision highp usampler2D;
 
 in vec2 v_unit;
 
 uniform sampler3D u_levels;
-uniform vec2 u_window; // scale and offset of the ramp
-uniform float u_slow;  // the B-scan's place on the slow axis, 0…1
-uniform bool u_missing;
+uniform usampler2D u_states; // one texel a B-scan: 0 missing, 1 good, 2 saturated
+uniform vec2 u_window;       // scale and offset of the ramp
+// Texture coordinates (depth, fast axis, slow axis) of the upper left corner, and from there to the
+// right and downwards.
+uniform vec3 u_corner;
+uniform vec3 u_across;
+uniform vec3 u_down;
 uniform vec3 u_hatch;
+uniform float u_mark_height; // of the mark over a saturated B-scan, as a share of the height
+uniform vec3 u_mark;
 
 out vec4 o_colour;
 
+uint state_of(int b_scan, int count) {
+  return texelFetch(u_states, ivec2(clamp(b_scan, 0, count - 1), 0), 0).r;
+}
+
 void main() {
-  float level = texture(u_levels, vec3(v_unit.y, v_unit.x, u_slow)).r;
-  float grey = clamp(level * u_window.x + u_window.y, 0.0, 1.0);
-  vec3 colour = u_missing ? hatch(gl_FragCoord.xy, u_hatch) : vec3(grey);
+  vec3 place = u_corner + v_unit.x * u_across + v_unit.y * u_down;
+  int count = textureSize(u_states, 0).x;
+  float slow = place.z * float(count);
+  int here = clamp(int(slow), 0, count - 1);
+  uint state = state_of(here, count);
+  // A missing B-scan has no levels that a neighbour could be mixed with.
+  if (state_of(slow - float(here) < 0.5 ? here - 1 : here + 1, count) == 0u)
+    place.z = (float(here) + 0.5) / float(count);
+  float level = texture(u_levels, place).r;
+  vec3 colour = vec3(clamp(level * u_window.x + u_window.y, 0.0, 1.0));
+  if (state == 2u && v_unit.y < u_mark_height)
+    colour = u_mark;
+  if (state == 0u)
+    colour = hatch(gl_FragCoord.xy, u_hatch);
   o_colour = vec4(colour, 1.0);
 }

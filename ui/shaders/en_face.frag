@@ -5,6 +5,8 @@ in vec2 v_unit;
 
 uniform sampler2D u_projection;
 uniform usampler2D u_states; // one texel a B-scan: 0 missing, 1 good, 2 saturated
+uniform vec2 u_corner; // of what is shown, and its extent, as shares of the projection
+uniform vec2 u_extent;
 uniform vec3 u_hatch;
 uniform float u_mark_width; // of the saturation mark, as a share of the width
 uniform vec3 u_mark;
@@ -12,10 +14,11 @@ uniform vec3 u_mark;
 out vec4 o_colour;
 
 void main() {
+  vec2 place = u_corner + v_unit * u_extent;
   int count = textureSize(u_states, 0).x;
-  int b_scan = clamp(int(v_unit.y * float(count)), 0, count - 1);
+  int b_scan = clamp(int(place.y * float(count)), 0, count - 1);
   uint state = texelFetch(u_states, ivec2(b_scan, 0), 0).r;
-  float grey = texture(u_projection, v_unit).r;
+  float grey = texture(u_projection, place).r;
   vec3 colour = vec3(grey);
   if (state == 2u && v_unit.x > 1.0 - u_mark_width)
     colour = u_mark;

@@ -28,6 +28,13 @@ enum class Action : std::uint8_t {
   stereo,
   parallax,
   b_scan,
+  crossed_b_scan, // the position of the one across all B-scans
+  zoom_to_tissue,
+  calliper,
+  mark_1_across, // turning a mark shows the calliper
+  mark_1_depth,
+  mark_2_across,
+  mark_2_depth,
   vessels,
   vessel_opacity,
   vessel_colours,
@@ -85,6 +92,9 @@ std::optional<Action> action_named(std::string_view name);
 
 // As on the display: "Window offset".
 std::string_view label_of(Action action);
+
+// Whether it moves a mark of the calliper.
+bool moves_mark(Action action);
 
 // Whether it changes the display window.
 bool changes_window(Action action);

@@ -63,6 +63,11 @@ ValueText signed_degrees(float value) {
   return text("{:+.1f}°", value);
 }
 
+// `detent` voxels a detent.
+template <auto Count> constexpr Number index_along(int ViewState::*index, float detent) {
+  return {
+      .index = index, .count = Count, .range = {0, last_index, detent}, .words = counted_from_one};
+}
 constexpr Number shift_along(std::size_t axis) {
   return {.nudge = &VesselNudge::shift_mm,
           .axis = axis,
@@ -129,8 +134,22 @@ constexpr std::array<ActionRow, action_count> table{{
      Number{.number = &ViewState::parallax_deg, .range = {-10, 10, 0.25F}, .words = fine_degrees},
      "parallax_deg", drawn | kept | needs_stereo},
     {Action::b_scan, "b_scan", "B-scan", continuous, keys(back('['), forth(']')),
-     Number{.index = &ViewState::b_scan, .range = {0, last_b_scan, 1}, .words = counted_from_one},
-     "b_scan", home},
+     index_along<&Geometry::b_scans>(&ViewState::b_scan, 1), "b_scan", home},
+    {Action::crossed_b_scan, "crossed_b_scan", "Crossed B-scan", continuous,
+     keys(back(';'), forth('\'')),
+     index_along<&Geometry::a_scans>(&ViewState::a_scan, 4), "a_scan", home},
+    {Action::zoom_to_tissue, "zoom_to_tissue", "Zoom to tissue", toggle, keys(key('0')),
+     Flag{&ViewState::zoom_to_tissue, "on", "off"}, "zoom_to_tissue", home | kept},
+    {Action::calliper, "calliper", "Calliper", toggle, keys(key('5')),
+     Flag{&ViewState::calliper, "shown", "hidden"}, "calliper", home},
+    {Action::mark_1_across, "mark_1_across", "Mark 1, across", continuous, keys(key('6')),
+     index_along<&Geometry::a_scans>(&ViewState::mark_1_a, 1), "mark_1_a", home},
+    {Action::mark_1_depth, "mark_1_depth", "Mark 1, depth", continuous, keys(key('7')),
+     index_along<&Geometry::depths>(&ViewState::mark_1_depth, 1), "mark_1_depth", home},
+    {Action::mark_2_across, "mark_2_across", "Mark 2, across", continuous, keys(key('8')),
+     index_along<&Geometry::a_scans>(&ViewState::mark_2_a, 1), "mark_2_a", home},
+    {Action::mark_2_depth, "mark_2_depth", "Mark 2, depth", continuous, keys(key('9')),
+     index_along<&Geometry::depths>(&ViewState::mark_2_depth, 1), "mark_2_depth", home},
 
     {Action::vessels, "vessels", "Vessels", toggle, keys(key('v')),
      Flag{&ViewState::vessels_visible, "shown", "hidden"}, "vessels", drawn | home | kept},
@@ -210,18 +229,29 @@ void Number::set(ViewState& view, float value) const {
     (view.vessel_nudge.*nudge)[axis] = fitting;
 }
 
+void Number::fit(ViewState& view, const Geometry& volume) const {
+  if (count != nullptr)
+    view.*index = std::clamp(view.*index, 0, std::max(volume.*count - 1, 0));
+}
+
 std::span<const ActionRow, action_count> action_table() {
   return table;
 }
 
-NumberRange range_of(Action action, int b_scans) {
+NumberRange range_of(Action action, const Geometry& volume) {
   const Number* number = number_of(action);
   if (number == nullptr)
     return {};
   NumberRange range = number->range;
-  if (range.highest == last_b_scan)
-    range.highest = static_cast<float>(std::max(b_scans - 1, 1));
+  if (number->count != nullptr)
+    range.highest = static_cast<float>(std::max(volume.*number->count - 1, 1));
   return range;
+}
+
+void fit_indices(ViewState& view, const Geometry& volume) {
+  for (const ActionRow& row : table)
+    if (const auto* number = std::get_if<Number>(&row.value))
+      number->fit(view, volume);
 }
 
 ActionKind kind_of(Action action) {
@@ -239,6 +269,10 @@ std::string_view label_of(Action action) {
 std::optional<Action> action_named(std::string_view name) {
   const auto found = std::ranges::find(table, name, &ActionRow::name);
   return found == table.end() ? std::nullopt : std::optional{found->action};
+}
+
+bool moves_mark(Action action) {
+  return action >= Action::mark_1_across && action <= Action::mark_2_depth;
 }
 
 bool changes_window(Action action) {

@@ -15,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "pipeline/volume/volume_geometry.h"
 #include "ui/view/action.h"
 #include "ui/view/choice_value.h"
 #include "ui/view/fixed_text.h"
@@ -22,6 +23,7 @@
 
 namespace octascope::ui {
 
+using Geometry = pipeline::VolumeGeometry;
 using ValueText = FixedText<48>;
 
 // A key of the keyboard.
@@ -39,11 +41,11 @@ struct NoValue {
   static bool same(const ViewState&, const ViewState&) { return true; }
 };
 
-inline constexpr float last_b_scan = std::numeric_limits<float>::infinity();
+inline constexpr float last_index = std::numeric_limits<float>::infinity();
 
 struct NumberRange {
   float lowest;
-  float highest; // last_b_scan: the last B-scan of the volume
+  float highest; // last_index: the last voxel along its axis
   float detent;  // change per knob detent
 };
 
@@ -52,13 +54,15 @@ struct Number {
   float ViewState::*number = nullptr;
   int ViewState::*index = nullptr;
   std::array<float, 3> VesselNudge::*nudge = nullptr;
-  std::size_t axis = 0; // of the nudge
+  std::size_t axis = 0;           // of the nudge
+  int Geometry::*count = nullptr; // of the axis whose voxels the index counts
   NumberRange range{};
   ValueText (*words)(float value) = nullptr; // "36 dB"
   bool cyclic = false;                       // wraps around: highest equals lowest
 
   float of(const ViewState& view) const;
-  void set(ViewState& view, float value) const; // clamps to the range
+  void set(ViewState& view, float value) const;            // clamps to the range
+  void fit(ViewState& view, const Geometry& volume) const; // an index into the volume
   void copy(const ViewState& from, ViewState& to) const { set(to, of(from)); }
   bool same(const ViewState& a, const ViewState& b) const { return of(a) == of(b); }
 };
@@ -128,7 +132,10 @@ inline const Number* number_of(Action action) {
 }
 
 // With resolved ends; empty for actions that change no number.
-NumberRange range_of(Action action, int b_scans = 1);
+NumberRange range_of(Action action, const Geometry& volume = {});
+
+// Every index within that volume.
+void fit_indices(ViewState& view, const Geometry& volume);
 
 // For std::visit.
 template <class... Functions> struct Overloaded : Functions... { using Functions::operator()...; };

@@ -69,8 +69,10 @@ TEST(ControlProfile, what_is_missing_is_not_reached) {
   ControlProfile profile = built_in(default_profile);
   std::erase_if(profile.knob_actions,
                 [](const KnobAction& bound) { return bound.action == Action::adjust; });
+  std::erase_if(profile.switch_actions,
+                [](const SwitchAction& bound) { return bound.action == Action::adjust; });
   EXPECT_FALSE(profile.reaches(Action::window_offset));
-  EXPECT_TRUE(profile.reaches(Action::technique));
+  EXPECT_TRUE(profile.reaches(Action::layout));
   EXPECT_FALSE(built_in("keyboard").reaches(Action::freeze));
 }
 

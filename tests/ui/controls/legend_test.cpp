@@ -22,20 +22,23 @@ ViewState echoing(Action action, std::string_view words, hal::TimePoint until) {
 TEST(Echo, says_what_a_control_did) {
   const Status status = live_status();
   const hal::TimePoint later = status.now + std::chrono::seconds{1};
-  ParameterEcho echo = compose_echo(echoing(Action::window_size, "", later), status.now, 80);
+  ParameterEcho echo =
+      compose_echo(echoing(Action::window_size, "", later), status.now, full_geometry);
   EXPECT_TRUE(echo.visible);
   EXPECT_EQ(echo.name, "Window size");
   EXPECT_EQ(echo.value.view(), "36 dB");
   EXPECT_TRUE(echo.ranged);
   EXPECT_NEAR(echo.share, 35.0 / 127, 1e-6);
-  echo = compose_echo(echoing(Action::technique, "shaded rays", later), status.now, 80);
+  echo = compose_echo(echoing(Action::technique, "shaded rays", later), status.now, full_geometry);
   EXPECT_EQ(echo.name, "Technique");
   EXPECT_EQ(echo.value.view(), "shaded rays");
   EXPECT_FALSE(echo.ranged);
-  EXPECT_FALSE(compose_echo(echoing(Action::technique, "rays", later), later, 80).visible);
+  EXPECT_FALSE(
+      compose_echo(echoing(Action::technique, "rays", later), later, full_geometry).visible);
   for (const Action action : all_actions())
     if (number_of(action) != nullptr) {
-      EXPECT_FALSE(compose_echo(echoing(action, "", later), status.now, 80).value.empty());
+      EXPECT_FALSE(
+          compose_echo(echoing(action, "", later), status.now, full_geometry).value.empty());
     }
 }
 

@@ -18,6 +18,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr hal::TimePoint now{seconds{50}};
+constexpr Geometry geometry{512, 300, 80};
 
 DisplayEvent press(std::uint16_t key, bool shift = false, bool repeated = false) {
   return {DisplayEventKind::key_pressed, key, repeated, shift, now};
@@ -42,7 +43,7 @@ ControlProfile parsed(std::string_view text) {
 class Controller : public testing::Test {
 protected:
   const ViewState first_;
-  ViewController controller_{first_, 80, profile_of(default_profile)};
+  ViewController controller_{first_, geometry, profile_of(default_profile)};
   hal::TimePoint now_ = now;
 
   const ViewState& state() const { return controller_.state(); }
@@ -83,6 +84,15 @@ protected:
       move(index, 0);
     wait(seconds{1});
   }
+  // As a foot and a hand do it, whatever the knob turned before.
+  void choose(Action action) {
+    move(0, 1);
+    for (std::size_t i = 0; i < action_count && state().selected != action; ++i)
+      turn(1);
+    move(0, 0);
+    wait(seconds{1});
+    ASSERT_EQ(state().selected, action);
+  }
   std::string_view echo() const { return state().echo.words.view(); }
 };
 
@@ -102,19 +112,22 @@ TEST_F(Controller, keys_steer_each_parameter_both_ways) {
   moved(press('o', true), press('o'), &ViewState::window_offset_db, 1);
   moved(press('s', true), press('s'), &ViewState::window_size_db, 1);
   moved(press(']'), press('['), &ViewState::b_scan, 1);
+  moved(press('\''), press(';'), &ViewState::a_scan, 4);
   moved(press('x', true), press('x'), &ViewState::parallax_deg, 0.25F);
 }
 
 TEST_F(Controller, values_stop_at_their_ends_and_yaw_goes_round) {
   for (int i = 0; i < 500; ++i) {
     controller_.handle(press(']'));
+    controller_.handle(press('\''));
     controller_.handle(press(Key::up));
     controller_.handle(press(Key::right));
   }
   EXPECT_EQ(state().b_scan, 79);
+  EXPECT_EQ(state().a_scan, 299);
   EXPECT_FLOAT_EQ(state().tilt_deg, 89);
   EXPECT_LE(std::abs(state().yaw_deg), 180);
-  actions().set_b_scans(20);
+  actions().set_volume({.b_scans = 20});
   EXPECT_EQ(state().b_scan, 19);
 }
 
@@ -135,31 +148,34 @@ TEST_F(Controller, space_and_the_centre_switch_freeze_with_their_time) {
 }
 
 TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) {
-  EXPECT_EQ(state().selected, Action::window_offset);
-  tread({2});
-  EXPECT_EQ(state().selected, Action::window_size);
-  EXPECT_EQ(state().echo.action, Action::window_size);
-  EXPECT_TRUE(state().echo.chosen);
-  EXPECT_GT(state().echo.until, now_);
-  turn(4);
-  EXPECT_FLOAT_EQ(state().window_size_db, first_.window_size_db + 4);
-  EXPECT_FALSE(state().echo.chosen);
-  for (int i = 0; i < 7 - 2; ++i) // without vessels, nothing of theirs
-    tread({2});
-  EXPECT_EQ(state().selected, Action::window_offset) << "round again, past the unseen parallax";
-  tread({0});
-  EXPECT_EQ(state().selected, Action::b_scan);
+  EXPECT_EQ(state().selected, Action::b_scan) << "moving the position comes first";
   turn(-2);
   EXPECT_EQ(state().b_scan, first_.b_scan - 2);
+  tread({2});
+  EXPECT_EQ(state().selected, Action::crossed_b_scan);
+  EXPECT_EQ(state().echo.action, Action::crossed_b_scan);
+  EXPECT_TRUE(state().echo.chosen);
+  EXPECT_GT(state().echo.until, now_);
+  turn(3);
+  EXPECT_EQ(state().a_scan, first_.a_scan + 12);
+  EXPECT_FALSE(state().echo.chosen);
+  choose(Action::stereo);
+  tread({2});
+  EXPECT_EQ(state().selected, Action::vessels) << "past the unseen parallax and all of vessels";
+  for (int i = 0; i < 5; ++i)
+    tread({2});
+  EXPECT_EQ(state().selected, Action::b_scan) << "round again";
+  tread({0});
+  EXPECT_EQ(state().selected, Action::legend);
   EXPECT_EQ(count(Action::adjust), 2U);
   EXPECT_EQ(count(Action::b_scan), 1U);
 }
 
 TEST_F(Controller, vessels_are_steered_by_the_knob_where_they_are_shown) {
   actions().set_vessels_loaded(true);
-  for (int i = 0; i < 6; ++i)
-    tread({2});
-  EXPECT_EQ(state().selected, Action::vessel_opacity) << "behind the B-scan, past the parallax";
+  choose(Action::stereo);
+  tread({2});
+  EXPECT_EQ(state().selected, Action::vessel_opacity) << "past the parallax";
   turn(-6);
   EXPECT_FLOAT_EQ(state().vessel_opacity, 0.7F);
   tread({2});
@@ -179,7 +195,7 @@ TEST_F(Controller, vessels_are_steered_by_the_knob_where_they_are_shown) {
   EXPECT_FLOAT_EQ(state().vessel_opacity, 0.7F);
   controller_.handle(press('v'));
   tread({2});
-  EXPECT_EQ(state().selected, Action::window_offset) << "hidden vessels are not steered";
+  EXPECT_EQ(state().selected, Action::vessels) << "hidden vessels are not steered";
 }
 
 TEST_F(Controller, the_vessels_place_is_kept_or_undone_by_a_turn_to_the_right) {
@@ -189,9 +205,7 @@ TEST_F(Controller, the_vessels_place_is_kept_or_undone_by_a_turn_to_the_right) {
   EXPECT_FALSE(controller_.handle(press('m')).keep_registration);
   EXPECT_EQ(echo(), "not moved");
   const VesselNudge none;
-  for (int i = 0; i < 6 + 9; ++i)
-    tread({2});
-  EXPECT_EQ(state().selected, Action::keep_registration);
+  choose(Action::keep_registration);
   controller_.handle(press('k', true));
   const VesselNudge moved = state().vessel_nudge;
   EXPECT_NE(moved, none);
@@ -210,17 +224,21 @@ TEST_F(Controller, the_vessels_place_is_kept_or_undone_by_a_turn_to_the_right) {
 TEST_F(Controller, parallax_can_be_chosen_in_stereo) {
   controller_.handle(press('d'));
   EXPECT_EQ(state().stereo, StereoMode::side_by_side);
-  tread({0});
-  EXPECT_EQ(state().selected, Action::parallax);
+  choose(Action::parallax);
   turn(2);
   EXPECT_FLOAT_EQ(state().parallax_deg, first_.parallax_deg + 0.5F);
 }
 
-TEST_F(Controller, long_presses_reset_the_view_keep_a_picture_and_find_the_window) {
+TEST_F(Controller, long_presses_do_what_is_chosen_keep_a_picture_and_find_the_window) {
   controller_.handle(press(Key::right));
+  choose(Action::reset_view);
   EXPECT_EQ(tread({0}, milliseconds{700}), ControlRequests{});
   EXPECT_EQ(state().yaw_deg, first_.yaw_deg);
   EXPECT_EQ(count(Action::reset_view), 1U);
+  choose(Action::record);
+  EXPECT_TRUE(tread({0}, milliseconds{700}).record);
+  actions().tell(Action::record, "begun", now_);
+  EXPECT_EQ(echo(), "begun");
   EXPECT_TRUE(tread({1}, milliseconds{700}).snapshot);
   EXPECT_FALSE(state().frozen) << "a long press is no press";
   EXPECT_TRUE(tread({2}, milliseconds{700}).auto_window);
@@ -231,53 +249,58 @@ TEST_F(Controller, long_presses_reset_the_view_keep_a_picture_and_find_the_windo
   EXPECT_FLOAT_EQ(state().window_offset_db, first_.window_offset_db);
 }
 
-TEST_F(Controller, chords_toggle_what_is_shown_and_record) {
-  tread({0, 1});
+TEST_F(Controller, what_is_shown_is_turned_on_and_off) {
+  choose(Action::vessels);
+  turn(-1);
   EXPECT_FALSE(state().vessels_visible);
   EXPECT_EQ(echo(), "none loaded");
   actions().set_vessels_loaded(true);
-  tread({0, 1});
+  turn(1);
   EXPECT_TRUE(state().vessels_visible);
   EXPECT_EQ(echo(), "shown");
-  tread({1, 2});
+  choose(Action::box);
+  turn(-1);
   EXPECT_FALSE(state().box_visible);
   EXPECT_EQ(echo(), "hidden");
-  tread({0, 2});
+  choose(Action::legend);
+  turn(1);
   EXPECT_TRUE(state().legend_visible);
   EXPECT_FALSE(state().legend_of_keys);
-  EXPECT_TRUE(tread({0, 1, 2}).record);
-  actions().tell(Action::record, "begun", now_);
-  EXPECT_EQ(echo(), "begun");
-  EXPECT_FALSE(state().frozen) << "no part of a chord acts alone";
-  EXPECT_EQ(state().selected, first_.selected);
+  EXPECT_FALSE(state().frozen);
+}
+
+// Both at once are no chord: one foot that touches two switches does nothing unforeseen.
+TEST_F(Controller, two_switches_at_once_are_two_presses) {
+  tread({0, 2});
+  EXPECT_EQ(state().selected, Action::b_scan) << "back and forth";
+  EXPECT_FALSE(state().legend_visible);
 }
 
 TEST_F(Controller, a_held_switch_lends_the_knob_another_meaning) {
-  actions().set_choices({{"window", "steep", "soft"}, {"grey", "viridis"}});
-  turn_while_held({0}, 1);
-  EXPECT_EQ(state().technique, Technique::shaded);
-  EXPECT_EQ(echo(), "shaded rays");
-  turn_while_held({0}, -2);
-  EXPECT_EQ(state().technique, Technique::planes);
+  turn_while_held({0}, 2);
+  EXPECT_EQ(state().selected, Action::window_offset) << "two functions on";
   turn_while_held({1}, 2);
   EXPECT_FLOAT_EQ(state().yaw_deg, first_.yaw_deg + 6);
   turn_while_held({2}, -1);
   EXPECT_EQ(state().layout, LayoutKind::quad) << "round the other way";
   EXPECT_EQ(echo(), "quad");
-  turn_while_held({0, 1}, 2);
-  EXPECT_EQ(state().transfer, 2);
-  EXPECT_EQ(echo(), "soft");
-  turn_while_held({1, 2}, 1);
-  EXPECT_EQ(state().colour_map, 1);
-  EXPECT_EQ(echo(), "viridis");
-  turn_while_held({0, 2}, 2);
-  EXPECT_EQ(state().stereo, StereoMode::top_bottom);
-  EXPECT_EQ(echo(), "top and bottom");
-  EXPECT_EQ(state().selected, first_.selected) << "the pedals meant nothing else";
+  EXPECT_EQ(state().selected, Action::window_offset) << "the pedals meant nothing else";
   EXPECT_FALSE(state().frozen);
 }
 
+TEST_F(Controller, turning_a_mark_shows_the_calliper) {
+  choose(Action::mark_2_depth);
+  EXPECT_FALSE(state().calliper);
+  turn(-1000);
+  EXPECT_TRUE(state().calliper);
+  EXPECT_EQ(state().mark_2_depth, 0);
+  choose(Action::calliper);
+  turn(-1);
+  EXPECT_FALSE(state().calliper);
+}
+
 TEST_F(Controller, spun_fast_the_knob_goes_farther_but_a_choice_goes_step_by_step) {
+  choose(Action::window_offset);
   for (int i = 0; i < 20; ++i) {
     now_ += milliseconds{5};
     turn(1);
@@ -293,7 +316,7 @@ TEST_F(Controller, spun_fast_the_knob_goes_farther_but_a_choice_goes_step_by_ste
 }
 
 TEST(Puck, turns_at_a_rate_and_stops_when_it_is_let_go) {
-  ViewController controller{{}, 80, profile_of("space_mouse")};
+  ViewController controller{{}, geometry, profile_of("space_mouse")};
   const float before = controller.state().yaw_deg;
   controller.advance(now);
   const auto push = [&](int axis, int value, hal::Duration after) {
@@ -318,7 +341,7 @@ TEST(Puck, turns_at_a_rate_and_stops_when_it_is_let_go) {
 }
 
 TEST(SingleKnob, goes_through_all_functions_and_does_each) {
-  ViewController controller{{}, 80, profile_of("powermate")};
+  ViewController controller{{}, geometry, profile_of("powermate")};
   hal::TimePoint t = now;
   const auto button = [&](int value) {
     t += milliseconds{20};
@@ -331,7 +354,7 @@ TEST(SingleKnob, goes_through_all_functions_and_does_each) {
     }
   };
   const auto select = [&](Action action) {
-    for (int i = 0; i < 30 && controller.state().selected != action; ++i) {
+    for (int i = 0; i < 60 && controller.state().selected != action; ++i) {
       button(1);
       turn(4);
       button(0);
@@ -365,7 +388,7 @@ TEST(SingleKnob, goes_through_all_functions_and_does_each) {
 
 TEST(HeldSwitch, repeats_what_it_does) {
   ViewController controller{{},
-                            80,
+                            geometry,
                             parsed("name = \"x\"\n[[bind]]\nswitch = 0\ngesture = \"hold\"\n"
                                    "action = \"tilt\"\nstep = -1\n")};
   controller.handle(ControlEvent{now, ControlKind::pedal_switch, 0, 1});
@@ -399,7 +422,7 @@ TEST_F(Controller, each_key_of_a_choice_goes_on_and_with_shift_back) {
   controller_.handle(press('h'));
   EXPECT_FALSE(state().legend_visible);
   controller_.handle(press(Key::tab));
-  EXPECT_EQ(state().selected, Action::window_size);
+  EXPECT_EQ(state().selected, Action::crossed_b_scan);
   EXPECT_TRUE(controller_.handle(press('w')).auto_window);
   EXPECT_TRUE(controller_.handle(press('r')).record);
 }

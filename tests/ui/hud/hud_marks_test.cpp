@@ -165,8 +165,8 @@ TEST_F(HudInAllLayouts, nothing_old_looks_live_in_any_layout_nor_to_any_eye) {
           const EyeFrame frame = eye_frame(stereo, eye, width, height);
           EXPECT_GT(changed(live, old, frame.place(layout.marks)), 1000)
               << "no badge, layout " << static_cast<int>(kind);
-          for (const Rect* picture :
-               {&layout.view, &layout.b_scan.picture, &layout.en_face.picture}) {
+          for (const Rect* picture : {&layout.view, &layout.b_scan.picture, &layout.crossed.picture,
+                                      &layout.en_face.picture}) {
             if (picture->empty())
               continue;
             const Rect seen = frame.place(*picture);

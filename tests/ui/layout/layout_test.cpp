@@ -48,7 +48,7 @@ std::vector<Case> cases() {
     for (const LayoutKind kind : kinds)
       for (const bool has_scope : {true, false})
         for (const double scope : {4.0 / 3, 16.0 / 9})
-          all.push_back({w, h, {1.67, 1, scope, has_scope}, kind});
+          all.push_back({w, h, {1.67, 1, scope, has_scope, 1.67}, kind});
   std::mt19937 random{tests::fresh_seed()};
   std::uniform_int_distribution<int> length{320, 4096};
   std::uniform_real_distribution<double> aspect{-1, 1};
@@ -58,7 +58,7 @@ std::vector<Case> cases() {
     const int height = std::clamp(length(random), width / 3, width * 3);
     all.push_back({width,
                    height,
-                   {any(), any(), any(), i % 3 != 0},
+                   {any(), any(), any(), i % 3 != 0, any()},
                    kinds[static_cast<std::size_t>(i) % kinds.size()]});
   }
   return all;
@@ -86,7 +86,7 @@ TEST(Layout, nothing_overlaps_but_the_inset_and_everything_is_inside) {
     const Layout l = c.layout();
     const Rect screen{0, 0, c.width, c.height};
     std::vector<Rect> plates{l.status_bar, l.view_frame.empty() ? l.view : l.view_frame};
-    for (const Panel* panel : {&l.b_scan, &l.en_face, &l.scope})
+    for (const Panel* panel : {&l.b_scan, &l.crossed, &l.en_face, &l.scope})
       if (panel->shown()) {
         ASSERT_TRUE(within(panel->picture, panel->frame));
         ASSERT_TRUE(within(panel->title, panel->frame));
@@ -135,6 +135,7 @@ TEST(Layout, pictures_have_their_physical_aspect) {
       ASSERT_NEAR(p.width, p.height * aspect, 1 + 0.5 * aspect);
     };
     expect_aspect(l.b_scan, c.aspects.b_scan);
+    expect_aspect(l.crossed, c.aspects.crossed);
     expect_aspect(l.en_face, c.aspects.en_face);
     expect_aspect(l.scope, c.aspects.scope);
   }
@@ -179,10 +180,32 @@ TEST(Layout, the_large_picture_is_the_largest) {
 
 TEST(Layout, four_alike_are_alike) {
   const Layout l = lay_out(1920, 1080, {1.67, 1, 4.0 / 3}, LayoutKind::quad);
-  for (const Panel* panel : {&l.b_scan, &l.en_face, &l.scope}) {
-    EXPECT_NEAR(panel->frame.width, l.view_frame.width, 1);
-    EXPECT_NEAR(panel->frame.height, l.view_frame.height, 1);
+  ASSERT_TRUE(l.crossed.shown());
+  // The crossed B-scan shares the cell of one of them.
+  const bool with_b_scan = l.crossed.frame.y == l.b_scan.frame.y;
+  const auto both = [&](const Rect& frame) {
+    return Rect{frame.x, frame.y, l.crossed.frame.right() - frame.x, frame.height};
+  };
+  for (const Rect& cell : {with_b_scan ? both(l.b_scan.frame) : l.b_scan.frame,
+                           with_b_scan ? l.en_face.frame : both(l.en_face.frame), l.scope.frame}) {
+    EXPECT_NEAR(cell.width, l.view_frame.width, 1);
+    EXPECT_NEAR(cell.height, l.view_frame.height, 1);
   }
+}
+
+TEST(Layout, both_crossed_b_scans_are_large_where_one_is) {
+  const auto area = [](const Rect& rect) { return static_cast<double>(rect.width) * rect.height; };
+  for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}, {3840, 2160}, {1024, 768}})
+    for (const double aspect : {1.0, 1.67, 2.5, 4.0}) {
+      SCOPED_TRACE(fmt::format("{}x{}, {}", w, h, aspect));
+      const PictureAspects aspects{aspect, 1, 4.0 / 3, true, aspect};
+      const Layout l = lay_out(w, h, aspects, LayoutKind::b_scan);
+      ASSERT_TRUE(l.crossed.shown());
+      for (const Rect& other : {l.view, l.en_face.picture, l.scope.picture})
+        EXPECT_GT(area(l.crossed.picture), 0.75 * area(other));
+      EXPECT_TRUE(w == 1024 || lay_out(w, h, aspects, LayoutKind::quad).crossed.shown());
+    }
+  EXPECT_TRUE(lay_out(1280, 720, {1.67, 1, 4.0 / 3, true, 1.67}).crossed.shown());
 }
 
 TEST(Layout, without_a_microscope_its_room_is_shared) {
@@ -195,11 +218,14 @@ TEST(Layout, without_a_microscope_its_room_is_shared) {
     EXPECT_TRUE(l.en_face.shown());
     EXPECT_TRUE(l.b_scan.shown());
     EXPECT_NE(l.kind, LayoutKind::microscope);
-    const auto height = [&](const PictureAspects& aspects) {
-      return lay_out(1280, 720, aspects, kind).en_face.frame.height;
+    const auto room = [&](const PictureAspects& aspects) { // of the en face and what is beside it
+      const Layout each = lay_out(1280, 720, aspects, kind);
+      const bool beside = each.crossed.shown() && each.crossed.frame.y == each.en_face.frame.y;
+      return each.en_face.frame.height *
+             ((beside ? each.crossed : each.en_face).frame.right() - each.en_face.frame.x);
     };
     EXPECT_TRUE(kind == LayoutKind::microscope || kind == LayoutKind::quad ||
-                height(without) > 1.3 * height(with));
+                room(without) > 1.3 * room(with));
   }
 }
 
