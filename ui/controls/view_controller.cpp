@@ -109,6 +109,9 @@ ControlRequests ViewController::turn(Knob& knob, const KnobAction& bound,
                                      const hal::ControlEvent& event) {
   const Action action = target(bound.action);
   const std::int8_t direction = event.value > 0 ? std::int8_t{1} : std::int8_t{-1};
+  // What was spun fast to choose a function does not make the function's own turn fast.
+  if (knob.action != action)
+    knob.motion = {};
   if (knob.action != action || knob.motion.direction != direction)
     knob.rest = 0;
   knob.action = action;

@@ -141,9 +141,13 @@ TEST_F(Service, at_a_console_a_broken_configuration_ends_the_run) {
 
 TEST_F(Service, brings_back_what_pedal_and_knob_have_set) {
   configure("");
-  // The knob alone moves what is chosen, the window's offset first.
+  // The knob alone moves what is chosen: with the left switch held, two functions on is the window's
+  // offset.
   const std::string script =
-      folder_.write("turn.toml", "[[event]]\ntime_s = 0.3\nknob = 0\nvalue = 5\n");
+      folder_.write("turn.toml", "event = [ { time_s = 0.1, switch = 0, value = 1 },\n"
+                                 "  { time_s = 0.15, knob = 0, value = 2 },\n"
+                                 "  { time_s = 0.2, switch = 0, value = 0 },\n"
+                                 "  { time_s = 0.3, knob = 0, value = 5 } ]\n");
   const json before = run({"--volumes", "6", "--controls", script})["view"];
   EXPECT_NE(before["window_offset_db"], 4);
   EXPECT_THAT(whole_file(state() / "settings.toml"), HasSubstr("window_offset_db = "));
