@@ -33,6 +33,11 @@ constexpr Duration from_seconds(double s) {
   return Duration{static_cast<std::int64_t>(s * 1e9 + (s < 0 ? -0.5 : 0.5))};
 }
 
+// now + timeout, without overflow.
+constexpr TimePoint deadline_after(TimePoint now, Duration timeout) {
+  return timeout > TimePoint::max() - now ? TimePoint::max() : now + timeout;
+}
+
 // Thread-safe.
 class Clock {
 public:

@@ -31,7 +31,10 @@ struct ControlEvent {
 class ControlInput : public Device {
 public:
   // absent → ready.
-  Result<> open() { return do_open(); }
+  Result<> open() {
+    HAL_CHECK(in_order(kind, "open", DeviceState::absent));
+    return do_open();
+  }
 
   // Waits at most `timeout` for events and writes up to events.size() of them, oldest first, with
   // times that never decrease. Returns their number, 0 if nothing happened. Contact bounce under
@@ -39,6 +42,7 @@ public:
   // released and every deflected axis as centred; then read() returns ErrorCode::disconnected and
   // the state is `failed`: call close() and open().
   Result<std::size_t> read(std::span<ControlEvent> events, Duration timeout) {
+    HAL_CHECK(in_order(kind, "read", DeviceState::ready));
     return do_read(events, timeout);
   }
 
@@ -50,6 +54,8 @@ public:
   void close() { do_close(); }
 
 private:
+  static constexpr std::string_view kind = "control input";
+
   virtual Result<> do_open() = 0;
   virtual Result<std::size_t> do_read(std::span<ControlEvent> events, Duration timeout) = 0;
   virtual std::uint64_t do_bounces() const { return 0; }

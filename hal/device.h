@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "hal/result.h"
+
 namespace octascope::hal {
 
 // absent --open--> ready --start--> streaming --stop--> ready --close--> absent
@@ -31,9 +33,17 @@ public:
   bool simulated() const { return do_simulated(); }
 
 protected:
+  // Public methods call this first, so that a call in the wrong state is the same error for every
+  // device: ErrorCode::disconnected if it has failed and must be closed, else
+  // ErrorCode::invalid_argument. `kind` and `call` are for the message.
+  Result<> in_order(std::string_view kind, std::string_view call, DeviceState expected) const {
+    return state() == expected ? Result<>{} : out_of_order(kind, call, expected);
+  }
   void set_state(DeviceState state) { state_.store(state, std::memory_order_release); }
 
 private:
+  Result<> out_of_order(std::string_view kind, std::string_view call, DeviceState expected) const;
+
   virtual std::string_view do_backend() const = 0;
   virtual bool do_simulated() const = 0;
 

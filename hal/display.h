@@ -61,7 +61,7 @@ struct DisplayEvent {
 class Display : public Device {
 public:
   // absent → ready, with the GL context current on the calling thread.
-  Result<> open(const DisplayConfig& config) { return do_open(config); }
+  Result<> open(const DisplayConfig& config);
 
   // The drawable's current size in pixels. May change with a `resized` event.
   int width() const { return do_width(); }

@@ -67,15 +67,24 @@ public:
   // absent → ready; stays absent on an error. ErrorCode::absent: try again later.
   // ErrorCode::invalid_argument: the configuration is impossible; the message says what was found
   // and expected.
-  Result<> open(const LineCameraConfig& config) { return do_open(config); }
+  Result<> open(const LineCameraConfig& config) {
+    HAL_CHECK(in_order(kind, "open", DeviceState::absent));
+    return do_open(config);
+  }
 
   // ready → streaming. Sequence numbers restart at each start.
-  Result<> start() { return do_start(); }
+  Result<> start() {
+    HAL_CHECK(in_order(kind, "start", DeviceState::ready));
+    return do_start();
+  }
 
   // Waits at most `timeout` for the next frame. Returns an empty optional on a timeout (no trigger,
   // no light, no cable); the stream continues. ErrorCode::disconnected: the device is gone and the
   // state is `failed`; borrowed frames stay readable until close(), then open() again.
-  Result<std::optional<LineFrame>> wait_frame(Duration timeout) { return do_wait_frame(timeout); }
+  Result<std::optional<LineFrame>> wait_frame(Duration timeout) {
+    HAL_CHECK(in_order(kind, "wait_frame", DeviceState::streaming));
+    return do_wait_frame(timeout);
+  }
 
   // Returns a borrowed buffer; its bytes must not be read afterwards. Buffers that are not borrowed
   // are ignored. Neither allocates nor blocks.
@@ -94,6 +103,8 @@ public:
   std::string identity() const { return do_identity(); }
 
 private:
+  static constexpr std::string_view kind = "line camera";
+
   virtual Result<> do_open(const LineCameraConfig& config) = 0;
   virtual Result<> do_start() = 0;
   virtual Result<std::optional<LineFrame>> do_wait_frame(Duration timeout) = 0;

@@ -1,4 +1,4 @@
-// Numbers in text from outside: decimal, whatever the locale; nothing is skipped before them.
+// Numbers in text from outside: independent of the locale, without blanks in front.
 #pragma once
 
 #include <charconv>
@@ -9,8 +9,8 @@
 
 namespace octascope::hal {
 
-// The number that `text` begins with, which is taken from it; nothing if there is none, or the type
-// cannot hold it. Floats may be nan and inf. `base`: of integers, if not 10.
+// Takes a number from the beginning of `text`; empty if there is none or the type cannot hold it.
+// Floats may be nan and inf. `base` is for integers; decimal if not given.
 template <class Number, class... Base>
 std::optional<Number> take_number(std::string_view& text, Base... base) {
   Number number{};
@@ -22,7 +22,7 @@ std::optional<Number> take_number(std::string_view& text, Base... base) {
   return number;
 }
 
-// The whole text as a number.
+// The whole text as a number; empty if it is anything else.
 template <class Number, class... Base>
 std::optional<Number> number_of(std::string_view text, Base... base) {
   const auto number = take_number<Number>(text, base...);

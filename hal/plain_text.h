@@ -8,7 +8,7 @@
 
 namespace octascope::hal {
 
-// The bytes of the character that the text begins with; 0 where it begins with none of UTF-8
+// The length in bytes of the first character; 0 if the text does not begin with one of UTF-8
 // (RFC 3629).
 std::size_t utf8_character_length(std::string_view text);
 
@@ -18,15 +18,15 @@ bool is_control_character(std::string_view character);
 // Whether the text is UTF-8 without control characters.
 bool is_plain_text(std::string_view text);
 
-// A plain text of the same length or shorter: each control character, and each byte that is not
-// part of a character, becomes "?".
+// The text with "?" for each control character and for each byte that is not part of a character:
+// no longer than before.
 std::string printable(std::string_view text);
 
-// Likewise, with what is longer than so many bytes cut between two characters and ended by "…": for
-// messages that quote it.
+// Like printable(), but cut between two characters, with "…" at its end, if it is longer than
+// `most` bytes: for messages that quote it.
 std::string shortened(std::string_view text, std::size_t most = 40);
 
-// Like printable(), for what consists of lines: keeps tabs and line ends.
+// Like printable(), but keeps tabs and line ends.
 std::string printable_lines(std::string_view text);
 
 } // namespace octascope::hal

@@ -37,11 +37,20 @@ struct ScopeFrame {
 class ScopeCamera : public Device {
 public:
   // absent → ready.
-  Result<> open(const ScopeCameraConfig& config) { return do_open(config); }
+  Result<> open(const ScopeCameraConfig& config) {
+    HAL_CHECK(in_order(kind, "open", DeviceState::absent));
+    return do_open(config);
+  }
   // ready → streaming.
-  Result<> start() { return do_start(); }
+  Result<> start() {
+    HAL_CHECK(in_order(kind, "start", DeviceState::ready));
+    return do_start();
+  }
   // Like LineCamera::wait_frame.
-  Result<std::optional<ScopeFrame>> wait_frame(Duration timeout) { return do_wait_frame(timeout); }
+  Result<std::optional<ScopeFrame>> wait_frame(Duration timeout) {
+    HAL_CHECK(in_order(kind, "wait_frame", DeviceState::streaming));
+    return do_wait_frame(timeout);
+  }
   void release(int buffer) { do_release(buffer); }
   // streaming → ready.
   void stop() { do_stop(); }
@@ -49,6 +58,8 @@ public:
   void close() { do_close(); }
 
 private:
+  static constexpr std::string_view kind = "scope camera";
+
   virtual Result<> do_open(const ScopeCameraConfig& config) = 0;
   virtual Result<> do_start() = 0;
   virtual Result<std::optional<ScopeFrame>> do_wait_frame(Duration timeout) = 0;

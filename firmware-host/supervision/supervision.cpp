@@ -102,19 +102,17 @@ void Supervision::start(hal::TimePoint process_start) {
     else
       faults_.add(pipeline::Fault::no_status_socket, server.error().message, clock_.now());
   }
-  thread_ = std::thread{[this] {
+  const auto set_up = [](pipeline::ThreadRole) {
     hal::linux_backend::name_this_thread("octa-supervise");
     CrashReport::prepare_this_thread();
-    run();
-  }};
+  };
+  thread_.start({"supervise"}, set_up, [this] { run(); });
 }
 
 void Supervision::stop() {
-  if (!thread_.joinable())
+  if (!thread_.started())
     return;
-  stopping_.store(true);
-  wakeup_.post();
-  thread_.join();
+  thread_.stop();
   manager_.stopping();
   server_.reset();
 }
@@ -127,7 +125,7 @@ void Supervision::tell(PictureStatus status) {
 }
 
 void Supervision::run() {
-  while (!stopping_.load()) {
+  while (!thread_.stopping()) {
     step(clock_.now());
     wakeup_.wait_until(clock_, clock_.now() + (ready_ ? step_period : first_step_period));
   }

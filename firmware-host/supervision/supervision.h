@@ -2,13 +2,11 @@
 // file and, after a crash, to whoever fixes it.
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "firmware-host/crash/crash_report.h"
 #include "firmware-host/crash/run_marker.h"
@@ -22,6 +20,7 @@
 #include "firmware-host/supervision/watchdog.h"
 #include "hal/clock.h"
 #include "pipeline/faults/fault_log.h"
+#include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/wakeup.h"
 
 namespace octascope::firmware_host {
@@ -94,8 +93,7 @@ private:
 
   std::unique_ptr<StatusServer> server_;
   pipeline::Wakeup wakeup_;
-  std::atomic<bool> stopping_{false};
-  std::thread thread_;
+  pipeline::RoleThread thread_{&wakeup_};
 };
 
 } // namespace octascope::firmware_host

@@ -17,11 +17,11 @@ void name_this_thread(std::string_view name);
 // which deliver the data. ErrorCode::denied: the privilege is missing; the message has the remedy.
 Result<> make_this_thread_realtime(int priority);
 
-// A real-time thread that never waits keeps a core from everything else, and so the program from
-// being ended. demote_runaways() has the kernel notice (RLIMIT_RTTIME) when such a thread computed
-// for longer than the limit without a wait. If it said with expect_waits() that each of its steps
-// waits for something, it becomes an ordinary thread, and `demoted` is set, which must outlive it.
-// Threads that did not say so, workers with much to do, are left alone; nothing is ended.
+// A real-time thread that never waits keeps a core from everything else, so that the program cannot
+// even be ended. demote_runaways() asks the kernel (RLIMIT_RTTIME) to signal a thread that computes
+// for longer than the limit without waiting. A thread that has called expect_waits(), because each
+// of its steps waits, then becomes an ordinary one and `demoted`, which must outlive it, is set.
+// Other threads, such as busy workers, are left alone. Nothing is ended.
 //
 // The kernel raises the limit each time: call demote_runaways() once a second.
 Result<> demote_runaways(Duration limit);

@@ -160,14 +160,6 @@ WindowDisplay::~WindowDisplay() {
 }
 
 Result<> WindowDisplay::do_open(const DisplayConfig& config) {
-  if (state() != DeviceState::absent)
-    return fail(ErrorCode::busy, "window display: open already; close() it first");
-  if (config.width < 1 || config.height < 1)
-    return fail(ErrorCode::invalid_argument, "window display: size is {}x{}, expected at least 1x1",
-                config.width, config.height);
-  if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
-    return fail(ErrorCode::invalid_argument, "window display: refresh_hz is {}, expected 1 to 1000",
-                config.refresh_hz);
   if (server_gone_)
     return tl::make_unexpected(server_gone(ErrorCode::absent));
   HAL_TRY(const auto sdl, SdlLibrary::load());

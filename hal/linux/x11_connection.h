@@ -28,8 +28,8 @@ public:
   template <class Call> bool talk(Call call) {
     if (is_lost())
       return false;
-    if (setjmp(before_call_) !=
-        0) // NOLINT(cert-err52-cpp): through Xlib's and SDL's C nothing else
+    // NOLINTNEXTLINE(cert-err52-cpp): through the C of Xlib and SDL there is no other way
+    if (setjmp(before_call_) != 0)
       return false;
     talking_ = true;
     call();

@@ -28,29 +28,14 @@ Acquisition::Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& c
       frames_(static_cast<std::size_t>(config.buffers)),
       queue_(static_cast<std::size_t>(config.buffers)), patience_(first_patience) {}
 
-Acquisition::~Acquisition() {
-  stop();
-}
-
 hal::Result<> Acquisition::start(const ThreadSetup& setup) {
   if (auto opened = camera_.open(config_); !opened) {
     if (opened.error().code == hal::ErrorCode::invalid_argument)
       return opened;
     faults_.add(Device::line_camera, opened.error(), clock_.now());
   }
-  thread_ = std::thread{[this, setup] {
-    if (setup)
-      setup({"camera"});
-    run();
-  }};
+  thread_.start({"camera"}, setup, [this] { run(); });
   return {};
-}
-
-void Acquisition::stop() {
-  if (!thread_.joinable())
-    return;
-  stopping_.store(true, std::memory_order_release);
-  thread_.join();
 }
 
 std::optional<hal::LineFrame> Acquisition::take() {
@@ -69,7 +54,7 @@ AcquisitionCounters Acquisition::counters() const {
 }
 
 void Acquisition::run() {
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.stopping()) {
     const hal::TimePoint asked = clock_.now();
     Heartbeat::beat_here(asked);
     if (camera_.state() != hal::DeviceState::streaming && !open_and_start()) {
@@ -91,7 +76,6 @@ void Acquisition::run() {
   }
   camera_.stop();
   close_when_returned();
-  Heartbeat::rest_here();
 }
 
 bool Acquisition::open_and_start() {
@@ -209,7 +193,7 @@ void Acquisition::note_look(hal::TimePoint until) {
 
 void Acquisition::wait_before_retry() {
   retry_.failure(clock_.now());
-  while (!retry_.due(clock_.now()) && !stopping_.load(std::memory_order_acquire)) {
+  while (!retry_.due(clock_.now()) && !thread_.stopping()) {
     Heartbeat::beat_here(clock_.now());
     clock_.sleep_until(std::min(retry_.next(), clock_.now() + retry_step));
   }

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include "hal/clock.h"
@@ -12,8 +11,8 @@
 #include "pipeline/faults/fault_log.h"
 #include "pipeline/threads/index_ring.h"
 #include "pipeline/threads/retry_delay.h"
+#include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/wakeup.h"
-#include "pipeline/threads/worker_pool.h"
 
 namespace octascope::pipeline {
 
@@ -35,14 +34,13 @@ public:
   // after a poll requested by ask_for_look().
   Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& config, hal::Clock& clock,
               FaultLog& faults, Wakeup& arrived);
-  ~Acquisition();
 
   // Opens the camera and starts the thread. Returns an Error only for a wrong configuration
   // (ErrorCode::invalid_argument); after any other failure the thread keeps trying.
   hal::Result<> start(const ThreadSetup& setup);
 
   // Ends the thread, waits for frames on loan, closes the camera. No frame is handed out after it.
-  void stop();
+  void stop() { thread_.stop(); }
 
   // One consumer thread. The frame is on loan until release(frame.buffer).
   std::optional<hal::LineFrame> take();
@@ -94,8 +92,7 @@ private:
   std::atomic<hal::TimePoint> looked_until_{hal::TimePoint{}};
   std::atomic<hal::TimePoint> awaited_look_{hal::TimePoint::max()};
   std::atomic<bool> unanswered_{false};
-  std::atomic<bool> stopping_{false};
-  std::thread thread_;
+  RoleThread thread_;
 };
 
 } // namespace octascope::pipeline

@@ -54,29 +54,17 @@ VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
   }
 }
 
-VolumeThread::~VolumeThread() {
-  stop();
-}
-
 void VolumeThread::start(const ThreadSetup& setup) {
   scan_lag_.start(setup);
   const std::size_t most_jobs = volumes_.size() * static_cast<std::size_t>(setup_.plan.b_scans);
   workers_ = std::make_unique<WorkerPool>(
       setup_.workers, most_jobs, setup,
       [this](std::size_t worker, std::uint32_t job) { reconstruct(worker, job); });
-  thread_ = std::thread{[this, setup] {
-    if (setup)
-      setup({"volumes"});
-    run();
-  }};
+  thread_.start({"volumes"}, setup, [this] { run(); });
 }
 
 void VolumeThread::stop() {
-  if (!thread_.joinable())
-    return;
-  stopping_.store(true, std::memory_order_release);
-  arrived_.post();
-  thread_.join();
+  thread_.stop();
   scan_lag_.stop();
 }
 
@@ -87,7 +75,7 @@ const Volume* VolumeThread::do_take_newest() {
 
 void VolumeThread::run() {
   scheduler_.begin(clock_.now());
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.stopping()) {
     {
       const HotPath hot;
       Heartbeat::beat_here(clock_.now());
@@ -110,7 +98,6 @@ void VolumeThread::run() {
   while (const auto frame = acquisition_.take())
     acquisition_.release(frame->buffer);
   trigger_.close();
-  Heartbeat::rest_here();
 }
 
 void VolumeThread::tick() {

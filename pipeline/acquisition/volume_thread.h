@@ -11,7 +11,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <thread>
 #include <vector>
 
 #include "hal/clock.h"
@@ -28,6 +27,7 @@
 #include "pipeline/scan/sweep_alignment.h"
 #include "pipeline/threads/duration_statistics.h"
 #include "pipeline/threads/retry_delay.h"
+#include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/triple_buffer.h"
 #include "pipeline/threads/wakeup.h"
 #include "pipeline/threads/worker_pool.h"
@@ -67,7 +67,6 @@ public:
   VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger, Acquisition& acquisition,
                hal::LineCamera& camera, hal::Clock& clock, FaultLog& faults, Wakeup& arrived,
                Wakeup& news);
-  ~VolumeThread() override;
 
   void start(const ThreadSetup& setup);
 
@@ -129,9 +128,8 @@ private:
 
   RetryDelay trigger_retry_;
   PipelineStatistics statistics_;
-  std::atomic<bool> stopping_{false};
   std::unique_ptr<WorkerPool> workers_;
-  std::thread thread_;
+  RoleThread thread_{&arrived_};
 };
 
 } // namespace octascope::pipeline

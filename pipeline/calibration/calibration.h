@@ -77,8 +77,8 @@ struct Calibration {
   hal::Result<> validate() const;
 };
 
-// What to tell of a table that may be meant the other way round, as it does not say what it gives
-// and that matters; nothing otherwise. `file`: of the calibration.
+// A warning if the table does not say which way round it is and the two readings differ; else
+// nothing. `file` is the calibration's.
 std::optional<std::string> doubt_about_k_table(const Calibration& calibration,
                                                const std::filesystem::path& file);
 

@@ -27,13 +27,13 @@ std::vector<double> evaluate_unit_polynomial(std::span<const double> coefficient
 hal::Result<std::vector<double>> positions_from_wavelength(std::span<const double> coefficients_nm,
                                                            int samples);
 
-// Where a strictly monotone curve over pixels takes values that are uniform between its ends: a
-// table of wavenumbers, in any unit, becomes positions. Positions between two pixels are
-// interpolated linearly: right within 1e-4 pixels where steps change by 1e-3 of their size.
+// Turns a table of wavenumbers by pixel, in any unit and strictly monotone, into the pixel
+// positions at which the wavenumbers are uniform. Between pixels the curve is taken as linear, an
+// error below 1e-4 pixels if steps change by no more than 1e-3 of their size.
 std::vector<double> invert_curve(std::span<const double> curve);
 
-// How far, in pixels, positions are at most from those that the same curve would give as
-// wavenumbers by pixel.
+// The greatest difference, in pixels, between these positions and those that the same curve would
+// give if it were wavenumbers by pixel.
 double distance_the_other_way_round(std::span<const double> positions);
 
 // Describes what is wrong with a curve of positions, naming index and values: not finite, not

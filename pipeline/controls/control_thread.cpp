@@ -21,28 +21,13 @@ ControlThread::ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultL
                              Wakeup& news)
     : input_(input), clock_(clock), faults_(faults), news_(news) {}
 
-ControlThread::~ControlThread() {
-  stop();
-}
-
 void ControlThread::start(const ThreadSetup& setup) {
-  thread_ = std::thread{[this, setup] {
-    if (setup)
-      setup({"controls"});
-    run();
-  }};
-}
-
-void ControlThread::stop() {
-  if (!thread_.joinable())
-    return;
-  stopping_.store(true, std::memory_order_release);
-  thread_.join();
+  thread_.start({"controls"}, setup, [this] { run(); });
 }
 
 void ControlThread::run() {
   std::array<hal::ControlEvent, 32> events;
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.stopping()) {
     Heartbeat::beat_here(clock_.now());
     if (input_.state() != hal::DeviceState::ready && !open()) {
       clock_.sleep_for(read_timeout);
@@ -61,7 +46,6 @@ void ControlThread::run() {
       news_.post();
   }
   input_.close();
-  Heartbeat::rest_here();
 }
 
 void ControlThread::receive(const hal::ControlEvent& event) {

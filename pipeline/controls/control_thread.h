@@ -1,9 +1,7 @@
 // The control thread: reads pedal and knob events and queues them for the render thread.
 #pragma once
 
-#include <atomic>
 #include <optional>
-#include <thread>
 
 #include "hal/clock.h"
 #include "hal/control_input.h"
@@ -11,8 +9,8 @@
 #include "pipeline/faults/fault_log.h"
 #include "pipeline/threads/event_queue.h"
 #include "pipeline/threads/retry_delay.h"
+#include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/wakeup.h"
-#include "pipeline/threads/worker_pool.h"
 
 namespace octascope::pipeline {
 
@@ -21,10 +19,9 @@ class ControlThread {
 public:
   // All references outlive this; `news` is posted when events were queued.
   ControlThread(hal::ControlInput& input, hal::Clock& clock, FaultLog& faults, Wakeup& news);
-  ~ControlThread();
 
   void start(const ThreadSetup& setup);
-  void stop();
+  void stop() { thread_.stop(); }
 
   // One consumer thread. The oldest event, if any.
   std::optional<hal::ControlEvent> take() { return queue_.pop(); }
@@ -43,8 +40,7 @@ private:
   RetryDelay retry_;
   HeldSwitches held_;
   std::uint64_t bounces_ = 0; // reported so far
-  std::atomic<bool> stopping_{false};
-  std::thread thread_;
+  RoleThread thread_;
 };
 
 } // namespace octascope::pipeline

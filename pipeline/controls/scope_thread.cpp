@@ -16,23 +16,8 @@ ScopeThread::ScopeThread(hal::ScopeCamera& camera, const hal::ScopeCameraConfig&
                          hal::Clock& clock, FaultLog& faults, Wakeup& news)
     : camera_(camera), config_(config), clock_(clock), faults_(faults), news_(news) {}
 
-ScopeThread::~ScopeThread() {
-  stop();
-}
-
 void ScopeThread::start(const ThreadSetup& setup) {
-  thread_ = std::thread{[this, setup] {
-    if (setup)
-      setup({"scope"});
-    run();
-  }};
-}
-
-void ScopeThread::stop() {
-  if (!thread_.joinable())
-    return;
-  stopping_.store(true, std::memory_order_release);
-  thread_.join();
+  thread_.start({"scope"}, setup, [this] { run(); });
 }
 
 const hal::ScopeFrame* ScopeThread::take_newest() {
@@ -41,7 +26,7 @@ const hal::ScopeFrame* ScopeThread::take_newest() {
 }
 
 void ScopeThread::run() {
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.stopping()) {
     Heartbeat::beat_here(clock_.now());
     if (camera_.state() != hal::DeviceState::streaming && !open_and_start()) {
       clock_.sleep_for(frame_timeout);
@@ -58,7 +43,6 @@ void ScopeThread::run() {
   }
   camera_.stop();
   camera_.close();
-  Heartbeat::rest_here();
 }
 
 bool ScopeThread::open_and_start() {

@@ -2,19 +2,17 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <thread>
 #include <vector>
 
 #include "hal/clock.h"
 #include "hal/scope_camera.h"
 #include "pipeline/faults/fault_log.h"
 #include "pipeline/threads/retry_delay.h"
+#include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/triple_buffer.h"
 #include "pipeline/threads/wakeup.h"
-#include "pipeline/threads/worker_pool.h"
 
 namespace octascope::pipeline {
 
@@ -24,10 +22,9 @@ public:
   // All references outlive this; `news` is posted after each picture.
   ScopeThread(hal::ScopeCamera& camera, const hal::ScopeCameraConfig& config, hal::Clock& clock,
               FaultLog& faults, Wakeup& news);
-  ~ScopeThread();
 
   void start(const ThreadSetup& setup);
-  void stop();
+  void stop() { thread_.stop(); }
 
   // Renderer's thread only. The newest picture, in the camera's own pixel format, or null if none
   // came since the last call; valid until the next call that returns one. It is a copy, so the
@@ -54,8 +51,7 @@ private:
   std::uint32_t back_ = 2;
   TripleBuffer triple_buffer_{0, 1};
   RetryDelay retry_;
-  std::atomic<bool> stopping_{false};
-  std::thread thread_;
+  RoleThread thread_;
 };
 
 } // namespace octascope::pipeline

@@ -1,9 +1,9 @@
-// Volumes as NRRD files, axes depth, A-scan, B-scan, with spacings that are converted to and from
-// the files' units.
+// Volumes as NRRD files: axes depth, A-scan, B-scan; spacings are converted to and from the file's
+// units.
 //
 // Format: https://teem.sourceforge.net/nrrd/format.html. What is written has an attached header and
-// raw little-endian data, and lies in the volume's frame (pipeline/vessels/registration.h) in mm, so
-// that 3D Slicer, ITK and Teem's `unu` place it there.
+// raw little-endian data, and lies in the volume's frame (pipeline/vessels/registration.h) in mm,
+// so that 3D Slicer, ITK and Teem's `unu` place it correctly.
 #pragma once
 
 #include <cstddef>
@@ -61,7 +61,7 @@ private:
 // The longest header line in bytes, without its line end; the reader refuses longer ones.
 inline constexpr std::size_t longest_nrrd_line = 4096;
 
-// The key of VolumeGeometry::assumed, in words.
+// The key under which a file says which spacings were assumed (VolumeGeometry::assumed).
 inline constexpr std::string_view nrrd_assumed_spacings = "assumed_spacings";
 
 struct NrrdVolume {
@@ -73,15 +73,15 @@ struct NrrdVolume {
 
 hal::Result<> write_nrrd(const std::filesystem::path& file, const NrrdVolume& volume);
 
-// Reads files from NrrdWriter and from other programs, attached or detached, raw or gzip, of any
-// number type and byte order. 8-bit counts stay what they are (level_scale.h); all other types are
-// levels in dB, and become float. Where the header says otherwise, its scale holds: the keys
-// `lowest_level_db` and `level_step_db`, `old min` and `old max` of quantised values. Refuses what it
-// cannot place or does not know, with what was found, what was expected and the way round.
-// ErrorCode::absent, denied, invalid_argument: as InputFile.
+// Reads files from NrrdWriter and from other programs: attached or detached, raw or gzip, any number
+// type and byte order. 8-bit counts are kept (level_scale.h); all other types are levels in dB and
+// become float. A scale in the header takes precedence: the keys `lowest_level_db` and
+// `level_step_db`, or `old min` and `old max` of quantised values. What it cannot place or does not
+// know is refused, with what was found, what was expected and a remedy. ErrorCode::absent, denied,
+// invalid_argument: as InputFile.
 hal::Result<NrrdVolume> read_nrrd(const std::filesystem::path& file);
 
-// An attached file that is in memory; `name` is for messages.
+// The same for the bytes of an attached file; `name` is for messages.
 hal::Result<NrrdVolume> parse_nrrd(std::span<const std::byte> file, std::string_view name);
 
 } // namespace octascope::pipeline

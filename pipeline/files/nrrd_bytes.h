@@ -1,4 +1,4 @@
-// The bytes of a NRRD's volume, from front to back, as they lie in the file or unpacked.
+// Reads the bytes of a NRRD's volume in order, unpacking them if needed.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ struct NrrdSize {
 
 class NrrdBytes {
 public:
-  // Behind the header's `line skip` and `byte skip`; `data` is the data file, or what follows an
-  // attached header, and must outlive this. ErrorCode::bad_data: an encoding that is not read, or
-  // `data` cannot hold the `expected`, so that nobody allocates memory that the file does not
-  // account for.
+  // Begins after the header's `line skip` and `byte skip`. `data` is the data file, or what follows
+  // an attached header; it must outlive this. ErrorCode::bad_data: the encoding is not supported,
+  // or `data` is too short for `expected`. This is checked here so that no caller allocates memory
+  // for a volume that the file cannot hold.
   static hal::Result<std::unique_ptr<NrrdBytes>>
   open(const NrrdHeader& header, std::span<const std::byte> data, const NrrdSize& expected);
   virtual ~NrrdBytes() = default;

@@ -41,7 +41,7 @@ hal::Result<> write_png(const std::filesystem::path& file, const Image& image,
 // Grey files become grey, all others RGB; transparent pixels are blended onto black.
 hal::Result<Image> read_png(const std::filesystem::path& file);
 
-// A picture whose pixels are numbers: value / greatest, as they are in the file.
+// A picture of plain numbers, as they are in the file: a pixel is value / greatest.
 struct NumberImage {
   int width = 0;
   int height = 0;
@@ -50,9 +50,9 @@ struct NumberImage {
   std::vector<std::uint16_t> values; // rows from the top without padding
 };
 
-// What a file says about colour (gAMA, sRGB, cHRM, iCCP) changes nothing, opacity is not multiplied
-// in, and 16 bits stay 16; a palette is resolved, and 1, 2 and 4 bits become 8. Up to `most_pixels`
-// on each side. ErrorCode::absent, denied, invalid_argument: as InputFile.
+// Ignores what the file says about colour (gAMA, sRGB, cHRM, iCCP) and does not multiply by
+// opacity; 16 bits stay 16, 1, 2 and 4 bits become 8, and a palette is resolved. Up to
+// `most_pixels` on each side. ErrorCode::absent, denied, invalid_argument: as InputFile.
 hal::Result<NumberImage> read_png_numbers(const std::filesystem::path& file, int most_pixels);
 
 } // namespace octascope::pipeline

@@ -31,9 +31,9 @@ private:
   std::vector<double> mean_;
 };
 
-// Names the background that leaves something of so few lines, puts it into `calibration` and
-// returns what to tell the user; nothing where the calibration's own does. A line less its own mean
-// is nothing: of B-scans of one A-scan the mean over several B-scans is taken, of a single line none.
+// With very few lines the calibration's background would remove everything: a line minus its own
+// mean is zero. Then puts one into `calibration` that does not (the mean over several B-scans for
+// B-scans of one A-scan, none for a single line), and returns what to tell the user; else nothing.
 std::optional<std::string> replace_background_of_few_lines(Calibration& calibration, int a_scans,
                                                            int b_scans);
 

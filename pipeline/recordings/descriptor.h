@@ -1,4 +1,4 @@
-// A file descriptor that is closed when it goes.
+// An owned file descriptor.
 #pragma once
 
 #include <unistd.h>

@@ -12,7 +12,7 @@ namespace octascope::pipeline {
 // Of a superblock of version 3, as the writer makes it (HDF5 File Format Specification, II.A).
 struct Hdf5Head {
   bool has_signature = false;
-  // Marked so by a program that has it open, or that crashed. For SWMR: readers may look on.
+  // Marked as open by a program that has it open or that crashed; for SWMR, which allows readers.
   bool open_for_writing = false;
   bool open_for_swmr = false;
   std::uint64_t bytes = 0;       // of the file
@@ -21,11 +21,11 @@ struct Hdf5Head {
   bool is_truncated() const { return bytes < whole_bytes; }
 };
 
-// Of a file that cannot be read all is false and zero.
+// If the file cannot be read, everything is false and zero.
 Hdf5Head read_hdf5_head(const std::filesystem::path& file);
 
-// The system and the head are asked, since HDF5's words differ from version to version; `reason`,
-// which is HDF5's, stands where they know nothing. The message does not name the file.
+// Taken from the system and the head, since HDF5's messages differ between versions; only if those
+// say nothing, from HDF5's own `reason`. The message does not name the file.
 hal::Error refusal_of_hdf5(const std::filesystem::path& file, const std::string& reason);
 
 } // namespace octascope::pipeline

@@ -43,24 +43,8 @@ Recorder::Recorder(const VolumeGeometry& geometry, std::size_t places, hal::Cloc
     : geometry_(geometry), clock_(clock), faults_(faults), news_(news), places_(places),
       free_(places), waiting_(places) {}
 
-Recorder::~Recorder() {
-  stop();
-}
-
 void Recorder::start(const ThreadSetup& setup) {
-  thread_ = std::thread{[this, setup] {
-    if (setup)
-      setup({"recorder"});
-    run();
-  }};
-}
-
-void Recorder::stop() {
-  if (!thread_.joinable())
-    return;
-  stopping_.store(true, std::memory_order_release);
-  wakeup_.post();
-  thread_.join();
+  thread_.start({"recorder"}, setup, [this] { run(); });
 }
 
 bool Recorder::begin(std::filesystem::path file, RecordingFacts facts) {
@@ -129,7 +113,7 @@ void Recorder::run() {
   bool stopping = false;
   while (!stopping) {
     Heartbeat::beat_here(clock_.now());
-    stopping = stopping_.load(std::memory_order_acquire);
+    stopping = thread_.stopping();
     if (stopping)
       end();
     serve();

@@ -7,15 +7,14 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "hal/clock.h"
 #include "pipeline/faults/fault_log.h"
 #include "pipeline/recordings/recording_writer.h"
 #include "pipeline/threads/index_ring.h"
+#include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/wakeup.h"
-#include "pipeline/threads/worker_pool.h"
 
 namespace octascope::pipeline {
 
@@ -36,11 +35,10 @@ public:
   // starts, so that no picture waits for it.
   Recorder(const VolumeGeometry& geometry, std::size_t places, hal::Clock& clock, FaultLog& faults,
            Wakeup& news);
-  ~Recorder();
 
   void start(const ThreadSetup& setup);
   // Finishes the recording, if there is one, and ends the thread.
-  void stop();
+  void stop() { thread_.stop(); }
 
   // Render thread only. Returns at once; failures become faults. False: the last recording is still
   // being finished.
@@ -92,7 +90,6 @@ private:
   std::atomic<std::int64_t> since_ns_{0};
   std::atomic<std::uint64_t> kept_{0};
   std::atomic<std::uint64_t> not_kept_{0};
-  std::atomic<bool> stopping_{false};
   Wakeup wakeup_;
 
   mutable std::mutex mutex_; // of what is to begin, and of how it went
@@ -105,7 +102,7 @@ private:
   std::filesystem::path open_file_;
   std::uint64_t recordings_ = 0; // begun so far
   hal::TimePoint synced_;
-  std::thread thread_;
+  RoleThread thread_{&wakeup_};
 };
 
 } // namespace octascope::pipeline

@@ -1,4 +1,4 @@
-// What may crash a library, tried first where nothing is lost by it.
+// Tries what may crash a library in a process of its own, where a crash costs nothing.
 #pragma once
 
 #include <functional>
@@ -7,9 +7,9 @@
 
 namespace octascope::pipeline {
 
-// Runs the action in a process of its own, of which nothing remains. ErrorCode::bad_data: it crashed
-// there, or came to no end in half a minute. Not to be called while other threads hold locks that the
-// action needs.
+// Runs the action in a forked process and discards its effects. ErrorCode::bad_data: it crashed, or
+// did not end within half a minute. Do not call this while other threads hold locks that the action
+// needs.
 hal::Result<> try_apart(const std::function<void()>& action);
 
 } // namespace octascope::pipeline

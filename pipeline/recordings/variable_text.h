@@ -1,7 +1,7 @@
 // A text of variable length in an attribute.
 //
-// HDF5 takes memory for whatever length the file says, and version 1.10 copies a longer text over the
-// end of it. So HDF5 is asked for no more than where the text lies, and it is read here.
+// HDF5 allocates whatever length the file states, and version 1.10 writes a longer text beyond the
+// end of that memory. So HDF5 is only asked where the text is, and the text is read here.
 #pragma once
 
 #include <cstddef>

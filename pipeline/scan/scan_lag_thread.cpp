@@ -29,26 +29,10 @@ ScanLagThread::ScanLagThread(const ScanPlan& plan, hal::Clock& clock, FaultLog& 
       estimator_(plan_to_sketch(plan)), tracker_(plan.scan_lag_a_scans),
       in_use_a_scans_(plan.bidirectional ? plan.scan_lag_a_scans : 0) {}
 
-ScanLagThread::~ScanLagThread() {
-  stop();
-}
-
 void ScanLagThread::start(const ThreadSetup& setup) {
   if (!searches())
     return;
-  thread_ = std::thread{[this, setup] {
-    if (setup)
-      setup({"phase"});
-    run();
-  }};
-}
-
-void ScanLagThread::stop() {
-  if (!thread_.joinable())
-    return;
-  stopping_.store(true, std::memory_order_release);
-  wakeup_.post();
-  thread_.join();
+  thread_.start({"phase"}, setup, [this] { run(); });
 }
 
 DownsampledSweep* ScanLagThread::borrow() {
@@ -74,7 +58,7 @@ ScanLagStatus ScanLagThread::status() const {
 }
 
 void ScanLagThread::run() {
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.stopping()) {
     Heartbeat::beat_here(clock_.now());
     wakeup_.wait_until(clock_, clock_.now() + longest_wait);
     if (state_.load(std::memory_order_acquire) != Sketch::drawn)
@@ -84,7 +68,6 @@ void ScanLagThread::run() {
       break;
     state_.store(Sketch::free, std::memory_order_release);
   }
-  Heartbeat::rest_here();
 }
 
 void ScanLagThread::look() {
@@ -117,9 +100,9 @@ void ScanLagThread::complain_about_ends() {
 
 bool ScanLagThread::wait(hal::Duration how_long) {
   const hal::TimePoint until = clock_.now() + how_long;
-  while (clock_.now() < until && !stopping_.load(std::memory_order_acquire))
+  while (clock_.now() < until && !thread_.stopping())
     wakeup_.wait_until(clock_, std::min(until, clock_.now() + longest_wait));
-  return !stopping_.load(std::memory_order_acquire);
+  return !thread_.stopping();
 }
 
 } // namespace octascope::pipeline

@@ -4,15 +4,14 @@
 
 #include <atomic>
 #include <cstdint>
-#include <thread>
 
 #include "hal/clock.h"
 #include "pipeline/faults/fault_log.h"
 #include "pipeline/scan/downsampled_sweep.h"
 #include "pipeline/scan/scan_lag_estimator.h"
 #include "pipeline/scan/scan_lag_tracker.h"
+#include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/wakeup.h"
-#include "pipeline/threads/worker_pool.h"
 
 namespace octascope::pipeline {
 
@@ -35,10 +34,9 @@ public:
   // `clock` and `faults` outlive this. If the plan is not to be searched, nothing is allocated or
   // started, and borrow() always returns null.
   ScanLagThread(const ScanPlan& plan, hal::Clock& clock, FaultLog& faults);
-  ~ScanLagThread();
 
   void start(const ThreadSetup& setup);
-  void stop();
+  void stop() { thread_.stop(); }
 
   // Called by the volume thread. None allocates or waits.
   DownsampledSweep* borrow(); // cleared; null while unavailable
@@ -68,8 +66,7 @@ private:
   std::atomic<double> in_use_a_scans_;
   std::atomic<double> correlation_{0}, significance_{0};
   std::atomic<std::uint64_t> used_{0}, refused_{0};
-  std::atomic<bool> stopping_{false};
-  std::thread thread_;
+  RoleThread thread_{&wakeup_};
 };
 
 } // namespace octascope::pipeline

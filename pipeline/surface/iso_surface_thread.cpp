@@ -14,14 +14,6 @@ constexpr float least_piece_mm2 = 0.03F;
 IsoSurfaceThread::IsoSurfaceThread(int first_depth, ThreadSetup setup)
     : first_depth_{first_depth}, setup_{std::move(setup)} {}
 
-IsoSurfaceThread::~IsoSurfaceThread() {
-  if (!thread_.joinable())
-    return;
-  stopping_.store(true, std::memory_order_release);
-  wakeup_.post();
-  thread_.join();
-}
-
 void IsoSurfaceThread::show(const Volume& volume) {
   maker_.make(volume, first_depth_, grid_pool_[filling_]);
   filling_ = grids_.publish(filling_).recycled;
@@ -35,8 +27,8 @@ void IsoSurfaceThread::request(float level) {
   asked_level_ = level;
   level_.store(level, std::memory_order_relaxed);
   requested_.fetch_add(1, std::memory_order_release);
-  if (!thread_.joinable())
-    thread_ = std::thread{[this] { run(); }};
+  if (!thread_.started())
+    thread_.start({"surface"}, setup_, [this] { run(); });
   wakeup_.post();
 }
 
@@ -53,9 +45,7 @@ void IsoSurfaceThread::wait() const {
 }
 
 void IsoSurfaceThread::run() {
-  if (setup_)
-    setup_({"surface"});
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.stopping()) {
     serve();
     wakeup_.wait();
   }
@@ -63,7 +53,7 @@ void IsoSurfaceThread::run() {
 
 void IsoSurfaceThread::serve() {
   bool must_finish = false;
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.stopping()) {
     const std::uint64_t request = requested_.load(std::memory_order_acquire);
     if (request == finished_.load(std::memory_order_relaxed))
       return;
@@ -82,7 +72,7 @@ void IsoSurfaceThread::serve() {
 // False when it was given up.
 bool IsoSurfaceThread::make_mesh(std::uint64_t request, bool must_finish) {
   const auto superseded = [&] {
-    return stopping_.load(std::memory_order_acquire) ||
+    return thread_.stopping() ||
            (!must_finish && requested_.load(std::memory_order_relaxed) != request);
   };
   if (grids_.take())
@@ -90,7 +80,9 @@ bool IsoSurfaceThread::make_mesh(std::uint64_t request, bool must_finish) {
   IsoGrid& grid = grid_pool_[grids_.front()];
   if (!smooth_) {
     // Another level of the same volume needs the smoothing all the same.
-    const auto outdated = [&] { return superseded() && (grids_.has_newer() || stopping_); };
+    const auto outdated = [&] {
+      return superseded() && (grids_.has_newer() || thread_.stopping());
+    };
     if (!smoother_.smooth(grid, outdated))
       return false;
     update_occupancy(grid, occupancy_, counts_);

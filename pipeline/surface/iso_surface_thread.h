@@ -4,13 +4,12 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <thread>
 
 #include "pipeline/surface/iso_grid.h"
 #include "pipeline/surface/iso_surface.h"
+#include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/triple_buffer.h"
 #include "pipeline/threads/wakeup.h"
-#include "pipeline/threads/worker_pool.h"
 #include "pipeline/volume/volume.h"
 
 namespace octascope::pipeline {
@@ -24,7 +23,6 @@ class IsoSurfaceThread {
 public:
   // Depth bins before `first_depth` are left out.
   explicit IsoSurfaceThread(int first_depth, ThreadSetup setup = {});
-  ~IsoSurfaceThread();
 
   // All of these: the render thread.
 
@@ -67,7 +65,6 @@ private:
   std::atomic<std::uint64_t> requested_{0};
   std::atomic<std::uint64_t> finished_{0};
   std::atomic<std::uint64_t> abandoned_{0};
-  std::atomic<bool> stopping_{false};
   Wakeup wakeup_;
 
   // The thread's.
@@ -78,7 +75,7 @@ private:
   std::vector<std::uint8_t> counts_;
   bool smooth_ = false;      // the front grid is
   std::uint32_t making_ = 2; // of mesh_pool_
-  std::thread thread_;
+  RoleThread thread_{&wakeup_};
 };
 
 } // namespace octascope::pipeline

@@ -5,23 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "pipeline/threads/index_ring.h"
+#include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/wakeup.h"
 
 namespace octascope::pipeline {
-
-struct ThreadRole {
-  std::string_view name;
-  std::size_t number = 0; // of a worker, from 0
-};
-
-// Called first thing on each new thread, with the thread's role: sets name, priority and core. The
-// pipeline knows no operating-system backend, so the composition root brings this.
-using ThreadSetup = std::function<void(ThreadRole role)>;
 
 // One thread submits; the jobs start in order and may finish in any. Destruction waits for the
 // jobs in progress and forgets those not begun.

@@ -38,7 +38,7 @@ hal::Result<PointRegistration> register_points(std::span<const PointPair> pairs)
 // The transform alone, of at least three pairs.
 hal::Result<RigidTransform> fit_points(std::span<const PointPair> pairs);
 
-// Root of the mean square distance that the transform leaves over.
+// The root mean square of the distances that the transform leaves.
 double rms_distance_mm(const RigidTransform& transform, std::span<const PointPair> pairs);
 
 } // namespace octascope::pipeline

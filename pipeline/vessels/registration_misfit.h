@@ -1,5 +1,4 @@
-// Whether pairs of points can belong to one tree in one volume at all: a turn and a shift change no
-// length and mirror nothing.
+// Whether a rigid motion can explain pairs of points: it changes no length and mirrors nothing.
 #pragma once
 
 #include <optional>
@@ -10,11 +9,10 @@
 
 namespace octascope::pipeline {
 
-inline constexpr double largest_coordinate_mm = 1e6; // of a point: nobody's anatomy
+inline constexpr double largest_coordinate_mm = 1e6; // of a point: beyond any anatomy
 
-// In words what speaks against the pairs; nothing if a rigid motion explains them. Each is told
-// from noise at the level of one in a thousand, the noise being what the better explanation leaves
-// over in N pairs:
+// What is wrong with the pairs, in words; empty if a rigid motion explains them. N pairs must show
+// one of these at a significance of 0.001, with the residuals of the better explanation as noise:
 // - A scale: the spreads of both sides differ by more than 5 % and by more than Student's t with
 //   3N − 7 degrees of freedom times the scale's standard error.
 // - A mirrored frame: a reflection leaves over so much less that the ratio of the squares exceeds

@@ -172,15 +172,6 @@ OffscreenDisplay::~OffscreenDisplay() {
 }
 
 hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
-  if (state() != hal::DeviceState::absent)
-    return hal::fail(ErrorCode::busy, "offscreen display: open already; close() it first");
-  if (config.width < 1 || config.height < 1)
-    return hal::fail(ErrorCode::invalid_argument,
-                     "offscreen display: size is {}x{}, expected at least 1x1", config.width,
-                     config.height);
-  if (!(config.refresh_hz >= 1 && config.refresh_hz <= 1000))
-    return hal::fail(ErrorCode::invalid_argument,
-                     "offscreen display: refresh_hz is {}, expected 1 to 1000", config.refresh_hz);
   if (lost_.load(std::memory_order_acquire))
     return hal::fail(ErrorCode::absent, "offscreen display: lost; waiting for it to be restored");
 

@@ -13,8 +13,8 @@
 
 namespace octascope::sim {
 
-// Whether a picture of that size can be drawn by the processor, kept and written as a file with so
-// much memory. ErrorCode::invalid_argument, in words, if not.
+// Whether so much memory suffices to draw a picture of that size on the processor, keep it and
+// write it to a file. ErrorCode::invalid_argument if not.
 hal::Result<> check_picture_memory(int width, int height, std::uint64_t available_bytes);
 
 class OffscreenDisplay final : public hal::Display {

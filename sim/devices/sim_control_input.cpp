@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sim/devices/deadline.h"
-
 namespace octascope::sim {
 
 using hal::ControlEvent;
@@ -24,10 +22,6 @@ bool SimControlInput::inject(const ControlEvent& event) {
 }
 
 hal::Result<> SimControlInput::do_open() {
-  if (state() != DeviceState::absent)
-    return hal::fail(ErrorCode::invalid_argument,
-                     "simulated control input: open while {}, expected absent; call close first",
-                     to_string(state()));
   const TimePoint now = clock_.now();
   if (probe_.unplugged(now))
     return hal::fail(ErrorCode::absent,
@@ -55,11 +49,8 @@ hal::Result<> SimControlInput::do_open() {
 
 hal::Result<std::size_t> SimControlInput::do_read(std::span<ControlEvent> events,
                                                   hal::Duration timeout) {
-  if (state() == DeviceState::absent)
-    return hal::fail(ErrorCode::invalid_argument,
-                     "simulated control input: read while absent, expected ready; call open first");
   TimePoint now = clock_.now();
-  const TimePoint deadline = deadline_after(now, timeout);
+  const TimePoint deadline = hal::deadline_after(now, timeout);
   while (true) {
     play_to(now);
     if (const std::size_t fetched = fetch(events); fetched > 0)

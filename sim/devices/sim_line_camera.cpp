@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "sim/devices/deadline.h"
 #include "sim/faults/fault_random.h"
 #include "sim/faults/fault_spectra.h"
 
@@ -57,11 +56,6 @@ LineCameraTally SimLineCamera::tally() const {
           .altered = altered_.load(std::memory_order_relaxed)};
 }
 
-hal::Result<> SimLineCamera::wrong_state(std::string_view call, std::string_view expected) const {
-  return hal::fail(ErrorCode::invalid_argument, "simulated line camera: {} while {}, expected {}",
-                   call, to_string(state()), expected);
-}
-
 hal::Result<> SimLineCamera::check(const hal::LineCameraConfig& config) const {
   const auto refuse = [](std::string why) {
     return hal::fail(ErrorCode::invalid_argument, "simulated line camera: " + std::move(why));
@@ -85,8 +79,6 @@ hal::Result<> SimLineCamera::check(const hal::LineCameraConfig& config) const {
 }
 
 hal::Result<> SimLineCamera::do_open(const hal::LineCameraConfig& config) {
-  if (state() != DeviceState::absent)
-    return wrong_state("open", "absent; call close first");
   HAL_CHECK(check(config));
   const TimePoint now = clock_.now();
   look_what_is_plugged_in(now);
@@ -120,10 +112,6 @@ void SimLineCamera::allocate_buffers() {
 }
 
 hal::Result<> SimLineCamera::do_start() {
-  if (state() == DeviceState::failed)
-    return tl::make_unexpected(disconnect());
-  if (state() != DeviceState::ready)
-    return wrong_state("start", "ready");
   started_ = clock_.now();
   if (probe_.pulled_since_last_look(started_))
     return tl::make_unexpected(disconnect());
@@ -140,12 +128,8 @@ hal::Result<> SimLineCamera::do_start() {
 }
 
 hal::Result<std::optional<hal::LineFrame>> SimLineCamera::do_wait_frame(Duration timeout) {
-  if (state() == DeviceState::failed)
-    return tl::make_unexpected(disconnect());
-  if (state() != DeviceState::streaming)
-    return tl::make_unexpected(wrong_state("wait_frame", "streaming").error());
   TimePoint now = clock_.now();
-  const TimePoint deadline = deadline_after(now, timeout);
+  const TimePoint deadline = hal::deadline_after(now, timeout);
   while (true) {
     if (probe_.pulled_since_last_look(now))
       return tl::make_unexpected(disconnect());

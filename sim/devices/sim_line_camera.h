@@ -87,7 +87,6 @@ private:
   std::string do_identity() const override;
 
   hal::Result<> check(const hal::LineCameraConfig& config) const;
-  hal::Result<> wrong_state(std::string_view call, std::string_view expected) const;
   hal::Error disconnect();
   void look_what_is_plugged_in(hal::TimePoint now);
   void allocate_buffers();

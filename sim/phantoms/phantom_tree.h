@@ -1,4 +1,4 @@
-// A phantom's own vessels as a tree, and where it lies in the volume that the twin makes of it.
+// A phantom's vessels as a tree, and its place in the volume of the simulated camera.
 #pragma once
 
 #include "pipeline/vessels/rigid_transform.h"
@@ -12,7 +12,7 @@ struct PhantomTree {
   pipeline::RigidTransform volume_from_tree; // exact
 };
 
-// Of the vessels that lie in the field of the phantom's suggested plan.
+// Only of vessels within the field of the phantom's suggested plan.
 PhantomTree phantom_tree(const Phantom& phantom);
 
 } // namespace octascope::sim

@@ -34,6 +34,18 @@ ProgramResult run_well(std::vector<std::string> arguments, WallClock::duration m
   return result;
 }
 
+std::string run_refused(const ScratchFolder& folder, std::vector<std::string> arguments,
+                        int exit_status) {
+  const auto before = listing(folder.path());
+  const ProgramResult result = run_octascope(std::move(arguments), std::chrono::seconds{60});
+  EXPECT_EQ(result.exit_status, exit_status) << result.describe();
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  EXPECT_TRUE(result.err.starts_with("octascope") && result.err.ends_with('\n')) << result.err;
+  EXPECT_EQ(listing(folder.path()), before);
+  return result.err;
+}
+
 std::vector<std::string> small_run(const ScratchFolder& folder, std::vector<std::string> more) {
   std::vector<std::string> words{
       "run",       "--sim",     "--config", write_small_configuration(folder),
@@ -72,6 +84,14 @@ nlohmann::json find_fault(const nlohmann::json& report, std::string_view device,
       return fault;
   }
   return nullptr;
+}
+
+void expect_nothing_lost(const nlohmann::json& report) {
+  if (!find_fault(report, "pipeline", "late_tick").is_null() ||
+      !find_fault(report, "line_camera", "late_frame").is_null())
+    return;
+  EXPECT_EQ(report["lost"], (nlohmann::json{{"lines", 0}, {"b_scans", 0}, {"volumes", 0}}));
+  EXPECT_EQ(report["hot_path"]["allocations"], 0);
 }
 
 pipeline::Image read_snapshot(const fs::path& file) {

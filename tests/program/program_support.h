@@ -31,6 +31,11 @@ inline constexpr int small_height = 360;
 ProgramResult run_well(std::vector<std::string> arguments,
                        WallClock::duration most = std::chrono::seconds{120});
 
+// As run_octascope(); returns what it said. Failed tests where it was not refused with this exit
+// status, in one line on stderr alone, or where anything was written into the folder.
+std::string run_refused(const ScratchFolder& folder, std::vector<std::string> arguments,
+                        int exit_status = 1);
+
 // `run` on twins with that configuration, offscreen, and these options more.
 std::vector<std::string> small_run(const ScratchFolder& folder, std::vector<std::string> more);
 
@@ -43,6 +48,9 @@ void expect_all(const nlohmann::json& said, const nlohmann::json& expected);
 // The entry of `faults` with this device and kind; null if there is none.
 nlohmann::json find_fault(const nlohmann::json& report, std::string_view device,
                           std::string_view kind);
+
+// Nothing was lost, unless a machine that was busy with something else was late.
+void expect_nothing_lost(const nlohmann::json& report);
 
 // The snapshot that a run left; empty, and a failed test, where there is none.
 pipeline::Image read_snapshot(const std::filesystem::path& file);

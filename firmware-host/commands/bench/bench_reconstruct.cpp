@@ -14,6 +14,7 @@
 
 #include "firmware-host/commands/bench/bench_timing.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
+#include "pipeline/calibration_finder/axial_psf.h"
 #include "pipeline/reconstruction/fft_plan.h"
 #include "pipeline/volume/level_scale.h"
 
@@ -126,20 +127,13 @@ std::vector<double> reference_levels_db(std::span<const std::uint16_t> b_scan, s
                            line.begin(), [](float b) { return -b; });
   for (std::size_t p = 0; p < samples; ++p)
     line[p] += b_scan[a * samples + p];
-  const auto taps =
-      pipeline::make_resampling_taps(calibration.positions, calibration.interpolation);
-  const auto width = static_cast<std::size_t>(taps.width);
+  const std::vector<double> counts = pipeline::resample_line(
+      line, pipeline::make_resampling_taps(calibration.positions, calibration.interpolation));
   std::vector<std::complex<double>> shaped(samples);
   std::vector<std::complex<double>> roots(samples);
   for (std::size_t m = 0; m < samples; ++m) {
-    double count = 0;
-    for (std::size_t t = 0; t < width; ++t)
-      count += static_cast<double>(taps.weights[m * width + t]) *
-               line[static_cast<std::size_t>(taps.first[m]) + t];
     const double theta = calibration.dispersion_rad.empty() ? 0 : calibration.dispersion_rad[m];
-    shaped[m] = std::polar(count * calibration.window[m] / samples, theta);
-    if (count < 0)
-      shaped[m] = -std::polar(-count * calibration.window[m] / samples, theta);
+    shaped[m] = std::polar(1.0, theta) * (counts[m] * calibration.window[m] / samples);
     roots[m] = std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(m) / samples);
   }
   std::vector<double> levels(samples / 2);

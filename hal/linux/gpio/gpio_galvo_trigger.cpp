@@ -35,14 +35,6 @@ GpioGalvoTrigger::~GpioGalvoTrigger() {
 }
 
 Result<> GpioGalvoTrigger::do_open(const GalvoTriggerConfig& config) {
-  if (state() != DeviceState::absent)
-    return fail(ErrorCode::invalid_argument,
-                "GPIO galvo trigger: open while {}, expected absent; call close first",
-                to_string(state()));
-  if (config.pulse_width <= Duration{})
-    return fail(ErrorCode::invalid_argument,
-                "GPIO galvo trigger: pulse_width is {} ns, expected more than 0",
-                config.pulse_width.count());
   if (settings_.sync_edges_per_pulse < 1 ||
       std::cmp_greater(settings_.sync_edges_per_pulse, GpioLine::kernel_buffer))
     return fail(
@@ -75,13 +67,6 @@ Result<> GpioGalvoTrigger::take_lines() {
 }
 
 Result<TimePoint> GpioGalvoTrigger::do_pulse() {
-  if (state() == DeviceState::absent)
-    return fail(ErrorCode::invalid_argument,
-                "GPIO galvo trigger: pulse while absent, expected ready; call open first");
-  if (state() == DeviceState::failed)
-    return fail(ErrorCode::disconnected,
-                "GPIO galvo trigger: line \"{}\" failed before; close it and open it again",
-                settings_.line);
   await_low();
   read_sync_edges();
   const TimePoint before = clock_.now();

@@ -34,12 +34,6 @@ Result<> check(const ScopeCameraConfig& wanted) {
   return {};
 }
 
-tl::unexpected<Error> wrong_state(std::string_view call, DeviceState found,
-                                  std::string_view expected) {
-  return fail(ErrorCode::invalid_argument, "scope camera: {}() found it {}, expected {}", call,
-              to_string(found), expected);
-}
-
 enum class Place : std::uint8_t { idle, in_camera, on_loan, returned };
 
 } // namespace
@@ -217,10 +211,6 @@ LibcameraScopeCamera::Losses LibcameraScopeCamera::losses() const {
 }
 
 Result<> LibcameraScopeCamera::do_open(const ScopeCameraConfig& config) {
-  if (state() != DeviceState::absent)
-    return fail(ErrorCode::busy,
-                "scope camera: open() found it {}, expected absent; close it first",
-                to_string(state()));
   HAL_CHECK(check(config));
   HAL_TRY(auto chosen, parts_->session.choose(parts_->options.camera, parts_->options.taken_nodes));
   auto link = CameraLink::open(chosen, config);
@@ -251,8 +241,6 @@ Result<> LibcameraScopeCamera::do_open(const ScopeCameraConfig& config) {
 }
 
 Result<> LibcameraScopeCamera::do_start() {
-  if (state() != DeviceState::ready)
-    return wrong_state("start", state(), "ready; open it first");
   Parts& parts = *parts_;
   if (auto started = parts.link->start(parts.period); !started) {
     set_state(DeviceState::failed);
@@ -272,11 +260,6 @@ Result<> LibcameraScopeCamera::do_start() {
 }
 
 Result<std::optional<ScopeFrame>> LibcameraScopeCamera::do_wait_frame(Duration timeout) {
-  if (state() == DeviceState::failed)
-    return fail(ErrorCode::disconnected,
-                "scope camera: found failed, expected streaming; close it and open it again");
-  if (state() != DeviceState::streaming)
-    return wrong_state("wait_frame", state(), "streaming; start it first");
   Parts& parts = *parts_;
   CompletionQueue& queue = parts.listener.queue();
   const auto failed = [this](Error error) {

@@ -1,4 +1,4 @@
-// What the system says of devices in files and folders: /dev, /sys, /proc.
+// Reads what the system says in /dev, /sys and /proc.
 #pragma once
 
 #include <filesystem>
@@ -8,18 +8,18 @@
 
 namespace octascope::hal::linux_backend {
 
-// Without its end; empty if the file cannot be read.
+// Without the line feed; empty if the file cannot be read.
 std::string first_line(const std::filesystem::path& file);
 
-// What follows `key` in the first line that begins with it; empty if none does.
+// The rest of the first line that begins with `key`; empty if no line does.
 std::string text_after(std::string_view key, const std::filesystem::path& file);
 
-// The entries of the folder whose names begin with `prefix`, by name, and by the number at its end:
-// video2 before video10. None if the folder cannot be read.
+// The folder's entries whose names begin with `prefix`, sorted by name and the number at its end,
+// so video2 before video10. Empty if the folder cannot be read.
 std::vector<std::filesystem::path> entries(const std::filesystem::path& folder,
                                            std::string_view prefix = "");
 
-// Those of them that have nothing but a number after the prefix, with the folder.
+// Those whose name is the prefix and a number, as paths.
 std::vector<std::string> numbered_entries(const std::filesystem::path& folder,
                                           std::string_view prefix);
 

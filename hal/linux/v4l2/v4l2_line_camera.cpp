@@ -35,10 +35,6 @@ Result<> check(const LineCameraConfig& config, const V4l2CameraOptions& options)
   return {};
 }
 
-TimePoint deadline_after(TimePoint now, Duration timeout) {
-  return timeout > TimePoint::max() - now ? TimePoint::max() : now + timeout;
-}
-
 Duration wall_clock_since_1970() {
   timespec t{};
   clock_gettime(CLOCK_REALTIME, &t);
@@ -81,14 +77,7 @@ V4l2CameraTally V4l2LineCamera::tally() const {
           .failed_returns = failed_returns_.load(std::memory_order_relaxed)};
 }
 
-Result<> V4l2LineCamera::wrong_state(std::string_view call, std::string_view expected) const {
-  return fail(ErrorCode::invalid_argument, "line camera: {} while {}, expected {}", call,
-              to_string(state()), expected);
-}
-
 Result<> V4l2LineCamera::do_open(const LineCameraConfig& config) {
-  if (state() != DeviceState::absent)
-    return wrong_state("open", "absent; call close first");
   HAL_CHECK(check(config, options_));
   const auto opened = find_node(config.format).and_then([&](const std::string& node) {
     return open_node(node, config);
@@ -145,16 +134,10 @@ Result<> V4l2LineCamera::open_node(const std::string& node, const LineCameraConf
 }
 
 Result<> V4l2LineCamera::do_start() {
-  if (state() == DeviceState::failed)
-    return tl::make_unexpected(failure_);
-  if (state() != DeviceState::ready)
-    return wrong_state("start", "ready");
   sequence_ = {};
   if (auto started = buffers_->start(); !started) {
-    if (started.error().code == ErrorCode::disconnected) {
-      failure_ = started.error();
+    if (started.error().code == ErrorCode::disconnected)
       set_state(DeviceState::failed);
-    }
     return started;
   }
   set_state(DeviceState::streaming);
@@ -162,10 +145,6 @@ Result<> V4l2LineCamera::do_start() {
 }
 
 Result<std::optional<LineFrame>> V4l2LineCamera::do_wait_frame(Duration timeout) {
-  if (state() == DeviceState::failed)
-    return tl::make_unexpected(failure_);
-  if (state() != DeviceState::streaming)
-    return tl::make_unexpected(wrong_state("wait_frame", "streaming").error());
   const TimePoint deadline = deadline_after(clock_.now(), timeout);
   while (true) {
     buffers_->retry_strays();
@@ -210,9 +189,8 @@ LineFrame V4l2LineCamera::handed_out(const FetchedFrame& fetched, TimePoint now)
 }
 
 tl::unexpected<Error> V4l2LineCamera::broken(std::string_view action, int error_number) {
-  failure_ = system_failure(node_->identity().node, action, error_number).value();
   set_state(DeviceState::failed);
-  return tl::make_unexpected(failure_);
+  return system_failure(node_->identity().node, action, error_number);
 }
 
 void V4l2LineCamera::do_release(int buffer) {

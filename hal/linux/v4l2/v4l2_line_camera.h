@@ -78,7 +78,6 @@ private:
 
   Result<std::string> find_node(const LineFormat& wanted) const;
   Result<> open_node(const std::string& node, const LineCameraConfig& config);
-  Result<> wrong_state(std::string_view call, std::string_view expected) const;
   tl::unexpected<Error> broken(std::string_view action, int error_number);
   LineFrame handed_out(const FetchedFrame& fetched, TimePoint now);
   void note(std::vector<std::string> words);
@@ -93,7 +92,6 @@ private:
   std::size_t image_bytes_ = 0;             // of a frame, including what the driver appends
   bool clocks_differ_ = false;
   SequenceCounter sequence_;
-  Error failure_; // in the state `failed`
 
   std::atomic<std::uint64_t> own_stamps_{0};
   std::atomic<std::uint64_t> failed_returns_{0};

@@ -10,24 +10,8 @@ ReplayThread::ReplayThread(ReplaySource source, const ReplaySetup& setup, hal::C
                            FaultLog& faults, Wakeup& news)
     : clock_{clock}, player_{std::move(source), setup, faults, news} {}
 
-ReplayThread::~ReplayThread() {
-  stop();
-}
-
 void ReplayThread::start(const ThreadSetup& setup) {
-  thread_ = std::thread{[this, setup] {
-    if (setup)
-      setup({"replay"});
-    run();
-  }};
-}
-
-void ReplayThread::stop() {
-  if (!thread_.joinable())
-    return;
-  stopping_.store(true, std::memory_order_release);
-  wakeup_.post();
-  thread_.join();
+  thread_.start({"replay"}, setup, [this] { run(); });
 }
 
 void ReplayThread::seek(std::size_t n) {
@@ -41,12 +25,11 @@ void ReplayThread::hold(bool held) {
 }
 
 void ReplayThread::run() {
-  while (!stopping_.load(std::memory_order_acquire)) {
+  while (!thread_.stopping()) {
     const hal::TimePoint now = clock_.now();
     Heartbeat::beat_here(now);
     wakeup_.wait_until(clock_, player_.step(now));
   }
-  Heartbeat::rest_here();
 }
 
 } // namespace octascope::pipeline

@@ -2,13 +2,11 @@
 // times, as ReplayPlayer has it.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
-#include <thread>
 
 #include "hal/clock.h"
 #include "pipeline/recordings/replay/replay_player.h"
-#include "pipeline/threads/worker_pool.h"
+#include "pipeline/threads/role_thread.h"
 
 namespace octascope::pipeline {
 
@@ -17,11 +15,10 @@ public:
   // All references outlive this; `news` is posted after each published volume.
   ReplayThread(ReplaySource source, const ReplaySetup& setup, hal::Clock& clock, FaultLog& faults,
                Wakeup& news);
-  ~ReplayThread() override;
 
   // Once. The thread's role is "replay".
   void start(const ThreadSetup& setup);
-  void stop();
+  void stop() { thread_.stop(); }
 
   // Any thread, also before start(): as ReplayPlayer has them.
   void seek(std::size_t n);
@@ -41,8 +38,7 @@ private:
   hal::Clock& clock_;
   ReplayPlayer player_;
   Wakeup wakeup_;
-  std::atomic<bool> stopping_{false};
-  std::thread thread_;
+  RoleThread thread_{&wakeup_};
 };
 
 } // namespace octascope::pipeline

@@ -1,4 +1,4 @@
-// Vessels while their centrelines are being joined: nodes and edges without a direction or a loop.
+// The vessels while their centrelines are being joined: an undirected graph without loops.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ public:
   using Edge = std::uint32_t; // with a direction; its reverse is `edge ^ 1`
   static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-  // The place of an edge that is nearest to a point.
+  // The place on an edge that is nearest to some point.
   struct Foot {
     Edge edge = none;
     double along = 0; // 0 at its beginning to 1 at its end
@@ -23,9 +23,9 @@ public:
   };
 
   Node add_node(const Position& position, double radius);
-  // The two must be in different pieces, or a loop closes.
+  // The two must be in different pieces, else this closes a loop.
   void connect(Node a, Node b);
-  // The node there: an end of the edge if it is near, else a new one, which divides the edge.
+  // The node at that place: an end of the edge if it is near, else a new node that splits the edge.
   Node node_at(const Foot& place);
 
   std::size_t nodes() const { return positions_.size(); }
@@ -50,11 +50,11 @@ public:
   Edge first_edge(Node node) const { return first_[node]; }
   Edge next_edge(Edge edge) const { return edges_[edge].next; }
 
-  // The nearest place ahead of the beginning of `from`, no farther along than `reach` behind it.
-  // Where a fork has been passed, one on each way. Appends to `found`.
+  // Appends the nearest place ahead of the beginning of `from`, for a point that is `step` farther on;
+  // after a fork, one place on each branch.
   void look_ahead(Edge from, const Position& point, double step, std::vector<Foot>& found) const;
 
-  // The nearest place around an edge, no farther along than `reach`.
+  // The nearest place on an edge and its surroundings, up to `reach` along the vessels.
   Foot look_around(Edge middle, const Position& point, double reach) const;
 
 private:

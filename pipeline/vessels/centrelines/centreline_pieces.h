@@ -1,5 +1,5 @@
-// Lines cut where they share points by number: what is there twice by number is there once, and two
-// pieces have no point in common but ends.
+// Cuts lines where they share points (the same indices) and drops what is there twice, so that two
+// pieces share no points except their ends.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ private:
   void end_piece(const Centrelines& lines);
 
   std::vector<std::uint64_t> points_; // of all pieces, one after the other
-  std::vector<std::uint64_t> ends_;   // of each, one behind its last
+  std::vector<std::uint64_t> ends_;   // of each: one past its last
 };
 
 } // namespace octascope::pipeline

@@ -1,9 +1,10 @@
-// How far a centreline runs along vessels that are there already, and where it leaves them.
+// Finds how far a centreline runs along existing vessels, and where it leaves them.
 //
-// Copies of one vessel differ by rounding, resampling and smoothing, a small part of its radius;
-// two vessels side by side are apart by the sum of theirs. A line that begins on a vessel therefore
-// runs along it until they are a quarter of a radius apart, and from there on it is another vessel.
-// Where the two fork is estimated from how they part: smoothing bends them apart too early.
+// Copies of one vessel differ by rounding, resampling and smoothing: a small part of its radius.
+// Two vessels side by side are as far apart as the sum of their radii. So a line that begins on a
+// vessel runs along it until the two are a quarter of a radius apart; beyond that it is another
+// vessel. As smoothing bends them apart too early, the fork is estimated from how their distance
+// grows.
 #pragma once
 
 #include <cstddef>
@@ -21,19 +22,18 @@ struct CentrelinePoint {
 };
 
 struct CentrelineRun {
-  std::size_t own = 0; // its first point that is no vessel's; their number where it never leaves
-  CentrelineGraph::Foot
-      fork; // from where on the vessel it goes there; where it ends, if it never leaves
+  std::size_t own = 0;        // its first point beyond the vessels; the number of points if none is
+  CentrelineGraph::Foot fork; // where it leaves the vessel, or ends on it
 };
 
 class CentrelineFollower {
 public:
-  // Borrows the graph. Distances below `precision` are rounding.
+  // Borrows the graph. Distances below `precision` count as rounding.
   CentrelineFollower(const CentrelineGraph& graph, double precision)
       : graph_{graph}, precision_{precision} {}
 
-  // `line` from one of its ends on. `start`: the ways that it may take, each with the place of its
-  // first point; at least one. Calls on(index, place) for each further point that is on a vessel.
+  // Follows `line` from its first point. `start` has the edges that it may take, at least one, each
+  // with the place of that point. Calls on(index, place) for each further point on a vessel.
   CentrelineRun follow(std::span<const CentrelinePoint> line,
                        std::span<const CentrelineGraph::Foot> start,
                        const std::function<void(std::size_t, CentrelineGraph::Foot)>& on);

@@ -1,4 +1,4 @@
-// The ends of lines: which lie at one place, and which on another line's way.
+// The ends of lines: which of them lie at the same place, and which on another line.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,8 @@
 
 namespace octascope::pipeline {
 
-// An end lies on another line, or at its end, where it is within this part of the smaller radius.
+// An end belongs to another line, or to its end, if it is nearer than this part of the smaller
+// radius.
 inline constexpr double end_within_radii = 0.1;
 
 // End 2·n is where piece n begins, end 2·n + 1 where it ends.
@@ -26,11 +27,11 @@ public:
   LineEnds(const Centrelines& lines, const CentrelinePieces& pieces, double precision);
 
   std::size_t groups() const { return on_line_.size(); }
-  // Ends at one place have one group.
+  // Ends at the same place form a group.
   std::uint32_t group_of(std::uint32_t end) const { return group_[end]; }
-  // Looked for only where groups alone do not join all pieces.
+  // Only determined if groups alone do not join all pieces.
   const std::optional<OnLine>& on_line(std::uint32_t group) const { return on_line_[group]; }
-  // Pieces in the file's order, but for those that an end of another lies on: they come before it.
+  // Pieces in the file's order, except that a piece on which another one ends comes before it.
   std::vector<std::uint32_t> in_order() const;
 
 private:

@@ -1,4 +1,4 @@
-// Finds the points in a box: a k-d tree over points that stay where they are.
+// Finds the points in a box: a k-d tree over fixed points.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ private:
     bool ends_above(double c, std::size_t axis) const { return highest[axis] + reach >= c; }
   };
 
-  // The middle one splits, those before it are no greater on the axis. As deep as the logarithm.
+  // The middle point splits the rest; those before it are no greater on the axis.
   void build(std::span<std::uint32_t> part, std::size_t axis) {
     if (part.size() < 2)
       return;

@@ -24,7 +24,7 @@ inline Position between(const Position& a, const Position& b, double share) {
   return at;
 }
 
-// Which part of the way from a to b is nearest to the point, 0 to 1.
+// How far from a (0) to b (1) the place nearest to the point is.
 inline double nearest_share(const Position& a, const Position& b, const Position& point) {
   double square = 0;
   double product = 0;

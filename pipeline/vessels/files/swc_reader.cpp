@@ -1,14 +1,17 @@
 #include "pipeline/vessels/files/swc_reader.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
+#include <fstream>
+#include <istream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "hal/number_text.h"
 #include "hal/plain_text.h"
 #include "pipeline/files/input_file.h"
 #include "pipeline/vessels/files/swc_comments.h"
@@ -71,8 +74,8 @@ hal::Result<> SwcReader::take_comment(std::string_view line) {
   if (text.starts_with(swc_orders_comment))
     orders_.take(text.substr(swc_orders_comment.size()), table_.rows());
   if (text.starts_with(swc_roots_comment)) {
-    const std::string_view number = text.substr(swc_roots_comment.size());
-    std::from_chars(number.data(), number.data() + number.size(), roots_written_);
+    std::string_view number = text.substr(swc_roots_comment.size());
+    roots_written_ = hal::take_number<std::uint64_t>(number).value_or(roots_written_);
   }
   if (text.starts_with(swc_unit_comment)) {
     const std::string_view word = text.substr(swc_unit_comment.size());
@@ -156,42 +159,12 @@ template <class LineText> hal::Result<SwcTree> SwcReader::finish(LineText line_t
   return result;
 }
 
-// The line of that number, from 1, without its end; empty where there is none.
-std::string nth_line(std::string_view text, std::uint64_t number) {
-  for (std::uint64_t line = 1; line < number; ++line) {
-    const std::size_t end = text.find('\n');
-    if (end == std::string_view::npos)
-      return {};
-    text.remove_prefix(end + 1);
-  }
-  if (number == 1 && text.starts_with(byte_order_mark))
-    text.remove_prefix(byte_order_mark.size());
-  return std::string{text.substr(0, text.find('\n'))};
-}
-
-// Reads the file once more: only for the column in a message.
-std::string nth_line_of_file(const fs::path& file, std::uint64_t number) {
+// The line of that number, from 1, without its end: for messages.
+std::string nth_line(std::istream&& text, std::uint64_t number) {
   std::string line;
-  const auto input = InputFile::open(file, expected_file, UINT64_MAX);
-  if (!input)
-    return line;
-  std::string block(block_bytes, '\0');
-  std::uint64_t at = 1;
-  while (true) {
-    const auto filled = input->read(block);
-    if (!filled || *filled == 0)
-      break;
-    std::string_view rest{block.data(), *filled};
-    while (at < number && !rest.empty()) {
-      const std::size_t end = rest.find('\n');
-      rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-      at += end == std::string_view::npos ? 0 : 1;
-    }
-    line += rest.substr(0, rest.find('\n'));
-    if (rest.find('\n') != std::string_view::npos)
-      break;
-  }
-  return number == 1 ? nth_line(line, 1) : line;
+  for (std::uint64_t at = 0; at < number; ++at)
+    std::getline(text, line);
+  return line.starts_with(byte_order_mark) ? line.substr(byte_order_mark.size()) : line;
 }
 
 } // namespace
@@ -209,7 +182,9 @@ hal::Result<SwcTree> parse_swc(std::string_view text, const fs::path& name,
     taken = reader.take(std::string{text.substr(whole)} + "\n");
   if (!taken)
     return tl::make_unexpected(taken.error());
-  return reader.finish([&](std::uint64_t number) { return nth_line(text, number); });
+  return reader.finish([&](std::uint64_t number) {
+    return nth_line(std::istringstream{std::string{text}}, number);
+  });
 }
 
 hal::Result<SwcTree> read_swc(const fs::path& file, const TreeReadOptions& options) {
@@ -247,7 +222,7 @@ hal::Result<SwcTree> read_swc(const fs::path& file, const TreeReadOptions& optio
     kept = there - whole;
     std::memmove(block.data(), block.data() + whole, kept);
   }
-  return reader.finish([&](std::uint64_t number) { return nth_line_of_file(file, number); });
+  return reader.finish([&](std::uint64_t number) { return nth_line(std::ifstream{file}, number); });
 }
 
 } // namespace octascope::pipeline

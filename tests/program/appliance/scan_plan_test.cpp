@@ -49,14 +49,6 @@ json run_scan(const std::string& more_scan, std::vector<std::string> more, int v
   return read_report(report_file);
 }
 
-void expect_nothing_lost(const json& report) {
-  if (!find_fault(report, "pipeline", "late_tick").is_null() ||
-      !find_fault(report, "line_camera", "late_frame").is_null())
-    return; // a machine that was busy with something else
-  EXPECT_EQ(report["lost"], (json{{"lines", 0}, {"b_scans", 0}, {"volumes", 0}}));
-  EXPECT_EQ(report["hot_path"]["allocations"], 0);
-}
-
 TEST(ScanPlans, there_and_back_finds_its_offset_and_gains_the_fly_backs_time) {
   const json there = run_scan("", {}, 20);
   const json both = run_scan("", {"--bidirectional"}, 20);

@@ -145,14 +145,11 @@ TEST_P(BadTrees, are_refused_in_one_line) {
   const std::string file = folder.write("bad.swc", GetParam().text);
   std::vector<std::string> words{"vessels", "info", file};
   words.insert(words.end(), GetParam().more.begin(), GetParam().more.end());
-  const ProgramResult result = run_octascope(words);
-  EXPECT_EQ(result.exit_status, GetParam().exit_status) << result.describe();
-  EXPECT_EQ(result.out, "");
-  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  const std::string said = run_refused(folder, words, GetParam().exit_status);
   std::string told = GetParam().told;
   if (told.starts_with('@'))
     told.replace(0, 1, "octascope vessels info: " + file);
-  EXPECT_THAT(result.err, HasSubstr(told));
+  EXPECT_THAT(said, HasSubstr(told));
 }
 
 INSTANTIATE_TEST_SUITE_P(

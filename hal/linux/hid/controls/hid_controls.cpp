@@ -48,10 +48,6 @@ std::vector<std::string> HidControls::complaints() const {
 }
 
 Result<> HidControls::do_open() {
-  if (state() != DeviceState::absent)
-    return fail(ErrorCode::invalid_argument,
-                "HID controls: open while {}, expected absent; call close first",
-                to_string(state()));
   // Watched before they are looked for: what is plugged in between is not missed.
   Result<> opened = watch().and_then([this] { return open_all(); });
   // Its node is there, and about to be given to our group.
@@ -138,9 +134,6 @@ void HidControls::publish(std::vector<ServingControl> serving, const std::vector
 }
 
 Result<std::size_t> HidControls::do_read(std::span<ControlEvent> events, Duration timeout) {
-  if (state() == DeviceState::absent)
-    return fail(ErrorCode::invalid_argument,
-                "HID controls: read while absent, expected ready; call open first");
   const TimePoint deadline = clock_.now() + std::max(timeout, Duration{});
   for (bool looked = false;; looked = true) {
     if (lost_ && !released_ && board_.has_room()) {
