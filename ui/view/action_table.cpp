@@ -41,6 +41,9 @@ ValueText text(fmt::format_string<float&> pattern, float value) {
 ValueText decibels(float value) {
   return text("{:.0f} dB", value);
 }
+ValueText decibels_or_off(float value) {
+  return value > 0 ? decibels(value) : text("off", value);
+}
 ValueText degrees(float value) {
   return text("{:.0f}°", value);
 }
@@ -121,6 +124,12 @@ constexpr std::array<ActionRow, action_count> table{{
      NamedChoice{&ViewState::transfer, &ChoiceNames::transfers}, "transfer", drawn | home | kept},
     {Action::colours, "colours", "Colours", choice, keys(key('c')),
      NamedChoice{&ViewState::colour_map, &ChoiceNames::colours}, "colours", drawn | home | kept},
+    {Action::opacity, "opacity", "Opacity", continuous, keys(back('9'), forth('0')),
+     Number{.number = &ViewState::opacity, .range = {0.01F, 1, 0.05F}, .words = percent},
+     "opacity", drawn | home | kept},
+    {Action::see_through, "see_through", "See through", continuous, keys(back('7'), forth('8')),
+     Number{.number = &ViewState::see_through_db, .range = {0, 30, 1}, .words = decibels_or_off},
+     "see_through_db", drawn | home | kept},
     {Action::layout, "layout", "Layout", choice, keys(key('l')),
      one_of<&ViewState::layout>(layout_values), "layout", drawn | home | kept},
     {Action::stereo, "stereo", "Stereo", choice, keys(key('d')),
@@ -131,6 +140,8 @@ constexpr std::array<ActionRow, action_count> table{{
     {Action::b_scan, "b_scan", "B-scan", continuous, keys(back('['), forth(']')),
      Number{.index = &ViewState::b_scan, .range = {0, last_b_scan, 1}, .words = counted_from_one},
      "b_scan", home},
+    {Action::cut, "cut", "Cut", toggle, keys(key('5')),
+     Flag{&ViewState::cut, "at the B-scan", "off"}, "cut", drawn | home},
 
     {Action::vessels, "vessels", "Vessels", toggle, keys(key('v')),
      Flag{&ViewState::vessels_visible, "shown", "hidden"}, "vessels", drawn | home | kept},

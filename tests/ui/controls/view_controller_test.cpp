@@ -144,22 +144,33 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   turn(4);
   EXPECT_FLOAT_EQ(state().window_size_db, first_.window_size_db + 4);
   EXPECT_FALSE(state().echo.chosen);
-  for (int i = 0; i < 7 - 2; ++i) // without vessels, nothing of theirs
+  for (int i = 0; i < 10 - 2; ++i) // without vessels, nothing of theirs
     tread({2});
   EXPECT_EQ(state().selected, Action::window_offset) << "round again, past the unseen parallax";
+  tread({0});
+  EXPECT_EQ(state().selected, Action::opacity);
+  turn(2);
+  EXPECT_FLOAT_EQ(state().opacity, first_.opacity + 0.1F);
+  tread({0});
+  turn(-20);
+  EXPECT_EQ(state().see_through_db, 0);
+  tread({0});
+  turn(1);
+  EXPECT_TRUE(state().cut);
+  EXPECT_EQ(echo(), "at the B-scan");
   tread({0});
   EXPECT_EQ(state().selected, Action::b_scan);
   turn(-2);
   EXPECT_EQ(state().b_scan, first_.b_scan - 2);
-  EXPECT_EQ(count(Action::adjust), 2U);
+  EXPECT_EQ(count(Action::adjust), 5U);
   EXPECT_EQ(count(Action::b_scan), 1U);
 }
 
 TEST_F(Controller, vessels_are_steered_by_the_knob_where_they_are_shown) {
   actions().set_vessels_loaded(true);
-  for (int i = 0; i < 6; ++i)
+  for (int i = 0; i < 9; ++i)
     tread({2});
-  EXPECT_EQ(state().selected, Action::vessel_opacity) << "behind the B-scan, past the parallax";
+  EXPECT_EQ(state().selected, Action::vessel_opacity) << "behind the opacity, past the parallax";
   turn(-6);
   EXPECT_FLOAT_EQ(state().vessel_opacity, 0.7F);
   tread({2});
@@ -189,7 +200,7 @@ TEST_F(Controller, the_vessels_place_is_kept_or_undone_by_a_turn_to_the_right) {
   EXPECT_FALSE(controller_.handle(press('m')).keep_registration);
   EXPECT_EQ(echo(), "not moved");
   const VesselNudge none;
-  for (int i = 0; i < 6 + 9; ++i)
+  for (int i = 0; i < 9 + 9; ++i)
     tread({2});
   EXPECT_EQ(state().selected, Action::keep_registration);
   controller_.handle(press('k', true));
