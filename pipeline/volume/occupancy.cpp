@@ -97,4 +97,9 @@ void Occupancy::update(const Volume& volume) noexcept {
     update(b, volume.b_scan(b));
 }
 
+void Occupancy::widen_below(int counts) noexcept {
+  for (std::uint8_t& lowest : lowest_)
+    lowest = static_cast<std::uint8_t>(std::max(lowest - counts, 0));
+}
+
 } // namespace octascope::pipeline

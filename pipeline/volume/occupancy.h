@@ -52,6 +52,9 @@ public:
   void update(int b, std::span<const std::uint8_t> levels) noexcept;
   void update(const Volume& volume) noexcept;
 
+  // For drawing a copy of the volume whose levels are lower by up to that many counts.
+  void widen_below(int counts) noexcept;
+
   bool empty() const { return highest_.empty(); }
   const VolumeGeometry& geometry() const { return geometry_; }
   const BrickCounts& bricks() const { return bricks_; }

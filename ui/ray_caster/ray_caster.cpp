@@ -121,7 +121,7 @@ void RayCaster::prepare(float steps, Visibility visibility) {
 RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
                           RayImage& image) const {
   const pipeline::VolumeGeometry& g = cells_->geometry();
-  const RayGeometry rays = ray_geometry(g, camera);
+  const RayGeometry rays = ray_geometry(g, camera, settings.kept);
   RayFrame f{};
   f.cells = cells_->data();
   f.column_bytes = cells_->column_bytes();

@@ -22,6 +22,7 @@
 #include "ui/ray_caster/ray_kernels.h"
 #include "ui/ray_caster/step_table.h"
 #include "ui/view/camera.h"
+#include "ui/view/cut.h"
 
 namespace octascope::ui {
 
@@ -49,6 +50,7 @@ struct RaySettings {
   RayMode mode = RayMode::composite;
   float step_mm = 0;                 // along each ray
   bool leap_empty = true;            // affects only the drawing time, not the picture
+  SlowRange kept{};                  // by a cut
   const DepthImage* stops = nullptr; // of the image's size: where vessels end the rays
 };
 

@@ -5,6 +5,7 @@
 
 #include "pipeline/volume/volume.h"
 #include "ui/view/camera.h"
+#include "ui/view/cut.h"
 
 namespace octascope::ui {
 
@@ -26,7 +27,8 @@ struct RayGeometry {
   float cue_per_mm;
 };
 
-RayGeometry ray_geometry(const pipeline::VolumeGeometry& geometry, const Camera& camera);
+RayGeometry ray_geometry(const pipeline::VolumeGeometry& geometry, const Camera& camera,
+                         const SlowRange& kept = {});
 
 // The octants of directions (see DistancesAhead) that a picture's rays can have, one bit each.
 unsigned octants_of_rays(const pipeline::VolumeGeometry& geometry, const Camera& camera);

@@ -4,6 +4,7 @@
 #include <thread>
 #include <utility>
 
+#include "pipeline/volume/level_scale.h"
 #include "pipeline/volume/volume_geometry.h"
 #include "ui/gl/context_info.h"
 
@@ -89,14 +90,52 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
   HAL_CHECK(texture_.upload(volume));
   occupancy_ = occupancy;
   ++uploads_;
-  caster_shows_ = caster_ && caster_->show(volume, occupancy_);
+  const pipeline::Volume& drawn = see_through(volume);
+  caster_shows_ = caster_ && caster_->show(drawn, occupancy_);
   surface_shows_ = techniques_.surface() != nullptr;
   if (surface_shows_)
-    techniques_.surface()->show(volume);
+    techniques_.surface()->show(volume); // opaque: what is left of a cover would be in pieces
   return {};
 }
 
-void VolumePainter::update_transfer(const ViewState& view) {
+// The volume to draw; widens the occupancy to its levels.
+const pipeline::Volume& VolumePainter::see_through(const pipeline::Volume& volume) {
+  shown_see_through_db_ = see_through_db_;
+  if (see_through_db_ > 0)
+    cover_.find(occupancy_);
+  weakened_shows_ = see_through_db_ > 0 && !cover_.empty();
+  if (!weakened_shows_)
+    return volume;
+  if (weakened_.geometry != volume.geometry)
+    weakened_ = pipeline::Volume{volume.geometry};
+  weakened_.b_scan_states = volume.b_scan_states;
+  const float counts = see_through_db_ / pipeline::level_step_db;
+  for (int b = 0; b < volume.geometry.b_scans; ++b)
+    cover_.weaken(b, volume.b_scan(b), counts, weakened_.b_scan(b));
+  occupancy_.widen_below(static_cast<int>(counts) + 1);
+  return weakened_;
+}
+
+hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
+  if (!weakened_shows_)
+    return &texture_;
+  if (weakened_uploads_ != uploads_) {
+    HAL_CHECK(weakened_texture_.upload(weakened_));
+    weakened_uploads_ = uploads_;
+  }
+  return &weakened_texture_;
+}
+
+// Of many speckles along a ray, a maximum finds the brightest: it would be white all over. Shading
+// takes a share of the light, which a shorter window makes up for.
+void VolumePainter::update_transfer(const ViewState& of) {
+  constexpr float maximum_stretch = 1.5F;
+  constexpr float shaded_stretch = 0.8F;
+  ViewState view = of;
+  if (view.technique == Technique::maximum)
+    view.window_size_db *= maximum_stretch;
+  if (view.technique == Technique::shaded)
+    view.window_size_db *= shaded_stretch;
   const TransferSource source{view.window_offset_db, view.window_size_db, view.opacity,
                               view.transfer, view.colour_map};
   if (transfer_source_ != source) {
@@ -168,14 +207,26 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   if (quality.rays == RayBackend::processor)
     want_processor();
   update_transfer(view);
+  see_through_db_ = view.see_through_db;
+  const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
+  const VolumeTexture* drawn = &texture_; // the processor's rays need only its shape
+  if (!processor) {
+    HAL_TRY(drawn, drawn_texture());
+  }
   VolumeScene scene{
-      texture_,    transfer_texture_, camera, view, step_mm(quality, texture_.geometry()),
+      *drawn,      transfer_texture_, camera, view, step_mm(quality, texture_.geometry()),
       &occupancy_, uploads_};
+  scene.kept = kept_range(view, camera, texture_.geometry());
+  if (!scene.kept.whole() && !cut_face_) {
+    HAL_TRY(auto made, CutFace::create());
+    cut_face_.emplace(std::move(made));
+  }
+  pictures->camera = camera;
+  pictures->kept = scene.kept;
   if (view.technique == Technique::surface) {
     HAL_CHECK(techniques_.get(view.technique));
     scene.mesh = techniques_.surface()->prepare(view);
   }
-  const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
   pictures->processor_drew = processor;
   const auto vessels =
       update_vessels(eye, scene, quality, rect, processor ? MaskReader::processor : MaskReader::gl);
@@ -187,7 +238,8 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
 }
 
 bool VolumePainter::wants_volume(const ViewState& view) const {
-  return !empty() && view.technique == Technique::surface && !surface_shows_;
+  return !empty() && ((view.technique == Technique::surface && !surface_shows_) ||
+                      view.see_through_db != shown_see_through_db_);
 }
 
 bool VolumePainter::has_newer(const ViewState& view) const {
@@ -197,16 +249,17 @@ bool VolumePainter::has_newer(const ViewState& view) const {
 
 hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewState& view,
                                     const DrawQuality& quality) {
-  if (quality.rays == RayBackend::processor && !caster_wanted_) {
+  const bool caster_missing = quality.rays == RayBackend::processor && !caster_wanted_;
+  if (caster_missing)
     make_caster();
+  const bool surface = view.technique == Technique::surface;
+  if (surface)
+    HAL_CHECK(techniques_.get(view.technique));
+  see_through_db_ = view.see_through_db;
+  if (caster_missing || wants_volume(view))
     HAL_CHECK(show(volume));
-  }
-  if (view.technique != Technique::surface)
-    return {};
-  HAL_CHECK(techniques_.get(view.technique));
-  if (!surface_shows_)
-    HAL_CHECK(show(volume));
-  techniques_.surface()->finish(view);
+  if (surface)
+    techniques_.surface()->finish(view);
   return {};
 }
 
@@ -227,6 +280,9 @@ void VolumePainter::composite(StereoEye eye, const Rect& rect, int target_height
     pictures->by_processor->composite(rect, target_height);
   else
     pictures->by_gl.composite(rect, target_height);
+  if (!pictures->kept.whole())
+    cut_face_->composite(texture_, transfer_texture_, pictures->camera, pictures->kept, rect,
+                         target_height);
 }
 
 } // namespace octascope::ui

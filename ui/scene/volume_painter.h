@@ -8,9 +8,11 @@
 
 #include "hal/result.h"
 #include "pipeline/threads/worker_pool.h"
+#include "pipeline/volume/cover.h"
 #include "pipeline/volume/occupancy.h"
 #include "pipeline/volume/volume.h"
 #include "ui/layout/layout.h"
+#include "ui/scene/cut_face.h"
 #include "ui/transfer/transfer_set.h"
 #include "ui/transfer/transfer_texture.h"
 #include "ui/vessels/overlay/vessel_overlay.h"
@@ -62,7 +64,7 @@ public:
                        const DrawQuality& quality = {});
 
   bool empty() const { return texture_.empty(); }
-  const VolumeTexture& texture() const { return texture_; }
+  const VolumeTexture& texture() const { return texture_; } // as it came, nothing drawn weaker
   const pipeline::Occupancy& occupancy() const { return occupancy_; } // of the shown volume
   std::uint64_t uploads() const { return uploads_; }                  // the number of volumes shown
 
@@ -81,12 +83,16 @@ private:
     std::optional<VolumePicture> alone_by_gl; // without vessels, if these are not opaque
     std::optional<RayCastPicture> by_processor;
     bool processor_drew = false; // in the last update()
+    Camera camera{};             // of the last update()
+    SlowRange kept{};
   };
 
   VolumePainter(bool software, const TransferSet& transfers, const pipeline::ThreadSetup& threads);
   void make_caster();
+  const pipeline::Volume& see_through(const pipeline::Volume& volume);
+  hal::Result<const VolumeTexture*> drawn_texture();
   hal::Result<EyePictures*> pictures_of(StereoEye eye);
-  void update_transfer(const ViewState& view);
+  void update_transfer(const ViewState& of);
   hal::Result<std::optional<DepthMask>> update_vessels(StereoEye eye, const VolumeScene& scene,
                                                        const DrawQuality& quality, const Rect& rect,
                                                        MaskReader target);
@@ -112,10 +118,19 @@ private:
   pipeline::Occupancy occupancy_;
   pipeline::Occupancy own_occupancy_; // for volumes that come without one
   std::uint64_t uploads_ = 0;
+  // The volume with its cover drawn weaker.
+  pipeline::Cover cover_;
+  pipeline::Volume weakened_;
+  VolumeTexture weakened_texture_; // made when GL first draws it
+  std::uint64_t weakened_uploads_ = 0;
+  bool weakened_shows_ = false;
+  float see_through_db_ = ViewState{}.see_through_db; // of the last view
+  float shown_see_through_db_ = 0;                    // of the volume shown
   std::unique_ptr<TransferTable> transfer_;
   TransferTexture transfer_texture_;
   std::optional<TransferSource> transfer_source_;
   VolumeTechniques techniques_;
+  std::optional<CutFace> cut_face_;      // empty until a view is cut
   std::optional<VesselOverlay> vessels_; // empty until some are shown
   std::optional<RayCaster> caster_;      // empty until requested
   bool caster_wanted_ = false;

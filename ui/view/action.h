@@ -24,10 +24,13 @@ enum class Action : std::uint8_t {
   technique,
   transfer,
   colours,
+  opacity,
+  see_through,
   layout,
   stereo,
   parallax,
   b_scan,
+  cut,
   crossed_b_scan, // the position of the one across all B-scans
   zoom_to_tissue,
   calliper,

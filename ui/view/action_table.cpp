@@ -41,6 +41,9 @@ ValueText text(fmt::format_string<float&> pattern, float value) {
 ValueText decibels(float value) {
   return text("{:.0f} dB", value);
 }
+ValueText decibels_or_off(float value) {
+  return value > 0 ? decibels(value) : text("off", value);
+}
 ValueText degrees(float value) {
   return text("{:.0f}°", value);
 }
@@ -126,6 +129,12 @@ constexpr std::array<ActionRow, action_count> table{{
      NamedChoice{&ViewState::transfer, &ChoiceNames::transfers}, "transfer", drawn | home | kept},
     {Action::colours, "colours", "Colours", choice, keys(key('c')),
      NamedChoice{&ViewState::colour_map, &ChoiceNames::colours}, "colours", drawn | home | kept},
+    {Action::opacity, "opacity", "Opacity", continuous, keys(key('\\')),
+     Number{.number = &ViewState::opacity, .range = {0.01F, 1, 0.05F}, .words = percent},
+     "opacity", drawn | home | kept},
+    {Action::see_through, "see_through", "See through", continuous, keys(back('['), forth(']')),
+     Number{.number = &ViewState::see_through_db, .range = {0, 30, 1}, .words = decibels_or_off},
+     "see_through_db", drawn | home | kept},
     {Action::layout, "layout", "Layout", choice, keys(key('l')),
      one_of<&ViewState::layout>(layout_values), "layout", drawn | home | kept},
     {Action::stereo, "stereo", "Stereo", choice, keys(key('d')),
@@ -150,6 +159,8 @@ constexpr std::array<ActionRow, action_count> table{{
      index_along<&Geometry::a_scans>(&ViewState::mark_2_a, 1), "mark_2_a", home},
     {Action::mark_2_depth, "mark_2_depth", "Mark 2, depth", continuous, keys(key('9')),
      index_along<&Geometry::depths>(&ViewState::mark_2_depth, 1), "mark_2_depth", home},
+    {Action::cut, "cut", "Cut", toggle, keys(key('4')),
+     Flag{&ViewState::cut, "at the B-scan", "off"}, "cut", drawn | home},
 
     {Action::vessels, "vessels", "Vessels", toggle, keys(key('v')),
      Flag{&ViewState::vessels_visible, "shown", "hidden"}, "vessels", drawn | home | kept},

@@ -11,7 +11,6 @@ ViewState ViewState::clamped() const {
   for (const ActionRow& row : action_table())
     if (const Number* number = std::get_if<Number>(&row.value))
       number->set(v, number->of(v));
-  v.opacity = std::clamp(v.opacity, 0.01F, 1.0F);
   return v;
 }
 
@@ -20,7 +19,8 @@ bool same_sight(const ViewState& a, const ViewState& b) {
     return !row.has(trait::drawn) ||
            std::visit([&](const auto& value) { return value.same(a, b); }, row.value);
   };
-  return a.opacity == b.opacity && std::ranges::all_of(action_table(), same);
+  const bool same_cut = !(a.cut && b.cut) || a.b_scan == b.b_scan;
+  return same_cut && std::ranges::all_of(action_table(), same);
 }
 
 } // namespace octascope::ui

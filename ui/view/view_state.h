@@ -52,6 +52,8 @@ struct ViewState {
   int transfer = 0;              // index of the transfer function; 0 is the window itself
   int colour_map = 0;            // index of the colour map; 0 is grey
   float opacity = 0.5F;          // of a voxel at the top of the window, per reference step
+  float see_through_db = 12;     // by which tissue that covers other tissue is drawn weaker
+  bool cut = false;              // open at `b_scan` (ui/view/cut.h)
   bool box_visible = true;       // the wire-frame box
   bool frozen = false;           // the volume stays; the view can still move
   hal::TimePoint frozen_since{}; // when `frozen` became true

@@ -51,6 +51,7 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   RaySettings settings;
   settings.mode = mode;
   settings.step_mm = scene.step_mm;
+  settings.kept = scene.kept;
   const DepthMask* vessels = scene.vessels;
   if (vessels == nullptr)
     return caster.draw(scene.camera, settings, image_);

@@ -72,7 +72,7 @@ void RayCastTechnique::prepare_bricks(const VolumeScene& scene) {
 void RayCastTechnique::set_rays(const gl::Program& program, const VolumeScene& scene) const {
   const Camera& camera = scene.camera;
   const pipeline::VolumeGeometry& g = scene.volume.geometry();
-  const RayGeometry rays = ray_geometry(g, camera);
+  const RayGeometry rays = ray_geometry(g, camera, scene.kept);
   set(program, "u_lower", rays.lower);
   set(program, "u_upper", rays.upper);
   set(program, "u_eye", rays.eye);
@@ -99,7 +99,7 @@ void RayCastTechnique::set_rays(const gl::Program& program, const VolumeScene& s
 }
 
 void RayCastTechnique::set_light(const gl::Program& program, const VolumeScene& scene) const {
-  const RayGeometry rays = ray_geometry(scene.volume.geometry(), scene.camera);
+  const RayGeometry rays = ray_geometry(scene.volume.geometry(), scene.camera, scene.kept);
   set(program, "u_gradient_cells", rays.gradient_cells);
   set(program, "u_ambient", ambient_light);
   set(program, "u_weak_gradient", 4 * weak_gradient_counts / 255);

@@ -52,7 +52,8 @@ SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers,
                                               program_.uniform("u_colour"),
                                               program_.uniform("u_ambient"),
                                               program_.uniform("u_cue"),
-                                              program_.uniform("u_cue_loss")} {
+                                              program_.uniform("u_cue_loss"),
+                                              program_.uniform("u_kept")} {
   using pipeline::IsoVertex;
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
@@ -116,6 +117,7 @@ void SurfaceTechnique::do_draw(const VolumeScene& scene) {
     return;
   program_.use();
   set_uniforms(scene.camera, scene.view);
+  glUniform2f(uniforms_.kept, scene.kept.from, scene.kept.to);
   set_depth_mask(program_, scene.vessels, scene.camera);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);

@@ -7,6 +7,7 @@
 #include "ui/depth_mask/depth_mask.h"
 #include "ui/transfer/transfer_texture.h"
 #include "ui/view/camera.h"
+#include "ui/view/cut.h"
 #include "ui/view/view_state.h"
 #include "ui/volume/volume_texture.h"
 
@@ -23,6 +24,7 @@ struct VolumeScene {
   std::uint64_t upload = 0;                       // counts the volumes shown
   std::uint64_t mesh = 0;                         // counts the iso-surfaces
   const DepthMask* vessels = nullptr;             // null: no vessel ends a ray
+  SlowRange kept{};                               // by a cut
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first picture of a size.

@@ -49,6 +49,10 @@ hal::Result<pipeline::Image> render_volume(const pipeline::Volume& volume,
                      "--drawn-by is processor for the technique {}, which GL draws; expected rays, "
                      "shaded or maximum with it",
                      to_string(options.view.technique));
+  if (options.view.cut && options.view.b_scan >= volume.geometry.b_scans)
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "--cut is {}, expected a B-scan of the volume, 0 to {}", options.view.b_scan,
+                     volume.geometry.b_scans - 1);
   HAL_TRY(const auto gl, OffscreenGl::open(options.width, options.height));
   return draw(volume, options, gl->clock());
 }

@@ -43,7 +43,9 @@ struct RenderArguments {
   std::string vessel_colours = "branch";
   TreeArguments tree;
   std::size_t volume_number = 0;
-  CLI::Option* at = nullptr;      // whether one was said
+  CLI::Option* at = nullptr; // whether one was said
+  int cut_at = 0;
+  CLI::Option* cut = nullptr;     // likewise
   CLI::Option* opacity = nullptr; // the configuration may say another
 };
 
@@ -138,6 +140,10 @@ hal::Result<RenderOptions> options_of(const RenderArguments& a) {
   RenderOptions options;
   options.view = a.view;
   HAL_CHECK(read_look(a, options));
+  if (!a.cut->empty()) {
+    options.view.cut = true;
+    options.view.b_scan = a.cut_at;
+  }
   options.view.stereo = stereo_modes().at(a.stereo);
   options.view.vessel_colouring = vessel_colourings().at(a.vessel_colours);
   options.quality.steps = a.steps;
@@ -255,6 +261,14 @@ void add_look_options(CLI::App& command, RenderArguments& a) {
                   .add_option("--opacity", a.view.opacity,
                               "Of a voxel at the top of the window (0.5 if not given)")
                   ->check(within(0.01F, 1.0F));
+  command
+      .add_option("--see-through", a.view.see_through_db,
+                  "dB by which tissue that covers other tissue is drawn weaker")
+      ->check(within_range_of(ui::Action::see_through))
+      ->capture_default_str();
+  a.cut =
+      command.add_option("--cut", a.cut_at, "Cut the volume open at this B-scan, counted from 0")
+          ->check(within(0, 1000000000));
   command.add_option("--transfer", a.transfer,
                      "Transfer function: window, smooth, surface or the configuration's own");
   command.add_option("--colours", a.colours, "Colour map: grey, amber, blue-green or dawn");

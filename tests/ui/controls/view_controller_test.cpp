@@ -159,6 +159,18 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   turn(3);
   EXPECT_EQ(state().a_scan, first_.a_scan + 12);
   EXPECT_FALSE(state().echo.chosen);
+  choose(Action::cut);
+  turn(1);
+  EXPECT_TRUE(state().cut);
+  EXPECT_EQ(echo(), "at the B-scan");
+  tread({2});
+  EXPECT_EQ(state().selected, Action::see_through);
+  turn(-20);
+  EXPECT_EQ(state().see_through_db, 0);
+  tread({2});
+  EXPECT_EQ(state().selected, Action::opacity);
+  turn(2);
+  EXPECT_FLOAT_EQ(state().opacity, first_.opacity + 0.1F);
   choose(Action::stereo);
   tread({2});
   EXPECT_EQ(state().selected, Action::vessels) << "past the unseen parallax and all of vessels";
@@ -167,7 +179,7 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   EXPECT_EQ(state().selected, Action::b_scan) << "round again";
   tread({0});
   EXPECT_EQ(state().selected, Action::legend);
-  EXPECT_EQ(count(Action::adjust), 2U);
+  EXPECT_EQ(count(Action::adjust), 5U);
   EXPECT_EQ(count(Action::b_scan), 1U);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipeline/files/png_image.h"
+#include "pipeline/volume/level_scale.h"
 #include "pipeline/volume/volume_geometry.h"
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/picture_file.h"
@@ -199,6 +200,85 @@ TEST_F(VolumePainterTest, sets_up_every_thread_that_it_starts) {
   EXPECT_EQ(roles.count("rays"), helpers);
   EXPECT_EQ(roles.count("surface"), 1U);
   EXPECT_EQ(roles.size(), helpers + 1);
+}
+
+// A dim sheet over bright tissue, with a gap: only the sheet is drawn weaker, by whoever draws it.
+TEST_F(VolumePainterTest, sees_through_what_covers_tissue) {
+  pipeline::Volume volume = uniform_volume(small_geometry, 40);
+  for (int b = 0; b < small_geometry.b_scans; ++b)
+    for (int a = 0; a < small_geometry.a_scans; ++a) {
+      const auto column = volume.b_scan(b).begin() + a * small_geometry.depths;
+      std::fill_n(column + 16, 24, std::uint8_t{110});
+      std::fill_n(column + 80, 24, std::uint8_t{150});
+    }
+  ASSERT_TRUE(show(volume));
+  ui::ViewState view = view_from(35, 60, 2.4F);
+  const auto middle = [&](const pipeline::Image& picture) {
+    return int{picture.pixel(width / 2, height / 2)[1]};
+  };
+  const auto with = [&](float see_through_db, ui::Technique technique,
+                        const ui::DrawQuality& quality) {
+    view.see_through_db = see_through_db;
+    view.technique = technique;
+    return draw(view, quality);
+  };
+  const pipeline::Image processor = with(11, ui::Technique::rays, by_processor);
+  const pipeline::Image shader = with(11, ui::Technique::rays, by_shader);
+  EXPECT_LE(compare(processor, shader).mean, 1);
+  EXPECT_LE(compare(shader, with(11, ui::Technique::planes, {1, 1024})).mean, 2);
+  for (const ui::Technique technique : ui::all_techniques)
+    for (const ui::DrawQuality& quality : {by_shader, by_processor}) {
+      const int solid = middle(with(0, technique, quality));
+      const int seen_through = middle(with(14, technique, quality));
+      if (technique == ui::Technique::surface || technique == ui::Technique::maximum)
+        EXPECT_EQ(seen_through, solid) << to_string(technique);
+      else
+        EXPECT_GE(seen_through, solid + 15) << to_string(technique);
+    }
+  // A view that asks for more than the shown volume has is given it with the next.
+  view.see_through_db = 5;
+  EXPECT_TRUE(painter_->wants_volume(view));
+  draw(view, by_processor);
+  EXPECT_FALSE(painter_->wants_volume(view));
+}
+
+// The eye is at the end of the last B-scans. What is bright lies there alone, then in one B-scan
+// behind it alone.
+TEST_F(VolumePainterTest, a_cut_takes_away_what_is_before_the_b_scan_and_shows_it) {
+  pipeline::Volume before = uniform_volume(small_geometry, 0);
+  for (int b = 25; b < 40; ++b)
+    std::ranges::fill(before.b_scan(b), std::uint8_t{140});
+  pipeline::Volume alone = uniform_volume(small_geometry, 0);
+  std::ranges::fill(alone.b_scan(20), std::uint8_t{140});
+  ui::ViewState view = view_from(10, 20, 2.4F, 0.02F);
+  for (const ui::Technique technique : ui::all_techniques)
+    for (const ui::DrawQuality& quality : {by_shader, by_processor}) {
+      SCOPED_TRACE(to_string(technique));
+      view.technique = technique;
+      view.b_scan = 20;
+      ASSERT_TRUE(show(before));
+      view.cut = false;
+      EXPECT_GT(brightest(draw(view, quality)), 30);
+      view.cut = true;
+      EXPECT_EQ(brightest(draw(view, quality)), 0) << "all that is there is cut away";
+      view.yaw_deg += 180; // seen from behind, it is what is kept
+      EXPECT_GT(brightest(draw(view, quality)), 30);
+      view.yaw_deg -= 180;
+
+      ASSERT_TRUE(show(alone));
+      const int face = brightest(draw(view, quality));
+      const float window_top = technique == ui::Technique::maximum  ? 54
+                               : technique == ui::Technique::shaded ? 0.8F * 36
+                                                                    : 36;
+      const float grey =
+          std::min((pipeline::level_db(140) - view.window_offset_db) / window_top, 1.F);
+      EXPECT_NEAR(face, 255 * grey, 2) << "as bright as the B-scan, however clear the rest";
+      view.b_scan = 30;                        // the cut follows it
+      if (technique == ui::Technique::maximum) // finds it behind
+        EXPECT_LE(brightest(draw(view, quality)), face);
+      else
+        EXPECT_LT(brightest(draw(view, quality)), face - 20);
+    }
 }
 
 } // namespace

@@ -1,0 +1,141 @@
+// What a surgeon looks for stands out from its surroundings in the first picture of an eye, with
+// nothing touched. The iso-surface is not among the techniques: it is the cornea's.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "firmware-host/commands/volume/render.h"
+#include "firmware-host/run/volume_source.h"
+#include "sim/phantoms/phantom_anterior_eye.h"
+#include "sim/phantoms/phantom_instrument.h"
+#include "ui/view/camera.h"
+
+namespace octascope::tests {
+namespace {
+
+using sim::AnteriorEye;
+
+constexpr int picture_width = 960;
+constexpr int picture_height = 720;
+
+double linear_light(std::uint8_t value) {
+  const double v = value / 255.0;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
+
+class FirstPicture : public testing::TestWithParam<ui::Technique> {
+protected:
+  void SetUp() override {
+    firmware_host::VolumeRequest request;
+    request.phantom = "anterior_eye";
+    auto loaded = firmware_host::load_volume(request);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    volume_ = std::move(loaded->volume);
+    firmware_host::RenderOptions options;
+    options.view.technique = GetParam();
+    options.view.box_visible = false;
+    options.width = picture_width;
+    options.height = picture_height;
+    auto picture = firmware_host::render_volume(volume_, options);
+    ASSERT_TRUE(picture) << picture.error().message;
+    picture_ = std::move(*picture);
+    extents_ = ui::box_extents_mm(volume_.geometry);
+    camera_ =
+        ui::make_camera(options.view, extents_, static_cast<float>(picture_width) / picture_height);
+  }
+
+  // Relative luminance around a place of the phantom, the mean of 3 × 3 pixels.
+  double luminance(float x_mm, float y_mm, float depth_mm) const {
+    const glm::vec2 at = camera_.project({x_mm, extents_.y / 2 - depth_mm, y_mm});
+    const int column = static_cast<int>(picture_width / 2.0F + at.x * picture_height);
+    const int row = static_cast<int>(picture_height / 2.0F + at.y * picture_height);
+    double sum = 0;
+    for (int y = row - 1; y <= row + 1; ++y)
+      for (int x = column - 1; x <= column + 1; ++x) {
+        const auto pixel = picture_.pixel(std::clamp(x, 0, picture_width - 1),
+                                          std::clamp(y, 0, picture_height - 1));
+        sum += 0.2126 * linear_light(pixel[0]) + 0.7152 * linear_light(pixel[1]) +
+               0.0722 * linear_light(pixel[2]);
+      }
+    return sum / 9;
+  }
+
+  pipeline::Volume volume_;
+  pipeline::Image picture_;
+  glm::vec3 extents_{};
+  ui::Camera camera_{};
+};
+
+INSTANTIATE_TEST_SUITE_P(Techniques, FirstPicture,
+                         testing::Values(ui::Technique::slices, ui::Technique::planes,
+                                         ui::Technique::rays, ui::Technique::shaded,
+                                         ui::Technique::maximum),
+                         [](const auto& test) { return std::string{to_string(test.param)}; });
+
+// Beside the pupil's edge, on the side that the forceps' shadow does not reach.
+TEST_P(FirstPicture, shows_the_edge_of_the_iris) {
+  double iris = 0;
+  double pupil = 0;
+  for (int degrees = 100; degrees <= 260; degrees += 5) {
+    const float angle = static_cast<float>(degrees) * std::numbers::pi_v<float> / 180;
+    const auto at = [&](float r_mm, float depth_mm) {
+      return luminance(AnteriorEye::axis_x_mm + r_mm * std::cos(angle), r_mm * std::sin(angle),
+                       depth_mm);
+    };
+    for (const float off_mm : {0.3F, 0.45F, 0.6F}) {
+      iris += at(AnteriorEye::pupil_mm + off_mm,
+                 AnteriorEye::iris_front_mm(AnteriorEye::pupil_mm + off_mm));
+      pupil +=
+          at(AnteriorEye::pupil_mm - off_mm, AnteriorEye::iris_front_mm(AnteriorEye::pupil_mm));
+    }
+  }
+  // The brightest of all that lies along a ray through the pupil is bright, too, and a lamp's light
+  // falls on the one as on the other.
+  const double contrast = GetParam() == ui::Technique::maximum  ? 2
+                          : GetParam() == ui::Technique::shaded ? 2.5
+                                                                : 3;
+  EXPECT_GE(iris / pupil, contrast);
+}
+
+// In the chamber, where the metal faces the beam, against the tissue beside it.
+TEST_P(FirstPicture, shows_the_forceps) {
+  const AnteriorEye eye{1};
+  const pipeline::VolumeGeometry& g = volume_.geometry;
+  double metal = 0;
+  double beside = 0;
+  int places = 0;
+  for (int b = 0; b < g.b_scans; ++b) {
+    const auto pose = eye.instrument()->pose((b + 0.5) / g.b_scans); // a loop of one volume
+    const float y_mm = static_cast<float>((b + 0.5 - g.b_scans / 2.0) * g.b_spacing_um * 1e-3);
+    for (float x_mm = -1; x_mm < 3.2F; x_mm += 0.1F) {
+      const auto top = pose.top_at(x_mm, y_mm);
+      if (!top || top->facing < 0.95F)
+        continue;
+      ++places;
+      metal += luminance(x_mm, y_mm, top->depth_mm);
+      for (const float side_mm : {-0.9F, 0.9F})
+        beside += luminance(x_mm, y_mm + side_mm, top->depth_mm) / 2;
+    }
+  }
+  EXPECT_GE(places, 30);
+  EXPECT_GE(metal / beside, GetParam() == ui::Technique::shaded ? 2.4 : 3);
+}
+
+// The cornea is drawn weaker, but it is there: its dome against what is behind the volume.
+TEST_P(FirstPicture, shows_the_cornea) {
+  double cornea = 0;
+  double outside = 0;
+  for (float y_mm = -4; y_mm < -2; y_mm += 0.1F) {
+    const float r_mm = std::abs(y_mm);
+    cornea += luminance(AnteriorEye::axis_x_mm, y_mm, AnteriorEye::cornea_front_mm(r_mm) + 0.25F);
+    outside += luminance(AnteriorEye::axis_x_mm, y_mm, AnteriorEye::cornea_front_mm(r_mm) - 1.5F);
+  }
+  EXPECT_GE(cornea / outside, 3);
+}
+
+} // namespace
+} // namespace octascope::tests

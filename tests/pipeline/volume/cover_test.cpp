@@ -1,0 +1,94 @@
+// Tissue that covers other tissue, made up of noise and slabs.
+#include <algorithm>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "pipeline/volume/cover.h"
+#include "pipeline/volume/volume.h"
+
+namespace octascope::tests {
+namespace {
+
+using pipeline::Volume;
+
+constexpr pipeline::VolumeGeometry geometry{200, 64, 24, 9, 32, 115};
+constexpr std::uint8_t tissue = 95; // 20 dB above the noise
+
+struct Slab {
+  int first;
+  int end;
+};
+
+Volume noise_with(std::initializer_list<Slab> slabs) {
+  Volume volume{geometry};
+  std::mt19937 random{5};
+  for (std::size_t i = 0; i < volume.levels.size(); ++i) {
+    const int z = static_cast<int>(i % 200);
+    const bool in_slab =
+        std::ranges::any_of(slabs, [&](const Slab& s) { return z >= s.first && z < s.end; });
+    volume.levels[i] = static_cast<std::uint8_t>((in_slab ? tissue : 45) + random() % 11);
+  }
+  return volume;
+}
+
+// With the cover lowered by 20 counts; empty where nothing covers.
+Volume weakened(const Volume& volume) {
+  pipeline::Occupancy occupancy{volume.geometry, pipeline::blank_depth_bins};
+  occupancy.update(volume);
+  pipeline::Cover cover;
+  cover.find(occupancy);
+  Volume to{volume.geometry};
+  if (cover.empty())
+    return Volume{};
+  for (int b = 0; b < volume.geometry.b_scans; ++b)
+    cover.weaken(b, volume.b_scan(b), 20, to.b_scan(b));
+  return to;
+}
+
+TEST(Cover, is_a_layer_with_a_gap_and_tissue_under_it) {
+  Volume volume = noise_with({{30, 80}, {130, 170}});
+  volume.b_scan(12)[32 * 200 + 50] = 160; // an instrument in the layer
+  volume.b_scan(12)[33 * 200 + 50] = 3;   // and a hole
+  const Volume to = weakened(volume);
+  ASSERT_EQ(to.levels.size(), volume.levels.size());
+  for (std::size_t i = 0; i < to.levels.size(); ++i) {
+    const auto z = static_cast<int>(i % 200);
+    if (z >= 130) {
+      ASSERT_EQ(to.levels[i], volume.levels[i]) << "what is covered stays, at " << z;
+    } else if (z >= 30 && z < 80 && volume.levels[i] >= tissue && volume.levels[i] < 160) {
+      ASSERT_EQ(to.levels[i], volume.levels[i] - 20) << z;
+    }
+  }
+  EXPECT_EQ(to.b_scan(12)[32 * 200 + 50], 160) << "instruments stay";
+  EXPECT_EQ(to.b_scan(12)[33 * 200 + 50], 1) << "what was measured stays above nothing";
+}
+
+TEST(Cover, is_not_what_covers_nothing) {
+  EXPECT_TRUE(weakened(noise_with({})).levels.empty());
+  EXPECT_TRUE(weakened(noise_with({{30, 80}})).levels.empty()) << "a sheet alone in air";
+  EXPECT_TRUE(weakened(noise_with({{30, 200}})).levels.empty()) << "thick tissue";
+  EXPECT_TRUE(weakened(noise_with({{30, 80}, {90, 170}})).levels.empty()) << "a fold's small gap";
+}
+
+// A pupil is no window: under it there is no iris, but it is the same cornea.
+TEST(Cover, reaches_over_where_nothing_lies_under_it) {
+  Volume volume = noise_with({{30, 80}, {130, 170}});
+  for (int b = 6; b < 18; ++b)
+    for (int a = 16; a < 48; ++a)
+      std::fill_n(volume.b_scan(b).begin() + a * 200 + 130, 70, std::uint8_t{45});
+  const Volume to = weakened(volume);
+  ASSERT_FALSE(to.levels.empty());
+  EXPECT_EQ(to.b_scan(12)[32 * 200 + 60], volume.b_scan(12)[32 * 200 + 60] - 20);
+}
+
+TEST(Cover, takes_volumes_of_any_shape) {
+  for (const pipeline::VolumeGeometry& g :
+       {pipeline::VolumeGeometry{1, 1, 1}, {4100, 9, 2}, {33, 17, 5}}) {
+    Volume volume{g};
+    EXPECT_TRUE(weakened(volume).levels.empty());
+  }
+}
+
+} // namespace
+} // namespace octascope::tests

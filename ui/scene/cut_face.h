@@ -1,0 +1,31 @@
+// The face of a cut volume: the B-scan, in its place in the volume.
+#pragma once
+
+#include "hal/result.h"
+#include "ui/gl/objects.h"
+#include "ui/layout/layout.h"
+#include "ui/view/cut.h"
+#include "ui/volume/transfer_program.h"
+#include "ui/volume/volume_texture.h"
+
+namespace octascope::ui {
+
+// Threads: as gl/objects.h. Allocates when it is made, never afterwards.
+class CutFace {
+public:
+  static hal::Result<CutFace> create();
+
+  // Blends it over the volume's picture in `rect` of the bound framebuffer; all that a cut leaves
+  // lies behind it. In the levels as they came: nothing is drawn weaker here.
+  void composite(const VolumeTexture& volume, const TransferTexture& transfer, const Camera& camera,
+                 const SlowRange& kept, const Rect& rect, int target_height) const;
+
+private:
+  explicit CutFace(TransferProgram program)
+      : program_{std::move(program)}, vertex_array_{gl::VertexArray::make()} {}
+
+  TransferProgram program_;
+  gl::VertexArray vertex_array_; // empty: vertices are computed from their index
+};
+
+} // namespace octascope::ui
