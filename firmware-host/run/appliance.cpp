@@ -5,6 +5,7 @@
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/configuration/kept/configuration_choice.h"
 #include "firmware-host/configuration/kept/configuration_watch.h"
+#include "firmware-host/outputs/local_time.h"
 #include "firmware-host/outputs/picture_writer.h"
 #include "firmware-host/report/notice.h"
 #include "firmware-host/report/run_outputs.h"
@@ -129,6 +130,7 @@ void AssembledAppliance::make_render_loop(ui::ControlProfile profile) {
   source_->configure(setup);
   setup.view.b_scan = setup.b_scans / 2;
   setup.host.configuration = live_configuration_.state();
+  setup.host.whose = source_->whose();
   live_configuration_.configure(setup);
   host_ = setup.host;
   sim::SimControlInput* const controls = devices_->simulated_controls();
@@ -187,6 +189,7 @@ void AssembledAppliance::update_status() {
   const hal::TimePoint now = clock_.now();
   describe_devices();
   source_->describe(host_, now);
+  host_.time_of_day = local_time_of_day();
   host_.notice = notice(now);
   loop_->tell(host_);
 }

@@ -70,6 +70,7 @@ struct RenderLoopSetup {
   int b_scans = 80;
   int lines_per_frame = 379;
   std::optional<ui::ScanField> scan_field;
+  ui::ScanOrientation orientation;
   HostStatus host; // initial
 };
 
@@ -122,6 +123,9 @@ public:
   // Replaces the functions and colour maps to choose from and redraws. The caller adapts the view's
   // indices.
   void change_transfers(ui::TransferSet transfers);
+  void change_orientation(const ui::ScanOrientation& orientation) {
+    status_writer_.orient(orientation);
+  }
   void change_veil(hal::Duration veil_after) { setup_.freshness.veil_after = veil_after; }
 
   // Replaces the profile when another pedal or knob leads.

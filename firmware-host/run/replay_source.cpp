@@ -35,8 +35,7 @@ public:
     const pipeline::RecordingFacts& facts = volumes_->facts();
     setup.b_scans = facts.geometry.b_scans;
     setup.host.simulated = facts.simulated;
-    setup.host.recording_patient =
-        recording_patient(facts); // before the first volume has come, too
+    setup.host.replayed = true;
   }
   SourceParts parts() override { return {.volumes = *volumes_}; }
   pipeline::ThreadSetup thread_setup() override {

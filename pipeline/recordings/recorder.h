@@ -20,10 +20,11 @@
 namespace octascope::pipeline {
 
 struct RecorderStatus {
-  bool on = false;            // volumes are being taken
-  hal::TimePoint since;       // valid while `on`
-  std::uint64_t kept = 0;     // volumes of this recording, or of the last
-  std::uint64_t not_kept = 0; // no place was free: the disk was too slow
+  bool on = false;                   // volumes are being taken
+  hal::TimePoint since;              // valid while `on`
+  std::uint64_t kept = 0;            // volumes of this recording, or of the last
+  std::uint64_t not_kept = 0;        // no place was free: the disk was too slow
+  std::optional<std::uint64_t> room; // volumes that the disk still takes; empty: not known yet
 };
 
 // The fixed-rate thread offers each volume and never waits: the volume is copied to a free place,
@@ -92,6 +93,7 @@ private:
   std::atomic<std::int64_t> since_ns_{0};
   std::atomic<std::uint64_t> kept_{0};
   std::atomic<std::uint64_t> not_kept_{0};
+  std::atomic<std::uint64_t> room_{0}; // volumes; 0: not known
   std::atomic<bool> stopping_{false};
   Wakeup wakeup_;
 

@@ -1,10 +1,8 @@
-// Shows for a moment what a control just did.
+// What a control just did: shown for a moment in the place of what the knob turns.
 #pragma once
 
 #include <string_view>
 
-#include "ui/hud/canvas.h"
-#include "ui/layout/layout.h"
 #include "ui/view/fixed_text.h"
 #include "ui/view/view_state.h"
 
@@ -22,8 +20,5 @@ struct ParameterEcho {
 
 // `b_scans`: of the shown volume. Pure.
 ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, int b_scans);
-
-// At the bottom of its place in the layout, as wide as its text.
-void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);
 
 } // namespace octascope::ui

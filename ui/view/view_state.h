@@ -61,11 +61,12 @@ struct ViewState {
   bool vessels_visible = true; // the vessel tree, if one is loaded
   float vessel_opacity = 1;
   VesselColouring vessel_colouring = VesselColouring::branch;
-  VesselNudge vessel_nudge;    // relative to the registration
-  bool vessel_account = false; // shows the segment counts
-  bool legend_visible = false; // what each control does
-  bool legend_of_keys = false; // shows the keys instead
-  int b_scan = 40;             // index of the panel's B-scan on the slow axis
+  VesselNudge vessel_nudge;     // relative to the registration
+  bool vessel_account = false;  // shows the segment counts
+  bool figures_visible = false; // the engineer's strip
+  bool legend_visible = false;  // what each control does
+  bool legend_of_keys = false;  // shows the keys instead
+  int b_scan = 40;              // index of the panel's B-scan on the slow axis
 
   Action selected = Action::window_offset; // what the knob controls
   Echo echo;

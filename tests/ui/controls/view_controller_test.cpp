@@ -144,14 +144,18 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   turn(4);
   EXPECT_FLOAT_EQ(state().window_size_db, first_.window_size_db + 4);
   EXPECT_FALSE(state().echo.chosen);
-  for (int i = 0; i < 7 - 2; ++i) // without vessels, nothing of theirs
+  for (int i = 0; i < 8 - 2; ++i) // without vessels, nothing of theirs
     tread({2});
   EXPECT_EQ(state().selected, Action::window_offset) << "round again, past the unseen parallax";
+  tread({0});
+  EXPECT_EQ(state().selected, Action::figures);
+  turn(1);
+  EXPECT_TRUE(state().figures_visible);
   tread({0});
   EXPECT_EQ(state().selected, Action::b_scan);
   turn(-2);
   EXPECT_EQ(state().b_scan, first_.b_scan - 2);
-  EXPECT_EQ(count(Action::adjust), 2U);
+  EXPECT_EQ(count(Action::adjust), 3U);
   EXPECT_EQ(count(Action::b_scan), 1U);
 }
 
@@ -178,6 +182,8 @@ TEST_F(Controller, vessels_are_steered_by_the_knob_where_they_are_shown) {
   EXPECT_TRUE(state().vessel_nudge.any()) << "where vessels lie is no matter of the view";
   EXPECT_FLOAT_EQ(state().vessel_opacity, 0.7F);
   controller_.handle(press('v'));
+  tread({2});
+  EXPECT_EQ(state().selected, Action::figures) << "hidden vessels are not steered";
   tread({2});
   EXPECT_EQ(state().selected, Action::window_offset) << "hidden vessels are not steered";
 }
@@ -211,7 +217,8 @@ TEST_F(Controller, parallax_can_be_chosen_in_stereo) {
   controller_.handle(press('d'));
   EXPECT_EQ(state().stereo, StereoMode::side_by_side);
   tread({0});
-  EXPECT_EQ(state().selected, Action::parallax);
+  tread({0});
+  EXPECT_EQ(state().selected, Action::parallax) << "before the engineer's strip";
   turn(2);
   EXPECT_FLOAT_EQ(state().parallax_deg, first_.parallax_deg + 0.5F);
 }
