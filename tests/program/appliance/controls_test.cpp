@@ -89,7 +89,7 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   folder.write("tree.swc", "1 18 -300 0 0 200 -1\n2 18 300 0 0 200 1\n");
   const ProgramResult result = run_in(
       folder, {"run", "--sim", "--config", write_configuration(folder, ""), "--display",
-               "offscreen", "--size", "640x360", "--controls", script(), "--duration", "17.2",
+               "offscreen", "--size", "640x360", "--controls", script(), "--duration", "17.7",
                "--vessels", "tree.swc", "--report", report_file, "--snapshot", last_file});
   ASSERT_EQ(result.exit_status, 0) << result.describe();
 
@@ -99,15 +99,15 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   for (const auto& [name, count] : actions.items())
     EXPECT_GE(count.get<int>(), 1) << name;
   EXPECT_EQ(actions["snapshot"], 4);
-  EXPECT_EQ(actions["adjust"], 18);
-  EXPECT_EQ(actions["next_parameter"], 18);
+  EXPECT_EQ(actions["adjust"], 19);
+  EXPECT_EQ(actions["next_parameter"], 19);
 
   const json& view = report.at("view");
   expect_all(view, json::parse(R"({
     "window_offset_db": 6, "window_size_db": 58, "yaw_deg": 41, "tilt_deg": 38, "distance": 3,
     "parallax_deg": 3.5, "technique": "shaded", "layout": "quad", "stereo": "side_by_side",
     "frozen": true, "vessels": false, "box": false, "legend": true,
-    "selected": "reset_registration", "vessel_colours": "order", "vessel_shift_mm": [0, 0, 0]
+    "figures": true, "selected": "figures", "vessel_colours": "order", "vessel_shift_mm": [0, 0, 0]
   })"));
   EXPECT_EQ(view["b_scan"], small_b_scans / 2 + 2);
   EXPECT_NEAR(view["vessel_opacity"].get<double>(), 0.7, 1e-3);
