@@ -105,7 +105,7 @@ struct Renderer::Parts {
   Crop crop_of(const ViewState& view) const {
     return view.zoom_to_tissue ? crop.current() : Crop{};
   }
-  Layout layout(int width, int height, const ViewState& view) const;
+  Layout layout(const DrawnPicture& picture) const;
   hal::Result<> prepare_fonts(float unit);
   void fill_canvases(const DrawnPicture& picture, const Layout& places, const HudScene& shown);
   hal::Result<> draw(const DrawnPicture& picture);
@@ -152,7 +152,7 @@ hal::Duration Renderer::Parts::spent_on_vessels() const {
   return volume.vessels() != nullptr ? volume.vessels()->spent() : hal::Duration{};
 }
 
-Layout Renderer::Parts::layout(int width, int height, const ViewState& view) const {
+Layout Renderer::Parts::layout(const DrawnPicture& picture) const {
   PictureAspects aspects;
   if (!volume.empty()) {
     const pipeline::VolumeGeometry& g = volume.texture().geometry();
@@ -164,7 +164,8 @@ Layout Renderer::Parts::layout(int width, int height, const ViewState& view) con
   aspects.has_scope = scope_shown;
   if (scope_shown)
     aspects.scope = scope_panel.aspect();
-  return lay_out(width, height, aspects, view.layout);
+  return lay_out(picture.width, picture.height, aspects, picture.view.layout,
+                 {.figures = picture.text.figures_shown, .legend = picture.text.legend != nullptr});
 }
 
 hal::Result<> Renderer::Parts::prepare_fonts(float unit) {
@@ -194,8 +195,9 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   const EyeFrame frame = eye_frame(view.stereo, eye, picture.width, height);
   HudScene shown = scene(view);
   const bool has_volume = shown.shown.volume;
+  const bool has_view = has_volume && !places.view.empty();
   const Rect view_rect = frame.place(places.view);
-  if (has_volume) {
+  if (has_view) {
     shown.camera = make_camera(view, shown.extents_mm, aspect_of(places.view), eye);
     HAL_CHECK(volume.update(eye, view, shown.camera, picture.quality, view_rect));
   }
@@ -204,8 +206,9 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   if (scope_shown && places.scope.shown())
     scope_panel.draw(frame.place(places.scope.picture), height, picture.text.scope_stale);
   canvas_renderer.draw(under_volume, frame, height);
-  if (has_volume) {
+  if (has_view)
     volume.composite(eye, view_rect, height);
+  if (has_volume) {
     const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
       if (panel.shown())
         b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown.crop,
@@ -244,7 +247,7 @@ hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& view, const Layou
 }
 
 hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
-  const Layout places = layout(picture.width, picture.height, picture.view);
+  const Layout places = layout(picture);
   HAL_CHECK(prepare_fonts(places.unit));
   clear(picture.width, picture.height);
   const std::uint64_t before = volume.drawings();

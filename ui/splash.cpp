@@ -28,7 +28,7 @@ void lay_out_words(Canvas& canvas, glm::vec2 size, float unit, std::string_view 
   const float line = 2 * canvas.text_height(TextStyle::badge);
   float y = size.y / 2 - line;
   y = centred(y, TextStyle::badge, palette::text, "octascope");
-  y = centred(y, TextStyle::body, palette::accent, doing);
+  y = centred(y, TextStyle::value, palette::accent, doing);
   centred(size.y - line, TextStyle::label, palette::quiet_text,
           std::string{"version "}.append(version).append(" · not a medical device"));
 }

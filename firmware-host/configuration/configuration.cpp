@@ -1,6 +1,7 @@
 #include "firmware-host/configuration/configuration.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <initializer_list>
@@ -119,6 +120,39 @@ void read_display(ConfigTable table, Configuration& configuration) {
       table.number("veil_after_s", hal::to_seconds(configuration.veil_after), {0.5, 3600}));
 }
 
+std::optional<ui::Side> read_side(ConfigTable& table, const char* key) {
+  if (!table.has(key))
+    return std::nullopt;
+  const std::string said = table.text(key, "");
+  const auto side = ui::side_named(said);
+  if (!side)
+    table.complain("{} is \"{}\", expected one of: superior, inferior, nasal, temporal", key, said);
+  return side;
+}
+
+void read_orientation(ConfigTable table, ui::ScanOrientation& orientation) {
+  constexpr std::size_t longest_label = 12; // bytes: what finds room beside the cube
+  ui::ScanOnEye& scan = orientation.on_eye;
+  scan = {read_side(table, "right_eye_x"), read_side(table, "right_eye_y")};
+  if (table.has("right_eye_x") != table.has("right_eye_y"))
+    table.complain("right_eye_x and right_eye_y belong together, expected both or none: where x "
+                   "and y of the scan point to on a right eye");
+  else if (scan.right_eye_x && scan.right_eye_y &&
+           ui::along_one_line(*scan.right_eye_x, *scan.right_eye_y))
+    table.complain("right_eye_x is \"{}\" and right_eye_y is \"{}\", which lie on one line, "
+                   "expected one of superior and inferior, and one of nasal and temporal",
+                   ui::to_string(*scan.right_eye_x), ui::to_string(*scan.right_eye_y));
+  constexpr std::array keys{"x_label", "y_label", "z_label"};
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    std::string& name = orientation.labels.names[i];
+    name = table.text(keys[i], "");
+    if (name.size() > longest_label)
+      table.complain("{} is \"{}\", {} bytes long, expected at most {}: it stands beside the "
+                     "cube of orientation",
+                     keys[i], name, name.size(), longest_label);
+  }
+}
+
 // In lower case, as the kernel writes them.
 void read_keyboards(ConfigTable& table, DeviceConfig& config) {
   for (const std::string& written : table.texts("keyboards")) {
@@ -220,6 +254,7 @@ hal::Result<Configuration> read_configuration(const pipeline::ConfigDocument& do
   ConfigTable display = root.table("display");
   read_display(display, configuration);
   configuration.look = read_look(root, display);
+  read_orientation(root.table("orientation"), configuration.orientation);
   read_controls(root.table("controls"), configuration);
   read_outputs(root.table("observation"), root.table("recordings"), configuration);
   read_sim(root.table("sim"), configuration);

@@ -17,6 +17,7 @@
 #include "pipeline/files/config_document.h"
 #include "pipeline/scan/scan_plan.h"
 #include "ui/controls/built_in_profiles.h"
+#include "ui/status/axis_words.h"
 #include "ui/transfer/auto_window.h"
 
 namespace octascope::firmware_host {
@@ -46,6 +47,8 @@ struct Configuration {
   hal::Duration veil_after = std::chrono::seconds{5};
   // [[transfer]] and [display]
   LookConfiguration look;
+  // [orientation]
+  ui::ScanOrientation orientation;
   // [controls]
   std::optional<std::string> control_profile;        // built in; empty: chosen by the device
   std::optional<std::filesystem::path> control_file; // instead of a built-in profile

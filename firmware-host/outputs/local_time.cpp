@@ -16,4 +16,11 @@ std::string local_date_and_time(std::int64_t wall_clock_ns) {
                      local.tm_mday, local.tm_hour, local.tm_min, local.tm_sec);
 }
 
+std::string local_time_of_day() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  return fmt::format("{:02}:{:02}", local.tm_hour, local.tm_min);
+}
+
 } // namespace octascope::firmware_host

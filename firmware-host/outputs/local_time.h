@@ -10,4 +10,7 @@ namespace octascope::firmware_host {
 // negative times, and years of more than four digits.
 std::string local_date_and_time(std::int64_t wall_clock_ns);
 
+// "14:05" of now, local time.
+std::string local_time_of_day();
+
 } // namespace octascope::firmware_host

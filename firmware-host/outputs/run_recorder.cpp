@@ -137,7 +137,10 @@ ui::RecordingStatus RunRecorder::status(hal::TimePoint now) const {
     return status;
   status.lasted = now - recorder.since;
   status.not_kept = recorder.not_kept;
-  status.eye = setup_.facts.eye;
+  // As fast as it has been written so far.
+  if (recorder.kept > 0 && recorder.room)
+    status.room = status.lasted / static_cast<std::int64_t>(recorder.kept) *
+                  static_cast<std::int64_t>(std::min<std::uint64_t>(*recorder.room, 1'000'000));
   return status;
 }
 

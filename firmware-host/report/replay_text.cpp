@@ -6,21 +6,6 @@
 
 namespace octascope::firmware_host {
 
-namespace {
-
-constexpr std::size_t longest_subject = 16; // bytes: what finds room beside the other badges
-
-} // namespace
-
-std::string recording_patient(const pipeline::RecordingFacts& facts) {
-  const std::string eye = facts.eye == pipeline::Eye::not_said
-                              ? "eye not said"
-                              : fmt::format("{} eye", to_string(facts.eye));
-  if (facts.subject.empty())
-    return eye + ", subject not said";
-  return fmt::format("{}, subject {}", eye, hal::shortened(facts.subject, longest_subject));
-}
-
 std::string recording_source(const std::filesystem::path& file,
                              const pipeline::RecordingFacts& facts, std::size_t position,
                              std::size_t volumes, double rate) {

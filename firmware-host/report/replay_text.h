@@ -10,10 +10,6 @@
 
 namespace octascope::firmware_host {
 
-// "left eye, subject 4711"; "eye not said, subject not said". The eye comes first, since a long
-// subject may be cut.
-std::string recording_patient(const pipeline::RecordingFacts& facts);
-
 // "eye.h5, volume 12 of 240, at rate 2: phantom eye". `position` counts from 0.
 std::string recording_source(const std::filesystem::path& file,
                              const pipeline::RecordingFacts& facts, std::size_t position,

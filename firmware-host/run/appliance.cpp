@@ -5,6 +5,7 @@
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/configuration/kept/configuration_choice.h"
 #include "firmware-host/configuration/kept/configuration_watch.h"
+#include "firmware-host/outputs/local_time.h"
 #include "firmware-host/outputs/picture_writer.h"
 #include "firmware-host/report/notice.h"
 #include "firmware-host/report/run_outputs.h"
@@ -136,6 +137,7 @@ void AssembledAppliance::make_render_loop(ui::ControlProfile profile) {
   setup.view.mark_2_a = setup.geometry.a_scans * 2 / 3;
   setup.view.mark_1_depth = setup.view.mark_2_depth = setup.geometry.depths / 3;
   setup.host.configuration = live_configuration_.state();
+  setup.host.whose = source_->whose();
   if (options_.trace)
     trace_ = std::make_unique<Trace>(setup.geometry.b_scans);
   live_configuration_.configure(setup);
@@ -197,6 +199,7 @@ void AssembledAppliance::update_status() {
   const hal::TimePoint now = clock_.now();
   describe_devices();
   source_->describe(host_, now);
+  host_.time_of_day = local_time_of_day();
   host_.notice = notice(now);
   loop_->tell(host_);
 }

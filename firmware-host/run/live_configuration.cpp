@@ -54,6 +54,7 @@ void LiveConfiguration::configure(RenderLoopSetup& setup) {
   view.colour_map = used_.look.colour_map;
   view.technique = used_.look.technique;
   view.opacity = used_.look.opacity;
+  setup.orientation = used_.orientation;
   if (!settings_)
     return;
   const auto restored = settings_->restore({view, !used_.window, setup.transfers});
@@ -156,6 +157,7 @@ void LiveConfiguration::change_live(ReadConfiguration& read, RenderLoop& loop) {
     loop.change_transfers(read.configuration.look.transfers);
   actions.replace(initial, state);
   loop.change_veil(read.configuration.veil_after);
+  loop.change_orientation(read.configuration.orientation);
   if (names_controls(read.configuration))
     loop.change_controls(std::move(read.controls));
   else if (names_controls(used_))

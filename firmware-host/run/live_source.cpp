@@ -233,8 +233,6 @@ void LiveSource::configure(RenderLoopSetup& setup) const {
   setup.host.source = devices_->source();
   if (configuration_.objective)
     setup.host.source += ", objective " + configuration_.objective->name;
-  if (!options_.subject.empty())
-    setup.host.source += ", subject " + options_.subject;
 }
 
 hal::Result<> LiveSource::start() {

@@ -34,6 +34,7 @@ RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
       governor_({}) {
   if (setup_.restored_view)
     controller_.actions().replace(controller_.actions().initial(), *setup_.restored_view);
+  status_writer_.orient(setup_.orientation);
   status_writer_.tell(setup_.host);
 }
 

@@ -74,6 +74,7 @@ struct RenderLoopSetup {
   pipeline::VolumeGeometry geometry = pipeline::ScanPlan{}.geometry(); // of the volumes to come
   int lines_per_frame = 379;
   std::optional<ui::ScanField> scan_field;
+  ui::ScanOrientation orientation;
   HostStatus host; // initial
 };
 
@@ -128,6 +129,9 @@ public:
   // Replaces the functions and colour maps to choose from and redraws. The caller adapts the view's
   // indices.
   void change_transfers(ui::TransferSet transfers);
+  void change_orientation(const ui::ScanOrientation& orientation) {
+    status_writer_.orient(orientation);
+  }
   void change_veil(hal::Duration veil_after) { setup_.freshness.veil_after = veil_after; }
 
   // Replaces the profile when another pedal or knob leads.

@@ -36,8 +36,7 @@ public:
     const pipeline::RecordingFacts& facts = volumes_->facts();
     setup.geometry = facts.geometry;
     setup.host.simulated = facts.simulated;
-    setup.host.recording_patient =
-        recording_patient(facts); // before the first volume has come, too
+    setup.host.replayed = true;
   }
   SourceParts parts() override { return {.volumes = *volumes_}; }
   pipeline::ThreadSetup thread_setup() override {

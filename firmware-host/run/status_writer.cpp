@@ -1,19 +1,26 @@
 #include "firmware-host/run/status_writer.h"
 
 #include "firmware-host/outputs/local_time.h"
+#include "hal/plain_text.h"
 
 namespace octascope::firmware_host {
+
+namespace {
+
+constexpr std::size_t longest_subject = 24; // bytes: what finds room beside what else is said
+
+} // namespace
 
 void StatusWriter::tell(const HostStatus& host) {
   status_.devices = host.devices;
   status_.device_count = host.device_count;
   status_.simulated = host.simulated;
   status_.source_description = host.source;
-  if (host.recording_patient) {
-    if (!status_.replay)
-      status_.replay.emplace();
-    status_.replay->whose = *host.recording_patient;
-  }
+  if (host.replayed && !status_.replay) // before the first volume has come, too
+    status_.replay.emplace();
+  status_.eye = host.whose.eye;
+  status_.subject = hal::shortened(host.whose.subject, longest_subject);
+  status_.time_of_day = host.time_of_day;
   status_.configuration = host.configuration;
   status_.another_camera = host.another_camera;
   status_.recording = host.recording;

@@ -9,6 +9,7 @@
 #include "firmware-host/report/rate_meter.h"
 #include "firmware-host/supervision/run_counters.h"
 #include "hal/clock.h"
+#include "pipeline/volume/patient_eye.h"
 #include "pipeline/volume/volume.h"
 #include "ui/status/freshness.h"
 #include "ui/status/status.h"
@@ -20,8 +21,10 @@ struct HostStatus {
   std::array<ui::DeviceStatus, ui::Status::most_devices> devices;
   std::size_t device_count = 0;
   bool simulated = false;
-  std::string source;                           // what the volumes are; short
-  std::optional<std::string> recording_patient; // empty: the volumes are live
+  std::string source;         // what the volumes are; short
+  bool replayed = false;      // the volumes are those of a recording
+  pipeline::PatientEye whose; // as said for this very run, or for the recording
+  std::string time_of_day;    // "14:05"
   ui::ConfigurationState configuration = ui::ConfigurationState::own;
   bool another_camera = false;
   ui::RecordingStatus recording;
@@ -44,6 +47,8 @@ public:
   bool has_volume() const { return shown_.has_value(); }
 
   void tell(const HostStatus& host);
+
+  void orient(const ui::ScanOrientation& orientation) { status_.orientation = orientation; }
 
   // Call when this volume enters the picture.
   void show(const pipeline::Volume& volume);

@@ -90,10 +90,12 @@ void Recorder::offer(const Volume& volume) {
 }
 
 RecorderStatus Recorder::status() const {
+  const std::uint64_t room = room_.load(std::memory_order_relaxed);
   return {.on = state_.load(std::memory_order_acquire) == State::on,
           .since = hal::TimePoint{hal::Duration{since_ns_.load(std::memory_order_relaxed)}},
           .kept = kept_.load(std::memory_order_relaxed),
-          .not_kept = not_kept_.load(std::memory_order_relaxed)};
+          .not_kept = not_kept_.load(std::memory_order_relaxed),
+          .room = room > 0 ? std::optional{room} : std::nullopt};
 }
 
 std::optional<hal::Error> Recorder::failure() const {
@@ -166,6 +168,7 @@ bool Recorder::open() {
   }
   writer_.emplace(std::move(*made));
   ++recordings_;
+  room_.store(0, std::memory_order_relaxed);
   synced_ = clock_.now();
   since_ns_.store(synced_.time_since_epoch().count(), std::memory_order_relaxed);
   return true;
@@ -196,6 +199,9 @@ void Recorder::write(const Place& place) {
                          open_file_.string(), room.available >> 20, room_left_alone >> 20)});
     return;
   }
+  if (!error)
+    room_.store((room.available - room_left_alone) / place.volume.levels.size(),
+                std::memory_order_relaxed);
   if (const auto appended = writer_->append(place.volume, place.entry); !appended) {
     give_up(Fault::recording_not_kept, appended.error());
     return;

@@ -19,10 +19,11 @@
 namespace octascope::pipeline {
 
 struct RecorderStatus {
-  bool on = false;            // volumes are being taken
-  hal::TimePoint since;       // valid while `on`
-  std::uint64_t kept = 0;     // volumes of this recording, or of the last
-  std::uint64_t not_kept = 0; // no place was free: the disk was too slow
+  bool on = false;                   // volumes are being taken
+  hal::TimePoint since;              // valid while `on`
+  std::uint64_t kept = 0;            // volumes of this recording, or of the last
+  std::uint64_t not_kept = 0;        // no place was free: the disk was too slow
+  std::optional<std::uint64_t> room; // volumes that the disk still takes; empty: not known yet
 };
 
 // The fixed-rate thread offers each volume and never waits: the volume is copied to a free place,
@@ -90,6 +91,7 @@ private:
   std::atomic<std::int64_t> since_ns_{0};
   std::atomic<std::uint64_t> kept_{0};
   std::atomic<std::uint64_t> not_kept_{0};
+  std::atomic<std::uint64_t> room_{0}; // volumes; 0: not known
   Wakeup wakeup_;
 
   mutable std::mutex mutex_; // of what is to begin, and of how it went

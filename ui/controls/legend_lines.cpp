@@ -1,5 +1,6 @@
 #include "ui/controls/legend_lines.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cctype>
@@ -74,6 +75,11 @@ Legend make_legend(const ControlProfile& profile) {
   for (const KnobAction& bound : profile.knob_actions)
     if (bound.while_held != 0)
       legend.lines.push_back({words_for(profile, bound), bound.action, bound.step < 0});
+  const auto chooses = [](const LegendLine& line) {
+    return line.action == Action::next_parameter || line.action == Action::previous_parameter;
+  };
+  if (std::ranges::any_of(legend.lines, chooses))
+    legend.menu = profile.menu;
   return legend;
 }
 

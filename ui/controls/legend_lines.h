@@ -17,6 +17,7 @@ struct LegendLine {
 struct Legend {
   std::string title;
   std::vector<LegendLine> lines;
+  std::vector<Action> menu{}; // what next_parameter goes through; empty: there is no such control
 };
 
 // For the profile's device, in the profile's order.

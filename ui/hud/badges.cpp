@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "ui/hud/hud.h"
 
 namespace octascope::ui {
@@ -13,7 +15,6 @@ struct BadgeLook {
 BadgeLook look_of(BadgeKind kind) {
   switch (kind) {
   case BadgeKind::replay: return {palette::replay, true};
-  case BadgeKind::whose: return {palette::replay, false};
   case BadgeKind::simulated: return {palette::simulated, false};
   case BadgeKind::waiting: return {palette::quiet_text, false};
   case BadgeKind::stale: return {palette::warning, true};
@@ -38,13 +39,6 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
                    glm::vec2{at.x + half, centre.y + half * 0.8F}},
                   ink);
     }
-    break;
-  case BadgeKind::whose: // a card
-    canvas.frame({static_cast<int>(centre.x - half), static_cast<int>(centre.y - half * 0.75F),
-                  static_cast<int>(size), static_cast<int>(size * 0.75F)},
-                 ink, size * 0.12F, 0);
-    canvas.line({centre.x - half * 0.5F, centre.y}, {centre.x + half * 0.5F, centre.y}, ink,
-                size * 0.12F);
     break;
   case BadgeKind::frozen: // two bars: paused
     for (const float side : {-1.0F, 1.0F})
@@ -97,16 +91,43 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
 
 bool is_small(BadgeKind kind) {
   return kind == BadgeKind::incomplete || kind == BadgeKind::configuration ||
-         kind == BadgeKind::calibration || kind == BadgeKind::whose;
+         kind == BadgeKind::calibration;
 }
 
 // What must be seen at once is larger than what explains it.
 TextStyle style_of(BadgeKind kind) {
-  return is_small(kind) ? TextStyle::body : TextStyle::badge;
+  return is_small(kind)                    ? TextStyle::label
+         : kind == BadgeKind::unregistered ? TextStyle::value
+                                           : TextStyle::badge;
 }
 
 float sign_size(float text_height) {
   return text_height * 0.68F;
+}
+
+// The word, and what is said smaller behind it in two lines: date and time.
+struct BadgeWords {
+  std::string_view word;
+  std::string_view above;
+  std::string_view below;
+};
+
+BadgeWords words_of(const Badge& badge) {
+  const std::string_view text = badge.text.view();
+  const std::size_t first = text.find(' ');
+  if (badge.kind != BadgeKind::replay || first == std::string_view::npos)
+    return {text, {}, {}};
+  const std::string_view rest = text.substr(first + 1);
+  const std::size_t second = std::min(rest.find(' '), rest.size());
+  return {text.substr(0, first), rest.substr(0, second),
+          rest.substr(std::min(second + 1, rest.size()))};
+}
+
+float width_behind(const Canvas& canvas, const BadgeWords& words, float u) {
+  if (words.above.empty())
+    return 0;
+  return 12 * u + std::max(canvas.text_width(TextStyle::label, words.above),
+                           canvas.text_width(TextStyle::label, words.below));
 }
 
 void draw_badge(Canvas& canvas, const Badge& badge, const Rect& plate, float u) {
@@ -121,50 +142,79 @@ void draw_badge(Canvas& canvas, const Badge& badge, const Rect& plate, float u) 
   const float sign = sign_size(text_height);
   const auto x = static_cast<float>(plate.x);
   const float middle = static_cast<float>(plate.y) + static_cast<float>(plate.height) / 2;
-  draw_sign(canvas, badge.kind, {x + 13 * u + sign / 2, middle}, sign, ink);
-  canvas.text({x + 22 * u + sign, middle - text_height / 2}, style, ink, badge.text.view());
+  draw_sign(canvas, badge.kind, {x + 10 * u + sign / 2, middle}, sign, ink);
+  const BadgeWords words = words_of(badge);
+  const float left = x + 17 * u + sign;
+  const float width = canvas.text({left, middle - text_height / 2}, style, ink, words.word);
+  const float pitch = 0.84F * canvas.text_height(TextStyle::label); // digits have no descenders
+  const float behind = left + width + 12 * u;
+  canvas.text({behind, middle - 1.07F * pitch}, TextStyle::label, ink, words.above);
+  canvas.text({behind, middle - 0.12F * pitch}, TextStyle::label, ink, words.below);
 }
 
 } // namespace
 
-// Row by row; smaller ones together, in the middle of a row's height.
+// Row by row; of the smaller ones, two in the height of a large one. What finds no room in the row
+// above framed pictures goes into the upper part of the large one.
 BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudText& text) {
   const float u = layout.unit;
-  const auto padded = [&](TextStyle style) {
-    return static_cast<int>(canvas.text_height(style) + 10 * u);
+  const auto gap = static_cast<int>(4 * u);
+  const auto tight = static_cast<int>(2 * u); // between the small ones of a row
+  const auto height_of = [&](TextStyle style) {
+    const float spare = style == TextStyle::label ? -2 : 4; // letters have room in their line
+    return static_cast<int>(canvas.text_height(style) + spare * u);
   };
-  const auto gap = static_cast<int>(10 * u);
-  const int row = padded(TextStyle::badge);
-  int x = layout.marks.x;
-  int y = layout.marks.y;
-  int row_height = row;
-  BadgePlaces places{};
   const auto width_of = [&](const Badge& badge) {
     const TextStyle style = style_of(badge.kind);
-    return static_cast<int>(canvas.text_width(style, badge.text.view()) +
-                            sign_size(canvas.text_height(style)) + 36 * u);
+    const BadgeWords words = words_of(badge);
+    return static_cast<int>(canvas.text_width(style, words.word) + width_behind(canvas, words, u) +
+                            sign_size(canvas.text_height(style)) + 27 * u);
   };
-  int small_ones = 0;
-  for (std::size_t i = 0; i < text.badge_count; ++i)
-    if (is_small(text.badges[i].kind))
-      small_ones += width_of(text.badges[i]) + gap;
+  const int row = std::max(height_of(TextStyle::badge), 2 * height_of(TextStyle::label) + tight);
+  const bool framed = layout.kind != LayoutKind::volume;
+  Rect room = layout.marks;
+  int x = room.x;
+  int y = room.y;
+  int row_height = 0;
+  const auto next_row = [&] {
+    if (framed && room == layout.marks) {
+      room = layout.large;
+      room.x += 2 * gap;
+      room.width -= 4 * gap;
+      y = room.y + 2 * gap;
+    } else {
+      y += row_height + gap;
+    }
+    row_height = 0;
+    x = room.x;
+  };
+  BadgePlaces places{};
+  int stacked_x = 0; // where another small one finds room under the last
+  int stacked_width = 0;
   for (std::size_t i = 0; i < text.badge_count; ++i) {
     const Badge& badge = text.badges[i];
-    if (badge.kind == BadgeKind::unregistered && !layout.view_frame.empty()) {
-      places[i] = {x, y, 0, 0}; // said in the small volume itself: vessel_marks.cpp
+    places[i] = {layout.marks.x, layout.marks.y, 0, 0};
+    if (badge.kind == BadgeKind::unregistered && framed)
+      continue; // said in the small volume itself: vessel_marks.cpp
+    const int width = width_of(badge);
+    const int height = height_of(style_of(badge.kind));
+    const bool small = is_small(badge.kind);
+    if (small && stacked_width > 0 && stacked_x + width <= room.right()) {
+      places[i] = {stacked_x, y + height + tight, width, height};
+      x = stacked_x + std::max(stacked_width, width) + 2 * gap;
+      stacked_width = 0;
       continue;
     }
-    const int width = width_of(badge);
-    const int height = padded(style_of(badge.kind));
-    const bool first_small = is_small(badge.kind) && (i == 0 || !is_small(text.badges[i - 1].kind));
-    const int needed = first_small ? small_ones - gap : width;
-    if (x > layout.marks.x && x + needed > layout.marks.right()) {
-      x = layout.marks.x;
-      y += row_height + gap / 2;
-      row_height = height;
-    }
-    places[i] = {x, y + (row_height - height) / 2, width, height};
-    x += width + gap;
+    if (x > room.x && x + width > room.right())
+      next_row();
+    const bool told = badge.kind == BadgeKind::unregistered || badge.kind == BadgeKind::incomplete;
+    if (told && (room != layout.marks || y + height > room.bottom()))
+      continue; // the status bar says it, too
+    places[i] = {x, y, width, height};
+    stacked_x = x;
+    stacked_width = small && row_height >= row ? width : 0; // beside a large one
+    row_height = std::max(row_height, style_of(badge.kind) == TextStyle::badge ? row : height);
+    x += width + 2 * gap;
   }
   return places;
 }

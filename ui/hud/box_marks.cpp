@@ -57,7 +57,7 @@ void draw_wire_frame(Canvas& canvas, const Rect& view, const HudScene& scene, fl
 
 void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
                     const HudScene& scene, bool in_front) {
-  if (!scene.shown.volume)
+  if (!scene.shown.volume || layout.view.empty())
     return;
   const float u = layout.unit;
   const Canvas::Clip clip{canvas, layout.view};

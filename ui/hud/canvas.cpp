@@ -38,6 +38,7 @@ Canvas::~Canvas() = default;
 
 void Canvas::begin(const Fonts& fonts, int width, int height) {
   fonts_ = &fonts;
+  words_.clear();
   shared_->TexUvWhitePixel = fonts.atlas().TexUvWhitePixel;
   shared_->TexUvLines = fonts.atlas().TexUvLines;
   shared_->ClipRectFullscreen = ImVec4{0, 0, static_cast<float>(width), static_cast<float>(height)};
@@ -46,23 +47,44 @@ void Canvas::begin(const Fonts& fonts, int width, int height) {
   list_->PushClipRectFullScreen();
 }
 
-float Canvas::text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words) {
+float Canvas::set(glm::vec2 position, TextStyle style, Colour colour, std::string_view words) {
   const ImFont& font = fonts_->font(style);
   list_->AddText(&font, font.FontSize, to_im(glm::round(position)), packed(colour), words.data(),
                  words.data() + words.size());
   return text_width(style, words);
 }
 
+float Canvas::text(glm::vec2 position, TextStyle style, Colour colour, std::string_view words) {
+  if (words.empty())
+    return 0;
+  const float width = set(position, style, colour, words);
+  const ImVec4& clip = list_->_ClipRectStack.back();
+  const glm::vec2 from = glm::max(glm::floor(position), {clip.x, clip.y});
+  const glm::vec2 to =
+      glm::min(glm::ceil(position + glm::vec2{width, text_height(style)}), {clip.z, clip.w});
+  words_.push_back({{static_cast<int>(from.x), static_cast<int>(from.y),
+                     static_cast<int>(to.x - from.x), static_cast<int>(to.y - from.y)},
+                    style,
+                    colour,
+                    false});
+  return width;
+}
+
 void Canvas::shadowed_text(glm::vec2 position, TextStyle style, Colour colour,
                            std::string_view words) {
+  if (words.empty())
+    return;
   const float reach = std::max(1.0F, text_height(style) / 16);
   for (const glm::vec2 shift :
        {glm::vec2{1, 1}, glm::vec2{-1, 1}, glm::vec2{1, -1}, glm::vec2{-1, -1}})
-    text(position + reach * shift, style, palette::ink.faded(200), words);
+    set(position + reach * shift, style, palette::ink.faded(200), words);
   text(position, style, colour, words);
+  words_.back().shadowed = true;
 }
 
 float Canvas::text_width(TextStyle style, std::string_view words) const {
+  if (words.empty()) // ImGui would look for a text's end
+    return 0;
   const ImFont& font = fonts_->font(style);
   return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, words.data(), words.data() + words.size()).x;
 }

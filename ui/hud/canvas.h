@@ -6,7 +6,9 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -47,6 +49,15 @@ public:
   // Diagonal stripes within the rectangle, no closer than eight pixels.
   void stripes(const Rect& rect, Colour colour, float pitch, float width);
 
+  // What text() set since begin(), for whoever asks whether it lies where it can be read.
+  struct Words {
+    Rect rect; // within the clipping
+    TextStyle style = TextStyle::label;
+    Colour colour;
+    bool shadowed = false;
+  };
+  std::span<const Words> words() const { return words_; }
+
   // Clips drawing to the rectangle during its lifetime.
   class Clip {
   public:
@@ -62,9 +73,12 @@ public:
   const ImDrawList& list() const { return *list_; }
 
 private:
+  float set(glm::vec2 position, TextStyle style, Colour colour, std::string_view words);
+
   const Fonts* fonts_ = nullptr;
   std::unique_ptr<ImDrawListSharedData> shared_;
   std::unique_ptr<ImDrawList> list_;
+  std::vector<Words> words_;
 };
 
 } // namespace octascope::ui

@@ -1,10 +1,8 @@
-// Shows for a moment what a control just did.
+// What a control just did: shown for a moment in the place of what the knob turns.
 #pragma once
 
 #include <string_view>
 
-#include "ui/hud/canvas.h"
-#include "ui/layout/layout.h"
 #include "ui/view/action_table.h"
 #include "ui/view/fixed_text.h"
 #include "ui/view/view_state.h"
@@ -23,8 +21,5 @@ struct ParameterEcho {
 
 // `volume`: the shown one. Pure.
 ParameterEcho compose_echo(const ViewState& view, hal::TimePoint now, const Geometry& volume);
-
-// At the bottom of its place in the layout, as wide as its text.
-void draw_echo(Canvas& canvas, const Layout& layout, const ParameterEcho& echo);
 
 } // namespace octascope::ui

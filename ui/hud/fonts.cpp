@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 #include "embedded_fonts.h"
 #include <imgui.h>
@@ -15,19 +14,8 @@ namespace octascope::ui {
 
 namespace {
 
-constexpr float badge_pixels = 34; // the largest, on a picture 720 high
-
-struct StyleFace {
-  std::span<const unsigned char> file;
-  float pixels; // on a picture 720 high
-};
-
-std::array<StyleFace, text_style_count> faces(const Typeface& typeface) {
-  return {{{typeface.medium, 22},
-           {typeface.medium, 24},
-           {typeface.semi_bold, 28},
-           {typeface.semi_bold, badge_pixels}}};
-}
+constexpr float badge_pixels = 42; // the largest, on a picture 720 high
+constexpr std::array<float, text_style_count> pixels_at_720{26, 30, badge_pixels};
 
 // ImGui's FreeType builder writes a glyph of more pixels past the end of its buffer (256 KiB, four
 // bytes a pixel). No glyph is larger than its line each way. All of them, at the largest unit, take
@@ -36,8 +24,15 @@ constexpr float most_glyph_pixels = 65536;
 constexpr float largest_line = largest_unit * badge_pixels;
 static_assert(largest_line * largest_line <= most_glyph_pixels);
 
-// Latin-1, dashes, ellipsis, minus.
-constexpr std::array<ImWchar, 7> glyph_ranges{0x20, 0xFF, 0x2010, 0x2026, 0x2212, 0x2212, 0};
+constexpr ImWchar not_drawable = 0x25A1; // a square
+
+// Latin-1, dashes, ellipsis, minus, what stands for all others.
+constexpr std::array<ImWchar, 9> own_words{0x20,   0xFF,         0x2010,       0x2026, 0x2212,
+                                           0x2212, not_drawable, not_drawable, 0};
+// Those, Latin of all Europe (A, Romanian), Greek, Cyrillic (Russian to Ukrainian).
+constexpr std::array<ImWchar, 17> names{0x20,   0x17F,  0x218,        0x21B,        0x384,  0x3CE,
+                                        0x400,  0x45F,  0x490,        0x491,        0x2010, 0x2026,
+                                        0x2212, 0x2212, not_drawable, not_drawable, 0};
 
 } // namespace
 
@@ -47,6 +42,17 @@ Typeface inter() {
       std::span{fonts::inter_medium_otf_bytes}.first<sizeof fonts::inter_medium_otf_bytes - 1>(),
       std::span{fonts::inter_semibold_otf_bytes}
           .first<sizeof fonts::inter_semibold_otf_bytes - 1>()};
+}
+
+double mm_per_pixel(int width, int height) {
+  constexpr double screen_height_mm = screen_diagonal_mm * 9 / 18.3576; // of 16:9
+  return 9 * width > 16 * height ? screen_height_mm / height
+                                 : screen_diagonal_mm / std::hypot(width, height);
+}
+
+// Below ten pixels no hinting saves a letter.
+float line_pixels(TextStyle style, float unit) {
+  return std::max(10.0F, std::ceil(pixels_at_720[static_cast<std::size_t>(style)] * unit));
 }
 
 Fonts::Fonts() : atlas_{IM_NEW(ImFontAtlas)()} {}
@@ -67,18 +73,19 @@ hal::Result<Fonts> Fonts::create(float unit, const Typeface& typeface) {
   atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
   // GLES 3 promises textures of 2048 × 2048, which a display 2160 pixels high needs.
   atlas.TexDesiredWidth = unit > 1.2F ? 2048 : 1024;
-  int next = 0;
-  for (const StyleFace& face : faces(typeface)) {
+  for (int i = 0; i < text_style_count; ++i) {
+    const auto style = static_cast<TextStyle>(i);
+    const std::span file = style == TextStyle::label ? typeface.medium : typeface.semi_bold;
     ImFontConfig config;
     config.FontDataOwnedByAtlas = false;
-    config.GlyphRanges = glyph_ranges.data();
-    // Below ten pixels no hinting saves a letter.
-    const float pixels = std::max(10.0F, std::ceil(face.pixels * unit));
+    config.GlyphRanges = style == TextStyle::badge ? own_words.data() : names.data();
     // ImGui takes a mutable pointer and does not write to data that it does not own.
-    result.fonts_[next++] =
-        atlas.AddFontFromMemoryTTF(const_cast<unsigned char*>(face.file.data()),
-                                   static_cast<int>(face.file.size()), pixels, &config);
+    result.fonts_[i] = atlas.AddFontFromMemoryTTF(const_cast<unsigned char*>(file.data()),
+                                                  static_cast<int>(file.size()),
+                                                  line_pixels(style, unit), &config);
   }
+  for (ImFont* font : result.fonts_)
+    font->FallbackChar = not_drawable;
   unsigned char* coverage = nullptr;
   int width = 0;
   int height = 0;

@@ -13,17 +13,24 @@ struct ImFontAtlas;
 
 namespace octascope::ui {
 
-// Capital heights for a surgeon two metres from a 27-inch screen: at least 16 minutes of arc for
-// text that must be seen at once (badge), at least 10 for text that is looked up (the others).
-// Sources: ISO 9241-3 and NUREG-0700 (1.3.1-4) ask for 16′, the former for less where reading is
-// incidental; 10′ is twice the smallest letter that an eye of normal acuity can read.
+// Capital heights for a surgeon two metres from a 27-inch screen of 16:9 (597 × 336 mm): at least 20
+// minutes of arc for what must be read at once (badge), at least 12 for everything else. ISO 9241-3
+// and NUREG-0700 (1.3.1-4) ask for 16′ at least, 20′ to 22′ where reading matters; 12′ is well over
+// twice the smallest letter that an eye of normal acuity can read.
 inline constexpr double viewing_distance_mm = 2000;
 inline constexpr double screen_diagonal_mm = 27 * 25.4;
-inline constexpr double glance_arcmin = 16;
-inline constexpr double lookup_arcmin = 10;
+inline constexpr double glance_arcmin = 20;
+inline constexpr double lookup_arcmin = 12;
 
-enum class TextStyle : std::uint8_t { label, body, value, badge };
-inline constexpr int text_style_count = 4;
+// Of a picture on the screen that it fills: one as high as that of 16:9 if it is wider, else one of
+// the same diagonal (4:3: 549 × 411 mm).
+double mm_per_pixel(int width, int height);
+
+enum class TextStyle : std::uint8_t { label, value, badge };
+inline constexpr int text_style_count = 3;
+
+// The height of a line of text, in pixels; `unit` as in Layout.
+float line_pixels(TextStyle style, float unit);
 
 // Two weights of one typeface, as font files that FreeType reads. Borrowed by Fonts::create().
 struct Typeface {
@@ -34,6 +41,9 @@ struct Typeface {
 // The built-in typeface, embedded in the program.
 Typeface inter();
 
+// Latin, Greek and Cyrillic letters in the styles that names are set in, label and value; a badge
+// has the program's own words, in Latin. What is not there is drawn as a square, U+25A1.
+//
 // Threads: as gl/objects.h.
 class Fonts {
 public:

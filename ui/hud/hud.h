@@ -44,6 +44,7 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
 void draw_badges(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness);
 void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text);
+void draw_engineers_strip(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene);
 
@@ -55,6 +56,7 @@ double round_ruler_step_mm(double least_mm);
 // en-face picture, and in the scan's field in the microscope's picture, each in a colour of its own.
 void draw_scan_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
                      const HudScene& scene);
+glm::vec2 to_pixels(const Rect& rect, const ScanField::Corner& corner);
 void draw_scan_field(Canvas& canvas, const Rect& rect, const ScanField& field,
                      const ViewState& view, const ShownPictures& shown, float unit);
 
@@ -76,9 +78,11 @@ void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& 
 void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene);
 
 // The orientation of the volume: a cube with a bright surface side, a dot where the scan begins
-// (A-scan 0 of B-scan 0 at the surface), and the axes: x along a B-scan, y from B-scan to B-scan, z
-// with depth.
-void draw_orientation_cube(Canvas& canvas, const Rect& rect, const Camera& camera, float unit);
+// (A-scan 0 of B-scan 0 at the surface), and the ends of its axes: the eye's sides if they are
+// said (HudText::ends), else x along a B-scan, y from B-scan to B-scan, z with depth, under the
+// user's own names.
+void draw_orientation_cube(Canvas& canvas, const Rect& rect, const Camera& camera, float unit,
+                           const HudText& text);
 
 // A scale bar with its length as text: 1, 2 or 5 times a power of ten of a millimetre, at most
 // `most_pixels` long. `left_bottom` is its lower left end. `medium`: medium_words() for lengths

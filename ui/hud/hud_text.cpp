@@ -10,6 +10,10 @@ namespace {
 // A microscope picture comes some thirty times a second; one second without is no live picture.
 constexpr hal::Duration scope_stale_after = std::chrono::seconds{1};
 
+// What has several pages shows each so long.
+constexpr hal::Duration page_time = std::chrono::seconds{6};
+constexpr std::size_t one_page = 40; // bytes that every picture has room for
+
 struct MinutesSeconds {
   long long minutes;
   long long seconds;
@@ -77,18 +81,104 @@ void compose_badges(HudText& hud, const Status& status) {
   add_freshness_badge(hud, status.freshness);
   if (status.simulated)
     add_badge(hud, BadgeKind::simulated).text.format("SIMULATED");
-  if (hud.vessels.shown && !status.vessels.registered)
-    add_badge(hud, BadgeKind::unregistered).text.format("VESSELS NOT REGISTERED");
   if (status.configuration != ConfigurationState::own)
     add_badge(hud, BadgeKind::configuration)
         .text.format("{}", status.configuration == ConfigurationState::last_good ? "older setup"
                                                                                  : "scale unknown");
   if (status.another_camera)
     add_badge(hud, BadgeKind::calibration).text.format("another camera's calibration");
-  if (status.replay && !status.replay->whose.empty())
-    add_badge(hud, BadgeKind::whose).text.format("{}", status.replay->whose);
   add_incomplete_badge(hud, status.missing_b_scans, "B-scan missing", "B-scans missing");
   add_incomplete_badge(hud, status.saturated_lines, "line saturated", "lines saturated");
+  if (hud.vessels.shown && !status.vessels.registered)
+    add_badge(hud, BadgeKind::unregistered).text.format("VESSELS NOT REGISTERED");
+}
+
+Trouble& add_trouble(HudText& hud, Trouble::Sign sign) {
+  Trouble& trouble = hud.troubles[hud.trouble_count++];
+  trouble.sign = sign;
+  return trouble;
+}
+
+void add_loss(HudText& hud, std::uint64_t count, std::string_view one, std::string_view more) {
+  add_trouble(hud, Trouble::Sign::lost).words.format("{} {} lost", count, count == 1 ? one : more);
+}
+
+// What a replay's own badges may leave no room for in the row of badges.
+void compose_badges_without_room(HudText& hud) {
+  for (std::size_t i = 0; i < hud.badge_count; ++i)
+    if (hud.badges[i].kind == BadgeKind::incomplete)
+      add_trouble(hud, Trouble::Sign::lost).words.format("{}", hud.badges[i].text.view());
+}
+
+// What must not wait until somebody asks for the figures.
+void compose_troubles(HudText& hud, const Status& status) {
+  if (hud.vessels.shown && !status.vessels.registered)
+    add_trouble(hud, Trouble::Sign::lost).words.format("vessels not registered");
+  if (status.replay)
+    compose_badges_without_room(hud);
+  for (std::size_t i = 0; i < hud.device_count; ++i) {
+    const DeviceStatus& device = hud.devices[i];
+    const std::string_view name = facts_of(device.device).name;
+    if (device.state == hal::DeviceState::failed)
+      add_trouble(hud, Trouble::Sign::failed).words.format("{} failed", name);
+    else if (device.state == hal::DeviceState::absent)
+      add_trouble(hud, Trouble::Sign::absent).words.format("no {}", name);
+  }
+  const Losses& losses = status.losses; // the largest that was lost stands for the smaller ones
+  if (losses.volumes > 0)
+    add_loss(hud, losses.volumes, "volume", "volumes");
+  else if (losses.b_scans > 0)
+    add_loss(hud, losses.b_scans, "B-scan", "B-scans");
+  else if (losses.lines > 0)
+    add_loss(hud, losses.lines, "line", "lines");
+  if (status.recording.on && status.recording.not_kept > 0)
+    add_trouble(hud, Trouble::Sign::lost)
+        .words.format("{} not recorded", status.recording.not_kept);
+  if (status.vessels.state == VesselStatus::State::loading)
+    add_trouble(hud, Trouble::Sign::loading)
+        .words.format("vessels {:.0f} %", std::floor(status.vessels.progress * 100));
+  if (status.vessels.state == VesselStatus::State::failed)
+    add_trouble(hud, Trouble::Sign::failed).words.format("no vessels");
+}
+
+std::string_view words_for(pipeline::Eye eye) {
+  switch (eye) {
+  case pipeline::Eye::left: return "left eye";
+  case pipeline::Eye::right: return "right eye";
+  case pipeline::Eye::not_said: return "eye not said";
+  }
+  return "eye not said";
+}
+
+// Rounded down, and never more than anybody plans for.
+void format_room(FixedText<96>& text, hal::Duration room) {
+  const long long minutes = std::chrono::duration_cast<std::chrono::minutes>(room).count();
+  if (minutes < 10)
+    text.format("room for {}:{:02}", split(room).minutes, split(room).seconds);
+  else if (minutes < 100)
+    text.format("room for {} min", minutes);
+  else if (minutes < 100 * 60)
+    text.format("room for {} h", minutes / 60);
+  else
+    text.format("room for days");
+}
+
+void compose_bar(HudText& hud, const Status& status) {
+  hud.eye.format("{}", words_for(status.eye));
+  hud.time_of_day.format("{}", status.time_of_day);
+  auto& [subject, room, reduced, source] = hud.facts;
+  if (!status.subject.empty())
+    subject.format("subject {}", status.subject);
+  else if (status.replay)
+    subject.format("subject not said");
+  if (status.recording.on) {
+    const auto [minutes, seconds] = split(status.recording.lasted);
+    hud.recording.format("REC {}:{:02}", minutes, seconds);
+    if (status.recording.room)
+      format_room(room, *status.recording.room);
+  }
+  source.format("{}", status.source_description);
+  hud.notice.format("{}", status.notice);
 }
 
 void format_losses(StatusCell& cell, const Losses& losses) {
@@ -100,38 +190,8 @@ void format_losses(StatusCell& cell, const Losses& losses) {
   cell.value.format("{} / {} / {}", losses.lines, losses.b_scans, losses.volumes);
 }
 
-// Vessels have a cell while they are loaded, or where they could not be.
-void format_vessels(StatusCell& cell, const VesselStatus& vessels) {
-  const bool loading = vessels.state == VesselStatus::State::loading;
-  if (!loading && vessels.state != VesselStatus::State::failed)
-    return;
-  cell.label = "Vessels";
-  if (loading)
-    cell.value.format("loading {:.0f} %", std::floor(vessels.progress * 100));
-  else
-    cell.value.format("not loaded");
-  cell.tone = loading ? Tone::normal : Tone::warning;
-}
-
-// Whose it is belongs to it: a recording of the wrong eye is worse than none.
-void format_recording(StatusCell& cell, const RecordingStatus& recording) {
-  if (!recording.on)
-    return;
-  const auto [minutes, seconds] = split(recording.lasted);
-  cell.label = "Recording";
-  if (recording.not_kept > 0) {
-    cell.tone = Tone::warning;
-    cell.value.format("{}:{:02}, {} not kept", minutes, seconds, recording.not_kept);
-    return;
-  }
-  const std::string_view whose = recording.eye == pipeline::Eye::left    ? "left eye"
-                                 : recording.eye == pipeline::Eye::right ? "right eye"
-                                                                         : "eye not said";
-  cell.value.format("{}:{:02}, {}", minutes, seconds, whose);
-}
-
-void compose_cells(HudText& hud, const ViewState& view, const Status& status) {
-  auto& [volumes, lines, frames, latency, lost, window, vessels, recording] = hud.cells;
+void compose_figures(HudText& hud, const ViewState& view, const Status& status) {
+  auto& [volumes, lines, frames, latency, lost, window] = hud.figures;
   volumes.label = "Volumes/s";
   volumes.value.format("{:.1f}", status.volumes_per_s);
   if (!status.replay) // no line comes
@@ -142,18 +202,16 @@ void compose_cells(HudText& hud, const ViewState& view, const Status& status) {
     lines.value.format("{:.2f} M", status.lines_per_s * 1e-6);
   frames.label = "Frames/s";
   frames.value.format("{:.0f}", status.frames_per_s);
-  latency.label = "Latency p50 / p95";
+  latency.label = "Latency";
   if (status.latency_p50_ms && status.latency_p95_ms)
     latency.value.format("{:.0f} / {:.0f} ms", *status.latency_p50_ms, *status.latency_p95_ms);
   else
     latency.value.format("–");
-  lost.label = "Lost lines / B-scans / vol.";
+  lost.label = "Lines / B. / vol. lost";
   format_losses(lost, status.losses);
   window.label = "Window";
   window.value.format("{:.0f} to {:.0f} dB", view.window_offset_db,
                       view.window_offset_db + view.window_size_db);
-  format_vessels(vessels, status.vessels);
-  format_recording(recording, status.recording);
 }
 
 // A nudge by hand leaves the residual of the points behind.
@@ -186,15 +244,16 @@ void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& ve
 }
 
 void compose_reduction(HudText& hud, const Status& status) {
+  FixedText<96>& reduced = hud.facts[2];
   const bool merged = hud.vessels.shown && status.vessels.account.merged > 0;
   const std::string_view vessels = merged ? "thinnest vessels merged" : "";
   if (!status.reduced_quality) {
-    hud.reduced.format("{}", vessels);
+    reduced.format("{}", vessels);
     return;
   }
-  hud.reduced.format("quality reduced to {:.0f} %{}{}",
-                     std::floor(std::clamp(*status.reduced_quality, 0.0F, 1.0F) * 100),
-                     merged ? ", " : "", vessels);
+  reduced.format("quality reduced to {:.0f} %{}{}",
+                 std::floor(std::clamp(*status.reduced_quality, 0.0F, 1.0F) * 100),
+                 merged ? ", " : "", vessels);
 }
 
 std::string_view word_for(pipeline::BScanState state) {
@@ -209,7 +268,6 @@ std::string_view word_for(pipeline::BScanState state) {
 void compose_captions(HudText& hud, const ViewState& view, const Status& status,
                       const ShownPictures& shown) {
   hud.volume.title.format("Volume");
-  hud.volume.note = hud.reduced;
   hud.b_scan.title.format("B-scan");
   hud.crossed.title.format("Crossed B-scan");
   hud.en_face.title.format("En face");
@@ -245,18 +303,25 @@ HudText compose_hud_text(const ViewState& view, const Status& status, const Show
   hud.liveness = status.freshness.liveness;
   compose_vessels(hud, view, status.vessels);
   compose_badges(hud, status);
-  compose_cells(hud, view, status);
+  hud.devices = status.devices;
+  hud.device_count = std::min(status.device_count, Status::most_devices);
+  compose_troubles(hud, status);
+  compose_bar(hud, status);
+  hud.figures_shown = view.figures_visible;
+  if (hud.figures_shown) // else nothing is drawn anew for them
+    compose_figures(hud, view, status);
   compose_reduction(hud, status);
+  hud.ends = ends_of(status.orientation.on_eye, status.eye);
+  if (!hud.ends.said())
+    hud.labels = status.orientation.labels;
   compose_captions(hud, view, status, shown);
   hud.window_changing = status.now < view.echo.until && changes_window(view.echo.action);
   hud.echo = compose_echo(view, status.now, shown.geometry);
   if (view.legend_visible)
     hud.legend = view.legend_of_keys ? status.key_legend : status.legend;
   hud.selected = view.selected;
-  hud.devices = status.devices;
-  hud.device_count = std::min(status.device_count, Status::most_devices);
-  hud.source.format("{}", status.source_description);
-  hud.notice.format("{}", status.notice);
+  if (hud.legend != nullptr || hud.notice.view().size() > one_page)
+    hud.page = status.now.time_since_epoch() / page_time;
   return hud;
 }
 

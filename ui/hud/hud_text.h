@@ -19,7 +19,6 @@ namespace octascope::ui {
 
 enum class BadgeKind : std::uint8_t {
   replay,
-  whose,
   simulated,
   waiting,
   stale,
@@ -39,11 +38,20 @@ struct Badge {
 
 enum class Tone : std::uint8_t { normal, quiet, warning };
 
+// A figure of the machine, in the engineer's strip.
 struct StatusCell {
   std::string_view label;
   FixedText<48> value;
   Tone tone = Tone::normal;
   bool operator==(const StatusCell&) const = default;
+};
+
+// Something that is wrong, or not ready yet, at the right end of the status bar.
+struct Trouble {
+  enum class Sign : std::uint8_t { absent, failed, lost, loading };
+  Sign sign = Sign::absent;
+  FixedText<40> words;
+  bool operator==(const Trouble&) const = default;
 };
 
 struct Caption {
@@ -74,16 +82,27 @@ struct ShownPictures {
 };
 
 struct HudText {
-  // One per kind, and two of kind incomplete; replay and recording exclude each other.
+  // One per kind, and two of kind incomplete.
   static constexpr std::size_t most_badges = 8;
+  static constexpr std::size_t most_troubles = Status::most_devices + 6;
 
-  // Lines, frames and volumes per second: dropped in this order if the bar is too narrow.
-  static constexpr std::array<std::size_t, 3> dispensable_cells{1, 2, 0};
+  // Lines, frames and volumes per second: dropped in this order if the strip is too narrow.
+  static constexpr std::array<std::size_t, 3> dispensable_figures{1, 2, 0};
 
   std::array<Badge, most_badges> badges;
   std::size_t badge_count = 0;
-  std::array<StatusCell, 8> cells; // unused if the label is empty
-  Caption volume;                  // if it is not the large picture
+  FixedText<16> eye;
+  FixedText<8> time_of_day;
+  FixedText<16> recording; // empty: none is on
+  std::array<Trouble, most_troubles> troubles;
+  std::size_t trouble_count = 0;
+  // Said quietly at the bar's top, as far as there is room: whose it is, the room on the disk, how
+  // finely it is drawn, what the volumes are. A notice takes the place of the last two.
+  std::array<FixedText<96>, 4> facts;
+  FixedText<160> notice;
+  std::array<StatusCell, 6> figures; // unused if the label is empty
+  bool figures_shown = false;
+  Caption volume; // if it is not the large picture
   Caption b_scan;
   Caption crossed;
   Caption en_face;
@@ -96,10 +115,10 @@ struct HudText {
   Action selected = Action::window_offset; // what the knob controls, for the legend
   std::array<DeviceStatus, Status::most_devices> devices;
   std::size_t device_count = 0;
-  FixedText<64> reduced; // reduced quality of the volume or its vessels; empty: full quality
   VesselMarks vessels;
-  FixedText<96> source;
-  FixedText<160> notice;
+  AxisEnds ends;
+  AxisLabels labels;
+  std::int64_t page = 0; // of the legend and of a notice that needs two: the next one every few s
   bool operator==(const HudText&) const = default;
 };
 

@@ -8,13 +8,6 @@ namespace octascope::ui {
 
 namespace {
 
-struct Measures {
-  float control = 0; // widths of the columns
-  float action = 0;
-  float row = 0;
-  std::size_t rows = 0; // that there is room for
-};
-
 FixedText<64> words_of(const LegendLine& line, Action selected) {
   FixedText<64> words;
   if (line.action == Action::adjust)
@@ -30,79 +23,131 @@ FixedText<64> words_of(const LegendLine& line, Action selected) {
   return words;
 }
 
-Measures measure(const Canvas& canvas, const Legend& legend, TextStyle style, Action selected,
-                 float room, float unit) {
-  Measures m;
-  m.row = canvas.text_height(style) + 5 * unit;
-  m.rows = static_cast<std::size_t>(std::max(0.0F, room / m.row));
-  for (const LegendLine& line : legend.lines) {
-    m.control = std::max(m.control, canvas.text_width(style, line.control));
-    m.action = std::max(m.action, canvas.text_width(style, words_of(line, selected).view()));
+// Counts rows, and draws those of one page.
+class Rows {
+public:
+  Rows(Canvas& canvas, glm::vec2 top_left, float pitch)
+      : canvas_{canvas}, top_left_{top_left}, pitch_{pitch} {}
+
+  void show(std::int64_t first, std::int64_t count) {
+    first_ = first;
+    last_ = first + count;
+    count_ = 0;
   }
-  return m;
+  std::int64_t count() const { return count_; }
+  void next() { ++count_; }
+  void put(float x, Colour colour, std::string_view words) {
+    if (count_ >= first_ && count_ < last_)
+      canvas_.text({top_left_.x + x, top_left_.y + static_cast<float>(count_ - first_) * pitch_},
+                   TextStyle::label, colour, words);
+  }
+
+private:
+  Canvas& canvas_;
+  glm::vec2 top_left_;
+  float pitch_;
+  std::int64_t first_ = 0;
+  std::int64_t last_ = 0;
+  std::int64_t count_ = 0;
+};
+
+struct Columns {
+  float actions = 0; // where they begin
+  bool beside = true;
+};
+
+Columns measure(const Canvas& canvas, const Legend& legend, Action selected, float gap,
+                float width) {
+  float control = 0;
+  float action = 0;
+  for (const LegendLine& line : legend.lines) {
+    control = std::max(control, canvas.text_width(TextStyle::label, line.control));
+    action = std::max(action, canvas.text_width(TextStyle::label, words_of(line, selected).view()));
+  }
+  const bool beside = control + gap + action <= width;
+  return {beside ? control + gap : gap, beside};
 }
 
-// Beside the large picture it may reach over that, but not near its middle.
-float widest(const Layout& layout) {
-  const auto place = static_cast<float>(layout.legend.width);
-  if (layout.legend.x < layout.large.right())
-    return place;
-  const float middle =
-      static_cast<float>(layout.large.x) + static_cast<float>(layout.large.width) * 0.75F;
-  return std::max(place, static_cast<float>(layout.legend.right()) - middle);
+void lay_out_lines(Rows& rows, const Legend& legend, Action selected, const Columns& columns) {
+  for (const LegendLine& line : legend.lines) {
+    rows.put(0, palette::quiet_text, line.control);
+    if (!columns.beside)
+      rows.next();
+    rows.put(columns.actions, line.action == Action::adjust ? palette::accent : palette::text,
+             words_of(line, selected).view());
+    rows.next();
+  }
+}
+
+// One after the other, as many in a row as fit.
+void lay_out_menu(Rows& rows, const Canvas& canvas, const Legend& legend, Action selected,
+                  float gap, float width) {
+  if (legend.menu.empty())
+    return;
+  rows.put(0, palette::quiet_text, "The knob turns one of");
+  rows.next();
+  float x = gap;
+  for (const Action action : legend.menu) {
+    const std::string_view words = label_of(action);
+    const float length = canvas.text_width(TextStyle::label, words);
+    if (x > gap && x + length > width) {
+      rows.next();
+      x = gap;
+    }
+    rows.put(x, action == selected ? palette::accent : palette::text, words);
+    x += length + gap;
+  }
+  rows.next();
 }
 
 } // namespace
 
-void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Action selected) {
+void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Action selected,
+                 std::int64_t page) {
+  if (layout.legend.empty())
+    return;
   const float u = layout.unit;
-  const float margin = 18 * u;
+  const float margin = 16 * u;
   const float gap = 22 * u; // between the columns
-  const auto right = static_cast<float>(layout.legend.right());
-  const auto top = static_cast<float>(layout.legend.y);
-  const auto most_height = static_cast<float>(layout.legend.height);
-  const float title = canvas.text_height(TextStyle::badge) + 16 * u;
-  const float room = most_height - title - 2 * margin;
-  const float most_width = widest(layout);
-
-  TextStyle style = TextStyle::value;
-  Measures m = measure(canvas, legend, style, selected, room, u);
-  const auto width_of = [&](const Measures& each) {
-    return each.control + gap + each.action + 2 * margin;
-  };
-  if (m.rows < legend.lines.size() || width_of(m) > most_width) {
-    style = TextStyle::body;
-    m = measure(canvas, legend, style, selected, room, u);
-  }
-  const bool cut = legend.lines.size() > m.rows;
-  const std::size_t shown = cut ? std::max<std::size_t>(m.rows, 1) - 1 : legend.lines.size();
-  const float title_width = canvas.text_width(TextStyle::badge, legend.title) + 2 * margin;
-  FixedText<64> more;
-  more.format("{} more do not fit here", legend.lines.size() - shown);
-  const float more_width = cut ? canvas.text_width(style, more.view()) + 2 * margin : 0;
-  const float width = std::max({width_of(m), title_width, more_width});
-  const float height =
-      title + 2 * margin + m.row * static_cast<float>(cut ? shown + 1 : shown) - 5 * u;
-  const Rect plate{static_cast<int>(right - width), static_cast<int>(top), static_cast<int>(width),
-                   static_cast<int>(height)};
+  const Rect& plate = layout.legend;
+  const Canvas::Clip clip{canvas, plate};
   canvas.plate(plate, palette::panel, 6 * u);
   canvas.frame(plate, palette::hairline, std::max(1.0F, u), 6 * u);
 
-  const float left = right - width + margin;
-  float y = top + margin;
-  canvas.text({left, y}, TextStyle::badge, palette::text, legend.title);
-  y += title;
-  canvas.line({left, y - 8 * u}, {right - margin, y - 8 * u}, palette::hairline, std::max(1.0F, u));
-  for (std::size_t i = 0; i < shown; ++i) {
-    const LegendLine& line = legend.lines[i];
-    canvas.text({left, y}, style, palette::quiet_text, line.control);
-    canvas.text({left + m.control + gap, y}, style,
-                line.action == Action::adjust ? palette::accent : palette::text,
-                words_of(line, selected).view());
-    y += m.row;
-  }
-  if (cut)
-    canvas.text({left, y}, style, palette::warning, more.view());
+  const float left = static_cast<float>(plate.x) + margin;
+  const float width = static_cast<float>(plate.width) - 2 * margin;
+  const float title = canvas.text_height(TextStyle::value) + 14 * u;
+  const float top = static_cast<float>(plate.y) + 10 * u;
+  const float pitch = canvas.text_height(TextStyle::label) + 4 * u;
+  const Columns columns = measure(canvas, legend, selected, gap, width);
+  const float room = static_cast<float>(plate.bottom()) - top - title - 8 * u;
+  auto a_page = std::max(std::int64_t{1}, static_cast<std::int64_t>(room / pitch));
+  if (!columns.beside) // nothing is torn apart
+    a_page = std::max(std::int64_t{2}, a_page / 2 * 2);
+
+  Rows rows{canvas, {left, top + title}, pitch};
+  const auto lay_out_all = [&] {
+    lay_out_lines(rows, legend, selected, columns);
+    lay_out_menu(rows, canvas, legend, selected, gap, width);
+  };
+  lay_out_all(); // none is drawn yet
+  const std::int64_t pages = std::max(std::int64_t{1}, (rows.count() + a_page - 1) / a_page);
+  const std::int64_t shown = page % pages;
+  rows.show(shown * a_page, a_page);
+  lay_out_all();
+
+  FixedText<24> number;
+  if (pages > 1)
+    number.format("{} of {}", shown + 1, pages);
+  const float number_width = canvas.text_width(TextStyle::label, number.view());
+  canvas.text({left + width - number_width, top + 2 * u}, TextStyle::label, palette::warning,
+              number.view());
+  const float line = top + title - 8 * u;
+  canvas.line({left, line}, {left + width, line}, palette::hairline, std::max(1.0F, u));
+  const Canvas::Clip title_clip{
+      canvas,
+      {plate.x, plate.y, static_cast<int>(width - number_width), static_cast<int>(title + 10 * u)}};
+  canvas.text({left, top}, TextStyle::value, palette::text, legend.title);
 }
 
 } // namespace octascope::ui

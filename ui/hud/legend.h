@@ -1,15 +1,18 @@
 // What each control does, shown on request.
 #pragma once
 
+#include <cstdint>
+
 #include "ui/controls/legend_lines.h"
 #include "ui/hud/canvas.h"
 #include "ui/layout/layout.h"
 
 namespace octascope::ui {
 
-// A panel at the right border, over the small pictures, so that the volume's centre stays visible.
-// Controls at the left, actions at the right; the knob's entry names `selected`. Lines that do not
-// fit are omitted, and their number is shown.
-void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Action selected);
+// In the layout's place for it. Controls at the left, actions at the right, or under each other
+// where that is narrow; the knob's entry names `selected`. Below, what the menu goes through. What
+// finds no room is on further pages, of which `page` is shown, counted round and round.
+void draw_legend(Canvas& canvas, const Layout& layout, const Legend& legend, Action selected,
+                 std::int64_t page);
 
 } // namespace octascope::ui

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string_view>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "ui/hud/hud.h"
@@ -44,15 +45,28 @@ void draw_face(Canvas& canvas, const Cube& cube, int axis, float sign, float uni
 
 struct Axis {
   int index;
-  std::string_view name;
+  std::size_t name; // in AxisLabels
+  std::string_view letter;
   glm::vec2 side; // of the cube that its name prefers
 };
 
 // As in charts: x and y below, z at the left.
-constexpr std::array axes{Axis{0, "x", {0, 1}}, Axis{2, "y", {0, 1}}, Axis{1, "z", {-1, 0}}};
+constexpr std::array axes{Axis{0, 0, "x", {0, 1}}, Axis{2, 1, "y", {0, 1}},
+                          Axis{1, 2, "z", {-1, 0}}};
+
+// Around `middle`, but within the cube's place.
+void put_name(Canvas& canvas, const Rect& rect, glm::vec2 middle, std::string_view words) {
+  const glm::vec2 size{canvas.text_width(TextStyle::value, words),
+                       canvas.text_height(TextStyle::value)};
+  const glm::vec2 least{rect.x, rect.y};
+  const glm::vec2 most{rect.right(), rect.bottom()};
+  canvas.shadowed_text(glm::clamp(middle - size / 2.0F, least, glm::max(least, most - size)),
+                       TextStyle::value, palette::text, words);
+}
 
 // Beside the middle of the cube's outermost edge along that axis.
-void draw_name(Canvas& canvas, const Cube& cube, const Axis& axis) {
+void draw_name(Canvas& canvas, const Rect& rect, const Cube& cube, const Axis& axis,
+               std::string_view words) {
   glm::vec3 direction{0};
   direction[axis.index] = 1;
   const glm::vec2 along = cube.pixel(direction) - cube.centre;
@@ -77,11 +91,25 @@ void draw_name(Canvas& canvas, const Cube& cube, const Axis& axis) {
       }
     }
   const float outwards = glm::dot(middle - cube.centre, across) < 0 ? -1.0F : 1.0F;
-  const float height = canvas.text_height(TextStyle::label);
-  const float width = canvas.text_width(TextStyle::label, axis.name);
-  canvas.shadowed_text(middle + outwards * 0.55F * height * across -
-                           glm::vec2{width, height} / 2.0F,
-                       TextStyle::label, palette::text, axis.name);
+  const float height = canvas.text_height(TextStyle::value);
+  put_name(canvas, rect, middle + outwards * 0.55F * height * across, words);
+}
+
+// Beyond the cube's sides, where they are seen beside each other.
+void draw_sides(Canvas& canvas, const Rect& rect, const Cube& cube, const AxisEnds& ends) {
+  struct End {
+    glm::vec3 direction;
+    std::optional<Side> side;
+  };
+  for (const auto& [direction, side] :
+       {End{{-1, 0, 0}, ends.x_begin}, End{{1, 0, 0}, ends.x_end}, End{{0, 0, -1}, ends.y_begin},
+        End{{0, 0, 1}, ends.y_end}}) {
+    const glm::vec2 along = cube.pixel(direction) - cube.centre;
+    const float length = glm::length(along);
+    if (side && length > 0.3F * cube.half)
+      put_name(canvas, rect, cube.centre + along * (1.2F * cube.half / length + 0.6F),
+               letter_of(*side));
+  }
 }
 
 // Where the scan begins, as on the microscope's picture.
@@ -98,19 +126,26 @@ void draw_first_sample(Canvas& canvas, const Cube& cube, float unit) {
 
 } // namespace
 
-void draw_orientation_cube(Canvas& canvas, const Rect& rect, const Camera& camera, float unit) {
+void draw_orientation_cube(Canvas& canvas, const Rect& rect, const Camera& camera, float unit,
+                           const HudText& text) {
   if (rect.empty())
     return;
   const Cube cube{camera,
                   {static_cast<float>(rect.x) + static_cast<float>(rect.width) / 2,
                    static_cast<float>(rect.y) + static_cast<float>(rect.height) / 2},
-                  0.22F * static_cast<float>(rect.width)};
+                  0.2F * static_cast<float>(rect.width)};
   for (const int axis : {0, 1, 2})
     for (const float sign : {-1.0F, 1.0F})
       draw_face(canvas, cube, axis, sign, unit);
   draw_first_sample(canvas, cube, unit);
-  for (const Axis& axis : axes)
-    draw_name(canvas, cube, axis);
+  if (text.ends.said()) {
+    draw_sides(canvas, rect, cube, text.ends);
+    return;
+  }
+  for (const Axis& axis : axes) {
+    const std::string& own = text.labels.names[axis.name];
+    draw_name(canvas, rect, cube, axis, own.empty() ? axis.letter : std::string_view{own});
+  }
 }
 
 } // namespace octascope::ui

@@ -37,7 +37,8 @@ inline constexpr Colour warning{255, 186, 74}; // STALE, missing, saturated, los
 inline constexpr Colour alarm{255, 140, 106};  // no live picture, failed
 inline constexpr Colour frozen{175, 214, 255};
 inline constexpr Colour simulated{202, 152, 255};
-inline constexpr Colour replay = text;  // as a plate: the only white one
+inline constexpr Colour recording{160, 0, 12}; // as a plate, the only red one
+inline constexpr Colour replay = text;         // as a plate: the only white one
 inline constexpr Colour ink{8, 11, 14}; // text on a filled badge, shadow of text on a picture
 inline constexpr Colour plate = panel.faded(242); // under text over a picture
 
@@ -57,7 +58,7 @@ inline constexpr std::array texts_on_grounds{
     TextOnGround{alarm, background},   TextOnGround{frozen, panel},
     TextOnGround{simulated, panel},    TextOnGround{ink, warning},
     TextOnGround{ink, alarm},          TextOnGround{ink, frozen},
-    TextOnGround{ink, replay}};
+    TextOnGround{ink, replay},         TextOnGround{text, recording}};
 
 // Colours that show the state of the picture or of a device.
 inline constexpr std::array states{text, good, warning, alarm, frozen, simulated};

@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "ui/hud/hud.h"
 
 namespace octascope::ui {
@@ -15,7 +18,7 @@ Colour colour_of(Tone tone) {
 void draw_caption(Canvas& canvas, const Rect& room, const Caption& caption, float unit) {
   if (room.empty())
     return;
-  const float title = canvas.text_width(TextStyle::body, caption.title.view());
+  const float title = canvas.text_width(TextStyle::label, caption.title.view());
   const float note = canvas.text_width(TextStyle::label, caption.note.view());
   const bool both = title + note + 16 * unit <= static_cast<float>(room.width);
   const auto y = [&](TextStyle style) {
@@ -23,7 +26,7 @@ void draw_caption(Canvas& canvas, const Rect& room, const Caption& caption, floa
            (static_cast<float>(room.height) - canvas.text_height(style)) / 2;
   };
   if (both || caption.note_tone != Tone::warning)
-    canvas.text({static_cast<float>(room.x) + 2 * unit, y(TextStyle::body)}, TextStyle::body,
+    canvas.text({static_cast<float>(room.x) + 2 * unit, y(TextStyle::label)}, TextStyle::label,
                 palette::text, caption.title.view());
   if (both || caption.note_tone == Tone::warning)
     canvas.text({static_cast<float>(room.right()) - 2 * unit - note, y(TextStyle::label)},
@@ -33,22 +36,93 @@ void draw_caption(Canvas& canvas, const Rect& room, const Caption& caption, floa
 // In the upper quarter of the picture.
 void draw_words_over(Canvas& canvas, const Rect& rect, Colour colour, std::string_view words,
                      float unit) {
-  const float width = canvas.text_width(TextStyle::body, words);
-  const float height = canvas.text_height(TextStyle::body);
+  const float width = canvas.text_width(TextStyle::label, words);
+  const float height = canvas.text_height(TextStyle::label);
   const float x = static_cast<float>(rect.x) + (static_cast<float>(rect.width) - width) / 2;
   const float y = static_cast<float>(rect.y) + 10 * unit;
   canvas.plate({static_cast<int>(x - 12 * unit), static_cast<int>(y - 4 * unit),
                 static_cast<int>(width + 24 * unit), static_cast<int>(height + 8 * unit)},
                palette::panel, 4 * unit);
-  canvas.text({x, y}, TextStyle::body, colour, words);
+  canvas.text({x, y}, TextStyle::label, colour, words);
 }
 
-void draw_panel_scale(Canvas& canvas, const Rect& rect, double width_mm, float unit,
+void draw_panel_scale(Canvas& canvas, const Rect& rect, double mm_per_pixel, float unit,
                       std::string_view medium = {}) {
+  if (static_cast<float>(rect.height) < 144 * unit) // it would reach the middle
+    return;
   draw_scale_bar(
       canvas, {static_cast<float>(rect.x) + 8 * unit, static_cast<float>(rect.bottom()) - 8 * unit},
-      width_mm / rect.width, std::min(0.4F * static_cast<float>(rect.width), 240 * unit), unit,
-      medium);
+      mm_per_pixel, std::min(0.3F * static_cast<float>(rect.width), 240 * unit), unit, medium);
+}
+
+// Along its first B-scan, which is as long as the volume is wide.
+double mm_per_pixel_of(const Rect& rect, const ScanField& field, double a_mm) {
+  const glm::vec2 along = to_pixels(rect, field.corners[1]) - to_pixels(rect, field.corners[0]);
+  return a_mm / std::max(1.0, static_cast<double>(glm::length(along)));
+}
+
+// Beside the picture's middle.
+bool has_room(const Canvas& canvas, const Rect& rect, std::string_view words) {
+  return canvas.text_width(TextStyle::value, words) < 0.22F * static_cast<float>(rect.width);
+}
+
+// Inside the picture's border, where the line from `centre` in that direction meets it.
+void draw_side(Canvas& canvas, const Rect& rect, glm::vec2 centre, glm::vec2 direction,
+               std::string_view words, float unit) {
+  const glm::vec2 half =
+      glm::vec2{canvas.text_width(TextStyle::value, words), canvas.text_height(TextStyle::value)} /
+      2.0F;
+  const glm::vec2 low = glm::vec2{rect.x, rect.y} + half + 4 * unit;
+  const glm::vec2 high = glm::vec2{rect.right(), rect.bottom()} - half - 4 * unit;
+  float reach = 1e9F;
+  for (const int axis : {0, 1})
+    if (std::abs(direction[axis]) > 1e-3F)
+      reach = std::min(reach,
+                       ((direction[axis] > 0 ? high : low)[axis] - centre[axis]) / direction[axis]);
+  glm::vec2 at = glm::clamp(centre + std::max(reach, 0.0F) * direction, low, high);
+  if (high.y - at.y < 2 * half.y) // beside the scale
+    at.x = std::max(at.x, std::min(high.x, static_cast<float>(rect.x) + 106 * unit + half.x));
+  canvas.shadowed_text(at - half, TextStyle::value, palette::text, words);
+}
+
+// Where x and y point to in a picture that shows the scan from above.
+struct Directions {
+  glm::vec2 centre;
+  glm::vec2 x;
+  glm::vec2 y;
+};
+
+// Where all four find room beside the middle and the scale.
+void draw_sides(Canvas& canvas, const Rect& rect, const Directions& to, const HudText& text,
+                float unit) {
+  if (static_cast<float>(rect.width) < 150 * unit || static_cast<float>(rect.height) < 136 * unit)
+    return;
+  const AxisEnds& ends = text.ends;
+  const bool words = has_room(canvas, rect, to_string(Side::temporal)); // the longest
+  // At the far end, where no side is said, the axis's name.
+  const auto draw = [&](glm::vec2 direction, const std::optional<Side>& side,
+                        std::string_view axis) {
+    const std::string_view end = !side ? axis : words ? to_string(*side) : letter_of(*side);
+    draw_side(canvas, rect, to.centre, direction, end, unit);
+  };
+  const auto name = [&](std::size_t axis, std::string_view letter) {
+    const std::string& own = text.labels.names[axis];
+    return own.empty() || !has_room(canvas, rect, own) ? letter : std::string_view{own};
+  };
+  draw(-to.x, ends.x_begin, {});
+  draw(to.x, ends.x_end, name(0, "x"));
+  draw(-to.y, ends.y_begin, {});
+  draw(to.y, ends.y_end, name(1, "y"));
+}
+
+Directions directions_in(const Rect& rect, const ScanField& field) {
+  std::array<glm::vec2, 4> at;
+  std::ranges::transform(field.corners, at.begin(),
+                         [&](const ScanField::Corner& corner) { return to_pixels(rect, corner); });
+  const auto towards = [](glm::vec2 from, glm::vec2 to) {
+    return (to - from) / std::max(1.0F, glm::length(to - from));
+  };
+  return {(at[0] + at[1] + at[2] + at[3]) / 4.0F, towards(at[0], at[1]), towards(at[0], at[3])};
 }
 
 } // namespace
@@ -107,27 +181,40 @@ void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
   draw_caption(canvas, layout.en_face.title, text.en_face, u);
   draw_caption(canvas, layout.scope.title, text.scope, u);
   const ShownPictures& shown = scene.shown;
-  const Crop& crop = scene.crop;
+  const double a_mm = scene.crop.a_mm(shown.geometry);
+  const FixedText<8> medium = medium_words(shown.geometry.refractive_index);
   if (shown.volume && layout.b_scan.shown()) {
     const Rect& picture = layout.b_scan.picture;
     if (shown.b_scan == pipeline::BScanState::missing)
       draw_words_over(canvas, picture, palette::warning, "B-scan missing", u);
     if (shown.b_scan == pipeline::BScanState::saturated)
       canvas.frame(picture, palette::warning, 2 * u);
-    draw_panel_scale(canvas, picture, crop.a_mm(shown.geometry), u,
-                     medium_words(shown.geometry.refractive_index).view());
+    draw_panel_scale(canvas, picture, a_mm / picture.width, u, medium.view());
   }
-  if (shown.volume && layout.crossed.shown())
-    draw_panel_scale(canvas, layout.crossed.picture, crop.b_mm(shown.geometry), u,
-                     medium_words(shown.geometry.refractive_index).view());
-  if (shown.volume && layout.en_face.shown())
-    draw_panel_scale(canvas, layout.en_face.picture, crop.a_mm(shown.geometry), u);
+  if (shown.volume && layout.crossed.shown()) {
+    const Rect& picture = layout.crossed.picture;
+    draw_panel_scale(canvas, picture, scene.crop.b_mm(shown.geometry) / picture.width, u,
+                     medium.view());
+  }
+  if (shown.volume && layout.en_face.shown()) {
+    const Rect& picture = layout.en_face.picture;
+    draw_panel_scale(canvas, picture, a_mm / picture.width, u);
+    const glm::vec2 centre{static_cast<float>(picture.x) + static_cast<float>(picture.width) / 2,
+                           static_cast<float>(picture.y) + static_cast<float>(picture.height) / 2};
+    draw_sides(canvas, picture, {centre, {1, 0}, {0, 1}}, text, u);
+  }
   if (shown.volume)
     draw_scan_marks(canvas, layout, view, scene);
   if (shown.scope && layout.scope.shown() && text.scope_stale)
     canvas.frame(layout.scope.picture, palette::warning, 4 * u);
-  if (shown.scope && layout.scope.shown() && scene.scan_field && !text.scope_stale)
-    draw_scan_field(canvas, layout.scope.picture, *scene.scan_field, view, scene.shown, u);
+  if (shown.scope && layout.scope.shown() && scene.scan_field && !text.scope_stale) {
+    const Rect& picture = layout.scope.picture;
+    draw_scan_field(canvas, picture, *scene.scan_field, view, shown, u);
+    if (shown.volume)
+      draw_panel_scale(canvas, picture,
+                       mm_per_pixel_of(picture, *scene.scan_field, shown.geometry.a_mm()), u);
+    draw_sides(canvas, picture, directions_in(picture, *scene.scan_field), text, u);
+  }
 }
 
 } // namespace octascope::ui

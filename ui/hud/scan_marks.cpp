@@ -132,12 +132,12 @@ void draw_calliper(Canvas& canvas, const Rect& picture, const ViewState& view,
       TextStyle::label, palette::calliper, words_of(calliper_distance(view, volume)).view());
 }
 
+} // namespace
+
 glm::vec2 to_pixels(const Rect& rect, const ScanField::Corner& corner) {
   return {static_cast<float>(rect.x) + corner.x * static_cast<float>(rect.width),
           static_cast<float>(rect.y) + corner.y * static_cast<float>(rect.height)};
 }
-
-} // namespace
 
 double round_ruler_step_mm(double least_mm) {
   const double power = std::pow(10.0, std::floor(std::log10(least_mm)));

@@ -11,7 +11,7 @@ namespace octascope::ui {
 
 namespace {
 
-constexpr float row_height = 26; // at unit 1
+constexpr float row_height = 29; // at unit 1
 constexpr float swatch = 16;
 
 Colour to_colour(const VesselColour& colour) {
@@ -68,16 +68,25 @@ void add_account(MarkRows& rows, const SegmentCounts& account) {
   rows.add().words.format("= {} segments", account.total());
 }
 
+// In a small volume, where there is no badge.
+void draw_unregistered(Canvas& canvas, const Layout& layout) {
+  const float u = layout.unit;
+  constexpr std::string_view words = "Vessels not registered";
+  const bool fits =
+      canvas.text_width(TextStyle::label, words) + 16 * u < static_cast<float>(layout.view.width);
+  canvas.shadowed_text(
+      {static_cast<float>(layout.view.x) + 8 * u, static_cast<float>(layout.view.y) + 4 * u},
+      TextStyle::label, palette::warning, fits ? words : "Not registered");
+}
+
 } // namespace
 
 void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& marks) {
-  if (!marks.shown)
+  if (!marks.shown || layout.view.empty())
     return;
   if (!layout.view_frame.empty()) {
     if (!marks.registered)
-      canvas.shadowed_text({static_cast<float>(layout.view.x) + 8 * layout.unit,
-                            static_cast<float>(layout.view.y) + 6 * layout.unit},
-                           TextStyle::label, palette::warning, "Vessels not registered");
+      draw_unregistered(canvas, layout);
     return;
   }
   MarkRows rows;
@@ -90,27 +99,37 @@ void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& 
     return;
   const float u = layout.unit;
   const float text_left = (swatch + 8) * u;
-  float width = 0;
-  for (std::size_t i = 0; i < rows.count; ++i)
-    width = std::max(width, canvas.text_width(TextStyle::label, rows.rows[i].words.view()) +
-                                (rows.rows[i].swatch ? text_left : 0));
-  const float padding = 10 * u;
-  const float height = static_cast<float>(rows.count) * row_height * u + padding;
-  const float left = static_cast<float>(layout.view.x) + 16 * u;
-  const float top = static_cast<float>(layout.view.bottom()) - 70 * u - height;
-  canvas.plate({static_cast<int>(left), static_cast<int>(top),
-                static_cast<int>(width + 2 * padding), static_cast<int>(height)},
-               palette::plate, 4 * u);
-  float middle = top + padding / 2 + row_height * u / 2;
-  for (std::size_t i = 0; i < rows.count; ++i) {
-    const MarkRow& row = rows.rows[i];
-    const float x = left + padding;
-    if (row.swatch)
-      canvas.dot({x + swatch * u / 2, middle}, swatch * u / 2, row.colour);
-    canvas.text(
-        {x + (row.swatch ? text_left : 0), middle - canvas.text_height(TextStyle::label) / 2},
-        TextStyle::label, palette::text, row.words.view());
-    middle += row_height * u;
+  const float padding = 8 * u;
+  const float scale = 44 * u; // under all of it
+  // Column by column in the view's lower quarter.
+  const float room = static_cast<float>(layout.view.height) / 4 - scale - 2 * padding;
+  const auto a_column = static_cast<std::size_t>(std::max(1.0F, room / (row_height * u)));
+  const float height =
+      static_cast<float>(std::min(a_column, rows.count)) * row_height * u + 2 * padding;
+  const float top = static_cast<float>(layout.view.bottom()) - scale - height;
+  float left = static_cast<float>(layout.view.x) + 14 * u;
+  const Canvas::Clip clip{canvas, layout.view};
+  for (std::size_t begin = 0; begin < rows.count; begin += a_column) {
+    const std::size_t end = std::min(begin + a_column, rows.count);
+    float width = 0;
+    for (std::size_t i = begin; i < end; ++i)
+      width = std::max(width, canvas.text_width(TextStyle::label, rows.rows[i].words.view()) +
+                                  (rows.rows[i].swatch ? text_left : 0));
+    const Rect plate{static_cast<int>(left), static_cast<int>(top),
+                     static_cast<int>(width + 2 * padding), static_cast<int>(height)};
+    canvas.plate(plate, palette::plate, 4 * u);
+    float middle = top + padding + row_height * u / 2;
+    for (std::size_t i = begin; i < end; ++i) {
+      const MarkRow& row = rows.rows[i];
+      const float x = left + padding;
+      if (row.swatch)
+        canvas.dot({x + swatch * u / 2, middle}, swatch * u / 2, row.colour);
+      canvas.text(
+          {x + (row.swatch ? text_left : 0), middle - canvas.text_height(TextStyle::label) / 2},
+          TextStyle::label, palette::text, row.words.view());
+      middle += row_height * u;
+    }
+    left += static_cast<float>(plate.width) + 4 * u;
   }
 }
 

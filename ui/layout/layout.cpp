@@ -7,16 +7,23 @@ namespace octascope::ui {
 
 namespace {
 
-constexpr double column_share = 0.3;       // of the width
-constexpr double wide_column_share = 0.39; // with the crossed B-scan at its head
-constexpr double inset_share = 0.26; // less than a quarter of any picture that it lies over is hid
+constexpr double least_column = 0.27; // shares of the width
+constexpr double widest_column = 0.44;
+constexpr double beside_scope = 0.38; // a large picture of fixed aspect needs more for itself
+constexpr double beside_b_scan = 0.31;
+constexpr double with_crossed = 0.39; // the crossed B-scan at the column's head
+constexpr double view_aspect = 1.6;   // of a small volume
+constexpr double row_share = 0.36;    // of the height, below what is taller than wide
 
 // Lengths at unit 1.
 constexpr float gap_length = 8;
 constexpr float title_length = 34;
-constexpr float bar_length = 76;
-constexpr float marks_length = 60; // one row of badges
-constexpr float edge = 16;         // from the borders of a picture to what lies over it
+constexpr float bar_length = 88;
+constexpr float figures_length = 68;
+constexpr float marks_length = 62;  // one row of badges
+constexpr float least_width = 1152; // that the status bar needs
+constexpr float cube_length = 150;
+constexpr float edge = 14; // from the borders of a picture to what lies over it
 
 double area(const Rect& rect) {
   return static_cast<double>(rect.width) * rect.height;
@@ -61,10 +68,10 @@ Rect part(const Rect& whole, int index, int count, int gap, bool downwards) {
   return rect;
 }
 
-// Builds one layout; `body` is what marks and status bar leave.
+// Builds one layout; `body_` is what status bar, strip and badges leave.
 class Plan {
 public:
-  Plan(int width, int height, const PictureAspects& aspects, LayoutKind kind);
+  Plan(int width, int height, const PictureAspects& aspects, LayoutKind kind, const Extras& extras);
 
   void volume();
   void b_scan();
@@ -75,49 +82,121 @@ public:
 private:
   int length(float units) const { return scaled(layout_.unit, units); }
   bool tall() const { return body_.width < body_.height; }
-  // Takes the column or the row for the small pictures off the body; what is left is returned.
-  Rect take_strip(Rect& strip, double share) const;
+  void take_marks();
+  // Takes the small pictures' room off the body; what is left is returned. `above` is the aspect of
+  // the one on top.
+  Rect take_strip(double above, double widest);
+  Rect cut_off(int row, int column);
+  int column_width(double widest) const;
+  std::array<Rect, 3> cells() const;  // of the strip: the one on top, the two below
   Rect inner(const Rect& rect) const; // without a gap all around
   void place_view(const Rect& frame);
-  void place_marks_above();
+  void place_b_scan(const Rect& frame); // as the large picture
   void place_b_scans(const Rect& cell);
   void place_en_face(const Rect& cell);
   void b_scan_above_crossed();
   void b_scan_beside_crossed();
-  void place_b_scan(const Rect& frame);
-  void place_small(const Rect& room, bool downwards);
   Rect take_head(Rect& room, double aspect, double most_share) const;
-  Rect beside_large(const Rect& strip) const;
 
   PictureAspects aspects_;
+  Extras extras_;
   Layout layout_;
   Rect body_;
+  Rect strip_;
+  double above_ = 1; // aspect of the strip's picture on top
 };
 
-Plan::Plan(int width, int height, const PictureAspects& aspects, LayoutKind kind)
-    : aspects_{aspects} {
+Plan::Plan(int width, int height, const PictureAspects& aspects, LayoutKind kind,
+           const Extras& extras)
+    : aspects_{aspects}, extras_{extras} {
   layout_.kind = kind;
   // Narrow pictures scale with their width, so that the status bar still fits.
-  layout_.unit =
-      std::min({static_cast<float>(height) / 720, static_cast<float>(width) / 1200, largest_unit});
+  layout_.unit = std::min(
+      {static_cast<float>(height) / 720, static_cast<float>(width) / least_width, largest_unit});
   const int bar = std::min(length(bar_length), std::max(1, height / 3));
   layout_.status_bar = {0, height - bar, width, bar};
+  layout_.notice = {0, height - bar, width, std::max(1, bar * 2 / 5)};
   body_ = {0, 0, width, std::max(1, height - bar)};
+  if (!extras.figures)
+    return;
+  const int figures = std::min(length(figures_length), std::max(1, body_.height / 3));
+  body_.height = std::max(1, body_.height - figures);
+  layout_.figures = {0, body_.bottom(), width, figures};
 }
 
-Rect Plan::take_strip(Rect& strip, double share) const {
+// Where every picture has its frame, badges lie over none of them.
+void Plan::take_marks() {
+  const int height = std::min(length(marks_length), std::max(1, body_.height / 3));
+  const int margin = length(gap_length);
+  layout_.marks = {body_.x + margin, body_.y + margin, std::max(1, body_.width - 2 * margin),
+                   std::max(1, height - margin)};
+  body_.y += height;
+  body_.height = std::max(1, body_.height - height);
+}
+
+// As wide as lets the one on top and the two below it fill the height.
+int Plan::column_width(double widest) const {
+  const int gap = length(gap_length);
+  const int title = length(title_length);
+  const double below =
+      aspects_.has_scope ? 2 * std::min(aspects_.en_face, aspects_.scope) : aspects_.en_face;
+  const double pictures = body_.height - 3.0 * gap - 2.0 * (title + gap);
+  return static_cast<int>(
+      std::lround(std::clamp(pictures / (1 / above_ + 1 / below) + 4 * gap,
+                             least_column * body_.width, widest * body_.width)));
+}
+
+Rect Plan::take_strip(double above, double widest) {
+  above_ = above;
+  return cut_off(static_cast<int>(std::lround(body_.height * row_share)), column_width(widest));
+}
+
+// So much below what is taller than wide, or beside what is not.
+Rect Plan::cut_off(int row, int column) {
   Rect rest = body_;
-  strip = body_;
+  strip_ = body_;
   if (tall()) {
-    rest.height = std::max(1, body_.height - static_cast<int>(std::lround(body_.height * share)));
-    strip.y = rest.bottom();
-    strip.height = std::max(1, body_.bottom() - strip.y);
+    rest.height = std::max(1, body_.height - row);
+    strip_.y = rest.bottom();
+    strip_.height = std::max(1, body_.bottom() - strip_.y);
   } else {
-    rest.width = std::max(1, body_.width - static_cast<int>(std::lround(body_.width * share)));
-    strip.x = rest.right();
-    strip.width = std::max(1, body_.right() - strip.x);
+    rest.width = std::max(1, body_.width - column);
+    strip_.x = rest.right();
+    strip_.width = std::max(1, body_.right() - strip_.x);
   }
+  strip_ = inner(strip_);
+  if (extras_.legend)
+    layout_.legend = strip_;
   return rest;
+}
+
+std::array<Rect, 3> Plan::cells() const {
+  const int gap = length(gap_length);
+  if (tall()) {
+    const int count = aspects_.has_scope ? 3 : 2;
+    return {part(strip_, 0, count, gap, false), part(strip_, 1, count, gap, false),
+            part(strip_, count - 1, count, gap, false)};
+  }
+  const int over = length(title_length) + gap;
+  const double wide = std::max(1, strip_.width - 2 * gap);
+  const double each = aspects_.has_scope ? wide / 2 - gap : wide;
+  const int third = (strip_.height - 2 * gap) / 3;
+  if (aspects_.has_scope && std::min<double>(third - over, wide) > each / aspects_.en_face)
+    return {part(strip_, 0, 3, gap, true), part(strip_, 1, 3, gap, true),
+            part(strip_, 2, 3, gap, true)}; // the column is narrow
+  // Heights as their pictures need for the column's width.
+  const double upper = wide / above_ + over;
+  const double lower =
+      each / (aspects_.has_scope ? std::min(aspects_.en_face, aspects_.scope) : aspects_.en_face) +
+      over;
+  Rect top = strip_;
+  top.height =
+      std::max(1, static_cast<int>(std::lround((strip_.height - gap) * upper / (upper + lower))));
+  Rect row = strip_;
+  row.y = top.bottom() + gap;
+  row.height = std::max(1, strip_.bottom() - row.y);
+  const int count = aspects_.has_scope ? 2 : 1;
+  return {top, part(row, 0, count, gap, false), part(row, count - 1, count, gap, false)};
 }
 
 Rect Plan::inner(const Rect& rect) const {
@@ -132,14 +211,9 @@ void Plan::place_view(const Rect& frame) {
   layout_.view = room_of(frame, layout_.unit);
 }
 
-// Where every picture has its frame, badges lie over none of them.
-void Plan::place_marks_above() {
-  const int height = std::min(length(marks_length), std::max(1, body_.height / 3));
-  const int margin = length(gap_length);
-  layout_.marks = {body_.x + margin, body_.y + margin, std::max(1, body_.width - 2 * margin),
-                   std::max(1, height - margin)};
-  body_.y += height;
-  body_.height = std::max(1, body_.height - height);
+void Plan::place_b_scan(const Rect& frame) {
+  layout_.b_scan = make_panel(frame, layout_.unit, aspects_.b_scan);
+  layout_.large = layout_.b_scan.picture;
 }
 
 // The two crossed B-scans in one cell, where each keeps half of what one alone would have; else one.
@@ -180,28 +254,28 @@ void Plan::place_en_face(const Rect& cell) {
 
 void Plan::volume() {
   layout_.kind = LayoutKind::volume;
-  Rect strip;
-  layout_.view = take_strip(strip, column_share);
-  const int gap = length(gap_length);
-  // The view reaches to the strip's panels without a gap of its own.
-  Rect room{strip.x, strip.y + gap, std::max(1, strip.width - gap),
-            std::max(1, strip.height - 2 * gap)};
-  if (tall())
-    room = inner(strip);
-  layout_.legend = room;
-  const int count = aspects_.has_scope ? 3 : 2;
-  const auto next = [&](int index) { return part(room, index, count, gap, !tall()); };
-  place_b_scans(next(0));
-  place_en_face(next(1));
-  if (aspects_.has_scope)
-    layout_.scope = make_panel(next(2), layout_.unit, aspects_.scope);
+  layout_.view = take_strip(aspects_.b_scan, widest_column);
   layout_.large = layout_.view;
-  layout_.stage = layout_.view;
+  const int margin = std::min(length(edge), std::max(1, layout_.view.height / 32));
+  layout_.marks = {layout_.view.x + margin, layout_.view.y + margin,
+                   std::max(1, layout_.view.width - 2 * margin),
+                   std::max(1, layout_.view.height / 4 - margin)};
+  if (extras_.legend)
+    return;
+  const auto [top, left, right] = cells();
+  place_b_scans(top);
+  place_en_face(left);
+  if (aspects_.has_scope)
+    layout_.scope = make_panel(right, layout_.unit, aspects_.scope);
 }
 
 // The crossed B-scan at the head of a wider column, or below the large one: where both are larger.
 void Plan::b_scan() {
-  place_marks_above();
+  take_marks();
+  if (extras_.legend) {
+    place_b_scan(inner(take_strip(view_aspect, beside_b_scan)));
+    return;
+  }
   Plan below{*this};
   below.b_scan_above_crossed();
   if (!tall())
@@ -224,8 +298,7 @@ Rect Plan::take_head(Rect& room, double aspect, double most_share) const {
 }
 
 void Plan::b_scan_above_crossed() {
-  Rect strip;
-  const Rect whole = inner(take_strip(strip, column_share));
+  const Rect whole = inner(take_strip(view_aspect, beside_b_scan));
   Rect rest = whole;
   const Rect head = take_head(rest, aspects_.b_scan, 0.7);
   const Panel crossed = make_panel(rest, layout_.unit, aspects_.crossed);
@@ -233,100 +306,46 @@ void Plan::b_scan_above_crossed() {
   if (readable)
     layout_.crossed = crossed;
   place_b_scan(readable ? head : whole);
-  Rect room = beside_large(strip);
-  layout_.legend = room;
-  place_small(room, !tall());
+  const auto [top, left, right] = cells();
+  place_view(top);
+  layout_.en_face = make_panel(left, layout_.unit, aspects_.en_face);
+  if (aspects_.has_scope)
+    layout_.scope = make_panel(right, layout_.unit, aspects_.scope);
 }
 
 void Plan::b_scan_beside_crossed() {
-  Rect strip;
-  place_b_scan(inner(take_strip(strip, wide_column_share)));
-  Rect room = beside_large(strip);
-  layout_.legend = room;
+  const int gap = length(gap_length);
+  place_b_scan(inner(cut_off(0, static_cast<int>(std::lround(body_.width * with_crossed)))));
   layout_.crossed =
-      make_panel(take_head(room, aspects_.crossed, 0.6), layout_.unit, aspects_.crossed);
-  place_small(room, false);
-}
-
-void Plan::place_b_scan(const Rect& frame) {
-  layout_.b_scan = make_panel(frame, layout_.unit, aspects_.b_scan);
-  layout_.large = layout_.b_scan.picture;
-  layout_.stage = room_of(frame, layout_.unit);
-}
-
-// A gap between large and small, not two.
-Rect Plan::beside_large(const Rect& strip) const {
-  Rect room = inner(strip);
-  if (!tall()) {
-    room.x -= length(gap_length);
-    room.width += length(gap_length);
-  }
-  return room;
-}
-
-// Volume, en face and microscope.
-void Plan::place_small(const Rect& room, bool downwards) {
+      make_panel(take_head(strip_, aspects_.crossed, 0.6), layout_.unit, aspects_.crossed);
   const int count = aspects_.has_scope ? 3 : 2;
-  const auto next = [&](int index) {
-    return part(room, index, count, length(gap_length), downwards);
-  };
-  place_view(next(0));
-  layout_.en_face = make_panel(next(1), layout_.unit, aspects_.en_face);
+  place_view(part(strip_, 0, count, gap, false));
+  layout_.en_face = make_panel(part(strip_, 1, count, gap, false), layout_.unit, aspects_.en_face);
   if (aspects_.has_scope)
-    layout_.scope = make_panel(next(2), layout_.unit, aspects_.scope);
+    layout_.scope = make_panel(part(strip_, 2, count, gap, false), layout_.unit, aspects_.scope);
 }
 
 void Plan::microscope() {
-  place_marks_above();
-  const int gap = length(gap_length);
-  const Rect whole = inner(body_);
-  // As large as it can be, at the left or at the top.
-  const Rect most = fit(room_of(whole, layout_.unit), aspects_.scope);
-  Rect frame = whole;
-  Rect free = whole;
-  if (tall()) {
-    frame.height = most.height + whole.height - room_of(whole, layout_.unit).height;
-    free.y = frame.bottom() + gap;
-    free.height = whole.bottom() - free.y;
-  } else {
-    frame.width = most.width + 2 * gap;
-    free.x = frame.right() + gap;
-    free.width = whole.right() - free.x;
-  }
-  const double free_share = tall() ? static_cast<double>(free.height) / whole.height
-                                   : static_cast<double>(free.width) / whole.width;
-  if (free_share >= 0.22) {
-    layout_.legend = free;
-    place_b_scans(part(free, 0, 2, gap, !tall()));
-    place_view(part(free, 1, 2, gap, !tall()));
-  } else {
-    frame = whole;
-    layout_.inset = true;
-  }
-  layout_.scope = make_panel(frame, layout_.unit, aspects_.scope);
+  take_marks();
+  const Rect rest = take_strip(aspects_.b_scan, beside_scope);
+  layout_.scope = make_panel(inner(rest), layout_.unit, aspects_.scope);
   layout_.large = layout_.scope.picture;
-  layout_.stage = room_of(frame, layout_.unit);
-  if (layout_.inset) {
-    const Rect& under = layout_.large;
-    const auto share = [](int length) {
-      return std::max(1, static_cast<int>(std::lround(length * inset_share)));
-    };
-    // As wide as a quarter allows, and half as high again as the lower quarter: still beside the
-    // middle.
-    const int width = std::min(under.width / 4, share(body_.width));
-    const int height = std::min(under.height / 2, width * 4 / 5);
-    place_view({under.right() - width, under.bottom() - std::max(1, height), std::max(1, width),
-                std::max(1, height)});
-  }
+  if (extras_.legend)
+    return;
+  const auto [top, left, right] = cells();
+  place_b_scans(top);
+  layout_.en_face = make_panel(left, layout_.unit, aspects_.en_face);
+  place_view(right);
 }
 
 void Plan::quad() {
-  place_marks_above();
+  take_marks();
   const int gap = length(gap_length);
   const Rect whole = inner(body_);
   const auto cell = [&](int column, int row) {
     return part(part(whole, column, 2, gap, false), row, 2, gap, true);
   };
+  Rect legend = part(whole, 1, 2, gap, false); // two of the four
   if (aspects_.has_scope) {
     place_view(cell(0, 0));
     place_b_scans(cell(1, 0));
@@ -335,67 +354,41 @@ void Plan::quad() {
   } else {
     place_view(part(whole, 0, 2, gap, tall()));
     const Rect rest = part(whole, 1, 2, gap, tall());
+    legend = rest;
     place_b_scans(part(rest, 0, 2, gap, !tall()));
     place_en_face(part(rest, 1, 2, gap, !tall()));
   }
-  layout_.legend = aspects_.has_scope ? layout_.scope.frame : layout_.b_scan.frame;
   layout_.large = layout_.view;
-  layout_.stage = layout_.view;
+  if (!extras_.legend)
+    return;
+  layout_.legend = legend;
+  for (Panel* panel : {&layout_.b_scan, &layout_.crossed, &layout_.en_face, &layout_.scope})
+    if (panel->frame.x >= legend.x && panel->frame.y >= legend.y)
+      *panel = {};
 }
 
-// The places of the heads-up display, in the outer quarters of the stage.
+// The places of the heads-up display over the pictures, in their outer quarters.
 Layout Plan::finish() {
-  const Rect& stage = layout_.stage;
-  const int quarter_height = stage.height / 4;
-  const int quarter_width = stage.width / 4;
-  const int margin = std::min(length(edge), std::max(1, quarter_height / 8));
-
-  const int echo_width = std::min(length(360), stage.width / 2);
-  // A large volume has a line of text at its foot.
-  const int foot = layout_.kind == LayoutKind::volume ? length(40) : margin;
-  const int echo_height = std::min(length(80), std::max(0, quarter_height - foot));
-  layout_.echo = {stage.x + (stage.width - echo_width) / 2, stage.bottom() - foot - echo_height,
-                  echo_width, echo_height};
-
-  // Above the echo where both fit into the lower quarter, else at the foot of a small picture.
-  const int line = length(44);
-  const int small_gap = length(6);
-  layout_.notice = {stage.x + margin, layout_.echo.y - small_gap - line,
-                    std::max(1, stage.width - quarter_width - 2 * margin), line};
-  if (layout_.notice.y < stage.bottom() - quarter_height) {
-    const Rect& cell = layout_.en_face.shown()  ? layout_.en_face.frame
-                       : layout_.b_scan.shown() ? layout_.b_scan.frame
-                                                : layout_.view_frame;
-    layout_.notice = {cell.x + margin, cell.bottom() - margin - line,
-                      std::max(1, cell.width - 2 * margin), line};
-  }
-
-  const int side = std::max(1, quarter_width - margin);
-  const int histogram_height = std::min(length(170), std::max(1, stage.height / 3));
-  layout_.histogram = {stage.right() - margin - side, stage.bottom() - foot - histogram_height,
-                       side, histogram_height};
-
-  const int cube =
-      std::min({length(132), layout_.view.width / 4 - margin, layout_.view.height / 2});
-  if (cube >= length(64))
-    layout_.cube = {layout_.view.right() - cube - margin / 2, layout_.view.y + margin / 2, cube,
-                    cube};
-  if (layout_.kind == LayoutKind::volume)
-    layout_.marks = {stage.x + margin, stage.y + margin,
-                     std::max(1, stage.width - layout_.cube.width - 3 * margin),
-                     std::max(1, quarter_height - margin)};
-  if (layout_.inset) { // the volume is there
-    layout_.histogram = {stage.x + margin, stage.y + margin, side, histogram_height};
-    layout_.legend = {stage.x + margin, layout_.histogram.bottom() + small_gap, side,
-                      std::max(0, stage.height / 2 - histogram_height)};
-  }
+  const Rect& large = layout_.large;
+  const int margin = std::min(length(edge), std::max(1, large.height / 32));
+  const int side = std::max(1, large.width / 4 - margin);
+  const int height = std::min(length(170), std::max(1, large.height / 3));
+  layout_.histogram = {large.right() - margin - side, large.bottom() - margin - height, side,
+                       height};
+  // Under the badges of a large volume.
+  const Rect& view = layout_.view;
+  const int down = layout_.kind == LayoutKind::volume ? view.height / 4 : 0;
+  const int cube = std::min({length(cube_length), view.width / 4, view.height / 2});
+  if (cube >= length(96))
+    layout_.cube = {view.right() - cube, view.y + down, cube, cube};
   return layout_;
 }
 
 } // namespace
 
-Layout lay_out(int width, int height, const PictureAspects& aspects, LayoutKind kind) {
-  Plan plan{width, height, aspects, kind};
+Layout lay_out(int width, int height, const PictureAspects& aspects, LayoutKind kind,
+               const Extras& extras) {
+  Plan plan{width, height, aspects, kind, extras};
   switch (kind) {
   case LayoutKind::volume: plan.volume(); break;
   case LayoutKind::b_scan: plan.b_scan(); break;

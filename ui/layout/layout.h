@@ -1,8 +1,9 @@
 // Where everything is on the screen. Pure.
 //
 // Sizes are for a 27-inch screen at a distance of two metres; see ui/hud/fonts.h for text. The
-// heads-up display may cover only the outer quarters of the large picture's stage: the middle half
-// of its width and height is never covered, except by the veil.
+// heads-up display may cover only the outer quarters of the large picture: the middle half of its
+// width and height is never covered, except by the veil. No text lies over a small picture but
+// that picture's own scale, sides and states.
 #pragma once
 
 #include "ui/view/view_state.h"
@@ -45,42 +46,45 @@ struct PictureAspects {
   bool operator==(const PictureAspects&) const = default;
 };
 
+// What the pictures make room for.
+struct Extras {
+  bool figures = false; // the engineer's strip
+  bool legend = false;  // what each control does: instead of small pictures
+};
+
 struct Layout {
   LayoutKind kind = LayoutKind::volume; // the layout actually used: see lay_out()
   float unit = 1;                       // scale of all sizes: 1 for a picture 720 pixels high, at
                                         // most largest_unit
-  Rect view;                            // the volume
+  Rect view;                            // the volume; empty where the legend takes its place
   Rect view_frame;                      // around it if it has a plate and a title, else empty
   Rect view_title;
-  bool inset = false; // the view lies over the microscope's picture, at its lower right corner
   Panel b_scan;
   Panel crossed; // the crossed B-scan, where there is room
   Panel en_face;
   Panel scope;
   Rect status_bar;
+  Rect notice;  // one line, at the bar's top
+  Rect figures; // above the bar, if asked for
 
   Rect large; // the large picture; in the quad layout, the volume
-  Rect stage; // the large picture centred in its free surroundings
 
   // For the heads-up display; empty if there is no room.
   Rect marks;     // the badges, row by row from the left
-  Rect notice;    // one line
-  Rect echo;      // what a control just did: at the lower border of the stage
-  Rect legend;    // what each control does: replaces the small pictures beside the large one or the
-                  // last of four alike, or lies at the side over a picture with an inset
-  Rect histogram; // of the levels: in the stage's lower right corner
-  Rect cube;      // the volume's orientation: in the view's upper right corner
+  Rect legend;    // if asked for
+  Rect histogram; // of the levels: in the large picture's lower right corner
+  Rect cube;      // the volume's orientation: in the view's right quarter
 };
 
-// volume: the volume at the left, about 70 % of the width; the other pictures in a column at its
-// right. b_scan: the same, with the B-scan at the left and the volume in the column; the crossed
-// B-scan is below it or at the head of the column, in the other layouts beside it if both keep half
-// of the room. microscope:
-// the microscope picture at the left; the volume, and the B-scan if there is room, beside it, or
-// the volume as an inset. quad: four of equal size. If pictures are taller than wide, a row below
-// replaces the column. The status bar is at the bottom. Without a microscope picture the others
-// share its room, and the microscope layout becomes that of the volume.
+// volume: the volume at the left, badges over its upper quarter. b_scan, microscope: that picture
+// at the left. The others are in a column at the right: the first of volume and B-scan that is not
+// large on top, the other two side by side under it, or all three under each other where that is
+// larger. quad: four of equal size. The crossed B-scan is below a large B-scan or at the head of a
+// wider column, else beside the B-scan if both keep half of the room, or beside the en face. All but
+// the first have the badges in a row above. If pictures are taller than wide, a row below replaces the column. The
+// status bar is at the bottom. Without a microscope picture the others share its room, and the
+// microscope layout becomes that of the volume.
 Layout lay_out(int width, int height, const PictureAspects& aspects,
-               LayoutKind kind = LayoutKind::volume);
+               LayoutKind kind = LayoutKind::volume, const Extras& extras = {});
 
 } // namespace octascope::ui

@@ -14,6 +14,7 @@
 #include "pipeline/vessels/tree.h"
 #include "pipeline/volume/eye.h"
 #include "ui/controls/legend_lines.h"
+#include "ui/status/axis_words.h"
 #include "ui/status/freshness.h"
 #include "ui/view/segment_counts.h"
 
@@ -49,7 +50,6 @@ struct VesselStatus {
 // A recording that is shown instead of the live volume.
 struct ReplayStatus {
   std::string recorded; // local date and time of the shown volume; empty: none shown yet
-  std::string whose;    // eye and subject of the recording, or that they are unknown
   bool operator==(const ReplayStatus&) const = default;
 };
 
@@ -64,8 +64,8 @@ enum class ConfigurationState : std::uint8_t {
 struct RecordingStatus {
   bool on = false;
   hal::Duration lasted{};
-  std::uint64_t not_kept = 0; // volumes dropped because the disk was too slow
-  pipeline::Eye eye = pipeline::Eye::not_said;
+  std::uint64_t not_kept = 0;          // volumes dropped because the disk was too slow
+  std::optional<hal::Duration> room{}; // until the disk is full; empty: not known yet
   bool operator==(const RecordingStatus&) const = default;
 };
 
@@ -84,6 +84,12 @@ struct Status {
 
   std::array<DeviceStatus, most_devices> devices;
   std::size_t device_count = 0; // used entries of `devices`
+
+  // As somebody said it for this very run, or for the recording that is replayed.
+  pipeline::Eye eye = pipeline::Eye::not_said;
+  std::string subject; // likewise; empty: not said
+  ScanOrientation orientation;
+  std::string time_of_day; // "14:05"
 
   std::optional<ReplayStatus> replay; // empty: the volumes are live
   bool simulated = false;             // any part of the picture is simulated

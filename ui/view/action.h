@@ -53,6 +53,7 @@ enum class Action : std::uint8_t {
   box,
   snapshot,
   record,
+  figures, // the machine's, in the engineer's strip
   legend,
 };
 

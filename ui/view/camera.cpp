@@ -11,6 +11,10 @@ namespace octascope::ui {
 
 namespace {
 
+// What the box's corners need across at the first distance, from any side: 1 / √(3.1² - 1), and a
+// little. Upright its diagonal is never seen.
+constexpr float least_tan_half_width = 0.345F;
+
 // Of the eye to the right of the line from between the eyes to the volume's centre.
 float tangent_of(StereoEye eye, float parallax_deg) {
   const float half = std::tan(glm::radians(parallax_deg) / 2);
@@ -52,7 +56,8 @@ Camera make_camera(const ViewState& view, const glm::vec3& extents_mm, float asp
   camera.near_mm = std::max(view.distance - 1.001F, 0.02F) * radius;
   camera.far_mm = (view.distance + 1.001F) * radius;
   camera.aspect = aspect;
-  camera.tan_half_height = std::tan(glm::radians(field_of_view_deg) / 2) / std::min(aspect, 1.0F);
+  camera.tan_half_height =
+      std::max(std::tan(glm::radians(field_of_view_deg) / 2), least_tan_half_width / aspect);
   const float top = camera.near_mm * camera.tan_half_height;
   const float middle = camera.near_mm * camera.centre_shift;
   const glm::mat4 projection = glm::frustum(middle - top * aspect, middle + top * aspect, -top, top,

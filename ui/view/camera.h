@@ -17,7 +17,7 @@
 
 namespace octascope::ui {
 
-inline constexpr float field_of_view_deg = 36; // along the shorter side of the picture
+inline constexpr float field_of_view_deg = 36; // from top to bottom; more in a narrow picture
 
 // Which eye a picture is for; `centre` on a display without stereo.
 enum class StereoEye : std::uint8_t { centre, left, right };

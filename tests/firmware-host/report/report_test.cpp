@@ -137,7 +137,7 @@ TEST(Report, says_every_figure_under_its_key) {
                              {"transfer", 0},
                              {"colours", 0},
                              {"opacity", 0.5},
-                             {"see_through_db", 11.0},
+                             {"see_through_db", 12.0},
                              {"cut", false},
                              {"layout", "b_scan"},
                              {"stereo", "top_bottom"},

@@ -38,8 +38,10 @@ pipeline::ReplaySource two_volumes() {
 class ReplayLoop : public LoopStage {
 protected:
   // As start() does, with the recording in the camera's place.
-  void start_replay() {
+  void start_replay(const pipeline::PatientEye& whose = {}) {
     firmware_host::RenderLoopSetup replay = setup();
+    replay.host.whose = whose;
+    replay.host.replayed = !whose.subject.empty();
     replay.controls.switch_actions.push_back(
         {.switches = 2, .gesture = ui::GestureKind::press, .action = ui::Action::record});
     open(std::move(replay), player_, nullptr, nullptr);
@@ -101,15 +103,12 @@ TEST_F(ReplayLoop, cannot_be_recorded_and_says_so) {
   EXPECT_EQ(view().echo.words.view(), "not while a recording is replayed");
 }
 
-TEST(ReplayWords, say_whose_it_is_with_the_eye_first) {
-  pipeline::RecordingFacts facts;
-  EXPECT_EQ(firmware_host::recording_patient(facts), "eye not said, subject not said");
-  facts.eye = pipeline::Eye::right;
-  facts.subject = "4711";
-  EXPECT_EQ(firmware_host::recording_patient(facts), "right eye, subject 4711");
-  facts.subject = "Überlänge mit Umläuten und\nmehr";
-  const std::string words = firmware_host::recording_patient(facts);
-  EXPECT_EQ(words, "right eye, subject Überlänge mit …");
+TEST_F(ReplayLoop, says_whose_it_is_from_the_first_frame_on) {
+  start_replay({"Überlänge mit Umläuten und\nmehr", pipeline::Eye::right});
+  turn();
+  EXPECT_TRUE(loop_->status().replay);
+  EXPECT_EQ(loop_->status().eye, pipeline::Eye::right);
+  EXPECT_EQ(loop_->status().subject, "Überlänge mit Umläute…");
 }
 
 TEST(ReplayWords, tell_a_time_that_nobody_said) {

@@ -112,9 +112,10 @@ technique = "maximum"
 };
 
 ui::Layout replay_layout(const pipeline::Image& picture) {
-  ui::PictureAspects aspects;
-  aspects.has_scope = false;
-  return ui::lay_out(picture.width, picture.height, aspects);
+  const pipeline::VolumeGeometry g = ball_facts(false).geometry;
+  return ui::lay_out(
+      picture.width, picture.height,
+      {.b_scan = g.a_mm() / g.depth_mm(), .en_face = g.a_mm() / g.b_mm(), .has_scope = false});
 }
 
 // Pixels of the middle of the view, where nothing is written, that differ from the volume's own.

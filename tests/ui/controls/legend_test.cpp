@@ -73,26 +73,45 @@ TEST_F(LegendPicture, stands_beside_the_volumes_centre_for_every_profile) {
   }
 }
 
-TEST_F(LegendPicture, says_what_does_not_fit) {
-  show(640, 360);
-  Legend legend{"A device of forty buttons", {}};
-  for (int i = 0; i < 12; ++i)
-    legend.lines.push_back({"Button", Action::freeze, false});
-  Status status = live_status();
-  status.legend = &legend;
-  ViewState view;
-  view.legend_visible = true;
-  const auto orange = [&] {
-    const pipeline::Image picture = draw(view, status);
-    int count = 0;
-    for (int y = 0; y < 320; ++y)
-      for (int x = 440; x < 640; ++x)
-        count += picture.pixel(x, y)[0] > 2 * picture.pixel(x, y)[2] + 40;
-    return count;
-  };
-  EXPECT_EQ(orange(), 0);
-  legend.lines.resize(40, legend.lines.front());
-  EXPECT_GT(orange(), 10);
+// Page after page, every line and the whole menu, in every size and layout.
+TEST_F(LegendPicture, shows_everything_in_pages) {
+  const auto profile = built_in_profile(default_profile);
+  ASSERT_TRUE(profile);
+  const Legend pedal = make_legend(*profile);
+  EXPECT_EQ(pedal.menu, profile->menu);
+  for (const auto& [width, height] : {std::pair{1280, 720}, {1024, 768}, {3840, 2160}}) {
+    const auto fonts = Fonts::create(lay_out(width, height, {}).unit);
+    ASSERT_TRUE(fonts) << fonts.error().message;
+    Canvas canvas;
+    for (const Legend& legend : {pedal, make_key_legend()})
+      for (const LayoutKind kind :
+           {LayoutKind::volume, LayoutKind::b_scan, LayoutKind::microscope, LayoutKind::quad}) {
+        const Layout layout = lay_out(width, height, {}, kind, {.legend = true});
+        const auto words_on = [&](std::int64_t page) {
+          canvas.begin(*fonts, width, height);
+          draw_legend(canvas, layout, legend, Action::tilt, page);
+          return canvas.words().size();
+        };
+        // A title on each page, and its number where there are several.
+        std::size_t words = words_on(0) - 1;
+        std::int64_t pages = 1;
+        const auto first = std::vector(canvas.words().begin(), canvas.words().end());
+        const auto again = [&](std::int64_t page) {
+          words_on(page);
+          return std::ranges::equal(first, canvas.words(), {}, &Canvas::Words::rect,
+                                    &Canvas::Words::rect);
+        };
+        for (; !again(pages) && pages < 9; ++pages)
+          words += words_on(pages) - 1;
+        words -= pages > 1 ? static_cast<std::size_t>(pages) : 0;
+        EXPECT_LE(pages, 5) << width << ", kind " << static_cast<int>(kind);
+        const std::size_t heading = legend.menu.empty() ? 0 : 1;
+        EXPECT_EQ(words, 2 * legend.lines.size() + heading + legend.menu.size())
+            << width << ", kind " << static_cast<int>(kind);
+        for (const Canvas::Words& each : canvas.words())
+          EXPECT_LE(each.rect.right(), layout.legend.right());
+      }
+  }
 }
 
 TEST_F(LegendPicture, is_drawn_when_asked_for_and_says_what_the_knob_turns) {
@@ -110,8 +129,10 @@ TEST_F(LegendPicture, is_drawn_when_asked_for_and_says_what_the_knob_turns) {
   EXPECT_GT(changed(hidden, shown, whole), 2000);
   view.selected = Action::tilt;
   EXPECT_GT(changed(shown, draw(view, status), whole), 20);
-  view.legend_of_keys = true;
-  EXPECT_EQ(changed(hidden, draw(view, status), whole), 0) << "there is none of keys";
+  view.legend_visible = false;
+  const pipeline::Image tilting = draw(view, status);
+  view.legend_visible = view.legend_of_keys = true;
+  EXPECT_EQ(changed(tilting, draw(view, status), whole), 0) << "there is none of keys";
 }
 
 } // namespace

@@ -174,12 +174,14 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   choose(Action::stereo);
   tread({2});
   EXPECT_EQ(state().selected, Action::vessels) << "past the unseen parallax and all of vessels";
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < 6; ++i)
     tread({2});
   EXPECT_EQ(state().selected, Action::b_scan) << "round again";
   tread({0});
-  EXPECT_EQ(state().selected, Action::legend);
-  EXPECT_EQ(count(Action::adjust), 5U);
+  EXPECT_EQ(state().selected, Action::figures);
+  turn(1);
+  EXPECT_TRUE(state().figures_visible);
+  EXPECT_EQ(count(Action::adjust), 6U);
   EXPECT_EQ(count(Action::b_scan), 1U);
 }
 

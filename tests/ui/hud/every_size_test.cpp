@@ -48,10 +48,10 @@ TEST_F(EverySize, is_drawn_with_everything_on_it_and_nothing_beside_it) {
   Status live = worst_status();
   live.key_legend = &keys;
   Status replayed = live;
-  replayed.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03", .whose = "left eye"};
+  replayed.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03"};
   replayed.recording = {};
   ViewState view;
-  view.legend_visible = view.legend_of_keys = view.vessel_account = true;
+  view.legend_visible = view.legend_of_keys = view.vessel_account = view.figures_visible = true;
   view.echo = {Action::window_size, true, {}, live.now + std::chrono::seconds{1}};
   for (const auto& [width, height] : {std::pair{1, 1},
                                       {2, 2},
@@ -80,24 +80,26 @@ TEST_F(EverySize, is_drawn_with_everything_on_it_and_nothing_beside_it) {
         }
 }
 
-// A replay has no cell of lines: whichever are there, the bar measures no other.
-TEST_F(EverySize, the_status_bar_holds_any_of_its_cells) {
-  const HudText full = compose_hud_text({}, worst_status(), {});
-  constexpr std::size_t cell_count = std::tuple_size_v<decltype(HudText::cells)>;
+// A replay has no figure of lines: whichever are there, the strip measures no other.
+TEST_F(EverySize, the_engineers_strip_holds_any_of_its_figures) {
+  ViewState view;
+  view.figures_visible = true;
+  const HudText full = compose_hud_text(view, worst_status(), {});
+  constexpr std::size_t figure_count = std::tuple_size_v<decltype(HudText::figures)>;
   for (const auto& [width, height] : {std::pair{1, 1}, {200, 300}, {640, 360}, {1280, 720}}) {
-    const Layout layout = lay_out(width, height, {});
+    const Layout layout = lay_out(width, height, {}, LayoutKind::volume, {.figures = true});
     const auto fonts = Fonts::create(layout.unit);
     ASSERT_TRUE(fonts) << fonts.error().message;
     Canvas canvas;
-    for (unsigned there = 0; there < 1U << cell_count; ++there) {
+    for (unsigned there = 0; there < 1U << figure_count; ++there) {
       HudText text = full;
-      for (std::size_t i = 0; i < cell_count; ++i)
-        if (std::bitset<cell_count>{there}[i])
-          text.cells[i].label = "Label";
+      for (std::size_t i = 0; i < figure_count; ++i)
+        if (std::bitset<figure_count>{there}[i])
+          text.figures[i].label = "Label";
         else
-          text.cells[i] = {};
+          text.figures[i] = {};
       canvas.begin(*fonts, width, height);
-      draw_status_bar(canvas, layout, text);
+      draw_engineers_strip(canvas, layout, text);
       if (width > 1) { // newer ImGui draws no dot of less than half a pixel
         ASSERT_GT(canvas.list().VtxBuffer.Size, 0) << "the devices at least";
       }

@@ -35,6 +35,20 @@ std::vector<std::string> badges_of(const Status& status) {
   return words;
 }
 
+std::vector<std::string> troubles_of(const Status& status) {
+  const HudText hud = compose_hud_text({}, status, {});
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < hud.trouble_count; ++i)
+    words.emplace_back(hud.troubles[i].words.view());
+  return words;
+}
+
+ViewState with_figures() {
+  ViewState view;
+  view.figures_visible = true;
+  return view;
+}
+
 TEST(HudText, another_cameras_calibration_is_told_as_long_as_it_is_used) {
   Status status = live_status();
   status.simulated = false;
@@ -86,7 +100,7 @@ TEST(HudText, a_b_scan_that_is_not_whole_is_named) {
 // Whatever else is true of it: REPLAY comes first, and nothing in words or marks says live.
 TEST(HudText, a_replay_says_so_with_date_and_time_in_every_state) {
   Status status = live_status();
-  status.replay = ReplayStatus{.recorded = {}, .whose = "eye not said, subject not said"};
+  status.replay = ReplayStatus{};
   EXPECT_EQ(badges_of(status)[0], "REPLAY") << "before its first volume, too";
   status.replay->recorded = "2026-11-22 12:10:03";
   for (const Liveness liveness : {Liveness::waiting, Liveness::stale, Liveness::veiled,
@@ -95,49 +109,122 @@ TEST(HudText, a_replay_says_so_with_date_and_time_in_every_state) {
     const auto words = badges_of(status);
     EXPECT_EQ(words[0], "REPLAY 2026-11-22 12:10:03");
     EXPECT_THAT(words, testing::Contains("SIMULATED"));
-    EXPECT_THAT(words, testing::Contains("eye not said, subject not said"));
-    EXPECT_NE(compose_hud_text({}, status, {}).liveness, Liveness::live);
+    const HudText hud = compose_hud_text({}, status, {});
+    EXPECT_EQ(hud.eye.view(), "eye not said");
+    EXPECT_EQ(hud.facts[0].view(), "subject not said");
+    EXPECT_NE(hud.liveness, Liveness::live);
   }
   status.freshness.liveness = Liveness::replayed;
   status.simulated = false;
-  EXPECT_EQ(badges_of(status), (std::vector<std::string>{"REPLAY 2026-11-22 12:10:03",
-                                                         "eye not said, subject not said"}));
-  EXPECT_EQ(compose_hud_text({}, status, {}).cells[1].label, "") << "no lines come";
+  status.eye = pipeline::Eye::right;
+  status.subject = "4711";
+  EXPECT_EQ(badges_of(status), std::vector<std::string>{"REPLAY 2026-11-22 12:10:03"});
+  const HudText hud = compose_hud_text(with_figures(), status, {});
+  EXPECT_EQ(hud.eye.view(), "right eye");
+  EXPECT_EQ(hud.facts[0].view(), "subject 4711");
+  EXPECT_EQ(hud.figures[1].label, "") << "no lines come";
 }
 
 TEST(HudText, a_recording_says_how_long_and_of_which_eye) {
   Status status = live_status();
-  const auto cell = [&] { return compose_hud_text({}, status, {}).cells.back(); };
-  EXPECT_EQ(cell().label, "") << "none is on";
+  const auto text = [&] { return compose_hud_text({}, status, {}); };
+  EXPECT_TRUE(text().recording.empty()) << "none is on";
+  EXPECT_EQ(text().eye.view(), "eye not said");
   status.recording = {.on = true, .lasted = std::chrono::seconds{75}};
-  EXPECT_EQ(cell().label, "Recording");
-  EXPECT_EQ(cell().value.view(), "1:15, eye not said");
-  status.recording.eye = pipeline::Eye::left;
-  EXPECT_EQ(cell().value.view(), "1:15, left eye");
-  status.recording.eye = pipeline::Eye::right;
-  EXPECT_EQ(cell().value.view(), "1:15, right eye");
-  EXPECT_EQ(cell().tone, Tone::normal);
+  EXPECT_EQ(text().recording.view(), "REC 1:15");
+  EXPECT_EQ(text().eye.view(), "eye not said");
+  status.eye = pipeline::Eye::left;
+  EXPECT_EQ(text().eye.view(), "left eye");
+  status.eye = pipeline::Eye::right;
+  EXPECT_EQ(text().eye.view(), "right eye");
+  EXPECT_EQ(text().trouble_count, 0U);
   status.recording.not_kept = 3;
-  EXPECT_EQ(cell().value.view(), "1:15, 3 not kept");
-  EXPECT_EQ(cell().tone, Tone::warning);
+  EXPECT_EQ(troubles_of(status), std::vector<std::string>{"3 not recorded"});
 }
 
-TEST(HudText, figures_have_their_units_and_losses_warn) {
+TEST(HudText, a_recording_says_how_much_room_is_left) {
+  using namespace std::chrono_literals;
   Status status = live_status();
-  HudText hud = compose_hud_text({}, status, {});
-  EXPECT_EQ(hud.cells[0].value.view(), "7.1");
-  EXPECT_EQ(hud.cells[1].value.view(), "215 k");
-  EXPECT_EQ(hud.cells[3].value.view(), "32 / 44 ms");
-  EXPECT_EQ(hud.cells[4].value.view(), "none");
-  EXPECT_EQ(hud.cells[5].value.view(), "8 to 44 dB");
+  const auto room = [&](hal::Duration left) {
+    status.recording = {.on = true, .lasted = 1s, .not_kept = 0, .room = left};
+    return std::string{compose_hud_text({}, status, {}).facts[1].view()};
+  };
+  EXPECT_EQ(room(599s), "room for 9:59");
+  EXPECT_EQ(room(10min + 59s), "room for 10 min");
+  EXPECT_EQ(room(100min), "room for 1 h");
+  EXPECT_EQ(room(99h), "room for 99 h");
+  EXPECT_EQ(room(1000h), "room for days");
+  status.recording.on = false;
+  EXPECT_TRUE(compose_hud_text({}, status, {}).facts[1].empty());
+}
+
+TEST(HudText, the_machines_figures_are_behind_an_action_and_have_their_units) {
+  Status status = live_status();
+  EXPECT_EQ(compose_hud_text({}, status, {}).figures[0].label, "") << "nobody asked for them";
+  HudText hud = compose_hud_text(with_figures(), status, {});
+  EXPECT_EQ(hud.figures[0].value.view(), "7.1");
+  EXPECT_EQ(hud.figures[1].value.view(), "215 k");
+  EXPECT_EQ(hud.figures[2].value.view(), "60");
+  EXPECT_EQ(hud.figures[3].value.view(), "32 / 44 ms");
+  EXPECT_EQ(hud.figures[4].value.view(), "none");
+  EXPECT_EQ(hud.figures[5].value.view(), "8 to 44 dB");
   status.lines_per_s = 1'234'000;
   status.latency_p95_ms.reset();
   status.losses.b_scans = 2;
-  hud = compose_hud_text({}, status, {});
-  EXPECT_EQ(hud.cells[1].value.view(), "1.23 M");
-  EXPECT_EQ(hud.cells[3].value.view(), "–");
-  EXPECT_EQ(hud.cells[4].value.view(), "0 / 2 / 0");
-  EXPECT_EQ(hud.cells[4].tone, Tone::warning);
+  hud = compose_hud_text(with_figures(), status, {});
+  EXPECT_EQ(hud.figures[1].value.view(), "1.23 M");
+  EXPECT_EQ(hud.figures[3].value.view(), "–");
+  EXPECT_EQ(hud.figures[4].value.view(), "0 / 2 / 0");
+  EXPECT_EQ(hud.figures[4].tone, Tone::warning);
+}
+
+TEST(HudText, what_is_lost_or_gone_is_said_without_being_asked) {
+  using Words = std::vector<std::string>;
+  Status status = live_status();
+  EXPECT_EQ(troubles_of(status), Words{});
+  status.losses.lines = 1;
+  EXPECT_EQ(troubles_of(status), Words{"1 line lost"});
+  status.losses.b_scans = 2;
+  EXPECT_EQ(troubles_of(status), Words{"2 B-scans lost"});
+  status.losses.volumes = 3;
+  EXPECT_EQ(troubles_of(status), Words{"3 volumes lost"});
+  status.losses = {};
+  status.devices[0].state = hal::DeviceState::absent;
+  status.devices[2].state = hal::DeviceState::failed;
+  EXPECT_EQ(troubles_of(status), (Words{"no camera", "pedal failed"}));
+  status.replay.emplace();
+  status.missing_b_scans = 2;
+  EXPECT_EQ(troubles_of(status), (Words{"2 B-scans missing", "no camera", "pedal failed"}))
+      << "a replay's badges may leave no room for theirs";
+}
+
+TEST(HudText, time_and_the_knob_are_said) {
+  Status status = live_status();
+  ViewState view;
+  view.selected = Action::tilt;
+  const HudText hud = compose_hud_text(view, status, {});
+  EXPECT_EQ(hud.time_of_day.view(), "14:05");
+  EXPECT_EQ(hud.selected, Action::tilt);
+}
+
+// Of this eye or none: the configuration alone says nothing, nor does an eye alone.
+TEST(HudText, sides_are_those_of_the_eye_that_was_said) {
+  using enum Side;
+  Status status = live_status();
+  const auto ends = [&] { return compose_hud_text({}, status, {}).ends; };
+  status.orientation.labels.names = {"across", "", ""};
+  EXPECT_EQ(compose_hud_text({}, status, {}).labels.names[0], "across");
+  status.eye = pipeline::Eye::right;
+  EXPECT_EQ(ends(), AxisEnds{});
+  status.orientation.on_eye = {temporal, inferior};
+  EXPECT_EQ(ends(), (AxisEnds{nasal, temporal, superior, inferior}));
+  EXPECT_EQ(compose_hud_text({}, status, {}).labels.names[0], "") << "sides are better";
+  status.eye = pipeline::Eye::left;
+  EXPECT_EQ(ends(), (AxisEnds{temporal, nasal, superior, inferior})) << "mirrored";
+  status.orientation.on_eye = {superior, nasal};
+  EXPECT_EQ(ends(), (AxisEnds{inferior, superior, nasal, temporal}));
+  status.eye = pipeline::Eye::not_said;
+  EXPECT_EQ(ends(), AxisEnds{});
 }
 
 TEST(HudText, vessels_say_whether_they_are_where_they_seem_to_be) {
@@ -145,16 +232,13 @@ TEST(HudText, vessels_say_whether_they_are_where_they_seem_to_be) {
   status.simulated = false;
   status.vessels.state = VesselStatus::State::loading;
   status.vessels.progress = 0.437F;
-  HudText hud = compose_hud_text({}, status, {});
-  EXPECT_EQ(hud.cells[6].label, "Vessels");
-  EXPECT_EQ(hud.cells[6].value.view(), "loading 43 %");
-  EXPECT_EQ(badges_of(status), std::vector<std::string>{});
+  using Words = std::vector<std::string>;
+  EXPECT_EQ(troubles_of(status), Words{"vessels 43 %"});
+  EXPECT_EQ(badges_of(status), Words{});
   status.vessels.state = VesselStatus::State::failed;
-  hud = compose_hud_text({}, status, {});
-  EXPECT_EQ(hud.cells[6].value.view(), "not loaded");
-  EXPECT_EQ(hud.cells[6].tone, Tone::warning);
+  EXPECT_EQ(troubles_of(status), Words{"no vessels"});
   status.vessels.state = VesselStatus::State::shown;
-  EXPECT_EQ(compose_hud_text({}, status, {}).cells[6].label, "");
+  EXPECT_EQ(troubles_of(status), Words{"vessels not registered"});
   EXPECT_EQ(badges_of(status), std::vector<std::string>{"VESSELS NOT REGISTERED"});
   ViewState hidden;
   hidden.vessels_visible = false;
@@ -207,12 +291,12 @@ TEST(HudText, merged_vessels_and_their_account_are_told) {
   EXPECT_FALSE(compose_hud_text(view, status, {}).vessels.account) << "on request";
   view.vessel_account = true;
   EXPECT_EQ(compose_hud_text(view, status, {}).vessels.account->total(), 4321U);
-  EXPECT_EQ(compose_hud_text(view, status, {}).reduced.view(), "thinnest vessels merged");
+  EXPECT_EQ(compose_hud_text(view, status, {}).facts[2].view(), "thinnest vessels merged");
   status.reduced_quality = 0.5F;
-  EXPECT_EQ(compose_hud_text(view, status, {}).reduced.view(),
+  EXPECT_EQ(compose_hud_text(view, status, {}).facts[2].view(),
             "quality reduced to 50 %, thinnest vessels merged");
   status.vessels.account.merged = 0;
-  EXPECT_EQ(compose_hud_text(view, status, {}).reduced.view(), "quality reduced to 50 %");
+  EXPECT_EQ(compose_hud_text(view, status, {}).facts[2].view(), "quality reduced to 50 %");
 }
 
 TEST(HudText, an_old_microscope_picture_is_stale) {
@@ -313,7 +397,7 @@ TEST_F(HudPicture, a_replay_looks_like_nothing_else) {
     EXPECT_LT(plate(status, palette::replay), 500) << "no other has a white plate";
   }
   status.freshness = {Liveness::replayed, {}, {}};
-  status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03", .whose = "left eye"};
+  status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03"};
   EXPECT_GT(plate(status, palette::replay), 1500);
   EXPECT_LT(plate(status, palette::warning) + plate(status, palette::frozen), 20);
 }

@@ -58,12 +58,12 @@ TEST_F(GoldenLayout, microscope) {
   expect_golden(draw(view, live_status(), 1280, 720), "microscope_1280x720");
 }
 
-TEST_F(GoldenLayout, a_wide_microscope_picture_with_the_volume_inset) {
+TEST_F(GoldenLayout, a_wide_microscope_picture) {
   Status status = live_status();
   status.freshness = {Liveness::frozen, std::chrono::seconds{12}, std::chrono::seconds{12}};
   ViewState view = window_turned(LayoutKind::microscope, status);
   view.frozen = true;
-  expect_golden(draw(view, status, 640, 360, false, 480), "inset_640x360");
+  expect_golden(draw(view, status, 640, 360, false, 480), "wide_microscope_640x360");
 }
 
 TEST_F(GoldenLayout, quad_in_trouble) {

@@ -80,7 +80,7 @@ Rect middle_of(const Rect& rect) {
           rect.height / 2 - 1};
 }
 
-TEST(Layout, nothing_overlaps_but_the_inset_and_everything_is_inside) {
+TEST(Layout, nothing_overlaps_and_everything_is_inside) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.words());
     const Layout l = c.layout();
@@ -101,8 +101,7 @@ TEST(Layout, nothing_overlaps_but_the_inset_and_everything_is_inside) {
     for (std::size_t i = 0; i < plates.size(); ++i) {
       ASSERT_TRUE(within(plates[i], screen)) << i;
       for (std::size_t k = i + 1; k < plates.size(); ++k) {
-        const bool declared = l.inset && i == 1 && plates[k] == l.scope.frame;
-        ASSERT_TRUE(declared || !overlap(plates[i], plates[k])) << i << " and " << k;
+        ASSERT_FALSE(overlap(plates[i], plates[k])) << i << " and " << k;
       }
     }
     for (const Rect& plate : plates)
@@ -142,27 +141,43 @@ TEST(Layout, pictures_have_their_physical_aspect) {
 }
 
 TEST(Layout, what_lies_over_the_large_picture_leaves_its_middle_free) {
-  for (const Case& c : cases()) {
-    SCOPED_TRACE(c.words());
-    const Layout l = c.layout();
-    const Rect middle = middle_of(l.large);
-    const Rect screen{0, 0, c.width, c.height};
-    ASSERT_TRUE(within(l.large, l.stage));
-    for (const Rect* over : {&l.marks, &l.notice, &l.echo, &l.legend, &l.histogram}) {
-      ASSERT_TRUE(over->empty() || within(*over, screen));
-      ASSERT_FALSE(overlap(*over, middle))
-          << over->x << " " << over->y << " " << over->width << " " << over->height;
+  for (const Case& c : cases())
+    for (const Extras& extras : {Extras{}, {.figures = true}, {.legend = true}, {true, true}}) {
+      SCOPED_TRACE(c.words());
+      const Layout l = lay_out(c.width, c.height, c.aspects, c.kind, extras);
+      const Rect middle = middle_of(l.large);
+      const Rect screen{0, 0, c.width, c.height};
+      for (const Rect* over : {&l.marks, &l.notice, &l.legend, &l.histogram, &l.figures}) {
+        ASSERT_TRUE(over->empty() || within(*over, screen));
+        ASSERT_FALSE(overlap(*over, middle))
+            << over->x << " " << over->y << " " << over->width << " " << over->height;
+      }
+      ASSERT_TRUE(within(l.notice, l.status_bar));
+      ASSERT_TRUE(within(l.histogram, l.large));
+      ASSERT_FALSE(overlap(l.figures, l.status_bar));
+      ASSERT_EQ(l.figures.empty(), !extras.figures);
+      ASSERT_EQ(l.legend.empty(), !extras.legend);
+      for (const Rect* beside : {&l.histogram, &l.status_bar, &l.figures, &l.marks, &l.view,
+                                 &l.b_scan.frame, &l.en_face.frame, &l.scope.frame})
+        ASSERT_FALSE(overlap(l.legend, *beside)) << "no picture is under the legend";
+      ASSERT_TRUE(l.cube.empty() || within(l.cube, l.view));
+      ASSERT_FALSE(overlap(l.cube, l.marks));
     }
-    ASSERT_FALSE(l.inset && overlap(l.view_frame, middle));
-    for (const Rect* over : {&l.echo, &l.histogram, &l.notice})
-      ASSERT_FALSE(overlap(*over, l.status_bar));
-    ASSERT_FALSE(overlap(l.echo, l.histogram));
-    for (const Rect* beside : {&l.histogram, &l.echo, &l.status_bar, &l.marks})
-      ASSERT_FALSE(overlap(l.legend, *beside));
-    ASSERT_FALSE(overlap(l.echo, l.notice));
-    ASSERT_TRUE(l.cube.empty() || within(l.cube, l.view));
-    ASSERT_FALSE(overlap(l.cube, l.marks));
-  }
+}
+
+// Each, of whatever aspect, fills its frame one way or the other.
+TEST(Layout, small_pictures_use_the_screen) {
+  for (const auto& [w, h] : {std::pair{1920, 1080}, {1280, 720}, {3840, 2160}, {1024, 768}})
+    for (const LayoutKind kind : kinds) {
+      const Layout l = lay_out(w, h, {1.67, 1, 4.0 / 3}, kind);
+      for (const Panel* panel : {&l.b_scan, &l.en_face, &l.scope}) {
+        ASSERT_TRUE(panel->shown()) << w << "x" << h << ", kind " << static_cast<int>(kind);
+        EXPECT_GE(panel->picture.width, w / 8) << w << "x" << h << ", " << static_cast<int>(kind);
+        EXPECT_TRUE(panel->picture.width >= panel->frame.width * 9 / 10 ||
+                    panel->picture.height >= panel->frame.height * 3 / 4);
+      }
+      EXPECT_FALSE(l.view.empty());
+    }
 }
 
 TEST(Layout, the_large_picture_is_the_largest) {
@@ -229,13 +244,15 @@ TEST(Layout, without_a_microscope_its_room_is_shared) {
   }
 }
 
-TEST(Layout, a_microscope_picture_that_fills_the_screen_carries_the_volume_as_an_inset) {
-  const Layout wide = lay_out(1920, 1080, {1.67, 1, 2.1}, LayoutKind::microscope);
-  EXPECT_TRUE(wide.inset);
-  EXPECT_TRUE(within(wide.view_frame, wide.scope.picture));
-  EXPECT_EQ(wide.view_frame.right(), wide.scope.picture.right());
-  EXPECT_EQ(wide.view_frame.bottom(), wide.scope.picture.bottom());
-  EXPECT_FALSE(lay_out(1920, 1080, {1.67, 1, 4.0 / 3}, LayoutKind::microscope).inset);
+TEST(Layout, a_wide_microscope_picture_keeps_all_others_beside_it) {
+  for (const double aspect : {4.0 / 3, 16.0 / 9, 2.1})
+    for (const auto& [w, h] : {std::pair{1920, 1080}, {1024, 768}}) {
+      const Layout l = lay_out(w, h, {1.67, 1, aspect}, LayoutKind::microscope);
+      EXPECT_TRUE(l.b_scan.shown());
+      EXPECT_TRUE(l.en_face.shown());
+      EXPECT_GE(l.view.width, w / 10);
+      EXPECT_GE(l.scope.picture.width, w / 2);
+    }
 }
 
 } // namespace

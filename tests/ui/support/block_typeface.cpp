@@ -44,8 +44,10 @@ struct Range {
   int first;
   int last;
 };
-// As in ui/hud/fonts.cpp. Glyph 0 stands for what is missing, glyph 1 is the blank.
-constexpr std::array<Range, 3> ranges{{{0x20, 0xFF}, {0x2010, 0x2026}, {0x2212, 0x2212}}};
+// The display's own words, as in ui/hud/fonts.cpp. Glyph 0 stands for what is missing, glyph 1 is the
+// blank.
+constexpr std::array<Range, 4> ranges{
+    {{0x20, 0xFF}, {0x2010, 0x2026}, {0x2212, 0x2212}, {0x25A1, 0x25A1}}};
 
 constexpr int glyphs() {
   int count = 1;

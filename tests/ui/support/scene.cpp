@@ -22,6 +22,7 @@ ui::Status live_status() {
                      {Device::display, "offscreen", hal::DeviceState::ready}}};
   status.device_count = 5;
   status.simulated = true;
+  status.time_of_day = "14:05";
   status.source_description = "Phantom tissue, loop of 2.3 s";
   status.freshness = {ui::Liveness::live, std::chrono::milliseconds{60}, {}};
   return status;
@@ -36,7 +37,10 @@ ui::Status worst_status() {
   status.reduced_quality = 0.67F;
   status.notice = "Camera lost: looking for it again";
   status.vessels.state = ui::VesselStatus::State::shown; // and not registered
-  status.recording = {.on = true, .lasted = std::chrono::seconds{5999}};
+  status.recording = {.on = true,
+                      .lasted = std::chrono::seconds{5999},
+                      .not_kept = 12,
+                      .room = std::chrono::hours{5}};
   return status;
 }
 
