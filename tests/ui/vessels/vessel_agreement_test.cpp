@@ -61,9 +61,9 @@ protected:
     std::vector<ui::VesselView> views(4, stage.whole());
     views[1].yaw_deg = 160;
     views[1].tilt_deg = -50;
-    views[1].mm_per_pixel /= 2;
+    views[1].mm_per_pixel /= 1.5F;
     views[2].tilt_deg = 90;
-    views[3].mm_per_pixel /= 3;
+    views[3].mm_per_pixel /= 2.2F;
     views[3].target_mm = {1, 0, 0};
     return views;
   }

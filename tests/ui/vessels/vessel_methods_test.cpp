@@ -134,6 +134,7 @@ TEST_F(VesselMethods, near_vessels_bulge_towards_the_eye_by_their_radius) {
   tree.branches = {pipeline::VesselBranch::rca, pipeline::VesselBranch::rca};
   VesselStage stage{tree};
   ui::VesselView view = stage.whole();
+  view.target_mm = {};
   view.yaw_deg = 0;
   view.tilt_deg = 0;
   const ui::VesselScene scene = stage.scene(view);

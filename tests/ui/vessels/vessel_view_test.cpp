@@ -23,17 +23,23 @@ TEST(VesselView, the_whole_tree_fills_the_picture) {
     const auto camera =
         ui::make_vessel_camera(view, ui::vessel_bounds(arrays.view()), width, height);
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    float largest = 0; // of what a picture's half is 1
+    glm::vec2 lowest{1}; // of what a picture's half is 1
+    glm::vec2 highest{-1};
     for (std::size_t i = 0; i < tree.nodes(); ++i) {
       const auto& p = tree.positions_mm[i];
       const glm::vec3 place{p[0], p[1], p[2]};
-      const glm::vec2 at = camera.project(place);
-      largest = std::max({largest, 2 * std::abs(at.x) / aspect, 2 * std::abs(at.y)});
+      const float reach = tree.radii_mm[i] / (camera.depth_of(place) * camera.tan_half_height);
+      const glm::vec2 at = 2.0F * camera.project(place);
+      lowest = glm::min(lowest, (at - reach) / glm::vec2{aspect, 1});
+      highest = glm::max(highest, (at + reach) / glm::vec2{aspect, 1});
       EXPECT_GE(camera.depth_of(place), camera.near_mm);
       EXPECT_LE(camera.depth_of(place), camera.far_mm);
     }
-    EXPECT_LE(largest, 1);
-    EXPECT_GE(largest, 0.5F) << "clusters' boxes are not quite full";
+    const glm::vec2 filled = 0.5F * (highest - lowest);
+    EXPECT_LE(std::max(filled.x, filled.y), 0.97F);
+    EXPECT_GE(std::max(filled.x, filled.y), 0.94F);
+    EXPECT_NEAR(highest.x, -lowest.x, 0.01F) << "in the middle";
+    EXPECT_NEAR(highest.y, -lowest.y, 0.01F);
   }
 }
 

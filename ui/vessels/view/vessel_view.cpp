@@ -18,6 +18,7 @@ namespace {
 constexpr float nearest_share = 0.5F; // of the target's distance
 constexpr float cue_heights = 2;
 constexpr float filled_share = 0.96F; // of the picture, by the whole tree
+constexpr int centring_rounds = 3;
 constexpr float middle_mm_per_pixel = 0.020F;
 constexpr float close_mm_per_pixel = 0.002F;
 
@@ -77,17 +78,31 @@ VesselBounds bounds_of(const pipeline::VesselCluster& cluster) {
   return bounds;
 }
 
-// Calls f with every corner of every cluster's box, seen from `target`: to the right, up, ahead.
-template <class F>
-void for_each_corner(const pipeline::VesselClusters& tree, const Axes& axes,
-                     const glm::vec3& target_mm, const F& f) {
+// Calls reach(place, radius) with what may lie farthest out, seen from `target`: to the right, up,
+// ahead. A cluster whose box may pass what was reached so far, as `passes` says of its corners, is
+// looked at node by node, since boxes of large vessels are mostly empty.
+template <class Passes, class Reach>
+void for_each_far_place(const pipeline::VesselClusters& tree, const Axes& axes,
+                        const glm::vec3& target_mm, const Passes& passes, const Reach& reach) {
+  const auto seen = [&](const glm::vec3& place) {
+    const glm::vec3 from = place - target_mm;
+    return glm::vec3{glm::dot(from, axes.right), glm::dot(from, axes.up),
+                     glm::dot(from, axes.forward)};
+  };
   for (const pipeline::VesselCluster& cluster : tree.clusters) {
     const VesselBounds bounds = bounds_of(cluster);
-    for (unsigned corner = 0; corner < 8; ++corner) {
-      const glm::vec3 place = corner_of(bounds, corner) - target_mm;
-      f(glm::vec3{glm::dot(place, axes.right), glm::dot(place, axes.up),
-                  glm::dot(place, axes.forward)});
-    }
+    bool may_pass = false;
+    for (unsigned corner = 0; corner < 8 && !may_pass; ++corner)
+      may_pass = passes(seen(corner_of(bounds, corner)));
+    if (!may_pass)
+      continue;
+    const auto nodes = tree.nodes.subspan(cluster.first_node, cluster.nodes);
+    for (const pipeline::PackedNode packed : nodes.subspan(cluster.references))
+      for (const pipeline::PackedNode end : {packed, nodes[packed.parent()]}) {
+        const pipeline::VesselNode node = unpack(cluster, end);
+        reach(seen({node.position_mm[0], node.position_mm[1], node.position_mm[2]}),
+              std::min(node.radius_mm, cluster.largest_radius_mm));
+      }
   }
 }
 
@@ -96,24 +111,53 @@ void for_each_corner(const pipeline::VesselClusters& tree, const Axes& axes,
 VesselView fit_whole_tree(VesselView view, const pipeline::VesselClusters& tree, int width,
                           int height) {
   view.target_mm = {};
+  if (tree.clusters.empty())
+    return view;
   const Axes axes = axes_of(view);
   glm::vec3 lower{std::numeric_limits<float>::max()};
   glm::vec3 upper{std::numeric_limits<float>::lowest()};
-  for_each_corner(tree, axes, view.target_mm, [&](const glm::vec3& place) {
-    lower = glm::min(lower, place);
-    upper = glm::max(upper, place);
-  });
-  if (tree.clusters.empty())
-    return view;
+  for_each_far_place(
+      tree, axes, view.target_mm,
+      [&](const glm::vec3& corner) { return corner != glm::clamp(corner, lower, upper); },
+      [&](const glm::vec3& place, float radius) {
+        lower = glm::min(lower, place - radius);
+        upper = glm::max(upper, place + radius);
+      });
   const glm::vec3 middle = 0.5F * (lower + upper);
-  view.target_mm = middle.x * axes.right + middle.y * axes.up + middle.z * axes.forward;
   const float aspect = aspect_of(width, height);
   const float slope = filled_share * tangent(aspect);
-  float distance = std::numeric_limits<float>::min();
-  for_each_corner(tree, axes, view.target_mm, [&](const glm::vec3& place) {
-    distance = std::max({distance, std::abs(place.y) / slope - place.z,
-                         std::abs(place.x) / (slope * aspect) - place.z});
-  });
+  // Nearer things reach farther out on the picture, so the middle of what is seen is found by
+  // shifting the target until both sides touch alike.
+  glm::vec2 centre{middle};
+  float distance = 0;
+  for (int round = 0; round < centring_rounds; ++round) {
+    view.target_mm = centre.x * axes.right + centre.y * axes.up + middle.z * axes.forward;
+    distance = std::numeric_limits<float>::min();
+    const auto needed = [&](const glm::vec3& place, float radius) {
+      return std::max((std::abs(place.y) + radius) / slope - place.z,
+                      (std::abs(place.x) + radius) / (slope * aspect) - place.z);
+    };
+    for_each_far_place(
+        tree, axes, view.target_mm,
+        [&](const glm::vec3& corner) { return needed(corner, 0) > distance; },
+        [&](const glm::vec3& place, float radius) {
+          distance = std::max(distance, needed(place, radius));
+        });
+    glm::vec2 lowest{std::numeric_limits<float>::max()};
+    glm::vec2 highest{std::numeric_limits<float>::lowest()};
+    for_each_far_place(
+        tree, axes, view.target_mm,
+        [&](const glm::vec3& corner) {
+          const glm::vec2 on_screen = glm::vec2{corner} * (distance / (distance + corner.z));
+          return on_screen != glm::clamp(on_screen, lowest, highest);
+        },
+        [&](const glm::vec3& place, float radius) {
+          const float nearness = distance / (distance + place.z);
+          lowest = glm::min(lowest, (glm::vec2{place} - radius) * nearness);
+          highest = glm::max(highest, (glm::vec2{place} + radius) * nearness);
+        });
+    centre += 0.5F * (lowest + highest);
+  }
   view.mm_per_pixel = distance * 2 * tangent(aspect) / static_cast<float>(height);
   return view;
 }

@@ -33,8 +33,8 @@ struct VesselView {
   bool operator==(const VesselView&) const = default;
 };
 
-// Keeps yaw and tilt and chooses target and scale so that the boxes of all clusters are in the
-// picture and one touches its margin. For an empty tree: looks at the origin.
+// Keeps yaw and tilt and chooses target and scale so that all vessels are in the picture, in its
+// middle, and touch its margin at two opposite sides. For an empty tree: looks at the origin.
 VesselView fit_whole_tree(VesselView view, const pipeline::VesselClusters& tree, int width,
                           int height);
 
