@@ -156,7 +156,7 @@ Layout Renderer::Parts::layout(const DrawnPicture& picture) const {
   PictureAspects aspects;
   if (!volume.empty()) {
     const pipeline::VolumeGeometry& g = volume.texture().geometry();
-    const Crop shown = crop_of(view);
+    const Crop shown = crop_of(picture.view);
     aspects.b_scan = shown.a_mm(g) / shown.depth_mm(g);
     aspects.crossed = shown.b_mm(g) / shown.depth_mm(g);
     aspects.en_face = shown.a_mm(g) / shown.b_mm(g);

@@ -54,8 +54,9 @@ double round_ruler_step_mm(double least_mm);
 
 // Depth rulers of the B-scans, the calliper, and where the crossed B-scans lie: in each other, in the
 // en-face picture, and in the scan's field in the microscope's picture, each in a colour of its own.
+// No number lies on `covered`.
 void draw_scan_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
-                     const HudScene& scene);
+                     const HudScene& scene, const Rect& covered);
 glm::vec2 to_pixels(const Rect& rect, const ScanField::Corner& corner);
 void draw_scan_field(Canvas& canvas, const Rect& rect, const ScanField& field,
                      const ViewState& view, const ShownPictures& shown, float unit);

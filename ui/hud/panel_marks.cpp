@@ -204,7 +204,7 @@ void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
     draw_sides(canvas, picture, {centre, {1, 0}, {0, 1}}, text, u);
   }
   if (shown.volume)
-    draw_scan_marks(canvas, layout, view, scene);
+    draw_scan_marks(canvas, layout, view, scene, text.window_changing ? layout.histogram : Rect{});
   if (shown.scope && layout.scope.shown() && text.scope_stale)
     canvas.frame(layout.scope.picture, palette::warning, 4 * u);
   if (shown.scope && layout.scope.shown() && scene.scan_field && !text.scope_stale) {

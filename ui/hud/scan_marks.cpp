@@ -62,8 +62,13 @@ void draw_cut(Canvas& canvas, const Rect& picture, Colour own, float place, Colo
 
 // Along the right border: a tick a round length, the depth from zero delay beside it, and four short
 // ticks between.
+bool overlap(const Rect& a, const Rect& b) {
+  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+// Numbers stay out of the picture's middle half and off `covered`.
 void draw_ruler(Canvas& canvas, const Rect& picture, const Section& shown, double depth_mm,
-                float unit) {
+                const Rect& covered, float unit) {
   const double mm_per_pixel = depth_mm * static_cast<double>(shown.length()) / picture.height;
   const float letters = canvas.text_height(TextStyle::label);
   const double step_mm = round_ruler_step_mm(mm_per_pixel * 1.6 * static_cast<double>(letters));
@@ -75,6 +80,7 @@ void draw_ruler(Canvas& canvas, const Rect& picture, const Section& shown, doubl
     canvas.line({right - length, y}, {right, y}, palette::ink.faded(160), width + 2 * unit);
     canvas.line({right - length, y}, {right, y}, colour, width);
   };
+  const auto lowest = static_cast<float>(overlap(picture, covered) ? covered.y : picture.bottom());
   bool said = false; // the unit: once, at the first
   constexpr int parts = 5;
   const double part_mm = step_mm / parts;
@@ -91,10 +97,12 @@ void draw_ruler(Canvas& canvas, const Rect& picture, const Section& shown, doubl
       continue;
     FixedText<16> words;
     words.format("{:g}{}", i * part_mm * (in_mm ? 1 : 1e3), said ? "" : in_mm ? " mm" : " µm");
+    const float left = right - 15 * unit - canvas.text_width(TextStyle::label, words.view());
+    const bool fits = left > right - static_cast<float>(picture.width) / 4;
+    if ((!fits && !said) || top + letters > lowest)
+      continue;
     said = true;
-    canvas.shadowed_text(
-        {right - 15 * unit - canvas.text_width(TextStyle::label, words.view()), top},
-        TextStyle::label, palette::text, words.view());
+    canvas.shadowed_text({left, top}, TextStyle::label, palette::text, words.view());
   }
 }
 
@@ -148,7 +156,7 @@ double round_ruler_step_mm(double least_mm) {
 }
 
 void draw_scan_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
-                     const HudScene& scene) {
+                     const HudScene& scene, const Rect& covered) {
   const float u = layout.unit;
   const auto [b, a] = positions_of(view, scene.shown.geometry);
   const float b_place = scene.crop.b.place_of(b);
@@ -160,13 +168,13 @@ void draw_scan_marks(Canvas& canvas, const Layout& layout, const ViewState& view
   const double depth_mm = scene.shown.geometry.depth_mm();
   if (layout.b_scan.shown()) {
     draw_cut(canvas, layout.b_scan.picture, palette::accent, a_place, palette::crossed, u);
-    draw_ruler(canvas, layout.b_scan.picture, scene.crop.depth, depth_mm, u);
+    draw_ruler(canvas, layout.b_scan.picture, scene.crop.depth, depth_mm, covered, u);
     if (view.calliper)
       draw_calliper(canvas, layout.b_scan.picture, view, scene, u);
   }
   if (layout.crossed.shown()) {
     draw_cut(canvas, layout.crossed.picture, palette::crossed, b_place, palette::accent, u);
-    draw_ruler(canvas, layout.crossed.picture, scene.crop.depth, depth_mm, u);
+    draw_ruler(canvas, layout.crossed.picture, scene.crop.depth, depth_mm, covered, u);
   }
 }
 

@@ -11,7 +11,7 @@ constexpr double least_column = 0.27; // shares of the width
 constexpr double widest_column = 0.44;
 constexpr double beside_scope = 0.38; // a large picture of fixed aspect needs more for itself
 constexpr double beside_b_scan = 0.31;
-constexpr double with_crossed = 0.39; // the crossed B-scan at the column's head
+constexpr double with_crossed = 0.45; // the crossed B-scan at the column's head
 constexpr double view_aspect = 1.6;   // of a small volume
 constexpr double row_share = 0.36;    // of the height, below what is taller than wide
 
@@ -23,7 +23,8 @@ constexpr float figures_length = 68;
 constexpr float marks_length = 62;  // one row of badges
 constexpr float least_width = 1152; // that the status bar needs
 constexpr float cube_length = 150;
-constexpr float edge = 14; // from the borders of a picture to what lies over it
+constexpr float least_small = 180; // width of a frame whose picture's scale still fits in
+constexpr float edge = 14;         // from the borders of a picture to what lies over it
 
 double area(const Rect& rect) {
   return static_cast<double>(rect.width) * rect.height;
@@ -269,7 +270,8 @@ void Plan::volume() {
     layout_.scope = make_panel(right, layout_.unit, aspects_.scope);
 }
 
-// The crossed B-scan at the head of a wider column, or below the large one: where both are larger.
+// The crossed B-scan at the head of a wider column, or below the large one, whichever makes the two
+// larger: by the product of their areas, so that neither is small.
 void Plan::b_scan() {
   take_marks();
   if (extras_.legend) {
@@ -278,10 +280,13 @@ void Plan::b_scan() {
   }
   Plan below{*this};
   below.b_scan_above_crossed();
-  if (!tall())
+  const bool wide = body_.width * with_crossed / 3 > length(least_small);
+  if (!tall() && wide)
     b_scan_beside_crossed();
-  if (tall() || area(below.layout_.b_scan.picture) + area(below.layout_.crossed.picture) >
-                    area(layout_.b_scan.picture) + area(layout_.crossed.picture))
+  const auto both = [](const Layout& layout) {
+    return area(layout.b_scan.picture) * area(layout.crossed.picture);
+  };
+  if (tall() || !wide || both(below.layout_) > both(layout_))
     *this = below;
 }
 

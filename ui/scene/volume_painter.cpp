@@ -126,11 +126,7 @@ hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
   return &weakened_texture_;
 }
 
-// Of many speckles along a ray, a maximum finds the brightest: it would be white all over. Shading
-// takes a share of the light, which a shorter window makes up for.
 void VolumePainter::update_transfer(const ViewState& of) {
-  constexpr float maximum_stretch = 1.5F;
-  constexpr float shaded_stretch = 0.8F;
   ViewState view = of;
   if (view.technique == Technique::maximum)
     view.window_size_db *= maximum_stretch;

@@ -108,8 +108,9 @@ TEST_F(Trace, no_row_does_two_things_at_once_and_every_b_scan_is_there) {
       b_scans += row.starts_with("worker") ? 1 : 0;
     }
   }
-  if (report_["lost"]["b_scans"] == 0)
+  if (report_["lost"]["b_scans"] == 0) {
     EXPECT_EQ(b_scans, small_b_scans * static_cast<int>(volumes_.size()));
+  }
 }
 
 TEST_F(Trace, the_report_counts_each_stage_of_each_volume_once) {

@@ -38,10 +38,10 @@ protected:
 };
 
 bool is_pink(const std::array<std::uint8_t, 3>& p) {
-  return p[0] > p[1] + 12 && p[2] > p[1] + 8;
+  return p[0] > p[1] + 9 && p[2] > p[1] + 6;
 }
 bool is_blue(const std::array<std::uint8_t, 3>& p) {
-  return p[2] > p[0] + 40 && p[1] > p[0] + 20;
+  return p[2] > p[0] + 20 && p[1] > p[0] + 10;
 }
 
 // How many pixels of a column or a row of a picture have that colour.
