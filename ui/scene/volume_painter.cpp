@@ -128,10 +128,7 @@ hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
 
 void VolumePainter::update_transfer(const ViewState& of) {
   ViewState view = of;
-  if (view.technique == Technique::maximum)
-    view.window_size_db *= maximum_stretch;
-  if (view.technique == Technique::shaded)
-    view.window_size_db *= shaded_stretch;
+  view.window_size_db *= window_stretch(view.technique);
   const TransferSource source{view.window_offset_db, view.window_size_db, view.opacity,
                               view.transfer, view.colour_map};
   if (transfer_source_ != source) {

@@ -23,10 +23,15 @@
 
 namespace octascope::ui {
 
-// Of many speckles along a ray, a maximum finds the brightest: it would be white all over. Shading
-// takes a share of the light. So these two techniques have windows of other sizes than the view's.
-inline constexpr float maximum_stretch = 1.5F;
-inline constexpr float shaded_stretch = 0.8F;
+// The size of a technique's window beside the view's. Of many speckles along a ray, a maximum finds
+// the brightest: it would be white all over. Shading takes a share of the light.
+constexpr float window_stretch(Technique technique) {
+  switch (technique) {
+  case Technique::maximum: return 1.5F;
+  case Technique::shaded: return 0.8F;
+  default: return 1;
+  }
+}
 
 // Threads: as gl/objects.h, except for the ray caster's own helpers. Allocates when the size or the
 // geometry changes, or when a technique, an eye or a backend is first used.

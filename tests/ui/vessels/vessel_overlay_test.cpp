@@ -183,8 +183,7 @@ TEST_F(VesselOverlayTest, a_uniform_volume_veils_a_vessel_as_theory_says) {
   for (const Way& way : ways) {
     const ui::ViewState first = along_slow_axis(way.technique);
     const double window_db =
-        double{first.window_size_db} *
-        (first.technique == ui::Technique::shaded ? double{ui::shaded_stretch} : 1);
+        double{first.window_size_db} * double{ui::window_stretch(first.technique)};
     const double grey = double{level_db - first.window_offset_db} / window_db;
     const ui::Camera eye = camera(first);
     const Slab whole = slab(way, first, eye, g, grey, g.b_mm());
