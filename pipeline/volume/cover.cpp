@@ -13,6 +13,7 @@ namespace {
 
 constexpr double gap_mm = 0.25;
 constexpr double thickest_mm = 1.5;
+constexpr double thinnest_mm = 0.2; // less is a bright line: what a background leaves of a reflex
 constexpr int least_tissue_bricks = 2; // below the gap
 // Of the layers, those with tissue under them. Between the two the cover is lowered by less, so that
 // it does not flicker.
@@ -21,6 +22,7 @@ constexpr float certain_share = 0.45F;
 constexpr float smallest_field = 0.1F; // of all columns
 constexpr int strong_counts = 24;      // 12 dB above the layers' middle
 constexpr int smoothing = 3;           // columns and B-scans to either side
+constexpr double bridged_mm = 3;       // at most
 
 using Counts = std::array<std::uint32_t, 256>;
 
@@ -32,6 +34,12 @@ int quantile(std::span<const std::uint32_t> counts, double share) {
     ++level;
   return static_cast<int>(level);
 }
+
+// Between two columns so many steps apart.
+struct Bridge {
+  int steps;
+  float end;
+};
 
 // The level that a brick's brightest voxel exceeds where there is more than noise. The lowest high
 // peak of their histogram is the noise's; its lower side shows how far it spreads.
@@ -71,17 +79,20 @@ std::optional<Cover::Layer> Cover::layer_in(std::span<const std::uint8_t> column
                                             std::uint8_t tissue) const {
   const int bricks = static_cast<int>(column.size());
   const auto is_tissue = [&](int z) { return column[static_cast<std::size_t>(z)] > tissue; };
+  const double brick_mm = (1 << brick_depth_shift) * geometry_.depth_spacing_um / 1e3;
   Layer layer{0, 0, false};
-  while (layer.first < bricks && !is_tissue(layer.first))
-    ++layer.first;
-  layer.end = layer.first;
-  int z = layer.first;
-  for (; z < bricks && z - layer.end < gap_bricks_; ++z)
-    if (is_tissue(z))
-      layer.end = z + 1;
-  const double mm =
-      (layer.end - layer.first) * (1 << brick_depth_shift) * geometry_.depth_spacing_um / 1e3;
-  if (z - layer.end < gap_bricks_ || mm > thickest_mm)
+  int z = 0;
+  double mm = 0;
+  for (; mm < thinnest_mm && z < bricks; mm = (layer.end - layer.first) * brick_mm) {
+    layer.first = z;
+    while (layer.first < bricks && !is_tissue(layer.first))
+      ++layer.first;
+    layer.end = z = layer.first;
+    for (; z < bricks && z - layer.end < gap_bricks_; ++z)
+      if (is_tissue(z))
+        layer.end = z + 1;
+  }
+  if (mm < thinnest_mm || mm > thickest_mm || z - layer.end < gap_bricks_)
     return std::nullopt;
   for (int run = 0; z < bricks && !layer.covers; ++z) {
     run = is_tissue(z) ? run + 1 : 0;
@@ -126,8 +137,54 @@ void Cover::find(const Occupancy& occupancy) {
           : std::clamp((of(covers, layers) - doubtful_share) / (certain_share - doubtful_share),
                        0.0F, 1.0F);
   strong_ = quantile(brightest, 0.5) + strong_counts;
-  if (!empty())
-    smooth();
+  if (empty())
+    return;
+  bridge();
+  smooth();
+}
+
+// Where an instrument is too near to the layer to leave a gap, the layer goes on between its two sides:
+// else a stripe of it would stay opaque, and look like another instrument.
+void Cover::bridge() {
+  smoothed_ = found_; // as they were told apart
+  const double column_mm = (1 << brick_a_shift) * geometry_.a_spacing_um / 1e3;
+  const auto across = [&](int b, int a, bool over_b_scans) -> std::optional<Bridge> {
+    const int most =
+        static_cast<int>(bridged_mm / (over_b_scans ? geometry_.b_spacing_um / 1e3 : column_mm));
+    const auto nearest = [&](int direction) -> std::optional<Bridge> {
+      for (int steps = 1; steps <= most; ++steps) {
+        const int at_b = over_b_scans ? b + direction * steps : b;
+        const int at_a = over_b_scans ? a : a + direction * steps;
+        if (at_b < 0 || at_b >= geometry_.b_scans || at_a < 0 || at_a >= columns_)
+          return std::nullopt;
+        const Column& column = smoothed_[static_cast<std::size_t>(at_b * columns_ + at_a)];
+        if (column.weight > 0)
+          return Bridge{steps, column.end};
+      }
+      return std::nullopt;
+    };
+    const auto before = nearest(-1);
+    const auto after = before ? nearest(1) : std::nullopt;
+    if (!after || before->steps + after->steps > most)
+      return std::nullopt;
+    const int steps = before->steps + after->steps;
+    return Bridge{steps, std::lerp(before->end, after->end,
+                                   static_cast<float>(before->steps) / static_cast<float>(steps))};
+  };
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    if (found_[i].weight > 0)
+      continue;
+    const int a = static_cast<int>(i) % columns_;
+    const int b = static_cast<int>(i) / columns_;
+    const auto along = across(b, a, false);
+    const auto over = across(b, a, true);
+    if (along || over)
+      found_[i] = {
+          along && (!over || along->steps * column_mm < over->steps * geometry_.b_spacing_um / 1e3)
+              ? along->end
+              : over->end,
+          1};
+  }
 }
 
 // Where more than half of the neighbours have a layer, all of it is lowered.

@@ -41,6 +41,7 @@ private:
   };
   std::optional<Layer> layer_in(std::span<const std::uint8_t> column, std::uint8_t tissue) const;
   Column between(int b, float column) const;
+  void bridge();
   void smooth();
 
   VolumeGeometry geometry_;

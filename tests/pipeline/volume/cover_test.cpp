@@ -82,6 +82,33 @@ TEST(Cover, reaches_over_where_nothing_lies_under_it) {
   EXPECT_EQ(to.b_scan(12)[32 * 200 + 60], volume.b_scan(12)[32 * 200 + 60] - 20);
 }
 
+TEST(Cover, is_found_under_a_line_that_is_none) {
+  Volume volume = noise_with({{30, 80}, {130, 170}});
+  for (int b = 0; b < 24; ++b)
+    for (int a = 0; a < 40; ++a)
+      std::fill_n(volume.b_scan(b).begin() + a * 200 + 1, 3, tissue);
+  const Volume to = weakened(noise_with({{30, 80}, {130, 170}}));
+  const Volume lined = weakened(volume);
+  ASSERT_FALSE(lined.levels.empty());
+  EXPECT_EQ(lined.b_scan(12)[20 * 200 + 60], to.b_scan(12)[20 * 200 + 60]);
+}
+
+// An instrument so near under it that no gap is left, from the border of the scan inwards.
+TEST(Cover, goes_on_over_an_instrument_that_touches_it) {
+  Volume volume = noise_with({{30, 80}, {130, 170}});
+  for (int b = 10; b < 14; ++b)
+    for (int a = 0; a < 40; ++a)
+      std::fill_n(volume.b_scan(b).begin() + a * 200 + 80, 120, std::uint8_t{160});
+  const Volume to = weakened(volume);
+  ASSERT_FALSE(to.levels.empty());
+  for (const int a : {0, 20, 39})
+    for (const int z : {35, 60, 75}) {
+      const auto voxel = static_cast<std::size_t>(a * 200 + z);
+      EXPECT_EQ(to.b_scan(12)[voxel], volume.b_scan(12)[voxel] - 20) << a << ", " << z;
+      EXPECT_EQ(to.b_scan(12)[static_cast<std::size_t>(a * 200 + 90)], 160) << "it stays";
+    }
+}
+
 TEST(Cover, takes_volumes_of_any_shape) {
   for (const pipeline::VolumeGeometry& g :
        {pipeline::VolumeGeometry{1, 1, 1}, {4100, 9, 2}, {33, 17, 5}}) {
