@@ -45,6 +45,15 @@ ui::DisplayWindow window_for(const std::string& scene) {
   return {-17.5F, 31};
 }
 
+// The scale's letters are the display's own, of which there are several versions.
+pipeline::Image without_scale(pipeline::Image picture) {
+  for (int y = picture.height * 5 / 6; y < picture.height; ++y)
+    for (int x = 0; x < picture.width / 2; ++x)
+      for (int channel = 0; channel < 3; ++channel)
+        picture.pixels[static_cast<std::size_t>((y * picture.width + x) * 3 + channel)] = 0;
+  return picture;
+}
+
 class TechniquePictures : public testing::TestWithParam<std::string> {
 protected:
   void SetUp() override {
@@ -81,7 +90,8 @@ TEST_P(TechniquePictures, are_as_kept) {
       const std::string name =
           fmt::format("techniques/{}_{}_{}x{}", GetParam(), to_string(technique), width, height);
       SCOPED_TRACE(name);
-      expect_golden(render(options_for(technique, width, height)), name, golden_similarity);
+      expect_golden(without_scale(render(options_for(technique, width, height))), name,
+                    golden_similarity);
     }
   }
 }
