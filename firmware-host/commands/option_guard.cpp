@@ -52,6 +52,11 @@ std::vector<std::string> endings_of(const CLI::Option& option) {
 std::string check_text(const std::string& text, bool may_be_empty) {
   if (text.empty() && !may_be_empty)
     return "found an empty text, expected something";
+  if (text.starts_with("--"))
+    return fmt::format(
+        "found \"{}\", which looks like an option, expected a value; of a file of that "
+        "name, say ./{}",
+        hal::shortened(text), hal::shortened(text));
   if (!hal::is_plain_text(text))
     return fmt::format("found \"{}\", with control characters or broken UTF-8 (shown as ?), "
                        "expected a text of one line in UTF-8",
