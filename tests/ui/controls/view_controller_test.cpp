@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "ui/controls/built_in_profiles.h"
-#include "ui/controls/simulated_control.h"
 #include "ui/controls/view_controller.h"
 
 namespace octascope::ui {
@@ -488,19 +487,6 @@ action = "adjust"
   EXPECT_EQ(count(Action::technique), 0U) << "what was held on the old device means nothing";
   tread({0});
   EXPECT_TRUE(state().frozen);
-}
-
-TEST(SimulatedControl, digits_are_switches_and_comma_and_stop_turn_the_knob) {
-  EXPECT_EQ(simulated_control(press('2')), (ControlEvent{now, ControlKind::pedal_switch, 1, 1}));
-  DisplayEvent released = press('3');
-  released.kind = DisplayEventKind::key_released;
-  EXPECT_EQ(simulated_control(released), (ControlEvent{now, ControlKind::pedal_switch, 2, 0}));
-  EXPECT_EQ(simulated_control(press(',')), (ControlEvent{now, ControlKind::knob, 0, -1}));
-  EXPECT_EQ(simulated_control(press('.', false, true)),
-            (ControlEvent{now, ControlKind::knob, 0, 1}));
-  EXPECT_FALSE(simulated_control(press('1', false, true))) << "a switch held down is one press";
-  EXPECT_FALSE(simulated_control(press('4')));
-  EXPECT_FALSE(simulated_control(press('o')));
 }
 
 } // namespace
