@@ -6,7 +6,7 @@
 #include <GLES3/gl3.h>
 
 #include "ui/gl/framebuffer.h"
-#include "ui/hud/canvas_renderer.h"
+#include "ui/canvas/canvas_renderer.h"
 #include "ui/hud/hud.h"
 #include "ui/layout/layout.h"
 #include "ui/layout/stereo.h"

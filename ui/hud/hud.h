@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "ui/hud/canvas.h"
+#include "ui/canvas/canvas.h"
 #include "ui/hud/hud_text.h"
 #include "ui/hud/window_histogram.h"
 #include "ui/layout/crop.h"

@@ -27,7 +27,8 @@ enum class BadgeKind : std::uint8_t {
   configuration,
   calibration,
   unregistered,
-  incomplete
+  incomplete,
+  cut // quiet: what is missing is missing on request
 };
 
 struct Badge {
@@ -83,7 +84,7 @@ struct ShownPictures {
 
 struct HudText {
   // One per kind, and two of kind incomplete.
-  static constexpr std::size_t most_badges = 8;
+  static constexpr std::size_t most_badges = 9;
   static constexpr std::size_t most_troubles = Status::most_devices + 6;
 
   // Lines, frames and volumes per second: dropped in this order if the strip is too narrow.

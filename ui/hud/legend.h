@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "ui/controls/legend_lines.h"
-#include "ui/hud/canvas.h"
+#include "ui/canvas/canvas.h"
 #include "ui/layout/layout.h"
 
 namespace octascope::ui {

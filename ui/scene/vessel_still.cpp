@@ -5,7 +5,7 @@
 #include "embedded_shaders.h"
 
 #include "ui/hud/hud.h"
-#include "ui/hud/palette.h"
+#include "ui/canvas/palette.h"
 
 namespace octascope::ui {
 

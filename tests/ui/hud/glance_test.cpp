@@ -17,7 +17,7 @@
 #include "ui/controls/built_in_profiles.h"
 #include "ui/controls/legend_lines.h"
 #include "ui/gl/framebuffer.h"
-#include "ui/hud/canvas_renderer.h"
+#include "ui/canvas/canvas_renderer.h"
 #include "ui/hud/hud.h"
 #include "ui/layout/stereo.h"
 
