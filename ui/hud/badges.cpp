@@ -91,8 +91,8 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
     canvas.frame({static_cast<int>(centre.x - half), static_cast<int>(centre.y - half),
                   static_cast<int>(half), static_cast<int>(size)},
                  ink, size * 0.13F, 0);
-    canvas.line({centre.x + half * 0.5F, centre.y - half}, {centre.x + half * 0.5F, centre.y + half},
-                ink, size * 0.06F);
+    canvas.line({centre.x + half * 0.5F, centre.y - half},
+                {centre.x + half * 0.5F, centre.y + half}, ink, size * 0.06F);
     break;
   }
 }
@@ -215,8 +215,8 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
     }
     if (x > room.x && x + width > room.right())
       next_row();
-    const bool told = badge.kind == BadgeKind::unregistered || badge.kind == BadgeKind::incomplete ||
-                      badge.kind == BadgeKind::cut;
+    const bool told = badge.kind == BadgeKind::unregistered ||
+                      badge.kind == BadgeKind::incomplete || badge.kind == BadgeKind::cut;
     if (told && (room != layout.marks || y + height > room.bottom()))
       continue; // the status bar says it, too; a cut is seen
     places[i] = {x, y, width, height};

@@ -310,7 +310,11 @@ HudText compose_hud_text(const ViewState& view, const Status& status, const Show
   hud.device_count = std::min(status.device_count, Status::most_devices);
   compose_troubles(hud, status);
   compose_bar(hud, status);
-  hud.figures_shown = view.figures_visible;
+  hud.figures_shown = view.figures != FiguresShown::none;
+  if (view.figures == FiguresShown::timing && status.timing != nullptr) {
+    hud.timing = status.timing;
+    hud.timed_volume = status.timing->newest;
+  }
   if (hud.figures_shown) // else nothing is drawn anew for them
     compose_figures(hud, view, status);
   compose_reduction(hud, status);

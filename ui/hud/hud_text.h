@@ -103,7 +103,9 @@ struct HudText {
   FixedText<160> notice;
   std::array<StatusCell, 6> figures; // unused if the label is empty
   bool figures_shown = false;
-  Caption volume; // if it is not the large picture
+  const Timing* timing = nullptr; // null: no diagram; owned by the host, see Status
+  std::uint64_t timed_volume = 0; // its newest: another one, another diagram
+  Caption volume;                 // if it is not the large picture
   Caption b_scan;
   Caption crossed;
   Caption en_face;

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "ui/controls/legend_lines.h"
 #include "ui/canvas/canvas.h"
+#include "ui/controls/legend_lines.h"
 #include "ui/layout/layout.h"
 
 namespace octascope::ui {

@@ -50,6 +50,7 @@ struct PictureAspects {
 struct Extras {
   bool figures = false; // the engineer's strip
   bool legend = false;  // what each control does: instead of small pictures
+  bool timing = false;  // the timing diagram
 };
 
 struct Layout {
@@ -66,6 +67,7 @@ struct Layout {
   Rect status_bar;
   Rect notice;  // one line, at the bar's top
   Rect figures; // above the bar, if asked for
+  Rect timing;  // above the figures, if asked for
 
   Rect large; // the large picture; in the quad layout, the volume
 

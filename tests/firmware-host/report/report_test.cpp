@@ -148,7 +148,7 @@ TEST(Report, says_every_figure_under_its_key) {
                              {"vessel_shift_mm", {0.0, 0.0, 0.0}},
                              {"vessel_turn_deg", {0.0, 0.0, 0.0}},
                              {"box", true},
-                             {"figures", false},
+                             {"figures", "hidden"},
                              {"legend", false},
                              {"selected", "tilt"}}));
   EXPECT_EQ(j["actions"].size(), ui::action_count);
