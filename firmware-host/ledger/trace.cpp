@@ -53,12 +53,12 @@ private:
   bool first_ = true;
 };
 
-void add_rows(EventText& text, std::uint32_t workers) {
+void add_rows(EventText& text, std::uint32_t worker_count) {
   using enum ui::TimingRow;
   text.name_row(row_of(exposure), "camera: exposure");
   text.name_row(row_of(camera), "camera thread: last frame");
-  for (std::uint32_t worker = 0; worker < workers; ++worker)
-    text.name_row(row_of(ui::TimingRow::workers, worker), fmt::format("worker {}", worker + 1));
+  for (std::uint32_t worker = 0; worker < worker_count; ++worker)
+    text.name_row(row_of(workers, worker), fmt::format("worker {}", worker + 1));
   text.name_row(row_of(fixed_rate), "fixed-rate thread");
   text.name_row(row_of(buffer), "triple buffer");
   text.name_row(row_of(render), "render thread");

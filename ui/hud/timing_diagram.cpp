@@ -117,6 +117,8 @@ private:
     const float to = std::max(axis_.x(bar.end), from + std::max(1.0F, unit_));
     if (!bar.waits) {
       canvas_.bar({from, top}, {to, top + height}, colour);
+      if (to - from > 6 * unit_) // apart from what the same thread did before
+        canvas_.bar({from, top}, {from + std::max(1.0F, unit_), top + height}, palette::panel);
       return;
     }
     canvas_.bar({from, top}, {to, top + height}, colour.faded(70));
@@ -137,9 +139,11 @@ private:
     for (const float x : {from, to})
       canvas_.line({x, middle - 6 * unit_}, {x, middle + 6 * unit_}, palette::text, thin);
     const float width = canvas_.text_width(TextStyle::label, words.view());
-    canvas_.shadowed_text(
-        {from - width - 12 * unit_, middle - canvas_.text_height(TextStyle::label) / 2},
-        TextStyle::label, palette::text, words.view());
+    const float height = canvas_.text_height(TextStyle::label);
+    const float left = from - width - 12 * unit_;
+    canvas_.bar({left - 8 * unit_, row_top(0)}, {from - 4 * unit_, row_top(0) + row_},
+                palette::plate);
+    canvas_.text({left, middle - height / 2}, TextStyle::label, palette::text, words.view());
   }
 
   Canvas& canvas_;
