@@ -13,11 +13,11 @@ flat in vec3 v_colour;
 
 uniform float u_half_line;
 uniform float u_reach; // pixels from the wall to where nothing is left
+uniform float u_line_opacity;
 uniform float u_opacity;
 
 out vec4 o_colour; // premultiplied
 
-const float line_opacity = 0.9;
 const float tint_opacity = 0.22;
 const float thinnest = 0.4;  // of the strength, however thin the vessel
 const float sideways = 0.1;  // weight of distances from the plane where a vessel is seen at a slant
@@ -52,7 +52,7 @@ void main() {
 
   float strength = u_opacity * mix(v_shares.x, v_shares.y, s) *
                    clamp(radius / u_half_line, thinnest, 1.0);
-  float drawn = line_opacity * line;
+  float drawn = u_line_opacity * line;
   float alpha = strength * (drawn + (1.0 - drawn) * tint_opacity * tint);
   if (alpha < 0.002)
     discard;

@@ -74,7 +74,7 @@ TEST_F(Allocation, vessels_in_the_flat_pictures_make_none) {
   status_.vessels.registered = true;
   view_.layout = ui::LayoutKind::quad;
   ASSERT_TRUE(renderer_->show_scope_picture(scope_.frame(status_.now), scope_.field()));
-  expect_none(3, 8, [&](int i) {
+  expect_none(10, 10, [&](int i) {
     view_.b_scan = (9 * i + 11) % 40;
     view_.a_scan = (7 * i + 31) % 100;
     view_.vessel_nudge.shift_mm[1] = 0.1F * static_cast<float>(i);

@@ -66,6 +66,17 @@ protected:
     vessels_->show({tree.view(), {}, pipeline::RigidTransform{}});
   }
 
+  // From 0.45 mm on; what lies down to 1.12 mm is in the slab of the en-face picture.
+  void show_tissue() {
+    pipeline::Volume volume = uniform_volume(geometry_, 60);
+    for (int b = 0; b < geometry_.b_scans; ++b)
+      for (int a = 0; a < geometry_.a_scans; ++a)
+        std::fill_n(volume.b_scan(b).begin() + a * geometry_.depths + 36, 24, std::uint8_t{150});
+    pipeline::Occupancy occupancy{geometry_, pipeline::blank_depth_bins};
+    occupancy.update(volume);
+    tissue_.update(occupancy, volume.b_scan_states);
+  }
+
   const pipeline::VolumeGeometry geometry_ = small_geometry;
   ui::TissueMap tissue_;
   ui::ViewState view_;
@@ -207,13 +218,7 @@ TEST_F(FlatVesselsTest, obey_the_opacity) {
 }
 
 TEST_F(FlatVesselsTest, lie_in_the_microscopes_picture_as_the_scan_does) {
-  pipeline::Volume volume = uniform_volume(geometry_, 60);
-  for (int b = 0; b < geometry_.b_scans; ++b) // tissue from 0.45 mm on
-    for (int a = 0; a < geometry_.a_scans; ++a)
-      std::fill_n(volume.b_scan(b).begin() + a * geometry_.depths + 32, 24, std::uint8_t{150});
-  pipeline::Occupancy occupancy{geometry_, pipeline::blank_depth_bins};
-  occupancy.update(volume);
-  tissue_.update(occupancy, volume.b_scan_states);
+  show_tissue();
   // Along the fast axis through the middle of the field.
   const auto tree = vessel_through({{0.3F, 1.5F, 0.7F}, {2.7F, 1.5F, 0.7F}}, 0.1F);
   show(tree);
@@ -233,6 +238,35 @@ TEST_F(FlatVesselsTest, lie_in_the_microscopes_picture_as_the_scan_does) {
     EXPECT_EQ(red(picture, static_cast<int>(x), static_cast<int>(y)), 0) << share;
   }
   EXPECT_EQ(red(picture, 150, 40), 0);
+}
+
+TEST_F(FlatVesselsTest, from_above_deep_vessels_are_weak_and_break_no_strong_one) {
+  show_tissue();
+  pipeline::VesselTree both;
+  both.positions_mm = {
+      {0.3F, 1.5F, 0.7F}, {2.7F, 1.5F, 0.7F}, {1.5F, 0.3F, 1.37F}, {1.5F, 2.7F, 1.37F}};
+  both.radii_mm = {0.1F, 0.1F, 0.1F, 0.1F};
+  both.parents = {pipeline::no_parent, 0, pipeline::no_parent, 2};
+  both.orders = {8, 8, 8, 8};
+  both.branches.assign(4, pipeline::VesselBranch::unknown);
+  const auto tree = pipeline::build_clusters(both);
+  show(tree);
+  const pipeline::Image picture =
+      draw(VesselPanel::en_face,
+           ui::place_in_panel(ui::FlatPicture::from_above, geometry_, {}, panel_rect));
+  const int middle = panel_rect.height / 2;
+  EXPECT_NEAR(red(picture, 80, middle), tint_red, 4) << "in the slab";
+  EXPECT_NEAR(red(picture, 150, 40), tint_red * 6 / 16, 4) << "a quarter of a millimetre deeper";
+  int wall = 0;
+  for (int y = middle - 12; y < middle; ++y)
+    wall = std::max(wall, red(picture, 80, y));
+  EXPECT_GT(wall, 2 * tint_red);
+  for (int x = 130; x < 170; ++x) {
+    int here = 0;
+    for (int y = middle - 12; y < middle; ++y)
+      here = std::max(here, red(picture, x, y));
+    EXPECT_GE(here + 2, wall) << x;
+  }
 }
 
 TEST_F(FlatVesselsTest, pictures_are_kept_until_something_changes) {

@@ -41,10 +41,10 @@ void add_layer(pipeline::Volume& volume, int from, int to, std::uint8_t level) {
       std::fill_n(volume.b_scan(b).begin() + a * g.depths + from, to - from, level);
 }
 
-// Noise, and a layer of tissue that begins in the brick at that depth.
+// Noise, and a layer of tissue that begins in the brick at that depth (of 8 voxels).
 ui::TissueMap tissue_from(const pipeline::VolumeGeometry& geometry, int depth) {
   pipeline::Volume volume = uniform_volume(geometry, 60);
-  add_layer(volume, depth + 8, depth + 32, 150);
+  add_layer(volume, depth + 4, depth + 32, 150);
   return map_of(volume);
 }
 

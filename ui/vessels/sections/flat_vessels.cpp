@@ -8,6 +8,9 @@ namespace octascope::ui {
 namespace {
 
 constexpr float line_width = 1.3F; // at unit 1: as the lines of the positions
+// A B-scan cuts few vessels; from above all of them lie over the tissue.
+constexpr float cut_line_opacity = 0.9F;
+constexpr float line_opacity_from_above = 0.55F;
 
 FlatPicture picture_of(VesselPanel panel) {
   switch (panel) {
@@ -17,6 +20,17 @@ FlatPicture picture_of(VesselPanel panel) {
   case VesselPanel::microscope: break;
   }
   return FlatPicture::from_above;
+}
+
+SectionPainter::Style style_of(FlatPicture picture, const VesselSections::Sight& sight,
+                               const PicturePlace& place, float unit) {
+  SectionPainter::Style style{std::max(1.0F, line_width * unit), line_opacity_from_above, 0,
+                              sight.view.vessel_opacity};
+  if (picture != FlatPicture::from_above) {
+    style.line_opacity = cut_line_opacity;
+    style.reach_px = static_cast<float>(section_reach_mm(sight.geometry)) * place.pixels_per_mm();
+  }
+  return style;
 }
 
 } // namespace
@@ -40,26 +54,19 @@ hal::Result<> FlatVessels::draw(VesselPanel panel, const VesselSections::Sight& 
   const FlatPicture picture = picture_of(panel);
   sections_.update(picture, sight);
   KeptPicture& kept = pictures_[static_cast<std::size_t>(panel)];
-  const Key key{sections_.version(picture), place, unit, sight.view.vessel_opacity};
+  const SectionPainter::Style style = style_of(picture, sight, place, unit);
+  const Key key{sections_.version(picture), place, style};
   if (kept.key != key) {
     kept.key.reset();
-    const auto marks = sections_.marks(picture);
-    kept.empty = marks.empty();
-    if (!kept.empty) {
-      place_marks(marks, place, placed_);
-      const bool cut = picture != FlatPicture::from_above;
-      const float reach_px =
-          cut ? static_cast<float>(section_reach_mm(sight.geometry)) * place.pixels_per_mm() : 0;
-      HAL_CHECK(
-          painter_.draw(kept.layer, placed_,
-                        {std::max(1.0F, line_width * unit), reach_px, sight.view.vessel_opacity},
-                        place.width, place.height));
+    kept.covered = place_marks(sections_.marks(picture), place, style.line_px, placed_);
+    if (!kept.covered.empty()) {
+      HAL_CHECK(painter_.draw(kept.layer, placed_, style, place.width, place.height));
       ++drawings_;
     }
     kept.key = key;
   }
-  if (!kept.empty)
-    painter_.blend(kept.layer, rect, target_height);
+  if (!kept.covered.empty())
+    painter_.blend(kept.layer, kept.covered, rect, target_height);
   return {};
 }
 

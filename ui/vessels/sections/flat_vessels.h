@@ -45,14 +45,13 @@ private:
   struct Key {
     std::uint64_t marks;
     PicturePlace place;
-    float unit;
-    float opacity;
+    SectionPainter::Style style;
     bool operator==(const Key&) const = default;
   };
   struct KeptPicture {
     SectionLayer layer{};
     std::optional<Key> key{};
-    bool empty = true;
+    Rect covered{}; // of the layer, in its pixels
   };
 
   VesselSections sections_;

@@ -57,18 +57,31 @@ PicturePlace place_in_field(const pipeline::VolumeGeometry& geometry, const Scan
   return place;
 }
 
-void place_marks(std::span<const VesselMark> marks, const PicturePlace& place,
+Rect place_marks(std::span<const VesselMark> marks, const PicturePlace& place, float line_px,
                  std::vector<PlacedMark>& placed) {
   placed.clear();
   const float scale = place.pixels_per_mm();
   const auto bits = [](float v) { return static_cast<std::uint8_t>(v * 255 + 0.5F); };
-  for (const VesselMark& mark : marks)
-    placed.push_back(
-        {glm::vec3{place.pixels({mark.from_mm.x, mark.from_mm.y}), scale * mark.from_mm.z},
-         glm::vec3{place.pixels({mark.to_mm.x, mark.to_mm.y}), scale * mark.to_mm.z},
-         scale * glm::vec2{mark.from_radius_mm, mark.to_radius_mm},
-         {mark.from_share, mark.to_share},
-         {bits(mark.colour[0]), bits(mark.colour[1]), bits(mark.colour[2]), 255}});
+  const glm::vec2 size{place.width, place.height};
+  glm::vec2 lower = size;
+  glm::vec2 upper{0};
+  for (const VesselMark& mark : marks) {
+    const glm::vec2 from = place.pixels({mark.from_mm.x, mark.from_mm.y});
+    const glm::vec2 to = place.pixels({mark.to_mm.x, mark.to_mm.y});
+    const glm::vec2 radii = scale * glm::vec2{mark.from_radius_mm, mark.to_radius_mm};
+    placed.push_back({glm::vec3{from, scale * mark.from_mm.z},
+                      glm::vec3{to, scale * mark.to_mm.z},
+                      radii,
+                      {mark.from_share, mark.to_share},
+                      {bits(mark.colour[0]), bits(mark.colour[1]), bits(mark.colour[2]), 255}});
+    const float reach = std::max(radii.x, radii.y) + line_px / 2 + 1;
+    lower = glm::min(lower, glm::min(from, to) - reach);
+    upper = glm::max(upper, glm::max(from, to) + reach);
+  }
+  lower = glm::floor(glm::clamp(lower, glm::vec2{0}, size));
+  upper = glm::ceil(glm::clamp(upper, lower, size));
+  return {static_cast<int>(lower.x), static_cast<int>(lower.y), static_cast<int>(upper.x - lower.x),
+          static_cast<int>(upper.y - lower.y)};
 }
 
 } // namespace octascope::ui

@@ -46,8 +46,8 @@ struct PlacedMark {
   std::array<std::uint8_t, 4> colour;
 };
 
-// Replaces the content of `placed`.
-void place_marks(std::span<const VesselMark> marks, const PicturePlace& place,
+// Replaces the content of `placed`. Returns what the marks may cover of the picture, in its pixels.
+Rect place_marks(std::span<const VesselMark> marks, const PicturePlace& place, float line_px,
                  std::vector<PlacedMark>& placed);
 
 } // namespace octascope::ui

@@ -51,6 +51,7 @@ SectionPainter::SectionPainter(gl::Program program, gl::PicturePass over)
     : program_{std::move(program)}, over_{std::move(over)}, vertex_array_{gl::VertexArray::make()},
       marks_{gl::Buffer::make()}, uniforms_{
                                       program_.uniform("u_size"), program_.uniform("u_half_line"),
+                                      program_.uniform("u_line_opacity"),
                                       program_.uniform("u_reach"), program_.uniform("u_opacity")} {
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, marks_.name());
@@ -88,6 +89,7 @@ hal::Result<> SectionPainter::draw(SectionLayer& layer, std::span<const PlacedMa
   program_.use();
   glUniform2f(uniforms_.size, static_cast<float>(width), static_cast<float>(height));
   glUniform1f(uniforms_.half_line, style.line_px / 2);
+  glUniform1f(uniforms_.line_opacity, style.line_opacity);
   glUniform1f(uniforms_.reach, style.reach_px);
   glUniform1f(uniforms_.opacity, style.opacity);
   glBindVertexArray(vertex_array_.name());
@@ -100,6 +102,21 @@ hal::Result<> SectionPainter::draw(SectionLayer& layer, std::span<const PlacedMa
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
   return {};
+}
+
+void SectionPainter::blend(const SectionLayer& layer, const Rect& covered, const Rect& rect,
+                           int target_height) const {
+  // Rounded outwards where a stereo picture is squeezed.
+  const auto begin = [](int at, int to, int from) { return at * to / from; };
+  const auto end = [](int at, int to, int from) { return (at * to + from - 1) / from; };
+  const int left = rect.x + begin(covered.x, rect.width, layer.width);
+  const int right = rect.x + end(covered.right(), rect.width, layer.width);
+  const int top = rect.y + begin(covered.y, rect.height, layer.height);
+  const int bottom = rect.y + end(covered.bottom(), rect.height, layer.height);
+  glScissor(left, target_height - bottom, right - left, bottom - top);
+  glEnable(GL_SCISSOR_TEST);
+  over_.blend(layer.colour, rect, target_height);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 } // namespace octascope::ui

@@ -31,19 +31,22 @@ public:
   static hal::Result<SectionPainter> create();
 
   struct Style {
-    float line_px;  // width of the lines
+    float line_px; // width of the lines
+    float line_opacity;
     float reach_px; // from a vessel's wall to the plane, where nothing is left; 0 from above
-    float opacity;
+    float opacity;  // of all
+
+    bool operator==(const Style&) const = default;
   };
   // Redraws the layer, `width` × `height` pixels large. The framebuffer binding is kept.
   // ErrorCode::system: this GL cannot render to a picture of that size.
   hal::Result<> draw(SectionLayer& layer, std::span<const PlacedMark> marks, const Style& style,
                      int width, int height);
 
-  // Blends the layer over the bound framebuffer.
-  void blend(const SectionLayer& layer, const Rect& rect, int target_height) const {
-    over_.blend(layer.colour, rect, target_height);
-  }
+  // Blends the layer over `rect` of the bound framebuffer; of it only what lies in `covered`, in the
+  // layer's pixels from its top left corner.
+  void blend(const SectionLayer& layer, const Rect& covered, const Rect& rect,
+             int target_height) const;
 
 private:
   SectionPainter(gl::Program program, gl::PicturePass over);
@@ -53,7 +56,7 @@ private:
   gl::VertexArray vertex_array_;
   gl::Buffer marks_;
   struct {
-    GLint size, half_line, reach, opacity;
+    GLint size, half_line, line_opacity, reach, opacity;
   } uniforms_;
 };
 
