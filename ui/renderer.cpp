@@ -238,7 +238,7 @@ hal::Result<> Renderer::Parts::draw_flat_vessels(const ViewState& view, const La
   return {};
 }
 
-// With the vessels wherever the scan's field is shown, too (panel_marks.cpp).
+// The vessels lie where the volume has them: nothing in this picture says so if that is an old one.
 hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Layout& places,
                                           const EyeFrame& frame) {
   if (!scope_shown || !places.scope.shown())
@@ -246,7 +246,8 @@ hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Lay
   const Rect& place = places.scope.picture;
   const Rect rect = frame.place(place);
   scope_panel.draw(rect, picture.height, picture.text.scope_stale);
-  if (!flat_vessels || volume.empty() || !scope_panel.field() || picture.text.scope_stale)
+  const bool both_live = picture.text.liveness == Liveness::live && !picture.text.scope_stale;
+  if (!flat_vessels || volume.empty() || !scope_panel.field() || !both_live)
     return {};
   return flat_vessels->draw(
       VesselPanel::microscope, sight(picture.view),

@@ -375,6 +375,15 @@ TEST_F(VesselsInPanels, are_not_drawn_over_an_old_microscope_picture) {
   EXPECT_GT(changes()[2], 200);
 }
 
+TEST_F(VesselsInPanels, are_not_drawn_over_a_live_microscope_picture_from_an_old_volume) {
+  for (const ui::Liveness liveness :
+       {ui::Liveness::stale, ui::Liveness::veiled, ui::Liveness::frozen}) {
+    status_.freshness = {liveness, std::chrono::seconds{2}, {}};
+    EXPECT_EQ(changes()[3], 0);
+    EXPECT_GT(changes()[2], 100) << "where the en face's own mark says how old it is";
+  }
+}
+
 TEST_F(VesselsInPanels, lie_in_both_eyes_pictures) {
   view_.stereo = ui::StereoMode::side_by_side;
   ui::ViewState hidden = view_;
