@@ -5,8 +5,8 @@
 
 #include <GLES3/gl3.h>
 
+#include "ui/canvas/canvas_renderer.h"
 #include "ui/gl/framebuffer.h"
-#include "ui/hud/canvas_renderer.h"
 #include "ui/hud/hud.h"
 #include "ui/layout/layout.h"
 #include "ui/layout/stereo.h"
@@ -175,7 +175,9 @@ Layout Renderer::Parts::layout(const DrawnPicture& picture) const {
   if (scope_shown)
     aspects.scope = scope_panel.aspect();
   return lay_out(picture.width, picture.height, aspects, picture.view.layout,
-                 {.figures = picture.text.figures_shown, .legend = picture.text.legend != nullptr});
+                 {.figures = picture.text.figures_shown,
+                  .legend = picture.text.legend != nullptr,
+                  .timing = picture.text.timing != nullptr});
 }
 
 hal::Result<> Renderer::Parts::prepare_fonts(float unit) {

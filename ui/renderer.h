@@ -11,7 +11,7 @@
 #include "pipeline/files/png_image.h"
 #include "pipeline/threads/worker_pool.h"
 #include "pipeline/volume/volume.h"
-#include "ui/hud/fonts.h"
+#include "ui/canvas/fonts.h"
 #include "ui/hud/window_histogram.h"
 #include "ui/layout/scan_field.h"
 #include "ui/status/status.h"

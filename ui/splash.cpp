@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "ui/hud/canvas.h"
-#include "ui/hud/canvas_renderer.h"
+#include "ui/canvas/canvas.h"
+#include "ui/canvas/canvas_renderer.h"
 #include "ui/layout/layout.h"
 #include "ui/layout/stereo.h"
 

@@ -1,5 +1,7 @@
 #include "firmware-host/devices/devices.h"
 
+#include <algorithm>
+
 #include "hal/linux/window_display.h"
 
 namespace octascope::firmware_host {
@@ -102,6 +104,14 @@ hal::Result<> Devices::make_real_spectra(const DeviceChoices& choices, const Run
 bool Devices::simulated() const {
   const hal::ScopeCamera* scope = scope_camera();
   return line_camera().simulated() || (scope != nullptr && scope->simulated());
+}
+
+// The line camera's buffers: a volume and a sixth of it is what the workers may fall behind, and
+// more than so many drivers do not have.
+hal::LineCameraConfig Devices::camera_config() const {
+  return {.format = format_,
+          .line_rate_hz = plan_.line_rate_hz,
+          .buffers = std::clamp(plan_.sweeps() * 7 / 6, 96, 512)};
 }
 
 hal::DisplayConfig display_config(const RunOptions& options, const Configuration& configuration) {

@@ -60,6 +60,7 @@ public:
   const pipeline::ScanPlan& plan() const { return plan_; }
   const pipeline::Calibration& calibration() const { return calibration_; }
   const hal::LineFormat& format() const { return format_; }
+  hal::LineCameraConfig camera_config() const;          // for the plan
   const std::string& source() const { return source_; } // for people: what is imaged
   const std::optional<ui::ScanField>& scan_field() const { return twins_.scan_field; }
 

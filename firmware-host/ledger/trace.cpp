@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <string>
 
 #include <fmt/format.h>
@@ -12,16 +13,12 @@ namespace octascope::firmware_host {
 
 namespace {
 
-// A row each, in this order from above. Those of the workers follow `first_worker`.
-enum Row : std::uint32_t {
-  camera = 1,
-  hand_over,
-  first_worker,
-  fixed_rate = 900,
-  waiting,
-  render,
-  glass
-};
+// Rows of the viewer: a TimingRow each, but one for every worker.
+constexpr std::uint32_t rows_apart = 1000;
+
+constexpr std::uint32_t row_of(ui::TimingRow row, std::uint32_t worker = 0) {
+  return (static_cast<std::uint32_t>(row) + 1) * rows_apart + worker;
+}
 
 class EventText {
 public:
@@ -36,7 +33,7 @@ public:
   void event(std::uint32_t row, std::string_view name, std::uint64_t volume, hal::TimePoint begin,
              hal::TimePoint end) {
     add(R"({{"ph":"X","pid":1,"tid":{},"name":"{}","ts":{:.3f},"dur":{:.3f},"args":{{"volume":{}}}}})",
-        row, name, microseconds(begin - started_), microseconds(std::max(end - begin, {})), volume);
+        row, name, microseconds(begin - started_), microseconds(end - begin), volume);
   }
 
   std::string take() && { return text_ + "\n]}\n"; }
@@ -56,26 +53,16 @@ private:
   bool first_ = true;
 };
 
-void add_rows(EventText& text, std::uint32_t workers) {
-  text.name_row(camera, "camera: exposure");
-  text.name_row(hand_over, "camera thread: last frame");
-  for (std::uint32_t worker = 0; worker < workers; ++worker)
-    text.name_row(first_worker + worker, fmt::format("worker {}", worker + 1));
-  text.name_row(fixed_rate, "fixed-rate thread");
-  text.name_row(waiting, "triple buffer");
-  text.name_row(render, "render thread");
-  text.name_row(glass, "display");
-}
-
-void add_volume(EventText& text, const pipeline::VolumeMetadata& m, const Showing& showing) {
-  text.event(camera, "exposure", m.index, m.first_line, m.last_line);
-  text.event(hand_over, name_of(Stage::fetch), m.index, m.last_line, m.fetched);
-  text.event(hand_over, name_of(Stage::queue), m.index, m.fetched, m.placed);
-  text.event(fixed_rate, name_of(Stage::assemble), m.index, m.published - m.assemble, m.published);
-  text.event(waiting, name_of(Stage::wait), m.index, m.published, showing.taken);
-  text.event(render, name_of(Stage::upload), m.index, showing.taken, showing.uploaded);
-  text.event(render, name_of(Stage::draw), m.index, showing.uploaded, showing.drawn);
-  text.event(glass, name_of(Stage::flip), m.index, showing.drawn, showing.flipped);
+void add_rows(EventText& text, std::uint32_t worker_count) {
+  using enum ui::TimingRow;
+  text.name_row(row_of(exposure), "camera: exposure");
+  text.name_row(row_of(camera), "camera thread: last frame");
+  for (std::uint32_t worker = 0; worker < worker_count; ++worker)
+    text.name_row(row_of(workers, worker), fmt::format("worker {}", worker + 1));
+  text.name_row(row_of(fixed_rate), "fixed-rate thread");
+  text.name_row(row_of(buffer), "triple buffer");
+  text.name_row(row_of(render), "render thread");
+  text.name_row(row_of(glass), "display");
 }
 
 } // namespace
@@ -101,11 +88,13 @@ hal::Result<> Trace::write(const std::filesystem::path& file, hal::TimePoint sta
   for (std::size_t i = added_ - kept; i < added_; ++i) {
     const std::size_t place = i % most_volumes;
     const Passage& passage = passages_[place];
-    add_volume(text, passage.metadata, passage.showing);
-    for (std::size_t b = 0; b < b_scans_; ++b)
-      if (const auto& work = works_[place * b_scans_ + b]; work.end != hal::TimePoint{})
-        text.event(first_worker + work.worker, fmt::format("B-scan {}", b + 1),
-                   passage.metadata.index, work.begin, work.end);
+    const std::span works{works_.data() + place * b_scans_, b_scans_};
+    for_each_event(passage.metadata, works, passage.showing, [&](const PassageEvent& event) {
+      const std::string name =
+          event.name.empty() ? fmt::format("B-scan {}", event.b_scan + 1) : std::string{event.name};
+      text.event(row_of(event.bar.row, event.bar.worker), name, passage.metadata.index,
+                 event.bar.begin, event.bar.end);
+    });
   }
   return pipeline::write_atomically(file, std::move(text).take());
 }

@@ -29,12 +29,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-// The line camera's buffers: a volume and a sixth of it is what the workers may fall behind, and
-// more than so many drivers do not have.
-int camera_buffers(const pipeline::ScanPlan& plan) {
-  return std::clamp(plan.sweeps() * 7 / 6, 96, 512);
-}
-
 // Of a machine that starts, or of a device that sends udev events for ever.
 constexpr hal::Duration longest_wait_for_udev = 5s;
 
@@ -205,9 +199,7 @@ void LiveSource::make_recordings() {
 }
 
 void LiveSource::make_threads() {
-  const hal::LineCameraConfig camera{.format = devices_->format(),
-                                     .line_rate_hz = devices_->plan().line_rate_hz,
-                                     .buffers = camera_buffers(devices_->plan())};
+  const hal::LineCameraConfig camera = devices_->camera_config();
   acquisition_ = std::make_unique<pipeline::Acquisition>(devices_->line_camera(), camera, clock_,
                                                          faults_, arrived_);
   pipeline::VolumeThreadSetup setup =

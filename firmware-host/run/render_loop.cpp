@@ -371,6 +371,7 @@ void RenderLoop::note_passage() {
   const auto lengths = stages_of(volume_->metadata, showing_);
   for (std::size_t i = 0; i < stage_count; ++i)
     statistics_.stages[i].add(lengths[i]);
+  timing_.add(*volume_, showing_);
   if (parts_.trace != nullptr)
     parts_.trace->add(*volume_, showing_);
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "firmware-host/ledger/passage.h"
+#include "firmware-host/ledger/timing_history.h"
 #include "firmware-host/ledger/trace.h"
 #include "firmware-host/run/status_writer.h"
 #include "firmware-host/supervision/picture_proof.h"
@@ -168,7 +169,8 @@ private:
   RenderLoopSetup setup_;
   ui::Legend legend_; // of the profile
   const ui::Legend key_legend_;
-  StatusWriter status_writer_{legend_, key_legend_};
+  TimingHistory timing_{setup_.geometry.b_scans};
+  StatusWriter status_writer_{legend_, key_legend_, timing_.timing()};
   ui::ViewController controller_;
   std::unique_ptr<ui::Renderer> renderer_; // null while the display is gone
   bool software_ = false;                  // GL draws on the processor

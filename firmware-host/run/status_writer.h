@@ -34,10 +34,11 @@ struct HostStatus {
 // Bound to the render thread.
 class StatusWriter {
 public:
-  // The legends outlive it.
-  StatusWriter(const ui::Legend& legend, const ui::Legend& key_legend) {
+  // All outlive it.
+  StatusWriter(const ui::Legend& legend, const ui::Legend& key_legend, const ui::Timing& timing) {
     status_.legend = &legend;
     status_.key_legend = &key_legend;
+    status_.timing = &timing;
   }
 
   const ui::Status& status() const { return status_; }

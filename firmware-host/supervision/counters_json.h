@@ -17,7 +17,10 @@ inline double rounded(double value) {
 }
 
 inline ReportJson to_json(const pipeline::DurationSummary& s) {
-  return {{"p50", rounded(s.p50_ms)}, {"p95", rounded(s.p95_ms)}, {"max", rounded(s.max_ms)}};
+  return {{"p50", rounded(s.p50_ms)},
+          {"p95", rounded(s.p95_ms)},
+          {"p99", rounded(s.p99_ms)},
+          {"max", rounded(s.max_ms)}};
 }
 
 inline ReportJson to_json(const RunRates& rates) {

@@ -43,7 +43,7 @@ DurationSummary DurationStatistics::summary() const {
     const auto bin = std::ranges::lower_bound(cumulated, rank);
     return std::min(middle_of_bin_ms(static_cast<std::size_t>(bin - cumulated.begin())), max_ms);
   };
-  return {total, percentile(0.5), percentile(0.95), max_ms};
+  return {total, percentile(0.5), percentile(0.95), percentile(0.99), max_ms};
 }
 
 void DurationStatistics::histogram(std::span<const double> most_ms,

@@ -1,4 +1,4 @@
-// Median, 95th percentile and maximum of a stream of durations, without keeping them.
+// Median, 95th and 99th percentiles and maximum of a stream of durations, without keeping them.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@ struct DurationSummary {
   std::uint64_t count = 0;
   double p50_ms = 0;
   double p95_ms = 0;
+  double p99_ms = 0;
   double max_ms = 0;
 };
 

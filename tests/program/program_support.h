@@ -12,7 +12,7 @@
 #include "tests/support/files/scratch_folder.h"
 #include "tests/support/pictures/picture_counts.h"
 #include "tests/support/program/program_run.h"
-#include "ui/hud/palette.h"
+#include "ui/canvas/palette.h"
 #include "ui/layout/layout.h"
 
 namespace octascope::tests {

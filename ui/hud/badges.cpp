@@ -24,6 +24,7 @@ BadgeLook look_of(BadgeKind kind) {
   case BadgeKind::calibration:
   case BadgeKind::unregistered: return {palette::warning, false};
   case BadgeKind::incomplete: return {palette::warning, false};
+  case BadgeKind::cut: return {palette::accent, false};
   }
   return {palette::text, false};
 }
@@ -86,12 +87,19 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
     canvas.line({centre.x, centre.y - half}, {centre.x, centre.y + half * 0.35F}, ink, size * 0.2F);
     canvas.dot({centre.x, centre.y + half * 0.85F}, size * 0.13F, ink);
     break;
+  case BadgeKind::cut: // a box, half of it gone
+    canvas.frame({static_cast<int>(centre.x - half), static_cast<int>(centre.y - half),
+                  static_cast<int>(half), static_cast<int>(size)},
+                 ink, size * 0.13F, 0);
+    canvas.line({centre.x + half * 0.5F, centre.y - half},
+                {centre.x + half * 0.5F, centre.y + half}, ink, size * 0.06F);
+    break;
   }
 }
 
 bool is_small(BadgeKind kind) {
   return kind == BadgeKind::incomplete || kind == BadgeKind::configuration ||
-         kind == BadgeKind::calibration;
+         kind == BadgeKind::calibration || kind == BadgeKind::cut;
 }
 
 // What must be seen at once is larger than what explains it.
@@ -207,9 +215,10 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
     }
     if (x > room.x && x + width > room.right())
       next_row();
-    const bool told = badge.kind == BadgeKind::unregistered || badge.kind == BadgeKind::incomplete;
+    const bool told = badge.kind == BadgeKind::unregistered ||
+                      badge.kind == BadgeKind::incomplete || badge.kind == BadgeKind::cut;
     if (told && (room != layout.marks || y + height > room.bottom()))
-      continue; // the status bar says it, too
+      continue; // the status bar says it, too; a cut is seen
     places[i] = {x, y, width, height};
     stacked_x = x;
     stacked_width = small && row_height >= row ? width : 0; // beside a large one

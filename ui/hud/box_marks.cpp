@@ -37,7 +37,7 @@ void draw_state_marks(const Pen& pen, const Rect& view, const HudScene& scene, f
              (missing ? 6.0F : 3.0F) * unit);
     if (missing)
       for (const float share : {from, to})
-        pen.draw(project_slice(scene.camera, scene.extents_mm, share, view),
+        pen.draw(project_slice(scene.camera, scene.extents_mm, SliceAcross::slow, share, view),
                  palette::warning.faded(150), 1.5F * unit);
   }
 }
@@ -64,10 +64,16 @@ void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
   const Pen pen{canvas, in_front};
   if (view.box_visible) {
     draw_wire_frame(canvas, layout.view, scene, u, in_front);
-    const float share = (static_cast<float>(view.b_scan) + 0.5F) /
-                        static_cast<float>(std::max(scene.shown.geometry.b_scans, 1));
-    pen.draw(project_slice(scene.camera, scene.extents_mm, share, layout.view),
-             palette::accent.faded(190), thin_line(u));
+    const auto draw_plane = [&](SliceAcross across, int place, int count, Colour colour) {
+      const float share =
+          (static_cast<float>(place) + 0.5F) / static_cast<float>(std::max(count, 1));
+      pen.draw(project_slice(scene.camera, scene.extents_mm, across, share, layout.view),
+               colour.faded(190), thin_line(u));
+    };
+    const pipeline::VolumeGeometry& volume = scene.shown.geometry;
+    if (layout.crossed.shown())
+      draw_plane(SliceAcross::fast, view.a_scan, volume.a_scans, palette::crossed);
+    draw_plane(SliceAcross::slow, view.b_scan, volume.b_scans, palette::accent);
   }
   draw_state_marks(pen, layout.view, scene, u);
 }

@@ -24,8 +24,9 @@ void draw_hud_ground(Canvas& canvas, const Layout& layout) {
     if (panel->shown())
       canvas.plate(panel->frame, palette::panel, rounding);
   canvas.plate(layout.status_bar, palette::panel);
-  if (!layout.figures.empty())
-    canvas.plate(layout.figures, palette::panel);
+  for (const Rect* strip : {&layout.figures, &layout.timing})
+    if (!strip->empty())
+      canvas.plate(*strip, palette::panel);
 }
 
 void draw_view_ground(Canvas& canvas, const Layout& layout) {
@@ -47,6 +48,8 @@ void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const V
   draw_badges(canvas, layout, text);
   draw_status_bar(canvas, layout, text);
   draw_engineers_strip(canvas, layout, text);
+  if (text.timing != nullptr)
+    draw_timing_diagram(canvas, layout.timing, *text.timing, layout.unit);
   if (text.window_changing && scene.levels != nullptr)
     draw_window_histogram(canvas, layout.histogram, *scene.levels, view, layout.unit);
   if (text.legend != nullptr)

@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "ui/hud/canvas.h"
+#include "ui/canvas/canvas.h"
 #include "ui/hud/hud_text.h"
 #include "ui/hud/window_histogram.h"
 #include "ui/layout/crop.h"
@@ -45,6 +45,9 @@ void draw_badges(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_liveness_marks(Canvas& canvas, const Layout& layout, Liveness liveness);
 void draw_status_bar(Canvas& canvas, const Layout& layout, const HudText& text);
 void draw_engineers_strip(Canvas& canvas, const Layout& layout, const HudText& text);
+// What every thread did with the last volumes, in the manner of figure 7 of the OCT paper: filled
+// where it works, framed where the volume waits.
+void draw_timing_diagram(Canvas& canvas, const Rect& room, const Timing& timing, float unit);
 void draw_panel_marks(Canvas& canvas, const Layout& layout, const HudText& text,
                       const ViewState& view, const HudScene& scene);
 

@@ -75,7 +75,8 @@ void add_replay_badge(HudText& hud, const ReplayStatus& replay) {
     text.format("REPLAY {}", replay.recorded);
 }
 
-void compose_badges(HudText& hud, const Status& status) {
+void compose_badges(HudText& hud, const ViewState& view, const Status& status,
+                    const ShownPictures& shown) {
   if (status.replay)
     add_replay_badge(hud, *status.replay);
   add_freshness_badge(hud, status.freshness);
@@ -91,6 +92,8 @@ void compose_badges(HudText& hud, const Status& status) {
   add_incomplete_badge(hud, status.saturated_lines, "line saturated", "lines saturated");
   if (hud.vessels.shown && !status.vessels.registered)
     add_badge(hud, BadgeKind::unregistered).text.format("VESSELS NOT REGISTERED");
+  if (view.cut && shown.volume)
+    add_badge(hud, BadgeKind::cut).text.format("cut at B-scan {}", view.b_scan + 1);
 }
 
 Trouble& add_trouble(HudText& hud, Trouble::Sign sign) {
@@ -306,12 +309,16 @@ HudText compose_hud_text(const ViewState& view, const Status& status, const Show
   HudText hud;
   hud.liveness = status.freshness.liveness;
   compose_vessels(hud, view, status.vessels);
-  compose_badges(hud, status);
+  compose_badges(hud, view, status, shown);
   hud.devices = status.devices;
   hud.device_count = std::min(status.device_count, Status::most_devices);
   compose_troubles(hud, status);
   compose_bar(hud, status);
-  hud.figures_shown = view.figures_visible;
+  hud.figures_shown = view.figures != FiguresShown::none;
+  if (view.figures == FiguresShown::timing && status.timing != nullptr) {
+    hud.timing = status.timing;
+    hud.timed_volume = status.timing->newest;
+  }
   if (hud.figures_shown) // else nothing is drawn anew for them
     compose_figures(hud, view, status);
   compose_reduction(hud, status, shown);

@@ -27,7 +27,8 @@ enum class BadgeKind : std::uint8_t {
   configuration,
   calibration,
   unregistered,
-  incomplete
+  incomplete,
+  cut // quiet: what is missing is missing on request
 };
 
 struct Badge {
@@ -84,7 +85,7 @@ struct ShownPictures {
 
 struct HudText {
   // One per kind, and two of kind incomplete.
-  static constexpr std::size_t most_badges = 8;
+  static constexpr std::size_t most_badges = 9;
   static constexpr std::size_t most_troubles = Status::most_devices + 6;
 
   // Lines, frames and volumes per second: dropped in this order if the strip is too narrow.
@@ -103,7 +104,9 @@ struct HudText {
   FixedText<160> notice;
   std::array<StatusCell, 6> figures; // unused if the label is empty
   bool figures_shown = false;
-  Caption volume; // if it is not the large picture
+  const Timing* timing = nullptr; // null: no diagram; owned by the host, see Status
+  std::uint64_t timed_volume = 0; // its newest: another one, another diagram
+  Caption volume;                 // if it is not the large picture
   Caption b_scan;
   Caption crossed;
   Caption en_face;

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "ui/canvas/canvas.h"
 #include "ui/controls/legend_lines.h"
-#include "ui/hud/canvas.h"
 #include "ui/layout/layout.h"
 
 namespace octascope::ui {

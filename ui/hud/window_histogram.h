@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "ui/hud/canvas.h"
+#include "ui/canvas/canvas.h"
 #include "ui/layout/layout.h"
 #include "ui/view/view_state.h"
 

@@ -60,16 +60,17 @@ std::array<BoxEdge, 12> project_box(const Camera& camera, const glm::vec3& exten
   return edges;
 }
 
-std::array<BoxEdge, 4> project_slice(const Camera& camera, const glm::vec3& extents_mm, float share,
-                                     const Rect& view) {
+std::array<BoxEdge, 4> project_slice(const Camera& camera, const glm::vec3& extents_mm,
+                                     SliceAcross across, float share, const Rect& view) {
   const glm::vec3 half = extents_mm / 2.0F;
-  const float z = (share - 0.5F) * extents_mm.z;
+  const int normal = across == SliceAcross::slow ? 2 : 0;
   std::array<BoxEdge, 4> edges;
   std::size_t next = 0;
-  for (const int face : {0, 1})
+  for (const int face : {2 - normal, 1})
     for (const float sign : {-1.0F, 1.0F}) {
-      glm::vec3 from{-half.x, -half.y, z};
-      glm::vec3 to{half.x, half.y, z};
+      glm::vec3 from = -half;
+      glm::vec3 to = half;
+      from[normal] = to[normal] = (share - 0.5F) * extents_mm[normal];
       from[face] = to[face] = sign * half[face];
       BoxEdge edge = project_edge(camera, from, to, view);
       edge.in_front = sees_face(camera, half, face, sign);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include <glm/vec2.hpp>
 
@@ -21,10 +22,11 @@ struct BoxEdge {
 std::array<BoxEdge, 12> project_box(const Camera& camera, const glm::vec3& extents_mm,
                                     const Rect& view);
 
-// The outline of a B-scan's plane; `share` is its position along the slow axis, 0…1. Its lines lie
-// in faces of the box, so they too are entirely in front of or behind everything inside.
-std::array<BoxEdge, 4> project_slice(const Camera& camera, const glm::vec3& extents_mm, float share,
-                                     const Rect& view);
+// The outline of a B-scan's plane; `share` is its position along the axis that it is across, 0…1.
+// Its lines lie in faces of the box, so they too are entirely in front of or behind everything inside.
+enum class SliceAcross : std::uint8_t { slow, fast }; // a B-scan, a crossed one
+std::array<BoxEdge, 4> project_slice(const Camera& camera, const glm::vec3& extents_mm,
+                                     SliceAcross across, float share, const Rect& view);
 
 // The parts of the box's four slow-axis edges between two such positions.
 std::array<BoxEdge, 4> project_slow_edges(const Camera& camera, const glm::vec3& extents_mm,

@@ -20,6 +20,7 @@ constexpr float gap_length = 8;
 constexpr float title_length = 34;
 constexpr float bar_length = 88;
 constexpr float figures_length = 68;
+constexpr float timing_length = 216;
 constexpr float marks_length = 62;  // one row of badges
 constexpr float least_width = 1152; // that the status bar needs
 constexpr float cube_length = 150;
@@ -84,6 +85,7 @@ private:
   int length(float units) const { return scaled(layout_.unit, units); }
   bool tall() const { return body_.width < body_.height; }
   void take_marks();
+  Rect take_foot(int height);
   // Takes the small pictures' room off the body; what is left is returned. `above` is the aspect of
   // the one on top.
   Rect take_strip(double above, double widest);
@@ -118,11 +120,17 @@ Plan::Plan(int width, int height, const PictureAspects& aspects, LayoutKind kind
   layout_.status_bar = {0, height - bar, width, bar};
   layout_.notice = {0, height - bar, width, std::max(1, bar * 2 / 5)};
   body_ = {0, 0, width, std::max(1, height - bar)};
-  if (!extras.figures)
-    return;
-  const int figures = std::min(length(figures_length), std::max(1, body_.height / 3));
-  body_.height = std::max(1, body_.height - figures);
-  layout_.figures = {0, body_.bottom(), width, figures};
+  if (extras.figures)
+    layout_.figures = take_foot(length(figures_length));
+  if (extras.timing)
+    layout_.timing = take_foot(length(timing_length));
+}
+
+// Off the body, over its whole width; at most a third of it.
+Rect Plan::take_foot(int height) {
+  const int taken = std::min(height, std::max(1, body_.height / 3));
+  body_.height = std::max(1, body_.height - taken);
+  return {0, body_.bottom(), body_.width, taken};
 }
 
 // Where every picture has its frame, badges lie over none of them.

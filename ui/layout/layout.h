@@ -1,6 +1,6 @@
 // Where everything is on the screen. Pure.
 //
-// Sizes are for a 27-inch screen at a distance of two metres; see ui/hud/fonts.h for text. The
+// Sizes are for a 27-inch screen at a distance of two metres; see ui/canvas/fonts.h for text. The
 // heads-up display may cover only the outer quarters of the large picture: the middle half of its
 // width and height is never covered, except by the veil. No text lies over a small picture but
 // that picture's own scale, sides and states.
@@ -24,7 +24,7 @@ struct Rect {
 };
 
 // What sizes grow to: that of a picture 4320 pixels high (8K). Letters have a largest size
-// (ui/hud/fonts.h), and what surrounds them does not grow without them.
+// (ui/canvas/fonts.h), and what surrounds them does not grow without them.
 inline constexpr float largest_unit = 6;
 
 // A panel that is empty is not drawn.
@@ -50,6 +50,7 @@ struct PictureAspects {
 struct Extras {
   bool figures = false; // the engineer's strip
   bool legend = false;  // what each control does: instead of small pictures
+  bool timing = false;  // the timing diagram
 };
 
 struct Layout {
@@ -66,6 +67,7 @@ struct Layout {
   Rect status_bar;
   Rect notice;  // one line, at the bar's top
   Rect figures; // above the bar, if asked for
+  Rect timing;  // above the figures, if asked for
 
   Rect large; // the large picture; in the quad layout, the volume
 

@@ -7,7 +7,7 @@
 #include "embedded_shaders.h"
 #include <GLES3/gl3.h>
 
-#include "ui/hud/palette.h"
+#include "ui/canvas/palette.h"
 #include "ui/layout/layout.h"
 
 namespace octascope::ui {

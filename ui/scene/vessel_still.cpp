@@ -4,8 +4,8 @@
 
 #include "embedded_shaders.h"
 
+#include "ui/canvas/palette.h"
 #include "ui/hud/hud.h"
-#include "ui/hud/palette.h"
 
 namespace octascope::ui {
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "hal/result.h"
+#include "ui/canvas/canvas.h"
+#include "ui/canvas/canvas_renderer.h"
 #include "ui/gl/picture_pass.h"
-#include "ui/hud/canvas.h"
-#include "ui/hud/canvas_renderer.h"
 #include "ui/vessels/pictures/vessel_picture.h"
 #include "ui/view/segment_counts.h"
 

@@ -16,6 +16,7 @@
 #include "ui/controls/legend_lines.h"
 #include "ui/status/axis_words.h"
 #include "ui/status/freshness.h"
+#include "ui/status/timing.h"
 #include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
@@ -112,6 +113,9 @@ struct Status {
   // Of pedal and knob, and of the keys; null: nothing to show. They must outlive every draw().
   const Legend* legend = nullptr;
   const Legend* key_legend = nullptr;
+
+  // Of the last volumes; null, or without any: the volumes do not come from a camera. As the legends.
+  const Timing* timing = nullptr;
 
   std::string notice; // one line for the surgeon; empty: none
 };

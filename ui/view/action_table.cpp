@@ -193,8 +193,8 @@ constexpr std::array<ActionRow, action_count> table{{
      Flag{&ViewState::box_visible, "shown", "hidden"}, "box", home | kept},
     {Action::snapshot, "snapshot", "Snapshot", momentary, keys(key('p')), {}, {}},
     {Action::record, "record", "Recording", momentary, keys(key('r')), {}, {}},
-    {Action::figures, "figures", "Engineer's strip", toggle, keys(key('`')),
-     Flag{&ViewState::figures_visible, "shown", "hidden"}, "figures"},
+    {Action::figures, "figures", "Engineer's strip", choice, keys(key('`')),
+     one_of<&ViewState::figures>(figures_values), "figures"},
     {Action::legend, "legend", "Legend", toggle, keys(key('h'), key(code(Key::f1))),
      Flag{&ViewState::legend_visible, "shown", "hidden"}, "legend"},
 }};

@@ -26,6 +26,13 @@ enum class LayoutKind : std::uint8_t {
 // For displays that show one picture to each eye.
 enum class StereoMode : std::uint8_t { off, side_by_side, top_bottom };
 
+// What is shown of the machine itself.
+enum class FiguresShown : std::uint8_t {
+  none,
+  strip,  // the engineer's strip
+  timing, // and the timing diagram above it
+};
+
 // What a control just did, to be shown on the display.
 struct Echo {
   Action action = Action::window_offset;
@@ -63,16 +70,16 @@ struct ViewState {
   bool vessels_visible = true; // the vessel tree, if one is loaded
   float vessel_opacity = 1;
   VesselColouring vessel_colouring = VesselColouring::branch;
-  VesselNudge vessel_nudge;     // relative to the registration
-  bool vessel_account = false;  // shows the segment counts
-  bool figures_visible = false; // the engineer's strip
-  bool legend_visible = false;  // what each control does
-  bool legend_of_keys = false;  // shows the keys instead
-  int b_scan = 40;              // index of the panel's B-scan on the slow axis
-  int a_scan = 150;             // index on the fast axis, where the crossed B-scan lies
-  bool zoom_to_tissue = true;   // the flat pictures leave out what is empty
-  bool calliper = false;        // two marks in the B-scan and how far they are apart
-  int mark_1_a = 100;           // indices of the voxels that they lie in
+  VesselNudge vessel_nudge;    // relative to the registration
+  bool vessel_account = false; // shows the segment counts
+  FiguresShown figures = FiguresShown::none;
+  bool legend_visible = false; // what each control does
+  bool legend_of_keys = false; // shows the keys instead
+  int b_scan = 40;             // index of the panel's B-scan on the slow axis
+  int a_scan = 150;            // index on the fast axis, where the crossed B-scan lies
+  bool zoom_to_tissue = true;  // the flat pictures leave out what is empty
+  bool calliper = false;       // two marks in the B-scan and how far they are apart
+  int mark_1_a = 100;          // indices of the voxels that they lie in
   int mark_1_depth = 170;
   int mark_2_a = 200;
   int mark_2_depth = 170;

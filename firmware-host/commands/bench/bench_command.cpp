@@ -8,6 +8,7 @@ CLI::App& add_bench_command(CLI::App& program, int& exit_status) {
   bench->footer("Example: octascope bench display --json");
   add_bench_reconstruct_command(*bench, exit_status);
   add_bench_display_command(*bench, exit_status);
+  add_bench_chain_command(*bench, exit_status);
   return *bench;
 }
 

@@ -12,5 +12,6 @@ CLI::App& add_bench_command(CLI::App& program, int& exit_status);
 // One subcommand each.
 void add_bench_reconstruct_command(CLI::App& bench, int& exit_status);
 void add_bench_display_command(CLI::App& bench, int& exit_status);
+void add_bench_chain_command(CLI::App& bench, int& exit_status);
 
 } // namespace octascope::firmware_host

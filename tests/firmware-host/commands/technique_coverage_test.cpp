@@ -17,7 +17,7 @@
 #include "pipeline/volume/level_scale.h"
 #include "sim/phantoms/phantom.h"
 #include "sim/phantoms/phantom_instrument.h"
-#include "ui/hud/palette.h"
+#include "ui/canvas/palette.h"
 #include "ui/transfer/auto_window.h"
 #include "ui/volume/surface_technique.h"
 

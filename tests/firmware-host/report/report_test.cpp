@@ -51,7 +51,7 @@ RunReport example() {
   r.counters.rates.lines_per_s = 215000.12345;
   r.counters.rates.volumes_per_s = 7.1;
   r.counters.rates.frames_per_s = 30;
-  r.counters.latency = {.count = 3, .p50_ms = 12.34567, .p95_ms = 20, .max_ms = 21};
+  r.counters.latency = {.count = 3, .p50_ms = 12.34567, .p95_ms = 20, .p99_ms = 20.5, .max_ms = 21};
   r.counters.frames_drawn = 45;
   r.counters.frames_missed = 3;
   r.counters.hot_path_allocations = 4;
@@ -110,7 +110,7 @@ TEST(Report, says_every_figure_under_its_key) {
   EXPECT_EQ(j["lost"], (json{{"lines", 600}, {"b_scans", 2}, {"volumes", 1}}));
   EXPECT_EQ(j["rates"],
             (json{{"lines_per_s", 215000.123}, {"volumes_per_s", 7.1}, {"frames_per_s", 30.0}}));
-  EXPECT_EQ(j["latency_ms"], (json{{"p50", 12.346}, {"p95", 20.0}, {"max", 21.0}}));
+  EXPECT_EQ(j["latency_ms"], (json{{"p50", 12.346}, {"p95", 20.0}, {"p99", 20.5}, {"max", 21.0}}));
   EXPECT_EQ(j["frames"], (json{{"drawn", 45}, {"missed", 3}}));
   EXPECT_EQ(j["hot_path"], (json{{"allocations", 4}}));
   EXPECT_EQ(j["picture"], (json{{"liveness", "stale"},
@@ -148,14 +148,14 @@ TEST(Report, says_every_figure_under_its_key) {
                              {"vessel_shift_mm", {0.0, 0.0, 0.0}},
                              {"vessel_turn_deg", {0.0, 0.0, 0.0}},
                              {"box", true},
-                             {"figures", false},
+                             {"figures", "hidden"},
                              {"legend", false},
                              {"selected", "tilt"}}));
   EXPECT_EQ(j["actions"].size(), ui::action_count);
   EXPECT_EQ(j["actions"]["freeze"], 3);
   EXPECT_EQ(j["actions"]["tilt"], 0);
   for (const char* stage : {"reconstruct", "assemble", "publish", "upload", "draw"})
-    EXPECT_EQ(j["stage_ms"][stage].size(), 3U) << stage;
+    EXPECT_EQ(j["stage_ms"][stage].size(), 4U) << stage;
 }
 
 TEST(Report, tells_a_faults_times_from_the_start) {

@@ -3,7 +3,7 @@
 
 #include "tests/firmware-host/run/loop_stage.h"
 #include "tests/support/pictures/picture_counts.h"
-#include "ui/hud/palette.h"
+#include "ui/canvas/palette.h"
 #include "ui/layout/stereo.h"
 #include "ui/transfer/histogram.h"
 

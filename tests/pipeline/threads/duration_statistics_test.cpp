@@ -25,6 +25,7 @@ TEST(DurationStatistics, percentiles_are_right_within_two_percent) {
   EXPECT_EQ(s.count, 20000U);
   EXPECT_NEAR(s.p50_ms / all[10000 - 1], 1.0, 0.02);
   EXPECT_NEAR(s.p95_ms / all[19000 - 1], 1.0, 0.02);
+  EXPECT_NEAR(s.p99_ms / all[19800 - 1], 1.0, 0.02);
   EXPECT_NEAR(s.max_ms, all.back(), 1e-5);
 }
 

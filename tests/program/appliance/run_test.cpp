@@ -31,7 +31,8 @@ void expect_contract(const json& report) {
   const auto expect_durations = [](const json& durations) {
     EXPECT_GE(durations.at("p50").get<double>(), 0);
     EXPECT_LE(durations.at("p50").get<double>(), durations.at("p95").get<double>());
-    EXPECT_LE(durations.at("p95").get<double>(), durations.at("max").get<double>());
+    EXPECT_LE(durations.at("p95").get<double>(), durations.at("p99").get<double>());
+    EXPECT_LE(durations.at("p99").get<double>(), durations.at("max").get<double>());
   };
   for (const char* stage : {"reconstruct", "assemble", "publish", "upload", "draw"})
     expect_durations(report.at("stage_ms").at(stage));

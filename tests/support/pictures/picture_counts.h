@@ -2,7 +2,7 @@
 #pragma once
 
 #include "pipeline/files/png_image.h"
-#include "ui/hud/palette.h"
+#include "ui/canvas/palette.h"
 #include "ui/layout/layout.h"
 
 namespace octascope::tests {

@@ -51,7 +51,8 @@ TEST_F(EverySize, is_drawn_with_everything_on_it_and_nothing_beside_it) {
   replayed.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03"};
   replayed.recording = {};
   ViewState view;
-  view.legend_visible = view.legend_of_keys = view.vessel_account = view.figures_visible = true;
+  view.legend_visible = view.legend_of_keys = view.vessel_account = true;
+  view.figures = FiguresShown::timing;
   view.echo = {Action::window_size, true, {}, live.now + std::chrono::seconds{1}};
   for (const auto& [width, height] : {std::pair{1, 1},
                                       {2, 2},
@@ -83,7 +84,7 @@ TEST_F(EverySize, is_drawn_with_everything_on_it_and_nothing_beside_it) {
 // A replay has no figure of lines: whichever are there, the strip measures no other.
 TEST_F(EverySize, the_engineers_strip_holds_any_of_its_figures) {
   ViewState view;
-  view.figures_visible = true;
+  view.figures = FiguresShown::strip;
   const HudText full = compose_hud_text(view, worst_status(), {});
   constexpr std::size_t figure_count = std::tuple_size_v<decltype(HudText::figures)>;
   for (const auto& [width, height] : {std::pair{1, 1}, {200, 300}, {640, 360}, {1280, 720}}) {

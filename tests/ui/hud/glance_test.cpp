@@ -14,10 +14,10 @@
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/scene.h"
 #include "tests/ui/support/synthetic_volume.h"
+#include "ui/canvas/canvas_renderer.h"
 #include "ui/controls/built_in_profiles.h"
 #include "ui/controls/legend_lines.h"
 #include "ui/gl/framebuffer.h"
-#include "ui/hud/canvas_renderer.h"
 #include "ui/hud/hud.h"
 #include "ui/layout/stereo.h"
 
@@ -175,7 +175,7 @@ std::vector<State> glance_states(const Legend& pedal, const Legend& keys) {
   ViewState turned;
   turned.echo = {Action::window_offset, false, {}, live.now + std::chrono::seconds{1}};
   ViewState strip;
-  strip.figures_visible = true;
+  strip.figures = FiguresShown::strip;
   ViewState legend;
   legend.legend_visible = true;
   ViewState key_legend = legend;

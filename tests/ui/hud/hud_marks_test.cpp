@@ -51,8 +51,20 @@ template <class Look> void for_each_badge(const HudText& text, const Look& look)
     }
 }
 
+ShownPictures one_volume() {
+  ShownPictures shown;
+  shown.volume = true;
+  return shown;
+}
+
+ViewState cut_open() {
+  ViewState view;
+  view.cut = true;
+  return view;
+}
+
 TEST_F(HudInAllSizes, all_badges_find_room) {
-  const HudText text = compose_hud_text({}, worst_status(), {});
+  const HudText text = compose_hud_text(cut_open(), worst_status(), one_volume());
   // All but the configuration's: the notice line says that, too, where one more finds no room; and
   // a replay's, below.
   ASSERT_GE(text.badge_count, HudText::most_badges - 3);
@@ -82,13 +94,14 @@ TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
   Status status = worst_status();
   status.freshness = {Liveness::frozen, std::chrono::seconds{3599}, std::chrono::seconds{3599}};
   status.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03"};
-  const HudText text = compose_hud_text({}, status, {});
+  const HudText text = compose_hud_text(cut_open(), status, one_volume());
   ASSERT_EQ(text.badge_count, HudText::most_badges - 2);
   for_each_badge(text, [](BadgeKind kind, const Rect& badge, const Layout& layout) {
     EXPECT_LE(badge.right(), layout.marks.right());
     EXPECT_LE(badge.bottom(), layout.marks.bottom());
     // What finds none is in the status bar.
-    EXPECT_TRUE(!badge.empty() || kind == BadgeKind::incomplete || kind == BadgeKind::unregistered);
+    EXPECT_TRUE(!badge.empty() || kind == BadgeKind::incomplete ||
+                kind == BadgeKind::unregistered || kind == BadgeKind::cut);
   });
 }
 
@@ -212,6 +225,19 @@ TEST_F(HudInAllLayouts, the_histogram_shows_while_the_window_is_turned_and_only_
   EXPECT_GT(changed(shown, draw(view, status), rect), 100) << "the ramp moves";
 }
 
+TEST(HudText, a_volume_that_is_cut_says_where) {
+  ViewState view;
+  view.b_scan = 40;
+  ShownPictures shown;
+  shown.volume = true;
+  const std::size_t without = compose_hud_text(view, live_status(), shown).badge_count;
+  view.cut = true;
+  const HudText text = compose_hud_text(view, live_status(), shown);
+  ASSERT_EQ(text.badge_count, without + 1);
+  EXPECT_EQ(text.badges[without].text.view(), "cut at B-scan 41");
+  EXPECT_EQ(compose_hud_text(view, live_status(), {}).badge_count, without) << "nothing to cut";
+}
+
 TEST(HudText, reduced_quality_is_said_quietly) {
   Status status = live_status();
   EXPECT_TRUE(compose_hud_text({}, status, {}).facts[2].empty());
@@ -232,7 +258,7 @@ TEST(BoxMarks, a_slice_lies_between_the_boxs_edges) {
     const glm::vec2 p = camera.project({x, y, z}) * 400.0F;
     return glm::vec2{200 + p.x, 200 + p.y};
   };
-  const auto slice = project_slice(camera, extents, 0.75F, rect);
+  const auto slice = project_slice(camera, extents, SliceAcross::slow, 0.75F, rect);
   int in_front = 0;
   for (const BoxEdge& edge : slice) {
     in_front += edge.in_front ? 1 : 0;
@@ -245,6 +271,14 @@ TEST(BoxMarks, a_slice_lies_between_the_boxs_edges) {
     }
   }
   EXPECT_EQ(in_front, 2) << "on the upper face and on the one towards the eye";
+  for (const BoxEdge& edge : project_slice(camera, extents, SliceAcross::fast, 0.25F, rect))
+    for (const glm::vec2 end : {edge.from, edge.to}) {
+      float nearest = 1e9F;
+      for (const float y : {-0.9F, 0.9F})
+        for (const float z : {-1.2F, 1.2F})
+          nearest = std::min(nearest, glm::length(end - at(-0.75F, y, z)));
+      EXPECT_LT(nearest, 0.01F) << "the crossed one";
+    }
   const auto edges = project_slow_edges(camera, extents, 0, 1, rect);
   for (const BoxEdge& edge : edges)
     EXPECT_TRUE(std::ranges::any_of(project_box(camera, extents, rect), [&](const BoxEdge& other) {

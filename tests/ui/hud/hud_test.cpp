@@ -45,7 +45,7 @@ std::vector<std::string> troubles_of(const Status& status) {
 
 ViewState with_figures() {
   ViewState view;
-  view.figures_visible = true;
+  view.figures = FiguresShown::strip;
   return view;
 }
 

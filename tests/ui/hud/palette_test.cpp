@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/ui/support/colour_vision.h"
-#include "ui/hud/palette.h"
+#include "ui/canvas/palette.h"
 #include "ui/view/vessel_look.h"
 
 namespace octascope::tests {

@@ -142,12 +142,18 @@ TEST(Layout, pictures_have_their_physical_aspect) {
 
 TEST(Layout, what_lies_over_the_large_picture_leaves_its_middle_free) {
   for (const Case& c : cases())
-    for (const Extras& extras : {Extras{}, {.figures = true}, {.legend = true}, {true, true}}) {
+    for (const Extras& extras : {Extras{},
+                                 {.figures = true},
+                                 {.legend = true},
+                                 {true, true},
+                                 {true, false, true},
+                                 {true, true, true}}) {
       SCOPED_TRACE(c.words());
       const Layout l = lay_out(c.width, c.height, c.aspects, c.kind, extras);
       const Rect middle = middle_of(l.large);
       const Rect screen{0, 0, c.width, c.height};
-      for (const Rect* over : {&l.marks, &l.notice, &l.legend, &l.histogram, &l.figures}) {
+      for (const Rect* over :
+           {&l.marks, &l.notice, &l.legend, &l.histogram, &l.figures, &l.timing}) {
         ASSERT_TRUE(over->empty() || within(*over, screen));
         ASSERT_FALSE(overlap(*over, middle))
             << over->x << " " << over->y << " " << over->width << " " << over->height;
@@ -155,10 +161,12 @@ TEST(Layout, what_lies_over_the_large_picture_leaves_its_middle_free) {
       ASSERT_TRUE(within(l.notice, l.status_bar));
       ASSERT_TRUE(within(l.histogram, l.large));
       ASSERT_FALSE(overlap(l.figures, l.status_bar));
+      ASSERT_FALSE(overlap(l.timing, l.figures));
       ASSERT_EQ(l.figures.empty(), !extras.figures);
+      ASSERT_EQ(l.timing.empty(), !extras.timing);
       ASSERT_EQ(l.legend.empty(), !extras.legend);
-      for (const Rect* beside : {&l.histogram, &l.status_bar, &l.figures, &l.marks, &l.view,
-                                 &l.b_scan.frame, &l.en_face.frame, &l.scope.frame})
+      for (const Rect* beside : {&l.histogram, &l.status_bar, &l.figures, &l.timing, &l.marks,
+                                 &l.view, &l.b_scan.frame, &l.en_face.frame, &l.scope.frame})
         ASSERT_FALSE(overlap(l.legend, *beside)) << "no picture is under the legend";
       ASSERT_TRUE(l.cube.empty() || within(l.cube, l.view));
       ASSERT_FALSE(overlap(l.cube, l.marks));

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "tests/ui/support/gl_test.h"
-#include "ui/hud/palette.h"
+#include "ui/canvas/palette.h"
 #include "ui/splash.h"
 
 namespace octascope::tests {

@@ -44,7 +44,7 @@ struct Range {
   int first;
   int last;
 };
-// The display's own words, as in ui/hud/fonts.cpp. Glyph 0 stands for what is missing, glyph 1 is the
+// The display's own words, as in ui/canvas/fonts.cpp. Glyph 0 stands for what is missing, glyph 1 is the
 // blank.
 constexpr std::array<Range, 4> ranges{
     {{0x20, 0xFF}, {0x2010, 0x2026}, {0x2212, 0x2212}, {0x25A1, 0x25A1}}};

@@ -5,7 +5,7 @@
 // are large enough and find room is tested with Inter (hud_marks_test.cpp, legend_test.cpp).
 #pragma once
 
-#include "ui/hud/fonts.h"
+#include "ui/canvas/fonts.h"
 
 namespace octascope::tests {
 

@@ -8,7 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "ui/hud/palette.h"
+#include "ui/canvas/palette.h"
 
 namespace octascope::tests {
 

@@ -6,8 +6,8 @@
 
 #include "tests/support/vessels/random_tree.h"
 #include "tests/ui/support/gl_test.h"
-#include "tests/ui/support/reference_vessels.h"
-#include "tests/ui/support/vessel_stage.h"
+#include "tests/ui/support/vessels/reference_vessels.h"
+#include "tests/ui/support/vessels/vessel_stage.h"
 #include "ui/vessels/hybrid/hybrid_method.h"
 #include "ui/vessels/hybrid/quads_share.h"
 

@@ -12,7 +12,7 @@
 #include "sim/coronary_tree/coronary_tree.h"
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/picture_file.h"
-#include "tests/ui/support/vessel_stage.h"
+#include "tests/ui/support/vessels/vessel_stage.h"
 #include "ui/vessels/hybrid/hybrid_method.h"
 #include "ui/vessels/hybrid/quads_share.h"
 #include "ui/vessels/view/vessel_flight.h"

@@ -9,8 +9,8 @@
 #include "tests/support/allocation_counter.h"
 #include "tests/support/vessels/random_tree.h"
 #include "tests/ui/support/gl_test.h"
-#include "tests/ui/support/reference_vessels.h"
-#include "tests/ui/support/vessel_stage.h"
+#include "tests/ui/support/vessels/reference_vessels.h"
+#include "tests/ui/support/vessels/vessel_stage.h"
 #include "ui/vessels/quads/streamed_quads_method.h"
 
 namespace octascope::tests {

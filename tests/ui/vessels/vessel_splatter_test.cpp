@@ -8,7 +8,7 @@
 #include "pipeline/vessels/clusters/cluster_builder.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/vessels/random_tree.h"
-#include "tests/ui/support/splat_check.h"
+#include "tests/ui/support/vessels/splat_check.h"
 #include "ui/vessels/splatter/merged_order.h"
 #include "ui/vessels/splatter/splatter.h"
 

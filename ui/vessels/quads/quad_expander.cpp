@@ -8,7 +8,7 @@ namespace octascope::ui {
 
 namespace {
 
-constexpr float padding = 1.0F / 64; // as shaders/vessel_quad.glsl
+constexpr float padding = 1.0F / 64; // as shaders/vessels/vessel_quad.glsl
 
 // Of pixel centres between two places: none?
 bool none_between(float lower, float upper) {

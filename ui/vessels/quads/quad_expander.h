@@ -9,7 +9,7 @@
 
 namespace octascope::ui {
 
-// A corner. All corners of a segment are equal; shaders/vessel_quad_stream.vert moves each to its
+// A corner. All corners of a segment are equal; shaders/vessels/vessel_quad_stream.vert moves each to its
 // place by its index.
 struct QuadVertex {
   SegmentOutline outline;

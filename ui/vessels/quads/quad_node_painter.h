@@ -36,7 +36,7 @@ private:
 };
 
 // Sets up PlacedCluster records in the bound vertex array and GL_ARRAY_BUFFER as instance
-// attributes 0 to 4 (shaders/vessel_nodes.glsl).
+// attributes 0 to 4 (shaders/vessels/vessel_nodes.glsl).
 void describe_placed_clusters();
 
 } // namespace octascope::ui

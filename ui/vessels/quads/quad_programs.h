@@ -41,7 +41,7 @@ std::vector<std::uint16_t> quad_indices(QuadKind kind, int segments);
 // Threads: as gl/objects.h.
 class QuadPrograms {
 public:
-  // The vertex stage is `vertex_head`, shaders/vessel_quad.glsl and `vertex_main`.
+  // The vertex stage is `vertex_head`, shaders/vessels/vessel_quad.glsl and `vertex_main`.
   // ErrorCode::unsupported: this GL cannot compile the shaders.
   static hal::Result<QuadPrograms> create(std::string_view name, std::string_view vertex_head,
                                           std::string_view vertex_main);

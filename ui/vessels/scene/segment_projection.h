@@ -1,6 +1,6 @@
 // A segment's outline on the screen, computed by the processor.
 //
-// Repeats shaders/vessel_nodes.glsl and vessel_segment.glsl step by step, in single precision and
+// Repeats shaders/vessels/vessel_nodes.glsl and vessel_segment.glsl step by step, in single precision and
 // without fused multiply-add, so that a GL that rounds each step (IEEE 754), such as Mesa's
 // software renderer, gets identical numbers. GPUs that fuse products and sums, as most do, differ
 // in the last bits. Files that include this header are compiled with -ffp-contract=off.
@@ -20,7 +20,7 @@ struct PlacedNode {
   float across, up, along, radius;
 };
 
-// In the order of the vertex buffers: v_axis and v_shape of shaders/vessel_quad.glsl.
+// In the order of the vertex buffers: v_axis and v_shape of shaders/vessels/vessel_quad.glsl.
 struct SegmentOutline {
   float start_x, start_y; // pixels, rows from the bottom
   float ahead_x, ahead_y; // from there to the end

@@ -1,4 +1,4 @@
-// Intersects rays with the round cone of a wide segment, as ui/shaders/vessel_relief.glsl does; the
+// Intersects rays with the round cone of a wide segment, as ui/shaders/vessels/vessel_relief.glsl does; the
 // pixels of a row are in the lanes. For one instruction set; see splat_kernels.h.
 #if defined(OCTASCOPE_SPLAT_RELIEF_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_RELIEF_INL

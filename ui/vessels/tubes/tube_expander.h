@@ -20,7 +20,7 @@ struct TubeVertex {
 };
 static_assert(sizeof(TubeVertex) == 20);
 
-// Computes the same as shaders/vessel_tube_nodes.vert. Each thread needs its own expander.
+// Computes the same as shaders/vessels/vessel_tube_nodes.vert. Each thread needs its own expander.
 class TubeExpander {
 public:
   explicit TubeExpander(const TubeShape& shape);

@@ -15,7 +15,8 @@ namespace octascope::ui {
 
 namespace {
 
-constexpr std::size_t columns = 2048; // of words, as shaders/vessel_tube_nodes.vert reads them
+constexpr std::size_t columns =
+    2048; // of words, as shaders/vessels/vessel_tube_nodes.vert reads them
 
 gl::Texture make_ends(const pipeline::VesselClusters& tree) {
   std::vector<std::uint32_t> words = passed_nodes(tree);

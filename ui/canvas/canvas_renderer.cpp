@@ -1,4 +1,4 @@
-#include "ui/hud/canvas_renderer.h"
+#include "ui/canvas/canvas_renderer.h"
 
 #include <cmath>
 #include <cstddef>

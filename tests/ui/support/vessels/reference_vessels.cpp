@@ -1,9 +1,9 @@
-#include "tests/ui/support/reference_vessels.h"
+#include "tests/ui/support/vessels/reference_vessels.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tests/ui/support/reference_segments.h"
+#include "tests/ui/support/vessels/reference_segments.h"
 
 namespace octascope::tests {
 

@@ -12,8 +12,8 @@
 
 #include <glm/vec2.hpp>
 
-#include "ui/hud/fonts.h"
-#include "ui/hud/palette.h"
+#include "ui/canvas/fonts.h"
+#include "ui/canvas/palette.h"
 #include "ui/layout/layout.h"
 
 struct ImDrawList;

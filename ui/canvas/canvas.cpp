@@ -1,4 +1,4 @@
-#include "ui/hud/canvas.h"
+#include "ui/canvas/canvas.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
-#include "tests/ui/support/splat_check.h"
+#include "tests/ui/support/vessels/splat_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "tests/ui/support/reference_segments.h"
+#include "tests/ui/support/vessels/reference_segments.h"
 
 namespace octascope::tests {
 namespace {

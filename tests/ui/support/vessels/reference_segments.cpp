@@ -1,4 +1,4 @@
-#include "tests/ui/support/reference_segments.h"
+#include "tests/ui/support/vessels/reference_segments.h"
 
 #include <algorithm>
 #include <cmath>

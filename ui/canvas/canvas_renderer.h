@@ -2,9 +2,9 @@
 #pragma once
 
 #include "hal/result.h"
+#include "ui/canvas/canvas.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/program.h"
-#include "ui/hud/canvas.h"
 #include "ui/layout/stereo.h"
 
 namespace octascope::ui {

@@ -1,4 +1,4 @@
-#include "tests/ui/support/vessel_stage.h"
+#include "tests/ui/support/vessels/vessel_stage.h"
 
 #include <utility>
 

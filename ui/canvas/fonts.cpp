@@ -1,4 +1,4 @@
-#include "ui/hud/fonts.h"
+#include "ui/canvas/fonts.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,72 @@
+// octascope bench chain: the highest line rate that the whole chain holds on this machine without a
+// loss, on its twins, and what it shows at that rate and others.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/result.h"
+
+namespace octascope::firmware_host {
+
+struct ChainOptions {
+  double seconds = 240; // the last measurement may end a few seconds later
+  std::array<int, 2> size{1280, 720};
+};
+
+struct ChainFormat {
+  int samples = 1024;
+  int a_scans = 300;
+  int b_scans = 80;
+};
+
+struct ChainCase {
+  ChainFormat format;
+  bool display = true; // else volumes are taken and not drawn
+  double line_rate_hz = 215e3;
+};
+
+struct ChainLatency {
+  double p50_ms, p95_ms, p99_ms; // a volume's last line → end of the first frame that shows it
+};
+
+struct ChainFigures {
+  std::uint64_t lost_lines = 0; // those of lost B-scans and volumes included
+  double volumes_per_s = 0;     // acquired
+  double shown_per_s = 0;       // volumes
+  double frames_per_s = 0;
+  std::optional<ChainLatency> latency{}; // with a display
+  double stolen = 0; // share of the processors' time that the host of this machine took
+};
+
+enum class RateSign : std::uint8_t {
+  highest, // the highest at which two of three runs lost nothing
+  held,    // likewise, but the time was over before a higher one was tried
+  given,
+};
+
+struct ChainResult {
+  ChainCase what;
+  ChainFigures figures;
+  RateSign sign = RateSign::given;
+};
+
+struct ChainReport {
+  std::string cpu;
+  std::array<int, 2> size{}; // of the picture
+  std::vector<ChainResult> cases;
+  double reconstruct_only_hz = 0; // the highest of all formats; 0: none held
+  double with_display_hz = 0;
+};
+
+// `tell` is called with every case as soon as it is known.
+hal::Result<ChainReport> bench_chain(const ChainOptions& options,
+                                     const std::function<void(const ChainResult&)>& tell);
+
+std::string to_json(const ChainReport& report);
+
+} // namespace octascope::firmware_host
