@@ -14,6 +14,7 @@
 #include "ui/panels/en_face_panel.h"
 #include "ui/panels/scope_panel.h"
 #include "ui/scene/volume_painter.h"
+#include "ui/vessels/sections/flat_vessels.h"
 #include "ui/view/action_table.h"
 #include "ui/view/camera.h"
 
@@ -78,8 +79,9 @@ struct Renderer::Parts {
   ScopePanel scope_panel;
   CanvasRenderer canvas_renderer;
   Typeface typeface;
-  Canvas ground{};       // under all pictures
-  Canvas under_volume{}; // which may be an inset
+  std::optional<FlatVessels> flat_vessels{}; // empty until some are shown
+  Canvas ground{};                           // under all pictures
+  Canvas under_volume{};                     // which may be an inset
   Canvas overlay{};
   std::optional<Fonts> fonts{};
   float fonts_unit = 0;
@@ -110,6 +112,13 @@ struct Renderer::Parts {
   void fill_canvases(const DrawnPicture& picture, const Layout& places, const HudScene& shown);
   hal::Result<> draw(const DrawnPicture& picture);
   hal::Result<> draw_eye(const DrawnPicture& picture, const Layout& places, StereoEye eye);
+  void draw_flat_pictures(const ViewState& view, const Layout& places, const EyeFrame& frame,
+                          int height);
+  VesselSections::Sight sight(const ViewState& view) const;
+  hal::Result<> draw_flat_vessels(const ViewState& view, const Layout& places,
+                                  const EyeFrame& frame, int height);
+  hal::Result<> draw_scope(const DrawnPicture& picture, const Layout& places,
+                           const EyeFrame& frame);
   hal::Result<> draw_eye_alone(const ViewState& view, const Layout& places,
                                const DrawQuality& quality, StereoEye eye);
 };
@@ -132,6 +141,7 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
     scene.crop = crop_of(view);
     scene.levels = levels ? &*levels : nullptr;
   }
+  scene.shown.vessels_left_out = flat_vessels && flat_vessels->left_out();
   scene.shown.scope = scope_shown;
   if (scope_shown) {
     scene.shown.scope_time = scope_panel.time();
@@ -190,6 +200,63 @@ void Renderer::Parts::fill_canvases(const DrawnPicture& picture, const Layout& p
   draw_hud(overlay, places, picture.text, picture.view, shown);
 }
 
+void Renderer::Parts::draw_flat_pictures(const ViewState& view, const Layout& places,
+                                         const EyeFrame& frame, int height) {
+  const Crop crop = crop_of(view);
+  const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
+    if (panel.shown())
+      b_scan_panel.draw(volume.texture(), state_texture, direction, view, crop,
+                        frame.place(panel.picture), height);
+  };
+  draw_b_scan(places.b_scan, ScanDirection::fast);
+  draw_b_scan(places.crossed, ScanDirection::slow);
+  if (places.en_face.shown())
+    en_face_panel.draw(state_texture, crop, frame.place(places.en_face.picture), height);
+}
+
+VesselSections::Sight Renderer::Parts::sight(const ViewState& view) const {
+  return {view, volume.texture().geometry(), tissue, volume.uploads()};
+}
+
+hal::Result<> Renderer::Parts::draw_flat_vessels(const ViewState& view, const Layout& places,
+                                                 const EyeFrame& frame, int height) {
+  if (!flat_vessels)
+    return {};
+  const auto draw = [&](VesselPanel panel, FlatPicture picture, const Rect& rect) {
+    return flat_vessels->draw(
+        panel, sight(view),
+        place_in_panel(picture, volume.texture().geometry(), crop_of(view), rect), places.unit,
+        frame.place(rect), height);
+  };
+  // Where nothing was received, nothing is registered.
+  const bool received =
+      states[static_cast<std::size_t>(view.b_scan)] != pipeline::BScanState::missing;
+  if (places.b_scan.shown() && received)
+    HAL_CHECK(draw(VesselPanel::b_scan, FlatPicture::b_scan, places.b_scan.picture));
+  if (places.crossed.shown())
+    HAL_CHECK(draw(VesselPanel::crossed, FlatPicture::crossed, places.crossed.picture));
+  if (places.en_face.shown())
+    HAL_CHECK(draw(VesselPanel::en_face, FlatPicture::from_above, places.en_face.picture));
+  return {};
+}
+
+// The vessels lie where the volume has them: nothing in this picture says so if that is an old one.
+hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Layout& places,
+                                          const EyeFrame& frame) {
+  if (!scope_shown || !places.scope.shown())
+    return {};
+  const Rect& place = places.scope.picture;
+  const Rect rect = frame.place(place);
+  scope_panel.draw(rect, picture.height, picture.text.scope_stale);
+  const bool both_live = picture.text.liveness == Liveness::live && !picture.text.scope_stale;
+  if (!flat_vessels || volume.empty() || !scope_panel.field() || !both_live)
+    return {};
+  return flat_vessels->draw(
+      VesselPanel::microscope, sight(picture.view),
+      place_in_field(volume.texture().geometry(), *scope_panel.field(), place), places.unit, rect,
+      picture.height);
+}
+
 hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layout& places,
                                         StereoEye eye) {
   const ViewState& view = picture.view;
@@ -205,21 +272,13 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   }
   fill_canvases(picture, places, shown);
   canvas_renderer.draw(ground, frame, height);
-  if (scope_shown && places.scope.shown())
-    scope_panel.draw(frame.place(places.scope.picture), height, picture.text.scope_stale);
+  HAL_CHECK(draw_scope(picture, places, frame));
   canvas_renderer.draw(under_volume, frame, height);
   if (has_view)
     volume.composite(eye, view_rect, height);
   if (has_volume) {
-    const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
-      if (panel.shown())
-        b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown.crop,
-                          frame.place(panel.picture), height);
-    };
-    draw_b_scan(places.b_scan, ScanDirection::fast);
-    draw_b_scan(places.crossed, ScanDirection::slow);
-    if (places.en_face.shown())
-      en_face_panel.draw(state_texture, shown.crop, frame.place(places.en_face.picture), height);
+    draw_flat_pictures(view, places, frame, height);
+    HAL_CHECK(draw_flat_vessels(view, places, frame, height));
   }
   canvas_renderer.draw(overlay, frame, height);
   return {};
@@ -305,6 +364,11 @@ void Renderer::show_levels(const LevelShares& shares) {
 }
 
 hal::Result<> Renderer::show_vessels(const PlacedVessels& vessels, const hal::Clock& clock) {
+  if (!parts_->flat_vessels) {
+    HAL_TRY(auto made, FlatVessels::create());
+    parts_->flat_vessels.emplace(std::move(made));
+  }
+  parts_->flat_vessels->show(vessels);
   ++parts_->vessel_uploads;
   return parts_->volume.show_vessels(vessels, clock);
 }

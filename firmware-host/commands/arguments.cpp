@@ -68,7 +68,8 @@ void add_show_options(CLI::App& command, ShowArguments& a) {
   CLI::Option* vessels =
       command
           .add_option("--vessels", a.vessels,
-                      "Vessel tree to show in the volume: ours, SWC (in µm) or VTP (in mm)")
+                      "Vessel tree to show in the volume and, registered, in the flat pictures: "
+                      "ours, SWC (in µm) or VTP (in mm)")
           ->type_name("FILE");
   command
       .add_option("--registration", a.registration,

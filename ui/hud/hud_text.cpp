@@ -246,17 +246,21 @@ void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& ve
     hud.vessels.account = vessels.account;
 }
 
-void compose_reduction(HudText& hud, const Status& status) {
+void compose_reduction(HudText& hud, const Status& status, const ShownPictures& shown) {
   FixedText<96>& reduced = hud.facts[2];
-  const bool merged = hud.vessels.shown && status.vessels.account.merged > 0;
-  const std::string_view vessels = merged ? "thinnest vessels merged" : "";
+  const bool merged = status.vessels.account.merged > 0;
+  std::string_view vessels;
+  if (hud.vessels.shown && shown.vessels_left_out)
+    vessels = merged ? "thinnest vessels merged or left out" : "thinnest vessels left out";
+  else if (hud.vessels.shown && merged)
+    vessels = "thinnest vessels merged";
   if (!status.reduced_quality) {
     reduced.format("{}", vessels);
     return;
   }
   reduced.format("quality reduced to {:.0f} %{}{}",
                  std::floor(std::clamp(*status.reduced_quality, 0.0F, 1.0F) * 100),
-                 merged ? ", " : "", vessels);
+                 vessels.empty() ? "" : ", ", vessels);
 }
 
 std::string_view word_for(pipeline::BScanState state) {
@@ -317,7 +321,7 @@ HudText compose_hud_text(const ViewState& view, const Status& status, const Show
   }
   if (hud.figures_shown) // else nothing is drawn anew for them
     compose_figures(hud, view, status);
-  compose_reduction(hud, status);
+  compose_reduction(hud, status, shown);
   hud.ends = ends_of(status.orientation.on_eye, status.eye);
   if (!hud.ends.said())
     hud.labels = status.orientation.labels;

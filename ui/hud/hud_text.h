@@ -80,6 +80,7 @@ struct ShownPictures {
   pipeline::BScanState b_scan = pipeline::BScanState::missing; // the one in the panel
   bool scope = false;
   std::optional<hal::TimePoint> scope_time;
+  bool vessels_left_out = false; // the thinnest, of a flat picture
 };
 
 struct HudText {

@@ -63,24 +63,29 @@ Range robust_range(const pipeline::Volume& volume, std::span<const std::uint8_t>
 
 } // namespace
 
+SlabFinder::SlabFinder(const pipeline::VolumeGeometry& geometry)
+    : depths_{geometry.depths}, begin_{std::max(voxels_of(slab_begin_mm, geometry),
+                                                slab_begin_voxels)},
+      count_{std::clamp(in_whole_lanes(voxels_of(slab_mm, geometry)), 1, geometry.depths)} {}
+
+Slab SlabFinder::slab(const TissueMap::Begin& begin) const {
+  if (!begin.behind_gap)
+    return {std::min(begin.depth + begin_, depths_ - count_), count_};
+  // Behind a gap a little more of the gap is no loss.
+  const int count = std::min(in_whole_lanes(depths_ - begin.depth), depths_);
+  return {depths_ - count, count};
+}
+
 void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
                   std::span<std::uint8_t> out) {
   const pipeline::VolumeGeometry& geometry = volume.geometry;
-  const int slab_begin = std::max(voxels_of(slab_begin_mm, geometry), slab_begin_voxels);
-  const int slab = std::clamp(in_whole_lanes(voxels_of(slab_mm, geometry)), 1, geometry.depths);
+  const SlabFinder finder{geometry};
   const std::uint8_t* line = volume.levels.data();
   std::size_t i = 0;
   for (int b = 0; b < geometry.b_scans; ++b)
     for (int a = 0; a < geometry.a_scans; ++a, line += geometry.depths) {
-      const TissueMap::Begin begin = tissue.begin_of(b, a);
-      // Behind a gap a little more of the gap is no loss.
-      const int count = begin.behind_gap ? std::min(in_whole_lanes(geometry.depths - begin.depth),
-                                                    geometry.depths)
-                                         : slab;
-      const int from = begin.behind_gap
-                           ? geometry.depths - count
-                           : std::min(begin.depth + slab_begin, geometry.depths - slab);
-      out[i++] = highest_of(line + from, count);
+      const Slab slab = finder.slab(tissue.begin_of(b, a));
+      out[i++] = highest_of(line + slab.from, slab.count);
     }
 }
 

@@ -9,6 +9,26 @@
 
 namespace octascope::ui {
 
+// The depths of one A-scan that the projection takes.
+struct Slab {
+  int from = 0;
+  int count = 0;
+
+  int end() const { return from + count; }
+};
+
+// Which those are: see project_slab().
+class SlabFinder {
+public:
+  explicit SlabFinder(const pipeline::VolumeGeometry& geometry);
+  Slab slab(const TissueMap::Begin& begin) const;
+
+private:
+  int depths_;
+  int begin_; // of the slab, from where the brick with the surface begins
+  int count_;
+};
+
 // The highest level of each A-scan in a slab that follows the surface, just below it, so that
 // neither the glare of the surface nor what lies deep hides what a surgeon touches. Where a gap lies
 // behind a front layer, such as the anterior chamber behind the cornea, all that lies behind the gap

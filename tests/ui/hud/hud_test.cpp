@@ -299,6 +299,20 @@ TEST(HudText, merged_vessels_and_their_account_are_told) {
   EXPECT_EQ(compose_hud_text(view, status, {}).facts[2].view(), "quality reduced to 50 %");
 }
 
+TEST(HudText, vessels_that_a_flat_picture_leaves_out_are_told) {
+  Status status = live_status();
+  status.vessels.state = VesselStatus::State::shown;
+  ShownPictures shown;
+  shown.vessels_left_out = true;
+  ViewState view;
+  EXPECT_EQ(compose_hud_text(view, status, shown).facts[2].view(), "thinnest vessels left out");
+  status.vessels.account.merged = 3;
+  EXPECT_EQ(compose_hud_text(view, status, shown).facts[2].view(),
+            "thinnest vessels merged or left out");
+  view.vessels_visible = false;
+  EXPECT_EQ(compose_hud_text(view, status, shown).facts[2].view(), "");
+}
+
 TEST(HudText, an_old_microscope_picture_is_stale) {
   const Status status = live_status();
   ShownPictures shown;

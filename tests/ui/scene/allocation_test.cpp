@@ -65,6 +65,23 @@ TEST_F(Allocation, vessels_in_the_volume_make_none) {
   });
 }
 
+TEST_F(Allocation, vessels_in_the_flat_pictures_make_none) {
+  const auto tree = pipeline::build_clusters(chain_tree(20000, 5));
+  pipeline::RigidTransform middle;
+  middle.shift_mm = {1.5, 1.5, 0.9};
+  ASSERT_TRUE(renderer_->show_vessels({tree.view(), {}, middle}, clock_));
+  status_.vessels.state = ui::VesselStatus::State::shown;
+  status_.vessels.registered = true;
+  view_.layout = ui::LayoutKind::quad;
+  ASSERT_TRUE(renderer_->show_scope_picture(scope_.frame(status_.now), scope_.field()));
+  expect_none(10, 10, [&](int i) {
+    view_.b_scan = (9 * i + 11) % 40;
+    view_.a_scan = (7 * i + 31) % 100;
+    view_.vessel_nudge.shift_mm[1] = 0.1F * static_cast<float>(i);
+    EXPECT_TRUE(renderer_->draw(view_, status_, 640, 360));
+  });
+}
+
 TEST_F(Allocation, no_technique_makes_any_once_it_was_used) {
   expect_none(4, 4, [&](int i) {
     view_.yaw_deg = static_cast<float>(50 * i); // slices along more than one axis

@@ -1,0 +1,509 @@
+// Which vessels are marked in the flat pictures, where, and how strongly.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "pipeline/vessels/clusters/cluster_builder.h"
+#include "sim/phantoms/phantom.h"
+#include "sim/phantoms/phantom_tree.h"
+#include "tests/support/vessels/random_tree.h"
+#include "tests/support/vessels/vessel_trees.h"
+#include "tests/ui/support/synthetic_volume.h"
+#include "ui/vessels/sections/picture_place.h"
+#include "ui/vessels/sections/vessel_sections.h"
+
+namespace octascope::tests {
+namespace {
+
+using ui::FlatPicture;
+using ui::NearSegments;
+using ui::VesselMark;
+
+ui::TissueMap map_of(const pipeline::Volume& volume) {
+  pipeline::Occupancy occupancy{volume.geometry, pipeline::blank_depth_bins};
+  occupancy.update(volume);
+  ui::TissueMap tissue;
+  tissue.update(occupancy, volume.b_scan_states);
+  return tissue;
+}
+
+// Of that level from one depth to before another, all over.
+void add_layer(pipeline::Volume& volume, int from, int to, std::uint8_t level) {
+  const pipeline::VolumeGeometry& g = volume.geometry;
+  for (int b = 0; b < g.b_scans; ++b)
+    for (int a = 0; a < g.a_scans; ++a)
+      std::fill_n(volume.b_scan(b).begin() + a * g.depths + from, to - from, level);
+}
+
+// Noise, and a layer of tissue that begins in the brick at that depth (of 8 voxels).
+ui::TissueMap tissue_from(const pipeline::VolumeGeometry& geometry, int depth) {
+  pipeline::Volume volume = uniform_volume(geometry, 60);
+  add_layer(volume, depth + 4, depth + 32, 150);
+  return map_of(volume);
+}
+
+// One vessel after the other, through these places of the volume's frame.
+pipeline::ClusterArrays vessel_along(const std::vector<std::array<float, 3>>& places_mm,
+                                     float radius_mm) {
+  pipeline::VesselTree tree;
+  for (std::size_t i = 0; i < places_mm.size(); ++i) {
+    tree.positions_mm.push_back(places_mm[i]);
+    tree.radii_mm.push_back(radius_mm);
+    tree.parents.push_back(i == 0 ? pipeline::no_parent : static_cast<std::uint32_t>(i - 1));
+    tree.orders.push_back(8);
+    tree.branches.push_back(pipeline::VesselBranch::unknown);
+  }
+  return pipeline::build_clusters(tree);
+}
+
+// From its wall, negative inside, of a cone with round ends.
+float from_wall(const glm::vec3& at, const glm::vec3& from, const glm::vec3& to, float from_radius,
+                float to_radius) {
+  const glm::vec3 along = to - from;
+  const float t =
+      glm::clamp(glm::dot(at - from, along) / std::max(glm::dot(along, along), 1e-12F), 0.0F, 1.0F);
+  return glm::distance(at, from + t * along) - glm::mix(from_radius, to_radius, t);
+}
+
+float from_marks(std::span<const VesselMark> marks, float across_mm, float down_mm) {
+  float nearest = 1e9F;
+  for (const VesselMark& m : marks)
+    nearest = std::min(nearest, from_wall({across_mm, down_mm, 0}, m.from_mm, m.to_mm,
+                                          m.from_radius_mm, m.to_radius_mm));
+  return nearest;
+}
+
+// ---- A phantom's vessels.
+
+class PhantomSections : public testing::TestWithParam<std::string_view> {
+protected:
+  void SetUp() override {
+    made_ = sim::phantom_tree(*phantom_);
+    arrays_ = pipeline::build_clusters(made_.tree);
+    sections_.show({arrays_.view(), {}, made_.volume_from_tree});
+    for (const sim::VesselSegment& s : phantom_->vessels())
+      if (in_field(s.from) && in_field(s.to))
+        vessels_.push_back({placed(s.from), placed(s.to), s.radius_mm});
+  }
+
+  struct Vessel {
+    glm::vec3 from_mm;
+    glm::vec3 to_mm;
+    float radius_mm;
+  };
+
+  // From the phantom's own frame; its origin is in the middle of the field and of the first bin.
+  glm::vec3 placed(const sim::VesselPoint& p) const {
+    return glm::vec3{p.x_mm, p.y_mm, p.depth_mm} +
+           glm::vec3{static_cast<float>(geometry_.a_mm() / 2),
+                     static_cast<float>(geometry_.b_mm() / 2),
+                     static_cast<float>(geometry_.depth_spacing_um / 2000)};
+  }
+  bool in_field(const sim::VesselPoint& p) const {
+    const glm::vec3 at = placed(p);
+    return at.x > 0 && at.y > 0 && at.z > 0 && at.x < static_cast<float>(geometry_.a_mm()) &&
+           at.y < static_cast<float>(geometry_.b_mm()) &&
+           at.z < static_cast<float>(geometry_.depth_mm());
+  }
+
+  std::span<const VesselMark> marks(FlatPicture picture, int place) {
+    view_.b_scan = view_.a_scan = place;
+    sections_.update(picture, {view_, geometry_, tissue_, 1});
+    return sections_.marks(picture);
+  }
+
+  // Where axes of the phantom's vessels go through the plane of a B-scan.
+  std::vector<glm::vec3> crossings(int axis, float plane_mm) const {
+    std::vector<glm::vec3> at;
+    for (const Vessel& v : vessels_)
+      if ((v.from_mm[axis] - plane_mm) * (v.to_mm[axis] - plane_mm) < 0)
+        at.push_back(glm::mix(v.from_mm, v.to_mm,
+                              (plane_mm - v.from_mm[axis]) / (v.to_mm[axis] - v.from_mm[axis])));
+    return at;
+  }
+
+  // Around each crossing, whatever is inside a vessel of the phantom is inside a mark, and the
+  // other way round, but for a voxel at the walls.
+  void expect_sections(FlatPicture picture, int axis, int place, double spacing_um) {
+    const auto plane_mm = static_cast<float>((place + 0.5) * spacing_um * 1e-3);
+    const auto found = marks(picture, place);
+    const auto voxel_mm = static_cast<float>(
+        1e-3 * std::max(geometry_.depth_spacing_um,
+                        axis == 1 ? geometry_.a_spacing_um : geometry_.b_spacing_um));
+    const auto deep_voxel_mm = static_cast<float>(1e-3 * geometry_.depth_spacing_um);
+    const int across = axis == 1 ? 0 : 1;
+    for (const glm::vec3& at : crossings(axis, plane_mm)) {
+      ++crossed_;
+      EXPECT_LT(from_marks(found, at[across], at.z), 0) << "its axis is in it";
+      for (int i = 0; i < 24; ++i) {
+        glm::vec3 near = at;
+        near[across] += 0.2F * voxel_mm * static_cast<float>(i % 6 - 3) * 5;
+        near.z += 4 * deep_voxel_mm * static_cast<float>(i / 6 - 2);
+        float reference = 1e9F;
+        for (const Vessel& v : vessels_)
+          reference =
+              std::min(reference, from_wall(near, v.from_mm, v.to_mm, v.radius_mm, v.radius_mm));
+        const float distance = from_marks(found, near[across], near.z);
+        if (std::abs(reference) > voxel_mm) {
+          ++judged_;
+          EXPECT_EQ(distance < 0, reference < 0)
+              << "at " << near.x << ", " << near.y << ", " << near.z;
+        }
+      }
+    }
+  }
+
+  std::unique_ptr<sim::Phantom> phantom_ = *sim::make_phantom(GetParam(), 1);
+  pipeline::VolumeGeometry geometry_ = phantom_->suggested_plan().geometry();
+  sim::PhantomTree made_;
+  pipeline::ClusterArrays arrays_;
+  std::vector<Vessel> vessels_;
+  ui::VesselSections sections_;
+  ui::TissueMap tissue_ = tissue_from(geometry_, 16);
+  ui::ViewState view_;
+  int crossed_ = 0;
+  int judged_ = 0;
+};
+
+TEST_P(PhantomSections, lie_in_both_b_scans_where_the_phantom_has_its_vessels) {
+  for (int b = 2; b < geometry_.b_scans; b += 7)
+    expect_sections(FlatPicture::b_scan, 1, b, geometry_.b_spacing_um);
+  for (int a = 5; a < geometry_.a_scans; a += 23)
+    expect_sections(FlatPicture::crossed, 0, a, geometry_.a_spacing_um);
+  EXPECT_GT(crossed_, 20);
+  EXPECT_GT(judged_, 200);
+}
+
+TEST_P(PhantomSections, lie_from_above_where_the_phantom_has_its_vessels) {
+  pipeline::Volume whole = uniform_volume(geometry_, 60);
+  add_layer(whole, 16, 24, 150); // a front layer, and a gap, so that all behind it is shown
+  const int behind = 40 + static_cast<int>(400 / geometry_.depth_spacing_um);
+  add_layer(whole, behind, behind + 24, 150);
+  tissue_ = map_of(whole);
+  const auto found = marks(FlatPicture::from_above, 0);
+  ASSERT_FALSE(found.empty());
+  const auto voxel_mm =
+      static_cast<float>(1e-3 * std::max(geometry_.a_spacing_um, geometry_.b_spacing_um));
+  int judged = 0;
+  for (const Vessel& v : vessels_) {
+    const glm::vec3 middle = 0.5F * (v.from_mm + v.to_mm);
+    if (middle.z * 1e3F < static_cast<float>(behind * geometry_.depth_spacing_um))
+      continue;
+    ++judged;
+    EXPECT_LT(from_marks(found, middle.x, middle.y), 0);
+  }
+  for (const VesselMark& m : found) {
+    const glm::vec3 middle = 0.5F * (m.from_mm + m.to_mm);
+    float nearest = 1e9F;
+    for (const Vessel& v : vessels_)
+      nearest = std::min(nearest, from_wall({middle.x, middle.y, 0}, {v.from_mm.x, v.from_mm.y, 0},
+                                            {v.to_mm.x, v.to_mm.y, 0}, 0, 0));
+    EXPECT_LT(nearest, voxel_mm);
+  }
+  EXPECT_GT(judged, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Phantom, PhantomSections, testing::ValuesIn(sim::phantom_names),
+                         [](const auto& test) { return std::string{test.param}; });
+
+// ---- What is marked.
+
+class VesselSectionsTest : public testing::Test {
+protected:
+  void show(const pipeline::ClusterArrays& tree) {
+    sections_.show({tree.view(), {}, pipeline::RigidTransform{}});
+  }
+  std::span<const VesselMark> marks(FlatPicture picture) {
+    sections_.update(picture, {view_, geometry_, tissue_, volume_});
+    return sections_.marks(picture);
+  }
+
+  const pipeline::VolumeGeometry geometry_ = small_geometry; // 3 × 3 × 1.79 mm
+  ui::VesselSections sections_;
+  ui::TissueMap tissue_ = tissue_from(geometry_, 32); // 0.45 mm deep
+  ui::ViewState view_;
+  std::uint64_t volume_ = 1;
+};
+
+TEST_F(VesselSectionsTest, move_with_the_position) {
+  const auto tree = vessel_along({{0.5F, 0.2F, 0.9F}, {2.5F, 2.8F, 1.3F}}, 0.05F); // at a slant
+  show(tree);
+  for (const int b : {10, 20, 30}) {
+    view_.b_scan = b;
+    const float y_mm = 0.075F * (static_cast<float>(b) + 0.5F);
+    const float t = (y_mm - 0.2F) / 2.6F;
+    const auto found = marks(FlatPicture::b_scan);
+    ASSERT_EQ(found.size(), 1U);
+    const glm::vec3 along = found[0].to_mm - found[0].from_mm;
+    const glm::vec3 at = found[0].from_mm - found[0].from_mm.z / along.z * along;
+    EXPECT_NEAR(at.x, 0.5F + 2 * t, 1e-3F);
+    EXPECT_NEAR(at.y, 0.9F + 0.4F * t, 1e-3F);
+    // What is too far from the plane is cut off.
+    const auto reach_mm = static_cast<float>(ui::section_reach_mm(geometry_));
+    EXPECT_NEAR(std::abs(found[0].from_mm.z), reach_mm + 0.05F, 1e-3F);
+    EXPECT_NEAR(std::abs(found[0].to_mm.z), reach_mm + 0.05F, 1e-3F);
+  }
+}
+
+TEST_F(VesselSectionsTest, follow_a_nudge) {
+  const auto tree = vessel_along({{0.5F, 1.5F, 0.9F}, {2.5F, 1.5F, 0.9F}}, 0.05F);
+  show(tree);
+  view_.b_scan = 20;
+  const VesselMark before = marks(FlatPicture::b_scan)[0];
+  view_.vessel_nudge.shift_mm = {0.2F, 0.05F, -0.1F};
+  const VesselMark after = marks(FlatPicture::b_scan)[0];
+  EXPECT_NEAR(after.from_mm.x - before.from_mm.x, 0.2F, 1e-4F);
+  EXPECT_NEAR(after.from_mm.y - before.from_mm.y, -0.1F, 1e-4F);
+  EXPECT_NEAR(after.from_mm.z - before.from_mm.z, 0.05F, 1e-4F);
+}
+
+TEST_F(VesselSectionsTest, are_none_without_a_registration_or_far_away_or_hidden) {
+  const auto tree = vessel_along({{0.5F, 1.5F, 0.9F}, {2.5F, 1.5F, 0.9F}}, 0.05F);
+  constexpr std::array pictures{FlatPicture::b_scan, FlatPicture::crossed, FlatPicture::from_above};
+  view_.b_scan = 20;
+  view_.a_scan = 50;
+  const auto count = [&] {
+    std::size_t all = 0;
+    for (const FlatPicture picture : pictures)
+      all += marks(picture).size();
+    return all;
+  };
+  show(tree);
+  EXPECT_EQ(count(), 3U);
+  sections_.show({tree.view(), {1.5, 1.5, 0.9}, std::nullopt});
+  EXPECT_EQ(count(), 0U) << "not registered";
+  pipeline::RigidTransform elsewhere;
+  elsewhere.shift_mm = {100, 0, 0};
+  sections_.show({tree.view(), {}, elsewhere});
+  EXPECT_EQ(count(), 0U) << "registered to another place";
+  show(tree);
+  view_.vessels_visible = false;
+  EXPECT_EQ(count(), 0U) << "hidden";
+  view_.vessels_visible = true;
+  view_.vessel_opacity = 0;
+  EXPECT_EQ(count(), 0U) << "without opacity";
+  view_.vessel_opacity = 1;
+  EXPECT_EQ(count(), 3U) << "again";
+  sections_.show({});
+  EXPECT_EQ(count(), 0U) << "no tree";
+}
+
+TEST_F(VesselSectionsTest, have_the_colours_of_the_view) {
+  const auto tree = vessel_along({{0.5F, 1.5F, 0.9F}, {2.5F, 1.5F, 0.9F}}, 0.05F);
+  show(tree);
+  view_.b_scan = 20;
+  EXPECT_EQ(marks(FlatPicture::b_scan)[0].colour, ui::branch_colours[0]);
+  view_.vessel_colouring = ui::VesselColouring::order;
+  EXPECT_EQ(marks(FlatPicture::b_scan)[0].colour, ui::order_colours[8]);
+}
+
+// ---- Fading from above.
+
+TEST_F(VesselSectionsTest, are_full_in_the_slab_and_fade_above_and_below_it) {
+  const auto share = [&](float z_mm) {
+    return ui::share_from_above({1.5F, 1.5F, z_mm}, geometry_, tissue_);
+  };
+  // The surface at 0.448 mm; the slab begins 16 voxels of 14 µm below it and is 32 voxels thick.
+  const float begin_mm = 32 * 0.014F;
+  const float end_mm = (32 + 16 + 32) * 0.014F;
+  EXPECT_EQ(share(begin_mm), 1);
+  EXPECT_EQ(share(begin_mm + 0.1F), 1) << "between the surface and the slab";
+  EXPECT_EQ(share(end_mm), 1);
+  for (const float gap_mm : {0.1F, 0.2F, 0.3F}) {
+    EXPECT_NEAR(share(begin_mm - gap_mm), 1 - gap_mm / 0.4F, 1.0F / 32 + 1e-3F);
+    EXPECT_NEAR(share(end_mm + gap_mm), 1 - gap_mm / 0.4F, 1.0F / 32 + 1e-3F);
+  }
+  EXPECT_EQ(share(begin_mm - 0.41F), 0);
+  EXPECT_EQ(share(end_mm + 0.41F), 0);
+  tissue_ = map_of(uniform_volume(geometry_, 60));
+  EXPECT_EQ(share(begin_mm + 0.1F), 0) << "no tissue is seen there";
+}
+
+TEST_F(VesselSectionsTest, follow_the_tissue_of_each_volume_without_another_search) {
+  const auto tree = vessel_along({{0.5F, 1.5F, 0.6F}, {2.5F, 1.5F, 0.6F}}, 0.05F);
+  show(tree);
+  EXPECT_EQ(marks(FlatPicture::from_above)[0].from_share, 1);
+  const std::uint64_t searches = sections_.searches();
+  const std::uint64_t version = sections_.version(FlatPicture::from_above);
+  ++volume_;
+  marks(FlatPicture::from_above);
+  EXPECT_EQ(sections_.version(FlatPicture::from_above), version) << "the same tissue";
+  tissue_ = tissue_from(geometry_, 64); // 0.9 mm deep
+  ++volume_;
+  EXPECT_LT(marks(FlatPicture::from_above)[0].from_share, 0.5F);
+  EXPECT_EQ(sections_.searches(), searches);
+  EXPECT_GT(sections_.version(FlatPicture::from_above), version);
+}
+
+TEST_F(VesselSectionsTest, are_searched_for_only_when_something_has_changed) {
+  const auto tree = vessel_along({{0.5F, 1.5F, 0.9F}, {2.5F, 1.5F, 0.9F}}, 0.05F);
+  show(tree);
+  marks(FlatPicture::b_scan);
+  marks(FlatPicture::crossed);
+  const std::uint64_t searches = sections_.searches();
+  ++volume_;
+  view_.yaw_deg += 10;
+  view_.window_offset_db += 1;
+  marks(FlatPicture::b_scan);
+  marks(FlatPicture::crossed);
+  EXPECT_EQ(sections_.searches(), searches);
+  view_.b_scan += 1;
+  marks(FlatPicture::b_scan);
+  marks(FlatPicture::crossed);
+  EXPECT_EQ(sections_.searches(), searches + 1) << "the one that moved";
+}
+
+// ---- Bounded work.
+
+// How many segments' boxes, `larger_mm` larger each way, meet it.
+std::size_t count_near(const pipeline::VesselTree& tree, const ui::VolumeBox& box,
+                       float larger_mm) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < tree.nodes(); ++i) {
+    if (tree.parents[i] == pipeline::no_parent)
+      continue;
+    const float end_radius = tree.radii_mm[i];
+    const float start_radius =
+        pipeline::segment_start_radius(tree.radii_mm[tree.parents[i]], end_radius);
+    bool meets = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float from = tree.positions_mm[tree.parents[i]][axis];
+      const float to = tree.positions_mm[i][axis];
+      const auto side = static_cast<glm::length_t>(axis);
+      meets = meets &&
+              std::min(from - start_radius, to - end_radius) - larger_mm <= box.upper_mm[side] &&
+              std::max(from + start_radius, to + end_radius) + larger_mm >= box.lower_mm[side];
+    }
+    count += meets ? 1 : 0;
+  }
+  return count;
+}
+
+TEST(NearSegmentsTest, are_all_those_that_meet_the_box) {
+  const pipeline::VesselTree tree = random_tree(4000, 3);
+  const auto arrays = pipeline::build_clusters(tree);
+  NearSegments near;
+  near.reserve(arrays.clusters.size());
+  for (const float at_mm : {-2.0F, -0.5F, 0.0F, 1.0F}) {
+    const ui::VolumeBox box{{-6, at_mm - 2, -6}, {6, at_mm + 2, 6}};
+    near.find(arrays.view(), {}, box);
+    ASSERT_TRUE(near.complete());
+    EXPECT_GE(near.segments().size(), count_near(tree, box, -0.01F));
+    EXPECT_LE(near.segments().size(), count_near(tree, box, 0.01F));
+    EXPECT_GT(near.segments().size(), 5U);
+    EXPECT_LT(near.examined(), 4000U) << "clusters far away are not looked into";
+  }
+}
+
+// Turned and shifted with the tree, the box finds the same.
+TEST(NearSegmentsTest, are_placed_by_the_registration) {
+  const pipeline::VesselTree tree = random_tree(3000, 4);
+  const auto arrays = pipeline::build_clusters(tree);
+  pipeline::RigidTransform turned; // x to y, y to −x
+  turned.rotation = {{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}};
+  turned.shift_mm = {7, -2, 4};
+  NearSegments here;
+  NearSegments there;
+  here.reserve(arrays.clusters.size());
+  there.reserve(arrays.clusters.size());
+  here.find(arrays.view(), {}, {{-1, 0.5F, -2}, {3, 1.5F, 2}});
+  there.find(arrays.view(), turned,
+             {{7 - 1.5F, -2 - 1.0F, 4 - 2.0F}, {7 - 0.5F, -2 + 3.0F, 4 + 2.0F}});
+  ASSERT_GT(here.segments().size(), 10U);
+  ASSERT_EQ(here.segments().size(), there.segments().size());
+  for (std::size_t i = 0; i < here.segments().size(); ++i) {
+    const glm::vec3 from = here.segments()[i].from_mm;
+    EXPECT_NEAR(there.segments()[i].from_mm.x, 7 - from.y, 1e-4F);
+    EXPECT_NEAR(there.segments()[i].from_mm.y, -2 + from.x, 1e-4F);
+    EXPECT_NEAR(there.segments()[i].from_mm.z, 4 + from.z, 1e-4F);
+  }
+}
+
+TEST(NearSegmentsTest, too_many_leave_the_thickest) {
+  const pipeline::VesselTree tree = random_tree(30000, 5);
+  const auto arrays = pipeline::build_clusters(tree);
+  NearSegments near;
+  near.reserve(arrays.clusters.size());
+  near.find(arrays.view(), {}, {glm::vec3{-1e3F}, glm::vec3{1e3F}});
+  EXPECT_FALSE(near.complete());
+  EXPECT_EQ(near.examined(), 30000U);
+  ASSERT_EQ(near.segments().size(), NearSegments::most_segments);
+  std::vector<float> all;
+  for (std::size_t i = 0; i < tree.nodes(); ++i)
+    if (tree.parents[i] != pipeline::no_parent)
+      all.push_back(
+          std::max(tree.radii_mm[i], pipeline::segment_start_radius(tree.radii_mm[tree.parents[i]],
+                                                                    tree.radii_mm[i])));
+  std::ranges::sort(all, std::ranges::greater{});
+  std::vector<float> kept;
+  for (const ui::NearSegment& s : near.segments())
+    kept.push_back(s.thickest_mm());
+  std::ranges::sort(kept, std::ranges::greater{});
+  for (std::size_t i = 0; i < kept.size(); i += 64)
+    EXPECT_NEAR(kept[i], all[i], 0.01F * all[i]);
+}
+
+TEST(NearSegmentsTest, looks_at_no_more_than_it_may_and_at_the_thickest_first) {
+  constexpr std::size_t thin = 2 * NearSegments::most_examined;
+  pipeline::VesselTree tree = chain_tree(thin, 6);
+  // A thick vessel at the end of the arrays.
+  const auto root = static_cast<std::uint32_t>(tree.nodes());
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    tree.positions_mm.push_back({0.05F * static_cast<float>(i), 0, 0});
+    tree.radii_mm.push_back(0.5F);
+    tree.parents.push_back(i == 0 ? pipeline::no_parent : root + i - 1);
+    tree.orders.push_back(9);
+    tree.branches.push_back(pipeline::VesselBranch::rca);
+  }
+  const auto arrays = pipeline::build_clusters(tree);
+  NearSegments near;
+  near.reserve(arrays.clusters.size());
+  near.find(arrays.view(), {}, {glm::vec3{-1e3F}, glm::vec3{1e3F}});
+  EXPECT_FALSE(near.complete());
+  EXPECT_LE(near.examined(), NearSegments::most_examined);
+  EXPECT_GT(near.examined(), NearSegments::most_examined / 2);
+  EXPECT_EQ(near.segments().size(), NearSegments::most_segments);
+  EXPECT_EQ(
+      std::ranges::count(near.segments(), pipeline::VesselBranch::rca, &ui::NearSegment::branch),
+      999);
+}
+
+// ---- Places in the pictures.
+
+TEST(PicturePlace, follows_the_panels_crop) {
+  const ui::Crop crop{{0.25F, 0.75F}, {0.5F, 1}, {0, 0.5F}};
+  const ui::Rect rect{40, 50, 300, 200};
+  const auto expect_at = [&](FlatPicture picture, glm::vec2 at_mm, glm::vec2 pixels) {
+    const auto place = ui::place_in_panel(picture, small_geometry, crop, rect);
+    EXPECT_NEAR(place.pixels(at_mm).x, pixels.x, 0.01F);
+    EXPECT_NEAR(place.pixels(at_mm).y, pixels.y, 0.01F);
+  };
+  const auto depth_mm = static_cast<float>(small_geometry.depth_mm());
+  expect_at(FlatPicture::b_scan, {1.5F, depth_mm / 4}, {0, 0});
+  expect_at(FlatPicture::b_scan, {3, depth_mm / 2}, {300, 100});
+  expect_at(FlatPicture::crossed, {0.75F, depth_mm / 2}, {150, 100});
+  expect_at(FlatPicture::from_above, {2.25F, 1.5F}, {150, 200});
+}
+
+TEST(PicturePlace, follows_the_scans_field_in_the_microscopes_picture) {
+  const ui::ScanField field{{{{0.2F, 0.1F}, {0.8F, 0.3F}, {0.7F, 0.9F}, {0.1F, 0.7F}}}};
+  const auto place = ui::place_in_field(small_geometry, field, {7, 9, 400, 300});
+  const auto expect_at = [&](glm::vec2 at_mm, glm::vec2 pixels) {
+    EXPECT_NEAR(place.pixels(at_mm).x, pixels.x, 0.01F);
+    EXPECT_NEAR(place.pixels(at_mm).y, pixels.y, 0.01F);
+  };
+  expect_at({0, 0}, {80, 30});
+  expect_at({3, 0}, {320, 90});
+  expect_at({3, 3}, {280, 270});
+  expect_at({0, 3}, {40, 210});
+  expect_at({1.5F, 1.5F}, {180, 150});
+}
+
+} // namespace
+} // namespace octascope::tests
