@@ -10,7 +10,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "ui/ray_caster/dither_mask.h"
 #include "ui/ray_caster/ray_geometry.h"
+#include "ui/ray_caster/soften.h"
 #include "ui/view/plane_box.h"
 
 namespace octascope::ui {
@@ -36,6 +38,7 @@ void RayImage::resize(int new_width, int new_height) {
   height = new_height;
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   rgba.assign(pixels, 0);
+  grained.assign(pixels, 0);
   depth_mm.assign(pixels, no_depth);
   drawn = {};
 }
@@ -150,6 +153,7 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   f.centre_shift = camera.centre_shift;
   f.near_mm = camera.near_mm;
   f.step_mm = settings.step_mm;
+  f.dither = dither_mask().data();
 
   set(f.gradient_cells, rays.gradient_cells);
   f.cue_near_mm = rays.cue_near_mm;
@@ -157,7 +161,7 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
 
   f.width = image.width;
   f.height = image.height;
-  f.rgba = image.rgba.data();
+  f.rgba = settings.soften ? image.grained.data() : image.rgba.data();
   f.depth_mm = image.depth_mm.data();
   f.stops = settings.stops != nullptr ? settings.stops->pixels.data() : nullptr;
   return f;
@@ -203,7 +207,19 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
     kernel(rays, {image.drawn.x + index % across * tile_size,
                   image.drawn.y + index / across * tile_size});
   });
+  if (settings.soften)
+    soften(settings, image);
   return {};
+}
+
+void RayCaster::soften(const RaySettings& settings, RayImage& image) {
+  constexpr int rows = 16; // at a time
+  const SoftenJob job{image.grained, image.rgba, image.width, image.drawn, settings.stops};
+  team_->run(static_cast<std::uint32_t>((image.drawn.height + rows - 1) / rows),
+             [&](std::uint32_t piece) {
+               const int first = image.drawn.y + static_cast<int>(piece) * rows;
+               soften_rows(job, first, first + rows);
+             });
 }
 
 // Whole tiles, with two pixels to spare around the volume's box.

@@ -57,6 +57,7 @@ struct RayFrame {
   float centre_shift; // of the picture's middle to the right of `forward`, at distance 1
   float near_mm;
   float step_mm;
+  const float* dither; // ui/ray_caster/dither_mask.h
 
   // Shading.
   float gradient_cells[3];

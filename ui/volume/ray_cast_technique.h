@@ -26,6 +26,7 @@ private:
   RayCastTechnique(RayMode mode, TransferProgram program);
   void do_draw(const VolumeScene& scene) override;
   bool do_writes_depth() const override { return true; }
+  bool do_dithers() const override { return true; }
   void prepare_bricks(const VolumeScene& scene);
   void set_rays(const gl::Program& program, const VolumeScene& scene) const;
   void set_light(const gl::Program& program, const VolumeScene& scene) const;

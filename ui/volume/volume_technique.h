@@ -44,9 +44,14 @@ public:
   // attachment must not be enabled.
   bool writes_depth() const { return do_writes_depth(); }
 
+  // Whether samples are moved by a share of a step that differs from pixel to pixel
+  // (ui/ray_caster/dither_mask.h): its picture is to be softened.
+  bool dithers() const { return do_dithers(); }
+
 private:
   virtual void do_draw(const VolumeScene& scene) = 0;
   virtual bool do_writes_depth() const { return false; }
+  virtual bool do_dithers() const { return false; }
 };
 
 } // namespace octascope::ui

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "pipeline/volume/level_scale.h"
+#include "ui/ray_caster/dither_mask.h"
 #include "ui/ray_caster/ray_geometry.h"
 
 namespace octascope::tests {
@@ -142,10 +143,6 @@ ReferencePixel Reference::trace(const Vector& eye, const Vector& forward, const 
   return pixel;
 }
 
-double fraction(double v) {
-  return v - std::floor(v);
-}
-
 } // namespace
 
 std::vector<ReferencePixel> reference_rays(const pipeline::Volume& volume, const ui::Camera& camera,
@@ -163,12 +160,9 @@ std::vector<ReferencePixel> reference_rays(const pipeline::Volume& volume, const
           ((x + 0.5 - width / 2.0) * pixel_width + static_cast<double>(camera.centre_shift)) *
               Vector{camera.right} +
           (height / 2.0 - y - 0.5) * pixel_height * Vector{camera.up};
-      // The dither in single precision, as a shader has it: it is a hash, not a quantity.
-      const auto part = [](float v) { return v - std::floor(v); };
-      const float px = static_cast<float>(x) + 0.5F;
-      const float py = static_cast<float>(height - y) - 0.5F;
-      const float sum = part(std::fma(px, 0.06711056F, py * 0.00583715F));
-      const double shift = fraction(static_cast<double>(52.9829189F * sum));
+      const int row = (height - 1 - y) % ui::dither_size;
+      const double shift = static_cast<double>(
+          ui::dither_mask()[static_cast<std::size_t>(row * ui::dither_size + x % ui::dither_size)]);
       picture.push_back(reference.trace(Vector{camera.eye}, Vector{camera.forward},
                                         glm::normalize(ray), static_cast<double>(camera.near_mm),
                                         shift));

@@ -125,8 +125,9 @@ StagePicture VolumeStage::cast(const ui::ViewState& view, ui::RayMode mode,
   caster_.set_transfer(*table_);
   ui::RayImage image;
   image.resize(settings.width, settings.height);
-  const auto drawn =
-      caster_.draw(camera(view, settings), {mode, settings.step_mm, settings.leap_empty}, image);
+  ui::RaySettings cast_settings{mode, settings.step_mm, settings.leap_empty};
+  cast_settings.soften = true; // as what GL draws
+  const auto drawn = caster_.draw(camera(view, settings), cast_settings, image);
   EXPECT_TRUE(drawn) << drawn.error().message;
   StagePicture picture{settings.width, settings.height, {}, image.depth_mm};
   const auto share = [](std::uint32_t rgba, int channel) {
