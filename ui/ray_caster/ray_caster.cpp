@@ -24,6 +24,18 @@ void set(float (&to)[3], const glm::vec3& from) {
     to[i] = from[i];
 }
 
+void set_light(RayFrame& frame, const LightVolume& light) {
+  const LightVolume::Counts& n = light.counts();
+  const std::int32_t counts[3] = {n.depth, n.a, n.b};
+  frame.light = light.texels().data();
+  std::int32_t stride = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    frame.light_axes[axis] = {light.texel_scale()[axis], light.texel_offset()[axis], counts[axis],
+                              stride};
+    stride *= counts[axis];
+  }
+}
+
 } // namespace
 
 // Written once, so that the memory is there and not only promised.
@@ -147,7 +159,6 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   set(f.forward, rays.forward);
   set(f.right, rays.right);
   set(f.up, rays.up);
-  set(f.mm, rays.mm);
   f.pixel_height = 2 * camera.tan_half_height / static_cast<float>(image.height);
   f.pixel_width = 2 * camera.tan_half_height * camera.aspect / static_cast<float>(image.width);
   f.centre_shift = camera.centre_shift;
@@ -155,7 +166,10 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   f.step_mm = settings.step_mm;
   f.dither = dither_mask().data();
 
-  set(f.gradient_cells, rays.gradient_cells);
+  if (settings.light != nullptr)
+    set_light(f, *settings.light);
+  set(f.lamp, rays.lamp);
+  set(f.mm, rays.mm);
   f.cue_near_mm = rays.cue_near_mm;
   f.cue_per_mm = rays.cue_per_mm;
 

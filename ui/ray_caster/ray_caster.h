@@ -19,6 +19,7 @@
 #include "ui/ray_caster/brick_distances.h"
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/cell_volume.h"
+#include "ui/ray_caster/light_volume.h"
 #include "ui/ray_caster/ray_kernels.h"
 #include "ui/ray_caster/step_table.h"
 #include "ui/view/camera.h"
@@ -28,7 +29,7 @@ namespace octascope::ui {
 
 enum class RayMode : std::uint8_t {
   composite, // colour and opacity, front to back
-  shaded,    // the same, lit from the eye by the level's gradient, darker with distance
+  shaded,    // the same, lit by a lamp (light_volume.h), darker with distance
   maximum    // the highest level along each ray, as opaque as it is bright
 };
 
@@ -49,11 +50,12 @@ struct RayImage {
 
 struct RaySettings {
   RayMode mode = RayMode::composite;
-  float step_mm = 0;                 // along each ray
-  bool leap_empty = true;            // affects only the drawing time, not the picture
-  SlowRange kept{};                  // by a cut
-  const DepthImage* stops = nullptr; // of the image's size: where vessels end the rays
-  bool soften = false;               // ui/ray_caster/soften.h
+  float step_mm = 0;                  // along each ray
+  bool leap_empty = true;             // affects only the drawing time, not the picture
+  SlowRange kept{};                   // by a cut
+  const DepthImage* stops = nullptr;  // of the image's size: where vessels end the rays
+  const LightVolume* light = nullptr; // of `shaded`, prepared; null: nothing is lit
+  bool soften = false;                // ui/ray_caster/soften.h
 };
 
 // Threads: bound to one, except for its own helpers. draw() allocates only the image.

@@ -27,7 +27,7 @@ struct Rays {
   Position position; // of sample `next`
   BrickAxes axes;
   Int octant;           // offset of its bricks
-  RealVector direction; // mm per mm
+  RealVector direction; // cells per mm
   Real first_mm;
   Real cosine; // between ray and view
   Int next;
@@ -113,8 +113,7 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
     return hn::Mul(sum, rays.cosine);
   };
   const RealVector d{cells_per_mm(0), cells_per_mm(1), cells_per_mm(2)};
-  rays.direction = {hn::Mul(d.z, real(frame.mm[0])), hn::Mul(d.a, real(frame.mm[1])),
-                    hn::Mul(d.b, real(frame.mm[2]))};
+  rays.direction = d;
 
   Interval inside{hn::Mul(real(frame.near_mm), length), real(1e9F)};
   clip(inside, frame.lower[0], frame.upper[0], frame.eye[0], d.z);

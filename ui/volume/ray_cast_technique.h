@@ -29,7 +29,8 @@ private:
   bool do_dithers() const override { return true; }
   void prepare_bricks(const VolumeScene& scene);
   void set_rays(const gl::Program& program, const VolumeScene& scene) const;
-  void set_light(const gl::Program& program, const VolumeScene& scene) const;
+  void set_light(const gl::Program& program, const VolumeScene& scene);
+  void upload_light(const LightVolume& light);
 
   RayMode mode_;
   TransferProgram program_;
@@ -38,6 +39,9 @@ private:
   DistancesAround distances_;
   gl::Texture brick_texture_;
   pipeline::BrickCounts brick_counts_;
+  gl::Texture light_texture_;
+  LightVolume::Counts light_counts_;
+  std::uint64_t light_version_ = 0;
   // The inputs of the bricks.
   struct BrickSource {
     std::uint64_t upload;
