@@ -10,7 +10,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "ui/ray_caster/dither_mask.h"
 #include "ui/ray_caster/ray_geometry.h"
+#include "ui/ray_caster/soften.h"
 #include "ui/view/plane_box.h"
 
 namespace octascope::ui {
@@ -20,6 +22,18 @@ namespace {
 void set(float (&to)[3], const glm::vec3& from) {
   for (int i = 0; i < 3; ++i)
     to[i] = from[i];
+}
+
+void set_light(RayFrame& frame, const LightVolume& light) {
+  const LightVolume::Counts& n = light.counts();
+  const std::int32_t counts[3] = {n.depth, n.a, n.b};
+  frame.light = light.texels().data();
+  std::int32_t stride = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    frame.light_axes[axis] = {light.texel_scale()[axis], light.texel_offset()[axis], counts[axis],
+                              stride};
+    stride *= counts[axis];
+  }
 }
 
 } // namespace
@@ -36,6 +50,7 @@ void RayImage::resize(int new_width, int new_height) {
   height = new_height;
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   rgba.assign(pixels, 0);
+  grained.assign(pixels, 0);
   depth_mm.assign(pixels, no_depth);
   drawn = {};
 }
@@ -144,20 +159,23 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   set(f.forward, rays.forward);
   set(f.right, rays.right);
   set(f.up, rays.up);
-  set(f.mm, rays.mm);
   f.pixel_height = 2 * camera.tan_half_height / static_cast<float>(image.height);
   f.pixel_width = 2 * camera.tan_half_height * camera.aspect / static_cast<float>(image.width);
   f.centre_shift = camera.centre_shift;
   f.near_mm = camera.near_mm;
   f.step_mm = settings.step_mm;
+  f.dither = dither_mask().data();
 
-  set(f.gradient_cells, rays.gradient_cells);
+  if (settings.light != nullptr)
+    set_light(f, *settings.light);
+  set(f.lamp, rays.lamp);
+  set(f.mm, rays.mm);
   f.cue_near_mm = rays.cue_near_mm;
   f.cue_per_mm = rays.cue_per_mm;
 
   f.width = image.width;
   f.height = image.height;
-  f.rgba = image.rgba.data();
+  f.rgba = settings.soften ? image.grained.data() : image.rgba.data();
   f.depth_mm = image.depth_mm.data();
   f.stops = settings.stops != nullptr ? settings.stops->pixels.data() : nullptr;
   return f;
@@ -203,7 +221,19 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
     kernel(rays, {image.drawn.x + index % across * tile_size,
                   image.drawn.y + index / across * tile_size});
   });
+  if (settings.soften)
+    soften(settings, image);
   return {};
+}
+
+void RayCaster::soften(const RaySettings& settings, RayImage& image) {
+  constexpr int rows = 16; // at a time
+  const SoftenJob job{image.grained, image.rgba, image.width, image.drawn, settings.stops};
+  team_->run(static_cast<std::uint32_t>((image.drawn.height + rows - 1) / rows),
+             [&](std::uint32_t piece) {
+               const int first = image.drawn.y + static_cast<int>(piece) * rows;
+               soften_rows(job, first, first + rows);
+             });
 }
 
 // Whole tiles, with two pixels to spare around the volume's box.

@@ -19,6 +19,7 @@
 #include "ui/ray_caster/brick_distances.h"
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/cell_volume.h"
+#include "ui/ray_caster/light_volume.h"
 #include "ui/ray_caster/ray_kernels.h"
 #include "ui/ray_caster/step_table.h"
 #include "ui/view/camera.h"
@@ -28,7 +29,7 @@ namespace octascope::ui {
 
 enum class RayMode : std::uint8_t {
   composite, // colour and opacity, front to back
-  shaded,    // the same, lit from the eye by the level's gradient, darker with distance
+  shaded,    // the same, lit by a lamp (light_volume.h), darker with distance
   maximum    // the highest level along each ray, as opaque as it is bright
 };
 
@@ -36,10 +37,11 @@ enum class RayMode : std::uint8_t {
 struct RayImage {
   int width = 0;
   int height = 0;
-  std::vector<std::uint32_t> rgba; // premultiplied; red in the lowest 8 bits
-  std::vector<float> depth_mm;     // distance along the view to where half is hidden, or no_depth
-  Rect drawn;                      // everything outside is transparent, and so is its border,
-                                   // except at the image's own border
+  std::vector<std::uint32_t> rgba;    // premultiplied; red in the lowest 8 bits
+  std::vector<std::uint32_t> grained; // the same before it was softened, in `drawn`
+  std::vector<float> depth_mm; // distance along the view to where half is hidden, or no_depth
+  Rect drawn;                  // everything outside is transparent, and so is its border,
+                               // except at the image's own border
 
   void make_room(int most_wide, int most_high); // resize() up to this then allocates nothing
   void resize(int new_width, int new_height);   // allocates only to grow; leaves it transparent
@@ -48,10 +50,12 @@ struct RayImage {
 
 struct RaySettings {
   RayMode mode = RayMode::composite;
-  float step_mm = 0;                 // along each ray
-  bool leap_empty = true;            // affects only the drawing time, not the picture
-  SlowRange kept{};                  // by a cut
-  const DepthImage* stops = nullptr; // of the image's size: where vessels end the rays
+  float step_mm = 0;                  // along each ray
+  bool leap_empty = true;             // affects only the drawing time, not the picture
+  SlowRange kept{};                   // by a cut
+  const DepthImage* stops = nullptr;  // of the image's size: where vessels end the rays
+  const LightVolume* light = nullptr; // of `shaded`, prepared; null: nothing is lit
+  bool soften = false;                // ui/ray_caster/soften.h
 };
 
 // Threads: bound to one, except for its own helpers. draw() allocates only the image.
@@ -83,6 +87,7 @@ private:
   RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team);
   void prepare(float steps, Visibility visibility);
   Rect rectangle_of_box(const Camera& camera, const RayImage& image) const;
+  void soften(const RaySettings& settings, RayImage& image);
   RayFrame frame(const Camera& camera, const RaySettings& settings, RayImage& image) const;
 
   const RayKernels* kernels_;

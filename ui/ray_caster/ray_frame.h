@@ -13,11 +13,8 @@ inline constexpr float no_depth = std::numeric_limits<float>::infinity();
 // so a picture errs by at most a 128th of the difference between the two colours.
 inline constexpr float opaque_transparency = 1.0F / 128;
 
-// Gradient lighting by a lamp at the eye. Where the gradient is weak there is no surface, and the
-// light does not depend on its direction.
-inline constexpr float ambient_light = 0.35F;
-inline constexpr float weak_gradient_counts = 8; // over the distance of gradient_mm()
-inline constexpr float depth_cue = 0.4F;         // brightness lost at the far end of the box
+// Of "shaded": brightness lost at the far end of the box.
+inline constexpr float depth_cue = 0.4F;
 
 // Of the polynomial from grey to opacity.
 inline constexpr int ramp_terms = 6;
@@ -51,15 +48,24 @@ struct RayFrame {
   float forward[3]; // cells per mm
   float right[3];
   float up[3];
-  float mm[3];       // of one cell
   float pixel_width; // at distance 1
   float pixel_height;
   float centre_shift; // of the picture's middle to the right of `forward`, at distance 1
   float near_mm;
   float step_mm;
+  const float* dither; // ui/ray_caster/dither_mask.h
 
-  // Shading.
-  float gradient_cells[3];
+  // Shading. Null: by depth alone.
+  const std::uint32_t* light; // the texels of LightVolume
+  struct LightAxis {
+    float scale; // from cells to texels
+    float offset;
+    std::int32_t count;
+    std::int32_t stride;
+  };
+  LightAxis light_axes[3];
+  float lamp[3]; // the direction to it, in mm
+  float mm[3];   // of one cell
   float cue_near_mm;
   float cue_per_mm;
 

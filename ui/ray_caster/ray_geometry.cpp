@@ -10,11 +10,6 @@
 
 namespace octascope::ui {
 
-float gradient_mm(const pipeline::VolumeGeometry& g) {
-  return static_cast<float>(1.5e-3 *
-                            std::cbrt(g.depth_spacing_um * g.a_spacing_um * g.b_spacing_um));
-}
-
 RayGeometry ray_geometry(const pipeline::VolumeGeometry& g, const Camera& camera,
                          const SlowRange& kept) {
   const glm::vec3 per_mm{1e3 / g.depth_spacing_um, 1e3 / g.a_spacing_um, 1e3 / g.b_spacing_um};
@@ -31,8 +26,9 @@ RayGeometry ray_geometry(const pipeline::VolumeGeometry& g, const Camera& camera
   rays.forward = cells(camera.forward);
   rays.right = cells(camera.right);
   rays.up = cells(camera.up);
+  const glm::vec3 lamp = glm::normalize(0.6F * camera.up - 0.5F * camera.right - camera.forward);
   rays.mm = 1.0F / per_mm;
-  rays.gradient_cells = gradient_mm(g) * per_mm;
+  rays.lamp = {-lamp.y, lamp.x, lamp.z};
   const float reach = glm::dot(glm::abs(camera.forward), box_extents_mm(g) / 2.0F);
   const float centre = camera.depth_of(glm::vec3{0});
   rays.cue_near_mm = std::max(centre - reach, camera.near_mm);

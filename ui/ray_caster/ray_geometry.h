@@ -19,9 +19,8 @@ struct RayGeometry {
   glm::vec3 forward; // cells per mm
   glm::vec3 right;
   glm::vec3 up;
-  glm::vec3 mm; // of one cell
-  // The distance along each axis over which shading takes the gradient.
-  glm::vec3 gradient_cells;
+  glm::vec3 mm;   // of one cell
+  glm::vec3 lamp; // the direction to it, of length 1 in mm: beside the eye, above it to the left
   // Distances along the view where the depth cue begins and ends: the box's nearest and farthest.
   float cue_near_mm;
   float cue_per_mm;
@@ -32,8 +31,5 @@ RayGeometry ray_geometry(const pipeline::VolumeGeometry& geometry, const Camera&
 
 // The octants of directions (see DistancesAhead) that a picture's rays can have, one bit each.
 unsigned octants_of_rays(const pipeline::VolumeGeometry& geometry, const Camera& camera);
-
-// One and a half mean spacings, so that a slope is lit the same from every side.
-float gradient_mm(const pipeline::VolumeGeometry& geometry);
 
 } // namespace octascope::ui

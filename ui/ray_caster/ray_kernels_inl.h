@@ -27,7 +27,7 @@ HWY_AFTER_NAMESPACE();
 
 #include <algorithm>
 
-#include "ui/ray_caster/ray_packet_inl.h"
+#include "ui/ray_caster/ray_light_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {
@@ -41,9 +41,16 @@ struct Light {
   Real red, green, blue; // premultiplied, 0…65535
   Real transparency;
   Int half_opaque; // the sample at which half the opacity was reached
+  // Where most of it comes from: the mean of the samples' numbers, by the fourth powers of their
+  // weights, so that of two layers the stronger has it. For "shaded" alone.
+  Real powers, numbers;
 
   HWY_INLINE static Light none() {
-    return {hn::Zero(Floats{}), hn::Zero(Floats{}), hn::Zero(Floats{}), real(1), hn::Zero(Ints{})};
+    return {hn::Zero(Floats{}), hn::Zero(Floats{}), hn::Zero(Floats{}), real(1),
+            hn::Zero(Ints{}),   hn::Zero(Floats{}), hn::Zero(Floats{})};
+  }
+  HWY_INLINE Real main_sample() const {
+    return hn::Div(numbers, hn::Max(powers, real(least_power)));
   }
 };
 
@@ -54,47 +61,6 @@ HWY_INLINE Real upper_16_bits(Int v) {
   using Unsigned = hn::RebindToUnsigned<Ints>;
   return hn::ConvertTo(Floats{},
                        hn::BitCast(Ints{}, hn::ShiftRight<16>(hn::BitCast(Unsigned{}, v))));
-}
-
-// The factor by which a surface's slope weakens light from the eye; 1 without a surface. The
-// gradient comes from four samples at the corners of a tetrahedron.
-HWY_INLINE Real shade(const RayFrame& frame, const Rays& rays, const Position& p, IntMask valid) {
-  const auto bound = [&](int axis, Int p) {
-    const auto fixed = [](float cells) { return static_cast<std::int32_t>(cells * one_cell); };
-    return hn::Min(hn::Max(p, whole(fixed(frame.lower[axis]))),
-                   whole(fixed(frame.upper[axis]) - 1));
-  };
-  const auto distance = [&](int axis) {
-    return whole(static_cast<std::int32_t>(frame.gradient_cells[axis] * one_cell));
-  };
-  const Position more{bound(0, hn::Add(p.z, distance(0))), bound(1, hn::Add(p.a, distance(1))),
-                      bound(2, hn::Add(p.b, distance(2)))};
-  const Position less{bound(0, hn::Sub(p.z, distance(0))), bound(1, hn::Sub(p.a, distance(1))),
-                      bound(2, hn::Sub(p.b, distance(2)))};
-  const auto level = [&](Int z, Int a, Int b) {
-    return hn::ConvertTo(Floats{}, interpolate(fetch_cell(frame, {z, a, b}, valid)));
-  };
-  const Real v0 = level(more.z, less.a, less.b);
-  const Real v1 = level(less.z, more.a, less.b);
-  const Real v2 = level(less.z, less.a, more.b);
-  const Real v3 = level(more.z, more.a, more.b);
-  const RealVector g{hn::Sub(hn::Add(v0, v3), hn::Add(v1, v2)),
-                     hn::Sub(hn::Add(v1, v3), hn::Add(v0, v2)),
-                     hn::Sub(hn::Add(v2, v3), hn::Add(v0, v1))};
-  const Real squared = hn::MulAdd(g.z, g.z, hn::MulAdd(g.a, g.a, hn::Mul(g.b, g.b)));
-  const Real along = hn::Abs(hn::MulAdd(
-      g.z, rays.direction.z, hn::MulAdd(g.a, rays.direction.a, hn::Mul(g.b, rays.direction.b))));
-  constexpr float weak = 4 * weak_gradient_counts * static_cast<float>(1 << level_shift);
-  const Real strength = hn::Div(squared, hn::Add(squared, real(weak * weak)));
-  const Real facing = hn::Div(along, hn::Sqrt(hn::Max(squared, real(1))));
-  const Real lit = hn::MulAdd(facing, real(1 - ambient_light), real(ambient_light));
-  return hn::MulAdd(strength, hn::Sub(lit, real(1)), real(1));
-}
-
-HWY_INLINE Real fade_with_depth(const RayFrame& frame, const Rays& rays, Int sample) {
-  const Real depth = rays.depth_mm(frame, sample);
-  const Real share = hn::Mul(hn::Sub(depth, real(frame.cue_near_mm)), real(frame.cue_per_mm));
-  return hn::NegMulAdd(hn::Min(hn::Max(share, real(0)), real(1)), real(depth_cue), real(1));
 }
 
 // One sample: opacity 0…1, colours 0…65535.
@@ -150,15 +116,13 @@ HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, const Sample
   const Substance here = classify<How>(frame, interpolate(sample.cell), sample.valid);
   light.half_opaque = hn::IfThenElse(hn::RebindMask(Ints{}, hn::Ge(light.transparency, real(0.5F))),
                                      sample.number, light.half_opaque);
-  Real weight = hn::Mul(light.transparency, here.opacity);
+  const Real weight = hn::Mul(light.transparency, here.opacity);
   light.transparency = hn::Sub(light.transparency, weight);
   if constexpr (Shaded) {
-    const RealMask seen = hn::Gt(weight, real(0));
-    if (hn::AllFalse(Floats{}, seen))
-      return;
-    const Real lit = hn::Mul(shade(frame, rays, sample.position, hn::RebindMask(Ints{}, seen)),
-                             fade_with_depth(frame, rays, sample.number));
-    weight = hn::Mul(weight, lit);
+    const Real square = hn::Mul(weight, weight);
+    const Real power = hn::Mul(square, square);
+    light.powers = hn::Add(light.powers, power);
+    light.numbers = hn::MulAdd(power, hn::ConvertTo(Floats{}, sample.number), light.numbers);
   }
   light.red = hn::MulAdd(weight, here.red, light.red);
   if constexpr (How == Look::coloured) {
@@ -225,9 +189,17 @@ HWY_INLINE bool advance(const RayFrame& frame, Rays& rays, Light& light) {
   return true;
 }
 
-template <Look How> HWY_INLINE void complete(Light& light) {
+template <bool Shaded, Look How>
+HWY_INLINE void complete(const RayFrame& frame, const Rays& rays, Light& light) {
   const RealMask opaque = hn::Lt(light.transparency, real(opaque_transparency));
-  const Real share = hn::IfThenElse(opaque, hn::Sub(real(1), light.transparency), real(1));
+  Real share = hn::IfThenElse(opaque, hn::Sub(real(1), light.transparency), real(1));
+  if constexpr (Shaded) {
+    const Real strongest =
+        How == Look::coloured ? hn::Max(light.red, hn::Max(light.green, light.blue)) : light.red;
+    const Real opacity = hn::Max(hn::Sub(real(1), light.transparency), real(1e-6F));
+    const Real brightness = hn::Min(hn::Div(strongest, hn::Mul(opacity, real(65535))), real(1));
+    share = hn::Div(share, light_on(frame, rays, light.main_sample(), brightness));
+  }
   light.transparency = hn::IfThenZeroElse(opaque, light.transparency);
   light.red = hn::Div(light.red, share);
   light.green = How == Look::coloured ? hn::Div(light.green, share) : light.red;
@@ -347,7 +319,7 @@ template <bool Shaded, Look How> void draw_square(const RayFrame& frame, int lef
       continue;
     const Real depth = hn::IfThenElse(hn::Ge(light[i].transparency, real(0.5F)), real(no_depth),
                                       rays[i].depth_mm(frame, light[i].half_opaque));
-    complete<How>(light[i]);
+    complete<Shaded, How>(frame, rays[i], light[i]);
     store(frame, x, y, to_rgba(light[i], hn::Sub(real(1), light[i].transparency)), depth);
   }
 }

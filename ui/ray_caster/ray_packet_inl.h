@@ -13,6 +13,7 @@
 
 #include <hwy/highway.h>
 
+#include "ui/ray_caster/dither_mask.h"
 #include "ui/ray_caster/ray_sampling_inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +27,7 @@ struct Rays {
   Position position; // of sample `next`
   BrickAxes axes;
   Int octant;           // offset of its bricks
-  RealVector direction; // mm per mm
+  RealVector direction; // cells per mm
   Real first_mm;
   Real cosine; // between ray and view
   Int next;
@@ -64,11 +65,10 @@ HWY_INLINE void clip(Interval& interval, float lower, float upper, float eye, Re
   interval.to = hn::Min(interval.to, hn::Max(at_lower, at_upper));
 }
 
-// 0…1, evenly distributed over any small neighbourhood; source: see transfer.glsl.
-HWY_INLINE Real dither(Real x, Real y_from_bottom) {
-  const auto fraction = [](Real v) { return hn::Sub(v, hn::Floor(v)); };
-  const Real sum = hn::MulAdd(x, real(0.06711056F), hn::Mul(y_from_bottom, real(0.00583715F)));
-  return fraction(hn::Mul(fraction(sum), real(52.9829189F)));
+HWY_INLINE Real dither(const RayFrame& frame, Int x, Int y_from_bottom) {
+  const Int last = whole(dither_size - 1);
+  const Int row = hn::Mul(hn::And(y_from_bottom, last), whole(dither_size));
+  return hn::GatherIndex(Floats{}, frame.dither, hn::Add(row, hn::And(x, last)));
 }
 
 // The stops' distances along the view; x and y are the packet's first pixel. Pixels beyond the
@@ -95,8 +95,10 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
   alignas(64) static constexpr std::int32_t small_row[4] = {0, 0, 1, 1};
   const Int dx = hn::Load(Ints{}, lanes >= 8 ? column : small_column);
   const Int dy = hn::Load(Ints{}, lanes >= 8 ? row : small_row);
-  const Real px = hn::Add(hn::ConvertTo(Floats{}, hn::Add(whole(x), dx)), real(0.5F));
-  const Real py = hn::Add(hn::ConvertTo(Floats{}, hn::Add(whole(y), dy)), real(0.5F));
+  const Int column_at = hn::Add(whole(x), dx);
+  const Int row_at = hn::Add(whole(y), dy);
+  const Real px = hn::Add(hn::ConvertTo(Floats{}, column_at), real(0.5F));
+  const Real py = hn::Add(hn::ConvertTo(Floats{}, row_at), real(0.5F));
   const auto half = [](int length) { return 0.5F * static_cast<float>(length); };
   const Real right = hn::MulAdd(hn::Sub(px, real(half(frame.width))), real(frame.pixel_width),
                                 real(frame.centre_shift));
@@ -111,8 +113,7 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
     return hn::Mul(sum, rays.cosine);
   };
   const RealVector d{cells_per_mm(0), cells_per_mm(1), cells_per_mm(2)};
-  rays.direction = {hn::Mul(d.z, real(frame.mm[0])), hn::Mul(d.a, real(frame.mm[1])),
-                    hn::Mul(d.b, real(frame.mm[2]))};
+  rays.direction = d;
 
   Interval inside{hn::Mul(real(frame.near_mm), length), real(1e9F)};
   clip(inside, frame.lower[0], frame.upper[0], frame.eye[0], d.z);
@@ -123,7 +124,7 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
     inside.to = hn::Min(inside.to, hn::Mul(stops_of(frame, x, y), length));
 
   // All rays' samples lie on common shells around the eye, shifted by each pixel's dither.
-  const Real shift = dither(px, hn::Sub(real(static_cast<float>(frame.height)), py));
+  const Real shift = dither(frame, column_at, hn::Sub(whole(frame.height - 1), row_at));
   const Real step = real(frame.step_mm);
   const Real per_step = real(1 / frame.step_mm);
   const Real shell = hn::Ceil(hn::Sub(hn::Mul(inside.from, per_step), shift));

@@ -25,6 +25,12 @@ std::optional<RayMode> ray_mode(Technique technique) {
   return std::nullopt;
 }
 
+ViewState stretched(ViewState view) {
+  view.window_offset_db += window_lift(view.technique) * view.window_size_db;
+  view.window_size_db *= window_stretch(view.technique);
+  return view;
+}
+
 std::size_t index_of(StereoEye eye) {
   return eye == StereoEye::right ? 1 : 0;
 }
@@ -92,6 +98,9 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
   ++uploads_;
   const pipeline::Volume& drawn = see_through(volume);
   caster_shows_ = caster_ && caster_->show(drawn, occupancy_);
+  light_shows_ = light_wanted_;
+  if (light_shows_)
+    light_.show(drawn);
   surface_shows_ = techniques_.surface() != nullptr;
   if (surface_shows_)
     techniques_.surface()->show(volume); // opaque: what is left of a cover would be in pieces
@@ -127,8 +136,7 @@ hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
 }
 
 void VolumePainter::update_transfer(const ViewState& of) {
-  ViewState view = of;
-  view.window_size_db *= window_stretch(view.technique);
+  const ViewState view = stretched(of);
   const TransferSource source{view.window_offset_db, view.window_size_db, view.opacity,
                               view.transfer, view.colour_map};
   if (transfer_source_ != source) {
@@ -138,6 +146,19 @@ void VolumePainter::update_transfer(const ViewState& of) {
   }
   if (caster_)
     caster_->set_transfer(*transfer_);
+}
+
+// What of it the next volume shown has to bring.
+void VolumePainter::note_view(const ViewState& view) {
+  see_through_db_ = view.see_through_db;
+  light_wanted_ = view.technique == Technique::shaded;
+}
+
+const LightVolume* VolumePainter::light_for(const ViewState& of) {
+  if (of.technique != Technique::shaded || !light_shows_)
+    return nullptr;
+  light_.prepare(window_ramp(stretched(of)));
+  return &light_;
 }
 
 RayBackend VolumePainter::backend(const DrawQuality& quality) const {
@@ -200,7 +221,7 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   if (quality.rays == RayBackend::processor)
     want_processor();
   update_transfer(view);
-  see_through_db_ = view.see_through_db;
+  note_view(view);
   const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
   const VolumeTexture* drawn = &texture_; // the processor's rays need only its shape
   if (!processor) {
@@ -210,6 +231,7 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
       *drawn,      transfer_texture_, camera, view, step_mm(quality, texture_.geometry()),
       &occupancy_, uploads_};
   scene.kept = kept_range(view, camera, texture_.geometry());
+  scene.light = light_for(view);
   if (!scene.kept.whole() && !cut_face_) {
     HAL_TRY(auto made, CutFace::create());
     cut_face_.emplace(std::move(made));
@@ -232,6 +254,7 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
 
 bool VolumePainter::wants_volume(const ViewState& view) const {
   return !empty() && ((view.technique == Technique::surface && !surface_shows_) ||
+                      (view.technique == Technique::shaded && !light_shows_) ||
                       view.see_through_db != shown_see_through_db_);
 }
 
@@ -248,7 +271,7 @@ hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewSt
   const bool surface = view.technique == Technique::surface;
   if (surface)
     HAL_CHECK(techniques_.get(view.technique));
-  see_through_db_ = view.see_through_db;
+  note_view(view);
   if (caster_missing || wants_volume(view))
     HAL_CHECK(show(volume));
   if (surface)

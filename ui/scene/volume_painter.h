@@ -23,14 +23,18 @@
 
 namespace octascope::ui {
 
-// The size of a technique's window beside the view's. Of many speckles along a ray, a maximum finds
-// the brightest: it would be white all over. Shading takes a share of the light.
+// The size of a technique's window beside the view's, and how much of the view's lies below it. Of
+// many speckles along a ray, a maximum finds the brightest: it would be white all over. Shading takes
+// a share of the light.
 constexpr float window_stretch(Technique technique) {
   switch (technique) {
-  case Technique::maximum: return 1.5F;
-  case Technique::shaded: return 0.8F;
+  case Technique::maximum: return 1.2F;
+  case Technique::shaded: return 0.75F;
   default: return 1;
   }
+}
+constexpr float window_lift(Technique technique) {
+  return technique == Technique::maximum ? 0.3F : 0;
 }
 
 // Threads: as gl/objects.h, except for the ray caster's own helpers. Allocates when the size or the
@@ -103,6 +107,8 @@ private:
   hal::Result<const VolumeTexture*> drawn_texture();
   hal::Result<EyePictures*> pictures_of(StereoEye eye);
   void update_transfer(const ViewState& of);
+  void note_view(const ViewState& view);
+  const LightVolume* light_for(const ViewState& of);
   hal::Result<std::optional<DepthMask>> update_vessels(StereoEye eye, const VolumeScene& scene,
                                                        const DrawQuality& quality, const Rect& rect,
                                                        MaskReader target);
@@ -146,6 +152,9 @@ private:
   bool caster_wanted_ = false;
   bool caster_shows_ = false; // the same volume as the texture
   bool surface_shows_ = false;
+  LightVolume light_; // of the volume shown
+  bool light_wanted_ = false;
+  bool light_shows_ = false;
   std::array<std::optional<EyePictures>, 2> pictures_; // the second is the right eye's
 };
 

@@ -16,7 +16,6 @@ uniform vec3 u_eye;
 uniform vec3 u_forward; // cells per mm
 uniform vec3 u_right;
 uniform vec3 u_up;
-uniform vec3 u_mm;         // of one cell
 uniform vec4 u_viewport;   // x, y, width, height
 uniform vec2 u_pixel_size; // at distance 1
 uniform float u_centre_shift; // of the picture's middle, likewise
@@ -34,7 +33,6 @@ const int samples_per_check = 4; // between two looks at the bricks
 struct Ray {
   vec3 start;     // sample 0
   vec3 step;      // from one to the next
-  vec3 direction; // mm per mm
   float first_mm;
   float cosine; // between ray and view
   int end;      // behind the last sample
@@ -47,7 +45,6 @@ Ray make_ray() {
   Ray ray;
   ray.cosine = 1.0 / reach;
   vec3 along = (side.x * u_right + side.y * u_up + u_forward) * ray.cosine;
-  ray.direction = along * u_mm;
 
   vec3 safe = mix(along, vec3(1e-12), lessThan(abs(along), vec3(1e-12)));
   vec3 at_lower = (u_lower - u_eye) / safe;
@@ -96,30 +93,42 @@ int samples_to_leap(Ray ray, vec3 position, int more) {
 }
 
 #ifdef RAY_SHADED
-uniform vec3 u_gradient_cells;
+uniform bool u_lit;
+uniform sampler3D u_light; // the texels of ui/ray_caster/light_volume.h
+uniform vec3 u_to_light_scale;
+uniform vec3 u_to_light_offset;
+uniform vec3 u_lamp; // the direction to it
+uniform vec3 u_mm;   // of one cell
+uniform float u_least_power;
 uniform float u_ambient;
-uniform float u_weak_gradient; // sum of four differences of samples
+uniform float u_level_light;
+uniform float u_weak_slope;
+uniform float u_open_light;
+uniform float u_least_open;
 uniform float u_cue_near_mm;
 uniform float u_cue_per_mm;
 uniform float u_depth_cue;
 
-// Light from the eye; the gradient comes from four samples at the corners of a tetrahedron.
-float shade(Ray ray, vec3 position) {
-  vec3 more = min(position + u_gradient_cells, u_upper);
-  vec3 less = max(position - u_gradient_cells, u_lower);
-  float v0 = level_at(vec3(more.x, less.yz));
-  float v1 = level_at(vec3(less.x, more.y, less.z));
-  float v2 = level_at(vec3(less.xy, more.z));
-  float v3 = level_at(more);
-  vec3 gradient = vec3(v0 + v3 - v1 - v2, v1 + v3 - v0 - v2, v2 + v3 - v0 - v1);
-  float squared = dot(gradient, gradient);
-  float strength = squared / (squared + u_weak_gradient * u_weak_gradient);
-  float facing = abs(dot(gradient, ray.direction)) * inversesqrt(max(squared, 1e-12));
-  return 1.0 + strength * (u_ambient + (1.0 - u_ambient) * facing - 1.0);
-}
-
-float fade_with_depth(Ray ray, int number) {
-  return 1.0 - u_depth_cue * clamp((depth_of(ray, number) - u_cue_near_mm) * u_cue_per_mm, 0.0, 1.0);
+// By which what a ray shows, of that brightness, is weakened, if most of it lies at a sample.
+float light_on(Ray ray, float number, float brightness) {
+  float depth = (ray.first_mm + number * u_step_mm) * ray.cosine;
+  float fade = 1.0 - u_depth_cue * clamp((depth - u_cue_near_mm) * u_cue_per_mm, 0.0, 1.0);
+  if (!u_lit)
+    return fade;
+  vec3 position = ray.start + number * ray.step;
+  vec4 texel = textureLod(u_light, position * u_to_light_scale + u_to_light_offset, 0.0);
+  vec3 slope = (texel.rgb * 255.0 - 128.0) / 127.0;
+  float squared = dot(slope, slope);
+  // Whichever of its sides is seen: the slope runs away from the eye, the lamp is on its side.
+  float side = dot(slope, ray.step * u_mm) < 0.0 ? -1.0 : 1.0;
+  float half_lit = 0.5 - 0.5 * side * dot(slope, u_lamp) * inversesqrt(max(squared, 1e-12));
+  float lit = mix(u_ambient, 1.0, half_lit * half_lit);
+  float strength = squared / (squared + u_weak_slope * u_weak_slope);
+  float open = clamp(u_open_light - texel.a, u_least_open, 1.0);
+  // What reflects strongly, as metal does, keeps its light whichever way it faces.
+  float shade = mix(u_level_light, lit, strength) * open;
+  float square = brightness * brightness;
+  return mix(shade, 1.0, square * square) * fade;
 }
 #endif
 
@@ -157,6 +166,11 @@ void trace(Ray ray) {
   vec3 light = vec3(0.0);
   float transparency = 1.0;
   int half_opaque = 0; // the sample that made it so
+#ifdef RAY_SHADED
+  // Where most of the light comes from; of two layers, the stronger has it.
+  float powers = 0.0;
+  float numbers = 0.0;
+#endif
   int next = 0;
   while (next < ray.end && transparency >= u_opaque_transparency) {
     vec3 position = position_of(ray, next);
@@ -173,14 +187,20 @@ void trace(Ray ray) {
       float weight = transparency * opacity_over(substance.a, u_steps);
       transparency -= weight;
 #ifdef RAY_SHADED
-      if (weight > 0.0)
-        weight *= shade(ray, position) * fade_with_depth(ray, next);
+      float power = weight * weight * weight * weight;
+      powers += power;
+      numbers += power * float(next);
 #endif
       light += weight * substance.rgb;
     }
   }
   if (transparency < 0.5)
     o_depth = depth_of(ray, half_opaque);
+#ifdef RAY_SHADED
+  float strongest = max(light.r, max(light.g, light.b));
+  float brightness = min(strongest / max(1.0 - transparency, 1e-6), 1.0);
+  light *= light_on(ray, numbers / max(powers, u_least_power), brightness);
+#endif
   // What an ended ray would have met counts as of the same colour.
   if (transparency < u_opaque_transparency) {
     light /= 1.0 - transparency;

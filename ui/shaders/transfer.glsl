@@ -36,6 +36,7 @@ float opacity_over(float opacity, float steps) {
   return opacity > 0.0 ? alpha : 0.0;
 }
 
-// 0…1, evenly spread over any small neighbourhood (interleaved gradient noise, J. Jimenez, "Next
-// generation post processing in Call of Duty", SIGGRAPH 2014).
-float dither(vec2 pixel) { return fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))); }
+uniform sampler2D u_dither_mask; // ui/ray_caster/dither_mask.h
+
+// 0…1, evenly spread over any small neighbourhood.
+float dither(vec2 pixel) { return texelFetch(u_dither_mask, ivec2(pixel) & (DITHER_SIZE - 1), 0).r; }

@@ -11,14 +11,15 @@ namespace {
 
 std::vector<TransferFunction> built_in_functions() {
   // The points are constants within their ranges: neither curve can be refused.
-  constexpr std::array<CurvePoint, 5> s_curve{
-      {{0, 0}, {0.25F, 0.06F}, {0.5F, 0.45F}, {0.75F, 0.9F}, {1, 1}}};
-  constexpr std::array<CurvePoint, 5> shell{
-      {{0, 0}, {0.12F, 0}, {0.35F, 0.75F}, {0.6F, 0.25F}, {1, 0.6F}}};
+  constexpr std::array<CurvePoint, 5> reflexes{
+      {{0, 0}, {0.3F, 0}, {0.55F, 0.05F}, {0.8F, 0.35F}, {1, 1}}};
+  constexpr std::array<CurvePoint, 4> solid{{{0, 0}, {0.05F, 0}, {0.2F, 1}, {1, 1}}};
+  // Lifted, so that a body's form is seen before what it is made of.
+  const ColourMap plaster{"surface", {{0.3F, 0.3F, 0.3F}, {1, 1, 1}}};
   std::vector<TransferFunction> functions;
   functions.push_back({"window", TransferCurve::ramp(), {}});
-  functions.push_back({"smooth", *TransferCurve::spline(s_curve), {}});
-  functions.push_back({"surface", *TransferCurve::piecewise(shell), {}});
+  functions.push_back({"smooth", *TransferCurve::spline(reflexes), {}});
+  functions.push_back({"surface", *TransferCurve::piecewise(solid), plaster});
   return functions;
 }
 

@@ -28,9 +28,9 @@ struct TransferFunction {
 // Immutable. Copies share their contents, so they are cheap and may go to any thread.
 class TransferSet {
 public:
-  // The built-in ones. Functions: "window", formula (1) of the OCT paper; "smooth", a gentle S that
-  // suppresses noise and keeps contrast in bright tissue; "surface", opaque where tissue begins and
-  // clearer below. Colour maps: "grey", "amber", "blue-green", "dawn".
+  // The built-in ones. Functions: "window", formula (1) of the OCT paper; "smooth", clear but for
+  // what reflects strongly; "surface", opaque from where tissue begins, in lifted greys. Colour maps:
+  // "grey", "amber", "blue-green", "dawn".
   TransferSet();
 
   // Adds functions after the existing ones. ErrorCode::invalid_argument: a name already exists.

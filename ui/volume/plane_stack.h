@@ -16,6 +16,7 @@ public:
 private:
   explicit PlaneStack(PolygonStack stack) : stack_{std::move(stack)} {}
   void do_draw(const VolumeScene& scene) override;
+  bool do_dithers() const override { return true; }
 
   PolygonStack stack_;
 };

@@ -52,6 +52,8 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   settings.mode = mode;
   settings.step_mm = scene.step_mm;
   settings.kept = scene.kept;
+  settings.light = scene.light;
+  settings.soften = true;
   const DepthMask* vessels = scene.vessels;
   if (vessels == nullptr)
     return caster.draw(scene.camera, settings, image_);

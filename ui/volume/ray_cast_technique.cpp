@@ -15,6 +15,7 @@ namespace octascope::ui {
 namespace {
 
 constexpr GLint brick_unit = 2;
+constexpr GLint light_unit = 5;
 
 VolumeShader shader_of(RayMode mode) {
   const auto ray_cast = [](std::string_view name, std::string_view defines) {
@@ -79,7 +80,6 @@ void RayCastTechnique::set_rays(const gl::Program& program, const VolumeScene& s
   set(program, "u_forward", rays.forward);
   set(program, "u_right", rays.right);
   set(program, "u_up", rays.up);
-  set(program, "u_mm", rays.mm);
   const glm::vec3 scale = 1.0F / glm::vec3{g.depths, g.a_scans, g.b_scans};
   set(program, "u_to_texture_scale", scale);
   set(program, "u_to_texture_offset", glm::vec3{0.5F, -0.5F, -0.5F} * scale);
@@ -98,11 +98,49 @@ void RayCastTechnique::set_rays(const gl::Program& program, const VolumeScene& s
   set(program, "u_no_depth", no_depth);
 }
 
-void RayCastTechnique::set_light(const gl::Program& program, const VolumeScene& scene) const {
+void RayCastTechnique::upload_light(const LightVolume& light) {
+  const LightVolume::Counts& n = light.counts();
+  glActiveTexture(GL_TEXTURE0 + light_unit);
+  if (!light_texture_ || n != light_counts_) {
+    light_texture_ = gl::Texture::make();
+    light_counts_ = n;
+    light_version_ = 0;
+    glBindTexture(GL_TEXTURE_3D, light_texture_.name());
+    glTexStorage3D(GL_TEXTURE_3D, 1, GL_RGBA8, n.depth, n.a, n.b);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+  }
+  glBindTexture(GL_TEXTURE_3D, light_texture_.name());
+  if (light_version_ == light.version())
+    return;
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, n.depth, n.a, n.b, GL_RGBA, GL_UNSIGNED_BYTE,
+                  light.texels().data());
+  light_version_ = light.version();
+}
+
+void RayCastTechnique::set_light(const gl::Program& program, const VolumeScene& scene) {
   const RayGeometry rays = ray_geometry(scene.volume.geometry(), scene.camera, scene.kept);
-  set(program, "u_gradient_cells", rays.gradient_cells);
+  glUniform1i(program.uniform("u_lit"), scene.light != nullptr ? 1 : 0);
+  glUniform1i(program.uniform("u_light"), light_unit);
+  if (scene.light != nullptr) {
+    upload_light(*scene.light);
+    const LightVolume::Counts& n = scene.light->counts();
+    const glm::vec3 share = 1.0F / glm::vec3{n.depth, n.a, n.b};
+    set(program, "u_to_light_scale", scene.light->texel_scale() * share);
+    set(program, "u_to_light_offset", (scene.light->texel_offset() + 0.5F) * share);
+  }
+  set(program, "u_lamp", rays.lamp);
+  set(program, "u_mm", rays.mm);
+  set(program, "u_least_power", least_power);
   set(program, "u_ambient", ambient_light);
-  set(program, "u_weak_gradient", 4 * weak_gradient_counts / 255);
+  set(program, "u_level_light", level_light);
+  set(program, "u_weak_slope", weak_slope);
+  set(program, "u_open_light", open_light);
+  set(program, "u_least_open", least_open);
   set(program, "u_cue_near_mm", rays.cue_near_mm);
   set(program, "u_cue_per_mm", rays.cue_per_mm);
   set(program, "u_depth_cue", depth_cue);

@@ -26,9 +26,11 @@ private:
   RayCastTechnique(RayMode mode, TransferProgram program);
   void do_draw(const VolumeScene& scene) override;
   bool do_writes_depth() const override { return true; }
+  bool do_dithers() const override { return true; }
   void prepare_bricks(const VolumeScene& scene);
   void set_rays(const gl::Program& program, const VolumeScene& scene) const;
-  void set_light(const gl::Program& program, const VolumeScene& scene) const;
+  void set_light(const gl::Program& program, const VolumeScene& scene);
+  void upload_light(const LightVolume& light);
 
   RayMode mode_;
   TransferProgram program_;
@@ -37,6 +39,9 @@ private:
   DistancesAround distances_;
   gl::Texture brick_texture_;
   pipeline::BrickCounts brick_counts_;
+  gl::Texture light_texture_;
+  LightVolume::Counts light_counts_;
+  std::uint64_t light_version_ = 0;
   // The inputs of the bricks.
   struct BrickSource {
     std::uint64_t upload;

@@ -106,7 +106,7 @@ void SurfaceTechnique::set_uniforms(const Camera& camera, const ViewState& view)
   glUniform3fv(uniforms_.forward, 1, glm::value_ptr(camera.forward));
   glUniform3fv(uniforms_.extents, 1, glm::value_ptr(extents_mm_));
   glUniform3f(uniforms_.colour, colour.red, colour.green, colour.blue);
-  glUniform1f(uniforms_.ambient, ambient_light);
+  glUniform1f(uniforms_.ambient, surface_ambient);
   glUniform2f(uniforms_.cue, near, 1 / (middle + reach - near));
   glUniform1f(uniforms_.cue_loss, depth_cue);
 }

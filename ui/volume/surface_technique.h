@@ -19,6 +19,8 @@ namespace octascope::ui {
 // which smoothing darkens, would be left out where every other technique shows them.
 float surface_level(const ViewState& view);
 
+inline constexpr float surface_ambient = 0.35F; // of the lamp at the eye's light
+
 // A separate thread makes the mesh (pipeline/surface/iso_surface_thread.h). Until a new mesh is
 // finished, for a new volume or a changed window, the last one is drawn; before the first, nothing.
 // A picture depends on the number that prepare() returns, and must be redrawn once has_newer() is

@@ -5,17 +5,32 @@
 #include "embedded_shaders.h"
 #include <fmt/format.h>
 
+#include "ui/ray_caster/dither_mask.h"
+
 namespace octascope::ui {
 
 namespace {
 
 hal::Result<gl::Program> build(const VolumeShader& shader, bool window) {
   const std::string fragment =
-      fmt::format("#define TRANSFER_ROW_BITS {}\n#define TRANSFER_LAST {}\n{}{}{}{}{}",
-                  TransferTexture::row_bits, TransferTable::entries - 1,
+      fmt::format("#define TRANSFER_ROW_BITS {}\n#define TRANSFER_LAST {}\n"
+                  "#define DITHER_SIZE {}\n{}{}{}{}{}",
+                  TransferTexture::row_bits, TransferTable::entries - 1, dither_size,
                   window ? "#define TRANSFER_IS_WINDOW\n" : "", shader.defines,
                   shaders::transfer_glsl, shaders::stops_glsl, shader.fragment);
   return gl::Program::build(shader.name, shader.vertex, fragment);
+}
+
+gl::Texture make_dither_texture() {
+  gl::Texture texture = gl::Texture::make();
+  glBindTexture(GL_TEXTURE_2D, texture.name());
+  glTexStorage2D(GL_TEXTURE_2D, 1, GL_R32F, dither_size, dither_size);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, dither_size, dither_size, GL_RED, GL_FLOAT,
+                  dither_mask().data());
+  return texture;
 }
 
 } // namespace
@@ -23,13 +38,17 @@ hal::Result<gl::Program> build(const VolumeShader& shader, bool window) {
 hal::Result<TransferProgram> TransferProgram::create(const VolumeShader& shader) {
   HAL_TRY(auto window, build(shader, true));
   HAL_TRY(auto table, build(shader, false));
-  return TransferProgram{std::move(window), std::move(table)};
+  return TransferProgram{std::move(window), std::move(table), make_dither_texture()};
 }
 
 const gl::Program& TransferProgram::use(const TransferTexture& transfer) const {
   const gl::Program& program = transfer.window() ? window_ : table_;
+  constexpr GLint dither_unit = 4;
   program.use();
   glUniform1i(program.uniform("u_levels"), 0);
+  glUniform1i(program.uniform("u_dither_mask"), dither_unit);
+  glActiveTexture(GL_TEXTURE0 + dither_unit);
+  glBindTexture(GL_TEXTURE_2D, dither_.name());
   if (const auto& window = transfer.window()) {
     glUniform3f(program.uniform("u_window"), window->ramp.scale, window->ramp.offset,
                 window->opacity);

@@ -25,14 +25,15 @@ public:
   static hal::Result<TransferProgram> create(const VolumeShader& shader);
 
   // Makes the variant for `transfer` current and sets its transfer function. u_levels is texture
-  // unit 0; units from 2 on are free.
+  // unit 0; units 2 and from 5 on are free.
   const gl::Program& use(const TransferTexture& transfer) const;
 
 private:
-  TransferProgram(gl::Program window, gl::Program table)
-      : window_{std::move(window)}, table_{std::move(table)} {}
+  TransferProgram(gl::Program window, gl::Program table, gl::Texture dither)
+      : window_{std::move(window)}, table_{std::move(table)}, dither_{std::move(dither)} {}
   gl::Program window_;
   gl::Program table_;
+  gl::Texture dither_;
 };
 
 } // namespace octascope::ui

@@ -22,6 +22,11 @@ bool has_extension(std::string_view name) {
   return false;
 }
 
+// To the bound framebuffer, as what is drawn into.
+void attach(GLuint colour) {
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour, 0);
+}
+
 // Hundreds of faint planes add up here. Software rasterisers cut 16-bit results off instead of
 // rounding them, which costs a picture of 256 planes 2 % of its opacity, while 32 bits take them no
 // longer; so 32 bits wherever GL can blend and filter them.
@@ -36,18 +41,21 @@ GLenum accumulation_format() {
 
 hal::Result<VolumePicture> VolumePicture::create() {
   HAL_TRY(auto pass, gl::PicturePass::create("composite", shaders::composite_frag));
+  HAL_TRY(auto soften, gl::PicturePass::create("soften", shaders::soften_frag));
   HAL_TRY(auto mix, gl::PicturePass::create("vessel_mix", shaders::vessel_mix_frag));
-  return VolumePicture{std::move(pass), std::move(mix)};
+  return VolumePicture{std::move(pass), std::move(soften), std::move(mix)};
 }
 
-VolumePicture::VolumePicture(gl::PicturePass pass, gl::PicturePass vessel_mix)
-    : pass_{std::move(pass)}, vessel_mix_{std::move(vessel_mix)}, format_{accumulation_format()},
-      depth_possible_{has_extension("GL_EXT_color_buffer_float")} {}
+VolumePicture::VolumePicture(gl::PicturePass pass, gl::PicturePass soften,
+                             gl::PicturePass vessel_mix)
+    : pass_{std::move(pass)}, soften_{std::move(soften)}, vessel_mix_{std::move(vessel_mix)},
+      format_{accumulation_format()}, depth_possible_{has_extension("GL_EXT_color_buffer_float")} {}
 
 hal::Result<> VolumePicture::resize(int width, int height) {
   framebuffer_ = gl::Framebuffer::make();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   colour_ = gl::make_picture_texture(format_, width, height);
+  grained_ = {};
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, colour_.name(), 0);
   if (depth_possible_) {
     depth_ = gl::make_picture_texture(GL_R32F, width, height);
@@ -69,6 +77,25 @@ hal::Result<> VolumePicture::resize(int width, int height) {
   width_ = width;
   height_ = height;
   return {};
+}
+
+GLuint VolumePicture::grained_texture() {
+  if (!grained_)
+    grained_ = gl::make_picture_texture(format_, width_, height_);
+  return grained_.name();
+}
+
+// From `grained_` into the bound framebuffer.
+void VolumePicture::soften(const DepthMask* vessels) const {
+  soften_.use();
+  glUniform1i(soften_.uniform("u_picture"), 0);
+  glUniform1i(soften_.uniform("u_stopped"), vessels != nullptr ? 1 : 0);
+  glUniform1i(soften_.uniform("u_vessels"), 1);
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, vessels != nullptr ? vessels->colour : 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, grained_.name());
+  soften_.fill({0, 0, width_, height_}, height_);
 }
 
 void VolumePicture::clear() const {
@@ -119,11 +146,18 @@ hal::Result<> VolumePicture::update(VolumeTechniques& techniques, const VolumeSc
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);
   glDrawBuffers(depth_ ? 2 : 1, buffers.data());
+  const bool grained = technique->dithers();
+  if (grained)
+    attach(grained_texture());
   clear();
   glDrawBuffers(depth_ && technique->writes_depth() ? 2 : 1, buffers.data());
   technique->draw(scene);
+  glDrawBuffers(1, buffers.data());
+  if (grained) {
+    attach(colour_.name());
+    soften(scene.vessels);
+  }
   if (scene.vessels != nullptr) {
-    glDrawBuffers(1, buffers.data());
     add_vessels(*scene.vessels, alone);
   }
   drawn_ = key;

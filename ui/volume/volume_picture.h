@@ -41,14 +41,18 @@ public:
   int height() const { return height_; }
 
 private:
-  VolumePicture(gl::PicturePass pass, gl::PicturePass vessel_mix);
+  VolumePicture(gl::PicturePass pass, gl::PicturePass soften, gl::PicturePass vessel_mix);
   hal::Result<> resize(int width, int height);
   void clear() const;
+  GLuint grained_texture();
+  void soften(const DepthMask* vessels) const;
   void add_vessels(const DepthMask& vessels, const VolumePicture* alone) const;
 
   gl::PicturePass pass_;
+  gl::PicturePass soften_;
   gl::PicturePass vessel_mix_;
   gl::Texture colour_;
+  gl::Texture grained_; // what is to be softened; made when first needed
   gl::Texture depth_;
   gl::Texture nearest_; // depth attachment for techniques that use GL's depth test
   gl::Framebuffer framebuffer_;

@@ -5,6 +5,7 @@
 
 #include "pipeline/volume/occupancy.h"
 #include "ui/depth_mask/depth_mask.h"
+#include "ui/ray_caster/light_volume.h"
 #include "ui/transfer/transfer_texture.h"
 #include "ui/view/camera.h"
 #include "ui/view/cut.h"
@@ -25,6 +26,7 @@ struct VolumeScene {
   std::uint64_t mesh = 0;                         // counts the iso-surfaces
   const DepthMask* vessels = nullptr;             // null: no vessel ends a ray
   SlowRange kept{};                               // by a cut
+  const LightVolume* light = nullptr;             // of `shaded`; null: nothing is lit
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first picture of a size.
@@ -44,9 +46,14 @@ public:
   // attachment must not be enabled.
   bool writes_depth() const { return do_writes_depth(); }
 
+  // Whether samples are moved by a share of a step that differs from pixel to pixel
+  // (ui/ray_caster/dither_mask.h): its picture is to be softened.
+  bool dithers() const { return do_dithers(); }
+
 private:
   virtual void do_draw(const VolumeScene& scene) = 0;
   virtual bool do_writes_depth() const { return false; }
+  virtual bool do_dithers() const { return false; }
 };
 
 } // namespace octascope::ui

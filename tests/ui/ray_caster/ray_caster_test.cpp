@@ -96,11 +96,15 @@ TEST_P(RayCasterIsa, agrees_with_double_precision_from_everywhere) {
   ui::RayCaster caster = make_caster(GetParam());
   ASSERT_EQ(caster.isa(), GetParam());
   ASSERT_TRUE(show(caster, volume));
+  ui::LightVolume light;
+  light.show(volume);
   for (const ui::RayMode mode : {ui::RayMode::composite, ui::RayMode::shaded, ui::RayMode::maximum})
     for (const Place& place : places)
       for (const float opacity : {1.0F, 0.5F, 0.02F}) {
         const ui::ViewState state = view_from(place, opacity);
-        const ui::RaySettings settings{mode, step_for(tissue, 300), true};
+        light.prepare(ui::window_ramp(state));
+        ui::RaySettings settings{mode, step_for(tissue, 300), true};
+        settings.light = &light;
         const ui::RayImage image = cast(caster, state, settings, columns, rows);
         const ui::Camera camera =
             ui::make_camera(state, ui::box_extents_mm(tissue),
@@ -138,10 +142,14 @@ TEST_P(RayCasterIsa, leaping_over_empty_bricks_changes_not_one_bit) {
     volume.b_scan(i)[static_cast<std::size_t>((i * 37 % 90) * 150 + i * 53 % 150)] = 255;
   ui::RayCaster caster = make_caster(GetParam());
   ASSERT_TRUE(show(caster, volume));
+  ui::LightVolume light;
+  light.show(volume);
   for (const ui::RayMode mode : {ui::RayMode::composite, ui::RayMode::shaded, ui::RayMode::maximum})
     for (const Place& place : places) {
       const ui::ViewState state = view_from(place, 0.5F);
       ui::RaySettings settings{mode, step_for(volume.geometry, 700), true};
+      settings.light = &light;
+      light.prepare(ui::window_ramp(state));
       const ui::RayImage leapt = cast(caster, state, settings, columns, rows);
       EXPECT_LT(caster.occupied_share(), 0.1);
       settings.leap_empty = false;

@@ -267,11 +267,10 @@ TEST_F(VolumePainterTest, a_cut_takes_away_what_is_before_the_b_scan_and_shows_i
 
       ASSERT_TRUE(show(alone));
       const int face = brightest(draw(view, quality));
-      const float window_top = technique == ui::Technique::maximum  ? 54
-                               : technique == ui::Technique::shaded ? 0.8F * 36
-                                                                    : 36;
-      const float grey =
-          std::min((pipeline::level_db(140) - view.window_offset_db) / window_top, 1.F);
+      const float from_db =
+          view.window_offset_db + ui::window_lift(technique) * view.window_size_db;
+      const float size_db = ui::window_stretch(technique) * view.window_size_db;
+      const float grey = std::min((pipeline::level_db(140) - from_db) / size_db, 1.F);
       EXPECT_NEAR(face, 255 * grey, 2) << "as bright as the B-scan, however clear the rest";
       view.b_scan = 30;                        // the cut follows it
       if (technique == ui::Technique::maximum) // finds it behind

@@ -1,12 +1,14 @@
 #include "tests/ui/support/reference_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include <glm/geometric.hpp>
 
 #include "pipeline/volume/level_scale.h"
+#include "ui/ray_caster/dither_mask.h"
 #include "ui/ray_caster/ray_geometry.h"
 
 namespace octascope::tests {
@@ -22,8 +24,8 @@ public:
       : volume_{volume}, g_{volume.geometry}, window_{window}, settings_{settings},
         extents_{g_.a_mm(), g_.depth_mm(), g_.b_mm()} {}
 
-  ReferencePixel trace(const Vector& eye, const Vector& forward, const Vector& ray, double near,
-                       double shift) const;
+  ReferencePixel trace(const Vector& eye, const Vector& forward, const Vector& ray,
+                       const Vector& lamp, double near, double shift) const;
 
 private:
   double voxel(int z, int a, int b) const {
@@ -64,7 +66,8 @@ private:
                           static_cast<double>(window_.window_size_db),
                       0.0, 1.0);
   }
-  double light(const Vector& p, const Vector& ray) const;
+  std::array<double, 4> texel(const Vector& p) const;
+  double light(const Vector& p, const Vector& ray, const Vector& lamp) const;
 
   const pipeline::Volume& volume_;
   const pipeline::VolumeGeometry& g_;
@@ -73,25 +76,60 @@ private:
   Vector extents_;
 };
 
-double Reference::light(const Vector& p, const Vector& ray) const {
-  const double h = static_cast<double>(ui::gradient_mm(g_));
-  const auto at = [&](double x, double y, double z) { return level(p + h * Vector{x, y, z}); };
-  // y runs against the depth.
-  const double v0 = at(-1, -1, -1);
-  const double v1 = at(1, 1, -1);
-  const double v2 = at(-1, 1, 1);
-  const double v3 = at(1, -1, 1);
-  const Vector gradient{v1 + v3 - v0 - v2, v1 + v2 - v0 - v3, v2 + v3 - v0 - v1};
-  const double size = glm::length(gradient);
-  const double weak = 4 * static_cast<double>(ui::weak_gradient_counts);
-  const double strength = size * size / (size * size + weak * weak);
+// The texel's four numbers, between its neighbours.
+std::array<double, 4> Reference::texel(const Vector& p) const {
+  const ui::LightVolume& light = *settings_.light;
+  const std::array counts{light.counts().depth, light.counts().a, light.counts().b};
+  // In the ray caster's cells: voxel 0 is at 0, 1 and 1.
+  const Vector cells{(0.5 - p.y / extents_.y) * g_.depths - 0.5,
+                     (0.5 + p.x / extents_.x) * g_.a_scans + 0.5,
+                     (0.5 + p.z / extents_.z) * g_.b_scans + 0.5};
+  std::array<double, 4> sums{};
+  std::array<int, 3> below{};
+  std::array<double, 3> share{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double at = std::clamp(cells[axis] * static_cast<double>(light.texel_scale()[axis]) +
+                                     static_cast<double>(light.texel_offset()[axis]),
+                                 0.0, counts[i] - 1.0);
+    below[i] = static_cast<int>(at);
+    share[i] = at - below[i];
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    std::size_t index = 0;
+    for (std::size_t axis = 3; axis-- > 0;) {
+      const bool above = (corner >> axis & 1) != 0;
+      weight *= above ? share[axis] : 1 - share[axis];
+      index = index * static_cast<std::size_t>(counts[axis]) +
+              static_cast<std::size_t>(std::min(below[axis] + (above ? 1 : 0), counts[axis] - 1));
+    }
+    for (std::size_t channel = 0; channel < 4; ++channel)
+      sums[channel] += weight * (light.texels()[index] >> (8 * channel) & 0xFFU);
+  }
+  return {(sums[0] - 128) / 127, (sums[1] - 128) / 127, (sums[2] - 128) / 127, sums[3] / 255};
+}
+
+double Reference::light(const Vector& p, const Vector& ray, const Vector& lamp) const {
+  if (settings_.light == nullptr)
+    return 1;
+  const auto [z, a, b, density] = texel(p);
+  const Vector slope{a, -z, b}; // y runs against the depth
+  const double size = glm::length(slope);
+  const double side = glm::dot(slope, ray) < 0 ? -1 : 1;
+  const double half = 0.5 - 0.5 * side * glm::dot(slope, lamp) / std::max(size, 1e-6);
   const double ambient = static_cast<double>(ui::ambient_light);
-  const double facing = size > 0 ? std::abs(glm::dot(gradient, ray)) / size : 0;
-  return 1 - strength * (1 - ambient - (1 - ambient) * facing);
+  const double lit = ambient + (1 - ambient) * half * half;
+  const double weak = static_cast<double>(ui::weak_slope);
+  const double strength = size * size / (size * size + weak * weak);
+  const double level = static_cast<double>(ui::level_light);
+  const double open = std::clamp(static_cast<double>(ui::open_light) - density,
+                                 static_cast<double>(ui::least_open), 1.0);
+  return (level + strength * (lit - level)) * open;
 }
 
 ReferencePixel Reference::trace(const Vector& eye, const Vector& forward, const Vector& ray,
-                                double near, double shift) const {
+                                const Vector& lamp, double near, double shift) const {
   const double cosine = glm::dot(ray, forward);
   double from = near / cosine;
   double to = 1e9;
@@ -112,6 +150,8 @@ ReferencePixel Reference::trace(const Vector& eye, const Vector& forward, const 
   ReferencePixel pixel{0, 0, std::numeric_limits<double>::infinity()};
   double transparency = 1;
   double highest = -1;
+  double powers = 0;
+  double places = 0;
   for (double k = std::ceil(from / step - shift); (k + shift) * step < to; ++k) {
     const double t = (k + shift) * step;
     const Vector p = eye + t * ray;
@@ -125,25 +165,27 @@ ReferencePixel Reference::trace(const Vector& eye, const Vector& forward, const 
     }
     const double alpha =
         1 - std::pow(std::max(1 - g * static_cast<double>(window_.opacity), 1e-5), steps);
-    double shown = g;
-    if (settings_.mode == ui::RayMode::shaded) {
-      const double depth = (t * cosine - nearest) / (centre + reach - nearest);
-      shown *=
-          light(p, ray) * (1 - static_cast<double>(ui::depth_cue) * std::clamp(depth, 0.0, 1.0));
-    }
-    pixel.grey += 255 * transparency * alpha * shown;
+    const double weight = transparency * alpha;
+    powers += std::pow(weight, 4);
+    places += std::pow(weight, 4) * t;
+    pixel.grey += 255 * weight * g;
     const double after = transparency * (1 - alpha);
     if (transparency >= 0.5 && after < 0.5)
       pixel.depth_mm = t * cosine;
     transparency = after;
   }
+  if (settings_.mode == ui::RayMode::shaded && powers > 1e-33) {
+    const double t = places / powers;
+    const double depth = (t * cosine - nearest) / (centre + reach - nearest);
+    const double shade = light(eye + t * ray, ray, lamp);
+    const double brightness = pixel.grey / 255 / (1 - transparency);
+    const double gleam = settings_.light != nullptr ? std::pow(brightness, 4) : 0;
+    pixel.grey *= (shade + gleam * (1 - shade)) *
+                  (1 - static_cast<double>(ui::depth_cue) * std::clamp(depth, 0.0, 1.0));
+  }
   if (settings_.mode != ui::RayMode::maximum)
     pixel.opacity = 255 * (1 - transparency);
   return pixel;
-}
-
-double fraction(double v) {
-  return v - std::floor(v);
 }
 
 } // namespace
@@ -156,6 +198,8 @@ std::vector<ReferencePixel> reference_rays(const pipeline::Volume& volume, const
   const double pixel_height = 2 * static_cast<double>(camera.tan_half_height) / height;
   const double pixel_width =
       2 * static_cast<double>(camera.tan_half_height) * static_cast<double>(camera.aspect) / width;
+  const Vector lamp =
+      glm::normalize(0.6 * Vector{camera.up} - 0.5 * Vector{camera.right} - Vector{camera.forward});
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Vector ray =
@@ -163,15 +207,12 @@ std::vector<ReferencePixel> reference_rays(const pipeline::Volume& volume, const
           ((x + 0.5 - width / 2.0) * pixel_width + static_cast<double>(camera.centre_shift)) *
               Vector{camera.right} +
           (height / 2.0 - y - 0.5) * pixel_height * Vector{camera.up};
-      // The dither in single precision, as a shader has it: it is a hash, not a quantity.
-      const auto part = [](float v) { return v - std::floor(v); };
-      const float px = static_cast<float>(x) + 0.5F;
-      const float py = static_cast<float>(height - y) - 0.5F;
-      const float sum = part(std::fma(px, 0.06711056F, py * 0.00583715F));
-      const double shift = fraction(static_cast<double>(52.9829189F * sum));
+      const int row = (height - 1 - y) % ui::dither_size;
+      const double shift = static_cast<double>(
+          ui::dither_mask()[static_cast<std::size_t>(row * ui::dither_size + x % ui::dither_size)]);
       picture.push_back(reference.trace(Vector{camera.eye}, Vector{camera.forward},
-                                        glm::normalize(ray), static_cast<double>(camera.near_mm),
-                                        shift));
+                                        glm::normalize(ray), lamp,
+                                        static_cast<double>(camera.near_mm), shift));
     }
   return picture;
 }

@@ -56,6 +56,7 @@ void VolumeStage::show(const pipeline::Volume& volume) {
   occupancy_.update(volume);
   EXPECT_TRUE(texture_.upload(volume));
   EXPECT_TRUE(caster_.show(volume, occupancy_));
+  light_.show(volume);
   ++uploads_;
 }
 
@@ -77,14 +78,19 @@ StagePicture VolumeStage::draw(const ui::ViewState& view, const ui::TransferTabl
   transfer_.update(table);
   // A key of its own for every picture, so that each is drawn.
   const ui::Camera camera = this->camera(view, settings);
-  const ui::VolumeScene scene{texture_,         transfer_,
-                              camera,           view,
-                              settings.step_mm, settings.leap_empty ? &occupancy_ : nullptr,
-                              uploads_++};
+  ui::VolumeScene scene{texture_,  transfer_,        camera,
+                        view,      settings.step_mm, settings.leap_empty ? &occupancy_ : nullptr,
+                        uploads_++};
+  scene.light = light_for(view);
   const auto updated =
       picture_.update(techniques_, scene, {}, {0, 0, settings.width, settings.height});
   EXPECT_TRUE(updated) << updated.error().message;
   return read();
+}
+
+const ui::LightVolume* VolumeStage::light_for(const ui::ViewState& view) {
+  light_.prepare(ui::window_ramp(view));
+  return &light_;
 }
 
 StagePicture VolumeStage::read() const {
@@ -125,8 +131,10 @@ StagePicture VolumeStage::cast(const ui::ViewState& view, ui::RayMode mode,
   caster_.set_transfer(*table_);
   ui::RayImage image;
   image.resize(settings.width, settings.height);
-  const auto drawn =
-      caster_.draw(camera(view, settings), {mode, settings.step_mm, settings.leap_empty}, image);
+  ui::RaySettings cast_settings{mode, settings.step_mm, settings.leap_empty};
+  cast_settings.soften = true; // as what GL draws
+  cast_settings.light = light_for(view);
+  const auto drawn = caster_.draw(camera(view, settings), cast_settings, image);
   EXPECT_TRUE(drawn) << drawn.error().message;
   StagePicture picture{settings.width, settings.height, {}, image.depth_mm};
   const auto share = [](std::uint32_t rgba, int channel) {

@@ -57,6 +57,7 @@ public:
 
 private:
   StagePicture read() const;
+  const ui::LightVolume* light_for(const ui::ViewState& view);
   ui::Camera camera(const ui::ViewState& view, const StageSettings& settings) const;
 
   ui::VolumeTexture texture_;
@@ -66,6 +67,7 @@ private:
   ui::VolumeTechniques techniques_{ui::TransferSet{}};
   ui::VolumePicture picture_;
   ui::RayCaster caster_;
+  ui::LightVolume light_;
   std::uint64_t uploads_ = 0;
 };
 

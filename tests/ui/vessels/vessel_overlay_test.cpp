@@ -150,15 +150,23 @@ Slab slab(const Way& way, const ui::ViewState& view, const ui::Camera& camera,
   const double per_part =
       1 - std::pow(1 - grey * double{view.opacity}, length_mm / reference / parts);
   Slab result;
+  double powers = 0;
+  double depths = 0;
   for (int i = 0; i < parts; ++i) {
     const double depth = near + length_mm * (i + 0.5) / parts;
-    const double share = (depth - double{rays.cue_near_mm}) * double{rays.cue_per_mm};
-    const double light = way.technique == Technique::shaded
-                             ? 1 - double{ui::depth_cue} * std::clamp(share, 0.0, 1.0)
-                             : 1;
     const double weight = (1 - result.opacity) * per_part;
-    result.light += 255 * grey * light * weight;
+    powers += std::pow(weight, 4);
+    depths += std::pow(weight, 4) * depth;
+    result.light += 255 * grey * weight;
     result.opacity += weight;
+  }
+  if (way.technique == Technique::shaded) {
+    const double share = (depths / powers - double{rays.cue_near_mm}) * double{rays.cue_per_mm};
+    result.light *= 1 - double{ui::depth_cue} * std::clamp(share, 0.0, 1.0);
+    // No slope anywhere, and the same all around.
+    const double shade = double{ui::level_light} *
+                         std::clamp(double{ui::open_light} - grey, double{ui::least_open}, 1.0);
+    result.light *= shade + std::pow(grey, 4) * (1 - shade);
   }
   return result;
 }
@@ -184,7 +192,9 @@ TEST_F(VesselOverlayTest, a_uniform_volume_veils_a_vessel_as_theory_says) {
     const ui::ViewState first = along_slow_axis(way.technique);
     const double window_db =
         double{first.window_size_db} * double{ui::window_stretch(first.technique)};
-    const double grey = double{level_db - first.window_offset_db} / window_db;
+    const double from_db = double{first.window_offset_db} +
+                           double{ui::window_lift(first.technique)} * double{first.window_size_db};
+    const double grey = (double{level_db} - from_db) / window_db;
     const ui::Camera eye = camera(first);
     const Slab whole = slab(way, first, eye, g, grey, g.b_mm());
     // Before the volume, near its front, in its middle, at its back, behind it: between slices.

@@ -138,7 +138,7 @@ TEST_F(SurfaceTechniqueTest, is_lit_by_a_lamp_at_the_eye_with_depth_cue) {
   const float closest = std::sqrt(glm::dot(eye.eye, eye.eye) - along * along);
   const float facing = std::sqrt(1 - closest * closest / (radius_mm * radius_mm));
   const float depth = (along - radius_mm * facing) * -ray.z;
-  const float light = (ui::ambient_light + (1 - ui::ambient_light) * facing) *
+  const float light = (ui::surface_ambient + (1 - ui::surface_ambient) * facing) *
                       (1 - ui::depth_cue * (depth - (glm::length(eye.eye) - half)) / (2 * half));
   EXPECT_NEAR(pixel(x, 0)[0], 255 * 0.8F * light, 5);
 }

@@ -148,7 +148,7 @@ TEST_F(VolumeTechniquesTest, rays_are_the_plane_stacks_at_fine_spacing) {
 // As fine along every axis as along depth, so that nothing is lost between slices.
 TEST_F(VolumeTechniquesTest, slices_are_the_rays_of_a_smooth_volume) {
   const pipeline::VolumeGeometry fine{180, 300, 300, 10, 10, 10};
-  expect_as_rays(Technique::slices, fine, steps(fine, 600), 4);
+  expect_as_rays(Technique::slices, fine, steps(fine, 600), 6); // which are softened
 }
 
 TEST_F(VolumeTechniquesTest, half_the_step_is_the_same_picture) {
@@ -413,7 +413,7 @@ TEST_F(VolumeTechniquesTest, a_changed_window_shows_where_bricks_were_empty) {
     EXPECT_EQ(mean_opacity(stage_->draw(view, settings)), 0) << ui::to_string(technique);
     view.window_offset_db = 0;
     const StagePicture picture = stage_->draw(view, settings);
-    EXPECT_NEAR(picture.at(80, 50).red, technique == Technique::shaded ? 0.45F : 0.5F,
+    EXPECT_NEAR(picture.at(80, 50).red, technique == Technique::shaded ? 0.3F : 0.5F,
                 technique == Technique::shaded ? 0.1F : 0.01F)
         << ui::to_string(technique);
   }
