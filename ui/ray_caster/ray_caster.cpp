@@ -10,9 +10,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "ui/ray_caster/dither_mask.h"
+#include "ui/dither/dither_mask.h"
 #include "ui/ray_caster/ray_geometry.h"
-#include "ui/ray_caster/soften.h"
+#include "ui/dither/soften.h"
 #include "ui/view/plane_box.h"
 
 namespace octascope::ui {

@@ -55,7 +55,7 @@ struct RaySettings {
   SlowRange kept{};                   // by a cut
   const DepthImage* stops = nullptr;  // of the image's size: where vessels end the rays
   const LightVolume* light = nullptr; // of `shaded`, prepared; null: nothing is lit
-  bool soften = false;                // ui/ray_caster/soften.h
+  bool soften = false;                // ui/dither/soften.h
 };
 
 // Threads: bound to one, except for its own helpers. draw() allocates only the image.

@@ -53,7 +53,7 @@ struct RayFrame {
   float centre_shift; // of the picture's middle to the right of `forward`, at distance 1
   float near_mm;
   float step_mm;
-  const float* dither; // ui/ray_caster/dither_mask.h
+  const float* dither; // ui/dither/dither_mask.h
 
   // Shading. Null: by depth alone.
   const std::uint32_t* light; // the texels of LightVolume

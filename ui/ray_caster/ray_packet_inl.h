@@ -13,7 +13,7 @@
 
 #include <hwy/highway.h>
 
-#include "ui/ray_caster/dither_mask.h"
+#include "ui/dither/dither_mask.h"
 #include "ui/ray_caster/ray_sampling_inl.h"
 
 HWY_BEFORE_NAMESPACE();

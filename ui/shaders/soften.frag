@@ -1,4 +1,4 @@
-// The average of 3 × 3 pixels, by 1, 2, 1 each way (ui/ray_caster/soften.h), stored from the bottom as they are. A pixel
+// The average of 3 × 3 pixels, by 1, 2, 1 each way (ui/dither/soften.h), stored from the bottom as they are. A pixel
 // with a vessel is averaged only with such, one without only with such.
 precision highp float;
 precision highp sampler2D;

@@ -36,7 +36,7 @@ float opacity_over(float opacity, float steps) {
   return opacity > 0.0 ? alpha : 0.0;
 }
 
-uniform sampler2D u_dither_mask; // ui/ray_caster/dither_mask.h
+uniform sampler2D u_dither_mask; // ui/dither/dither_mask.h
 
 // 0…1, evenly spread over any small neighbourhood.
 float dither(vec2 pixel) { return texelFetch(u_dither_mask, ivec2(pixel) & (DITHER_SIZE - 1), 0).r; }

@@ -13,7 +13,7 @@ namespace octascope::ui {
 namespace {
 
 constexpr double brightest_share = 0.001; // of all voxels, beyond the window's upper end
-constexpr float noise_spreads = 2.15F;    // how many spreads of the noise lie below the window
+constexpr float noise_spreads = 2.0F;     // how many spreads of the noise lie below the window
 constexpr float smallest_size_db = 15;
 
 // The lowest of the high peaks. Where tissue fills most of the volume, its peak is as high as the

@@ -2,6 +2,7 @@
 
 #include "embedded_shaders.h"
 
+#include "ui/dither/soften.h"
 #include "ui/gl/picture_texture.h"
 #include "ui/ray_caster/mask_merge.h"
 
@@ -53,7 +54,7 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   settings.step_mm = scene.step_mm;
   settings.kept = scene.kept;
   settings.light = scene.light;
-  settings.soften = true;
+  settings.soften = is_grained(scene.step_mm, scene.volume.geometry());
   const DepthMask* vessels = scene.vessels;
   if (vessels == nullptr)
     return caster.draw(scene.camera, settings, image_);

@@ -5,7 +5,7 @@
 #include "embedded_shaders.h"
 #include <fmt/format.h>
 
-#include "ui/ray_caster/dither_mask.h"
+#include "ui/dither/dither_mask.h"
 
 namespace octascope::ui {
 

@@ -5,6 +5,7 @@
 
 #include "embedded_shaders.h"
 
+#include "ui/dither/soften.h"
 #include "ui/gl/kept_framebuffer.h"
 #include "ui/gl/picture_texture.h"
 #include "ui/ray_caster/ray_frame.h"
@@ -146,7 +147,7 @@ hal::Result<> VolumePicture::update(VolumeTechniques& techniques, const VolumeSc
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   glViewport(0, 0, width_, height_);
   glDrawBuffers(depth_ ? 2 : 1, buffers.data());
-  const bool grained = technique->dithers();
+  const bool grained = technique->dithers() && is_grained(scene.step_mm, scene.volume.geometry());
   if (grained)
     attach(grained_texture());
   clear();

@@ -47,7 +47,7 @@ public:
   bool writes_depth() const { return do_writes_depth(); }
 
   // Whether samples are moved by a share of a step that differs from pixel to pixel
-  // (ui/ray_caster/dither_mask.h): its picture is to be softened.
+  // (ui/dither/dither_mask.h): its picture of few samples is to be softened.
   bool dithers() const { return do_dithers(); }
 
 private:

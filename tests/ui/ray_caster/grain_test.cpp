@@ -10,7 +10,7 @@
 #include "pipeline/volume/level_scale.h"
 #include "pipeline/volume/volume_geometry.h"
 #include "tests/ui/support/view_places.h"
-#include "ui/ray_caster/dither_mask.h"
+#include "ui/dither/dither_mask.h"
 #include "ui/ray_caster/ray_caster.h"
 
 namespace octascope::tests {

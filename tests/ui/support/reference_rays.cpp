@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "pipeline/volume/level_scale.h"
-#include "ui/ray_caster/dither_mask.h"
+#include "ui/dither/dither_mask.h"
 #include "ui/ray_caster/ray_geometry.h"
 
 namespace octascope::tests {

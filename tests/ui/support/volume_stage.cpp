@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/volume/volume_geometry.h"
+#include "ui/dither/soften.h"
 
 namespace octascope::tests {
 
@@ -132,7 +133,7 @@ StagePicture VolumeStage::cast(const ui::ViewState& view, ui::RayMode mode,
   ui::RayImage image;
   image.resize(settings.width, settings.height);
   ui::RaySettings cast_settings{mode, settings.step_mm, settings.leap_empty};
-  cast_settings.soften = true; // as what GL draws
+  cast_settings.soften = ui::is_grained(settings.step_mm, caster_.geometry()); // as what GL draws
   cast_settings.light = light_for(view);
   const auto drawn = caster_.draw(camera(view, settings), cast_settings, image);
   EXPECT_TRUE(drawn) << drawn.error().message;

@@ -1,4 +1,4 @@
-#include "ui/ray_caster/soften.h"
+#include "ui/dither/soften.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "ui/ray_caster/dither_mask.h"
+#include "ui/dither/dither_mask.h"
 
 #include <algorithm>
 #include <cmath>
