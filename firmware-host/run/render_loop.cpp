@@ -136,8 +136,10 @@ ui::DrawQuality RenderLoop::choose_quality() {
        .moved = moved,
        .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_)});
   quality.rays = rays_;
-  if (parts_.vessels != nullptr)
+  if (parts_.vessels != nullptr) {
     quality.vessel_detail_px = parts_.vessels->detail_px(status().now, moved);
+    quality.vessels_occluded = parts_.vessels->occluded();
+  }
   return quality;
 }
 

@@ -56,6 +56,8 @@ public:
   // The level of detail for the frame that begins now; `moved`: the view differs from the last
   // frame's.
   float detail_px(hal::TimePoint now, bool moved);
+  // Whether, in that frame, they shade what lies close behind them.
+  bool occluded() const { return governor_.occluded(at_rest_); }
   // Call after each frame; the vessels get a share of `budget`.
   void note(const ui::Renderer::VesselReport& report, hal::Duration budget);
 

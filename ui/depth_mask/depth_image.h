@@ -10,9 +10,10 @@
 namespace octascope::ui {
 
 // One number per pixel: the bits of its distance along the view (float, mm, > 0) above its colour
-// (red in the lowest 8 bits, alpha 255). Positive floats sort like their bits, so the smallest
-// number is the nearest vessel, in whatever order threads write. At equal distances the smaller
-// colour wins.
+// (red in the lowest 8 bits, premultiplied; alpha: the share of the pixel that vessels cover).
+// Positive floats sort like their bits, so the smallest number is the nearest vessel, in whatever
+// order threads write. At equal distances the smaller colour wins. The distance is that at the
+// pixel's centre: infinite where a vessel covers only a part beside it.
 using DepthPixel = std::uint64_t;
 
 inline constexpr DepthPixel depth_pixel(float distance_mm, std::uint32_t rgba) {

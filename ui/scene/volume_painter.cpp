@@ -198,6 +198,7 @@ VolumePainter::update_vessels(StereoEye eye, const VolumeScene& scene, const Dra
                            .width = picture_pixels(quality, rect.width),
                            .height = picture_pixels(quality, rect.height),
                            .detail_px = quality.vessel_detail_px,
+                           .occluded = quality.vessels_occluded,
                            .target = target});
 }
 

@@ -15,6 +15,7 @@ struct DrawQuality {
                         // the planes of a stack, too
   std::optional<RayBackend> rays{}; // default: the processor if GL is software, else the shader
   float vessel_detail_px = 0;       // vessels of a smaller radius are merged (ui/vessels/splatter)
+  bool vessels_occluded = true;     // vessels shade what lies close behind them
   bool operator==(const DrawQuality&) const = default;
 };
 

@@ -49,15 +49,25 @@ struct VesselLook {
   float depth_cue = 0.55F;
   float cue_near_mm = 0;
   float cue_far_mm = 1;
+  bool occluded = false; // what lies close behind others is shaded (ui/vessels/splatter)
 
   bool operator==(const VesselLook&) const = default;
 };
 
-// Light from the eye on a round vessel. `d`: distance from the axis in radii (0…1).
+// Light from the eye on a round vessel. `d`: distance from the axis in radii (0…1). A vessel no
+// wider than a pixel shows the mean of its width, π / 4 of what faces the eye, since all of it lies
+// within a pixel; from three pixels on, the light at the pixel's centre; between them, a mixture.
 inline constexpr float vessel_ambient = 0.35F;
-inline float vessel_brightness(float d) {
-  return vessel_ambient + (1 - vessel_ambient) * std::sqrt(std::fmax(0.0F, 1 - d * d));
+inline constexpr float mean_off_axis = 0.38315F; // the d² that has the mean light: 1 − (π / 4)²
+inline constexpr float least_shaded_px = 0.5F;   // of radius; the mixture ends a pixel above
+inline float vessel_brightness(float d, float radius_px) {
+  const float share = std::fmin(std::fmax(radius_px - least_shaded_px, 0.0F), 1.0F);
+  const float off_axis = mean_off_axis + share * (d * d - mean_off_axis);
+  return vessel_ambient + (1 - vessel_ambient) * std::sqrt(std::fmax(0.0F, 1 - off_axis));
 }
+
+// The share of its light that what is wholly surrounded by nearer vessels loses.
+inline constexpr float vessel_occlusion = 0.6F;
 
 // The brightness that remains at a distance along the view.
 inline float vessel_fading(const VesselLook& look, float depth_mm) {

@@ -96,7 +96,7 @@ public:
     HAL_TRY(const auto supersampled, supersampled_quads(result.view));
     HAL_TRY(auto measured, time_methods(result.view));
     for (const Measured& m : measured) {
-      HAL_TRY(const auto drawn, painter_.picture(*m.method, result.view));
+      HAL_TRY(const auto drawn, painter_.picture(*m.method, result.view, m.what->occluded));
       HAL_CHECK(dump(what, m.what->name, drawn));
       VesselsBenchCase made{m.what->name,
                             static_cast<int>(m.ms.size()),
@@ -181,7 +181,7 @@ private:
 
   hal::Result<> draw_frame(Measured& m, const ui::VesselView& view) {
     const auto begin = BenchClock::now();
-    HAL_TRY(const auto account, painter_.draw(*m.method, view));
+    HAL_TRY(const auto account, painter_.draw(*m.method, view, m.what->occluded));
     const double seconds = seconds_since(begin);
     m.ms.push_back(1000 * seconds);
     m.seconds += seconds;
@@ -236,9 +236,11 @@ const std::vector<VesselBenchMethod>& vessel_bench_methods() {
   static const std::vector<VesselBenchMethod> all = [] {
     std::vector<VesselBenchMethod> made;
     for (const ui::VesselMethodKind kind : ui::all_vessel_methods)
-      made.push_back({std::string{to_string(kind)}, kind, ui::ClusterChoice::visible});
+      made.push_back({std::string{to_string(kind)}, kind, ui::ClusterChoice::visible, false});
     made.push_back(
-        {std::string{brute_force_name}, ui::VesselMethodKind::quads_gpu, ui::ClusterChoice::all});
+        {"hybrid-occluded", ui::VesselMethodKind::hybrid, ui::ClusterChoice::visible, true});
+    made.push_back({std::string{brute_force_name}, ui::VesselMethodKind::quads_gpu,
+                    ui::ClusterChoice::all, false});
     return made;
   }();
   return all;

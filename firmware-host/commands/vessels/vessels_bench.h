@@ -23,8 +23,10 @@ struct VesselBenchMethod {
   std::string name;
   ui::VesselMethodKind kind = ui::VesselMethodKind::hybrid;
   ui::ClusterChoice choice = ui::ClusterChoice::visible;
+  bool occluded = false; // see ui::VesselLook
 };
-// All methods, and "quads-brute-force", the reference: quads drawn by GL with nothing culled.
+// All methods, "hybrid-occluded", and "quads-brute-force", the reference: quads drawn by GL with
+// nothing culled.
 const std::vector<VesselBenchMethod>& vessel_bench_methods();
 inline constexpr std::string_view brute_force_name = "quads-brute-force";
 

@@ -8,19 +8,20 @@ ui::Camera VesselsBenchPainter::camera(const ui::VesselView& view) const {
   return ui::make_vessel_camera(view, bounds_, width_, height_);
 }
 
-hal::Result<ui::SegmentCounts> VesselsBenchPainter::draw(ui::VesselMethod& method,
-                                                         const ui::VesselView& view) {
+hal::Result<ui::SegmentCounts>
+VesselsBenchPainter::draw(ui::VesselMethod& method, const ui::VesselView& view, bool occluded) {
   const ui::Camera seen = camera(view);
   ui::VesselScene scene{tree_, seen, glm::mat4{1}, {}, width_, height_};
   scene.look = ui::with_cue({}, view, bounds_, width_, height_);
+  scene.look.occluded = occluded;
   auto account = picture_.draw(method, scene);
   ui::gl::finish();
   return account;
 }
 
-hal::Result<pipeline::Image> VesselsBenchPainter::picture(ui::VesselMethod& method,
-                                                          const ui::VesselView& view) {
-  HAL_CHECK(draw(method, view));
+hal::Result<pipeline::Image>
+VesselsBenchPainter::picture(ui::VesselMethod& method, const ui::VesselView& view, bool occluded) {
+  HAL_CHECK(draw(method, view, occluded));
   return read();
 }
 

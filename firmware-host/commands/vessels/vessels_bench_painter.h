@@ -26,12 +26,14 @@ public:
   int height() const { return height_; }
   ui::Camera camera(const ui::VesselView& view) const;
 
-  // The picture is complete when it returns.
-  hal::Result<ui::SegmentCounts> draw(ui::VesselMethod& method, const ui::VesselView& view);
+  // The picture is complete when it returns. `occluded`: as ui::VesselLook.
+  hal::Result<ui::SegmentCounts> draw(ui::VesselMethod& method, const ui::VesselView& view,
+                                      bool occluded = false);
   // The picture drawn last.
   pipeline::Image read() const { return picture_.read_colour(); }
   // draw() and read().
-  hal::Result<pipeline::Image> picture(ui::VesselMethod& method, const ui::VesselView& view);
+  hal::Result<pipeline::Image> picture(ui::VesselMethod& method, const ui::VesselView& view,
+                                       bool occluded = false);
 
 private:
   const pipeline::VesselClusters& tree_;

@@ -53,6 +53,7 @@ hal::Result<VesselsRendering> draw(const pipeline::VesselClusters& tree,
   ui::VesselScene scene{tree, camera, glm::mat4{1}, {}, options.width, options.height};
   scene.look.colouring = options.colouring;
   scene.look = ui::with_cue(scene.look, made.view, bounds, options.width, options.height);
+  scene.look.occluded = true;
   HAL_TRY(auto method, ui::make_vessel_method(options.method, std::make_shared<ui::NodeTexture>(),
                                               {{}, options.tubes, {}}));
   HAL_TRY(auto still, ui::VesselStill::create());

@@ -80,6 +80,35 @@ TEST(DetailGovernor, settles_though_merging_has_its_price) {
   }
 }
 
+// Shading goes before anything is merged, comes back after, and does neither in turns.
+TEST(DetailGovernor, drops_the_shading_first) {
+  std::mt19937_64 random{3};
+  std::uniform_real_distribution<double> noise{0.98, 1.02};
+  constexpr double shading_ms = 4;
+  for (const double full_ms : {20.0, 30.0, 33.0, 60.0}) {
+    ui::DetailGovernor governor{hal::from_seconds(0.04)};
+    int turns = 0;
+    bool before = true;
+    bool merged = false;
+    for (int i = 0; i < 600; ++i) {
+      const bool occluded = governor.occluded(false);
+      merged = merged || governor.detail_px(false) > 0;
+      EXPECT_FALSE(occluded && governor.detail_px(false) > 0) << full_ms;
+      EXPECT_FALSE(merged && full_ms < 34) << full_ms;
+      turns += occluded != before;
+      before = occluded;
+      const double ms = cost_ms(governor.detail_px(false), full_ms) + (occluded ? shading_ms : 0);
+      governor.note(hal::from_seconds(1e-3 * ms * noise(random)));
+    }
+    EXPECT_EQ(before, full_ms < 29) << full_ms;
+    EXPECT_LE(turns, 1) << full_ms;
+    for (int i = 0; i < 300; ++i) // there is time again
+      governor.note(hal::from_seconds(1e-3 * cost_ms(governor.detail_px(false), 15)));
+    EXPECT_TRUE(governor.occluded(false)) << full_ms;
+    EXPECT_TRUE(governor.occluded(true));
+  }
+}
+
 TEST(DetailGovernor, at_rest_everything_is_drawn) {
   ui::DetailGovernor governor{hal::from_seconds(0.01)};
   for (int i = 0; i < 60; ++i)

@@ -37,6 +37,8 @@ constexpr int steps = 3;
 constexpr float step_px = 0.5F;
 
 // Of 255. A frame of the hybrid may change by what quads change by in the same step, and so much.
+// What it shows at the pixels' centres may differ from quads by so much, a pixel that shows
+// something else counting 255; its colours are smoothed.
 constexpr double most_beside_quads = 2;
 constexpr double most_beyond_quads_step = 0.5;
 
@@ -129,6 +131,17 @@ private:
   Centrelines found_;
 };
 
+// Of 255, by what the pixels' centres show.
+double beside(const ui::Camera& camera, const DrawnVessels& a, const DrawnVessels& b) {
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < a.depth.size(); ++i) {
+    const double a_mm = distance_mm(camera, a.depth[i]);
+    const double b_mm = distance_mm(camera, b.depth[i]);
+    others += a.covered(i) != b.covered(i) || std::abs(a_mm - b_mm) > 1e-3 * b_mm;
+  }
+  return 255 * static_cast<double>(others) / static_cast<double>(a.depth.size());
+}
+
 // How a method's pictures differ from those of full quads, and from their own predecessors.
 struct Comparison {
   double from_quads = 0;   // at most
@@ -161,7 +174,7 @@ protected:
         DrawnVessels full = stage.draw(quads, scene);
         EXPECT_EQ(drawn.account.total(), stage.tree().segments) << stretch << ' ' << i;
         result.merged += drawn.account.merged;
-        result.from_quads = std::max(result.from_quads, compare(drawn.colour, full.colour).mean);
+        result.from_quads = std::max(result.from_quads, beside(scene.camera, drawn, full));
         const Centrelines lines = CentrelineCheck{scene, drawn}.check(tree);
         result.lines.places += lines.places;
         result.lines.lost += lines.lost;

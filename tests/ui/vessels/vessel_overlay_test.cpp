@@ -44,11 +44,13 @@ constexpr Way ways[] = {
     {"maximum by the processor", Technique::maximum, RayBackend::processor},
 };
 
+constexpr float straight_radius_mm = 0.25F;
+
 // One vessel along the fast axis through the tree's origin.
 pipeline::ClusterArrays straight_vessel() {
   pipeline::VesselTree tree;
   tree.positions_mm = {{-1.2F, 0, 0}, {1.2F, 0, 0}};
-  tree.radii_mm = {0.25F, 0.25F};
+  tree.radii_mm = {straight_radius_mm, straight_radius_mm};
   tree.parents = {pipeline::no_parent, 0};
   tree.orders = {11, 11};
   tree.branches = {pipeline::VesselBranch::lad, pipeline::VesselBranch::lad};
@@ -171,13 +173,14 @@ Slab slab(const Way& way, const ui::ViewState& view, const ui::Camera& camera,
   return result;
 }
 
+// The straight vessel's, where it rises to the eye.
 Rgb vessel_colour(const ui::Camera& camera, const pipeline::VolumeGeometry& geometry,
                   double beyond_mm) {
   const ui::RayGeometry rays = ui::ray_geometry(geometry, camera);
   const ui::VesselLook look{ui::VesselColouring::branch, ui::depth_cue, rays.cue_near_mm,
                             rays.cue_near_mm + 1 / rays.cue_per_mm};
-  const double light =
-      255 * double{ui::vessel_fading(look, camera.depth_of({0, 0, static_cast<float>(beyond_mm)}))};
+  const float surface_mm = static_cast<float>(beyond_mm) + straight_radius_mm;
+  const double light = 255 * double{ui::vessel_fading(look, camera.depth_of({0, 0, surface_mm}))};
   const ui::VesselColour& colour =
       ui::branch_colours[static_cast<std::size_t>(pipeline::VesselBranch::lad)];
   return {light * double{colour[0]}, light * double{colour[1]}, light * double{colour[2]}};
@@ -200,7 +203,8 @@ TEST_F(VesselOverlayTest, a_uniform_volume_veils_a_vessel_as_theory_says) {
     // Before the volume, near its front, in its middle, at its back, behind it: between slices.
     for (const double beyond_mm : {g.b_mm() / 2 + 0.3, 1.05, 0.0, -1.05, -g.b_mm() / 2 - 0.3}) {
       ASSERT_TRUE(painter_->show_vessels(placed(tree, g, beyond_mm), clock_));
-      const double before = std::clamp(g.b_mm() / 2 - beyond_mm, 0.0, g.b_mm());
+      const double before =
+          std::clamp(g.b_mm() / 2 - beyond_mm - double{straight_radius_mm}, 0.0, g.b_mm());
       const Slab veil = slab(way, first, eye, g, grey, before);
       const Rgb vessel = vessel_colour(eye, g, beyond_mm);
       const double left = 1 - veil.opacity;

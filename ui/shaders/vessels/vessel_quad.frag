@@ -10,7 +10,8 @@ layout(location = 0) out vec4 o_colour;
 
 void main() {
   vec2 from_start = gl_FragCoord.xy - v_axis.xy;
-  float t = clamp(dot(from_start, v_axis.zw) / max(dot(v_axis.zw, v_axis.zw), 1e-12), 0.0, 1.0);
+  float along = dot(from_start, v_axis.zw) / max(dot(v_axis.zw, v_axis.zw), 1e-12);
+  float t = clamp(along, 0.0, 1.0);
   vec2 from_axis = from_start - t * v_axis.zw;
   float radius = v_shape.x + t * v_shape.y;
   float rest = radius * radius - dot(from_axis, from_axis);
@@ -18,8 +19,10 @@ void main() {
     discard;
   float distance_mm = 1.0 / (v_shape.z + t * v_shape.w);
 #ifdef ROUNDED
-  distance_mm = rounded_distance(distance_mm);
+  distance_mm = rounded_distance(distance_mm, radius, rest, along == t);
   gl_FragDepth = 0.5 + 0.5 * (u_depth.x + u_depth.y / distance_mm);
 #endif
-  o_colour = lit_vessel(v_colour, sqrt(rest) / radius, distance_mm);
+  float off_axis =
+      mix(MEAN_OFF_AXIS, 1.0 - rest / (radius * radius), clamp(radius - LEAST_SHADED, 0.0, 1.0));
+  o_colour = lit_vessel(v_colour, sqrt(1.0 - off_axis), distance_mm);
 }

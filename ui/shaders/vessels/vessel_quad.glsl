@@ -21,17 +21,15 @@ bool between_pixels(vec4 axis, vec4 shape) {
   return any(lessThan(floor(upper), ceil(lower)));
 }
 
-// Corners are numbered in pairs, to either side of the axis, from the start to the end. With two
-// pairs the depth changes evenly between the round ends, in which it should not change at all: so
-// thin vessels are drawn. With four, the middle ones where the ends of the axis are, it is right
-// everywhere.
-vec4 quad_corner(vec4 axis, vec4 shape, int corner, int pairs) {
+// Corners are numbered in pairs, to either side of the axis, from the start to the end. The depth
+// changes evenly between the round ends, in which it should not change at all: thin vessels are drawn
+// so, and wider ones have their depth computed in each pixel.
+vec4 quad_corner(vec4 axis, vec4 shape, int corner) {
   float length_px = length(axis.zw);
   vec2 forward = length_px > 0.0 ? axis.zw / length_px : vec2(1.0, 0.0);
   float reach = max(shape.x, shape.x + shape.y) + padding;
-  int pair = corner >> 1;
-  bool at_end = 2 * pair >= pairs;
-  float ahead = pair == 0 ? -(shape.x + padding) : pair == pairs - 1 ? shape.x + shape.y + padding : 0.0;
+  bool at_end = corner >= 2;
+  float ahead = at_end ? shape.x + shape.y + padding : -(shape.x + padding);
   vec2 side = vec2(-forward.y, forward.x) * ((corner & 1) == 0 ? -reach : reach);
   vec2 place = axis.xy + (at_end ? axis.zw : vec2(0.0)) + forward * ahead + side;
   float inverse = at_end ? shape.z + shape.w : shape.z;

@@ -1,7 +1,7 @@
 // Quads expanded by GL. After vessel_nodes.glsl, vessel_segment.glsl, vessel_quad.glsl.
 void main() {
-  int corner = gl_VertexID & (2 * CORNER_PAIRS - 1);
-  uint segment = uint(gl_VertexID / (2 * CORNER_PAIRS));
+  int corner = gl_VertexID & 3;
+  uint segment = uint(gl_VertexID / 4);
   v_axis = vec4(0.0);
   v_shape = vec4(1.0);
   v_colour = 0;
@@ -14,5 +14,5 @@ void main() {
       between_pixels(v_axis, v_shape))
     return;
   v_colour = colour_of(node, COLOUR_BY_ORDER, PALETTE_OF_ORDERS);
-  gl_Position = quad_corner(v_axis, v_shape, corner, CORNER_PAIRS);
+  gl_Position = quad_corner(v_axis, v_shape, corner);
 }

@@ -7,5 +7,5 @@ void main() {
   v_axis = a_axis;
   v_shape = a_shape;
   v_colour = int(a_colour);
-  gl_Position = quad_corner(a_axis, a_shape, gl_VertexID & (2 * CORNER_PAIRS - 1), CORNER_PAIRS);
+  gl_Position = quad_corner(a_axis, a_shape, gl_VertexID & 3);
 }

@@ -9,7 +9,8 @@ flat in vec4 v_shape;
 
 // Millimetres from a point of the ray (its distance, its pixel) to that at another.
 vec3 to_place(vec2 pixel, float distance_mm, vec2 to_pixel, float to_distance_mm) {
-  return vec3(((to_pixel - u_middle.xy) * to_distance_mm - (pixel - u_middle.xy) * distance_mm) / u_middle.z,
+  return vec3(((to_pixel - u_middle.xy) * to_distance_mm - (pixel - u_middle.xy) * distance_mm) /
+                  u_middle.z,
               to_distance_mm - distance_mm);
 }
 
@@ -47,11 +48,22 @@ float enter_cone(vec3 ray, vec3 a, float r, vec3 e, float g) {
   return first;
 }
 
-// Distance of the surface along the view; `distance_mm` is the axis's. Of thinner segments, and where
-// the outline on the screen is a little wider than the cone, it is the axis's.
-float rounded_distance(float distance_mm) {
-  if (max(v_shape.x, v_shape.x + v_shape.y) < LEAST_RELIEF)
+// Of a segment too thin for that: see ui/vessels/scene/vessel_scene.h. `height2`: the square of the
+// round side's height in pixels; in_body: not in a round end.
+float raised_distance(float distance_mm, float radius, float height2, bool in_body, float share) {
+  if (radius < LEAST_RAISED)
     return distance_mm;
+  float slope =
+      min(abs(v_shape.w) / v_shape.z * u_middle.z / max(length(v_axis.zw), 1e-6), STEEPEST_RISE);
+  float rise = share * sqrt(height2 * (in_body ? 1.0 + slope * slope : 1.0));
+  return distance_mm / (1.0 + rise / u_middle.z);
+}
+
+// Distance of the surface along the view; `distance_mm` is the axis's. Where the outline on the screen
+// is a little wider than the cone, it is as good as the axis's.
+float rounded_distance(float distance_mm, float radius, float height2, bool in_body) {
+  if (max(v_shape.x, v_shape.x + v_shape.y) < LEAST_RELIEF)
+    return raised_distance(distance_mm, radius, height2, in_body, 1.0);
   vec2 pixel = gl_FragCoord.xy;
   float distance_a = 1.0 / v_shape.z;
   float distance_b = 1.0 / (v_shape.z + v_shape.w);
@@ -62,5 +74,6 @@ float rounded_distance(float distance_mm) {
   vec3 ray = vec3((pixel - u_middle.xy) / u_middle.z, 1.0);
   float nearer = enter_cone(ray, a, radius_a, b - a, radius_b - radius_a);
   // Before the near plane there is a cut, in the order of the axes.
-  return max(distance_mm + nearer, u_near + CUT_RELIEF * (distance_mm - u_near));
+  float seen_mm = max(distance_mm + nearer, u_near + CUT_RELIEF * (distance_mm - u_near));
+  return min(seen_mm, raised_distance(distance_mm, radius, height2, in_body, RELIEF_RISE));
 }

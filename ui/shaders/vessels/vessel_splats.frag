@@ -13,7 +13,7 @@ out vec4 o_colour;
 
 void main() {
   uvec2 splat = texelFetch(u_splats, ivec2(v_unit * u_size), 0).rg;
-  // No discard: without a vessel the distance is infinite, which no depth test lets pass.
+  // No discard: without a vessel the distance is infinite, and only what is empty lets it pass.
   o_colour = vec4(uvec4(splat.r, splat.r >> 8, splat.r >> 16, splat.r >> 24) & 255u) / 255.0;
   gl_FragDepth = clamp(u_depth.x + u_depth.y / uintBitsToFloat(splat.g), 0.0, 1.0);
 }

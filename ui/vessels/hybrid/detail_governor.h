@@ -1,4 +1,8 @@
-// Chooses how many vessels are merged so that the frame rate holds. Pure: costs are arguments.
+// Chooses how many vessels are merged, and whether they shade each other, so that the frame rate
+// holds. Pure: costs are arguments.
+//
+// The shading goes first. It comes back when nothing is merged and there is room for what it cost
+// when it went, and half as much again.
 //
 // The radius in pixels below which segments are merged (merged_order.h) is continuous, so nothing
 // pops. As it grows, the number of segments drawn, and so the cost, falls at most in proportion.
@@ -27,13 +31,23 @@ public:
   // the frame may take longer and is drawn in full.
   float detail_px(bool at_rest) const { return at_rest ? 0 : detail_px_; }
 
+  // Whether what lies close behind others is shaded; see VesselLook.
+  bool occluded(bool at_rest) const { return at_rest || occluded_; }
+
   // Reports the cost of a frame with that detail. Not to be called for frames at rest.
   void note(hal::Duration cost);
 
 private:
   static constexpr std::size_t judged = 5; // frames; two interrupted ones change nothing
 
+  void drop_or_merge(double cost_ms);
+  void refine(double cost_ms);
+
   double budget_ms_;
+  bool occluded_ = true;
+  double occluded_ms_ = 0;  // the cost of the last frames that were
+  double occlusion_ms_ = 0; // what was saved by dropping it
+  bool just_dropped_ = false;
   float detail_px_ = 0;
   std::array<double, judged> costs_ms_{};
   std::size_t count_ = 0;

@@ -23,7 +23,13 @@ hal::Result<SegmentCounts> HybridMethod::do_draw(const VesselScene& scene) {
   account.splatted += by_processor.splatted;
   account.merged += by_processor.merged;
   account.culled += by_processor.culled;
-  HAL_CHECK(picture_.draw(image_, scene.camera));
+  if (share_.gl) { // else nothing lies below
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  }
+  const auto drawn = picture_.draw(image_, scene.camera);
+  glDisable(GL_BLEND);
+  HAL_CHECK(drawn);
   return account;
 }
 

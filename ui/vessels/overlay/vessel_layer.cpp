@@ -14,8 +14,9 @@ hal::Result<> VesselLayer::update(Splatter& splatter, const VesselScene& scene, 
       scene.width, scene.height};
   if (drawn_ != key) {
     drawn_.reset();
-    HAL_TRY(const auto account,
-            splatter.draw(scene, image_, {.taken = {}, .detail_px = detail_px}));
+    HAL_TRY(
+        const auto account,
+        splatter.draw(scene, image_, {.taken = {}, .detail_px = detail_px, .within_volume = true}));
     account_ = account;
     drawn_ = key;
     ++drawings_;

@@ -12,11 +12,10 @@ namespace octascope::ui {
 namespace {
 
 // As the volume's own depth cue.
-VesselLook look_of(const ViewState& view, const Camera& camera,
-                   const pipeline::VolumeGeometry& geometry) {
-  const RayGeometry rays = ray_geometry(geometry, camera);
-  return {view.vessel_colouring, depth_cue, rays.cue_near_mm,
-          rays.cue_near_mm + 1 / rays.cue_per_mm};
+VesselLook look_of(const VesselOverlay::Request& request) {
+  const RayGeometry rays = ray_geometry(request.geometry, request.camera);
+  return {request.view.vessel_colouring, depth_cue, rays.cue_near_mm,
+          rays.cue_near_mm + 1 / rays.cue_per_mm, request.occluded};
 }
 
 } // namespace
@@ -47,7 +46,7 @@ hal::Result<std::optional<DepthMask>> VesselOverlay::update(const Request& reque
   const VesselScene scene{vessels_.tree,
                           request.camera,
                           world_from_tree(vessels_, view.vessel_nudge, request.geometry),
-                          look_of(view, request.camera, request.geometry),
+                          look_of(request),
                           request.width,
                           request.height};
   const std::uint64_t drawings = layer.drawings();

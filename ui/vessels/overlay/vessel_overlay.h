@@ -37,6 +37,7 @@ public:
     int width; // of the volume's picture
     int height;
     float detail_px; // see SplatShare
+    bool occluded;   // see VesselLook
     MaskReader target;
   };
   // Brings the eye's picture up to date. Empty if the view shows no vessels.

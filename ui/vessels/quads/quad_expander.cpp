@@ -30,11 +30,9 @@ bool may_cover_a_pixel(const VesselFrame& frame, const SegmentOutline& o) {
 } // namespace
 
 std::uint32_t expand_quads(const VesselFrame& frame, const PlacedCluster& cluster,
-                           std::span<const pipeline::PackedNode> nodes, QuadKind kind,
-                           QuadVertex* to) {
+                           std::span<const pipeline::PackedNode> nodes, QuadVertex* to) {
   const std::uint32_t count = cluster.references + cluster.segments;
   const auto packed = nodes.subspan(cluster.first_node);
-  const int vertices = quad_vertices(kind);
   std::array<PlacedNode, pipeline::largest_cluster> placed;
   for (std::uint32_t i = 0; i < count; ++i)
     placed[i] = place_node(cluster, packed[i]);
@@ -50,9 +48,9 @@ std::uint32_t expand_quads(const VesselFrame& frame, const PlacedCluster& cluste
         !may_cover_a_pixel(frame, vertex.outline))
       continue;
     vertex.colour = expanded_colour(frame, cluster, node);
-    to = std::fill_n(to, vertices, vertex);
+    to = std::fill_n(to, quad_vertices, vertex);
   }
-  return static_cast<std::uint32_t>((to - begin) / vertices);
+  return static_cast<std::uint32_t>((to - begin) / quad_vertices);
 }
 
 } // namespace octascope::ui

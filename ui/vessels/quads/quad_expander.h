@@ -17,11 +17,10 @@ struct QuadVertex {
 };
 static_assert(sizeof(QuadVertex) == 36);
 
-// Writes quad_vertices(kind) vertices to `to` for each segment that may cover a pixel centre, and
+// Writes quad_vertices vertices to `to` for each segment that may cover a pixel centre, and
 // returns the number of such segments. `to` must have room for all segments. `nodes` are the
 // tree's. Any thread.
 std::uint32_t expand_quads(const VesselFrame& frame, const PlacedCluster& cluster,
-                           std::span<const pipeline::PackedNode> nodes, QuadKind kind,
-                           QuadVertex* to);
+                           std::span<const pipeline::PackedNode> nodes, QuadVertex* to);
 
 } // namespace octascope::ui

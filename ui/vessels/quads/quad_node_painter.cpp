@@ -44,7 +44,7 @@ hal::Result<QuadNodePainter> QuadNodePainter::create(std::shared_ptr<NodeTexture
 QuadNodePainter::QuadNodePainter(QuadPrograms programs, std::shared_ptr<NodeTexture> nodes)
     : programs_{std::move(programs)}, nodes_{std::move(nodes)}, instances_{gl::Buffer::make()} {
   for (std::size_t i = 0; i < quad_kind_count; ++i) {
-    const auto corners = quad_indices(static_cast<QuadKind>(i), pipeline::largest_cluster);
+    const auto corners = quad_indices(pipeline::largest_cluster);
     indices_[i] = gl::Buffer::make();
     vertex_arrays_[i] = gl::VertexArray::make();
     glBindVertexArray(vertex_arrays_[i].name());
@@ -77,7 +77,7 @@ void QuadNodePainter::draw(std::span<const PlacedCluster> clusters, QuadKind kin
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(clusters.size_bytes()), clusters.data(),
                GL_STREAM_DRAW);
   glBindVertexArray(vertex_arrays_[static_cast<std::size_t>(kind)].name());
-  glDrawElementsInstanced(GL_TRIANGLES, quad_corners(kind) * static_cast<GLsizei>(most),
+  glDrawElementsInstanced(GL_TRIANGLES, quad_corners * static_cast<GLsizei>(most),
                           GL_UNSIGNED_SHORT, nullptr, static_cast<GLsizei>(clusters.size()));
 }
 

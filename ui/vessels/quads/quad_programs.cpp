@@ -11,10 +11,9 @@ namespace {
 
 hal::Result<gl::Program> build(QuadKind kind, std::string_view name, std::string_view vertex_head,
                                std::string_view vertex_main) {
-  const bool rounded = kind == QuadKind::near;
-  const std::string vertex =
-      fmt::format("{}#define CORNER_PAIRS {}\n{}{}{}", vessel_shader_head(),
-                  quad_vertices(kind) / 2, vertex_head, shaders::vessel_quad_glsl, vertex_main);
+  const bool rounded = kind == QuadKind::round;
+  const std::string vertex = fmt::format("{}{}{}{}", vessel_shader_head(), vertex_head,
+                                         shaders::vessel_quad_glsl, vertex_main);
   const std::string fragment = fmt::format(
       "{}{}{}{}{}", vessel_shader_head(), rounded ? "#define ROUNDED\n" : "",
       shaders::vessel_light_glsl, rounded ? shaders::vessel_relief_glsl : std::string_view{},
@@ -24,14 +23,12 @@ hal::Result<gl::Program> build(QuadKind kind, std::string_view name, std::string
 
 } // namespace
 
-std::vector<std::uint16_t> quad_indices(QuadKind kind, int segments) {
+std::vector<std::uint16_t> quad_indices(int segments) {
   std::vector<std::uint16_t> indices;
-  const int vertices = quad_vertices(kind);
-  indices.reserve(static_cast<std::size_t>(segments * quad_corners(kind)));
-  for (int first = 0; first < segments * vertices; first += vertices)
-    for (int pair = 0; pair + 2 < vertices; pair += 2)
-      for (const int corner : {0, 1, 2, 2, 1, 3})
-        indices.push_back(static_cast<std::uint16_t>(first + pair + corner));
+  indices.reserve(static_cast<std::size_t>(segments * quad_corners));
+  for (int first = 0; first < segments * quad_vertices; first += quad_vertices)
+    for (const int corner : {0, 1, 2, 2, 1, 3})
+      indices.push_back(static_cast<std::uint16_t>(first + corner));
   return indices;
 }
 
@@ -39,8 +36,7 @@ hal::Result<QuadPrograms> QuadPrograms::create(std::string_view name, std::strin
                                                std::string_view vertex_main) {
   HAL_TRY(auto thin, build(QuadKind::thin, name, vertex_head, vertex_main));
   HAL_TRY(auto round, build(QuadKind::round, name, vertex_head, vertex_main));
-  HAL_TRY(auto near, build(QuadKind::near, name, vertex_head, vertex_main));
-  return QuadPrograms{Programs{std::move(thin), std::move(round), std::move(near)}};
+  return QuadPrograms{Programs{std::move(thin), std::move(round)}};
 }
 
 void QuadPrograms::begin(const VesselFrame& frame) const {

@@ -15,28 +15,20 @@ namespace octascope::ui {
 
 // Chosen per cluster, by the largest radius that it may contain.
 enum class QuadKind : std::uint8_t {
-  thin,  // two triangles; the depth is not flat at the round ends, which no pixel shows
-  round, // six triangles, with the depth of the axis
-  near,  // two triangles; writes the surface's own depth, which prevents the early depth test
+  thin,  // the depth is not flat at the round ends, which no pixel shows
+  round, // writes the surface's own depth, which prevents the early depth test
 };
-inline constexpr int quad_kind_count = 3;
+inline constexpr int quad_kind_count = 2;
 
 constexpr QuadKind quad_kind(float largest_radius_px) {
-  return largest_radius_px < 1                 ? QuadKind::thin
-         : largest_radius_px < least_relief_px ? QuadKind::round
-                                               : QuadKind::near;
+  return largest_radius_px < least_raised_px ? QuadKind::thin : QuadKind::round;
 }
 
-// The vertices of a segment, and the corners of its triangles (3 per triangle).
-constexpr int quad_vertices(QuadKind kind) {
-  return kind == QuadKind::round ? 8 : 4;
-}
-constexpr int quad_corners(QuadKind kind) {
-  return kind == QuadKind::round ? 18 : 6;
-}
-// The index buffer's capacity in segments, with either number of vertices: within 16-bit indices.
+inline constexpr int quad_vertices = 4; // of a segment
+inline constexpr int quad_corners = 6;  // of its triangles
+// The index buffer's capacity in segments: within 16-bit indices.
 inline constexpr int most_quads = 4096;
-std::vector<std::uint16_t> quad_indices(QuadKind kind, int segments);
+std::vector<std::uint16_t> quad_indices(int segments);
 
 // Threads: as gl/objects.h.
 class QuadPrograms {

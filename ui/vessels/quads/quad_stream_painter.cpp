@@ -8,9 +8,9 @@ namespace octascope::ui {
 
 namespace {
 
-constexpr std::size_t slot_bytes =
-    std::size_t{QuadStreamPainter::batch_clusters} * pipeline::largest_cluster *
-    static_cast<std::size_t>(quad_vertices(QuadKind::round)) * sizeof(QuadVertex);
+constexpr std::size_t slot_bytes = std::size_t{QuadStreamPainter::batch_clusters} *
+                                   pipeline::largest_cluster *
+                                   static_cast<std::size_t>(quad_vertices) * sizeof(QuadVertex);
 static_assert(QuadStreamPainter::batch_clusters * pipeline::largest_cluster <= most_quads);
 
 const void* offset(std::size_t bytes) {
@@ -45,7 +45,7 @@ QuadStreamPainter::QuadStreamPainter(QuadPrograms programs, std::uint32_t slots)
   }
   glBindVertexArray(0);
   for (std::size_t kind = 0; kind < quad_kind_count; ++kind) {
-    const auto corners = quad_indices(static_cast<QuadKind>(kind), most_quads);
+    const auto corners = quad_indices(most_quads);
     indices_[kind] = gl::Buffer::make();
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_[kind].name());
     glBufferData(GL_ELEMENT_ARRAY_BUFFER,
@@ -64,15 +64,15 @@ hal::Result<> QuadStreamPainter::begin(const VesselFrame& frame) {
 
 void QuadStreamPainter::expand(std::uint32_t slot, const VesselFrame& frame,
                                std::span<const PlacedCluster> clusters,
-                               std::span<const pipeline::PackedNode> nodes, QuadKind kind) {
+                               std::span<const pipeline::PackedNode> nodes) {
   segments_[slot] = 0;
   if (slots_.memory(slot) == nullptr)
     return; // draw() has said so
   auto* to = reinterpret_cast<QuadVertex*>(slots_.memory(slot));
-  const auto vertices = static_cast<std::size_t>(quad_vertices(kind));
+  const auto vertices = static_cast<std::size_t>(quad_vertices);
   std::uint32_t segments = 0;
   for (const PlacedCluster& cluster : clusters)
-    segments += expand_quads(frame, cluster, nodes, kind, to + segments * vertices);
+    segments += expand_quads(frame, cluster, nodes, to + segments * vertices);
   segments_[slot] = segments;
 }
 
@@ -83,7 +83,7 @@ hal::Result<> QuadStreamPainter::draw(std::uint32_t slot, QuadKind kind) {
   programs_.use(kind);
   glBindVertexArray(vertex_arrays_[slot].name());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_[static_cast<std::size_t>(kind)].name());
-  glDrawElements(GL_TRIANGLES, quad_corners(kind) * static_cast<GLsizei>(segments_[slot]),
+  glDrawElements(GL_TRIANGLES, quad_corners * static_cast<GLsizei>(segments_[slot]),
                  GL_UNSIGNED_SHORT, nullptr);
   return slots_.open(slot);
 }

@@ -18,7 +18,7 @@ public:
   hal::Result<> begin(const VesselFrame& frame);
   // Any thread, one per slot; at most batch_clusters, all of the same kind.
   void expand(std::uint32_t slot, const VesselFrame& frame, std::span<const PlacedCluster> clusters,
-              std::span<const pipeline::PackedNode> nodes, QuadKind kind);
+              std::span<const pipeline::PackedNode> nodes);
   // Draws what was expanded, and prepares the slot for the next batch.
   hal::Result<> draw(std::uint32_t slot, QuadKind kind);
 

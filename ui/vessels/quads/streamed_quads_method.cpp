@@ -71,7 +71,7 @@ hal::Result<> StreamedQuadsMethod::draw_batches(std::span<const Batch> batches,
   hal::Result<> drawn;
   const auto expand = [&](std::uint32_t i, std::uint32_t slot) {
     const Batch& batch = batches[i];
-    processor_.expand(slot, frame, clusters_of(batch), scene.tree.nodes, batch.kind);
+    processor_.expand(slot, frame, clusters_of(batch), scene.tree.nodes);
   };
   const auto submit = [&](std::uint32_t i, std::uint32_t slot) {
     if (auto done = processor_.draw(slot, batches[i].kind); !done)

@@ -5,9 +5,15 @@
 // distance along the view), it covers the pixels whose centre p lies in the rounded trapezoid
 //   t = clamp(dot(p − a, b − a) / |b − a|², 0, 1),   |p − a − t(b − a)| ≤ ra + t(rb − ra);
 // If a and b coincide, t is 0 and the larger radius counts: seen from its end, a vessel is a disc.
-// Its distance is that of the axis at t, 1 / lerp(1/za, 1/zb, t). For wide segments
+// Its distance is that of the axis at t, 1 / lerp(1/za, 1/zb, t) = z. For wide segments
 // (least_relief_px), it is that of the surface of the round cone through the ends, so that wide
-// vessels intersect like solids. With d = |p − a − t(b − a)| / r, its brightness is
+// vessels intersect like solids. Between these and those thinner than a pixel (least_raised_px) it
+// is z / (1 + rise / pixels_per_unit), where the round side rises by
+//   rise = √(r² − |p − a − t(b − a)|²) · √(1 + slope²)
+// pixels; slope is the segment's along the view as seen from a, at most steepest_rise, and 0 where t
+// is clamped.
+// So of two segments that overlap at a joint a pixel shows the one that it is deeper within, and no
+// end of one is seen on the other. With d = |p − a − t(b − a)| / r, its brightness is
 // vessel_brightness(). A pixel shows the nearest segment that covers its centre, however thin, so
 // segments thinner than a pixel cover the right area on average. Segments of order 5 and above are
 // the exception: they are never narrower than a pixel, so that a connected vessel stays a connected
@@ -25,6 +31,12 @@ namespace octascope::ui {
 // A line one pixel wide has a pixel in every column or row that it crosses.
 inline constexpr float least_vessel_radius_px = 0.5F;
 inline constexpr unsigned least_order_kept_visible = 5;
+
+// From this radius at a pixel on, the round side rises: a pixel of width, less what rounding takes.
+inline constexpr float least_raised_px = 0.499F;
+inline constexpr float steepest_rise = 2;
+// Wide ones by this share of it, where the outline on the screen is a little wider than the cone.
+inline constexpr float relief_rise = 0.02F;
 
 // Of the larger end, in pixels.
 inline constexpr float least_relief_px = 8;

@@ -15,6 +15,7 @@
 #include <hwy/highway.h>
 
 #include "ui/vessels/splatter/splat_frame.h"
+#include "ui/vessels/splatter/splat_outline.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {
@@ -105,11 +106,11 @@ public:
   Fragments(const Fragments&) = delete;
   Fragments& operator=(const Fragments&) = delete;
 
-  // For the lanes of `covered`: pixel index, 1 / distance, d² (see vessel_scene.h), base colour.
-  HWY_INLINE void add(Int pixel, Real nearness, Real off_axis, Word colour, Mask covered) {
+  // For the lanes of `covered`: pixel index, 1 / distance, FragmentLook, base colour.
+  HWY_INLINE void add(Int pixel, Real nearness, Word look, Word colour, Mask covered) {
     store_lanes(Ints{}, pixel, hn::RebindMask(Ints{}, covered), pixels_ + count_);
     store_lanes(Floats{}, nearness, covered, nearness_ + count_);
-    store_lanes(Floats{}, off_axis, covered, off_axis_ + count_);
+    store_lanes(Words{}, look, hn::RebindMask(Words{}, covered), looks_ + count_);
     store_lanes(Words{}, colour, hn::RebindMask(Words{}, covered), colours_ + count_);
     count_ += hn::CountTrue(Floats{}, covered);
     if (HWY_UNLIKELY(count_ > most))
@@ -122,7 +123,7 @@ public:
     for (std::size_t i = 0; i < count_; i += lanes)
       shade(i);
     for (std::size_t i = 0; i < count_; ++i)
-      bring(frame_.pixels[pixels_[i]], depth_pixel(distances_[i], colours_[i]));
+      bring(frame_.pixels[pixels_[i]], DepthPixel{distances_[i]} << 32U | colours_[i]);
     count_ = 0;
   }
 
@@ -142,8 +143,10 @@ private:
   HWY_INLINE void shade(std::size_t i) {
     const VesselLook& look = frame_.look;
     const Real distance = hn::Div(real(1), hn::LoadU(Floats{}, nearness_ + i));
-    const Real round =
-        hn::Sqrt(hn::Max(hn::Sub(real(1), hn::LoadU(Floats{}, off_axis_ + i)), real(0)));
+    const Word fragment = hn::LoadU(Words{}, looks_ + i);
+    const Real off_axis =
+        hn::ConvertTo(Floats{}, hn::BitCast(Ints{}, hn::And(fragment, word(whole_off_axis))));
+    const Real round = hn::Sqrt(hn::NegMulAdd(off_axis, real(1.0F / whole_off_axis), real(1)));
     const Real lit = hn::MulAdd(real(1 - vessel_ambient), round, real(vessel_ambient));
     const Real share = hn::Mul(hn::Sub(distance, real(look.cue_near_mm)),
                                real(1 / (look.cue_far_mm - look.cue_near_mm)));
@@ -159,17 +162,21 @@ private:
     const Word red = channel(base);
     const Word green = hn::ShiftLeft<8>(channel(hn::ShiftRight<10>(base)));
     const Word blue = hn::ShiftLeft<16>(channel(hn::ShiftRight<20>(base)));
-    hn::StoreU(hn::Or(hn::Or(red, green), hn::Or(blue, word(0xFF000000))), Words{}, colours_ + i);
-    hn::StoreU(distance, Floats{}, distances_ + i);
+    const Word outline = hn::ShiftRight<off_axis_bits>(fragment);
+    const Word high = hn::ShiftLeft<24>(hn::ShiftRight<4>(outline));
+    hn::StoreU(hn::Or(hn::Or(red, green), hn::Or(blue, high)), Words{}, colours_ + i);
+    const Word low = hn::And(outline, word(outline_in_distance));
+    hn::StoreU(hn::Or(hn::AndNot(word(outline_in_distance), hn::BitCast(Words{}, distance)), low),
+               Words{}, distances_ + i);
   }
 
   const SplatFrame& frame_;
   std::size_t count_ = 0;
   HWY_ALIGN std::int32_t pixels_[room];
   HWY_ALIGN float nearness_[room];
-  HWY_ALIGN float off_axis_[room];
-  HWY_ALIGN float distances_[room];
-  HWY_ALIGN std::uint32_t colours_[room]; // base colours, then shaded colours
+  HWY_ALIGN std::uint32_t looks_[room];
+  HWY_ALIGN std::uint32_t distances_[room]; // their bits, with the outline's lowest ones
+  HWY_ALIGN std::uint32_t colours_[room];   // base colours, then shaded colours
 };
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "pipeline/vessels/clusters.h"
 #include "ui/depth_mask/depth_image.h"
 #include "ui/vessels/scene/vessel_scene.h"
+#include "ui/vessels/splatter/occlusion_field.h"
 #include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
@@ -27,13 +29,20 @@ struct SplatCounts {
   std::uint64_t culled = 0;
 };
 
+// Read past the end of a picture, by registers.
+inline constexpr std::size_t spare_pixels = 32;
+
 struct SplatFrame {
   pipeline::VesselClusters tree;
   // Per cluster: the number of first nodes, references included, whose segments are drawn
   // elsewhere. Empty: none.
   std::span<const std::uint8_t> taken;
   float detail_px = 0; // see merged_order.h; 0: every segment is drawn
+  // The sharp picture (splat_outline.h), with spare_pixels after the last, and the smoothed one.
   DepthPixel* pixels = nullptr;
+  DepthPixel* smooth = nullptr;
+  bool within_volume = false; // see SplatShare
+  OcclusionMoments occlusion;
   int width = 0;
   int height = 0;
   // Pixel centres are at whole numbers, rows from the top: column = column_row / distance_row.

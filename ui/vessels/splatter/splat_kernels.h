@@ -14,8 +14,11 @@ namespace octascope::ui {
 struct SplatKernels {
   using Splat = SplatCounts (*)(const SplatFrame& frame, std::uint32_t first_cluster,
                                 std::uint32_t end_cluster);
+  // Rows [top, bottom), once all clusters are drawn.
+  using Smooth = void (*)(const SplatFrame& frame, int top, int bottom);
   const char* isa;
   Splat splat;
+  Smooth smooth;
 };
 
 // The widest set that this processor has, or the one named `isa`; nullptr if it is not available.

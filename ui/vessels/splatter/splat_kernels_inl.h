@@ -39,6 +39,7 @@ HWY_AFTER_NAMESPACE();
 #include "ui/vessels/splatter/cluster_view.h"
 #include "ui/vessels/splatter/merged_order.h"
 #include "ui/vessels/splatter/splat_shapes_inl.h"
+#include "ui/vessels/splatter/splat_smoothing_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {
@@ -350,7 +351,8 @@ SplatCounts splat_clusters(const SplatFrame& frame, std::uint32_t first, std::ui
 } // namespace splat
 
 const SplatKernels* splat_kernels_of_target() {
-  static const SplatKernels table{hwy::TargetName(HWY_TARGET), &splat::splat_clusters};
+  static const SplatKernels table{hwy::TargetName(HWY_TARGET), &splat::splat_clusters,
+                                  &splat::smooth_rows};
   return &table;
 }
 

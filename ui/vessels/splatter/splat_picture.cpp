@@ -63,7 +63,7 @@ hal::Result<> SplatPicture::draw(const DepthImage& image, const Camera& camera) 
   std::array<GLint, 4> viewport{}; // fill() counts from the top of the target
   glGetIntegerv(GL_VIEWPORT, viewport.data());
   glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_LESS);
+  glDepthFunc(GL_LEQUAL); // a vessel that covers a part of an empty pixel is infinitely far
   glDepthMask(GL_TRUE);
   pass_.fill({viewport[0], 0, image.width, image.height}, viewport[1] + image.height);
   glDisable(GL_DEPTH_TEST);

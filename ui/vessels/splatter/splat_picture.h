@@ -16,9 +16,9 @@ class SplatPicture {
 public:
   static hal::Result<SplatPicture> create();
 
-  // Draws over the whole viewport, which must be as large as the image, with GL_LESS; pixels
-  // without a vessel are unchanged. Leaves the depth test off. ErrorCode::unsupported: drivers do
-  // not count so many bytes.
+  // Draws over the whole viewport, which must be as large as the image, where the image is nearer
+  // (GL_LEQUAL); colours are premultiplied. Pixels without a vessel are unchanged. Leaves the depth
+  // test off. ErrorCode::unsupported: drivers do not count so many bytes.
   hal::Result<> draw(const DepthImage& image, const Camera& camera);
 
 private:

@@ -13,6 +13,7 @@
 #endif
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -52,6 +53,9 @@ struct Shapes {
   Real widest;
   Real inverse_length2; // 0: both ends coincide
   Word colour;
+  // Of those that rise (vessel_scene.h).
+  Real length;
+  Real stretch; // 1 + slope²
 };
 
 class ShapeQueue {
@@ -96,8 +100,9 @@ public:
 
 private:
   static constexpr std::size_t room = 320;
-  static constexpr float most_columns = 24; // of those drawn in parallel
-  static constexpr float widest_small = 2;  // their largest radius
+  static constexpr float most_columns = 24;   // of those drawn in parallel
+  static constexpr float widest_small = 2;    // their largest radius
+  static constexpr float least_asked_px = 16; // from this radius on, hidden pixels are looked for
 
   Shapes load(std::size_t i) const {
     Shapes s;
@@ -125,7 +130,8 @@ private:
   }
 
   // The lanes among `candidates` that cover the centre of the pixel at (qx, qy) from their first
-  // end. shown(nearness) maps the axis's nearness to that of what is visible.
+  // end. shown(nearness, rise) maps the axis's nearness to that of what is visible, `rise` pixels
+  // before it.
   template <class Shown>
   HWY_INLINE void cover(const Shapes& s, Real qx, Real qy, Int pixel, Mask candidates,
                         const Shown& shown) {
@@ -141,21 +147,98 @@ private:
       return;
     const Real nearness = hn::MulAdd(t, s.dw, s.wa);
     const Mask seen = hn::And(covered, hn::Ge(nearness, real(1 / frame_.far_mm)));
-    fragments_.add(pixel, shown(nearness), hn::Div(off2, hn::Max(r2, real(1e-30F))), s.colour,
-                   seen);
+    const Mask outlined = hn::And(seen, hn::Ge(r, real(least_raised_px)));
+    const Real within = hn::Sub(r, real(outline_reach_px));
+    const Mask at_outline = hn::AndNot(
+        hn::And(hn::Gt(within, real(0)), hn::Lt(off2, hn::Mul(within, within))), outlined);
+    if (hn::AllFalse(Floats{}, outlined)) {
+      fragments_.add(pixel, shown(nearness, real(0)), word(look_of_thin), s.colour, seen);
+      return;
+    }
+    const Mask body = hn::Eq(along, t);
+    Word outline = word(outline_of_inside);
+    if (!hn::AllFalse(Floats{}, at_outline))
+      outline = hn::IfThenElse(hn::RebindMask(Words{}, at_outline),
+                               outline_at(s, body, ex, ey, off2, r), outline);
+    const Word look = hn::IfThenElse(hn::RebindMask(Words{}, outlined),
+                                     look_of(outline, off2, r, r2), word(look_of_thin));
+    const Real height2 = hn::Max(hn::Sub(r2, off2), real(0));
+    const Real rise = hn::IfThenElseZero(
+        outlined, hn::Sqrt(hn::IfThenElse(body, hn::Mul(height2, s.stretch), height2)));
+    fragments_.add(pixel, shown(nearness, rise), look, s.colour, seen);
+  }
+
+  // See vessel_scene.h.
+  HWY_INLINE void find_rise(Shapes& s) const {
+    s.length = hn::Sqrt(hn::MulAdd(s.dx, s.dx, hn::Mul(s.dy, s.dy)));
+    const Real slope = hn::Min(hn::Div(hn::Mul(hn::Abs(s.dw), real(frame_.pixels_per_unit)),
+                                       hn::Max(hn::Mul(s.wa, s.length), real(1e-9F))),
+                               real(steepest_rise));
+    s.stretch = hn::MulAdd(slope, slope, real(1));
+  }
+
+  // SplatOutline of a place inside a vessel of radius r, (ex, ey) from its axis; in its body, not
+  // in its round ends, the outline runs as the segment does.
+  HWY_INLINE Word outline_at(const Shapes& s, Mask body, Real ex, Real ey, Real off2,
+                             Real r) const {
+    // Well within a round end, too: at a joint it lies in the next segment.
+    const Mask along = hn::Or(body, hn::Lt(off2, hn::Mul(real(0.15F), hn::Mul(r, r))));
+    const Real nx = hn::Abs(hn::IfThenElse(along, s.dy, ex));
+    const Real ny = hn::Abs(hn::IfThenElse(along, s.dx, ey));
+    // Near 45 degrees as the segment, so that all pixels of an outline look the same way.
+    const Mask across = hn::Ge(hn::Abs(s.dy), hn::Abs(s.dx));
+    const Mask sideways = hn::Ge(hn::IfThenElse(across, hn::Mul(nx, real(1.25F)), nx),
+                                 hn::IfThenElse(across, ny, hn::Mul(ny, real(1.25F))));
+    const Real major = hn::Max(hn::IfThenElse(sideways, nx, ny), real(1e-6F));
+    const Real minor = hn::IfThenElse(sideways, ny, nx);
+    const Real off = hn::Sqrt(off2);
+    const Real per_px = hn::Div(hn::IfThenElse(along, s.length, off), major);
+    const Real near_side = hn::Mul(hn::Sub(r, off), per_px);
+    const Real far_side = hn::Mul(hn::Add(r, off), per_px);
+    const Mask before = hn::Lt(hn::IfThenElse(sideways, ex, ey), real(0));
+    const auto steps = [](Real px) {
+      const Real exact = hn::Max(hn::Mul(px, real(outline_steps)), real(0));
+      return hn::BitCast(
+          Words{}, hn::ConvertTo(Ints{}, hn::Min(exact, real(static_cast<float>(outline_beyond)))));
+    };
+    const Word first = steps(hn::IfThenElse(before, near_side, far_side));
+    const Word second = steps(hn::IfThenElse(before, far_side, near_side));
+    const auto flag = [](Mask mask, std::uint32_t bit) {
+      return hn::IfThenElseZero(hn::RebindMask(Words{}, mask), word(bit));
+    };
+    return hn::Or(hn::Or(flag(sideways, outline_sideways),
+                         flag(hn::Gt(hn::Add(minor, minor), major), outline_oblique)),
+                  hn::Or(hn::ShiftLeft<outline_step_bits>(first), second));
+  }
+
+  // FragmentLook, with the light of vessel_brightness().
+  HWY_INLINE Word look_of(Word outline, Real off2, Real r, Real r2) const {
+    const Real d2 = hn::Div(off2, r2);
+    const Real share = hn::Min(hn::Max(hn::Sub(r, real(least_shaded_px)), real(0)), real(1));
+    const Real lit = hn::MulAdd(share, hn::Sub(d2, real(mean_off_axis)), real(mean_off_axis));
+    const Word off_axis = hn::BitCast(
+        Words{}, hn::ConvertTo(Ints{}, hn::Mul(hn::Min(lit, real(1)), real(whole_off_axis))));
+    return hn::Or(hn::ShiftLeft<off_axis_bits>(outline), off_axis);
   }
 
   void draw(std::size_t i, std::size_t count) {
-    const Shapes s = load(i);
+    Shapes s = load(i);
     const Real wide = hn::Abs(s.dx);
     const Real high = hn::Abs(s.dy);
     const Mask used = hn::FirstN(Floats{}, count);
     const Mask small = hn::And(hn::Le(hn::Max(wide, high), real(most_columns)),
                                hn::Le(s.widest, real(widest_small)));
+    if (!hn::AllFalse(Floats{}, hn::Ge(s.widest, real(least_raised_px))))
+      find_rise(s);
     draw_small(s, hn::And(used, small));
     const Mask large = hn::AndNot(small, used);
     if (HWY_UNLIKELY(!hn::AllFalse(Floats{}, large)))
       draw_large(s, large);
+  }
+
+  // As much nearer as `rise` pixels are wide there.
+  HWY_INLINE Real raised(Real nearness, Real rise) const {
+    return hn::MulAdd(nearness, hn::Mul(rise, real(1 / frame_.pixels_per_unit)), nearness);
   }
 
   HWY_INLINE void draw_small(const Shapes& s, Mask drawn) {
@@ -193,7 +276,7 @@ private:
         const Int pixel = hn::Add(hn::Mul(hn::ConvertTo(Ints{}, u), stride_u),
                                   hn::Mul(hn::ConvertTo(Ints{}, v), stride_v));
         cover(s, hn::IfThenElse(steep, qv, qu), hn::IfThenElse(steep, qu, qv), pixel, candidates,
-              [](Real nearness) { return nearness; });
+              [&](Real nearness, Real rise) { return raised(nearness, rise); });
         v = hn::Add(v, real(1));
         candidates = hn::And(candidates, hn::Le(v, end));
       }
@@ -217,16 +300,19 @@ private:
       if (chosen[i] != 0)
         draw_rows({real(values[0][i]), real(values[1][i]), real(values[2][i]), real(values[3][i]),
                    real(values[4][i]), real(values[5][i]), real(values[6][i]), real(values[7][i]),
-                   real(values[8][i]), real(values[9][i]), word(colours[i])});
+                   real(values[8][i]), real(values[9][i]), word(colours[i]), real(0), real(0)});
   }
 
   // Expects the same segment in all lanes.
-  void draw_rows(const Shapes& s) {
+  void draw_rows(Shapes s) {
+    find_rise(s);
     const auto one = [](Real v) { return hn::GetLane(v); };
     const float ax = one(s.ax), ay = one(s.ay), dx = one(s.dx), dy = one(s.dy);
     const float r = one(s.widest) * 1.0001F + 1e-3F;
     const bool in_relief = one(s.widest) >= least_relief_px;
     const Relief relief{frame_, {ax, ay, dx, dy, one(s.ra), one(s.dr), one(s.wa), one(s.dw)}};
+    const bool has_many_pixels = one(s.widest) >= least_asked_px;
+    const float nearest_mm = nearest_of(s);
     const float length = std::sqrt(dx * dx + dy * dy);
     const auto from = [](float v) { return static_cast<std::int32_t>(std::ceil(v)); };
     const auto within = [&](float v, int last) {
@@ -254,14 +340,41 @@ private:
           std::min(static_cast<std::int32_t>(std::floor(right)) + 1, frame_.width);
       for (std::int32_t x = std::max(from(left), 0); x < end;
            x += static_cast<std::int32_t>(lanes)) {
-        const Mask inside = hn::FirstN(Floats{}, static_cast<std::size_t>(end - x));
+        Mask inside = hn::FirstN(Floats{}, static_cast<std::size_t>(end - x));
+        if (has_many_pixels) { // those that are hidden cost more than to ask
+          inside =
+              hn::And(inside, hn::Ge(shown_at(y * frame_.width + x, end - x), real(nearest_mm)));
+          if (hn::AllFalse(Floats{}, inside))
+            continue;
+        }
         const Int pixel = hn::Iota(Ints{}, y * frame_.width + x);
         const Real qx = hn::Add(steps, real(static_cast<float>(x) - ax));
-        cover(s, qx, real(qy), pixel, inside, [&](Real nearness) {
-          return in_relief ? relief.nearness(qx, real(qy), nearness) : nearness;
+        cover(s, qx, real(qy), pixel, inside, [&](Real nearness, Real rise) {
+          return in_relief ? hn::Max(relief.nearness(qx, real(qy), nearness),
+                                     raised(nearness, hn::Mul(rise, real(relief_rise))))
+                           : raised(nearness, rise);
         });
       }
     }
+  }
+
+  // No part of the segment is nearer.
+  float nearest_of(const Shapes& s) const {
+    const float a_mm = 1 / hn::GetLane(s.wa);
+    const float b_mm = 1 / hn::GetLane(hn::Add(s.wa, s.dw));
+    const float rise = std::sqrt(1 + steepest_rise * steepest_rise) * hn::GetLane(s.widest);
+    return std::min(a_mm, b_mm) - 1.01F * rise * std::max(a_mm, b_mm) / frame_.pixels_per_unit;
+  }
+
+  // The distances that the picture shows so far, from that pixel on, of at most so many.
+  HWY_INLINE Real shown_at(std::int32_t pixel, std::int32_t count) const {
+    HWY_ALIGN std::uint32_t distances[lanes] = {};
+    const auto most = std::min(static_cast<std::int32_t>(lanes), count);
+    for (std::int32_t i = 0; i < most; ++i)
+      distances[i] = static_cast<std::uint32_t>(
+          std::atomic_ref<DepthPixel>{frame_.pixels[pixel + i]}.load(std::memory_order_relaxed) >>
+          32U);
+    return hn::BitCast(Floats{}, hn::Load(Words{}, distances));
   }
 
   const SplatFrame& frame_;

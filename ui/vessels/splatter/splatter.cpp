@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::uint32_t clusters_at_a_time = 128;
 constexpr std::size_t pixels_at_a_time = 1 << 16;
+constexpr std::size_t rows_at_a_time = 24;
+constexpr std::size_t cell_rows_at_a_time = 12;
 
 BaseColour packed(const VesselColour& colour) {
   const auto bits = [](float v) {
@@ -43,10 +45,11 @@ AffineRow scaled_sum(double p, const AffineRow& a, double q, const AffineRow& b)
   return {p * a[0] + q * b[0], p * a[1] + q * b[1], p * a[2] + q * b[2], p * a[3] + q * b[3]};
 }
 
-SplatFrame frame_of(const VesselScene& scene, DepthImage& image) {
+SplatFrame frame_of(const VesselScene& scene, DepthImage& sharp, DepthImage& image) {
   SplatFrame frame;
   frame.tree = scene.tree;
-  frame.pixels = image.pixels.data();
+  frame.pixels = sharp.pixels.data();
+  frame.smooth = image.pixels.data();
   frame.width = scene.width;
   frame.height = scene.height;
   frame.pixels_per_unit = scene.pixels_per_unit();
@@ -91,6 +94,18 @@ hal::Result<Splatter> Splatter::create(std::size_t helpers, const pipeline::Thre
   return Splatter{*kernels, std::make_unique<WorkTeam>(helpers, setup)};
 }
 
+OcclusionMoments Splatter::occlude(const VesselScene& scene) {
+  occlusion_.resize(scene.width, scene.height, scene.look.cue_near_mm);
+  const auto rows = static_cast<std::size_t>(occlusion_.rows());
+  in_parts(*team_, rows, cell_rows_at_a_time, [&](std::size_t first, std::size_t end) {
+    occlusion_.gather(sharp_, static_cast<int>(first), static_cast<int>(end));
+  });
+  in_parts(*team_, rows, cell_rows_at_a_time, [&](std::size_t first, std::size_t end) {
+    occlusion_.spread(static_cast<int>(first), static_cast<int>(end));
+  });
+  return occlusion_.moments();
+}
+
 hal::Result<SegmentCounts> Splatter::draw(const VesselScene& scene, DepthImage& image,
                                           const SplatShare& share) {
   if (scene.width <= 0 || scene.height <= 0)
@@ -104,15 +119,19 @@ hal::Result<SegmentCounts> Splatter::draw(const VesselScene& scene, DepthImage& 
         "vessel splatter: shares of {} clusters, expected {}; give one for each cluster or none",
         share.taken.size(), scene.tree.clusters.size());
   image.resize(scene.width, scene.height);
+  sharp_.resize(scene.width, scene.height);
   const auto pixels =
       static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
+  if (sharp_.pixels.size() < pixels + spare_pixels)
+    sharp_.pixels.resize(pixels + spare_pixels);
   in_parts(*team_, pixels, pixels_at_a_time, [&](std::size_t first, std::size_t end) {
-    std::fill(image.pixels.begin() + static_cast<std::ptrdiff_t>(first),
-              image.pixels.begin() + static_cast<std::ptrdiff_t>(end), empty_depth_pixel);
+    std::fill(sharp_.pixels.begin() + static_cast<std::ptrdiff_t>(first),
+              sharp_.pixels.begin() + static_cast<std::ptrdiff_t>(end), empty_depth_pixel);
   });
-  SplatFrame frame = frame_of(scene, image);
+  SplatFrame frame = frame_of(scene, sharp_, image);
   frame.taken = share.taken;
   frame.detail_px = share.detail_px;
+  frame.within_volume = share.within_volume;
   std::atomic<std::uint64_t> splatted{0};
   std::atomic<std::uint64_t> merged{0};
   std::atomic<std::uint64_t> culled{0};
@@ -123,6 +142,12 @@ hal::Result<SegmentCounts> Splatter::draw(const VesselScene& scene, DepthImage& 
              splatted.fetch_add(counts.splatted, std::memory_order_relaxed);
              merged.fetch_add(counts.merged, std::memory_order_relaxed);
              culled.fetch_add(counts.culled, std::memory_order_relaxed);
+           });
+  if (scene.look.occluded)
+    frame.occlusion = occlude(scene);
+  in_parts(*team_, static_cast<std::size_t>(scene.height), rows_at_a_time,
+           [&](std::size_t top, std::size_t bottom) {
+             kernels_->smooth(frame, static_cast<int>(top), static_cast<int>(bottom));
            });
   return SegmentCounts{0, splatted, merged, culled};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <glm/geometric.hpp>
@@ -101,6 +102,25 @@ double surface_mm(const ReferenceSegment& s, const glm::dvec3& ray, double axis_
   return nearest;
 }
 
+// Of a segment too thin for relief: the round side, as vessel_scene.h has it.
+void raise_round_side(ReferencePlace& found, const ReferenceSegment& s, double t,
+                      const ui::VesselScene& scene) {
+  const double scale = scene.pixels_per_unit();
+  const bool clamped = t <= 0 || t >= 1;
+  const double slope_px = std::abs(1 / s.zb - 1 / s.za) * scale * s.za / glm::length(s.b - s.a);
+  const double steep = std::min(slope_px, 2.0);
+  const auto seen_mm = [&](double wider, double slope) {
+    const double r = wider * found.radius_px;
+    const double height = std::sqrt(std::max(r * r - found.off_px * found.off_px, 0.0));
+    return found.axis_mm / (1 + height * std::hypot(1.0, slope) / scale);
+  };
+  found.distance_mm = seen_mm(1, clamped ? 0 : steep);
+  // Beside the ends, rounding decides whether t is clamped.
+  const bool beside = t < 1e-4 || t > 1 - 1e-4;
+  found.nearest_mm = seen_mm(1.001, clamped && !beside ? 0 : steep);
+  found.farthest_mm = seen_mm(0.999, clamped || beside ? 0 : steep);
+}
+
 } // namespace
 
 ReferencePlace place_in(const ReferenceSegment& s, const glm::dvec2& place,
@@ -116,6 +136,8 @@ ReferencePlace place_in(const ReferenceSegment& s, const glm::dvec2& place,
                        0,
                        0};
   found.distance_mm = found.farthest_mm = found.nearest_mm = found.axis_mm;
+  if (s.widest_px() < 8 && found.radius_px >= 0.499 && found.outside_px() < 0.01)
+    raise_round_side(found, s, t, scene);
   if (s.widest_px() >= 8 && found.outside_px() < 0.01) {
     const double scale = scene.pixels_per_unit();
     const glm::dvec3 ray{(place.x - 0.5 * scene.width) / scale + double{scene.camera.centre_shift},
@@ -130,6 +152,13 @@ ReferencePlace place_in(const ReferenceSegment& s, const glm::dvec2& place,
     found.nearest_mm = seen_mm(1.001);
   }
   return found;
+}
+
+double reference_light(double d, double radius_px) {
+  const double mean = std::numbers::pi / 4;
+  const double share = std::clamp(radius_px - 0.5, 0.0, 1.0);
+  const double here = std::clamp(d, 0.0, 1.0);
+  return 0.35 + 0.65 * std::sqrt(share * (1 - here * here) + (1 - share) * mean * mean);
 }
 
 std::vector<ReferenceSegment> reference_segments(const ui::VesselScene& scene) {

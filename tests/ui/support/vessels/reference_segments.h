@@ -40,6 +40,10 @@ struct ReferencePlace {
 ReferencePlace place_in(const ReferenceSegment& segment, const glm::dvec2& place,
                         const ui::VesselScene& scene);
 
+// Of a place d radii from the axis of a vessel of that radius: the light of its round side, which
+// goes over, from a pixel of width to three, from the mean of the whole width to that of the place.
+double reference_light(double d, double radius_px);
+
 // Of all segments those that are not wholly nearer than the near plane.
 std::vector<ReferenceSegment> reference_segments(const ui::VesselScene& scene);
 

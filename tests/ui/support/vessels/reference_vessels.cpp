@@ -23,9 +23,8 @@ void shade(ReferenceVesselPixel& pixel, const ui::VesselScene& scene, const Refe
     return;
   pixel.depth_mm = place.distance_mm;
   pixel.node = node;
-  pixel.brightness =
-      double{ui::vessel_brightness(static_cast<float>(place.off_px / place.radius_px)) *
-             ui::vessel_fading(scene.look, static_cast<float>(place.distance_mm))};
+  pixel.brightness = reference_light(place.off_px / place.radius_px, place.radius_px) *
+                     double{ui::vessel_fading(scene.look, static_cast<float>(place.distance_mm))};
 }
 
 } // namespace

@@ -17,9 +17,8 @@ bool may_be(const ui::VesselScene& scene, const ReferenceSegment& s, const Refer
             std::uint32_t rgba) {
   constexpr double rounding = 1.5;
   const auto brightness = [&](double d) {
-    const double x = std::clamp(d / h.radius_px, 0.0, 1.0);
-    const double lit = 0.35 + 0.65 * std::sqrt(1 - x * x);
-    return 255 * lit * double{ui::vessel_fading(scene.look, static_cast<float>(h.distance_mm))};
+    return 255 * reference_light(d / h.radius_px, h.radius_px) *
+           double{ui::vessel_fading(scene.look, static_cast<float>(h.distance_mm))};
   };
   const double darkest = brightness(h.off_px + edge_px);
   const double lightest = brightness(h.off_px - edge_px);
@@ -29,7 +28,7 @@ bool may_be(const ui::VesselScene& scene, const ReferenceSegment& s, const Refer
     if (shown < base * darkest - rounding || shown > base * lightest + rounding)
       return false;
   }
-  return rgba >> 24U == 255;
+  return true;
 }
 
 class Checker {

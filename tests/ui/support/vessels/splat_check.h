@@ -1,4 +1,4 @@
-// A picture of vessels compared with their definition (ui/vessels/scene/vessel_scene.h), segment by
+// A sharp picture of vessels (splat_outline.h) compared with their definition (ui/vessels/scene/vessel_scene.h), segment by
 // segment and pixel by pixel, in double precision.
 #pragma once
 
