@@ -427,6 +427,10 @@ bool Renderer::casts_rays(const DrawQuality& quality) const {
   return parts_->volume.backend(quality) == RayBackend::processor;
 }
 
+void Renderer::expect(const ViewState& view) {
+  parts_->volume.expect(view);
+}
+
 bool Renderer::wants_volume(const ViewState& view) const {
   return parts_->volume.wants_volume(view);
 }

@@ -92,6 +92,10 @@ public:
   bool needs_redraw(const ViewState& view, const Status& status, int width, int height,
                     const DrawQuality& quality = {}) const;
 
+  // What volumes are going to be seen with: show_volume() computes what that needs. draw() does
+  // it, too, for the next one.
+  void expect(const ViewState& view);
+
   // Whether the view needs data that was not computed for the shown volume. If so, call
   // show_volume() with it again.
   bool wants_volume(const ViewState& view) const;

@@ -94,6 +94,7 @@ hal::Result<> RenderLoop::show_again() {
     show_scope_picture();
   if (parts_.vessels != nullptr)
     HAL_CHECK(parts_.vessels->show_again(*renderer_));
+  renderer_->expect(controller_.state());
   return volume_ != nullptr ? renderer_->show_volume(*volume_) : hal::Result<>{};
 }
 
@@ -231,6 +232,7 @@ void RenderLoop::take_volume() {
   ++statistics_.volumes_taken;
   volume_undisplayed_ = false; // of the one before: if it was, it is lost
   const hal::TimePoint begin = parts_.clock.now();
+  renderer_->expect(controller_.state());
   if (const auto shown = renderer_->show_volume(*newest); !shown) {
     parts_.faults.add(pipeline::Device::display, shown.error(), begin);
     return;
@@ -313,14 +315,15 @@ void RenderLoop::draw_if_changed() {
       !renderer_->needs_redraw(view, status(), display.width(), display.height(), quality_))
     return;
   const hal::TimePoint begin = parts_.clock.now();
+  renderer_->expect(view);
+  show_volume_again(view);
   if (const auto drawn =
           renderer_->draw(view, status(), display.width(), display.height(), quality_);
       !drawn) {
     lose_display(drawn.error());
     return;
   }
-  if (renderer_->wants_volume(view) && volume_ != nullptr)
-    static_cast<void>(renderer_->show_volume(*volume_)); // that it can be shown, it has proved
+  show_volume_again(view); // drawing has made what computes a mesh
   renderer_->finish();
   const auto vessels = renderer_->vessel_report();
   governor_.note(parts_.clock.now() - begin - vessels.cost, renderer_->drew_volume());
@@ -336,6 +339,12 @@ void RenderLoop::draw_if_changed() {
     lose_display(flip.error());
   else
     flip_done(*flip, begin);
+}
+
+// If the view needs more of it than was computed.
+void RenderLoop::show_volume_again(const ui::ViewState& view) {
+  if (renderer_->wants_volume(view) && volume_ != nullptr)
+    static_cast<void>(renderer_->show_volume(*volume_)); // that it can be shown, it has proved
 }
 
 void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {

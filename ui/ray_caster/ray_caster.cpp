@@ -11,8 +11,8 @@
 #include <glm/vec2.hpp>
 
 #include "ui/dither/dither_mask.h"
-#include "ui/ray_caster/ray_geometry.h"
 #include "ui/dither/soften.h"
+#include "ui/ray_caster/ray_geometry.h"
 #include "ui/view/plane_box.h"
 
 namespace octascope::ui {

@@ -148,8 +148,7 @@ void VolumePainter::update_transfer(const ViewState& of) {
     caster_->set_transfer(*transfer_);
 }
 
-// What of it the next volume shown has to bring.
-void VolumePainter::note_view(const ViewState& view) {
+void VolumePainter::expect(const ViewState& view) {
   see_through_db_ = view.see_through_db;
   light_wanted_ = view.technique == Technique::shaded;
 }
@@ -222,7 +221,7 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   if (quality.rays == RayBackend::processor)
     want_processor();
   update_transfer(view);
-  note_view(view);
+  expect(view);
   const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
   const VolumeTexture* drawn = &texture_; // the processor's rays need only its shape
   if (!processor) {
@@ -272,7 +271,7 @@ hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewSt
   const bool surface = view.technique == Technique::surface;
   if (surface)
     HAL_CHECK(techniques_.get(view.technique));
-  note_view(view);
+  expect(view);
   if (caster_missing || wants_volume(view))
     HAL_CHECK(show(volume));
   if (surface)

@@ -68,6 +68,8 @@ public:
   // Blends the eye's picture over the bound framebuffer.
   void composite(StereoEye eye, const Rect& rect, int target_height) const;
 
+  // What volumes are going to be seen with: show() computes what that needs.
+  void expect(const ViewState& view);
   // Whether the view needs data that was not computed for the shown volume. If so, show() it again.
   bool wants_volume(const ViewState& view) const;
   // Whether update() would redraw the same volume and view, because a mesh has been finished.
@@ -107,7 +109,6 @@ private:
   hal::Result<const VolumeTexture*> drawn_texture();
   hal::Result<EyePictures*> pictures_of(StereoEye eye);
   void update_transfer(const ViewState& of);
-  void note_view(const ViewState& view);
   const LightVolume* light_for(const ViewState& of);
   hal::Result<std::optional<DepthMask>> update_vessels(StereoEye eye, const VolumeScene& scene,
                                                        const DrawQuality& quality, const Rect& rect,

@@ -27,6 +27,7 @@ protected:
   pipeline::Image fresh_picture(const pipeline::Volume& volume) const {
     auto renderer = ui::Renderer::create();
     EXPECT_TRUE(renderer);
+    (*renderer)->expect(view());
     EXPECT_TRUE((*renderer)->show_volume(volume));
     EXPECT_TRUE((*renderer)->show_scope_picture(scope_picture_.frame(clock_.now()), std::nullopt));
     (*renderer)->show_levels(ui::make_level_histogram(volume).shares());

@@ -124,8 +124,16 @@ TEST_F(VesselPictures, are_measured) {
       EXPECT_GE(found["frames"], 3);
       EXPECT_GT(found["segments_per_s"], 0);
       EXPECT_GE(found["frame_ms_p95"], found["frame_ms_p50"]);
-      EXPECT_LE(found["mean_abs_diff_to_quads"], std::string{method}.starts_with("tubes") ? 20 : 2);
+      const bool smoothed = std::string{method} == "hybrid"; // outlines, which quads' are not
+      EXPECT_LE(found["mean_abs_diff_to_quads"], std::string{method}.starts_with("tubes") ? 20
+                                                 : smoothed                               ? 8
+                                                                                          : 2);
       EXPECT_GE(found["mean_abs_diff_to_supersampled"], 0);
+      // In the other views of so small a tree, lines of the least width decide.
+      if (smoothed && std::string{view} == "whole") {
+        EXPECT_LT(found["mean_abs_diff_to_supersampled"],
+                  report["views"][view]["quads-cpu"]["mean_abs_diff_to_supersampled"]);
+      }
       EXPECT_TRUE(std::filesystem::exists(dump + '/' + view + '_' + method + ".png"));
     }
     EXPECT_EQ(report["views"][view]["quads-brute-force"]["drawn"], segments);
@@ -142,7 +150,8 @@ TEST_F(VesselPictures, are_compared_along_a_flight) {
   EXPECT_GT(flight["length_mm"], 80);
   EXPECT_GT(flight["frame_ms_p50"], 0);
   EXPECT_GE(flight["frame_ms_p95"], flight["frame_ms_p50"]);
-  EXPECT_LE(flight["mean_abs_diff_to_quads_max"], 2);
+  EXPECT_LE(flight["mean_abs_diff_to_quads_max"], 10) << "smooth outlines beside stairs";
+  EXPECT_LT(flight["frame_to_frame_max"], flight["quads_frame_to_frame_max"]) << "calmer";
   EXPECT_GT(flight["frame_to_frame_max"], 0.1);
   EXPECT_GT(flight["quads_frame_to_frame_max"], 0.1);
   EXPECT_LE(flight["frame_to_frame_beyond_quads_max"], 0.5);
