@@ -111,8 +111,7 @@ HWY_INLINE Sample begin_sample(const RayFrame& frame, const Rays& rays, const Po
 }
 
 template <bool Shaded, Look How>
-HWY_INLINE void add_sample(const RayFrame& frame, const Rays& rays, const Sample& sample,
-                           Light& light) {
+HWY_INLINE void add_sample(const RayFrame& frame, const Sample& sample, Light& light) {
   const Substance here = classify<How>(frame, interpolate(sample.cell), sample.valid);
   light.half_opaque = hn::IfThenElse(hn::RebindMask(Ints{}, hn::Ge(light.transparency, real(0.5F))),
                                      sample.number, light.half_opaque);
@@ -176,10 +175,10 @@ HWY_INLINE bool advance(const RayFrame& frame, Rays& rays, Light& light) {
                          hn::Add(sample.position.a, rays.axes.a.step),
                          hn::Add(sample.position.b, rays.axes.b.step)};
     const Sample next = begin_sample(frame, rays, ahead, hn::Add(sample.number, whole(1)));
-    add_sample<Shaded, How>(frame, rays, sample, result);
+    add_sample<Shaded, How>(frame, sample, result);
     sample = next;
   }
-  add_sample<Shaded, How>(frame, rays, sample, result);
+  add_sample<Shaded, How>(frame, sample, result);
   rays.position = sample.position;
   rays.next = sample.number;
   rays.step();
