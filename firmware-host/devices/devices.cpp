@@ -106,8 +106,8 @@ bool Devices::simulated() const {
   return line_camera().simulated() || (scope != nullptr && scope->simulated());
 }
 
-// The line camera's buffers: a volume and a sixth of it is what the workers may fall behind, and
-// more than so many drivers do not have.
+// The workers may fall behind by a volume and a sixth of it. Many drivers have no more than 512
+// buffers.
 hal::LineCameraConfig Devices::camera_config() const {
   return {.format = format_,
           .line_rate_hz = plan_.line_rate_hz,

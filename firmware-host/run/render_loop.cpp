@@ -316,14 +316,14 @@ void RenderLoop::draw_if_changed() {
     return;
   const hal::TimePoint begin = parts_.clock.now();
   renderer_->expect(view);
-  show_volume_again(view);
+  if (renderer_->wants_volume(view) && volume_ != nullptr)
+    static_cast<void>(renderer_->show_volume(*volume_)); // that it can be shown, it has proved
   if (const auto drawn =
           renderer_->draw(view, status(), display.width(), display.height(), quality_);
       !drawn) {
     lose_display(drawn.error());
     return;
   }
-  show_volume_again(view); // drawing has made what computes a mesh
   renderer_->finish();
   const auto vessels = renderer_->vessel_report();
   governor_.note(parts_.clock.now() - begin - vessels.cost, renderer_->drew_volume());
@@ -339,12 +339,6 @@ void RenderLoop::draw_if_changed() {
     lose_display(flip.error());
   else
     flip_done(*flip, begin);
-}
-
-// If the view needs more of it than was computed.
-void RenderLoop::show_volume_again(const ui::ViewState& view) {
-  if (renderer_->wants_volume(view) && volume_ != nullptr)
-    static_cast<void>(renderer_->show_volume(*volume_)); // that it can be shown, it has proved
 }
 
 void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {

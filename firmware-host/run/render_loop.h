@@ -154,7 +154,6 @@ private:
   void take_scope_picture();
   void update_status();
   void draw_if_changed();
-  void show_volume_again(const ui::ViewState& view);
   void flip_done(const hal::Flip& flip, hal::TimePoint begin);
   void note_passage();
   void lose_display(const hal::Error& error);

@@ -10,24 +10,35 @@ namespace {
 
 constexpr std::array<std::string_view, timing_row_count> row_names{
     "Exposure", "Camera", "Workers", "Fixed rate", "Buffer", "Render", "Glass"};
+// By their places in Timing.
 constexpr std::array<Colour, 3> volume_colours{palette::accent, palette::crossed,
-                                               palette::calliper}; // by their numbers
+                                               palette::calliper};
+constexpr float least_width = 100; // of the axis, at unit 1: less says nothing
 
-Colour colour_of(const TimedVolume& volume) {
-  return volume_colours[volume.index % volume_colours.size()];
+hal::TimePoint begin_of(const TimedVolume& volume) {
+  hal::TimePoint begin = volume.flipped;
+  for (const TimingBar& bar : volume.bars)
+    begin = std::min(begin, bar.begin);
+  return begin;
 }
 
-// From the oldest volume's first line to the newest one's flip.
+// From the oldest volume's first line to the newest one's flip. What was long before, as before a
+// freeze, is left out.
 class TimeAxis {
 public:
   TimeAxis(const Timing& timing, float left, float right)
-      : end_{timing.newest_volume().flipped}, begin_{end_}, left_{left} {
+      : end_{timing.newest_volume().flipped}, begin_{begin_of(timing.newest_volume())}, left_{
+                                                                                            left} {
+    earliest_ = begin_ - 4 * (end_ - begin_);
     for (const TimedVolume& volume : timing.volumes)
-      for (const TimingBar& bar : volume.bars)
-        begin_ = std::min(begin_, bar.begin);
+      if (shows(volume))
+        begin_ = std::min(begin_, begin_of(volume));
     per_ms_ = (right - left) / static_cast<float>(std::max(ms(end_ - begin_), 1e-3));
   }
 
+  bool shows(const TimedVolume& volume) const {
+    return volume.index != 0 && begin_of(volume) >= earliest_;
+  }
   float x(hal::TimePoint time) const {
     return left_ + per_ms_ * static_cast<float>(ms(time - begin_));
   }
@@ -37,7 +48,7 @@ public:
   static double ms(hal::Duration duration) { return hal::to_seconds(duration) * 1e3; }
 
 private:
-  hal::TimePoint end_, begin_;
+  hal::TimePoint end_, begin_, earliest_;
   float left_;
   float per_ms_;
 };
@@ -51,11 +62,14 @@ public:
         right_{static_cast<float>(room.right()) - 16 * unit}, axis_{timing, left_, right_} {}
 
   void draw() const {
+    if (right_ - left_ < least_width * unit_)
+      return;
     draw_rows();
     draw_ticks();
-    for (const TimedVolume& volume : timing_.volumes)
-      for (const TimingBar& bar : volume.bars)
-        draw_bar(bar, colour_of(volume));
+    for (std::size_t i = 0; i < timing_.volumes.size(); ++i)
+      if (axis_.shows(timing_.volumes[i]))
+        for (const TimingBar& bar : timing_.volumes[i].bars)
+          draw_bar(bar, volume_colours[i]);
     draw_latency(timing_.newest_volume());
   }
 

@@ -2,7 +2,7 @@
 // tissue is around each place. Speckle has no part in it: its slopes are those of single voxels.
 //
 // Sources: M. Levoy, "Display of surfaces from volume data", IEEE CG&A 8 (1988): normals from
-// gradients. S. Hadwiger et al., "Local ambient occlusion in direct volume rendering", IEEE TVCG 16
+// gradients. F. Hernell, P. Ljung, A. Ynnerman, "Local ambient occlusion in direct volume rendering", IEEE TVCG 16
 // (2010): places with much tissue around them get less light. Smoothing by the à-trous spline of
 // J.-L. Starck, F. Murtagh, "Astronomical image and data analysis" (2006).
 #pragma once
@@ -25,7 +25,7 @@ public:
   // Averages the levels into cells of about a 128th of the box's longest edge.
   void show(const pipeline::Volume& volume);
 
-  // Makes the texels for a display window, unless they are there. About 5 ms for a live volume.
+  // Makes the texels for a display window, unless they are there.
   void prepare(const WindowRamp& window);
 
   bool empty() const { return levels_.empty(); }

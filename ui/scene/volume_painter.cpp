@@ -151,6 +151,8 @@ void VolumePainter::update_transfer(const ViewState& of) {
 void VolumePainter::expect(const ViewState& view) {
   see_through_db_ = view.see_through_db;
   light_wanted_ = view.technique == Technique::shaded;
+  if (view.technique == Technique::surface)
+    static_cast<void>(techniques_.get(view.technique)); // that it could not be made, update() says
 }
 
 const LightVolume* VolumePainter::light_for(const ViewState& of) {
@@ -268,14 +270,13 @@ hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewSt
   const bool caster_missing = quality.rays == RayBackend::processor && !caster_wanted_;
   if (caster_missing)
     make_caster();
-  const bool surface = view.technique == Technique::surface;
-  if (surface)
-    HAL_CHECK(techniques_.get(view.technique));
   expect(view);
   if (caster_missing || wants_volume(view))
     HAL_CHECK(show(volume));
-  if (surface)
+  if (view.technique == Technique::surface) {
+    HAL_CHECK(techniques_.get(view.technique));
     techniques_.surface()->finish(view);
+  }
   return {};
 }
 

@@ -96,10 +96,7 @@ private:
                        fmt::format("{}", run_s)},
                       folder_.file("report.json")));
     const auto number = [&](const char* pointer) { return number_in(report, pointer); };
-    const double lines_per_volume =
-        number("/scan/lines_per_sweep") * number("/scan/sweeps_per_volume");
-    return ChainFigures{.lost_lines = static_cast<std::uint64_t>(
-                            number("/lost/lines") + number("/lost/volumes") * lines_per_volume),
+    return ChainFigures{.lost_lines = static_cast<std::uint64_t>(number("/lost/lines")),
                         .volumes_per_s = number("/rates/volumes_per_s"),
                         .shown_per_s = number("/volumes/displayed") / number("/duration_s"),
                         .frames_per_s = number("/rates/frames_per_s"),
@@ -111,11 +108,7 @@ private:
   hal::Result<ChainFigures> undisplayed(const std::filesystem::path& file, double run_s) {
     HAL_TRY(const Configuration configuration, load_configuration(file));
     HAL_TRY(const pipeline::VolumeCounters counters, run_undisplayed(configuration, run_s));
-    const pipeline::ScanPlan plan = plan_of({}, configuration);
-    return ChainFigures{.lost_lines = counters.lost_lines +
-                                      counters.lost_volumes *
-                                          static_cast<std::uint64_t>(plan.sweeps()) *
-                                          static_cast<std::uint64_t>(plan.lines_per_frame()),
+    return ChainFigures{.lost_lines = counters.lost_lines,
                         .volumes_per_s = static_cast<double>(counters.acquired) / run_s};
   }
 

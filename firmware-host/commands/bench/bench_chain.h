@@ -35,7 +35,7 @@ struct ChainLatency {
 };
 
 struct ChainFigures {
-  std::uint64_t lost_lines = 0; // those of lost B-scans and volumes included
+  std::uint64_t lost_lines = 0; // kept ones; those of lost B-scans and volumes included
   double volumes_per_s = 0;     // acquired
   double shown_per_s = 0;       // volumes
   double frames_per_s = 0;
@@ -59,7 +59,8 @@ struct ChainReport {
   std::string cpu;
   std::array<int, 2> size{}; // of the picture
   std::vector<ChainResult> cases;
-  double reconstruct_only_hz = 0; // the highest of all formats; 0: none held
+  double reconstruct_only_hz =
+      0; // the highest of all formats; 0: none held, or none was tried in time
   double with_display_hz = 0;
 };
 

@@ -47,6 +47,14 @@ TEST_F(EverySize, is_drawn_with_everything_on_it_and_nothing_beside_it) {
   const Legend keys = make_key_legend();
   Status live = worst_status();
   live.key_legend = &keys;
+  Timing timing;
+  timing.newest = 1;
+  timing.volumes[0] = {1,
+                       live.now,
+                       live.now + std::chrono::milliseconds{40},
+                       {{live.now - std::chrono::milliseconds{140},
+                         live.now + std::chrono::milliseconds{40}, TimingRow::render}}};
+  live.timing = &timing;
   Status replayed = live;
   replayed.replay = ReplayStatus{.recorded = "2026-11-22 12:10:03"};
   replayed.recording = {};

@@ -56,7 +56,7 @@ protected:
 TEST_F(TimingDiagram, bars_stand_in_their_rows_at_their_times) {
   Timing timing;
   timing.newest = 3;
-  timing.volumes[1] = volume(3, hal::TimePoint{milliseconds{1000}});
+  timing.volumes[0] = volume(3, hal::TimePoint{milliseconds{1000}});
   const pipeline::Image picture = draw_timing(timing);
   const auto filled = [&](TimingRow row, double from, double to) {
     const Rect where = part_of_row(row, from, to);
@@ -74,10 +74,10 @@ TEST_F(TimingDiagram, bars_stand_in_their_rows_at_their_times) {
 
 TEST_F(TimingDiagram, three_volumes_have_colours_of_their_own_and_share_the_axis) {
   Timing timing;
-  timing.newest = 5;
+  timing.newest = 9;
   for (std::uint64_t i = 0; i < 3; ++i)
-    timing.volumes[i] =
-        volume(3 + i, hal::TimePoint{milliseconds{1000 + 100 * static_cast<int>(i)}});
+    timing.volumes[i] = // of which others were skipped between
+        volume(3 + 3 * i, hal::TimePoint{milliseconds{1000 + 100 * static_cast<int>(i)}});
   const pipeline::Image picture = draw_timing(timing);
   const std::array colours{palette::accent, palette::crossed, palette::calliper};
   for (std::size_t i = 0; i < colours.size(); ++i)
@@ -87,6 +87,17 @@ TEST_F(TimingDiagram, three_volumes_have_colours_of_their_own_and_share_the_axis
       EXPECT_EQ(count_colour(picture, where, colours[i]) > where.width * where.height / 2,
                 i == third);
     }
+}
+
+TEST_F(TimingDiagram, leaves_out_what_was_long_before) {
+  Timing timing;
+  timing.newest = 3;
+  timing.volumes[0] = volume(3, hal::TimePoint{milliseconds{60'000}});
+  const pipeline::Image alone = draw_timing(timing);
+  timing.volumes[1] = volume(2, hal::TimePoint{milliseconds{1000}}); // frozen meanwhile
+  EXPECT_EQ(changed(alone, draw_timing(timing), room()), 0);
+  timing.volumes[1] = volume(2, hal::TimePoint{milliseconds{59'800}});
+  EXPECT_GT(changed(alone, draw_timing(timing), room()), 1000);
 }
 
 TEST_F(TimingDiagram, is_drawn_on_request_alone_and_anew_with_every_volume) {

@@ -325,6 +325,21 @@ TEST_F(VesselSectionsTest, are_full_in_the_slab_and_fade_above_and_below_it) {
   EXPECT_EQ(share(begin_mm + 0.1F), 0) << "no tissue is seen there";
 }
 
+TEST_F(VesselSectionsTest, one_that_passes_through_the_slab_is_full_there) {
+  show(vessel_along({{1, 1.5F, 0.01F}, {2, 1.5F, 1.78F}}, 0.05F)); // a single segment
+  const auto found = marks(FlatPicture::from_above);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(std::ranges::max(found, {}, &VesselMark::from_share).from_share, 1);
+  float least = 2;
+  float most = 1;
+  for (const VesselMark& mark : found) {
+    least = std::min(least, mark.from_mm.x);
+    most = std::max(most, mark.to_mm.x);
+  }
+  EXPECT_GT(least, 1) << "its ends are far from the slab";
+  EXPECT_LT(most, 2);
+}
+
 TEST_F(VesselSectionsTest, follow_the_tissue_of_each_volume_without_another_search) {
   const auto tree = vessel_along({{0.5F, 1.5F, 0.6F}, {2.5F, 1.5F, 0.6F}}, 0.05F);
   show(tree);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "ui/panels/projection.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double reach_from_above_mm = 0.4; // as thick as the en-face picture's slab
 constexpr float share_steps = 16;
+constexpr float longest_piece_mm = 0.2F; // half of what it may fade over
 
 // Axes of the volume's frame.
 struct PictureAxes {
@@ -154,17 +156,35 @@ void VesselSections::mark_cut(FlatPicture picture, const Section& section, const
   }
 }
 
+// In pieces that are short beside what they fade over, so that none passes through the slab unseen;
+// as far as there is room for more marks than segments.
 void VesselSections::mark_from_above(const Section& section, const Sight& sight) {
-  for (const NearSegment& s : section.near.segments()) {
-    const VesselMark mark{{s.from_mm.x, s.from_mm.y, 0},
-                          {s.to_mm.x, s.to_mm.y, 0},
-                          s.from_radius_mm,
-                          s.to_radius_mm,
-                          share_from_above(s.from_mm, sight.geometry, sight.tissue),
-                          share_from_above(s.to_mm, sight.geometry, sight.tissue),
-                          colour_of(s, sight.view.vessel_colouring)};
-    if (mark.from_share > 0 || mark.to_share > 0)
-      made_.push_back(mark);
+  const std::span<const NearSegment> segments = section.near.segments();
+  std::size_t room = NearSegments::most_segments - segments.size();
+  for (const NearSegment& s : segments) {
+    const float length_mm = glm::distance(s.from_mm, s.to_mm);
+    const std::size_t pieces =
+        1 + std::min(static_cast<std::size_t>(length_mm / longest_piece_mm), room);
+    room -= pieces - 1;
+    VesselMark mark{{},
+                    {s.from_mm.x, s.from_mm.y, 0},
+                    0,
+                    s.from_radius_mm,
+                    0,
+                    share_from_above(s.from_mm, sight.geometry, sight.tissue),
+                    colour_of(s, sight.view.vessel_colouring)};
+    for (std::size_t i = 1; i <= pieces; ++i) {
+      const float t = static_cast<float>(i) / static_cast<float>(pieces);
+      const glm::vec3 to_mm = glm::mix(s.from_mm, s.to_mm, t);
+      mark.from_mm = mark.to_mm;
+      mark.from_radius_mm = mark.to_radius_mm;
+      mark.from_share = mark.to_share;
+      mark.to_mm = {to_mm.x, to_mm.y, 0};
+      mark.to_radius_mm = glm::mix(s.from_radius_mm, s.to_radius_mm, t);
+      mark.to_share = share_from_above(to_mm, sight.geometry, sight.tissue);
+      if (mark.from_share > 0 || mark.to_share > 0)
+        made_.push_back(mark);
+    }
   }
 }
 

@@ -1,8 +1,8 @@
 // The outline of what a pixel of the sharp picture shows, in twelve bits: how far it is from the
 // pixel's centre to the vessel's two sides, along the row or the column, whichever the outline
 // crosses more steeply. With it a second pass knows how much of the pixel, and of its neighbour
-// beyond the outline, the vessel covers. Source of the idea: E. Persson, "Geometric buffer
-// anti-aliasing" (GPU Pro 3, 2012); here with both sides, for vessels as thin as a pixel.
+// beyond the outline, the vessel covers. Source of the idea: E. Persson, geometry buffer
+// antialiasing, "Geometric antialiasing methods" (GPU Pro 3, 2012); here with both sides, for vessels as thin as a pixel.
 //
 // A pixel of the sharp picture is a DepthPixel with the outline's upper eight bits in the place of
 // the opacity, and the lower four in the lowest bits of the distance, which change it by less than

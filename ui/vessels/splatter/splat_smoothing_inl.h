@@ -166,9 +166,11 @@ private:
         hn::RebindMask(Floats{}, hn::Ne(hn::And(outline, word(outline_oblique)), word(0)));
     const Real tail = hn::IfThenElse(oblique, real(0.75F), real(0.25F));
     const Real per_tail = hn::IfThenElse(oblique, real(1 / 1.5F), real(1 / 0.5F));
+    // At most half from either side: rounding must not make more of the two than there is.
     const auto weight = [&](Real share) {
+      const Real most = hn::Min(share, real(0.5F));
       return hn::BitCast(Words{},
-                         hn::ConvertTo(Ints{}, hn::MulAdd(share, real(whole_weight), real(0.5F))));
+                         hn::ConvertTo(Ints{}, hn::MulAdd(most, real(whole_weight), real(0.5F))));
     };
     const Word inwards = hn::IfThenElseZero(takes, weight(share_beyond(px, tail, per_tail)));
     const Word outwards = weight(share_beyond(hn::Sub(real(1), px), tail, per_tail));

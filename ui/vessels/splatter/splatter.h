@@ -35,7 +35,8 @@ struct SplatShare {
   bool within_volume = false;
 };
 
-// Threads: bound to one, except for its own helpers. draw() allocates only the image.
+// Threads: bound to one, except for its own helpers. draw() allocates only the image and
+// pictures of its size, to grow.
 class Splatter {
 public:
   // `helpers`: threads besides the caller's. `isa` names an instruction set; by default the widest
