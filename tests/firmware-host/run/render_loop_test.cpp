@@ -266,7 +266,8 @@ protected:
   // The window that is found in the first volume asks for another mesh, which comes in its own
   // time.
   void await_the_last_mesh() {
-    constexpr int still = 30; // turns, ten milliseconds and more each
+    // Turns, ten milliseconds and more each: the mesh's thread gives way to all others.
+    constexpr int still = 100;
     pipeline::Image last = display_.picture;
     for (int turns = 0; turns < still; ++turns) {
       real_clock_.sleep_for(10ms);
