@@ -6,6 +6,7 @@
 
 #include "pipeline/vessels/clusters/cluster_builder.h"
 #include "tests/ui/support/renderer_stage.h"
+#include "tests/ui/support/vessels/vessel_along.h"
 #include "ui/gl/framebuffer.h"
 #include "ui/vessels/sections/flat_vessels.h"
 
@@ -14,20 +15,6 @@ namespace {
 
 using ui::FlatVessels;
 using ui::VesselPanel;
-
-// One vessel after the other, through these places of the volume's frame.
-pipeline::ClusterArrays vessel_through(const std::vector<std::array<float, 3>>& places_mm,
-                                       float radius_mm) {
-  pipeline::VesselTree tree;
-  for (std::size_t i = 0; i < places_mm.size(); ++i) {
-    tree.positions_mm.push_back(places_mm[i]);
-    tree.radii_mm.push_back(radius_mm);
-    tree.parents.push_back(i == 0 ? pipeline::no_parent : static_cast<std::uint32_t>(i - 1));
-    tree.orders.push_back(8);
-    tree.branches.push_back(pipeline::VesselBranch::unknown);
-  }
-  return pipeline::build_clusters(tree);
-}
 
 // ---- A picture of vessels alone, over black.
 
@@ -94,7 +81,7 @@ constexpr double tint_red = 255 * 0.88 * 0.22;
 
 TEST_F(FlatVesselsTest, a_vessel_in_the_plane_is_a_band_and_across_it_a_ring) {
   // Radius 6 pixels; its axis 100.5 pixels down.
-  const auto along = vessel_through({{0.5F, plane_mm, 1.005F}, {2.5F, plane_mm, 1.005F}}, 0.06F);
+  const auto along = vessel_along({{0.5F, plane_mm, 1.005F}, {2.5F, plane_mm, 1.005F}}, 0.06F);
   show(along);
   pipeline::Image picture = draw_b_scan();
   for (const int x : {80, 150, 220}) {
@@ -105,7 +92,7 @@ TEST_F(FlatVesselsTest, a_vessel_in_the_plane_is_a_band_and_across_it_a_ring) {
     EXPECT_EQ(red(picture, x, 109), 0);
   }
   EXPECT_EQ(red(picture, 40, 100), 0);
-  const auto across = vessel_through({{1.005F, 0.5F, 0.805F}, {1.005F, 2.5F, 0.805F}}, 0.06F);
+  const auto across = vessel_along({{1.005F, 0.5F, 0.805F}, {1.005F, 2.5F, 0.805F}}, 0.06F);
   show(across);
   picture = draw_b_scan();
   double sum = 0;
@@ -133,7 +120,7 @@ TEST_F(FlatVesselsTest, a_vessel_in_the_plane_is_a_band_and_across_it_a_ring) {
 TEST_F(FlatVesselsTest, at_a_slant_the_line_is_the_exact_ellipse) {
   // At 30° to the plane, in which it runs along the fast axis: half axes r / sin 30° and r.
   const float down_mm = 0.905F;
-  const auto tree = vessel_through(
+  const auto tree = vessel_along(
       {{1.505F - 0.866F, plane_mm - 0.5F, down_mm}, {1.505F + 0.866F, plane_mm + 0.5F, down_mm}},
       0.08F);
   show(tree);
@@ -155,12 +142,12 @@ TEST_F(FlatVesselsTest, at_a_slant_the_line_is_the_exact_ellipse) {
 }
 
 TEST_F(FlatVesselsTest, no_line_runs_through_a_vessel_where_segments_meet) {
-  const auto tree = vessel_through({{0.5F, plane_mm, 1.005F},
-                                    {0.9F, plane_mm, 1.005F},
-                                    {1.5F, plane_mm + 0.01F, 1.005F},
-                                    {2.0F, plane_mm, 1.005F},
-                                    {2.5F, plane_mm, 1.005F}},
-                                   0.06F);
+  const auto tree = vessel_along({{0.5F, plane_mm, 1.005F},
+                                  {0.9F, plane_mm, 1.005F},
+                                  {1.5F, plane_mm + 0.01F, 1.005F},
+                                  {2.0F, plane_mm, 1.005F},
+                                  {2.5F, plane_mm, 1.005F}},
+                                 0.06F);
   show(tree);
   const pipeline::Image picture = draw_b_scan();
   for (int x = 52; x < 249; ++x)
@@ -174,7 +161,7 @@ TEST_F(FlatVesselsTest, fade_with_the_distance_from_the_plane) {
   for (const float side : {-1.0F, 1.0F})
     for (const float share : {0.1F, 0.25F, 0.5F, 0.75F, 0.9F}) {
       const float y_mm = plane_mm + side * (radius_mm + share * reach_mm);
-      const auto tree = vessel_through({{0.5F, y_mm, 1.005F}, {2.5F, y_mm, 1.005F}}, radius_mm);
+      const auto tree = vessel_along({{0.5F, y_mm, 1.005F}, {2.5F, y_mm, 1.005F}}, radius_mm);
       show(tree);
       const pipeline::Image picture = draw_b_scan();
       EXPECT_NEAR(red(picture, 150, 100), tint_red * (1 - double{share}), 3) << share;
@@ -182,13 +169,13 @@ TEST_F(FlatVesselsTest, fade_with_the_distance_from_the_plane) {
       EXPECT_EQ(red(picture, 150, 91), 0);
     }
   const float y_mm = plane_mm + radius_mm + 1.05F * reach_mm;
-  const auto beyond = vessel_through({{0.5F, y_mm, 1.005F}, {2.5F, y_mm, 1.005F}}, radius_mm);
+  const auto beyond = vessel_along({{0.5F, y_mm, 1.005F}, {2.5F, y_mm, 1.005F}}, radius_mm);
   show(beyond);
   EXPECT_EQ(red(draw_b_scan(), 150, 100), 0);
 }
 
 TEST_F(FlatVesselsTest, a_vessel_that_is_cut_is_not_broken_by_one_that_is_not) {
-  const auto cut = vessel_through({{0.5F, plane_mm, 1.005F}, {2.5F, plane_mm, 1.005F}}, 0.06F);
+  const auto cut = vessel_along({{0.5F, plane_mm, 1.005F}, {2.5F, plane_mm, 1.005F}}, 0.06F);
   show(cut);
   const pipeline::Image alone = draw_b_scan();
   pipeline::VesselTree both;
@@ -210,7 +197,7 @@ TEST_F(FlatVesselsTest, a_vessel_that_is_cut_is_not_broken_by_one_that_is_not) {
 }
 
 TEST_F(FlatVesselsTest, obey_the_opacity) {
-  const auto tree = vessel_through({{0.5F, plane_mm, 1.005F}, {2.5F, plane_mm, 1.005F}}, 0.06F);
+  const auto tree = vessel_along({{0.5F, plane_mm, 1.005F}, {2.5F, plane_mm, 1.005F}}, 0.06F);
   show(tree);
   const int full = red(draw_b_scan(), 150, 95);
   view_.vessel_opacity = 0.5F;
@@ -220,7 +207,7 @@ TEST_F(FlatVesselsTest, obey_the_opacity) {
 TEST_F(FlatVesselsTest, lie_in_the_microscopes_picture_as_the_scan_does) {
   show_tissue();
   // Along the fast axis through the middle of the field.
-  const auto tree = vessel_through({{0.3F, 1.5F, 0.7F}, {2.7F, 1.5F, 0.7F}}, 0.1F);
+  const auto tree = vessel_along({{0.3F, 1.5F, 0.7F}, {2.7F, 1.5F, 0.7F}}, 0.1F);
   show(tree);
   const ui::ScanField turned{{{{0.4F, 0.2F}, {0.8F, 0.4F}, {0.6F, 0.8F}, {0.2F, 0.6F}}}};
   const pipeline::Image picture =
@@ -270,7 +257,7 @@ TEST_F(FlatVesselsTest, from_above_deep_vessels_are_weak_and_break_no_strong_one
 }
 
 TEST_F(FlatVesselsTest, pictures_are_kept_until_something_changes) {
-  const auto tree = vessel_through({{0.5F, plane_mm, 1.005F}, {2.5F, plane_mm, 1.005F}}, 0.06F);
+  const auto tree = vessel_along({{0.5F, plane_mm, 1.005F}, {2.5F, plane_mm, 1.005F}}, 0.06F);
   show(tree);
   const pipeline::Image first = draw_b_scan();
   const std::uint64_t drawings = vessels_->drawings();
@@ -328,7 +315,7 @@ protected:
 
   // A T in the plane of B-scan 20, in the tissue.
   const pipeline::ClusterArrays arrays_ =
-      vessel_through({{0.3F, plane_mm, 0.8F}, {2.7F, plane_mm, 0.8F}, {1.5F, 2.8F, 0.8F}}, 0.06F);
+      vessel_along({{0.3F, plane_mm, 0.8F}, {2.7F, plane_mm, 0.8F}, {1.5F, 2.8F, 0.8F}}, 0.06F);
   ui::ViewState view_;
   ui::Status status_ = live_status();
 };

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "ui/panels/projection.h"
+#include "ui/vessels/scene/vessel_colour.h"
 
 namespace octascope::ui {
 
@@ -52,12 +53,7 @@ float plane_mm(FlatPicture picture, int place, const pipeline::VolumeGeometry& g
 }
 
 VesselColour colour_of(const NearSegment& segment, VesselColouring colouring) {
-  switch (colouring) {
-  case VesselColouring::branch: return branch_colours[static_cast<std::size_t>(segment.branch)];
-  case VesselColouring::order: return order_colours[segment.order];
-  case VesselColouring::diagnostic: break;
-  }
-  return drawn_by_gl;
+  return colour_of(colouring, static_cast<std::size_t>(segment.branch), segment.order, drawn_by_gl);
 }
 
 bool draws(const ViewState& view) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "ui/vessels/scene/vessel_colour.h"
 #include "ui/view/segment_counts.h"
 
 namespace octascope::ui {
@@ -22,15 +23,6 @@ BaseColour packed(const VesselColour& colour) {
     return static_cast<BaseColour>(std::lround(std::clamp(v, 0.0F, 1.0F) * 1023));
   };
   return bits(colour[0]) | bits(colour[1]) << 10U | bits(colour[2]) << 20U;
-}
-
-VesselColour colour_of(VesselColouring colouring, std::size_t branch, std::size_t order) {
-  switch (colouring) {
-  case VesselColouring::branch: return branch_colours[branch];
-  case VesselColouring::order: return order_colours[order];
-  case VesselColouring::diagnostic: break;
-  }
-  return drawn_by_processor;
 }
 
 // dot(direction, world place − eye) for places in the tree's frame.
@@ -68,8 +60,9 @@ SplatFrame frame_of(const VesselScene& scene, DepthImage& sharp, DepthImage& ima
       scaled_sum(-scale, along(scene, scene.camera.up), middle_line, frame.distance_row);
   for (std::size_t branch = 0; branch < frame.colours.size(); ++branch)
     for (std::size_t order = 0; order < pipeline::vessel_order_count; ++order)
-      frame.colours[branch][order] = packed(colour_of(scene.look.colouring, branch, order)) |
-                                     (order >= least_order_kept_visible ? kept_visible : 0);
+      frame.colours[branch][order] =
+          packed(colour_of(scene.look.colouring, branch, order, drawn_by_processor)) |
+          (order >= least_order_kept_visible ? kept_visible : 0);
   return frame;
 }
 
