@@ -31,7 +31,8 @@ public:
     switch (kind) {
     case Fault::late_frame: return chosen() + fmt::format("late_ms = {:.1f}\n", between(1, 300));
     case Fault::wrong_size:
-      return chosen() + fmt::format("size_share = {:.3f}\n", between(0, 0.99) + any(0, 1));
+      // Never 1, the right size, which a script may not name.
+      return chosen() + fmt::format("size_share = {:.3f}\n", between(0, 0.99) + 1.01 * any(0, 1));
     case Fault::saturation: return chosen() + fmt::format("line_share = {:.3f}\n", between(0, 1));
     case Fault::dropped_frames:
     case Fault::corrupted_frame:
