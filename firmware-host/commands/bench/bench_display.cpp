@@ -69,6 +69,7 @@ public:
     }
     view_.tilt_deg = 35;
     view_.distance = 2.4F;
+    view_.see_through_db = 0; // every sample as it was measured, as other programs draw it
   }
 
   const ui::ViewState& view() const { return view_; }
