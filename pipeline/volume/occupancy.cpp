@@ -14,6 +14,8 @@ constexpr int brick_depths = 1 << brick_depth_shift;
 constexpr int brick_a_scans = 1 << brick_a_shift;
 constexpr int longest_strip = 2048; // depth bins at a time: two strips stay on the stack
 
+using Strip = std::array<std::uint8_t, longest_strip + brick_depths>; // with room behind the last
+
 // The extremes of some A-scans, depth bin by depth bin.
 OCTASCOPE_CPU_CLONES
 void extremes_of_a_scans(const std::uint8_t* levels, std::size_t pitch, int a_scans, int depths,
@@ -29,20 +31,28 @@ void extremes_of_a_scans(const std::uint8_t* levels, std::size_t pitch, int a_sc
   }
 }
 
+// Bricks share their border's bin. The strips are used up: each step doubles how many bins one
+// stands for. A brick of nothing, whose highest is 0 and lowest 255, gets 0 twice: as empty as can
+// be, under any transfer function.
 OCTASCOPE_CPU_CLONES
-std::uint8_t highest_of(const std::uint8_t* levels, int count) {
-  std::uint8_t highest = 0;
-  for (int i = 0; i < count; ++i)
-    highest = std::max(highest, levels[i]);
-  return highest;
+void extremes_of_bricks(std::uint8_t* high, std::uint8_t* low, int bricks,
+                        std::uint8_t* __restrict highest, std::uint8_t* __restrict lowest) {
+  const int bins = bricks * brick_depths;
+  for (int reach = 1; reach < brick_depths; reach *= 2)
+    for (int z = 0; z < bins; ++z) {
+      high[z] = std::max(high[z], high[z + reach]);
+      low[z] = std::min(low[z], low[z + reach]);
+    }
+  for (int brick = 0; brick < bricks; ++brick) {
+    const int z = brick * brick_depths;
+    highest[brick] = std::max(high[z], high[z + 1]);
+    lowest[brick] = std::min({low[z], low[z + 1], highest[brick]});
+  }
 }
 
-OCTASCOPE_CPU_CLONES
-std::uint8_t lowest_of(const std::uint8_t* levels, int count) {
-  std::uint8_t lowest = 255;
-  for (int i = 0; i < count; ++i)
-    lowest = std::min(lowest, levels[i]);
-  return lowest;
+void forget(Strip& high, Strip& low, int first, int end) {
+  std::fill(high.begin() + first, high.begin() + end, std::uint8_t{0});
+  std::fill(low.begin() + first, low.begin() + end, std::uint8_t{255});
 }
 
 int bricks_of(int cells, int shift) {
@@ -67,8 +77,8 @@ Occupancy::Occupancy(const VolumeGeometry& geometry, int first_depth)
 void Occupancy::update(int b, std::span<const std::uint8_t> levels) noexcept {
   const auto pitch = static_cast<std::size_t>(geometry_.depths);
   const std::size_t row = bricks_.per_b_scan() * static_cast<std::size_t>(b);
-  std::array<std::uint8_t, longest_strip + 1> high{};
-  std::array<std::uint8_t, longest_strip + 1> low{};
+  Strip high{};
+  Strip low{};
   for (int brick_a = 0; brick_a < bricks_.a; ++brick_a) {
     const int first_a = std::max(brick_a * brick_a_scans - 1, 0);
     const int last_a = std::min((brick_a + 1) * brick_a_scans - 1, geometry_.a_scans - 1);
@@ -77,17 +87,15 @@ void Occupancy::update(int b, std::span<const std::uint8_t> levels) noexcept {
       extremes_of_a_scans(levels.data() + static_cast<std::size_t>(first_a) * pitch +
                               static_cast<std::size_t>(strip),
                           pitch, last_a - first_a + 1, depths, high.data(), low.data());
-      const int end = std::min(longest_strip, geometry_.depths - strip);
-      for (int z = 0; z < end; z += brick_depths) {
-        const int first = std::max(z, first_depth_ - strip);
-        const int count = std::min(z + brick_depths + 1, depths) - first;
-        const std::size_t at =
-            row + static_cast<std::size_t>(brick_a) * static_cast<std::size_t>(bricks_.depth) +
-            static_cast<std::size_t>((strip + z) >> brick_depth_shift);
-        // What nothing is sampled from is as empty as can be, under any transfer function.
-        highest_[at] = count > 0 ? highest_of(high.data() + first, count) : 0;
-        lowest_[at] = count > 0 ? lowest_of(low.data() + first, count) : 0;
-      }
+      const int bricks =
+          bricks_of(std::min(longest_strip, geometry_.depths - strip), brick_depth_shift);
+      forget(high, low, 0, std::clamp(first_depth_ - strip, 0, depths));
+      forget(high, low, depths, (bricks + 1) * brick_depths);
+      const std::size_t at =
+          row + static_cast<std::size_t>(brick_a) * static_cast<std::size_t>(bricks_.depth) +
+          static_cast<std::size_t>(strip >> brick_depth_shift);
+      extremes_of_bricks(high.data(), low.data(), bricks, highest_.data() + at,
+                         lowest_.data() + at);
     }
   }
 }

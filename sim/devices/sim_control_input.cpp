@@ -167,14 +167,14 @@ void SimControlInput::update_stuck_switches(TimePoint t) {
   }
 }
 
-void SimControlInput::move(TimePoint t, ControlKind kind, std::uint8_t index, std::int32_t value) {
-  if (kind == ControlKind::pedal_switch) {
+void SimControlInput::move(TimePoint t, ControlKind what, std::uint8_t index, std::int32_t value) {
+  if (what == ControlKind::pedal_switch) {
     contacts_[index].foot(t, value != 0, probe_.active(Fault::bounce, t, index));
     return;
   }
-  if (kind == ControlKind::axis)
+  if (what == ControlKind::axis)
     axes_[index] = value;
-  report({t, kind, index, value});
+  report({t, what, index, value});
 }
 
 void SimControlInput::pull_out(TimePoint t) {

@@ -49,7 +49,7 @@ private:
   void play_injected(hal::TimePoint t);
   void look_for_injected(hal::TimePoint now);
   void update_stuck_switches(hal::TimePoint t);
-  void move(hal::TimePoint t, hal::ControlKind kind, std::uint8_t index, std::int32_t value);
+  void move(hal::TimePoint t, hal::ControlKind what, std::uint8_t index, std::int32_t value);
   void pull_out(hal::TimePoint t);
   void report(const hal::ControlEvent& event);
   bool has_room() const { return reported_ + most_reports_at_once <= outbox_.size(); }

@@ -29,10 +29,9 @@ INSTANTIATE_TEST_SUITE_P(Geometries, OccupancyOf,
                                          VolumeGeometry{1, 1, 1, 1, 1, 1},
                                          VolumeGeometry{4100, 9, 2, 1, 1, 1}));
 
-TEST_P(OccupancyOf, each_brick_has_the_extremes_of_the_voxels_that_touch_its_cells) {
-  const VolumeGeometry g = GetParam();
+void expect_extremes_of_voxels(const VolumeGeometry& g, int first_depth) {
+  SCOPED_TRACE(first_depth);
   const pipeline::Volume volume = noise_volume(g);
-  constexpr int first_depth = 2;
   Occupancy occupancy{g, first_depth};
   occupancy.update(volume);
   const auto bricks = occupancy.bricks();
@@ -63,6 +62,11 @@ TEST_P(OccupancyOf, each_brick_has_the_extremes_of_the_voxels_that_touch_its_cel
         EXPECT_EQ(occupancy.highest(b)[at], std::max(highest, 0)) << brick_a << ' ' << brick_z;
         EXPECT_EQ(occupancy.lowest(b)[at], highest < 0 ? 0 : lowest) << brick_a << ' ' << brick_z;
       }
+}
+
+TEST_P(OccupancyOf, each_brick_has_the_extremes_of_the_voxels_that_touch_its_cells) {
+  for (const int first_depth : {0, 2, 8, 9, 21})
+    expect_extremes_of_voxels(GetParam(), first_depth);
 }
 
 TEST(Occupancy, a_b_scan_that_comes_again_replaces_what_it_said) {
