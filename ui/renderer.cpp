@@ -202,16 +202,16 @@ void Renderer::Parts::fill_canvases(const DrawnPicture& picture, const Layout& p
 
 void Renderer::Parts::draw_flat_pictures(const ViewState& view, const Layout& places,
                                          const EyeFrame& frame, int height) {
-  const Crop crop = crop_of(view);
+  const Crop shown = crop_of(view);
   const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
     if (panel.shown())
-      b_scan_panel.draw(volume.texture(), state_texture, direction, view, crop,
+      b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown,
                         frame.place(panel.picture), height);
   };
   draw_b_scan(places.b_scan, ScanDirection::fast);
   draw_b_scan(places.crossed, ScanDirection::slow);
   if (places.en_face.shown())
-    en_face_panel.draw(state_texture, crop, frame.place(places.en_face.picture), height);
+    en_face_panel.draw(state_texture, shown, frame.place(places.en_face.picture), height);
 }
 
 VesselSections::Sight Renderer::Parts::sight(const ViewState& view) const {

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include <gmock/gmock.h>
+
 #include "pipeline/vessels/clusters/cluster_builder.h"
 #include "tests/ui/support/renderer_stage.h"
 #include "tests/ui/support/vessels/vessel_along.h"
