@@ -359,9 +359,7 @@ public:
     for (int i = 0; i < places; ++i)
       for (int j = 0; j < places; ++j) {
         const auto part = [](int k) { return (static_cast<float>(k) + 0.5F) / places - 0.5F; };
-        ui::VesselView moved = view;
-        moved.target_mm += view.mm_per_pixel * (part(i) * camera_.right + part(j) * camera_.up);
-        draw(moved);
+        draw(view, part(i), part(j));
         const Picture sample = shown(splatter_.sharp());
         for (std::size_t k = 0; k < sample.size(); ++k)
           frame.mean[k] += sample[k] / (places * places);
@@ -370,8 +368,14 @@ public:
   }
 
 private:
-  void draw(const ui::VesselView& view) {
+  // The eye turned by so many pixels: moved aside, it would shift what is far by less.
+  void draw(const ui::VesselView& view, float right_px = 0, float up_px = 0) {
     camera_ = ui::make_vessel_camera(view, bounds_, width, height);
+    const float px = camera_.tan_half_height / (0.5F * height);
+    camera_.forward =
+        glm::normalize(camera_.forward + px * (right_px * camera_.right + up_px * camera_.up));
+    camera_.right = glm::normalize(glm::cross(camera_.forward, camera_.up));
+    camera_.up = glm::cross(camera_.right, camera_.forward);
     ui::VesselScene scene{tree_, camera_, glm::mat4{1}, {}, width, height};
     scene.look = ui::with_cue(scene.look, view, bounds_, width, height);
     EXPECT_TRUE(splatter_.draw(scene, image_));
@@ -385,7 +389,7 @@ private:
   ui::Camera camera_;
 };
 
-TEST(VesselSmoothing, takes_a_third_of_the_flicker_of_a_flight) {
+TEST(VesselSmoothing, takes_more_than_a_third_of_the_flicker_of_a_flight) {
   auto grown = sim::generate_coronary_tree({60000, 1, 2});
   ASSERT_TRUE(grown);
   // A heart of so few segments ends at order 5: counted from below, there are thin ones, too.
@@ -412,9 +416,9 @@ TEST(VesselSmoothing, takes_a_third_of_the_flicker_of_a_flight) {
   fmt::print("  flicker {:.3f} of 255, sharp {:.3f}; change from frame to frame {:.3f}, sharp "
              "{:.3f}; from the mean {:.3f}, sharp {:.3f}\n",
              smooth, sharp, smooth_change, sharp_change, off_smooth, off_sharp);
-  EXPECT_LE(smooth, 0.67 * sharp);
+  EXPECT_LE(smooth, 0.62 * sharp);
   EXPECT_LE(smooth_change, 0.75 * sharp_change);
-  EXPECT_LE(off_smooth, 0.9 * off_sharp);
+  EXPECT_LE(off_smooth, 0.7 * off_sharp);
 }
 
 } // namespace

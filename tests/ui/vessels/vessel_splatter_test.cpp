@@ -138,6 +138,35 @@ TEST(VesselSplatter, refuses_pictures_without_pixels_and_shares_of_other_trees) 
   EXPECT_FALSE(splatter.draw(scene, image));
 }
 
+TEST(VesselSplatter, says_in_which_columns_vessels_are) {
+  const auto arrays = pipeline::build_clusters(tests::random_tree(4000, 16));
+  const auto tree = arrays.view();
+  ui::Splatter splatter = make_splatter(1);
+  ui::DepthImage image;
+  const ui::Camera camera = camera_at(10, 8);
+  int narrower = 0;
+  for (const float shift : {-0.8F, 0.0F, 0.8F, 5.0F}) { // of the picture's height
+    ui::VesselScene scene = scene_of(tree, camera);
+    scene.width = 4 * width;
+    scene.world_from_tree[3] = glm::vec4{
+        shift * 4 * camera.tan_half_height * camera.depth_of({0, 0, 0}) * camera.right, 1};
+    ASSERT_TRUE(splatter.draw(scene, image));
+    const ui::SplatColumns columns = splatter.columns();
+    int covered = 0;
+    for (int y = 0; y < scene.height; ++y)
+      for (int x = 0; x < scene.width; ++x)
+        if (image.at(x, y) != ui::empty_depth_pixel) {
+          ++covered;
+          ASSERT_GE(x, columns.first);
+          ASSERT_LT(x, columns.end);
+        }
+    EXPECT_EQ(covered > 0, shift < 5) << shift;
+    EXPECT_EQ(columns.end > columns.first, covered > 0) << shift;
+    narrower += columns.end - columns.first < scene.width;
+  }
+  EXPECT_GE(narrower, 3);
+}
+
 TEST(VesselSplatter, what_others_take_is_neither_drawn_nor_counted) {
   const auto arrays = pipeline::build_clusters(tests::random_tree(5000, 16));
   const auto tree = arrays.view();

@@ -27,7 +27,7 @@ hal::Result<SegmentCounts> HybridMethod::do_draw(const VesselScene& scene) {
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   }
-  const auto drawn = picture_.draw(image_, scene.camera);
+  const auto drawn = picture_.draw(image_, scene.camera, splatter_.columns());
   glDisable(GL_BLEND);
   HAL_CHECK(drawn);
   return account;

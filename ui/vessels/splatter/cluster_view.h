@@ -45,13 +45,15 @@ public:
     // Linear in the position, to avoid dividing by a distance that may be 0.
     const float radius_px = std::max(radius * frame.pixels_per_unit,
                                      least_vessel_radius_px * std::max(distance.upper, 0.0F));
-    const auto beyond = [&](const std::array<float, 4>& row, float last) {
-      return range(sum(row, distance_, 0.5F)).upper + radius_px < 0 ||
-             range(sum(row, distance_, -last - 0.5F)).lower - radius_px > 0;
+    const auto within = [&](const std::array<float, 4>& row, int size) {
+      const Range from_first = range(sum(row, distance_, 0.5F));
+      const Range from_last = range(sum(row, distance_, 0.5F - static_cast<float>(size)));
+      outside_ = outside_ || from_first.upper + radius_px < 0 || from_last.lower - radius_px > 0;
+      return from_first.lower >= 0 && from_last.upper <= 0;
     };
-    outside_ = distance.upper < frame.near_mm || distance.lower > frame.far_mm ||
-               beyond(column_, static_cast<float>(frame.width - 1)) ||
-               beyond(line_, static_cast<float>(frame.height - 1));
+    outside_ = distance.upper < frame.near_mm || distance.lower > frame.far_mm;
+    const bool in_columns = within(column_, frame.width);
+    inside_ = within(line_, frame.height) && in_columns;
     middle_ = (distance.lower + distance.upper) / 2;
     pixels_per_unit_ = frame.pixels_per_unit;
     crosses_near_ = distance.lower < frame.near_mm;
@@ -59,6 +61,7 @@ public:
   }
 
   bool outside() const { return outside_; }
+  bool inside() const { return inside_; }             // all its nodes are in the picture
   bool crosses_near() const { return crosses_near_; } // part of it may be nearer than near_mm
   // Rows that apply to a node's packed position.
   const std::array<float, 4>& column() const { return column_; }
@@ -121,6 +124,7 @@ private:
   float pixels_per_unit_ = 0;
   float widest_px_per_mm_ = 0;
   bool outside_ = false;
+  bool inside_ = false;
   bool crosses_near_ = false;
   const pipeline::VesselCluster& cluster_;
 };

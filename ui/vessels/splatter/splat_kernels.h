@@ -9,13 +9,22 @@
 
 namespace octascope::ui {
 
+// Columns [first, end) of a picture.
+struct SplatColumns {
+  int first = 0;
+  int end = 0;
+};
+
+inline constexpr int smoothing_block = 256; // columns
+
 // The functions of one instruction set. They neither allocate nor lock. Several threads may draw
 // different clusters into one picture.
 struct SplatKernels {
   using Splat = SplatCounts (*)(const SplatFrame& frame, std::uint32_t first_cluster,
                                 std::uint32_t end_cluster);
-  // Rows [top, bottom), once all clusters are drawn.
-  using Smooth = void (*)(const SplatFrame& frame, int top, int bottom);
+  // Rows [top, bottom), once all clusters are drawn. Returns a bit for each block of columns that has
+  // a vessel, the leftmost lowest.
+  using Smooth = std::uint64_t (*)(const SplatFrame& frame, int top, int bottom);
   const char* isa;
   Splat splat;
   Smooth smooth;

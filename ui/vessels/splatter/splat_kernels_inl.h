@@ -48,7 +48,9 @@ namespace splat {
 class ClusterSplatter {
 public:
   explicit ClusterSplatter(const SplatFrame& frame)
-      : frame_{frame}, dots_{frame}, lines_of_pixels_{frame} {}
+      : frame_{frame}, fragments_{frame}, queues_{{frame, fragments_},
+                                                  {frame, fragments_},
+                                                  {frame, fragments_}} {}
 
   HWY_INLINE void splat(std::uint32_t index) {
     const pipeline::VesselCluster& cluster = frame_.tree.clusters[index];
@@ -74,43 +76,46 @@ public:
     project(cluster, view, nodes, cluster.nodes);
     find_parents(cluster);
     const auto start = [this](std::size_t i) { return start_of(i); };
-    choose(taken, thin, kept_visible_reach);
+    choose(taken, thin, kept_visible_reach, view.inside());
     add_chosen(cluster, nodes, start);
-    choose(thin, cluster.nodes, 0);
+    choose(thin, cluster.nodes, 0, view.inside());
     add_chosen(cluster, nodes, start);
   }
 
   SplatCounts finish() {
-    dots_.queue.finish();
-    lines_of_pixels_.queue.finish();
+    for (std::size_t kind = 0; kind < kinds; ++kind)
+      queues_[kind].finish(kind == one_centre);
+    fragments_.finish();
     return counts_;
   }
 
 private:
   static constexpr std::size_t room = 256 + lanes;
   static constexpr std::size_t nodes_a_cache_line = 8;
+  // A quarter of the time went by in waiting for nodes: clusters lie one behind the other.
+  static constexpr std::size_t nodes_ahead = 160;
   static constexpr float kept_visible_reach = least_vessel_radius_px + 1e-3F;
 
-  // The cluster's segments to be drawn, and the queue that they go to.
-  struct Choice {
-    explicit Choice(const SplatFrame& frame) : queue{frame} {}
+  // By how many pixel centres they may cover: alike ones are drawn together, because lanes wait for
+  // the slowest.
+  enum Kind : std::uint32_t { one_centre, few_centres, more_centres, kinds };
+  static constexpr float most_few_px =
+      3; // from the first sides of its rectangle to its last centre
+  static constexpr unsigned kind_shift = 16; // of chosen indices
 
-    HWY_INLINE void note(Word index, Mask chosen) {
-      store_lanes(Words{}, index, hn::RebindMask(Words{}, chosen), indices + count);
-      count += hn::CountTrue(Floats{}, chosen);
+  // Ends of segments. Most are looked at for their place alone.
+  struct Ends {
+    HWY_INLINE End at(std::size_t i) const {
+      return {places[2 * i], places[2 * i + 1], nearness[i], log2_radii[i]};
     }
-    template <class Add> HWY_INLINE void take(const Add& add) {
-      if (HWY_UNLIKELY(queue.space() < count))
-        queue.draw_full();
-      const std::uint32_t* HWY_RESTRICT chosen = indices;
-      for (std::size_t k = 0; k < count; ++k)
-        add(chosen[k]);
-      count = 0;
+    HWY_INLINE void copy(const Ends& from, std::size_t count) {
+      std::copy_n(from.places, 2 * count, places);
+      std::copy_n(from.nearness, count, nearness);
+      std::copy_n(from.log2_radii, count, log2_radii);
     }
-
-    ShapeQueue queue;
-    std::size_t count = 0;
-    HWY_ALIGN std::uint32_t indices[room + lanes];
+    HWY_ALIGN float places[2 * (room + lanes)]; // column, line
+    HWY_ALIGN float nearness[room];
+    HWY_ALIGN float log2_radii[room];
   };
 
   // Projects the cluster's nodes onto the screen.
@@ -122,6 +127,8 @@ private:
     };
     const auto number = [](Word v) { return hn::ConvertTo(Floats{}, hn::BitCast(Ints{}, v)); };
     for (std::size_t i = 0; i < count; i += lanes) {
+      for (std::size_t line = 0; line < lanes; line += nodes_a_cache_line)
+        __builtin_prefetch(nodes + i + nodes_ahead + line);
       Word low, high;
       if (HWY_LIKELY(i + lanes <= count)) {
         hn::LoadInterleaved2(Words{}, &nodes[i].low, low, high);
@@ -145,11 +152,11 @@ private:
       const Real radius =
           hn::BitCast(Floats{}, hn::ConvertTo(Ints{}, hn::MulAdd(log2_radius, real(8388608.0F),
                                                                  real(127.0F * 8388608.0F))));
-      hn::Store(column, Floats{}, columns_ + i);
-      hn::Store(line, Floats{}, lines_ + i);
+      hn::StoreInterleaved2(column, line, Floats{}, ends_.places + 2 * i);
+      hn::Store(nearness, Floats{}, ends_.nearness + i);
+      hn::Store(log2_radius, Floats{}, ends_.log2_radii + i);
       hn::Store(hn::MulAdd(radius, real(view.widest_px_per_mm()), real(1e-3F)), Floats{},
                 reaches_ + i);
-      hn::StoreInterleaved4(column, line, nearness, log2_radius, Floats{}, &ends_[i].column);
       const Word parent = hn::And(hn::ShiftRight<20>(high), word(0xFF));
       hn::Store(parent, Words{}, parents_ + i);
     }
@@ -160,9 +167,10 @@ private:
     const std::size_t end = cluster.nodes;
     const std::uint32_t* HWY_RESTRICT parents = parents_;
     float* HWY_RESTRICT places = parent_places_;
-    const End* HWY_RESTRICT ends = ends_;
+    const float* HWY_RESTRICT ends = ends_.places;
+#pragma GCC unroll 4
     for (std::size_t i = cluster.references; i < end; ++i)
-      std::memcpy(places + 2 * i, ends + parents[i], 2 * sizeof(float));
+      std::memcpy(places + 2 * i, ends + 2 * std::size_t{parents[i]}, 2 * sizeof(float));
   }
 
   // Draws fewer segments for the same coverage; see merged_order.h. First copies the drawn nodes
@@ -186,13 +194,13 @@ private:
     }
     counts_.merged += cluster.nodes - taken - drawn_;
     project(cluster, view, drawn_parents_, drawn_);
-    std::copy_n(ends_, drawn_, starts_);
+    starts_.copy(ends_, drawn_);
     project(cluster, view, drawn_nodes_, drawn_);
     widen();
-    const auto start = [this](std::size_t i) { return starts_[i]; };
-    choose(0, thin - taken, kept_visible_reach);
+    const auto start = [this](std::size_t i) { return starts_.at(i); };
+    choose(0, thin - taken, kept_visible_reach, view.inside());
     add_chosen(cluster, drawn_nodes_, start);
-    choose(thin - taken, drawn_, 0);
+    choose(thin - taken, drawn_, 0, view.inside());
     add_chosen(cluster, drawn_nodes_, start);
   }
 
@@ -212,9 +220,11 @@ private:
   // segments that it stands for: L′ = L − π/2 · (widening − 1) · r, but at least 0.
   HWY_INLINE void widen() {
     for (std::size_t i = 0; i < drawn_; i += lanes) {
-      Real ax, ay, wa, la, bx, by, wb, lb;
-      hn::LoadInterleaved4(Floats{}, &starts_[i].column, ax, ay, wa, la);
-      hn::LoadInterleaved4(Floats{}, &ends_[i].column, bx, by, wb, lb);
+      Real ax, ay, bx, by;
+      hn::LoadInterleaved2(Floats{}, starts_.places + 2 * i, ax, ay);
+      hn::LoadInterleaved2(Floats{}, ends_.places + 2 * i, bx, by);
+      Real la = hn::Load(Floats{}, starts_.log2_radii + i);
+      Real lb = hn::Load(Floats{}, ends_.log2_radii + i);
       const Real widening = hn::Load(Floats{}, widenings_ + i);
       const Real log2_widening = hn::Log2(Floats{}, widening);
       la = hn::Add(hn::Min(la, hn::Add(lb, real(log2_widest_start))), log2_widening);
@@ -232,11 +242,11 @@ private:
       ay = hn::MulAdd(share, dy, ay);
       bx = hn::NegMulAdd(share, dx, bx);
       by = hn::NegMulAdd(share, dy, by);
-      hn::StoreInterleaved4(ax, ay, wa, la, Floats{}, &starts_[i].column);
-      hn::StoreInterleaved4(bx, by, wb, lb, Floats{}, &ends_[i].column);
+      hn::StoreInterleaved2(ax, ay, Floats{}, starts_.places + 2 * i);
       hn::StoreInterleaved2(ax, ay, Floats{}, parent_places_ + 2 * i);
-      hn::Store(bx, Floats{}, columns_ + i);
-      hn::Store(by, Floats{}, lines_ + i);
+      hn::StoreInterleaved2(bx, by, Floats{}, ends_.places + 2 * i);
+      hn::Store(la, Floats{}, starts_.log2_radii + i);
+      hn::Store(lb, Floats{}, ends_.log2_radii + i);
       hn::Store(hn::Mul(reach, widening), Floats{}, reaches_ + i);
     }
   }
@@ -245,45 +255,54 @@ private:
   HWY_INLINE void add_chosen(const pipeline::VesselCluster& cluster,
                              const pipeline::PackedNode* nodes, const Start& start) {
     const BaseColour* colours = frame_.colours[static_cast<std::size_t>(cluster.branch)].data();
-    for (Choice* choice : {&dots_, &lines_of_pixels_})
-      choice->take([&](std::uint32_t i) {
-        choice->queue.add(start(i), ends_[i], colours[nodes[i].order()]);
-      });
+    for (std::size_t kind = 0; kind < kinds; ++kind)
+      if (HWY_UNLIKELY(queues_[kind].space() < chosen_))
+        queues_[kind].draw_full(kind == one_centre);
+    const std::uint32_t* HWY_RESTRICT choice = choice_;
+    for (std::size_t k = 0; k < chosen_; ++k) {
+      const std::uint32_t i = choice[k] & ((1U << kind_shift) - 1);
+      queues_[choice[k] >> kind_shift].add(start(i), ends_.at(i), colours[nodes[i].order()]);
+    }
   }
 
   HWY_INLINE End start_of(std::size_t i) const {
-    End start = ends_[parents_[i]];
-    start.log2_radius = std::min(start.log2_radius, ends_[i].log2_radius + log2_widest_start);
+    End start = ends_.at(parents_[i]);
+    start.log2_radius = std::min(start.log2_radius, ends_.log2_radii[i] + log2_widest_start);
     return start;
   }
 
   // Selects, among the segments that end at nodes [begin, end), those that may cover a pixel
-  // centre.
-  HWY_INLINE void choose(std::size_t begin, std::size_t end, float least_reach) {
+  // centre. `inside`: all are in the picture.
+  HWY_INLINE void choose(std::size_t begin, std::size_t end, float least_reach, bool inside) {
     const Real right = real(static_cast<float>(frame_.width) - 0.5F);
     const Real bottom = real(static_cast<float>(frame_.height) - 0.5F);
     const Real edge = real(-0.5F);
     std::size_t in_picture = 0;
+    std::size_t chosen = 0;
     for (std::size_t i = begin; i < end; i += lanes) {
-      const Real bx = hn::LoadU(Floats{}, columns_ + i);
-      const Real by = hn::LoadU(Floats{}, lines_ + i);
       const Real reach = hn::Max(hn::LoadU(Floats{}, reaches_ + i), real(least_reach));
-      Real ax, ay;
+      Real ax, ay, bx, by;
       hn::LoadInterleaved2(Floats{}, parent_places_ + 2 * i, ax, ay);
+      hn::LoadInterleaved2(Floats{}, ends_.places + 2 * i, bx, by);
       const Real left_x = hn::Sub(hn::Min(ax, bx), reach);
       const Real right_x = hn::Add(hn::Max(ax, bx), reach);
       const Real top_y = hn::Sub(hn::Min(ay, by), reach);
       const Real bottom_y = hn::Add(hn::Max(ay, by), reach);
-      const Mask inside = hn::And(hn::And(hn::Ge(right_x, edge), hn::Le(left_x, right)),
-                                  hn::And(hn::Ge(bottom_y, edge), hn::Le(top_y, bottom)));
-      const Mask seen = hn::And(hn::FirstN(Floats{}, end - i), inside);
+      Mask seen = hn::FirstN(Floats{}, end - i);
+      if (!inside) {
+        const Mask meets = hn::And(hn::And(hn::Ge(right_x, edge), hn::Le(left_x, right)),
+                                   hn::And(hn::Ge(bottom_y, edge), hn::Le(top_y, bottom)));
+        seen = hn::And(seen, meets);
+      }
       in_picture += hn::CountTrue(Floats{}, seen);
-      // The rectangle's last pixel centre, and whether it is the only one.
+      // The rectangle's last pixel centre, and how far its first sides are from there.
       const Real x = hn::Floor(right_x);
       const Real y = hn::Floor(bottom_y);
-      const Mask has_centre = hn::And(hn::Ge(x, left_x), hn::Ge(y, top_y));
-      const Mask has_more =
-          hn::Or(hn::Ge(hn::Sub(x, real(1)), left_x), hn::Ge(hn::Sub(y, real(1)), top_y));
+      const Real wide = hn::Sub(x, left_x);
+      const Real high = hn::Sub(y, top_y);
+      const Real longer = hn::Max(wide, high);
+      const Mask has_centre = hn::Ge(hn::Min(wide, high), real(0));
+      const Mask has_more = hn::Ge(longer, real(1));
       // No further than `reach` from the line through the ends.
       const Real dx = hn::Sub(bx, ax);
       const Real dy = hn::Sub(by, ay);
@@ -291,10 +310,16 @@ private:
       const Real limit = hn::Mul(hn::Mul(reach, reach), hn::MulAdd(dx, dx, hn::Mul(dy, dy)));
       const Mask close = hn::Or(has_more, hn::Le(hn::Mul(across, across), limit));
       const Mask hit = hn::And(hn::And(seen, has_centre), close);
+      const Mask has_many = hn::Ge(longer, real(most_few_px));
+      const auto if_so = [](Mask mask, Kind kind) {
+        return hn::IfThenElseZero(hn::RebindMask(Words{}, mask), word(kind << kind_shift));
+      };
+      const Word kind = hn::Add(if_so(has_more, few_centres), if_so(has_many, few_centres));
       const Word index = hn::Iota(Words{}, static_cast<std::uint32_t>(i));
-      dots_.note(index, hn::AndNot(has_more, hit));
-      lines_of_pixels_.note(index, hn::And(has_more, hit));
+      store_lanes(Words{}, hn::Or(index, kind), hn::RebindMask(Words{}, hit), choice_ + chosen);
+      chosen += hn::CountTrue(Floats{}, hit);
     }
+    chosen_ = chosen;
     counts_.splatted += in_picture;
     counts_.culled += end - begin - in_picture;
   }
@@ -311,9 +336,9 @@ private:
         continue;
       }
       ++counts_.splatted;
-      ShapeQueue& queue = lines_of_pixels_.queue;
+      ShapeQueue& queue = queues_[more_centres];
       if (queue.space() < 1)
-        queue.draw_full();
+        queue.draw_full(false);
       const auto end = [](const ScreenPlace& p) {
         return End{p.column, p.line, p.nearness, p.log2_radius};
       };
@@ -323,12 +348,11 @@ private:
 
   const SplatFrame& frame_;
   SplatCounts counts_;
-  // Segments with a single candidate pixel are drawn together, because lanes wait for the slowest.
-  Choice dots_;
-  Choice lines_of_pixels_;
-  HWY_ALIGN End ends_[room];
-  HWY_ALIGN float columns_[room + lanes];
-  HWY_ALIGN float lines_[room + lanes];
+  Fragments fragments_;
+  ShapeQueue queues_[kinds];
+  std::size_t chosen_ = 0;
+  HWY_ALIGN std::uint32_t choice_[room + lanes]; // indices and kinds
+  Ends ends_;
   HWY_ALIGN float reaches_[room + lanes]; // bounds of a segment's half-width
   HWY_ALIGN float parent_places_[2 * (room + lanes)];
   HWY_ALIGN std::uint32_t parents_[room];
@@ -337,7 +361,7 @@ private:
   HWY_ALIGN pipeline::PackedNode drawn_nodes_[room];
   HWY_ALIGN pipeline::PackedNode drawn_parents_[room];
   HWY_ALIGN float widenings_[room];
-  HWY_ALIGN End starts_[room];
+  Ends starts_;
 };
 
 SplatCounts splat_clusters(const SplatFrame& frame, std::uint32_t first, std::uint32_t end) {

@@ -32,11 +32,15 @@ inline constexpr SplatOutline outline_of_inside =
     outline_beyond << outline_step_bits | outline_beyond;
 inline constexpr std::uint32_t outline_in_distance = 0xF;
 
-// FragmentLook: the outline above d² (vessel_scene.h) as a share of whole_off_axis.
-inline constexpr unsigned off_axis_bits = 20;
-inline constexpr std::uint32_t whole_off_axis = (1U << off_axis_bits) - 1;
-inline constexpr std::uint32_t look_of_thin =
-    static_cast<std::uint32_t>(mean_off_axis * static_cast<float>(whole_off_axis));
+// How a segment runs on the screen: the slope of its minor to its major axis, and by how much more
+// than a ball's its round side rises to the eye (vessel_scene.h), 0 where that is done.
+using SegmentCourse = std::uint32_t;
+inline constexpr SegmentCourse course_across = 1U << 31U; // no flatter than 45 degrees
+inline constexpr SegmentCourse course_body = 1U << 30U;   // not in a round end
+inline constexpr unsigned course_rise_bits = 14;
+inline constexpr std::uint32_t whole_rise = (1U << course_rise_bits) - 1;
+inline constexpr std::uint32_t whole_slope = (1U << 14U) - 1;
+inline constexpr float most_rise = 2.25F; // above √(1 + steepest_rise²)
 
 inline constexpr SplatOutline outline_of(DepthPixel sharp) {
   return static_cast<SplatOutline>(sharp >> 20U & 0xFF0U) |

@@ -22,7 +22,7 @@ hal::Result<SplatPicture> SplatPicture::create() {
   return SplatPicture{std::move(pass)};
 }
 
-hal::Result<> SplatPicture::upload(const DepthImage& image) {
+hal::Result<> SplatPicture::upload(const DepthImage& image, SplatColumns columns) {
   const std::size_t bytes = static_cast<std::size_t>(image.width) *
                             static_cast<std::size_t>(image.height) * sizeof(DepthPixel);
   if (bytes > most_bytes)
@@ -31,7 +31,6 @@ hal::Result<> SplatPicture::upload(const DepthImage& image) {
                      "at most {}; choose a smaller size, or let GL draw all",
                      image.width, image.height, bytes, most_bytes);
   if (image.width != width_ || image.height != height_) {
-    uploader_ = gl::PixelUploader::create(bytes);
     texture_ = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture_.name());
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_RG32UI, image.width, image.height);
@@ -40,22 +39,28 @@ hal::Result<> SplatPicture::upload(const DepthImage& image) {
     width_ = image.width;
     height_ = image.height;
   }
-  HAL_CHECK(uploader_.stage({reinterpret_cast<const std::uint8_t*>(image.pixels.data()), bytes}));
+  // Straight from memory: by way of a buffer it would be copied twice, which software GL takes as
+  // long for as for the drawing.
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, image.width, image.height, GL_RG_INTEGER, GL_UNSIGNED_INT,
-                  nullptr);
-  gl::PixelUploader::unbind();
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, image.width);
+  glTexSubImage2D(GL_TEXTURE_2D, 0, columns.first, 0, columns.end - columns.first, image.height,
+                  GL_RG_INTEGER, GL_UNSIGNED_INT, image.pixels.data() + columns.first);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   return {};
 }
 
-hal::Result<> SplatPicture::draw(const DepthImage& image, const Camera& camera) {
+hal::Result<> SplatPicture::draw(const DepthImage& image, const Camera& camera,
+                                 SplatColumns columns) {
+  if (columns.end <= columns.first)
+    return {};
+  const int wide = columns.end - columns.first;
   glActiveTexture(GL_TEXTURE0);
-  HAL_CHECK(upload(image));
+  HAL_CHECK(upload(image, columns));
   pass_.use();
   glUniform1i(pass_.uniform("u_splats"), 0);
-  glUniform2f(pass_.uniform("u_size"), static_cast<float>(image.width),
-              static_cast<float>(image.height));
+  glUniform2f(pass_.uniform("u_size"), static_cast<float>(wide), static_cast<float>(image.height));
+  glUniform1i(pass_.uniform("u_first_column"), columns.first);
   // Of the perspective with these two distances: 0 at the near, 1 at the far one.
   const float range = camera.far_mm - camera.near_mm;
   glUniform2f(pass_.uniform("u_depth"), camera.far_mm / range,
@@ -65,7 +70,8 @@ hal::Result<> SplatPicture::draw(const DepthImage& image, const Camera& camera) 
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL); // a vessel that covers a part of an empty pixel is infinitely far
   glDepthMask(GL_TRUE);
-  pass_.fill({viewport[0], 0, image.width, image.height}, viewport[1] + image.height);
+  pass_.fill({viewport[0] + columns.first, 0, wide, image.height}, viewport[1] + image.height);
+  glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   glDisable(GL_DEPTH_TEST);
   return {};
 }

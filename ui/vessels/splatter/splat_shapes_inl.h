@@ -2,9 +2,8 @@
 // For one instruction set; see splat_kernels.h.
 //
 // Small ones are drawn in parallel, one per lane: each column along the segment's major axis has
-// only a few candidate pixel centres, within √2 radii of the line through the ends. (A point of the
-// shape is at most a radius off the line, or off one end, and the line is no steeper than 45
-// degrees.) Large ones are drawn one at a time, with the pixels of a row in the lanes.
+// only a few candidate pixel centres, since a point of the shape is at most a radius off the line
+// through the ends. Large ones are drawn one at a time, with the pixels of a row in the lanes.
 #if defined(OCTASCOPE_SPLAT_SHAPES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef OCTASCOPE_SPLAT_SHAPES_INL
 #undef OCTASCOPE_SPLAT_SHAPES_INL
@@ -53,14 +52,15 @@ struct Shapes {
   Real widest;
   Real inverse_length2; // 0: both ends coincide
   Word colour;
-  // Of those that rise (vessel_scene.h).
-  Real length;
-  Real stretch; // 1 + slope²
+  // SegmentCourse, in its body and in its round ends; of those that rise (vessel_scene.h).
+  Word body;
+  Word ends;
 };
 
 class ShapeQueue {
 public:
-  explicit ShapeQueue(const SplatFrame& frame) : frame_{frame}, fragments_{frame} {}
+  ShapeQueue(const SplatFrame& frame, Fragments& fragments)
+      : frame_{frame}, fragments_{fragments} {}
   ShapeQueue(const ShapeQueue&) = delete;
   ShapeQueue& operator=(const ShapeQueue&) = delete;
 
@@ -73,11 +73,12 @@ public:
   // How often add() may be called before draw_full() is needed.
   HWY_INLINE std::size_t space() const { return room - count_; }
 
-  // Draws the segments that fill whole registers and keeps the others.
-  void draw_full() {
+  // Draws the segments that fill whole registers and keeps the others. `dots`: none of them may
+  // cover more than one pixel centre.
+  void draw_full(bool dots) {
     std::size_t i = 0;
     for (; i + lanes <= count_; i += lanes)
-      draw(i, lanes);
+      draw(i, lanes, dots);
     const std::size_t rest = count_ - i;
     std::copy_n(starts_ + i, rest, starts_);
     std::copy_n(ends_ + i, rest, ends_);
@@ -86,16 +87,15 @@ public:
   }
 
   // Draws all remaining segments.
-  void finish() {
-    draw_full();
+  void finish(bool dots) {
+    draw_full(dots);
     if (count_ > 0) {
       std::fill(starts_ + count_, starts_ + lanes, starts_[0]);
       std::fill(ends_ + count_, ends_ + lanes, ends_[0]);
       std::fill(colours_ + count_, colours_ + lanes, colours_[0]);
-      draw(0, count_);
+      draw(0, count_, dots);
       count_ = 0;
     }
-    fragments_.flush();
   }
 
 private:
@@ -130,106 +130,77 @@ private:
   }
 
   // The lanes among `candidates` that cover the centre of the pixel at (qx, qy) from their first
-  // end. shown(nearness, rise) maps the axis's nearness to that of what is visible, `rise` pixels
-  // before it.
-  template <class Shown>
+  // end. surface(nearness, height2, body) is what is raised further by the course: of the axis's
+  // nearness and the squared height of the round side above it; body: not in a round end.
+  template <class Surface>
   HWY_INLINE void cover(const Shapes& s, Real qx, Real qy, Int pixel, Mask candidates,
-                        const Shown& shown) {
+                        const Surface& surface) {
     const Real along = hn::Mul(hn::MulAdd(qx, s.dx, hn::Mul(qy, s.dy)), s.inverse_length2);
     const Real t = hn::Min(hn::Max(along, real(0)), real(1));
     const Real ex = hn::NegMulAdd(t, s.dx, qx);
     const Real ey = hn::NegMulAdd(t, s.dy, qy);
     const Real off2 = hn::MulAdd(ex, ex, hn::Mul(ey, ey));
     const Real r = hn::MulAdd(t, s.dr, s.ra);
-    const Real r2 = hn::Mul(r, r);
-    const Mask covered = hn::And(candidates, hn::Le(off2, r2));
+    const Real nearness = hn::MulAdd(t, s.dw, s.wa);
+    const Mask covered = hn::And(hn::And(candidates, hn::Le(off2, hn::Mul(r, r))),
+                                 hn::Ge(nearness, real(1 / frame_.far_mm)));
     if (hn::AllFalse(Floats{}, covered))
       return;
-    const Real nearness = hn::MulAdd(t, s.dw, s.wa);
-    const Mask seen = hn::And(covered, hn::Ge(nearness, real(1 / frame_.far_mm)));
-    const Mask outlined = hn::And(seen, hn::Ge(r, real(least_raised_px)));
-    const Real within = hn::Sub(r, real(outline_reach_px));
-    const Mask at_outline = hn::AndNot(
-        hn::And(hn::Gt(within, real(0)), hn::Lt(off2, hn::Mul(within, within))), outlined);
-    if (hn::AllFalse(Floats{}, outlined)) {
-      fragments_.add(pixel, shown(nearness, real(0)), word(look_of_thin), s.colour, seen);
+    const Mask wide = hn::Ge(r, real(least_raised_px));
+    const Mask thin_covered = hn::AndNot(wide, covered);
+    if (!hn::AllFalse(Floats{}, thin_covered))
+      fragments_.add_thin(pixel, nearness, s.colour, thin_covered);
+    const Mask wide_covered = hn::And(wide, covered);
+    if (hn::AllFalse(Floats{}, wide_covered))
       return;
-    }
     const Mask body = hn::Eq(along, t);
-    Word outline = word(outline_of_inside);
-    if (!hn::AllFalse(Floats{}, at_outline))
-      outline = hn::IfThenElse(hn::RebindMask(Words{}, at_outline),
-                               outline_at(s, body, ex, ey, off2, r), outline);
-    const Word look = hn::IfThenElse(hn::RebindMask(Words{}, outlined),
-                                     look_of(outline, off2, r, r2), word(look_of_thin));
-    const Real height2 = hn::Max(hn::Sub(r2, off2), real(0));
-    const Real rise = hn::IfThenElseZero(
-        outlined, hn::Sqrt(hn::IfThenElse(body, hn::Mul(height2, s.stretch), height2)));
-    fragments_.add(pixel, shown(nearness, rise), look, s.colour, seen);
+    const Word course = hn::IfThenElse(hn::RebindMask(Words{}, body), s.body, s.ends);
+    fragments_.add_wide(pixel, surface(nearness, hn::MulSub(r, r, off2), body), s.colour,
+                        {ex, ey, r, course}, wide_covered);
   }
 
-  // See vessel_scene.h.
-  HWY_INLINE void find_rise(Shapes& s) const {
-    s.length = hn::Sqrt(hn::MulAdd(s.dx, s.dx, hn::Mul(s.dy, s.dy)));
+  // 1 + slope², see vessel_scene.h.
+  HWY_INLINE Real stretch_of(const Shapes& s) const {
+    const Real length = hn::Sqrt(hn::MulAdd(s.dx, s.dx, hn::Mul(s.dy, s.dy)));
     const Real slope = hn::Min(hn::Div(hn::Mul(hn::Abs(s.dw), real(frame_.pixels_per_unit)),
-                                       hn::Max(hn::Mul(s.wa, s.length), real(1e-9F))),
+                                       hn::Max(hn::Mul(s.wa, length), real(1e-9F))),
                                real(steepest_rise));
-    s.stretch = hn::MulAdd(slope, slope, real(1));
+    return hn::MulAdd(slope, slope, real(1));
   }
 
-  // SplatOutline of a place inside a vessel of radius r, (ex, ey) from its axis; in its body, not
-  // in its round ends, the outline runs as the segment does.
-  HWY_INLINE Word outline_at(const Shapes& s, Mask body, Real ex, Real ey, Real off2,
-                             Real r) const {
-    // Well within a round end, too: at a joint it lies in the next segment.
-    const Mask along = hn::Or(body, hn::Lt(off2, hn::Mul(real(0.15F), hn::Mul(r, r))));
-    const Real nx = hn::Abs(hn::IfThenElse(along, s.dy, ex));
-    const Real ny = hn::Abs(hn::IfThenElse(along, s.dx, ey));
-    // Near 45 degrees as the segment, so that all pixels of an outline look the same way.
-    const Mask across = hn::Ge(hn::Abs(s.dy), hn::Abs(s.dx));
-    const Mask sideways = hn::Ge(hn::IfThenElse(across, hn::Mul(nx, real(1.25F)), nx),
-                                 hn::IfThenElse(across, ny, hn::Mul(ny, real(1.25F))));
-    const Real major = hn::Max(hn::IfThenElse(sideways, nx, ny), real(1e-6F));
-    const Real minor = hn::IfThenElse(sideways, ny, nx);
-    const Real off = hn::Sqrt(off2);
-    const Real per_px = hn::Div(hn::IfThenElse(along, s.length, off), major);
-    const Real near_side = hn::Mul(hn::Sub(r, off), per_px);
-    const Real far_side = hn::Mul(hn::Add(r, off), per_px);
-    const Mask before = hn::Lt(hn::IfThenElse(sideways, ex, ey), real(0));
-    const auto steps = [](Real px) {
-      const Real exact = hn::Max(hn::Mul(px, real(outline_steps)), real(0));
-      return hn::BitCast(
-          Words{}, hn::ConvertTo(Ints{}, hn::Min(exact, real(static_cast<float>(outline_beyond)))));
+  // `rises`: 0 where its surface is found otherwise.
+  HWY_INLINE void find_course(Shapes& s, Real stretch, float rises) const {
+    const auto bits = [](Real share, std::uint32_t all) {
+      const Real exact = hn::MulAdd(share, real(static_cast<float>(all)), real(0.5F));
+      return hn::BitCast(Words{}, hn::ConvertTo(Ints{}, exact));
     };
-    const Word first = steps(hn::IfThenElse(before, near_side, far_side));
-    const Word second = steps(hn::IfThenElse(before, far_side, near_side));
     const auto flag = [](Mask mask, std::uint32_t bit) {
       return hn::IfThenElseZero(hn::RebindMask(Words{}, mask), word(bit));
     };
-    return hn::Or(hn::Or(flag(sideways, outline_sideways),
-                         flag(hn::Gt(hn::Add(minor, minor), major), outline_oblique)),
-                  hn::Or(hn::ShiftLeft<outline_step_bits>(first), second));
-  }
-
-  // FragmentLook, with the light of vessel_brightness().
-  HWY_INLINE Word look_of(Word outline, Real off2, Real r, Real r2) const {
-    const Real d2 = hn::Div(off2, r2);
-    const Real share = hn::Min(hn::Max(hn::Sub(r, real(least_shaded_px)), real(0)), real(1));
-    const Real lit = hn::MulAdd(share, hn::Sub(d2, real(mean_off_axis)), real(mean_off_axis));
-    const Word off_axis = hn::BitCast(
-        Words{}, hn::ConvertTo(Ints{}, hn::Mul(hn::Min(lit, real(1)), real(whole_off_axis))));
-    return hn::Or(hn::ShiftLeft<off_axis_bits>(outline), off_axis);
-  }
-
-  void draw(std::size_t i, std::size_t count) {
-    Shapes s = load(i);
     const Real wide = hn::Abs(s.dx);
     const Real high = hn::Abs(s.dy);
+    const Real major = hn::Max(wide, high);
+    const Real tilt = hn::Div(hn::Min(wide, high), hn::Max(major, real(1e-9F)));
+    const Word way = hn::Or(hn::ShiftLeft<course_rise_bits>(bits(tilt, whole_slope)),
+                            flag(hn::Ge(high, wide), course_across));
+    const float rise = rises / most_rise;
+    s.ends = hn::Or(way, bits(real(rise), whole_rise));
+    // Seen from its end it has no way.
+    s.body = hn::Or(hn::Or(way, flag(hn::Gt(major, real(0)), course_body)),
+                    bits(hn::Mul(hn::Sqrt(stretch), real(rise)), whole_rise));
+  }
+
+  void draw(std::size_t i, std::size_t count, bool dots) {
+    Shapes s = load(i);
     const Mask used = hn::FirstN(Floats{}, count);
-    const Mask small = hn::And(hn::Le(hn::Max(wide, high), real(most_columns)),
-                               hn::Le(s.widest, real(widest_small)));
     if (!hn::AllFalse(Floats{}, hn::Ge(s.widest, real(least_raised_px))))
-      find_rise(s);
+      find_course(s, stretch_of(s), 1);
+    if (dots) {
+      draw_dots(s, used);
+      return;
+    }
+    const Mask small = hn::And(hn::Le(hn::Max(hn::Abs(s.dx), hn::Abs(s.dy)), real(most_columns)),
+                               hn::Le(s.widest, real(widest_small)));
     draw_small(s, hn::And(used, small));
     const Mask large = hn::AndNot(small, used);
     if (HWY_UNLIKELY(!hn::AllFalse(Floats{}, large)))
@@ -239,6 +210,21 @@ private:
   // As much nearer as `rise` pixels are wide there.
   HWY_INLINE Real raised(Real nearness, Real rise) const {
     return hn::MulAdd(nearness, hn::Mul(rise, real(1 / frame_.pixels_per_unit)), nearness);
+  }
+
+  // The last centre of its rectangle is the only one.
+  HWY_INLINE void draw_dots(const Shapes& s, Mask drawn) {
+    const Real reach = hn::Add(s.widest, real(1e-4F));
+    const Real x = hn::Floor(hn::Add(hn::Max(s.ax, hn::Add(s.ax, s.dx)), reach));
+    const Real y = hn::Floor(hn::Add(hn::Max(s.ay, hn::Add(s.ay, s.dy)), reach));
+    const auto within = [](Real v, int size) {
+      return hn::And(hn::Ge(v, real(0)), hn::Lt(v, real(static_cast<float>(size))));
+    };
+    const Mask seen = hn::And(within(x, frame_.width), within(y, frame_.height));
+    const Int pixel =
+        hn::Add(hn::Mul(hn::ConvertTo(Ints{}, y), whole(frame_.width)), hn::ConvertTo(Ints{}, x));
+    cover(s, hn::Sub(x, s.ax), hn::Sub(y, s.ay), pixel, hn::And(drawn, seen),
+          [](Real nearness, Real, Mask) { return nearness; });
   }
 
   HWY_INLINE void draw_small(const Shapes& s, Mask drawn) {
@@ -259,7 +245,8 @@ private:
     const Mask flat = hn::Eq(du, real(0));
     const Real slope =
         hn::IfThenElseZero(hn::Not(flat), hn::Div(dv, hn::IfThenElse(flat, real(1), du)));
-    const Real reach = hn::MulAdd(s.widest, real(1.41422F), real(1e-4F));
+    const Real per_v = hn::Sqrt(hn::MulAdd(slope, slope, real(1.00001F)));
+    const Real reach = hn::MulAdd(s.widest, per_v, real(1e-4F));
     const Real margin = hn::Add(s.widest, real(1e-4F));
     const Real first = hn::Max(hn::Ceil(hn::Sub(hn::Min(au, hn::Add(au, du)), margin)), real(0));
     const Real last = hn::Min(hn::Floor(hn::Add(hn::Max(au, hn::Add(au, du)), margin)), last_u);
@@ -276,7 +263,7 @@ private:
         const Int pixel = hn::Add(hn::Mul(hn::ConvertTo(Ints{}, u), stride_u),
                                   hn::Mul(hn::ConvertTo(Ints{}, v), stride_v));
         cover(s, hn::IfThenElse(steep, qv, qu), hn::IfThenElse(steep, qu, qv), pixel, candidates,
-              [&](Real nearness, Real rise) { return raised(nearness, rise); });
+              [](Real nearness, Real, Mask) { return nearness; });
         v = hn::Add(v, real(1));
         candidates = hn::And(candidates, hn::Le(v, end));
       }
@@ -300,16 +287,17 @@ private:
       if (chosen[i] != 0)
         draw_rows({real(values[0][i]), real(values[1][i]), real(values[2][i]), real(values[3][i]),
                    real(values[4][i]), real(values[5][i]), real(values[6][i]), real(values[7][i]),
-                   real(values[8][i]), real(values[9][i]), word(colours[i]), real(0), real(0)});
+                   real(values[8][i]), real(values[9][i]), word(colours[i]), word(0), word(0)});
   }
 
   // Expects the same segment in all lanes.
   void draw_rows(Shapes s) {
-    find_rise(s);
     const auto one = [](Real v) { return hn::GetLane(v); };
     const float ax = one(s.ax), ay = one(s.ay), dx = one(s.dx), dy = one(s.dy);
     const float r = one(s.widest) * 1.0001F + 1e-3F;
     const bool in_relief = one(s.widest) >= least_relief_px;
+    const Real stretch = stretch_of(s);
+    find_course(s, stretch, in_relief ? 0 : 1);
     const Relief relief{frame_, {ax, ay, dx, dy, one(s.ra), one(s.dr), one(s.wa), one(s.dw)}};
     const bool has_many_pixels = one(s.widest) >= least_asked_px;
     const float nearest_mm = nearest_of(s);
@@ -349,10 +337,13 @@ private:
         }
         const Int pixel = hn::Iota(Ints{}, y * frame_.width + x);
         const Real qx = hn::Add(steps, real(static_cast<float>(x) - ax));
-        cover(s, qx, real(qy), pixel, inside, [&](Real nearness, Real rise) {
-          return in_relief ? hn::Max(relief.nearness(qx, real(qy), nearness),
-                                     raised(nearness, hn::Mul(rise, real(relief_rise))))
-                           : raised(nearness, rise);
+        cover(s, qx, real(qy), pixel, inside, [&](Real nearness, Real height2, Mask body) {
+          if (!in_relief)
+            return nearness;
+          const Real most = hn::IfThenElse(body, hn::Mul(height2, stretch), height2);
+          const Real rise = hn::Sqrt(hn::Max(most, real(0)));
+          return hn::Max(relief.nearness(qx, real(qy), nearness),
+                         raised(nearness, hn::Mul(rise, real(relief_rise))));
         });
       }
     }
@@ -378,7 +369,7 @@ private:
   }
 
   const SplatFrame& frame_;
-  Fragments fragments_;
+  Fragments& fragments_;
   std::size_t count_ = 0;
   HWY_ALIGN End starts_[room + lanes];
   HWY_ALIGN End ends_[room + lanes];

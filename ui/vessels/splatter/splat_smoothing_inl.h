@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "ui/vessels/splatter/splat_kernels.h"
 #include "ui/vessels/splatter/splat_occlusion_inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -50,8 +51,10 @@ public:
   Smoothing(const Smoothing&) = delete;
   Smoothing& operator=(const Smoothing&) = delete;
 
-  // Rows [top, bottom) of the columns from `left` on, at most `block`.
-  void smooth(int left, int top, int bottom) {
+  // Rows [top, bottom) of the columns from `left` on, at most `block`. Returns whether there is a
+  // vessel.
+  bool smooth(int left, int top, int bottom) {
+    bool any = false;
     left_ = left;
     count_ = static_cast<std::size_t>(std::clamp(frame_.width - left, 1, block));
     std::size_t above = 0, here = 1, below = 2;
@@ -71,13 +74,15 @@ public:
       } else {
         std::fill(std::begin(from_below_), std::end(from_below_), 0U);
       }
-      store(y, rows_[above], rows_[here], rows_[below]);
+      any = store(y, rows_[above], rows_[here], rows_[below]) || any;
       std::swap(above, here);
       std::swap(here, below);
     }
+    return any;
   }
 
-  static constexpr int block = occlusion_block;
+  static constexpr int block = smoothing_block;
+  static_assert(block == occlusion_block);
 
 private:
   static constexpr std::size_t first = lanes; // index of the leftmost column
@@ -235,13 +240,13 @@ private:
     }
   }
 
-  void store(int y, const Row& above, const Row& here, const Row& below) {
+  bool store(int y, const Row& above, const Row& here, const Row& below) {
     DepthPixel* pixels = frame_.smooth +
                          static_cast<std::size_t>(y) * static_cast<std::size_t>(frame_.width) +
                          left_;
     if (above.empty && here.empty && below.empty) {
       std::fill_n(pixels, count_, empty_depth_pixel);
-      return;
+      return false;
     }
     std::uint32_t* line = reinterpret_cast<std::uint32_t*>(pixels);
     for (std::size_t i = 0; i < count_; i += lanes) {
@@ -259,6 +264,7 @@ private:
         std::memcpy(line + 2 * i, last, (count_ - i) * sizeof(DepthPixel));
       }
     }
+    return true;
   }
 
   const SplatFrame& frame_;
@@ -271,10 +277,16 @@ private:
   HWY_ALIGN std::uint32_t taken_above_[room]; // between the two before
 };
 
-void smooth_rows(const SplatFrame& frame, int top, int bottom) {
+std::uint64_t smooth_rows(const SplatFrame& frame, int top, int bottom) {
   Smoothing smoothing{frame};
-  for (int left = 0; left < frame.width; left += Smoothing::block)
-    smoothing.smooth(left, top, bottom);
+  std::uint64_t blocks = 0;
+  std::uint64_t bit = 1;
+  for (int left = 0; left < frame.width; left += Smoothing::block) {
+    if (smoothing.smooth(left, top, bottom))
+      blocks |= bit;
+    bit = std::max(bit, bit << 1U); // the last one is for all that follow
+  }
+  return blocks;
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

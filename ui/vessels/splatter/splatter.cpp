@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -64,6 +65,15 @@ SplatFrame frame_of(const VesselScene& scene, DepthImage& sharp, DepthImage& ima
           packed(colour_of(scene.look.colouring, branch, order, drawn_by_processor)) |
           (order >= least_order_kept_visible ? kept_visible : 0);
   return frame;
+}
+
+// The highest bit is for all columns that follow, too.
+SplatColumns columns_of(std::uint64_t blocks, int width) {
+  if (blocks == 0)
+    return {};
+  const auto end = static_cast<int>(std::bit_width(blocks));
+  return {smoothing_block * std::countr_zero(blocks),
+          end == 64 ? width : std::min(smoothing_block * end, width)};
 }
 
 template <class Work>
@@ -138,10 +148,14 @@ hal::Result<SegmentCounts> Splatter::draw(const VesselScene& scene, DepthImage& 
            });
   if (scene.look.occluded)
     frame.occlusion = occlude(scene);
+  std::atomic<std::uint64_t> blocks{0};
   in_parts(*team_, static_cast<std::size_t>(scene.height), rows_at_a_time,
            [&](std::size_t top, std::size_t bottom) {
-             kernels_->smooth(frame, static_cast<int>(top), static_cast<int>(bottom));
+             blocks.fetch_or(
+                 kernels_->smooth(frame, static_cast<int>(top), static_cast<int>(bottom)),
+                 std::memory_order_relaxed);
            });
+  columns_ = columns_of(blocks, scene.width);
   return SegmentCounts{0, splatted, merged, culled};
 }
 

@@ -51,6 +51,9 @@ public:
   hal::Result<SegmentCounts> draw(const VesselScene& scene, DepthImage& image,
                                   const SplatShare& share = {});
 
+  // Of the last draw(): no other column has a vessel.
+  SplatColumns columns() const { return columns_; }
+
   std::string_view isa() const { return kernels_->isa; }
   // Of the last draw(): what each pixel's centre shows (splat_outline.h).
   const DepthImage& sharp() const { return sharp_; }
@@ -64,6 +67,7 @@ private:
   const SplatKernels* kernels_;
   std::unique_ptr<WorkTeam> team_;
   DepthImage sharp_;
+  SplatColumns columns_;
   OcclusionField occlusion_;
 };
 
