@@ -138,6 +138,7 @@ std::vector<KeyCase> key_cases() {
       {"display transfer", "[display]\ntransfer = \"surface\"\n"},
       {"display colours", "[display]\ncolours = \"amber\"\n"},
       {"display opacity", "[display]\nopacity = 0.1\n"},
+      {"display rolling", "[display]\nrolling = true\n"},
       {"orientation right_eye_x", lies("temporal", "superior"), lies("nasal", "superior")},
       {"orientation right_eye_y", lies("temporal", "superior"), lies("temporal", "inferior")},
       {"orientation x_label", "[orientation]\nx_label = \"across\"\n"},
