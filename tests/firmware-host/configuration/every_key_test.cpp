@@ -178,9 +178,17 @@ private:
     return std::exchange(fresh_, false) ? &volume_ : nullptr;
   }
   bool do_has_newer() const override { return fresh_; }
+  bool do_lends() const override { return true; } // though none is ever in the making
   pipeline::VolumeCounters do_counters() const override { return {}; }
 
-  pipeline::Volume volume_ = tissue_volume(small_geometry);
+  // As from the pipeline.
+  pipeline::Volume volume_ = [] {
+    pipeline::Volume volume = tissue_volume(small_geometry);
+    volume.occupancy = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
+    volume.occupancy.update(volume);
+    volume.work.resize(volume.b_scan_states.size());
+    return volume;
+  }();
   bool fresh_ = false;
 };
 

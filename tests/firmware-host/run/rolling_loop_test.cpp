@@ -21,10 +21,9 @@ protected:
     view.b_scan = b_scan;
     return view;
   }
-  int seam_pixels(const ui::Rect& rect) const {
-    return count_colour(display_.picture, rect, ui::palette::seam);
+  int seam_pixels() const {
+    return count_colour(display_.picture, layout().en_face.picture, ui::palette::seam);
   }
-  int seam_pixels() const { return seam_pixels({0, 0, display_.width(), display_.height()}); }
   ui::Rect b_scan_panel() const {
     ui::Rect panel = layout().b_scan.picture;
     return {panel.x + panel.width / 4, panel.y, panel.width / 2, panel.height / 2}; // no marks

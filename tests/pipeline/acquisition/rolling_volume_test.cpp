@@ -93,13 +93,15 @@ void expect_honest(const RollingVolume& rolling) {
     }
     if (number != 0 && (numbers.empty() || numbers.back() != number))
       numbers.push_back(number);
-    if (seam && number != 0)
+    if (seam && number != 0) {
       EXPECT_EQ(number == numbers.front(), b < seam->b_scan) << b;
+    }
   }
   ASSERT_LE(numbers.size(), 2U);
   EXPECT_EQ(numbers.size() == 2, seam && seam->b_scan + 1 < count);
-  if (numbers.size() == 2)
+  if (numbers.size() == 2) {
     EXPECT_GT(numbers[0], numbers[1]) << "the newer comes first, as the scan does";
+  }
   Occupancy expected{geometry, blank_depth_bins};
   expected.update(shown);
   for (int b = 0; b < count; ++b)

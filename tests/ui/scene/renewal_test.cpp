@@ -131,8 +131,9 @@ TEST_F(RenewalTest, the_seam_is_a_line_of_its_own_colour_where_it_is_said_to_be)
   const pipeline::VolumeGeometry& g = mixed_.geometry;
   const ui::Layout places = ui::lay_out(width_, height_,
                                         {.b_scan = g.a_mm() / g.depth_mm(),
-                                         .crossed = g.b_mm() / g.depth_mm(),
-                                         .en_face = g.a_mm() / g.b_mm()},
+                                         .en_face = g.a_mm() / g.b_mm(),
+                                         .has_scope = false,
+                                         .crossed = g.b_mm() / g.depth_mm()},
                                         view.layout);
   const auto seam_pixels = [&](const pipeline::Image& image, const ui::Rect& rect) {
     return count_colour(image, rect, ui::palette::seam);
