@@ -120,13 +120,13 @@ bool RenderLoop::turn() {
 // With a GPU every refresh of a moving view gets a frame. Where the processor draws, every second
 // one: 30 a second. A volume that comes while the view rests may take longer, as long as it is
 // shown well within the 60 ms that are allowed from its last line. B-scans come all the time: each
-// refresh shows what has come, and only that is drawn anew.
+// refresh shows what has come, and only that is drawn anew; to copy it takes its time, too.
 ui::FrameBudget RenderLoop::frame_budget() const {
   using namespace std::chrono_literals;
   const hal::Duration refresh = parts_.display.refresh_period();
   if (software_)
     return {refresh * 18 / 10,
-            rolling_ ? refresh * 8 / 10 : std::max<hal::Duration>(refresh * 18 / 10, 45ms)};
+            rolling_ ? refresh * 7 / 10 : std::max<hal::Duration>(refresh * 18 / 10, 45ms)};
   return {refresh * 8 / 10, refresh * (rolling_ ? 8 : 18) / 10};
 }
 
