@@ -117,17 +117,26 @@ bool RenderLoop::turn() {
   return go_on;
 }
 
+// Of a rolling volume's picture, at rest (ui/volume/ray_cast_picture.h).
+bool RenderLoop::draws_parts() const {
+  const ui::ViewState& view = controller_.state();
+  return rolling_ && software_ && (parts_.vessels == nullptr || !view.vessels_visible) &&
+         (view.technique == ui::Technique::rays || view.technique == ui::Technique::maximum);
+}
+
 // With a GPU every refresh of a moving view gets a frame. Where the processor draws, every second
 // one: 30 a second. A volume that comes while the view rests may take longer, as long as it is
 // shown well within the 60 ms that are allowed from its last line. B-scans come all the time: each
-// refresh shows what has come, and only that is drawn anew; to copy it takes its time, too.
+// refresh shows what has come where only that is drawn anew, and copying it takes its time, too.
 ui::FrameBudget RenderLoop::frame_budget() const {
   using namespace std::chrono_literals;
   const hal::Duration refresh = parts_.display.refresh_period();
-  if (software_)
-    return {refresh * 18 / 10,
-            rolling_ ? refresh * 7 / 10 : std::max<hal::Duration>(refresh * 18 / 10, 45ms)};
-  return {refresh * 8 / 10, refresh * (rolling_ ? 8 : 18) / 10};
+  if (!software_)
+    return {refresh * 8 / 10, refresh * (rolling_ ? 8 : 18) / 10};
+  const hal::Duration moving = refresh * 18 / 10;
+  return {moving, draws_parts() ? refresh * 7 / 10
+                  : rolling_    ? moving
+                                : std::max<hal::Duration>(moving, 45ms)};
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
@@ -140,7 +149,8 @@ ui::DrawQuality RenderLoop::choose_quality() {
       {.now = status().now,
        .technique = view.technique,
        .moved = moved,
-       .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_)});
+       .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_),
+       .in_parts = draws_parts()});
   quality.rays = rays_;
   if (parts_.vessels != nullptr) {
     quality.vessel_detail_px = parts_.vessels->detail_px(status().now, moved);

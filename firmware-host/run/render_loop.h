@@ -156,6 +156,7 @@ private:
   void find_window();
   void keep_picture();
   bool may_roll() const;
+  bool draws_parts() const;
   void take_volume();
   void note_taken(const pipeline::Volume& newest, hal::TimePoint begin);
   hal::Result<> show_whole();
