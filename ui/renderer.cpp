@@ -350,6 +350,23 @@ hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
   return {};
 }
 
+hal::Result<> Renderer::renew_volume(const pipeline::Volume& volume,
+                                     std::span<const pipeline::BScanRange> changed) {
+  if (changed.empty())
+    return {};
+  if (parts_->shown_geometry != volume.geometry)
+    return show_volume(volume);
+  HAL_CHECK(parts_->volume.renew(volume, changed));
+  if (changed.back().to == volume.geometry.b_scans) {
+    parts_->tissue.update(parts_->volume.occupancy(), volume.b_scan_states);
+    parts_->crop.follow(parts_->tissue.extents());
+  }
+  parts_->en_face_panel.renew(volume, parts_->tissue, changed);
+  parts_->state_texture.upload(volume);
+  parts_->states.assign(volume.b_scan_states.begin(), volume.b_scan_states.end());
+  return {};
+}
+
 hal::Result<> Renderer::show_scope_picture(const hal::ScopeFrame& frame,
                                            const std::optional<ScanField>& field) {
   HAL_CHECK(parts_->scope_panel.show(frame, field));

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "hal/clock.h"
 #include "hal/result.h"
@@ -43,6 +44,13 @@ public:
   // Copies the volume before it returns; the next draw() shows it. After an error (see
   // VolumeTexture::upload()) the previous volume stays.
   hal::Result<> show_volume(const pipeline::Volume& volume);
+
+  // The same where the volume, which has an occupancy, differs from the one shown last in these
+  // B-scans alone: only what depends on them is renewed. One of them may be the seam between two
+  // volumes (pipeline/acquisition/rolling_volume.h). What lies where in the tissue, for the flat
+  // pictures, is found anew when the last B-scan is renewed.
+  hal::Result<> renew_volume(const pipeline::Volume& volume,
+                             std::span<const pipeline::BScanRange> changed);
 
   // Copies the frame before it returns. `field` is the outline of the OCT scan. The frame's time
   // decides when the picture is marked stale.

@@ -128,6 +128,7 @@ LookConfiguration read_look(ConfigTable root, ConfigTable display) {
   look.technique = read_technique(display, look.technique);
   look.opacity =
       static_cast<float>(display.number("opacity", static_cast<double>(look.opacity), {0.01, 1}));
+  look.rolling = display.boolean("rolling", look.rolling);
   return look;
 }
 

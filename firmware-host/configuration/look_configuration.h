@@ -15,6 +15,7 @@ struct LookConfiguration {
   int colour_map = 0;
   ui::Technique technique = ui::ViewState{}.technique;
   float opacity = ui::ViewState{}.opacity;
+  bool rolling = false; // each B-scan is shown as it comes
 };
 
 // Reports errors to the document. Reads the files of look-up tables.

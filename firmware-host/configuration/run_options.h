@@ -48,6 +48,7 @@ struct RunOptions {
   std::optional<std::filesystem::path> vessels;      // a tree, shown in the volume
   std::optional<std::filesystem::path> registration; // from the tree to the volume
   bool bidirectional = false;                        // overrides the plan
+  bool rolling = false;                              // likewise, [display] rolling and the settings
   std::optional<std::filesystem::path> record_to;    // all volumes, from the first on
   std::string subject;                               // of recordings; empty: not given
   pipeline::Eye eye = pipeline::Eye::not_said;       // likewise

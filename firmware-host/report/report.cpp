@@ -151,6 +151,7 @@ std::string to_json(const RunReport& r) {
         {"upload", to_json(r.upload)},
         {"draw", to_json(r.draw)}}},
       {"latency_ms", to_json(r.counters.latency)},
+      {"line_latency_ms", to_json(r.line_latency)},
       {"latency_stages", stages_to_json(r)},
       {"control_ms", to_json(r.control)},
       {"rays", rays_to_json(r)},

@@ -60,6 +60,7 @@ struct RunReport {
   RunCounters counters; // complete once the threads have ended
   double duration_s = 0;
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, control;
+  pipeline::DurationSummary line_latency;       // of every line that was shown
   std::array<StageSummary, stage_count> stages; // of the latency
   std::optional<ui::RayTrial> rays;
   std::optional<double> first_picture_s; // since the process began

@@ -54,12 +54,14 @@ void LiveConfiguration::configure(RenderLoopSetup& setup) {
   view.colour_map = used_.look.colour_map;
   view.technique = used_.look.technique;
   view.opacity = used_.look.opacity;
+  view.rolling = used_.look.rolling || options_.rolling;
   setup.orientation = used_.orientation;
   if (!settings_)
     return;
   const auto restored = settings_->restore({view, !used_.window, setup.transfers});
   if (restored) {
     setup.restored_view = restored->view;
+    setup.restored_view->rolling |= options_.rolling;
     setup.window_restored = restored->window;
   } else if (settings_->was_broken()) {
     say("Pedal's settings unreadable: as configured", settings_broken_shown_for);

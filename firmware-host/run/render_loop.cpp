@@ -32,6 +32,8 @@ RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
       key_legend_(ui::make_key_legend()),
       controller_(setup_.view, setup_.geometry, setup_.controls, setup_.transfers.names()),
       governor_({}) {
+  if (parts_.volumes.lends())
+    rolling_volume_.emplace(setup_.geometry);
   if (setup_.restored_view)
     controller_.actions().replace(controller_.actions().initial(), *setup_.restored_view);
   status_writer_.orient(setup_.orientation);
@@ -95,7 +97,7 @@ hal::Result<> RenderLoop::show_again() {
   if (parts_.vessels != nullptr)
     HAL_CHECK(parts_.vessels->show_again(*renderer_));
   renderer_->expect(controller_.state());
-  return volume_ != nullptr ? renderer_->show_volume(*volume_) : hal::Result<>{};
+  return volume_ != nullptr ? renderer_->show_volume(shown_volume()) : hal::Result<>{};
 }
 
 bool RenderLoop::turn() {
@@ -115,15 +117,26 @@ bool RenderLoop::turn() {
   return go_on;
 }
 
+// Of a rolling volume's picture, at rest (ui/volume/ray_cast_picture.h).
+bool RenderLoop::draws_parts() const {
+  const ui::ViewState& view = controller_.state();
+  return rolling_ && software_ && (parts_.vessels == nullptr || !view.vessels_visible) &&
+         (view.technique == ui::Technique::rays || view.technique == ui::Technique::maximum);
+}
+
 // With a GPU every refresh of a moving view gets a frame. Where the processor draws, every second
 // one: 30 a second. A volume that comes while the view rests may take longer, as long as it is
-// shown well within the 60 ms that are allowed from its last line.
+// shown well within the 60 ms that are allowed from its last line. B-scans come all the time: each
+// refresh shows what has come where only that is drawn anew, and copying it takes its time, too.
 ui::FrameBudget RenderLoop::frame_budget() const {
   using namespace std::chrono_literals;
   const hal::Duration refresh = parts_.display.refresh_period();
-  if (software_)
-    return {refresh * 18 / 10, std::max<hal::Duration>(refresh * 18 / 10, 45ms)};
-  return {refresh * 8 / 10, refresh * 18 / 10};
+  if (!software_)
+    return {refresh * 8 / 10, refresh * (rolling_ ? 8 : 18) / 10};
+  const hal::Duration moving = refresh * 18 / 10;
+  return {moving, draws_parts() ? refresh * 7 / 10
+                  : rolling_    ? moving
+                                : std::max<hal::Duration>(moving, 45ms)};
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
@@ -131,11 +144,13 @@ ui::FrameBudget RenderLoop::frame_budget() const {
 ui::DrawQuality RenderLoop::choose_quality() {
   const ui::ViewState& view = controller_.state();
   const bool moved = drawn_view_ && !ui::same_sight(*drawn_view_, view);
+  governor_.set_budget(frame_budget());
   ui::DrawQuality quality = governor_.choose(
       {.now = status().now,
        .technique = view.technique,
        .moved = moved,
-       .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_)});
+       .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_),
+       .in_parts = draws_parts()});
   quality.rays = rays_;
   if (parts_.vessels != nullptr) {
     quality.vessel_detail_px = parts_.vessels->detail_px(status().now, moved);
@@ -222,30 +237,72 @@ void RenderLoop::keep_picture() {
   picture_wanted_ = false;
 }
 
+// What is frozen is whole, and so is what an iso-surface is made of.
+bool RenderLoop::may_roll() const {
+  const ui::ViewState& view = controller_.state();
+  return rolling_volume_ && view.rolling && !view.frozen &&
+         view.technique != ui::Technique::surface;
+}
+
+const pipeline::Volume& RenderLoop::shown_volume() const {
+  return rolling_ ? rolling_volume_->volume() : *volume_;
+}
+
 void RenderLoop::take_volume() {
-  if (controller_.state().frozen || !renderer_)
+  if (!renderer_)
     return;
-  const pipeline::Volume* newest = parts_.volumes.take_newest();
-  if (newest == nullptr)
+  const bool rolled = std::exchange(rolling_, may_roll());
+  const pipeline::Volume* newest =
+      controller_.state().frozen ? nullptr : parts_.volumes.take_newest();
+  if (newest != nullptr) {
+    volume_ = newest;
+    ++statistics_.volumes_taken;
+    volume_undisplayed_ = false; // of the one before: if it was, it is lost
+  }
+  if (volume_ == nullptr || (newest == nullptr && !rolled && !rolling_))
     return;
-  volume_ = newest;
-  ++statistics_.volumes_taken;
-  volume_undisplayed_ = false; // of the one before: if it was, it is lost
   const hal::TimePoint begin = parts_.clock.now();
   renderer_->expect(controller_.state());
-  if (const auto shown = renderer_->show_volume(*newest); !shown) {
+  const auto shown = rolling_                      ? show_b_scans(rolled ? newest : volume_)
+                     : newest != nullptr || rolled ? show_whole()
+                                                   : hal::Result<>{};
+  if (!shown)
     parts_.faults.add(pipeline::Device::display, shown.error(), begin);
-    return;
+  else if (newest != nullptr)
+    note_taken(*newest, begin);
+}
+
+hal::Result<> RenderLoop::show_whole() {
+  HAL_CHECK(renderer_->show_volume(*volume_));
+  line_latency_.show(*volume_, {0, volume_->geometry.b_scans});
+  return {};
+}
+
+// `newest`: the last whole volume, unless it was taken before.
+hal::Result<> RenderLoop::show_b_scans(const pipeline::Volume* newest) {
+  if (newest != nullptr)
+    rolling_volume_->take(*newest);
+  if (const auto making = parts_.volumes.borrow_after(volume_->metadata.index)) {
+    rolling_volume_->follow(*making, controller_.state().b_scan);
+    parts_.volumes.give_back();
   }
+  const auto changes = rolling_volume_->take_changes();
+  HAL_CHECK(renderer_->renew_volume(rolling_volume_->volume(), changes));
+  for (const pipeline::BScanRange& range : changes)
+    line_latency_.show(rolling_volume_->volume(), range);
+  return {};
+}
+
+void RenderLoop::note_taken(const pipeline::Volume& newest, hal::TimePoint begin) {
   showing_ = {.taken = begin, .uploaded = parts_.clock.now(), .drawn = {}, .flipped = {}};
   statistics_.upload.add(showing_.uploaded - showing_.taken);
   if (setup_.window_from_first_volume && !status_writer_.has_volume()) {
-    if (const auto window = ui::suggest_window(*newest))
+    if (const auto window = ui::suggest_window(newest))
       set_first_window(*window);
   }
   volume_undisplayed_ = true;
-  undisplayed_last_line_ = newest->metadata.last_line;
-  status_writer_.show(*newest);
+  undisplayed_last_line_ = newest.metadata.last_line;
+  status_writer_.show(newest);
 }
 
 void RenderLoop::set_first_window(const ui::DisplayWindow& window) {
@@ -300,6 +357,8 @@ void RenderLoop::update_status() {
   const ui::ViewState& view = controller_.state();
   status_writer_.judge(setup_.freshness,
                        view.frozen ? std::optional{view.frozen_since} : std::nullopt);
+  status_writer_.roll(rolling_volume_ && view.rolling, rolling_,
+                      rolling_ ? rolling_volume_->seam() : std::nullopt);
   if (parts_.vessels != nullptr)
     status_writer_.show_vessels(parts_.vessels->status());
 }
@@ -317,7 +376,8 @@ void RenderLoop::draw_if_changed() {
   const hal::TimePoint begin = parts_.clock.now();
   renderer_->expect(view);
   if (renderer_->wants_volume(view) && volume_ != nullptr)
-    static_cast<void>(renderer_->show_volume(*volume_)); // that it can be shown, it has proved
+    static_cast<void>(
+        renderer_->show_volume(shown_volume())); // that it can be shown, it has proved
   if (const auto drawn =
           renderer_->draw(view, status(), display.width(), display.height(), quality_);
       !drawn) {
@@ -352,6 +412,7 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
   statistics_.draw.add(took);
   statistics_.frames_missed +=
       static_cast<std::uint64_t>(std::max<std::int64_t>(took / parts_.display.refresh_period(), 0));
+  line_latency_.flipped(flip.completed);
   if (undisplayed_control_) {
     statistics_.control.add(flip.completed - *undisplayed_control_);
     undisplayed_control_.reset();
@@ -405,6 +466,7 @@ void RenderLoop::lose_display(const hal::Error& error) {
   renderer_.reset();
   parts_.display.close();
   undisplayed_last_line_.reset();
+  line_latency_.forget();
   undisplayed_control_.reset();
   drawn_view_.reset();
   levels_of_ = 0;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "firmware-host/ledger/line_latency.h"
 #include "firmware-host/ledger/passage.h"
 #include "firmware-host/ledger/timing_history.h"
 #include "firmware-host/ledger/trace.h"
@@ -18,6 +19,7 @@
 #include "hal/control_input.h"
 #include "hal/display.h"
 #include "pipeline/acquisition/acquisition.h"
+#include "pipeline/acquisition/rolling_volume.h"
 #include "pipeline/acquisition/volume_feed.h"
 #include "pipeline/controls/control_thread.h"
 #include "pipeline/controls/scope_thread.h"
@@ -138,6 +140,9 @@ public:
   // Replaces the profile when another pedal or knob leads.
   void change_controls(ui::ControlProfile profile);
 
+  // Of all lines that were shown so far.
+  pipeline::DurationSummary line_latency() const { return line_latency_.summary(); }
+
   // Of the newest frame's volume picture.
   const ui::DrawQuality& quality() const { return quality_; }
 
@@ -150,7 +155,13 @@ private:
   void answer(const ui::ControlRequests& requests);
   void find_window();
   void keep_picture();
+  bool may_roll() const;
+  bool draws_parts() const;
   void take_volume();
+  void note_taken(const pipeline::Volume& newest, hal::TimePoint begin);
+  hal::Result<> show_whole();
+  hal::Result<> show_b_scans(const pipeline::Volume* newest);
+  const pipeline::Volume& shown_volume() const;
   void take_scope_picture();
   void update_status();
   void draw_if_changed();
@@ -181,9 +192,12 @@ private:
   std::uint64_t levels_of_ = 0;        // the volume that the histogram is of
   std::optional<ui::ViewState> drawn_view_;
   ui::Liveness drawn_liveness_ = ui::Liveness::waiting;
-  const pipeline::Volume* volume_ = nullptr;          // the newest taken, valid until the next take
-  const hal::ScopeFrame* scope_picture_ = nullptr;    // likewise
-  std::optional<hal::TimePoint> undisplayed_control_; // time of the oldest event not shown yet
+  const pipeline::Volume* volume_ = nullptr; // the newest taken, valid until the next take
+  std::optional<pipeline::RollingVolume> rolling_volume_; // empty: no B-scans come by themselves
+  bool rolling_ = false;                                  // it is shown, not volume_
+  LineLatency line_latency_{setup_.geometry.b_scans};
+  const hal::ScopeFrame* scope_picture_ = nullptr;      // likewise
+  std::optional<hal::TimePoint> undisplayed_control_;   // time of the oldest event not shown yet
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume not shown yet
   bool volume_undisplayed_ = false;                     // volume_ has not been in a frame yet
   Showing showing_;                                     // of volume_, so far

@@ -90,6 +90,7 @@ RunReport report_on(const RunStatistics& run, const RunTimes& times,
   add_volumes(report, run.volumes);
   const FrameStatistics& frames = run.loop.statistics();
   add_frames(report, frames);
+  report.line_latency = run.loop.line_latency();
   add_picture(report, run.loop.status());
   report.started = times.started;
   report.duration_s = hal::to_seconds(times.ended - times.started);

@@ -58,6 +58,16 @@ void StatusWriter::count(const RunCounters& counters, hal::TimePoint now) {
   }
 }
 
+void StatusWriter::roll(bool asked, bool possible,
+                        const std::optional<pipeline::RollingVolume::Seam>& seam) {
+  status_.rolling.reset();
+  if (!asked)
+    return;
+  status_.rolling.emplace().possible = possible;
+  if (seam)
+    status_.rolling->seam = {status_.now - seam->newer, status_.now - seam->older};
+}
+
 void StatusWriter::judge(const ui::FreshnessLimits& limits,
                          const std::optional<hal::TimePoint>& frozen_since) {
   status_.freshness = ui::judge_freshness(shown_, status_.now, limits, frozen_since);

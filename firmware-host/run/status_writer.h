@@ -9,6 +9,7 @@
 #include "firmware-host/report/rate_meter.h"
 #include "firmware-host/supervision/run_counters.h"
 #include "hal/clock.h"
+#include "pipeline/acquisition/rolling_volume.h"
 #include "pipeline/volume/patient_eye.h"
 #include "pipeline/volume/volume.h"
 #include "ui/status/freshness.h"
@@ -57,6 +58,9 @@ public:
   // Sets the time of the next frame and the counts so far.
   void count(const RunCounters& counters, hal::TimePoint now);
   void judge(const ui::FreshnessLimits& limits, const std::optional<hal::TimePoint>& frozen_since);
+  // Call behind count(). `seam` is empty where all of the picture is of one volume. Not `asked`:
+  // whole volumes are.
+  void roll(bool asked, bool possible, const std::optional<pipeline::RollingVolume::Seam>& seam);
   void reduce_quality(const std::optional<float>& share) { status_.reduced_quality = share; }
   void show_vessels(const ui::VesselStatus& vessels) { status_.vessels = vessels; }
 

@@ -9,6 +9,7 @@ VolumeAssembler::VolumeAssembler(const VolumeGeometry& geometry, const Neighbour
     : geometry_{geometry}, average_{average},
       own_levels_(geometry.voxels()), progress_{std::make_unique<Progress[]>(
                                           static_cast<std::size_t>(geometry.b_scans))},
+      finished_(static_cast<std::size_t>(geometry.b_scans)),
       borders_(static_cast<std::size_t>(geometry.b_scans)) {}
 
 void VolumeAssembler::begin(Volume& volume) noexcept {
@@ -16,7 +17,9 @@ void VolumeAssembler::begin(Volume& volume) noexcept {
   for (int b = 0; b < geometry_.b_scans; ++b) {
     Progress& progress = progress_[static_cast<std::size_t>(b)];
     progress.built.store(false, std::memory_order_relaxed);
+    progress.overdue.store(false, std::memory_order_relaxed);
     progress.taken.store(false, std::memory_order_relaxed);
+    finished_[static_cast<std::size_t>(b)].store(BScanProgress::awaited, std::memory_order_relaxed);
   }
 }
 
@@ -29,16 +32,35 @@ bool VolumeAssembler::is_built(int b) const noexcept {
   return b >= 0 && b < geometry_.b_scans && progress_[static_cast<std::size_t>(b)].built.load();
 }
 
-bool VolumeAssembler::may_finish(int b) const noexcept {
-  return is_built(b) && (b == 0 || is_built(b - 1)) &&
-         (b == geometry_.b_scans - 1 || is_built(b + 1));
+// Nobody waits for it, or for what does not exist.
+bool VolumeAssembler::is_settled(int b) const noexcept {
+  if (b < 0 || b >= geometry_.b_scans)
+    return true;
+  const Progress& progress = progress_[static_cast<std::size_t>(b)];
+  return progress.built.load() || progress.overdue.load();
 }
 
-// Of two threads that build neighbours at the same time, each first says that its own is built and
-// then looks for the other's: in the one order of all these operations at least one of them sees
-// both, and `taken` lets one of them go on.
+bool VolumeAssembler::may_finish(int b) const noexcept {
+  return is_built(b) && is_settled(b - 1) && is_settled(b + 1);
+}
+
+// Of two threads that settle neighbours at the same time, each first says that its own is built or
+// overdue and then looks for the other's: in the one order of all these operations at least one of
+// them sees both, and `taken` lets one of them go on.
 void VolumeAssembler::built(int b) noexcept {
   progress_[static_cast<std::size_t>(b)].built.store(true);
+  finish_around(b);
+}
+
+void VolumeAssembler::overdue(int b) noexcept {
+  Progress& progress = progress_[static_cast<std::size_t>(b)];
+  progress.overdue.store(true);
+  BScanProgress awaited = BScanProgress::awaited; // else it has come after all
+  finished_[static_cast<std::size_t>(b)].compare_exchange_strong(awaited, BScanProgress::overdue);
+  finish_around(b);
+}
+
+void VolumeAssembler::finish_around(int b) noexcept {
   for (int candidate = std::max(b - 1, 0); candidate <= std::min(b + 1, geometry_.b_scans - 1);
        ++candidate)
     if (may_finish(candidate) &&
@@ -74,6 +96,8 @@ void VolumeAssembler::finish_b_scan(int b) noexcept {
       volume_->b_scan_states[at] == BScanState::good
           ? count_at_upper_border(volume_->b_scan(b), geometry_.depths, geometry_.a_scans)
           : BorderCount{};
+  if (is_built(b))
+    finished_[at].store(BScanProgress::finished, std::memory_order_release);
 }
 
 } // namespace octascope::pipeline

@@ -1,7 +1,10 @@
 // Where the display's volumes come from: the fixed-rate thread, or a recording.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "pipeline/volume/volume.h"
 
@@ -21,6 +24,20 @@ struct VolumeCounters {
   std::uint64_t saturated_lines = 0;
 };
 
+enum class BScanProgress : std::uint8_t {
+  awaited,
+  finished, // its levels, occupancy, state and times of exposure stay as they are
+  overdue   // it did not come when it should have; it may still become `finished`
+};
+
+// A volume that is being made, on loan. Nothing of it may be read but `progress` (acquire) and of the
+// B-scans that are finished there what BScanProgress names.
+struct VolumeInMaking {
+  std::uint64_t number = 0; // what will be its VolumeMetadata::index
+  const Volume* volume = nullptr;
+  std::span<const std::atomic<BScanProgress>> progress; // by B-scan
+};
+
 class VolumeFeed {
 public:
   virtual ~VolumeFeed() = default;
@@ -30,12 +47,23 @@ public:
   const Volume* take_newest() { return do_take_newest(); }
   bool has_newer() const { return do_has_newer(); }
 
+  // Renderer's thread only. The oldest volume behind number `after` that is being made or was just
+  // published, on loan until give_back(), which must follow soon: its memory is not used anew
+  // meanwhile. Empty: there is none. Neither waits.
+  std::optional<VolumeInMaking> borrow_after(std::uint64_t after) { return do_borrow_after(after); }
+  void give_back() { do_give_back(); }
+  // Whether any volume is ever lent.
+  bool lends() const { return do_lends(); }
+
   // Any thread.
   VolumeCounters counters() const { return do_counters(); }
 
 private:
   virtual const Volume* do_take_newest() = 0;
   virtual bool do_has_newer() const = 0;
+  virtual std::optional<VolumeInMaking> do_borrow_after(std::uint64_t) { return std::nullopt; }
+  virtual void do_give_back() {}
+  virtual bool do_lends() const { return false; }
   virtual VolumeCounters do_counters() const = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <iterator>
 
 namespace octascope::pipeline {
 
@@ -28,6 +29,7 @@ VolumeScheduler::VolumeScheduler(const ScanPlan& plan, std::optional<std::uint64
   for (PendingVolume& volume : pending_)
     volume.slots.resize(b_scans);
   to_submit_.reserve(b_scans);
+  overdue_.reserve(b_scans);
   free_.reserve(pool_size);
   for (std::uint32_t buffer = 0; buffer < pool_size; ++buffer) {
     if (buffer != first_middle && buffer != first_front)
@@ -48,17 +50,20 @@ TickDecision VolumeScheduler::tick(hal::TimePoint now) {
   return decision;
 }
 
-std::optional<std::uint32_t> VolumeScheduler::pulsed(hal::TimePoint when) {
+std::optional<std::uint32_t> VolumeScheduler::pulsed(hal::TimePoint when,
+                                                     std::optional<std::uint32_t> lent) {
   count(counts_.planned);
   last_number_ = counts_.planned.load(std::memory_order_relaxed);
   const hal::TimePoint end = sweeps_.pulsed(last_number_, when);
   count(counts_.triggered);
-  if (free_.empty()) {
+  const auto found =
+      std::find_if(free_.rbegin(), free_.rend(), [&](std::uint32_t b) { return b != lent; });
+  if (found == free_.rend()) {
     count_lost_volume();
     return std::nullopt;
   }
-  const std::uint32_t buffer = free_.back();
-  free_.pop_back();
+  const std::uint32_t buffer = *found;
+  free_.erase(std::prev(found.base()));
   PendingVolume& volume = pending_[buffer];
   volume.open = true;
   volume.facts = {.number = last_number_};
@@ -115,6 +120,7 @@ std::optional<std::uint32_t> VolumeScheduler::oldest() const {
 
 FrameDecision VolumeScheduler::place(hal::TimePoint first_line, hal::TimePoint last_line) {
   to_submit_.clear();
+  overdue_.clear();
   const auto sweep = sweeps_.place(first_line);
   if (!sweep)
     return {.verdict = FrameVerdict::outside};
@@ -142,7 +148,8 @@ FrameDecision VolumeScheduler::place(hal::TimePoint first_line, hal::TimePoint l
           .buffer = *buffer,
           .b_scan = b_scan,
           .repeat = repeat,
-          .submit = to_submit_};
+          .submit = to_submit_,
+          .overdue = overdue_};
 }
 
 void VolumeScheduler::submit(std::uint32_t buffer, int b_scan) {
@@ -157,7 +164,9 @@ void VolumeScheduler::flush(std::uint32_t buffer, int end) {
   PendingVolume& volume = pending_[buffer];
   for (; volume.flushed < end; ++volume.flushed) {
     const BScanSlot& slot = volume.slots[static_cast<std::size_t>(volume.flushed)];
-    if (slot.came != 0 && !slot.submitted)
+    if (slot.came == 0)
+      overdue_.push_back(volume.flushed);
+    else if (!slot.submitted)
       submit(buffer, volume.flushed);
   }
 }
@@ -165,6 +174,7 @@ void VolumeScheduler::flush(std::uint32_t buffer, int end) {
 VolumeDecision VolumeScheduler::next(hal::TimePoint now, hal::TimePoint looked_until,
                                      bool streaming) {
   to_submit_.clear();
+  overdue_.clear();
   const auto buffer = oldest();
   if (!buffer)
     return {};

@@ -9,7 +9,7 @@
 //
 // A B-scan with several sweeps is built when all of them have arrived. If one is missing, it is
 // built once a sweep of the B-scan after the next has arrived, or when the volume's time is over.
-// It is missing if none of its sweeps arrived.
+// It is missing if none of its sweeps arrived, and overdue as soon as it waits no longer.
 #pragma once
 
 #include <array>
@@ -53,6 +53,8 @@ struct FrameDecision {
   int b_scan = 0;
   int repeat = 0;
   std::span<const BScanJob> submit{}; // valid until the next call
+  // B-scans of `buffer` of which nothing came in time, for the first time; likewise.
+  std::span<const int> overdue{};
 };
 
 struct FinishedVolume {
@@ -94,9 +96,11 @@ public:
   bool tick_due(hal::TimePoint now) const { return now >= next_tick_; }
   TickDecision tick(hal::TimePoint now);
 
-  // The pulse was sent. Returns the buffer to build its volume in, or nothing if the workers are
-  // three volumes behind: the volume is then lost.
-  std::optional<std::uint32_t> pulsed(hal::TimePoint when);
+  // The pulse was sent. Returns the buffer to build its volume in, never `lent`, or nothing if the
+  // workers are three volumes behind: the volume is then lost.
+  std::optional<std::uint32_t> pulsed(hal::TimePoint when, std::optional<std::uint32_t> lent = {});
+  // Of the volume that is built in it.
+  std::uint64_t number_of(std::uint32_t buffer) const { return pending_[buffer].facts.number; }
   void pulse_failed();
   // Camera or trigger is not available. Counts a lost volume, except before the first pulse.
   void not_ready();
@@ -171,6 +175,7 @@ private:
   std::array<PendingVolume, pool_size> pending_;
   std::vector<std::uint32_t> free_; // buffers of the pool to build in
   std::vector<BScanJob> to_submit_; // jobs of the last decision
+  std::vector<int> overdue_;        // likewise
   std::uint64_t last_number_ = 0;   // of the last pulse; 0: none yet
   hal::TimePoint next_tick_;
   Counts counts_;

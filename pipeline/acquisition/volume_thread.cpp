@@ -73,6 +73,15 @@ const Volume* VolumeThread::do_take_newest() {
   return index ? &volumes_[*index] : nullptr;
 }
 
+// The assembler's `progress` says what of it may be read.
+std::optional<VolumeInMaking> VolumeThread::do_borrow_after(std::uint64_t after) {
+  const auto lent = loan_.borrow_after(after);
+  if (!lent)
+    return std::nullopt;
+  return VolumeInMaking{lent->number, &volumes_[lent->buffer],
+                        workplaces_[lent->buffer].assembler->progress()};
+}
+
 void VolumeThread::run() {
   scheduler_.begin(clock_.now());
   while (!thread_.stopping()) {
@@ -124,7 +133,7 @@ void VolumeThread::pulse(hal::TimePoint now) {
     if (trigger_.state() == hal::DeviceState::failed)
       trigger_.close();
     scheduler_.pulse_failed();
-  } else if (const auto buffer = scheduler_.pulsed(*pulsed)) {
+  } else if (const auto buffer = scheduler_.pulsed(*pulsed, loan_.lent())) {
     begin_volume(*buffer, *pulsed);
   } else {
     faults_.add(Fault::overrun,
@@ -163,6 +172,7 @@ void VolumeThread::begin_volume(std::uint32_t buffer, hal::TimePoint pulsed) {
   volume.metadata = {};
   volume.metadata.pulsed = pulsed;
   volume.metadata.scan_lag_a_scans = workplace.alignment.scan_lag_a_scans();
+  loan_.open(buffer, scheduler_.number_of(buffer));
 }
 
 void VolumeThread::place(const hal::LineFrame& frame) {
@@ -177,6 +187,8 @@ void VolumeThread::place(const hal::LineFrame& frame) {
   if (setup_.observe)
     setup_.observe(frame);
   submit(decision.submit);
+  for (const int b_scan : decision.overdue)
+    workplaces_[decision.buffer].assembler->overdue(b_scan);
 }
 
 // Frames come in order but for a camera's whims.
@@ -209,6 +221,15 @@ void VolumeThread::release(Sweeps& sweeps) {
   }
 }
 
+void VolumeThread::note_exposure(BScanWork& work, const Sweeps& sweeps) {
+  work.first_line = hal::TimePoint::max();
+  for (const hal::LineFrame& frame : sweeps)
+    if (frame.buffer >= 0) {
+      work.first_line = std::min(work.first_line, frame.first_line);
+      work.last_line = std::max(work.last_line, frame.last_line);
+    }
+}
+
 void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   const auto b_scans = static_cast<std::uint32_t>(setup_.plan.b_scans);
   const std::uint32_t buffer = job / b_scans;
@@ -218,6 +239,7 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   const hal::TimePoint begin = clock_.now();
   Heartbeat::beat_here(begin);
   const int b = static_cast<int>(b_scan);
+  note_exposure(volumes_[buffer].work[b_scan], sweeps);
   const int saturated = builder_.build(
       worker, b, std::span{sweeps}.first(static_cast<std::size_t>(setup_.plan.repeats)),
       workplace.alignment, workplace.sketch, workplace.assembler->own_levels(b));
@@ -225,7 +247,10 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   release(sweeps);
   workplace.assembler->built(b);
   workplace.saturated_lines.fetch_add(saturated, std::memory_order_relaxed);
-  volumes_[buffer].work[b_scan] = {begin, clock_.now(), static_cast<std::uint32_t>(worker)};
+  BScanWork& work = volumes_[buffer].work[b_scan]; // the times of exposure may be read by now
+  work.begin = begin;
+  work.end = clock_.now();
+  work.worker = static_cast<std::uint32_t>(worker);
   scheduler_.b_scan_made(buffer);
   arrived_.post();
 }
@@ -246,6 +271,7 @@ void VolumeThread::finish_due_volumes(hal::TimePoint looked_until) {
 }
 
 void VolumeThread::lose(std::uint32_t buffer) {
+  loan_.close(buffer);
   if (workplaces_[buffer].sketch != nullptr)
     scan_lag_.finished();
   if (camera_.state() != hal::DeviceState::streaming)
@@ -270,6 +296,7 @@ void VolumeThread::publish(std::uint32_t buffer, const FinishedVolume& finished)
   volume.metadata.published = assembled;
 
   const auto [recycled, skipped] = triple_buffer_.publish(buffer);
+  loan_.close(recycled);
   statistics_.reconstruct.add(volume.metadata.reconstruct);
   statistics_.assemble.add(volume.metadata.assemble);
   statistics_.publish.add(clock_.now() - assembled);

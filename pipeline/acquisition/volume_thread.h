@@ -25,6 +25,7 @@
 #include "pipeline/scan/scan_lag_thread.h"
 #include "pipeline/scan/scan_plan.h"
 #include "pipeline/scan/sweep_alignment.h"
+#include "pipeline/threads/buffer_loan.h"
 #include "pipeline/threads/duration_statistics.h"
 #include "pipeline/threads/retry_delay.h"
 #include "pipeline/threads/role_thread.h"
@@ -92,6 +93,9 @@ private:
 
   const Volume* do_take_newest() override;
   bool do_has_newer() const override { return triple_buffer_.has_newer(); }
+  std::optional<VolumeInMaking> do_borrow_after(std::uint64_t after) override;
+  void do_give_back() override { loan_.give_back(); }
+  bool do_lends() const override { return true; }
   VolumeCounters do_counters() const override { return scheduler_.counters(); }
 
   void run();
@@ -104,6 +108,7 @@ private:
   void refuse(const hal::LineFrame& frame, FrameVerdict verdict);
   void submit(std::span<const BScanJob> jobs);
   void release(Sweeps& sweeps);
+  static void note_exposure(BScanWork& work, const Sweeps& sweeps);
   void reconstruct(std::size_t worker, std::uint32_t job);
   void finish_due_volumes(hal::TimePoint looked_until);
   void lose(std::uint32_t buffer);
@@ -122,6 +127,7 @@ private:
   std::vector<Volume> volumes_;
   std::array<Workplace, VolumeScheduler::pool_size> workplaces_;
   TripleBuffer triple_buffer_{VolumeScheduler::first_middle, VolumeScheduler::first_front};
+  BufferLoan<VolumeScheduler::pool_size> loan_;
   VolumeScheduler scheduler_;
   BScanBuilder builder_;
   ScanLagThread scan_lag_;

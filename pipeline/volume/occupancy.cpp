@@ -105,8 +105,18 @@ void Occupancy::update(const Volume& volume) noexcept {
     update(b, volume.b_scan(b));
 }
 
+void Occupancy::copy(int b, const Occupancy& from) noexcept {
+  std::ranges::copy(from.highest(b), row(highest_, b).begin());
+  std::ranges::copy(from.lowest(b), row(lowest_, b).begin());
+}
+
 void Occupancy::widen_below(int counts) noexcept {
-  for (std::uint8_t& lowest : lowest_)
+  for (int b = 0; b < geometry_.b_scans; ++b)
+    widen_below(b, counts);
+}
+
+void Occupancy::widen_below(int b, int counts) noexcept {
+  for (std::uint8_t& lowest : row(lowest_, b))
     lowest = static_cast<std::uint8_t>(std::max(lowest - counts, 0));
 }
 

@@ -52,8 +52,13 @@ public:
   void update(int b, std::span<const std::uint8_t> levels) noexcept;
   void update(const Volume& volume) noexcept;
 
-  // For drawing a copy of the volume whose levels are lower by up to that many counts.
+  // Takes one B-scan's part of another volume's, of the same geometry and first depth.
+  void copy(int b, const Occupancy& from) noexcept;
+
+  // For drawing a copy of the volume whose levels are lower by up to that many counts: all B-scans,
+  // or one.
   void widen_below(int counts) noexcept;
+  void widen_below(int b, int counts) noexcept;
 
   bool empty() const { return highest_.empty(); }
   const VolumeGeometry& geometry() const { return geometry_; }
@@ -65,6 +70,11 @@ public:
 
 private:
   std::span<const std::uint8_t> row(const std::vector<std::uint8_t>& of, int b) const {
+    return std::span{of}.subspan(bricks_.per_b_scan() * static_cast<std::size_t>(b),
+                                 bricks_.per_b_scan());
+  }
+
+  std::span<std::uint8_t> row(std::vector<std::uint8_t>& of, int b) {
     return std::span{of}.subspan(bricks_.per_b_scan() * static_cast<std::size_t>(b),
                                  bricks_.per_b_scan());
   }

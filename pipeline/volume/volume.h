@@ -17,12 +17,27 @@ enum class BScanState : std::uint8_t {
   missing, // not received: its voxels are 0, the display hatches it
   good,
   saturated, // has saturated lines: shown and marked
+  seam,      // blank, between two volumes of which one is shown over the other (rolling_volume.h)
 };
 
-// A worker's turn at a B-scan: conversion, alignment, averaging.
+// Whether it holds what was received.
+constexpr bool has_levels(BScanState state) {
+  return state == BScanState::good || state == BScanState::saturated;
+}
+
+// From `from` to before `to`.
+struct BScanRange {
+  int from = 0;
+  int to = 0;
+  bool operator==(const BScanRange&) const = default;
+};
+
+// When a B-scan was exposed, by the camera's stamps, and a worker's turn at it: conversion,
+// alignment, averaging.
 struct BScanWork {
   hal::TimePoint begin{}, end{};
   std::uint32_t worker = 0;
+  hal::TimePoint first_line{}, last_line{}; // of the sweeps that came
 };
 
 // Levels are 8-bit counts (level_scale.h has the decibels), in the order [b][a][z], depth fastest.

@@ -31,6 +31,7 @@ inline constexpr Colour histogram{120, 134, 148};
 inline constexpr Colour accent{102, 200, 255}; // positions and the knob's parameter
 inline constexpr Colour calliper{255, 240, 120};
 inline constexpr Colour crossed{255, 140, 214}; // the crossed B-scan's position
+inline constexpr Colour seam{150, 255, 120};    // between two volumes of which one is newer
 // Colours of states. Distinguishable for colour-blind people; no state is shown by colour alone.
 inline constexpr Colour good{90, 190, 160};
 inline constexpr Colour warning{255, 186, 74}; // STALE, missing, saturated, lost
@@ -56,9 +57,10 @@ inline constexpr std::array texts_on_grounds{
     TextOnGround{good, panel},         TextOnGround{warning, panel},
     TextOnGround{warning, background}, TextOnGround{alarm, panel},
     TextOnGround{alarm, background},   TextOnGround{frozen, panel},
-    TextOnGround{simulated, panel},    TextOnGround{ink, warning},
-    TextOnGround{ink, alarm},          TextOnGround{ink, frozen},
-    TextOnGround{ink, replay},         TextOnGround{text, recording}};
+    TextOnGround{seam, panel},         TextOnGround{simulated, panel},
+    TextOnGround{ink, warning},        TextOnGround{ink, alarm},
+    TextOnGround{ink, frozen},         TextOnGround{ink, replay},
+    TextOnGround{text, recording}};
 
 // Colours that show the state of the picture or of a device.
 inline constexpr std::array states{text, good, warning, alarm, frozen, simulated};

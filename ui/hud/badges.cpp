@@ -25,6 +25,7 @@ BadgeLook look_of(BadgeKind kind) {
   case BadgeKind::unregistered: return {palette::warning, false};
   case BadgeKind::incomplete: return {palette::warning, false};
   case BadgeKind::cut: return {palette::accent, false};
+  case BadgeKind::rolling: return {palette::seam, false};
   }
   return {palette::text, false};
 }
@@ -94,12 +95,19 @@ void draw_sign(Canvas& canvas, BadgeKind kind, glm::vec2 centre, float size, Col
     canvas.line({centre.x + half * 0.5F, centre.y - half},
                 {centre.x + half * 0.5F, centre.y + half}, ink, size * 0.06F);
     break;
+  case BadgeKind::rolling: // a line that goes to the right
+    canvas.line({centre.x - half * 0.5F, centre.y - half},
+                {centre.x - half * 0.5F, centre.y + half}, ink, size * 0.13F);
+    for (const float side : {-1.0F, 1.0F})
+      canvas.line({centre.x + half, centre.y},
+                  {centre.x + half * 0.2F, centre.y + side * half * 0.6F}, ink, size * 0.1F);
+    break;
   }
 }
 
 bool is_small(BadgeKind kind) {
   return kind == BadgeKind::incomplete || kind == BadgeKind::configuration ||
-         kind == BadgeKind::calibration || kind == BadgeKind::cut;
+         kind == BadgeKind::calibration || kind == BadgeKind::cut || kind == BadgeKind::rolling;
 }
 
 // What must be seen at once is larger than what explains it.
@@ -216,9 +224,10 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
     if (x > room.x && x + width > room.right())
       next_row();
     const bool told = badge.kind == BadgeKind::unregistered ||
-                      badge.kind == BadgeKind::incomplete || badge.kind == BadgeKind::cut;
+                      badge.kind == BadgeKind::incomplete || badge.kind == BadgeKind::cut ||
+                      badge.kind == BadgeKind::rolling;
     if (told && (room != layout.marks || y + height > room.bottom()))
-      continue; // the status bar says it, too; a cut is seen
+      continue; // the status bar says it, too; a cut is seen, and so is a seam
     places[i] = {x, y, width, height};
     stacked_x = x;
     stacked_width = small && row_height >= row ? width : 0; // beside a large one

@@ -18,7 +18,7 @@ struct Pen {
   }
 };
 
-// Runs of B-scans that did not come, as slabs; of saturated ones, along the box's edges only.
+// The seam as an outline; runs of B-scans that did not come as slabs; of saturated ones, along the box's edges only.
 void draw_state_marks(const Pen& pen, const Rect& view, const HudScene& scene, float unit) {
   const auto count = static_cast<float>(scene.states.size());
   std::size_t begin = 0;
@@ -32,6 +32,12 @@ void draw_state_marks(const Pen& pen, const Rect& view, const HudScene& scene, f
     begin = end;
     if (state == pipeline::BScanState::good)
       continue;
+    if (state == pipeline::BScanState::seam) {
+      pen.draw(
+          project_slice(scene.camera, scene.extents_mm, SliceAcross::slow, (from + to) / 2, view),
+          palette::seam, 2 * unit);
+      continue;
+    }
     const bool missing = state == pipeline::BScanState::missing;
     pen.draw(project_slow_edges(scene.camera, scene.extents_mm, from, to, view), palette::warning,
              (missing ? 6.0F : 3.0F) * unit);

@@ -75,6 +75,19 @@ void add_replay_badge(HudText& hud, const ReplayStatus& replay) {
     text.format("REPLAY {}", replay.recorded);
 }
 
+// Rounded down as every age is: seen at rest, the figures stand still.
+void add_rolling_badge(HudText& hud, const RollingStatus& rolling) {
+  FixedText<48>& text = add_badge(hud, BadgeKind::rolling).text;
+  const auto tenths = [](hal::Duration age) { return std::floor(hal::to_seconds(age) * 10) / 10; };
+  if (!rolling.possible)
+    text.format("whole volumes: surface");
+  else if (rolling.seam)
+    text.format("rolling {:.1f} s | {:.1f} s", tenths(rolling.seam->newer),
+                tenths(rolling.seam->older));
+  else
+    text.format("rolling");
+}
+
 void compose_badges(HudText& hud, const ViewState& view, const Status& status,
                     const ShownPictures& shown) {
   if (status.replay)
@@ -94,6 +107,8 @@ void compose_badges(HudText& hud, const ViewState& view, const Status& status,
     add_badge(hud, BadgeKind::unregistered).text.format("VESSELS NOT REGISTERED");
   if (view.cut && shown.volume)
     add_badge(hud, BadgeKind::cut).text.format("cut at B-scan {}", view.b_scan + 1);
+  if (status.rolling && shown.volume && status.freshness.liveness != Liveness::frozen)
+    add_rolling_badge(hud, *status.rolling);
 }
 
 Trouble& add_trouble(HudText& hud, Trouble::Sign sign) {
@@ -267,6 +282,7 @@ std::string_view word_for(pipeline::BScanState state) {
   switch (state) {
   case pipeline::BScanState::missing: return "missing";
   case pipeline::BScanState::saturated: return "saturated";
+  case pipeline::BScanState::seam: return "being renewed";
   case pipeline::BScanState::good: return "";
   }
   return "";

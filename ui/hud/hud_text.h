@@ -28,7 +28,8 @@ enum class BadgeKind : std::uint8_t {
   calibration,
   unregistered,
   incomplete,
-  cut // quiet: what is missing is missing on request
+  cut,    // quiet: what is missing is missing on request
+  rolling // quiet: as it was asked for
 };
 
 struct Badge {
@@ -85,7 +86,7 @@ struct ShownPictures {
 
 struct HudText {
   // One per kind, and two of kind incomplete.
-  static constexpr std::size_t most_badges = 9;
+  static constexpr std::size_t most_badges = 10;
   static constexpr std::size_t most_troubles = Status::most_devices + 6;
 
   // Lines, frames and volumes per second: dropped in this order if the strip is too narrow.

@@ -30,6 +30,10 @@ constexpr double finer_share = 0.8;
 // No step of the ladder costs more than 1.6 times the next coarser one: from here it still fits.
 constexpr double idle_share = 0.55;
 
+// Where coarsest_in_parts is.
+constexpr std::size_t rung_in_parts = 6;
+static_assert(ladder[rung_in_parts] == Governor::coarsest_in_parts);
+
 std::size_t index_of(Technique technique) {
   return static_cast<std::size_t>(technique);
 }
@@ -85,11 +89,12 @@ void Governor::enter(Place& place, std::size_t rung) {
 
 // To the finest quality that fits. One that was just entered is given a few frames first, so that
 // its own cost is known before it is judged.
-void Governor::settle(Place& place, Knowledge& knowledge, double budget_ms) const {
+void Governor::settle(Place& place, Knowledge& knowledge, double budget_ms,
+                      std::size_t coarsest) const {
   if (knowledge.full_ms.empty() || (place.frames > 0 && place.frames < kept))
     return;
   std::size_t rung = place.rung;
-  while (rung + 1 < ladder.size() && predict_ms(knowledge, rung) > budget_ms)
+  while (rung < coarsest && predict_ms(knowledge, rung) > budget_ms)
     ++rung;
   if (rung == place.rung)
     while (rung > 0 && predict_ms(knowledge, rung - 1) <= finer_share * budget_ms)
@@ -112,7 +117,10 @@ DrawQuality Governor::choose(const Situation& situation) {
   if (still_)
     return full_quality;
   Place& place = places_[technique_][moving_ ? 1 : 0];
-  settle(place, knowledge_[technique_], budget_ms());
+  const std::size_t coarsest = situation.in_parts && !moving_ ? rung_in_parts : ladder.size() - 1;
+  if (place.rung > coarsest)
+    enter(place, coarsest);
+  settle(place, knowledge_[technique_], budget_ms(), coarsest);
   return ladder[place.rung];
 }
 

@@ -46,7 +46,12 @@ public:
     Technique technique = Technique::rays;
     bool moved = false; // the request differs from the last frame's
     bool live = true;   // volumes keep coming; else the picture is drawn once and may take longer
+    bool in_parts = false; // at rest only what changed is drawn: then never below coarsest_in_parts
   };
+
+  // Most of what a frame of few samples costs is its fixed part: still fewer would blur the picture
+  // and gain nothing.
+  static constexpr DrawQuality coarsest_in_parts{0.5F, 192};
 
   // For the frame that begins now. Full quality at rest without live volumes, or within budget.
   DrawQuality choose(const Situation& situation);
@@ -92,7 +97,7 @@ private:
   };
 
   double predict_ms(const Knowledge& knowledge, std::size_t rung) const;
-  void settle(Place& place, Knowledge& knowledge, double budget_ms) const;
+  void settle(Place& place, Knowledge& knowledge, double budget_ms, std::size_t coarsest) const;
   static void enter(Place& place, std::size_t rung);
   static bool worth_trying(const Knowledge& knowledge, std::size_t rung);
   void learn(Place& place, Knowledge& knowledge, double sampling_ms, double budget_ms) const;

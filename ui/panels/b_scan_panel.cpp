@@ -25,7 +25,7 @@ BScanPanel::BScanPanel(gl::PicturePass pass)
                                         pass_.uniform("u_window"), pass_.uniform("u_corner"),
                                         pass_.uniform("u_across"), pass_.uniform("u_down"),
                                         pass_.uniform("u_hatch"),  pass_.uniform("u_mark_height"),
-                                        pass_.uniform("u_mark")} {}
+                                        pass_.uniform("u_mark"),   pass_.uniform("u_seam")} {}
 
 void BScanPanel::draw(const VolumeTexture& volume, const StateTexture& states,
                       ScanDirection direction, const ViewState& view, const Crop& crop,
@@ -52,7 +52,8 @@ void BScanPanel::draw(const VolumeTexture& volume, const StateTexture& states,
   glUniform3f(uniforms_.down, crop.depth.length(), 0, 0);
   set_hatch(uniforms_.hatch, rect, target_height);
   glUniform1f(uniforms_.mark_height, direction == ScanDirection::slow ? mark_share : 0);
-  set_mark_colour(uniforms_.mark);
+  set_colour(uniforms_.mark, palette::warning);
+  set_colour(uniforms_.seam, palette::seam);
   pass_.fill(rect, target_height);
 }
 

@@ -29,7 +29,7 @@ private:
   explicit BScanPanel(gl::PicturePass pass);
   gl::PicturePass pass_;
   struct {
-    GLint levels, states, window, corner, across, down, hatch, mark_height, mark;
+    GLint levels, states, window, corner, across, down, hatch, mark_height, mark, seam;
   } uniforms_;
 };
 

@@ -1,5 +1,8 @@
 #include "ui/panels/en_face_panel.h"
 
+#include <algorithm>
+#include <array>
+
 #include "embedded_shaders.h"
 
 #include "ui/gl/picture_texture.h"
@@ -18,19 +21,31 @@ EnFacePanel::EnFacePanel(gl::PicturePass pass)
                                   pass_.uniform("u_projection"), pass_.uniform("u_states"),
                                   pass_.uniform("u_corner"),     pass_.uniform("u_extent"),
                                   pass_.uniform("u_hatch"),      pass_.uniform("u_mark_width"),
-                                  pass_.uniform("u_mark")} {}
+                                  pass_.uniform("u_mark"),       pass_.uniform("u_seam")} {}
 
 void EnFacePanel::allocate(int a_scans, int b_scans) {
   a_scans_ = a_scans;
   b_scans_ = b_scans;
-  grey_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
+  levels_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
+  grey_.resize(levels_.size());
   projection_ = gl::make_picture_texture(GL_R8, a_scans, b_scans);
 }
 
 void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue) {
   if (volume.geometry.a_scans != a_scans_ || volume.geometry.b_scans != b_scans_)
     allocate(volume.geometry.a_scans, volume.geometry.b_scans);
-  project_slab(volume, tissue, grey_);
+  renew(volume, tissue, std::array{pipeline::BScanRange{0, b_scans_}});
+}
+
+void EnFacePanel::renew(const pipeline::Volume& volume, const TissueMap& tissue,
+                        std::span<const pipeline::BScanRange> changed) {
+  for (const pipeline::BScanRange& range : changed)
+    project_slab(volume, tissue, range, levels_);
+  upload(volume);
+}
+
+void EnFacePanel::upload(const pipeline::Volume& volume) {
+  std::ranges::copy(levels_, grey_.begin());
   stretch_contrast(volume, grey_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glBindTexture(GL_TEXTURE_2D, projection_.name());
@@ -51,7 +66,8 @@ void EnFacePanel::draw(const StateTexture& states, const Crop& crop, const Rect&
   glUniform2f(uniforms_.extent, crop.a.length(), crop.b.length());
   set_hatch(uniforms_.hatch, rect, target_height);
   glUniform1f(uniforms_.mark_width, mark_share);
-  set_mark_colour(uniforms_.mark);
+  set_colour(uniforms_.mark, palette::warning);
+  set_colour(uniforms_.seam, palette::seam);
   pass_.fill(rect, target_height);
 }
 

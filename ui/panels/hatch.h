@@ -29,10 +29,9 @@ inline void set_hatch(GLint uniform, const Rect& rect, int target_height) {
 // Of the picture's side along which a saturated B-scan is marked.
 inline constexpr float mark_share = 0.04F;
 
-inline void set_mark_colour(GLint uniform) {
-  constexpr Colour mark = palette::warning;
-  glUniform3f(uniform, static_cast<float>(mark.r) / 255, static_cast<float>(mark.g) / 255,
-              static_cast<float>(mark.b) / 255);
+inline void set_colour(GLint uniform, Colour colour) {
+  glUniform3f(uniform, static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255,
+              static_cast<float>(colour.b) / 255);
 }
 
 } // namespace octascope::ui

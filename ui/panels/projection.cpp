@@ -43,7 +43,7 @@ Range robust_range(const pipeline::Volume& volume, std::span<const std::uint8_t>
   const auto a_scans = static_cast<std::size_t>(volume.geometry.a_scans);
   std::uint32_t count = 0;
   for (std::size_t b = 0; b < volume.b_scan_states.size(); ++b) {
-    if (volume.b_scan_states[b] == pipeline::BScanState::missing)
+    if (!has_levels(volume.b_scan_states[b]))
       continue;
     for (const std::uint8_t level : levels.subspan(b * a_scans, a_scans))
       ++histogram[level];
@@ -78,11 +78,16 @@ Slab SlabFinder::slab(const TissueMap::Begin& begin) const {
 
 void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
                   std::span<std::uint8_t> out) {
+  project_slab(volume, tissue, {0, volume.geometry.b_scans}, out);
+}
+
+void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
+                  const pipeline::BScanRange& b_scans, std::span<std::uint8_t> out) {
   const pipeline::VolumeGeometry& geometry = volume.geometry;
   const SlabFinder finder{geometry};
-  const std::uint8_t* line = volume.levels.data();
-  std::size_t i = 0;
-  for (int b = 0; b < geometry.b_scans; ++b)
+  auto i = static_cast<std::size_t>(b_scans.from) * static_cast<std::size_t>(geometry.a_scans);
+  const std::uint8_t* line = volume.levels.data() + i * static_cast<std::size_t>(geometry.depths);
+  for (int b = b_scans.from; b < b_scans.to; ++b)
     for (int a = 0; a < geometry.a_scans; ++a, line += geometry.depths) {
       const Slab slab = finder.slab(tissue.begin_of(b, a));
       out[i++] = highest_of(line + slab.from, slab.count);

@@ -36,6 +36,28 @@ void set_light(RayFrame& frame, const LightVolume& light) {
   }
 }
 
+Rect united(const Rect& a, const Rect& b) {
+  const int x = std::min(a.x, b.x);
+  const int y = std::min(a.y, b.y);
+  return {x, y, std::max(a.right(), b.right()) - x, std::max(a.bottom(), b.bottom()) - y};
+}
+
+// The tiles of `drawn` that `bounds` meets, and what is softened with them.
+Rect tiles_around(const Rect& bounds, const Rect& drawn) {
+  const auto before = [](int at, int origin, int least) {
+    const int tile = (std::max(at, origin) - origin) / tile_size * tile_size + origin;
+    return std::max(tile - soften_radius, least);
+  };
+  const auto behind = [](int at, int origin, int most) {
+    const int tiles = (std::max(at, origin) - origin + tile_size - 1) / tile_size;
+    return std::min(origin + tiles * tile_size + soften_radius, most);
+  };
+  const int x = before(bounds.x, drawn.x, drawn.x);
+  const int y = before(bounds.y, drawn.y, drawn.y);
+  return {x, y, std::max(behind(bounds.right(), drawn.x, drawn.right()) - x, 0),
+          std::max(behind(bounds.bottom(), drawn.y, drawn.bottom()) - y, 0)};
+}
+
 } // namespace
 
 // Written once, so that the memory is there and not only promised.
@@ -84,7 +106,10 @@ hal::Result<RayCaster> RayCaster::create(std::size_t helpers, const pipeline::Th
 
 RayCaster::RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team)
     : kernels_{&kernels}, team_{std::move(team)}, transfer_{std::make_unique<TransferTable>()},
-      steps_table_{std::make_unique<StepTable>()} {}
+      steps_table_{std::make_unique<StepTable>()} {
+  constexpr std::size_t most_slabs = 8;
+  slabs_.reserve(most_slabs);
+}
 
 hal::Result<> RayCaster::show(const pipeline::Volume& volume,
                               const pipeline::Occupancy& occupancy) {
@@ -107,6 +132,23 @@ hal::Result<> RayCaster::show(const pipeline::Volume& volume,
     const int b = static_cast<int>(b_scan);
     cells_->update(b, volume.b_scan(b));
   });
+  bricks_current_ = false;
+  return {};
+}
+
+hal::Result<> RayCaster::renew(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
+                               std::span<const pipeline::BScanRange> changed) {
+  const pipeline::VolumeGeometry& g = volume.geometry;
+  if (!cells_ || cells_->geometry() != g || occupancy.geometry() != g)
+    return show(volume, occupancy);
+  for (const pipeline::BScanRange& range : changed) {
+    for (int b = range.from; b < range.to; ++b)
+      occupancy_.copy(b, occupancy);
+    team_->run(static_cast<std::uint32_t>(range.to - range.from), [&](std::uint32_t i) {
+      const int b = range.from + static_cast<int>(i);
+      cells_->update(b, volume.b_scan(b));
+    });
+  }
   bricks_current_ = false;
   return {};
 }
@@ -214,25 +256,56 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
   distances_.measure(bricks_, octants_of_rays(geometry(), camera));
   const RayFrame rays = frame(camera, settings, image);
   image.draw_into(rectangle_of_box(camera, image));
+  find_slabs(camera, settings, image);
   const int across = (image.drawn.width + tile_size - 1) / tile_size;
   const int down = (image.drawn.height + tile_size - 1) / tile_size;
   team_->run(static_cast<std::uint32_t>(across * down), [&](std::uint32_t tile) {
     const int index = static_cast<int>(tile);
-    kernel(rays, {image.drawn.x + index % across * tile_size,
-                  image.drawn.y + index / across * tile_size});
+    const Tile at{image.drawn.x + index % across * tile_size,
+                  image.drawn.y + index / across * tile_size};
+    if (is_changed({at.x, at.y, tile_size, tile_size}))
+      kernel(rays, at);
   });
   if (settings.soften)
     soften(settings, image);
   return {};
 }
 
+void RayCaster::find_slabs(const Camera& camera, const RaySettings& settings, RayImage& image) {
+  slabs_.clear();
+  image.renewed = image.drawn;
+  Rect bounds;
+  for (const pipeline::BScanRange& range : settings.changed) {
+    const auto slab = project_slab(geometry(), range, camera, image.width, image.height);
+    if (!slab) { // it reaches behind the eye
+      slabs_.clear();
+      return;
+    }
+    if (slabs_.size() == slabs_.capacity()) { // as good as everywhere
+      slabs_.clear();
+      return;
+    }
+    slabs_.push_back(*slab);
+    bounds = bounds.empty() ? slab->bounds() : united(bounds, slab->bounds());
+  }
+  if (!slabs_.empty())
+    image.renewed = tiles_around(bounds, image.drawn);
+}
+
+bool RayCaster::is_changed(const Rect& tile) const {
+  return slabs_.empty() || std::ranges::any_of(slabs_, [&](const ProjectedSlab& slab) {
+           return slab.may_meet(tile);
+         });
+}
+
 void RayCaster::soften(const RaySettings& settings, RayImage& image) {
   constexpr int rows = 16; // at a time
   const SoftenJob job{image.grained, image.rgba, image.width, image.drawn, settings.stops};
-  team_->run(static_cast<std::uint32_t>((image.drawn.height + rows - 1) / rows),
+  const Rect& renewed = image.renewed;
+  team_->run(static_cast<std::uint32_t>((renewed.height + rows - 1) / rows),
              [&](std::uint32_t piece) {
-               const int first = image.drawn.y + static_cast<int>(piece) * rows;
-               soften_rows(job, first, first + rows);
+               const int first = renewed.y + static_cast<int>(piece) * rows;
+               soften_rows(job, first, std::min(first + rows, renewed.bottom()));
              });
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/cell_volume.h"
 #include "ui/ray_caster/light_volume.h"
+#include "ui/ray_caster/projected_slab.h"
 #include "ui/ray_caster/ray_kernels.h"
 #include "ui/ray_caster/step_table.h"
 #include "ui/view/camera.h"
@@ -42,6 +44,7 @@ struct RayImage {
   std::vector<float> depth_mm; // distance along the view to where half is hidden, or no_depth
   Rect drawn;                  // everything outside is transparent, and so is its border,
                                // except at the image's own border
+  Rect renewed;                // of `drawn`: what the last draw() may have changed
 
   void make_room(int most_wide, int most_high); // resize() up to this then allocates nothing
   void resize(int new_width, int new_height);   // allocates only to grow; leaves it transparent
@@ -56,6 +59,10 @@ struct RaySettings {
   const DepthImage* stops = nullptr;  // of the image's size: where vessels end the rays
   const LightVolume* light = nullptr; // of `shaded`, prepared; null: nothing is lit
   bool soften = false;                // ui/dither/soften.h
+  // Not empty: since the same picture was drawn into this image, the volume has changed in these
+  // B-scans alone (and no vessels were merged, no light is used). Only rays that may meet them are
+  // cast.
+  std::span<const pipeline::BScanRange> changed{};
 };
 
 // Threads: bound to one, except for its own helpers. draw() allocates only the image.
@@ -69,6 +76,10 @@ public:
   // Copies both. ErrorCode::unsupported: too large for 32-bit offsets. ErrorCode::invalid_argument:
   // the occupancy has another geometry. On errors the previous volume stays.
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
+
+  // The same where they differ from those shown last in these B-scans alone.
+  hal::Result<> renew(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
+                      std::span<const pipeline::BScanRange> changed);
 
   // Takes effect with the next draw(). Setting an equal table again costs only the comparison.
   void set_transfer(const TransferTable& transfer);
@@ -86,6 +97,8 @@ public:
 private:
   RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team);
   void prepare(float steps, Visibility visibility);
+  void find_slabs(const Camera& camera, const RaySettings& settings, RayImage& image);
+  bool is_changed(const Rect& tile) const;
   Rect rectangle_of_box(const Camera& camera, const RayImage& image) const;
   void soften(const RaySettings& settings, RayImage& image);
   RayFrame frame(const Camera& camera, const RaySettings& settings, RayImage& image) const;
@@ -103,6 +116,7 @@ private:
   Visibility visibility_ = Visibility::range;
   bool table_current_ = false;
   bool bricks_current_ = false;
+  std::vector<ProjectedSlab> slabs_; // of what changed, in the last draw(); empty: everything
 };
 
 } // namespace octascope::ui

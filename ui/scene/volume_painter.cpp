@@ -96,6 +96,8 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
   HAL_CHECK(texture_.upload(volume));
   occupancy_ = occupancy;
   ++uploads_;
+  changed_.clear();
+  changed_.reserve(volume.b_scan_states.size());
   const pipeline::Volume& drawn = see_through(volume);
   caster_shows_ = caster_ && caster_->show(drawn, occupancy_);
   light_shows_ = light_wanted_;
@@ -104,6 +106,49 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
   surface_shows_ = techniques_.surface() != nullptr;
   if (surface_shows_)
     techniques_.surface()->show(volume); // opaque: what is left of a cover would be in pieces
+  return {};
+}
+
+// What was never shown as a whole, or is seen through in another way, has nothing to be renewed.
+bool VolumePainter::must_show_all(const pipeline::Volume& volume) const {
+  return empty() || volume.geometry != texture_.geometry() || light_wanted_ != light_shows_ ||
+         see_through_db_ != shown_see_through_db_ || (caster_ && !caster_shows_);
+}
+
+void VolumePainter::renew_occupancy(const pipeline::Volume& volume,
+                                    const pipeline::BScanRange& range) {
+  for (int b = range.from; b < range.to; ++b)
+    occupancy_.copy(b, volume.occupancy);
+  if (range.to == volume.geometry.b_scans && see_through_db_ > 0)
+    cover_.find(occupancy_);
+  if (!weakened_shows_)
+    return;
+  const float counts = see_through_db_ / pipeline::level_step_db;
+  for (int b = range.from; b < range.to; ++b) {
+    const auto at = static_cast<std::size_t>(b);
+    weakened_.b_scan_states[at] = volume.b_scan_states[at];
+    cover_.weaken(b, volume.b_scan(b), counts, weakened_.b_scan(b));
+    occupancy_.widen_below(b, static_cast<int>(counts) + 1);
+  }
+}
+
+hal::Result<> VolumePainter::renew(const pipeline::Volume& volume,
+                                   std::span<const pipeline::BScanRange> changed) {
+  if (must_show_all(volume))
+    return show(volume);
+  for (const pipeline::BScanRange& range : changed)
+    renew_occupancy(volume, range);
+  if (see_through_db_ > 0 && weakened_shows_ == cover_.empty())
+    return show(volume); // a cover appeared, or went
+  HAL_CHECK(texture_.renew(volume, changed));
+  ++uploads_;
+  changed_.assign(changed.begin(), changed.end());
+  const pipeline::Volume& drawn = weakened_shows_ ? weakened_ : volume;
+  if (caster_shows_)
+    HAL_CHECK(caster_->renew(drawn, occupancy_, changed));
+  if (light_shows_)
+    light_.show(drawn);
+  surface_shows_ = false;
   return {};
 }
 
@@ -129,7 +174,9 @@ hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
   if (!weakened_shows_)
     return &texture_;
   if (weakened_uploads_ != uploads_) {
-    HAL_CHECK(weakened_texture_.upload(weakened_));
+    const bool renewed = weakened_uploads_ + 1 == uploads_ && !changed_.empty();
+    HAL_CHECK(renewed ? weakened_texture_.renew(weakened_, changed_)
+                      : weakened_texture_.upload(weakened_));
     weakened_uploads_ = uploads_;
   }
   return &weakened_texture_;
@@ -234,6 +281,7 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
       &occupancy_, uploads_};
   scene.kept = kept_range(view, camera, texture_.geometry());
   scene.light = light_for(view);
+  scene.changed = changed_;
   if (!scene.kept.whole() && !cut_face_) {
     HAL_TRY(auto made, CutFace::create());
     cut_face_.emplace(std::move(made));

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "hal/result.h"
 #include "pipeline/threads/worker_pool.h"
@@ -52,6 +54,13 @@ public:
   // and after the errors of VolumeTexture::upload(), the previous volume stays.
   hal::Result<> show(const pipeline::Volume& volume);
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
+
+  // The same where the volume, which has an occupancy, differs from the one shown last in these
+  // B-scans alone: only what depends on them is renewed. The iso-surface stays that of the last
+  // show(). Drawn weaker is what the cover of the last whole volume says, found anew when the last
+  // B-scan is renewed. Light (of "shaded") is computed anew as a whole.
+  hal::Result<> renew(const pipeline::Volume& volume,
+                      std::span<const pipeline::BScanRange> changed);
 
   // From the next update() on, if the view shows vessels. The tree is borrowed until others are
   // shown; an empty one shows none. `clock` must outlive the painter. ErrorCode::unsupported: this
@@ -105,6 +114,8 @@ private:
 
   VolumePainter(bool software, const TransferSet& transfers, const pipeline::ThreadSetup& threads);
   void make_caster();
+  bool must_show_all(const pipeline::Volume& volume) const;
+  void renew_occupancy(const pipeline::Volume& volume, const pipeline::BScanRange& range);
   const pipeline::Volume& see_through(const pipeline::Volume& volume);
   hal::Result<const VolumeTexture*> drawn_texture();
   hal::Result<EyePictures*> pictures_of(StereoEye eye);
@@ -135,6 +146,7 @@ private:
   pipeline::Occupancy occupancy_;
   pipeline::Occupancy own_occupancy_; // for volumes that come without one
   std::uint64_t uploads_ = 0;
+  std::vector<pipeline::BScanRange> changed_; // by the last upload; empty: everything
   // The volume with its cover drawn weaker.
   pipeline::Cover cover_;
   pipeline::Volume weakened_;

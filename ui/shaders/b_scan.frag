@@ -6,7 +6,7 @@ precision highp usampler2D;
 in vec2 v_unit;
 
 uniform sampler3D u_levels;
-uniform usampler2D u_states; // one texel a B-scan: 0 missing, 1 good, 2 saturated
+uniform usampler2D u_states; // one texel a B-scan: 0 missing, 1 good, 2 saturated, 3 the seam
 uniform vec2 u_window;       // scale and offset of the ramp
 // Texture coordinates (depth, fast axis, slow axis) of the upper left corner, and from there to the
 // right and downwards.
@@ -16,6 +16,7 @@ uniform vec3 u_down;
 uniform vec3 u_hatch;
 uniform float u_mark_height; // of the mark over a saturated B-scan, as a share of the height
 uniform vec3 u_mark;
+uniform vec3 u_seam;
 
 out vec4 o_colour;
 
@@ -29,8 +30,9 @@ void main() {
   float slow = place.z * float(count);
   int here = clamp(int(slow), 0, count - 1);
   uint state = state_of(here, count);
-  // A missing B-scan has no levels that a neighbour could be mixed with.
-  if (state_of(slow - float(here) < 0.5 ? here - 1 : here + 1, count) == 0u)
+  // A missing B-scan has no levels that a neighbour could be mixed with, nor has the seam.
+  uint beside = state_of(slow - float(here) < 0.5 ? here - 1 : here + 1, count);
+  if (beside == 0u || beside == 3u)
     place.z = (float(here) + 0.5) / float(count);
   float level = texture(u_levels, place).r;
   vec3 colour = vec3(clamp(level * u_window.x + u_window.y, 0.0, 1.0));
@@ -38,5 +40,7 @@ void main() {
     colour = u_mark;
   if (state == 0u)
     colour = hatch(gl_FragCoord.xy, u_hatch);
+  if (state == 3u && u_across.z > 0.0)
+    colour = u_seam;
   o_colour = vec4(colour, 1.0);
 }

@@ -4,12 +4,13 @@ precision highp usampler2D;
 in vec2 v_unit;
 
 uniform sampler2D u_projection;
-uniform usampler2D u_states; // one texel a B-scan: 0 missing, 1 good, 2 saturated
+uniform usampler2D u_states; // one texel a B-scan: 0 missing, 1 good, 2 saturated, 3 the seam
 uniform vec2 u_corner; // of what is shown, and its extent, as shares of the projection
 uniform vec2 u_extent;
 uniform vec3 u_hatch;
 uniform float u_mark_width; // of the saturation mark, as a share of the width
 uniform vec3 u_mark;
+uniform vec3 u_seam;
 
 out vec4 o_colour;
 
@@ -24,5 +25,7 @@ void main() {
     colour = u_mark;
   if (state == 0u)
     colour = hatch(gl_FragCoord.xy, u_hatch);
+  if (state == 3u)
+    colour = u_seam;
   o_colour = vec4(colour, 1.0);
 }

@@ -70,6 +70,18 @@ struct RecordingStatus {
   bool operator==(const RecordingStatus&) const = default;
 };
 
+// B-scans are shown as they come ("rolling").
+struct RollingStatus {
+  bool possible = true; // else whole volumes are shown: an iso-surface is not renewed in parts
+  struct Seam {         // ages of what was exposed last on either side of it
+    hal::Duration newer{};
+    hal::Duration older{};
+    bool operator==(const Seam&) const = default;
+  };
+  std::optional<Seam> seam; // empty: all is of one volume
+  bool operator==(const RollingStatus&) const = default;
+};
+
 struct Status {
   static constexpr std::size_t most_devices = 8;
 
@@ -101,6 +113,8 @@ struct Status {
 
   Freshness freshness;
   int missing_b_scans = 0; // of the shown volume
+  std::optional<RollingStatus>
+      rolling{}; // empty: whole volumes are asked for, or nothing else can be
   int saturated_lines = 0;
 
   // Set while the volume is drawn at reduced quality: the share of full quality.

@@ -21,6 +21,7 @@ enum class Action : std::uint8_t {
   previous_parameter,
   adjust, // turns or does the action selected with next_parameter
   freeze,
+  rolling, // each B-scan is shown as it comes
   technique,
   transfer,
   colours,

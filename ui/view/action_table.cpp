@@ -123,6 +123,8 @@ constexpr std::array<ActionRow, action_count> table{{
 
     {Action::freeze, "freeze", "Freeze", toggle, keys(key(code(Key::space))),
      Flag{&ViewState::frozen, "frozen", "live"}, "frozen"},
+    {Action::rolling, "rolling", "Rolling volume", toggle, keys(key('*')),
+     Flag{&ViewState::rolling, "each B-scan as it comes", "whole volumes"}, "rolling", kept},
     {Action::technique, "technique", "Technique", choice, keys(key('t')),
      one_of<&ViewState::technique>(technique_values), "technique", drawn | home | kept},
     {Action::transfer, "transfer", "Transfer", choice, keys(key('f')),

@@ -64,6 +64,7 @@ struct ViewState {
   bool box_visible = true;       // the wire-frame box
   bool frozen = false;           // the volume stays; the view can still move
   hal::TimePoint frozen_since{}; // when `frozen` became true
+  bool rolling = false;          // each B-scan is shown as it comes; else whole volumes
   LayoutKind layout = LayoutKind::volume;
   StereoMode stereo = StereoMode::off;
   float parallax_deg = 3;      // between the two eyes, seen from the centre of the volume

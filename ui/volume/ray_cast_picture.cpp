@@ -1,5 +1,7 @@
 #include "ui/volume/ray_cast_picture.h"
 
+#include <utility>
+
 #include "embedded_shaders.h"
 
 #include "ui/dither/soften.h"
@@ -30,8 +32,8 @@ hal::Result<> RayCastPicture::resize(int width, int height, const Rect& rect) {
 
 // Straight from memory: where the processor casts rays it is GL, too, and a pixel buffer would be
 // one copy more.
-void RayCastPicture::upload_image() {
-  const Rect& drawn = image_.drawn;
+void RayCastPicture::upload_image(bool all) {
+  const Rect& drawn = all ? image_.drawn : image_.renewed;
   if (drawn.empty())
     return;
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
@@ -56,8 +58,11 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   settings.light = scene.light;
   settings.soften = is_grained(scene.step_mm, scene.volume.geometry());
   const DepthMask* vessels = scene.vessels;
-  if (vessels == nullptr)
+  if (vessels == nullptr) {
+    if (is_renewal(scene, mode, key))
+      settings.changed = scene.changed;
     return caster.draw(scene.camera, settings, image_);
+  }
   const bool veiled = vessels->opacity < 1;
   VolumePictureKey alone_key = key;
   alone_key.vessels = 0;
@@ -76,16 +81,24 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   return {};
 }
 
+// Whether the image holds the same picture of the volume before some B-scans were renewed.
+bool RayCastPicture::is_renewal(const VolumeScene& scene, RayMode mode,
+                                VolumePictureKey key) const {
+  --key.upload;
+  return cast_ == key && cast_mode_ == mode && scene.light == nullptr;
+}
+
 hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                                      const DrawQuality& quality, const Rect& rect) {
   const VolumePictureKey key = volume_picture_key(scene, quality, rect);
   if (drawn_ == key && drawn_mode_ == mode)
     return {};
-  drawn_.reset();
+  cast_ = std::exchange(drawn_, std::nullopt);
+  cast_mode_ = drawn_mode_;
   if (key.width != image_.width || key.height != image_.height)
     HAL_CHECK(resize(key.width, key.height, rect));
   HAL_CHECK(cast(caster, scene, mode, key));
-  upload_image();
+  upload_image(scene.vessels != nullptr);
   drawn_ = key;
   ++drawings_;
   drawn_mode_ = mode;

@@ -34,7 +34,8 @@ private:
   hal::Result<> resize(int width, int height, const Rect& rect);
   hal::Result<> cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                      const VolumePictureKey& key);
-  void upload_image();
+  bool is_renewal(const VolumeScene& scene, RayMode mode, VolumePictureKey key) const;
+  void upload_image(bool all);
   Rect visible_in(const Rect& rect) const;
 
   gl::PicturePass pass_;
@@ -44,6 +45,8 @@ private:
   std::optional<VolumePictureKey> alone_drawn_;
   RayMode alone_mode_ = RayMode::composite;
   std::optional<VolumePictureKey> drawn_;
+  std::optional<VolumePictureKey> cast_; // of update(): what the image held before
+  RayMode cast_mode_ = RayMode::composite;
   std::uint64_t drawings_ = 0;
   RayMode drawn_mode_ = RayMode::composite;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "pipeline/volume/occupancy.h"
 #include "ui/depth_mask/depth_mask.h"
@@ -27,6 +28,8 @@ struct VolumeScene {
   const DepthMask* vessels = nullptr;             // null: no vessel ends a ray
   SlowRange kept{};                               // by a cut
   const LightVolume* light = nullptr;             // of `shaded`; null: nothing is lit
+  // In what B-scans the volume differs from that of the upload before; empty: in any.
+  std::span<const pipeline::BScanRange> changed{};
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first picture of a size.

@@ -48,19 +48,52 @@ void VolumeTexture::allocate(const pipeline::VolumeGeometry& geometry) {
   uploader_ = gl::PixelUploader::create(geometry.voxels());
 }
 
+// Into the texture in the back.
+hal::Result<> VolumeTexture::write(const pipeline::Volume& volume,
+                                   const pipeline::BScanRange& range) {
+  const std::size_t size = geometry_.b_scan_voxels();
+  HAL_CHECK(uploader_.stage(
+      std::span{volume.levels}.subspan(static_cast<std::size_t>(range.from) * size,
+                                       static_cast<std::size_t>(range.to - range.from) * size)));
+  glBindTexture(GL_TEXTURE_3D, textures_[1 - front_].name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, range.from, geometry_.depths, geometry_.a_scans,
+                  range.to - range.from, GL_RED, GL_UNSIGNED_BYTE, nullptr);
+  gl::PixelUploader::unbind();
+  return {};
+}
+
 hal::Result<> VolumeTexture::upload(const pipeline::Volume& volume) {
   HAL_CHECK(check(volume));
   if (empty() || volume.geometry != geometry_)
     allocate(volume.geometry);
   geometry_ = volume.geometry;
-  HAL_CHECK(uploader_.stage(volume.levels));
-  const std::size_t back = 1 - front_;
-  glBindTexture(GL_TEXTURE_3D, textures_[back].name());
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, 0, geometry_.depths, geometry_.a_scans, geometry_.b_scans,
-                  GL_RED, GL_UNSIGNED_BYTE, nullptr);
-  gl::PixelUploader::unbind();
-  front_ = back;
+  HAL_CHECK(write(volume, {0, geometry_.b_scans}));
+  old_.assign(static_cast<std::size_t>(geometry_.b_scans), static_cast<std::uint8_t>(1U << front_));
+  front_ = 1 - front_;
+  return {};
+}
+
+// What the texture in the back lacks from before is written, too.
+hal::Result<> VolumeTexture::renew(const pipeline::Volume& volume,
+                                   std::span<const pipeline::BScanRange> changed) {
+  if (empty() || volume.geometry != geometry_)
+    return upload(volume);
+  HAL_CHECK(check(volume));
+  for (const pipeline::BScanRange& range : changed)
+    std::fill(old_.begin() + range.from, old_.begin() + range.to, std::uint8_t{3});
+  const auto back = static_cast<std::uint8_t>(2U >> front_);
+  for (int b = 0; b < geometry_.b_scans;) {
+    pipeline::BScanRange range{b, b};
+    for (; b < geometry_.b_scans && (old_[static_cast<std::size_t>(b)] & back) != 0; ++b)
+      old_[static_cast<std::size_t>(b)] &= static_cast<std::uint8_t>(~back);
+    range.to = b;
+    if (range.from == range.to)
+      ++b;
+    else
+      HAL_CHECK(write(volume, range));
+  }
+  front_ = 1 - front_;
   return {};
 }
 

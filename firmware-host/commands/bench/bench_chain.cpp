@@ -21,7 +21,7 @@ namespace {
 constexpr std::array formats{ChainFormat{1024, 300, 80}, ChainFormat{1024, 512, 128},
                              ChainFormat{2048, 300, 80}, ChainFormat{2048, 512, 128}};
 constexpr std::array told_rates_hz{215e3, 430e3, 860e3};
-constexpr double runs_in_all = 100; // what the time is divided by
+constexpr double runs_in_all = 150; // what the time is divided by
 constexpr double shortest_run_s = 0.5;
 constexpr double fewest_volumes = 6;    // that a run is long enough for
 constexpr double fly_back_share = 0.26; // of the kept lines
@@ -84,9 +84,9 @@ private:
   static void write_configuration(const std::filesystem::path& file, const ChainCase& what) {
     std::ofstream{file} << fmt::format(
         "[scan]\nsamples = {}\na_scans = {}\nfly_back_lines = {:.0f}\nb_scans = {}\n"
-        "line_rate_hz = {:.0f}\n",
+        "line_rate_hz = {:.0f}\n[display]\nrolling = {}\n",
         what.format.samples, what.format.a_scans, fly_back_share * what.format.a_scans,
-        what.format.b_scans, what.line_rate_hz);
+        what.format.b_scans, what.line_rate_hz, what.rolling);
   }
 
   hal::Result<ChainFigures> displayed(const std::filesystem::path& configuration, double run_s) {
@@ -96,13 +96,16 @@ private:
                        fmt::format("{}", run_s)},
                       folder_.file("report.json")));
     const auto number = [&](const char* pointer) { return number_in(report, pointer); };
+    const auto latency = [&](const std::string& key) {
+      const auto at = [&](const char* share) { return number((key + share).c_str()); };
+      return ChainLatency{at("/p50"), at("/p95"), at("/p99")};
+    };
     return ChainFigures{.lost_lines = static_cast<std::uint64_t>(number("/lost/lines")),
                         .volumes_per_s = number("/rates/volumes_per_s"),
                         .shown_per_s = number("/volumes/displayed") / number("/duration_s"),
                         .frames_per_s = number("/rates/frames_per_s"),
-                        .latency =
-                            ChainLatency{number("/latency_ms/p50"), number("/latency_ms/p95"),
-                                         number("/latency_ms/p99")}};
+                        .latency = latency("/latency_ms"),
+                        .line_latency = latency("/line_latency_ms")};
   }
 
   hal::Result<ChainFigures> undisplayed(const std::filesystem::path& file, double run_s) {
@@ -129,31 +132,37 @@ public:
   hal::Result<ChainReport> run() && {
     int start = first_rung;
     for (const ChainFormat& format : formats)
-      for (const bool display : {false, true}) {
+      for (const auto& [display, rolling] : ways) {
         share_ += 1;
-        HAL_TRY(const FoundRate found, highest_rung(
-                                           start,
-                                           [&](int rung) {
-                                             return chain_.holds({format, display, rate_hz(rung)});
-                                           },
-                                           [&] { return time_is_left(); }));
+        HAL_TRY(const FoundRate found,
+                highest_rung(
+                    start,
+                    [&](int rung) {
+                      return chain_.holds({format, display, rate_hz(rung), rolling});
+                    },
+                    [&] { return time_is_left(); }));
         start = std::max(found.rung, 0);
         if (found.rung >= 0)
-          HAL_CHECK(add({format, display, rate_hz(found.rung)},
+          HAL_CHECK(add({format, display, rate_hz(found.rung), rolling},
                         found.complete ? RateSign::highest : RateSign::held));
         for (const double told : told_rates_hz)
           if (display && time_is_left())
-            HAL_CHECK(add({format, display, told}, RateSign::given));
+            HAL_CHECK(add({format, display, told, rolling}, RateSign::given));
       }
     return std::move(report_);
   }
 
 private:
   static constexpr int first_rung = 12; // 800 kHz
+  struct Way {
+    bool display, rolling;
+  };
+  static constexpr std::array ways{Way{false, false}, Way{true, false}, Way{true, true}};
 
   // Each search has as much of the time as any other.
   bool time_is_left() const {
-    return seconds_since(began_) < seconds_ * share_ / static_cast<double>(2 * formats.size());
+    return seconds_since(began_) <
+           seconds_ * share_ / static_cast<double>(ways.size() * formats.size());
   }
 
   hal::Result<> add(const ChainCase& what, RateSign sign) {
@@ -189,7 +198,7 @@ nlohmann::ordered_json json_of(const ChainResult& result) {
   nlohmann::ordered_json json{{"samples", what.format.samples},
                               {"a_scans", what.format.a_scans},
                               {"b_scans", what.format.b_scans},
-                              {"mode", "whole"},
+                              {"mode", what.rolling ? "rolling" : "whole"},
                               {"display", what.display},
                               {"line_rate_hz", what.line_rate_hz},
                               {"rate", name_of(sign)},
@@ -199,9 +208,12 @@ nlohmann::ordered_json json_of(const ChainResult& result) {
     json["shown_per_s"] = figures.shown_per_s;
     json["frames_per_s"] = figures.frames_per_s;
   }
-  if (const auto& latency = figures.latency)
-    json["latency_ms"] = {
-        {"p50", latency->p50_ms}, {"p95", latency->p95_ms}, {"p99", latency->p99_ms}};
+  const auto add = [&](const char* key, const std::optional<ChainLatency>& latency) {
+    if (latency)
+      json[key] = {{"p50", latency->p50_ms}, {"p95", latency->p95_ms}, {"p99", latency->p99_ms}};
+  };
+  add("latency_ms", figures.latency);
+  add("line_latency_ms", figures.line_latency);
   json["stolen"] = figures.stolen;
   return json;
 }

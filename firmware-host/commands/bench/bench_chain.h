@@ -28,10 +28,12 @@ struct ChainCase {
   ChainFormat format;
   bool display = true; // else volumes are taken and not drawn
   double line_rate_hz = 215e3;
+  bool rolling = false; // each B-scan is shown as it comes; else whole volumes
 };
 
 struct ChainLatency {
-  double p50_ms, p95_ms, p99_ms; // a volume's last line → end of the first frame that shows it
+  double p50_ms, p95_ms, p99_ms; // a volume's last line, or every line → end of the first frame
+                                 // that shows it
 };
 
 struct ChainFigures {
@@ -40,6 +42,7 @@ struct ChainFigures {
   double shown_per_s = 0;       // volumes
   double frames_per_s = 0;
   std::optional<ChainLatency> latency{}; // with a display
+  std::optional<ChainLatency> line_latency{};
   double stolen = 0; // share of the processors' time that the host of this machine took
 };
 

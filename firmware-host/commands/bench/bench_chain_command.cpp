@@ -24,12 +24,14 @@ struct BenchChainArguments {
 void print_line(const ChainResult& result) {
   const auto& [what, figures, sign] = result;
   std::string shown = "-";
-  if (figures.latency)
+  if (const auto& latency = what.rolling ? figures.line_latency : figures.latency)
     shown = fmt::format("{:>7.1f} {:>9.1f}  {:>4.0f} {:>4.0f} {:>4.0f} ms", figures.shown_per_s,
-                        figures.frames_per_s, figures.latency->p50_ms, figures.latency->p95_ms,
-                        figures.latency->p99_ms);
+                        figures.frames_per_s, latency->p50_ms, latency->p95_ms, latency->p99_ms);
   say("{:>4} x {:>3} x {:>3}  {:<8} {:>8.0f}{} {:>9} {:>10.1f} {}  stolen {:.1f} %\n",
-      what.format.samples, what.format.a_scans, what.format.b_scans, what.display ? "drawn" : "no",
+      what.format.samples, what.format.a_scans, what.format.b_scans,
+      what.rolling   ? "rolling"
+      : what.display ? "drawn"
+                     : "no",
       what.line_rate_hz * 1e-3,
       sign == RateSign::highest ? "*"
       : sign == RateSign::held  ? "+"
@@ -51,7 +53,8 @@ int run(const BenchChainArguments& arguments) {
         "a\n"
         "higher one was tried\n\n"
         "samples, scan    display    kHz   lost lines  volumes/s   shown/s  frames/s  latency p50, "
-        "p95, p99\n");
+        "p95, p99\n"
+        "(of volumes from their last lines; rolling, of every line)\n");
   const auto report = bench_chain(options, [&](const ChainResult& result) {
     if (!arguments.as_json)
       print_line(result);

@@ -31,6 +31,7 @@ struct RunArguments {
   SpectraTypeArguments type;
   bool simulate = false;
   bool bidirectional = false;
+  bool rolling = false;
   int repeats = 0;
   ShowArguments show;
 };
@@ -70,6 +71,7 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
   if (!a.phantom.empty())
     o.phantom = a.phantom;
   o.bidirectional = a.bidirectional;
+  o.rolling = a.rolling;
   o.record_to = path_of(a.record_to);
   o.subject = a.subject;
   o.eye = pipeline::eye_named(a.eye).value_or(pipeline::Eye::not_said);
@@ -123,6 +125,9 @@ void add_options(CLI::App& command, RunArguments& a) {
   command.add_option("--phantom", a.phantom, "What the simulated camera sees");
   command.add_flag("--bidirectional", a.bidirectional,
                    "Scan there and back, without fly-back, whatever the configuration says");
+  command.add_flag("--rolling", a.rolling,
+                   "Show each B-scan as it comes, over those of the volume before, with a seam "
+                   "between the two; else whole volumes");
   command.add_option("--repeats", a.repeats, "Sweeps of each B-scan, averaged (1 to 4)")
       ->check(within(1, pipeline::ScanPlan::most_repeats));
   command.add_option("--faults", a.faults, "Faults that the simulated devices suffer")

@@ -107,6 +107,8 @@ ui::ViewState with_changes(const ui::ViewState& view, const Configuration& used,
     changed.technique = look.technique;
   if (old_look.opacity != look.opacity)
     changed.opacity = look.opacity;
+  if (old_look.rolling != look.rolling)
+    changed.rolling = look.rolling;
   if (!same_window(used.window, next.window) && next.window) {
     changed.window_offset_db = next.window->offset_db;
     changed.window_size_db = next.window->size_db;

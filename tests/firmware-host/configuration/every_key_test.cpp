@@ -138,6 +138,7 @@ std::vector<KeyCase> key_cases() {
       {"display transfer", "[display]\ntransfer = \"surface\"\n"},
       {"display colours", "[display]\ncolours = \"amber\"\n"},
       {"display opacity", "[display]\nopacity = 0.1\n"},
+      {"display rolling", "[display]\nrolling = true\n"},
       {"orientation right_eye_x", lies("temporal", "superior"), lies("nasal", "superior")},
       {"orientation right_eye_y", lies("temporal", "superior"), lies("temporal", "inferior")},
       {"orientation x_label", "[orientation]\nx_label = \"across\"\n"},
@@ -177,9 +178,17 @@ private:
     return std::exchange(fresh_, false) ? &volume_ : nullptr;
   }
   bool do_has_newer() const override { return fresh_; }
+  bool do_lends() const override { return true; } // though none is ever in the making
   pipeline::VolumeCounters do_counters() const override { return {}; }
 
-  pipeline::Volume volume_ = tissue_volume(small_geometry);
+  // As from the pipeline.
+  pipeline::Volume volume_ = [] {
+    pipeline::Volume volume = tissue_volume(small_geometry);
+    volume.occupancy = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
+    volume.occupancy.update(volume);
+    volume.work.resize(volume.b_scan_states.size());
+    return volume;
+  }();
   bool fresh_ = false;
 };
 

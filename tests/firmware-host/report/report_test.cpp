@@ -142,6 +142,7 @@ TEST(Report, says_every_figure_under_its_key) {
                              {"layout", "b_scan"},
                              {"stereo", "top_bottom"},
                              {"frozen", false},
+                             {"rolling", false},
                              {"vessels", true},
                              {"vessel_opacity", 1.0},
                              {"vessel_colours", "branch"},

@@ -243,10 +243,37 @@ void LoopStage::send_volume(Tissue tissue) {
   clock_.advance(end - clock_.now());
   sweep_clock_.sleep_until(end);
   const std::uint64_t published = volumes_->counters().published;
+  pulsed_ = pulsed;
   for (int b = 0; b < small_geometry.b_scans; ++b)
-    camera_.deliver(sequence_++, pulsed + b * plan().frame_period(),
-                    static_cast<std::uint8_t>(frames_of_a_tissue * static_cast<int>(tissue) + b));
+    deliver(tissue, b);
   await("the volume", [&] { return volumes_->counters().published > published; });
+}
+
+void LoopStage::deliver(Tissue tissue, int b_scan) {
+  camera_.deliver(
+      sequence_++, exposed(b_scan),
+      static_cast<std::uint8_t>(frames_of_a_tissue * static_cast<int>(tissue) + b_scan));
+}
+
+void LoopStage::send_b_scans(Tissue tissue, int from, int to) {
+  if (from == 0) {
+    sweep_clock_.sleep_until(clock_.now());
+    pulsed_ = trigger_.wait_for_pulse(next_pulse_++);
+  }
+  turn_until(exposed(to));
+  const std::uint64_t published = volumes_->counters().published;
+  for (int b = from; b < to; ++b)
+    deliver(tissue, b);
+  const bool whole = to == small_geometry.b_scans;
+  await("the B-scans", [&] {
+    if (whole)
+      return volumes_->counters().published > published;
+    const auto making = volumes_->borrow_after(published);
+    volumes_->give_back();
+    return making && to >= 2 &&
+           making->progress[static_cast<std::size_t>(to) - 2].load() ==
+               pipeline::BScanProgress::finished;
+  });
 }
 
 void LoopStage::resume_sweeps() {

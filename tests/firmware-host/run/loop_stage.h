@@ -131,6 +131,10 @@ protected:
 
   // Turns while the time of a volume passes, and then one comes. It is not in a frame yet.
   void send_volume(Tissue tissue);
+  // B-scans of a volume that begins with number 0, as they come: turns until the last was exposed,
+  // and waits until all are finished that can be. They are not in a frame yet.
+  void send_b_scans(Tissue tissue, int from, int to);
+  hal::TimePoint exposed(int b_scan) const { return pulsed_ + b_scan * plan().frame_period(); }
   // After a pause, or a camera that was unplugged: the next volume can come.
   void resume_sweeps();
   void send_controls(const std::vector<hal::ControlEvent>& events);
@@ -166,7 +170,10 @@ private:
   void await(std::string_view what, const std::function<bool()>& came);
   void await_news();
 
+  void deliver(Tissue tissue, int b_scan);
+
   std::size_t next_pulse_ = 0;
+  hal::TimePoint pulsed_; // the volume of which B-scans are sent
   std::uint64_t sequence_ = 0;
 };
 

@@ -75,6 +75,30 @@ TEST_F(VolumeAssemblerTest, a_b_scan_is_finished_when_its_neighbours_are_there) 
   EXPECT_EQ(volume_.b_scan(3)[0], 77) << "it waits for its other neighbour";
 }
 
+TEST_F(VolumeAssemblerTest, what_is_overdue_is_not_waited_for) {
+  begin();
+  build(0);
+  build(1);
+  build(3);
+  build(4);
+  EXPECT_EQ(volume_.b_scan(1)[0], 77);
+  EXPECT_EQ(assembler_.progress()[1].load(), BScanProgress::awaited);
+  assembler_.overdue(2);
+  EXPECT_EQ(assembler_.progress()[2].load(), BScanProgress::overdue);
+  std::vector<std::uint8_t> expected(geometry.b_scan_voxels());
+  average_.average(built_.b_scan(0), built_.b_scan(1), {}, expected);
+  EXPECT_EQ(assembler_.progress()[1].load(), BScanProgress::finished);
+  EXPECT_TRUE(std::ranges::equal(volume_.b_scan(1), expected));
+  average_.average({}, built_.b_scan(3), built_.b_scan(4), expected);
+  EXPECT_TRUE(std::ranges::equal(volume_.b_scan(3), expected));
+  build(2); // after all: what is finished stays as it is
+  EXPECT_EQ(assembler_.progress()[2].load(), BScanProgress::finished);
+  average_.average(built_.b_scan(1), built_.b_scan(2), built_.b_scan(3), expected);
+  EXPECT_TRUE(std::ranges::equal(volume_.b_scan(2), expected));
+  average_.average({}, built_.b_scan(3), built_.b_scan(4), expected);
+  EXPECT_TRUE(std::ranges::equal(volume_.b_scan(3), expected));
+}
+
 TEST_F(VolumeAssemblerTest, any_order_gives_the_same_volume) {
   std::vector<int> order(geometry.b_scans);
   std::iota(order.begin(), order.end(), 0);
@@ -94,6 +118,19 @@ TEST_F(VolumeAssemblerTest, what_is_missing_is_blank_and_counts_for_nothing) {
     for (int b = 0; b < geometry.b_scans; ++b)
       if (generator_() % 3 != 0)
         build(b);
+    assembler_.finish();
+    expect_as_if_averaged_at_the_end();
+  }
+}
+
+TEST_F(VolumeAssemblerTest, what_is_missing_may_be_overdue_at_any_time) {
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    begin();
+    for (int b = 0; b < geometry.b_scans; ++b)
+      if (generator_() % 3 != 0)
+        build(b);
+      else
+        assembler_.overdue(b);
     assembler_.finish();
     expect_as_if_averaged_at_the_end();
   }

@@ -147,6 +147,40 @@ TEST_F(VolumeThreadTest, publishes_a_whole_volume_with_every_b_scan_in_its_place
   EXPECT_EQ(volumes->counters().lost_b_scans, 0U);
 }
 
+// The volume in the making, as far as it is made, and when each B-scan was exposed.
+TEST_F(VolumeThreadTest, lends_what_is_finished_of_a_volume_in_the_making) {
+  start();
+  const hal::TimePoint pulsed = trigger.wait_for_pulse(0);
+  const auto progress_of = [this](int b) {
+    const auto making = volumes->borrow_after(0);
+    volumes->give_back();
+    return making ? making->progress[static_cast<std::size_t>(b)].load() : BScanProgress::awaited;
+  };
+  deliver(pulsed, 0, 2);
+  await([&] { return progress_of(0) == BScanProgress::finished; });
+  EXPECT_EQ(progress_of(1), BScanProgress::awaited) << "its neighbour has not come";
+  EXPECT_EQ(progress_of(2), BScanProgress::awaited);
+  deliver(pulsed, 3, 5); // without number 2
+  await([&] { return progress_of(3) == BScanProgress::finished; });
+  EXPECT_EQ(progress_of(1), BScanProgress::finished) << "its neighbour is overdue";
+  EXPECT_EQ(progress_of(2), BScanProgress::overdue);
+  const auto making = volumes->borrow_after(0);
+  ASSERT_TRUE(making);
+  EXPECT_EQ(making->number, 1U);
+  EXPECT_EQ(making->volume->b_scan(3)[0], 10);
+  EXPECT_EQ(making->volume->work[3].first_line, time_of(pulsed, 3));
+  EXPECT_EQ(making->volume->work[3].last_line, time_of(pulsed, 3) + 100us);
+  volumes->give_back();
+  EXPECT_FALSE(volumes->borrow_after(1)) << "there is no later one";
+  deliver(pulsed, 5, plan.b_scans);
+  await_frames(static_cast<std::uint64_t>(plan.b_scans) - 1);
+  clock.sleep_until(accepts_until(pulsed));
+  const Volume* volume = wait_for_volume(1);
+  EXPECT_EQ(volume->b_scan_states[2], BScanState::missing);
+  EXPECT_EQ(volume->metadata.lost_b_scans, 1);
+  stop();
+}
+
 TEST_F(VolumeThreadTest, publishes_without_the_missing_and_broken_ones_and_counts_them) {
   start();
   const hal::TimePoint pulsed = trigger.wait_for_pulse(0);

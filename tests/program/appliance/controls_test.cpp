@@ -89,7 +89,7 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   folder.write("tree.swc", "1 18 -300 0 0 200 -1\n2 18 300 0 0 200 1\n");
   const ProgramResult result = run_in(
       folder, {"run", "--sim", "--config", write_configuration(folder, ""), "--display",
-               "offscreen", "--size", "640x360", "--controls", script(), "--duration", "24.2",
+               "offscreen", "--size", "640x360", "--controls", script(), "--duration", "24.6",
                "--vessels", "tree.swc", "--report", report_file, "--snapshot", last_file});
   ASSERT_EQ(result.exit_status, 0) << result.describe();
 
@@ -99,14 +99,14 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   for (const auto& [name, count] : actions.items())
     EXPECT_GE(count.get<int>(), 1) << name;
   EXPECT_EQ(actions["snapshot"], 4);
-  EXPECT_EQ(actions["adjust"], 39);
-  EXPECT_EQ(actions["next_parameter"], 39);
+  EXPECT_EQ(actions["adjust"], 40);
+  EXPECT_EQ(actions["next_parameter"], 40);
 
   const json& view = report.at("view");
   expect_all(view, json::parse(R"({
     "window_offset_db": 6, "window_size_db": 58, "yaw_deg": 41, "tilt_deg": 38, "distance": 3,
     "parallax_deg": 3.5, "technique": "shaded", "layout": "quad", "stereo": "side_by_side",
-    "cut": true, "see_through_db": 14, "frozen": true, "vessels": false, "box": false, "legend": true,
+    "cut": true, "see_through_db": 14, "frozen": true, "rolling": true, "vessels": false, "box": false, "legend": true,
     "figures": "strip", "selected": "figures", "zoom_to_tissue": false, "calliper": false, "vessel_colours": "order", "vessel_shift_mm": [0, 0, 0]
   })"));
   EXPECT_EQ(view["b_scan"], small_b_scans / 2 + 2);

@@ -79,6 +79,26 @@ TEST(HudText, badges_say_what_is_not_live) {
   EXPECT_EQ(badges_of(status)[3], "4 lines saturated");
 }
 
+TEST(HudText, a_rolling_volume_says_how_old_either_side_of_its_seam_is) {
+  using std::chrono::milliseconds;
+  Status status = live_status();
+  status.simulated = false;
+  ShownPictures shown;
+  shown.volume = true;
+  const auto badge = [&] { return compose_hud_text({}, status, shown).badges[0].text; };
+  status.rolling.emplace();
+  EXPECT_EQ(badge().view(), "rolling");
+  status.rolling->seam = {milliseconds{19}, milliseconds{199}};
+  EXPECT_EQ(badge().view(), "rolling 0.0 s | 0.1 s");
+  status.rolling->seam = {milliseconds{1210}, milliseconds{1350}};
+  EXPECT_EQ(badge().view(), "rolling 1.2 s | 1.3 s");
+  status.rolling->seam.reset();
+  status.rolling->possible = false;
+  EXPECT_EQ(badge().view(), "whole volumes: surface");
+  status.freshness.liveness = Liveness::frozen;
+  EXPECT_EQ(compose_hud_text({}, status, shown).badge_count, 1U) << "what is frozen is whole";
+}
+
 // "41 of 80 missing" by itself would read as a count.
 TEST(HudText, a_b_scan_that_is_not_whole_is_named) {
   ShownPictures shown;

@@ -120,6 +120,19 @@ TEST_F(GovernorTest, comes_back_from_the_coarsest_quality) {
   EXPECT_LE(changes(draw(machine, 10, true)), 3);
 }
 
+TEST_F(GovernorTest,
+       what_is_drawn_in_parts_is_not_blurred_for_a_fixed_part_that_nothing_makes_less) {
+  const Machine machine{.fixed_ms = 100, .full_ms = 5};
+  EXPECT_LT(ui::sample_share(draw(machine, 4, false).back()), 0.1);
+  for (int i = 0; i < 200; ++i) {
+    const auto quality = governor_.choose({now_, Technique::rays, false, true, true});
+    EXPECT_GE(quality.resolution, Governor::coarsest_in_parts.resolution);
+    EXPECT_GE(quality.steps, Governor::coarsest_in_parts.steps);
+    governor_.note(hal::from_seconds(machine.true_ms(quality) * 1e-3), true);
+    now_ += 16ms;
+  }
+}
+
 TEST_F(GovernorTest, interrupted_frames_change_nothing) {
   const Machine machine{.full_ms = 70, .noise = 0.05, .spikes = 0.02};
   draw(machine, 5, true);

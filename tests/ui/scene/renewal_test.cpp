@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// B-scans renewed one after the other give the picture that the whole volume does.
+#include <string>
+#include <vector>
+
+#include "tests/support/allocation_counter.h"
+#include "tests/ui/support/renderer_stage.h"
+#include "ui/canvas/palette.h"
+#include "ui/layout/layout.h"
+
+namespace octascope::tests {
+namespace {
+
+using pipeline::BScanRange;
+using pipeline::BScanState;
+using ui::Technique;
+
+class RenewalTest : public RendererTest {
+protected:
+  RenewalTest() {
+    for (pipeline::Volume* volume : {&older_, &newer_}) {
+      volume->occupancy = pipeline::Occupancy{volume->geometry, pipeline::blank_depth_bins};
+      volume->occupancy.update(*volume);
+    }
+    mixed_ = older_;
+  }
+
+  // Of the newer volume, and the seam behind them.
+  void renew(int from, int to) {
+    for (int b = from; b < to; ++b)
+      copy(newer_.b_scan(b), b, BScanState::good);
+    const bool seam = to < mixed_.geometry.b_scans;
+    if (seam)
+      copy(std::vector<std::uint8_t>(mixed_.geometry.b_scan_voxels()), to, BScanState::seam);
+    const std::array changed{BScanRange{from, seam ? to + 1 : to}};
+    const auto renewed = renderer_->renew_volume(mixed_, changed);
+    ASSERT_TRUE(renewed) << renewed.error().message;
+  }
+
+  pipeline::Image picture(ui::Renderer& renderer, const ui::ViewState& view,
+                          const ui::DrawQuality& quality) const {
+    const auto drawn = renderer.draw(view, live_status(), width_, height_, quality);
+    EXPECT_TRUE(drawn) << drawn.error().message;
+    return renderer.read_back(width_, height_);
+  }
+
+  // By a renderer that knows nothing of what was there before.
+  pipeline::Image fresh_picture(const ui::ViewState& view, const ui::DrawQuality& quality) const {
+    auto renderer = ui::Renderer::create();
+    EXPECT_TRUE(renderer);
+    (*renderer)->expect(view);
+    EXPECT_TRUE((*renderer)->show_volume(mixed_));
+    return picture(**renderer, view, quality);
+  }
+
+  ui::Rect whole() const { return {0, 0, width_, height_}; }
+  ui::Rect volume_view() const { return ui::lay_out(width_, height_, {}).view; }
+
+  const pipeline::Volume& mixed() const { return mixed_; }
+
+  pipeline::Volume older_ = tissue_volume(small_geometry);
+  pipeline::Volume newer_ = [] {
+    pipeline::Volume volume = tissue_volume(small_geometry);
+    for (std::uint8_t& level : volume.levels)
+      level = static_cast<std::uint8_t>(level < 200 ? level + 30 : 100);
+    return volume;
+  }();
+  pipeline::Volume mixed_;
+
+private:
+  void copy(std::span<const std::uint8_t> levels, int b, BScanState state) {
+    std::ranges::copy(levels, mixed_.b_scan(b).begin());
+    mixed_.b_scan_states[static_cast<std::size_t>(b)] = state;
+    mixed_.occupancy.update(b, mixed_.b_scan(b));
+  }
+};
+
+struct Way {
+  Technique technique;
+  ui::DrawQuality quality;
+  float see_through_db;
+};
+
+class RenewedPicture : public RenewalTest, public testing::WithParamInterface<Way> {};
+
+TEST_P(RenewedPicture, is_that_of_the_whole_volume) {
+  const auto& [technique, quality, see_through_db] = GetParam();
+  ui::ViewState view;
+  view.technique = technique;
+  view.see_through_db = see_through_db;
+  view.zoom_to_tissue = false; // which remembers what was there
+  view.b_scan = 11;
+  for (const float yaw : {20.0F, 200.0F}) {
+    view.yaw_deg = yaw;
+    mixed_ = older_;
+    renderer_->expect(view);
+    ASSERT_TRUE(renderer_->show_volume(mixed_));
+    picture(*renderer_, view, quality);
+    const int end = mixed_.geometry.b_scans;
+    for (const auto& [from, to] :
+         {BScanRange{0, 3}, {3, 4}, {4, 17}, {17, end - 1}, {end - 1, end}}) {
+      renew(from, to);
+      const pipeline::Image renewed = picture(*renderer_, view, quality);
+      const pipeline::Image fresh = fresh_picture(view, quality);
+      // Where the flat pictures look for tissue they know only when all has come.
+      const ui::Rect compared = to == end ? whole() : volume_view();
+      EXPECT_EQ(changed(renewed, fresh, compared), 0) << "to " << to << ", yaw " << yaw;
+    }
+  }
+}
+
+constexpr auto processor = ui::RayBackend::processor;
+constexpr auto shader = ui::RayBackend::shader;
+INSTANTIATE_TEST_SUITE_P(
+    Ways, RenewedPicture,
+    testing::Values(Way{Technique::rays, {1, 512, processor}, 0},
+                    Way{Technique::rays, {0.6F, 192, processor}, 0}, // softened
+                    Way{Technique::rays, {1, 256, shader}, 0},
+                    Way{Technique::rays, {1, 256, processor}, 12},
+                    Way{Technique::maximum, {1, 256, processor}, 0},
+                    Way{Technique::shaded, {1, 256, processor}, 0},
+                    Way{Technique::planes, {0.5F, 96}, 0}, Way{Technique::slices, {0.5F, 96}, 0}));
+
+TEST_F(RenewalTest, the_seam_is_a_line_of_its_own_colour_where_it_is_said_to_be) {
+  ui::ViewState view;
+  view.zoom_to_tissue = false;
+  view.layout = ui::LayoutKind::quad;
+  view.b_scan = 2;
+  ASSERT_TRUE(renderer_->show_volume(mixed_));
+  const pipeline::VolumeGeometry& g = mixed_.geometry;
+  const ui::Layout places = ui::lay_out(width_, height_,
+                                        {.b_scan = g.a_mm() / g.depth_mm(),
+                                         .en_face = g.a_mm() / g.b_mm(),
+                                         .has_scope = false,
+                                         .crossed = g.b_mm() / g.depth_mm()},
+                                        view.layout);
+  const auto seam_pixels = [&](const pipeline::Image& image, const ui::Rect& rect) {
+    return count_colour(image, rect, ui::palette::seam);
+  };
+  EXPECT_EQ(seam_pixels(draw(view, live_status()), whole()), 0);
+  for (const int at : {8, 30}) {
+    renew(at == 8 ? 0 : 8, at);
+    const pipeline::Image image = draw(view, live_status());
+    const ui::Rect& face = places.en_face.picture;
+    const int row = face.y + face.height * at / g.b_scans;
+    const int next = face.y + face.height * (at + 1) / g.b_scans;
+    const ui::Rect line{face.x, row, face.width, next - row};
+    EXPECT_GT(seam_pixels(image, line), face.width / 2) << at;
+    EXPECT_EQ(seam_pixels(image, {face.x, face.y, face.width, row - 1 - face.y}), 0) << at;
+    EXPECT_EQ(seam_pixels(image, {face.x, next + 1, face.width, face.bottom() - next - 1}), 0);
+    const ui::Rect& crossed = places.crossed.picture;
+    const int column = crossed.x + crossed.width * at / g.b_scans;
+    EXPECT_GT(
+        seam_pixels(image, {column, crossed.y, crossed.width / g.b_scans + 1, crossed.height}),
+        crossed.height / 2);
+    EXPECT_GT(seam_pixels(image, places.view), 10) << "its outline in the volume";
+    EXPECT_EQ(seam_pixels(image, places.b_scan.picture), 0);
+  }
+}
+
+TEST_F(RenewalTest, a_frame_allocates_nothing) {
+  ui::ViewState view;
+  view.zoom_to_tissue = false;
+  ASSERT_TRUE(renderer_->show_volume(mixed_));
+  for (int b = 0; b < 3; ++b) {
+    renew(b, b + 1);
+    draw(view, live_status());
+  }
+  const std::array changed{BScanRange{3, 5}};
+  const auto before = allocations_of_this_thread();
+  ASSERT_TRUE(renderer_->renew_volume(mixed_, changed));
+  EXPECT_EQ(allocations_of_this_thread(), before);
+}
+
+} // namespace
+} // namespace octascope::tests
