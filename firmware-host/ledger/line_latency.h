@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
-//
 // From the exposure of every line to the glass.
 #pragma once
 

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
 #include "pipeline/acquisition/rolling_volume.h"
 
 #include <algorithm>

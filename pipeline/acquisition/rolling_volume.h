@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
-//
 // The volume that is shown in the mode "rolling": what is finished of the volume in the making over
 // the last whole one. Between the two lies the seam, a B-scan that is blank, so that nothing is ever
 // interpolated between voxels of the two; it is the next one to be renewed.

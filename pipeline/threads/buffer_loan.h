@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
-//
 // Lets one reader look into buffers of a pool that their owner still fills: what is lent is not used
 // anew, and neither of the two ever waits.
 //

@@ -1,4 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
 #include "ui/ray_caster/projected_slab.h"
 
 #include <algorithm>

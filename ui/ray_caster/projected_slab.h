@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
-//
 // Which pixels' rays may meet some B-scans of a volume. Pure.
 #pragma once
 

@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
-//
 // B-scans that are shown as they come: where the seam is, how old either side is, and what takes
 // whole volumes all the same.
 #include "tests/firmware-host/run/loop_stage.h"

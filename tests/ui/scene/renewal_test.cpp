@@ -1,5 +1,3 @@
-// SPDX-License-Identifier: Apache-2.0
-//
 // B-scans renewed one after the other give the picture that the whole volume does.
 #include <string>
 #include <vector>
