@@ -27,6 +27,7 @@ struct VolumeScene {
   const DepthMask* vessels = nullptr;             // null: no vessel ends a ray
   SlowRange kept{};                               // by a cut
   const LightVolume* light = nullptr;             // of `shaded`; null: nothing is lit
+  const VolumeTexture* weakened = nullptr; // of `surface`: `volume` with what covers drawn weaker
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first picture of a size.
