@@ -107,6 +107,7 @@ private:
   void place_b_scan(const Rect& frame); // as the large picture
   void place_b_scans(const Rect& cell);
   void place_en_face(const Rect& cell);
+  void choose_beside_volume();
   void volume_beside(const Head& head);
   void volume_beside_quarter();
   void take_large_view();
@@ -280,7 +281,14 @@ void Plan::place_en_face(const Rect& cell) {
 // large below: whichever makes them larger and leaves the en face its size. One alone in a picture that
 // is taller than wide.
 void Plan::volume() {
-  if (tall() || extras_.legend) {
+  choose_beside_volume();
+  if (extras_.legend) // in their place: the volume stays where it is
+    for (Panel* panel : {&layout_.b_scan, &layout_.crossed, &layout_.en_face, &layout_.scope})
+      *panel = {};
+}
+
+void Plan::choose_beside_volume() {
+  if (tall()) {
     volume_beside({aspects_.b_scan});
     return;
   }
@@ -331,8 +339,6 @@ void Plan::volume_beside_quarter() {
 void Plan::volume_beside(const Head& head) {
   layout_.view = take_strip(head, widest_column);
   take_large_view();
-  if (extras_.legend)
-    return;
   const auto [top, left, right] = cells();
   if (head.rows * head.columns == 1) {
     place_b_scans(top);
