@@ -139,6 +139,7 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
     scene.extents_mm = box_extents_mm(volume.texture().geometry());
     scene.states = states;
     scene.crop = crop_of(view);
+    scene.depth_colours = volume.depth_colours(view);
     scene.levels = levels ? &*levels : nullptr;
   }
   scene.shown.vessels_left_out = flat_vessels && flat_vessels->left_out();
@@ -298,6 +299,7 @@ hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& view, const Layou
       draw_wire_frame(*canvas, places.view, shown, places.unit, canvas == &overlay);
   }
   draw_view_scale(overlay, places, shown);
+  draw_depth_scale(overlay, places, shown);
   if (volume.vessels() != nullptr && volume.vessels()->shows_unregistered(view))
     overlay.shadowed_text({16 * places.unit, 12 * places.unit}, TextStyle::label, palette::warning,
                           "Vessels not registered");
@@ -344,6 +346,8 @@ hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
     parts_->crop = {};
   parts_->shown_geometry = volume.geometry;
   parts_->crop.follow(parts_->tissue.extents());
+  const Section depth = parts_->crop.current().depth;
+  parts_->volume.colour_depths({depth.from, depth.to});
   parts_->en_face_panel.show(volume, parts_->tissue);
   parts_->state_texture.upload(volume);
   parts_->states.assign(volume.b_scan_states.begin(), volume.b_scan_states.end());

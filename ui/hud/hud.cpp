@@ -11,11 +11,15 @@ void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene
   const double mm_per_pixel =
       static_cast<double>(2 * camera.tan_half_height * camera.depth_of(glm::vec3{0})) /
       layout.view.height;
+  const FixedText<8> medium = medium_words(scene.shown.geometry.refractive_index);
+  const bool fits = canvas.text_width(TextStyle::label, "0.2 mm") +
+                        canvas.text_width(TextStyle::label, medium.view()) + 10 * u + 2 * margin <=
+                    static_cast<float>(layout.view.width);
   draw_scale_bar(canvas,
                  {static_cast<float>(layout.view.x) + margin,
                   static_cast<float>(layout.view.bottom()) - margin},
                  mm_per_pixel, 0.2F * static_cast<float>(layout.view.width), u,
-                 medium_words(scene.shown.geometry.refractive_index).view());
+                 fits ? medium.view() : std::string_view{});
 }
 
 void draw_hud_ground(Canvas& canvas, const Layout& layout) {
@@ -42,8 +46,10 @@ void draw_hud(Canvas& canvas, const Layout& layout, const HudText& text, const V
   if (scene.shown.volume)
     draw_orientation_cube(canvas, layout.cube, scene.camera, layout.unit, text);
   draw_liveness_marks(canvas, layout, text.liveness);
-  if (scene.shown.volume && !layout.view.empty())
+  if (scene.shown.volume && !layout.view.empty()) {
     draw_view_scale(canvas, layout, scene);
+    draw_depth_scale(canvas, layout, scene);
+  }
   draw_vessel_marks(canvas, layout, text.vessels);
   draw_badges(canvas, layout, text);
   draw_status_bar(canvas, layout, text);

@@ -13,6 +13,7 @@
 #include "ui/layout/crop.h"
 #include "ui/layout/layout.h"
 #include "ui/layout/scan_field.h"
+#include "ui/transfer/depth_colours.h"
 #include "ui/view/camera.h"
 
 namespace octascope::ui {
@@ -26,7 +27,8 @@ struct HudScene {
   std::span<const pipeline::BScanState> states; // of the volume's B-scans
   Crop crop;                                    // of the flat pictures
   std::optional<ScanField> scan_field;
-  const LevelShares* levels = nullptr; // of the volume; null: no histogram
+  std::optional<DepthColours> depth_colours; // of the volume, if it is coloured by depth
+  const LevelShares* levels = nullptr;       // of the volume; null: no histogram
 };
 
 // Plates of the panels and of the status bar, drawn before the pictures.
@@ -80,6 +82,11 @@ void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& 
 
 // A scale bar valid at the volume's centre, at the view's lower left.
 void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene);
+
+// Which colour is which depth, if the volume is coloured by depth: a bar at the view's left border,
+// between its upper and lower quarter, with ticks in µm or mm. Depths count from the volume's first, as
+// those of the B-scans' rulers. Not in a view too small for its numbers.
+void draw_depth_scale(Canvas& canvas, const Layout& layout, const HudScene& scene);
 
 // The orientation of the volume: a cube with a bright surface side, a dot where the scan begins
 // (A-scan 0 of B-scan 0 at the surface), and the ends of its axes: the eye's sides if they are

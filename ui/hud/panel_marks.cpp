@@ -95,7 +95,7 @@ struct Directions {
 // Where all four find room beside the middle and the scale.
 void draw_sides(Canvas& canvas, const Rect& rect, const Directions& to, const HudText& text,
                 float unit) {
-  if (static_cast<float>(rect.width) < 150 * unit || static_cast<float>(rect.height) < 136 * unit)
+  if (static_cast<float>(rect.width) < 140 * unit || static_cast<float>(rect.height) < 136 * unit)
     return;
   const AxisEnds& ends = text.ends;
   const bool words = has_room(canvas, rect, to_string(Side::temporal)); // the longest

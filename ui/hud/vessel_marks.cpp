@@ -73,10 +73,10 @@ void draw_unregistered(Canvas& canvas, const Layout& layout) {
   const float u = layout.unit;
   constexpr std::string_view words = "Vessels not registered";
   const bool fits =
-      canvas.text_width(TextStyle::label, words) + 16 * u < static_cast<float>(layout.view.width);
+      canvas.text_width(TextStyle::label, words) + 8 * u < static_cast<float>(layout.view.width);
   canvas.shadowed_text(
-      {static_cast<float>(layout.view.x) + 8 * u, static_cast<float>(layout.view.y) + 4 * u},
-      TextStyle::label, palette::warning, fits ? words : "Not registered");
+      {static_cast<float>(layout.view.x) + 4 * u, static_cast<float>(layout.view.y) + 4 * u},
+      TextStyle::label, palette::warning, fits ? words : "Unregistered");
 }
 
 } // namespace

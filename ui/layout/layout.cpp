@@ -9,11 +9,12 @@ namespace {
 
 constexpr double least_column = 0.27; // shares of the width
 constexpr double widest_column = 0.44;
-constexpr double beside_scope = 0.38; // a large picture of fixed aspect needs more for itself
+constexpr double least_en_face = 1.0 / 7; // beside a large volume
+constexpr double beside_scope = 0.38;     // a large picture of fixed aspect needs more for itself
 constexpr double beside_b_scan = 0.31;
-constexpr double with_crossed = 0.45; // the crossed B-scan at the column's head
-constexpr double view_aspect = 1.6;   // of a small volume
-constexpr double row_share = 0.36;    // of the height, below what is taller than wide
+constexpr double with_crossed = 0.4; // the crossed B-scan at the column's head
+constexpr double view_aspect = 1.6;  // of a small volume
+constexpr double row_share = 0.36;   // of the height, below what is taller than wide
 
 // Lengths at unit 1.
 constexpr float gap_length = 8;
@@ -24,11 +25,16 @@ constexpr float timing_length = 216;
 constexpr float marks_length = 62;  // one row of badges
 constexpr float least_width = 1152; // that the status bar needs
 constexpr float cube_length = 150;
-constexpr float least_small = 180; // width of a frame whose picture's scale still fits in
+constexpr float least_small = 160; // width of a frame whose picture's scale still fits in
 constexpr float edge = 14;         // from the borders of a picture to what lies over it
 
 double area(const Rect& rect) {
   return static_cast<double>(rect.width) * rect.height;
+}
+
+// So that neither is small.
+double both_b_scans(const Layout& layout) {
+  return area(layout.b_scan.picture) * area(layout.crossed.picture);
 }
 
 int scaled(float unit, float length) {
@@ -86,9 +92,13 @@ private:
   bool tall() const { return body_.width < body_.height; }
   void take_marks();
   Rect take_foot(int height);
-  // Takes the small pictures' room off the body; what is left is returned. `above` is the aspect of
-  // the one on top.
-  Rect take_strip(double above, double widest);
+  // Takes the small pictures' room off the body; what is left is returned.
+  struct Head {    // of the strip
+    double aspect; // of all that is in it
+    int rows = 1;
+    int columns = 1;
+  };
+  Rect take_strip(const Head& head, double widest);
   Rect cut_off(int row, int column);
   int column_width(double widest) const;
   std::array<Rect, 3> cells() const;  // of the strip: the one on top, the two below
@@ -97,6 +107,10 @@ private:
   void place_b_scan(const Rect& frame); // as the large picture
   void place_b_scans(const Rect& cell);
   void place_en_face(const Rect& cell);
+  void choose_beside_volume();
+  void volume_beside(const Head& head);
+  void volume_beside_quarter();
+  void take_large_view();
   void b_scan_above_crossed();
   void b_scan_beside_crossed();
   Rect take_head(Rect& room, double aspect, double most_share) const;
@@ -106,7 +120,7 @@ private:
   Layout layout_;
   Rect body_;
   Rect strip_;
-  double above_ = 1; // aspect of the strip's picture on top
+  Head head_{1};
 };
 
 Plan::Plan(int width, int height, const PictureAspects& aspects, LayoutKind kind,
@@ -149,14 +163,15 @@ int Plan::column_width(double widest) const {
   const int title = length(title_length);
   const double below =
       aspects_.has_scope ? 2 * std::min(aspects_.en_face, aspects_.scope) : aspects_.en_face;
-  const double pictures = body_.height - 3.0 * gap - 2.0 * (title + gap);
+  const double pictures =
+      body_.height - 3.0 * gap - 2.0 * (title + gap) - (head_.rows - 1.0) * (title + 2 * gap);
   return static_cast<int>(
-      std::lround(std::clamp(pictures / (1 / above_ + 1 / below) + 4 * gap,
+      std::lround(std::clamp(pictures / (1 / head_.aspect + 1 / below) + 4 * gap,
                              least_column * body_.width, widest * body_.width)));
 }
 
-Rect Plan::take_strip(double above, double widest) {
-  above_ = above;
+Rect Plan::take_strip(const Head& head, double widest) {
+  head_ = head;
   return cut_off(static_cast<int>(std::lround(body_.height * row_share)), column_width(widest));
 }
 
@@ -190,11 +205,12 @@ std::array<Rect, 3> Plan::cells() const {
   const double wide = std::max(1, strip_.width - 2 * gap);
   const double each = aspects_.has_scope ? wide / 2 - gap : wide;
   const int third = (strip_.height - 2 * gap) / 3;
-  if (aspects_.has_scope && std::min<double>(third - over, wide) > each / aspects_.en_face)
+  if (aspects_.has_scope && head_.rows == 1 &&
+      std::min<double>(third - over, wide) > each / aspects_.en_face)
     return {part(strip_, 0, 3, gap, true), part(strip_, 1, 3, gap, true),
             part(strip_, 2, 3, gap, true)}; // the column is narrow
   // Heights as their pictures need for the column's width.
-  const double upper = wide / above_ + over;
+  const double upper = wide / head_.aspect + head_.rows * over + (head_.rows - 1) * gap;
   const double lower =
       each / (aspects_.has_scope ? std::min(aspects_.en_face, aspects_.scope) : aspects_.en_face) +
       over;
@@ -261,29 +277,88 @@ void Plan::place_en_face(const Rect& cell) {
   layout_.crossed = crossed;
 }
 
+// Both B-scans at the column's head, one over the other or side by side, or the crossed one a quarter as
+// large below: whichever makes them larger and leaves the en face its size. One alone in a picture that
+// is taller than wide.
 void Plan::volume() {
+  choose_beside_volume();
+  if (extras_.legend) // in their place: the volume stays where it is
+    for (Panel* panel : {&layout_.b_scan, &layout_.crossed, &layout_.en_face, &layout_.scope})
+      *panel = {};
+}
+
+void Plan::choose_beside_volume() {
+  if (tall()) {
+    volume_beside({aspects_.b_scan});
+    return;
+  }
+  Plan over{*this};
+  over.volume_beside({1 / (1 / aspects_.b_scan + 1 / aspects_.crossed), 2});
+  Plan below{*this};
+  below.volume_beside_quarter();
+  volume_beside({aspects_.b_scan + aspects_.crossed, 1, 2});
+  for (const Plan& other : {over, below})
+    if (other.layout_.en_face.picture.width >= least_en_face * body_.width &&
+        both_b_scans(other.layout_) > both_b_scans(layout_))
+      *this = other;
+}
+
+void Plan::take_large_view() {
   layout_.kind = LayoutKind::volume;
-  layout_.view = take_strip(aspects_.b_scan, widest_column);
   layout_.large = layout_.view;
   const int margin = std::min(length(edge), std::max(1, layout_.view.height / 32));
   layout_.marks = {layout_.view.x + margin, layout_.view.y + margin,
                    std::max(1, layout_.view.width - 2 * margin),
                    std::max(1, layout_.view.height / 4 - margin)};
-  if (extras_.legend)
-    return;
+}
+
+// The crossed B-scan as wide as the en face beside it, over the microscope.
+void Plan::volume_beside_quarter() {
+  constexpr double scope_share = 0.35; // of the column's width that the microscope's height is for
+  const int gap = length(gap_length);
+  const double rows = aspects_.has_scope ? 3 : 2;
+  const double pictures = body_.height - (rows + 1) * gap - rows * (length(title_length) + gap);
+  const double needed = 1 / aspects_.b_scan + 0.5 / aspects_.crossed +
+                        (aspects_.has_scope ? scope_share / aspects_.scope : 0);
+  const double column =
+      std::clamp(pictures / needed + 4 * gap, 2 * least_en_face * body_.width + 8 * gap,
+                 widest_column * body_.width);
+  layout_.view = cut_off(0, static_cast<int>(std::lround(column)));
+  take_large_view();
+  Rect rest = strip_;
+  layout_.b_scan =
+      make_panel(take_head(rest, aspects_.b_scan, 0.55), layout_.unit, aspects_.b_scan);
+  Rect left = part(rest, 0, 2, gap, false);
+  layout_.en_face = make_panel(part(rest, 1, 2, gap, false), layout_.unit, aspects_.en_face);
+  const Rect crossed = aspects_.has_scope ? take_head(left, aspects_.crossed, 0.6) : left;
+  layout_.crossed = make_panel(crossed, layout_.unit, aspects_.crossed);
+  if (aspects_.has_scope)
+    layout_.scope = make_panel(left, layout_.unit, aspects_.scope);
+}
+
+void Plan::volume_beside(const Head& head) {
+  layout_.view = take_strip(head, widest_column);
+  take_large_view();
   const auto [top, left, right] = cells();
-  place_b_scans(top);
+  if (head.rows * head.columns == 1) {
+    place_b_scans(top);
+  } else {
+    const int gap = length(gap_length);
+    const bool over = head.rows == 2;
+    layout_.b_scan = make_panel(part(top, 0, 2, gap, over), layout_.unit, aspects_.b_scan);
+    layout_.crossed = make_panel(part(top, 1, 2, gap, over), layout_.unit, aspects_.crossed);
+  }
   place_en_face(left);
   if (aspects_.has_scope)
     layout_.scope = make_panel(right, layout_.unit, aspects_.scope);
 }
 
 // The crossed B-scan at the head of a wider column, or below the large one, whichever makes the two
-// larger: by the product of their areas, so that neither is small.
+// larger.
 void Plan::b_scan() {
   take_marks();
   if (extras_.legend) {
-    place_b_scan(inner(take_strip(view_aspect, beside_b_scan)));
+    place_b_scan(inner(take_strip({view_aspect}, beside_b_scan)));
     return;
   }
   Plan below{*this};
@@ -291,10 +366,7 @@ void Plan::b_scan() {
   const bool wide = body_.width * with_crossed / 3 > length(least_small);
   if (!tall() && wide)
     b_scan_beside_crossed();
-  const auto both = [](const Layout& layout) {
-    return area(layout.b_scan.picture) * area(layout.crossed.picture);
-  };
-  if (tall() || !wide || both(below.layout_) > both(layout_))
+  if (tall() || !wide || both_b_scans(below.layout_) > both_b_scans(layout_))
     *this = below;
 }
 
@@ -311,7 +383,7 @@ Rect Plan::take_head(Rect& room, double aspect, double most_share) const {
 }
 
 void Plan::b_scan_above_crossed() {
-  const Rect whole = inner(take_strip(view_aspect, beside_b_scan));
+  const Rect whole = inner(take_strip({view_aspect}, beside_b_scan));
   Rect rest = whole;
   const Rect head = take_head(rest, aspects_.b_scan, 0.7);
   const Panel crossed = make_panel(rest, layout_.unit, aspects_.crossed);
@@ -340,7 +412,7 @@ void Plan::b_scan_beside_crossed() {
 
 void Plan::microscope() {
   take_marks();
-  const Rect rest = take_strip(aspects_.b_scan, beside_scope);
+  const Rect rest = take_strip({aspects_.b_scan}, beside_scope);
   layout_.scope = make_panel(inner(rest), layout_.unit, aspects_.scope);
   layout_.large = layout_.scope.picture;
   if (extras_.legend)

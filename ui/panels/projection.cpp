@@ -13,6 +13,9 @@ namespace {
 constexpr double slab_begin_mm = 0.1;
 constexpr int slab_begin_voxels = 16;
 constexpr double slab_mm = 0.4;
+// Behind a gap, half of the least gap earlier: what is thin, as metal is, lies where the slope between
+// bricks may already be deeper.
+constexpr double ahead_mm = 0.15;
 
 int voxels_of(double mm, const pipeline::VolumeGeometry& volume) {
   return static_cast<int>(std::lround(mm * 1e3 / volume.depth_spacing_um));
@@ -30,6 +33,25 @@ std::uint8_t highest_of(const std::uint8_t* levels, int count) {
 
 int in_whole_lanes(int count) {
   return (count + lanes - 1) / lanes * lanes;
+}
+
+// A surface with nothing below it, as metal's with its shadow, is shown itself.
+std::uint8_t level_in(const std::uint8_t* line, const TissueMap::Begin& begin,
+                      const SlabFinder& finder, std::uint8_t tissue) {
+  const Slab slab = finder.slab(begin);
+  const std::uint8_t below = highest_of(line + slab.from, slab.count);
+  return below >= tissue || begin.behind_gap
+             ? below
+             : std::max(below, highest_of(line + begin.depth, slab.from - begin.depth));
+}
+
+// At an edge, what either side's slab finds.
+std::uint8_t mixed_level(const std::uint8_t* line, const TissueMap::Around& around,
+                         const SlabFinder& finder, std::uint8_t tissue) {
+  float sum = 0;
+  for (std::size_t i = 0; i < around.begins.size(); ++i)
+    sum += around.shares[i] * static_cast<float>(level_in(line, around.begins[i], finder, tissue));
+  return static_cast<std::uint8_t>(sum + 0.5F);
 }
 
 struct Range {
@@ -66,13 +88,15 @@ Range robust_range(const pipeline::Volume& volume, std::span<const std::uint8_t>
 SlabFinder::SlabFinder(const pipeline::VolumeGeometry& geometry)
     : depths_{geometry.depths}, begin_{std::max(voxels_of(slab_begin_mm, geometry),
                                                 slab_begin_voxels)},
-      count_{std::clamp(in_whole_lanes(voxels_of(slab_mm, geometry)), 1, geometry.depths)} {}
+      ahead_{voxels_of(ahead_mm, geometry)}, count_{std::clamp(
+                                                 in_whole_lanes(voxels_of(slab_mm, geometry)), 1,
+                                                 geometry.depths)} {}
 
 Slab SlabFinder::slab(const TissueMap::Begin& begin) const {
   if (!begin.behind_gap)
     return {std::min(begin.depth + begin_, depths_ - count_), count_};
-  // Behind a gap a little more of the gap is no loss.
-  const int count = std::min(in_whole_lanes(depths_ - begin.depth), depths_);
+  // A little more of the gap is no loss.
+  const int count = std::min(in_whole_lanes(depths_ - begin.depth + ahead_), depths_);
   return {depths_ - count, count};
 }
 
@@ -88,10 +112,10 @@ void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
   auto i = static_cast<std::size_t>(b_scans.from) * static_cast<std::size_t>(geometry.a_scans);
   const std::uint8_t* line = volume.levels.data() + i * static_cast<std::size_t>(geometry.depths);
   for (int b = b_scans.from; b < b_scans.to; ++b)
-    for (int a = 0; a < geometry.a_scans; ++a, line += geometry.depths) {
-      const Slab slab = finder.slab(tissue.begin_of(b, a));
-      out[i++] = highest_of(line + slab.from, slab.count);
-    }
+    for (int a = 0; a < geometry.a_scans; ++a, line += geometry.depths)
+      out[i++] = tissue.even_at(b, a)
+                     ? level_in(line, tissue.begin_of(b, a), finder, tissue.level())
+                     : mixed_level(line, tissue.around(b, a), finder, tissue.level());
 }
 
 void stretch_contrast(const pipeline::Volume& volume, std::span<std::uint8_t> levels) {

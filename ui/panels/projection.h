@@ -26,13 +26,15 @@ public:
 private:
   int depths_;
   int begin_; // of the slab, from where the brick with the surface begins
+  int ahead_; // of what lies behind a gap
   int count_;
 };
 
 // The highest level of each A-scan in a slab that follows the surface, just below it, so that
 // neither the glare of the surface nor what lies deep hides what a surgeon touches. Where a gap lies
 // behind a front layer, such as the anterior chamber behind the cornea, all that lies behind the gap
-// is taken instead: iris, lens and instruments.
+// is taken instead: iris, lens and instruments. A surface with nothing below it, as an instrument's
+// with its shadow, is shown itself.
 //
 // `out` is [b][a], a_scans · b_scans values.
 void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,

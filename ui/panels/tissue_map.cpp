@@ -17,6 +17,7 @@ constexpr int fewest_steps = 4;
 constexpr std::size_t depth_sampling = 4; // of so many columns, one counts for the depths
 constexpr std::size_t level_sampling = 8; // of so many B-scans, one tells what noise is
 constexpr float margin = 0.02F;           // around the tissue, of the extent
+constexpr int most_apart = 4;             // bricks along depth: beyond, it is an edge and no slope
 
 // The lowest level of a brick with tissue. Noise is the lowest peak of the brick's highest levels
 // that stands out and has a quarter of the highest peak's height.
@@ -117,15 +118,15 @@ void TissueMap::update(const pipeline::Occupancy& occupancy,
   }
   for (auto* counts : {&at_depth_, &at_a_, &at_b_})
     std::ranges::fill(*counts, 0U);
-  const std::uint8_t level = tissue_level(occupancy, states);
+  level_ = tissue_level(occupancy, states);
   for (int row = 0; row < rows_; ++row)
-    find_begins(occupancy, row, level);
+    find_begins(occupancy, row);
   smooth();
   find_extents(states);
 }
 
 // Loops over single bytes that a compiler makes vectors of, then looks at eight at once.
-void TissueMap::find_begins(const pipeline::Occupancy& occupancy, int row, std::uint8_t level) {
+void TissueMap::find_begins(const pipeline::Occupancy& occupancy, int row) {
   const std::size_t depths = at_depth_.size();
   const double brick_mm = geometry_.depth_spacing_um * (1 << pipeline::brick_depth_shift) * 1e-3;
   const auto gap = static_cast<std::size_t>(std::max(std::ceil(smallest_gap_mm / brick_mm), 2.0));
@@ -135,7 +136,7 @@ void TissueMap::find_begins(const pipeline::Occupancy& occupancy, int row, std::
     const std::uint8_t* const column = highest.data() + a * depths;
     std::uint16_t count = 0;
     for (std::size_t k = 0; k < depths; ++k) {
-      const std::uint8_t has = column[k] >= level ? 1 : 0;
+      const std::uint8_t has = column[k] >= level_ ? 1 : 0;
       tissue[k] = has;
       count = static_cast<std::uint16_t>(count + has);
     }
@@ -179,17 +180,61 @@ void TissueMap::smooth() {
       median_[place(row, a)] =
           middle(along_[place(row - 1, a)], along_[place(row, a)], along_[place(row + 1, a)]);
   for (int row = 0; row < rows_; ++row)
-    for (int a = 0; a < bricks_.a; ++a)
+    for (int a = 0; a < bricks_.a; ++a) {
       smoothed_[place(row, a)] = interpolated(row, a);
+      smoothed_[place(row, a)].even = is_even(row, a);
+    }
+}
+
+bool TissueMap::is_even(int row, int a) const {
+  const auto at = [&](int each_row, int each) {
+    return median_[static_cast<std::size_t>(std::clamp(each_row, 0, rows_ - 1) * bricks_.a +
+                                            std::clamp(each, 0, bricks_.a - 1))];
+  };
+  const Found here = at(row, a);
+  bool even = true;
+  for (int i = 0; i < 9; ++i) {
+    const Found beside = at(row + i / 3 - 1, a + i % 3 - 1);
+    even &=
+        beside.behind_gap == here.behind_gap && std::abs(beside.brick - here.brick) <= most_apart;
+  }
+  return even;
+}
+
+TissueMap::Around TissueMap::around(int b, int a) const {
+  // Its own brick and the nearer of the two beside it, and that one's share.
+  struct Pair {
+    int own, other;
+    float share;
+  };
+  const auto pair = [](int at, int size, int count) {
+    const int own = at / size;
+    const int from_middle = 2 * (at % size) + 1 - size; // in half A-scans or B-scans
+    return Pair{own, std::clamp(own + (from_middle < 0 ? -1 : 1), 0, count - 1),
+                static_cast<float>(std::abs(from_middle)) / static_cast<float>(2 * size)};
+  };
+  const Pair rows = pair(b, brick_b_scans, rows_);
+  const Pair columns = pair(a, brick_a_scans, bricks_.a);
+  Around around{};
+  for (std::size_t i = 0; i < around.begins.size(); ++i) {
+    const bool beside_row = i >= 2, beside_column = i % 2 == 1;
+    const int column = beside_column ? columns.other : columns.own;
+    const Brick& brick = smoothed_[static_cast<std::size_t>(
+        (beside_row ? rows.other : rows.own) * bricks_.a + column)];
+    const int within = std::clamp(a - column * brick_a_scans, 0, brick_a_scans - 1);
+    around.begins[i] = {brick.depths[static_cast<std::size_t>(within)], brick.behind_gap};
+    around.shares[i] = (beside_row ? rows.share : 1 - rows.share) *
+                       (beside_column ? columns.share : 1 - columns.share);
+  }
+  return around;
 }
 
 TissueMap::Brick TissueMap::interpolated(int row, int a) const {
-  constexpr int most_apart = 4; // bricks: beyond, it is an edge and no slope
   const auto at = [&](int each) {
     return median_[static_cast<std::size_t>(row * bricks_.a + std::clamp(each, 0, bricks_.a - 1))];
   };
   const Found here = at(a);
-  Brick brick{{}, here.behind_gap && here.brick < bricks_.depth};
+  Brick brick{{}, here.behind_gap && here.brick < bricks_.depth, false};
   for (int k = 0; k < brick_a_scans; ++k) {
     const int from_middle = 2 * k + 1 - brick_a_scans; // in half A-scans
     const int apart = at(a + (from_middle < 0 ? -1 : 1)).brick - here.brick;

@@ -1,6 +1,7 @@
 // Where a volume has tissue, from the highest levels of its bricks (pipeline/volume/occupancy.h).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -29,10 +30,28 @@ public:
     bool behind_gap = false;
   };
   Begin begin_of(int b, int a) const {
-    const Brick& here = smoothed_[static_cast<std::size_t>(
-        (b >> pipeline::brick_b_shift) * bricks_.a + (a >> pipeline::brick_a_shift))];
-    return {here.depths[static_cast<std::size_t>(a & (brick_a_scans - 1))], here.behind_gap};
+    static_assert(brick_b_scans == 2, "a quarter of the way to the next row");
+    const Brick& here = brick_of(b, a);
+    const auto within = static_cast<std::size_t>(a & (brick_a_scans - 1));
+    if (!here.even)
+      return {here.depths[within], here.behind_gap};
+    const Brick& next = brick_of(std::clamp(b % 2 == 0 ? b - 1 : b + 1, 0, 2 * rows_ - 1), a);
+    return {(3 * here.depths[within] + next.depths[within] + 2) / 4, here.behind_gap};
   }
+
+  // Whether that is one surface all around: else it jumps from brick to brick.
+  bool even_at(int b, int a) const { return brick_of(b, a).even; }
+
+  // The same of the columns of bricks whose middles lie around an A-scan, and how much each counts
+  // there: bilinear.
+  struct Around {
+    std::array<Begin, 4> begins;
+    std::array<float, 4> shares;
+  };
+  Around around(int b, int a) const;
+
+  // The lowest of what is tissue.
+  std::uint8_t level() const { return level_; }
 
   // What holds the tissue, with a little room around it, in sixteenths of each extent. Everything
   // if there is hardly any tissue.
@@ -40,6 +59,7 @@ public:
 
 private:
   static constexpr int brick_a_scans = 1 << pipeline::brick_a_shift;
+  static constexpr int brick_b_scans = 1 << pipeline::brick_b_shift;
   // A column of bricks, of the first of the B-scans that share it.
   struct Found {
     std::uint16_t brick = 0;
@@ -48,15 +68,23 @@ private:
   struct Brick {
     std::array<std::uint16_t, brick_a_scans> depths{};
     bool behind_gap = false;
+    bool even = false;
   };
 
-  void find_begins(const pipeline::Occupancy& occupancy, int row, std::uint8_t level);
+  const Brick& brick_of(int b, int a) const {
+    return smoothed_[static_cast<std::size_t>((b >> pipeline::brick_b_shift) * bricks_.a +
+                                              (a >> pipeline::brick_a_shift))];
+  }
+
+  void find_begins(const pipeline::Occupancy& occupancy, int row);
   void smooth();
   Brick interpolated(int row, int a) const;
+  bool is_even(int row, int a) const;
   void find_extents(std::span<const pipeline::BScanState> states);
 
   pipeline::VolumeGeometry geometry_;
   pipeline::BrickCounts bricks_;
+  std::uint8_t level_ = 255;
   int rows_ = 0;                                      // of bricks along the slow axis
   std::vector<Found> found_;                          // [row][a brick]
   std::vector<Found> along_;                          // likewise, medians along the fast axis

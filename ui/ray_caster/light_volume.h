@@ -83,6 +83,10 @@ inline constexpr float level_light = 0.75F; // where there is no slope, and so n
 inline constexpr float weak_slope = 0.08F;  // of a texel's 1: below it there is no surface
 inline constexpr float open_light = 1.35F;  // less the density around a place: its share of light
 inline constexpr float least_open = 0.5F;
+// What reflects strongly, as metal does, keeps its light whichever way it faces: from the one brightness
+// on, and all of it at the other.
+inline constexpr float gleam_from = 0.6F;
+inline constexpr float gleam_to = 0.85F;
 inline constexpr float least_power = 1e-35F; // of a sample's weight: what divides is not 0
 
 } // namespace octascope::ui

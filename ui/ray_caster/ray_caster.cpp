@@ -154,6 +154,7 @@ hal::Result<> RayCaster::renew(const pipeline::Volume& volume, const pipeline::O
 }
 
 void RayCaster::set_transfer(const TransferTable& transfer) {
+  transfer_->depths = transfer.depths;
   if (transfer.opacity == transfer_->opacity && transfer.colour == transfer_->colour)
     return;
   *transfer_ = transfer;
@@ -197,6 +198,12 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
     std::ranges::copy(ramp->opacity, f.ramp_opacity);
   }
 
+  if (const auto& depths = transfer_->depths) {
+    f.by_depth = true;
+    // The middle of depth bin 0 is at 0.
+    f.tint_scale = 1 / (static_cast<float>(g.depths) * (depths->to - depths->from));
+    f.tint_offset = 0.5F * f.tint_scale - depths->from / (depths->to - depths->from);
+  }
   set(f.eye, rays.eye);
   set(f.forward, rays.forward);
   set(f.right, rays.right);
@@ -247,7 +254,8 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
           : settings.mode == RayMode::maximum ? Visibility::maximum
                                               : Visibility::range);
 
-  const auto look = static_cast<std::size_t>(steps_table_->ramp   ? Look::ramp
+  const auto look = static_cast<std::size_t>(transfer_->depths    ? Look::by_depth
+                                             : steps_table_->ramp ? Look::ramp
                                              : steps_table_->grey ? Look::grey
                                                                   : Look::coloured);
   const RayKernels::Draw kernel = settings.mode == RayMode::maximum  ? kernels_->maximum

@@ -43,6 +43,11 @@ struct RayFrame {
   float ramp_offset;
   float ramp_opacity[ramp_terms];
 
+  // Colour by depth (ui/transfer/depth_colours.h): the place is scale · cells along the depth + offset.
+  bool by_depth;
+  float tint_scale;
+  float tint_offset;
+
   // The eye.
   float eye[3];
   float forward[3]; // cells per mm

@@ -16,15 +16,17 @@ struct Tile {
   int y;
 };
 
-// How levels become colour and opacity: by tables, grey or coloured, or by a grey ramp.
-enum class Look : std::uint8_t { grey, coloured, ramp };
+// How levels become colour and opacity: by tables, grey or coloured, by a grey ramp, or by a table of
+// greys whose hue is that of the depth.
+enum class Look : std::uint8_t { grey, coloured, ramp, by_depth };
+inline constexpr int look_count = 4;
 
 // The functions of one instruction set. Each draws one tile and neither allocates nor locks.
 struct RayKernels {
   using Draw = void (*)(const RayFrame& frame, Tile tile);
   const char* isa;
-  Draw composite[3]; // by Look
-  Draw shaded[3];
+  Draw composite[look_count]; // by Look
+  Draw shaded[look_count];
   Draw maximum;
 };
 

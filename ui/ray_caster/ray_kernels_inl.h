@@ -28,6 +28,7 @@ HWY_AFTER_NAMESPACE();
 #include <algorithm>
 
 #include "ui/ray_caster/ray_light_inl.h"
+#include "ui/transfer/depth_colours.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {
@@ -68,7 +69,32 @@ struct Substance {
   Real opacity, red, green, blue;
 };
 
-template <Look How> HWY_INLINE Substance classify(const RayFrame& frame, Int level, IntMask valid) {
+constexpr bool has_hue(Look look) {
+  return look == Look::coloured || look == Look::by_depth;
+}
+
+// What a grey is multiplied with at a depth in cells.
+struct Tint {
+  Real red, green, blue;
+};
+HWY_INLINE Tint tint_at(const RayFrame& frame, Real cells) {
+  const Real along = hn::MulAdd(cells, real(frame.tint_scale), real(frame.tint_offset));
+  const Real place = hn::Min(hn::Max(along, real(0)), real(1));
+  const auto channel = [&](std::size_t of) {
+    const auto& cubic = depth_tint_cubics[of];
+    return hn::MulAdd(
+        hn::MulAdd(hn::MulAdd(real(cubic[3]), place, real(cubic[2])), place, real(cubic[1])), place,
+        real(cubic[0]));
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+HWY_INLINE Real depth_cells(const Position& position) {
+  return hn::Mul(hn::ConvertTo(Floats{}, position.z), real(1.0F / one_cell));
+}
+
+template <Look How>
+HWY_INLINE Substance classify(const RayFrame& frame, const Position& position, Int level,
+                              IntMask valid) {
   if constexpr (How == Look::ramp) {
     constexpr float per_level = 1.0F / (1 << level_shift);
     constexpr float rounded_up = 1.0F / (2 * TransferTable::entries_per_level);
@@ -92,6 +118,12 @@ template <Look How> HWY_INLINE Substance classify(const RayFrame& frame, Int lev
       substance.green = upper_16_bits(others);
       substance.blue = lower_16_bits(others);
     }
+    if constexpr (How == Look::by_depth) {
+      const Tint tint = tint_at(frame, depth_cells(position));
+      substance.green = hn::Mul(substance.red, tint.green);
+      substance.blue = hn::Mul(substance.red, tint.blue);
+      substance.red = hn::Mul(substance.red, tint.red);
+    }
     return substance;
   }
 }
@@ -112,7 +144,8 @@ HWY_INLINE Sample begin_sample(const RayFrame& frame, const Rays& rays, const Po
 
 template <bool Shaded, Look How>
 HWY_INLINE void add_sample(const RayFrame& frame, const Sample& sample, Light& light) {
-  const Substance here = classify<How>(frame, interpolate(sample.cell), sample.valid);
+  const Substance here =
+      classify<How>(frame, sample.position, interpolate(sample.cell), sample.valid);
   light.half_opaque = hn::IfThenElse(hn::RebindMask(Ints{}, hn::Ge(light.transparency, real(0.5F))),
                                      sample.number, light.half_opaque);
   const Real weight = hn::Mul(light.transparency, here.opacity);
@@ -124,7 +157,7 @@ HWY_INLINE void add_sample(const RayFrame& frame, const Sample& sample, Light& l
     light.numbers = hn::MulAdd(power, hn::ConvertTo(Floats{}, sample.number), light.numbers);
   }
   light.red = hn::MulAdd(weight, here.red, light.red);
-  if constexpr (How == Look::coloured) {
+  if constexpr (has_hue(How)) {
     light.green = hn::MulAdd(weight, here.green, light.green);
     light.blue = hn::MulAdd(weight, here.blue, light.blue);
   }
@@ -194,15 +227,15 @@ HWY_INLINE void complete(const RayFrame& frame, const Rays& rays, Light& light) 
   Real share = hn::IfThenElse(opaque, hn::Sub(real(1), light.transparency), real(1));
   if constexpr (Shaded) {
     const Real strongest =
-        How == Look::coloured ? hn::Max(light.red, hn::Max(light.green, light.blue)) : light.red;
+        has_hue(How) ? hn::Max(light.red, hn::Max(light.green, light.blue)) : light.red;
     const Real opacity = hn::Max(hn::Sub(real(1), light.transparency), real(1e-6F));
     const Real brightness = hn::Min(hn::Div(strongest, hn::Mul(opacity, real(65535))), real(1));
     share = hn::Div(share, light_on(frame, rays, light.main_sample(), brightness));
   }
   light.transparency = hn::IfThenZeroElse(opaque, light.transparency);
   light.red = hn::Div(light.red, share);
-  light.green = How == Look::coloured ? hn::Div(light.green, share) : light.red;
-  light.blue = How == Look::coloured ? hn::Div(light.blue, share) : light.red;
+  light.green = has_hue(How) ? hn::Div(light.green, share) : light.red;
+  light.blue = has_hue(How) ? hn::Div(light.blue, share) : light.red;
 }
 
 // Advances active lanes until each is in a brick with a level above `highest`.
@@ -342,6 +375,14 @@ void draw_maximum(const RayFrame& frame, Tile tile) {
     light.red = hn::IfThenElseZero(seen, lower_16_bits(entry));
     light.green = hn::IfThenElseZero(seen, upper_16_bits(others));
     light.blue = hn::IfThenElseZero(seen, lower_16_bits(others));
+    if (frame.by_depth) {
+      const Real along_mm =
+          hn::MulAdd(hn::ConvertTo(Floats{}, highest.sample), real(frame.step_mm), rays.first_mm);
+      const Tint tint = tint_at(frame, hn::MulAdd(rays.direction.z, along_mm, real(frame.eye[0])));
+      light.red = hn::Mul(light.red, tint.red);
+      light.green = hn::Mul(light.green, tint.green);
+      light.blue = hn::Mul(light.blue, tint.blue);
+    }
     const Real opacity =
         hn::Mul(hn::Max(light.red, hn::Max(light.green, light.blue)), real(1.0F / 65535));
     const Real depth = hn::IfThenElse(seen, rays.depth_mm(frame, highest.sample), real(no_depth));
@@ -353,7 +394,7 @@ const RayKernels* kernels() {
 #define OCTASCOPE_LOOKS(shaded)                                                                    \
   {                                                                                                \
     &draw_composite<shaded, Look::grey>, &draw_composite<shaded, Look::coloured>,                  \
-        &draw_composite<shaded, Look::ramp>                                                        \
+        &draw_composite<shaded, Look::ramp>, &draw_composite<shaded, Look::by_depth>               \
   }
   static const RayKernels table{hwy::TargetName(HWY_TARGET), OCTASCOPE_LOOKS(false),
                                 OCTASCOPE_LOOKS(true), &draw_maximum};

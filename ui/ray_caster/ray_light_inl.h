@@ -97,10 +97,11 @@ HWY_INLINE Real light_on(const RayFrame& frame, const Rays& rays, Real sample, R
   const Real surface = hn::MulAdd(strength, hn::Sub(lit, real(level_light)), real(level_light));
   const Real open =
       hn::Min(hn::Max(hn::Sub(real(open_light), texel.density), real(least_open)), real(1));
-  // What reflects strongly, as metal does, keeps its light whichever way it faces.
   const Real shade = hn::Mul(surface, open);
-  const Real square = hn::Mul(brightness, brightness);
-  const Real gleam = hn::Mul(square, square);
+  const Real bright =
+      hn::Mul(hn::Sub(brightness, real(gleam_from)), real(1 / (gleam_to - gleam_from)));
+  const Real above = hn::Min(hn::Max(bright, real(0)), real(1));
+  const Real gleam = hn::Mul(hn::Mul(above, above), hn::NegMulAdd(above, real(2), real(3)));
   return hn::Mul(hn::MulAdd(gleam, hn::Sub(real(1), shade), shade), fade);
 }
 

@@ -105,7 +105,7 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
     light_.show(drawn);
   surface_shows_ = techniques_.surface() != nullptr;
   if (surface_shows_)
-    techniques_.surface()->show(volume); // opaque: what is left of a cover would be in pieces
+    techniques_.surface()->show(volume); // whole: what is left of a cover would be in pieces
   return {};
 }
 
@@ -185,9 +185,11 @@ hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
 void VolumePainter::update_transfer(const ViewState& of) {
   const ViewState view = stretched(of);
   const TransferSource source{view.window_offset_db, view.window_size_db, view.opacity,
-                              view.transfer, view.colour_map};
+                              view.transfer,         view.colour_map,     depths_};
   if (transfer_source_ != source) {
     make_transfer_table(view, transfers_, *transfer_);
+    if (transfer_->depths)
+      transfer_->depths = depths_;
     transfer_texture_.update(*transfer_);
     transfer_source_ = source;
   }
@@ -273,7 +275,8 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   expect(view);
   const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
   const VolumeTexture* drawn = &texture_; // the processor's rays need only its shape
-  if (!processor) {
+  const bool surface = view.technique == Technique::surface;
+  if (!processor && !surface) {
     HAL_TRY(drawn, drawn_texture());
   }
   VolumeScene scene{
@@ -288,7 +291,10 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   }
   pictures->camera = camera;
   pictures->kept = scene.kept;
-  if (view.technique == Technique::surface) {
+  if (surface) {
+    if (weakened_shows_) {
+      HAL_TRY(scene.weakened, drawn_texture());
+    }
     HAL_CHECK(techniques_.get(view.technique));
     scene.mesh = techniques_.surface()->prepare(view);
   }

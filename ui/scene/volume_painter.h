@@ -31,7 +31,7 @@ namespace octascope::ui {
 constexpr float window_stretch(Technique technique) {
   switch (technique) {
   case Technique::maximum: return 1.2F;
-  case Technique::shaded: return 0.75F;
+  case Technique::shaded: return 0.9F;
   default: return 1;
   }
 }
@@ -70,6 +70,13 @@ public:
 
   // Prepares the processor to cast the rays of all volumes shown from now on.
   void want_processor();
+
+  // The depths that a picture coloured by depth spreads its hues over, from the next update() on.
+  void colour_depths(const DepthColours& depths) { depths_ = depths; }
+  // Those of the view, if its colours are those of depths.
+  std::optional<DepthColours> depth_colours(const ViewState& view) const {
+    return transfers_.colours(view).by_depth() ? std::optional{depths_} : std::nullopt;
+  }
 
   // Brings the eye's picture up to date; `camera` must be that eye's, with the rectangle's aspect.
   hal::Result<> update(StereoEye eye, const ViewState& view, const Camera& camera,
@@ -136,6 +143,7 @@ private:
     float opacity;
     int transfer;
     int colour_map;
+    DepthColours depths;
     bool operator==(const TransferSource&) const = default;
   };
 
@@ -158,6 +166,7 @@ private:
   std::unique_ptr<TransferTable> transfer_;
   TransferTexture transfer_texture_;
   std::optional<TransferSource> transfer_source_;
+  DepthColours depths_;
   VolumeTechniques techniques_;
   std::optional<CutFace> cut_face_;      // empty until a view is cut
   std::optional<VesselOverlay> vessels_; // empty until some are shown

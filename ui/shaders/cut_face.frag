@@ -12,5 +12,5 @@ void main() {
   vec4 substance = look_up(textureLod(u_levels, v_texture, 0.0).r);
   float brightness = max(substance.r, max(substance.g, substance.b));
   float alpha = substance.a > 0.0 ? min(brightness / opaque_from, 1.0) : 0.0;
-  o_colour = vec4(substance.rgb * alpha, alpha);
+  o_colour = vec4(substance.rgb * tint_at(v_texture.x) * alpha, alpha);
 }

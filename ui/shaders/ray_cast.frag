@@ -74,6 +74,10 @@ float level_at(vec3 position) {
   return textureLod(u_levels, position * u_to_texture_scale + u_to_texture_offset, 0.0).r;
 }
 
+vec3 tint_in(vec3 position) {
+  return tint_at(position.x * u_to_texture_scale.x + u_to_texture_offset.x);
+}
+
 // Distance to the nearest brick that is not empty in bits 0–7, highest level in 8–15.
 int brick_at(vec3 position) {
   if (!u_leap)
@@ -105,6 +109,7 @@ uniform float u_level_light;
 uniform float u_weak_slope;
 uniform float u_open_light;
 uniform float u_least_open;
+uniform vec2 u_gleam;
 uniform float u_cue_near_mm;
 uniform float u_cue_per_mm;
 uniform float u_depth_cue;
@@ -125,10 +130,8 @@ float light_on(Ray ray, float number, float brightness) {
   float lit = mix(u_ambient, 1.0, half_lit * half_lit);
   float strength = squared / (squared + u_weak_slope * u_weak_slope);
   float open = clamp(u_open_light - texel.a, u_least_open, 1.0);
-  // What reflects strongly, as metal does, keeps its light whichever way it faces.
   float shade = mix(u_level_light, lit, strength) * open;
-  float square = brightness * brightness;
-  return mix(shade, 1.0, square * square) * fade;
+  return mix(shade, 1.0, smoothstep(u_gleam.x, u_gleam.y, brightness)) * fade;
 }
 #endif
 
@@ -158,6 +161,7 @@ void trace(Ray ray) {
   vec4 substance = look_up(highest);
   if (substance.a <= 0.0)
     return;
+  substance.rgb *= tint_in(position_of(ray, highest_at));
   o_colour = vec4(substance.rgb, max(substance.r, max(substance.g, substance.b)));
   o_depth = depth_of(ray, highest_at);
 }
@@ -191,7 +195,7 @@ void trace(Ray ray) {
       powers += power;
       numbers += power * float(next);
 #endif
-      light += weight * substance.rgb;
+      light += weight * substance.rgb * tint_in(position);
     }
   }
   if (transparency < 0.5)

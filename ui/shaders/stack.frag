@@ -22,6 +22,7 @@ void main() {
   substance.a *= step(u_kept.x, position.z) * step(position.z, u_kept.y);
   if (v_depth.x + v_depth.y * moved >= stop_mm())
     substance.a = 0.0;
+  substance.rgb *= tint_at(position.x);
   float alpha = opacity_over(substance.a, u_steps * length(v_ray));
   o_colour = vec4(substance.rgb * alpha, alpha);
 }

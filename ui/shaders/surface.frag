@@ -1,26 +1,39 @@
-// An opaque surface, lit by a lamp at the eye, from whichever side it is seen. Before this stands
-// stops.glsl.
+// A surface, lit by a lamp at the eye, from whichever side it is seen: opaque, but for what covers other
+// tissue, which is glass if it is to be seen through. Before this stand depth_tint.glsl and stops.glsl.
 in vec3 v_normal;
 in vec3 v_from_eye;
-in float v_slow;
+in vec3 v_texture;
 in float v_depth;
+in float v_cover;
+in float v_place;
 
-uniform vec2 u_kept; // by a cut, of the slow axis
-uniform vec3 u_colour;
+uniform vec2 u_kept;     // by a cut, of the slow axis
+uniform vec3 u_colour;   // of tissue
+uniform vec3 u_metal;    // of what is well above the window
+uniform vec2 u_metallic; // from where to where in the window the one becomes the other
+uniform bool u_by_depth;
 uniform float u_ambient;
 uniform vec2 u_cue;       // where the depth cue begins, and 1 / the length over which it falls
 uniform float u_cue_loss; // what the far end of the box loses
+uniform bool u_glass;     // only what covers is drawn, else only what does not
+uniform vec2 u_glass_opacity; // face on and edge on
 
-layout(location = 0) out vec4 o_colour;
+layout(location = 0) out vec4 o_colour; // premultiplied
 layout(location = 1) out float o_depth; // mm along the view
 
 void main() {
-  if (v_depth >= stop_mm() || v_slow < u_kept.x || v_slow > u_kept.y)
+  if (v_depth >= stop_mm() || v_texture.z < u_kept.x || v_texture.z > u_kept.y ||
+      (v_cover > 0.5) != u_glass)
     discard;
   float slant = max(length(v_normal) * length(v_from_eye), 1e-6);
   float facing = abs(dot(v_normal, v_from_eye)) / slant;
   float light = mix(u_ambient, 1.0, facing);
   light *= 1.0 - u_cue_loss * clamp((v_depth - u_cue.x) * u_cue.y, 0.0, 1.0);
-  o_colour = vec4(u_colour * light, 1.0);
+  vec3 colour = mix(u_colour, u_metal, smoothstep(u_metallic.x, u_metallic.y, v_place));
+  if (u_by_depth)
+    colour *= depth_tint(v_texture.x);
+  float edge = 1.0 - facing;
+  float opacity = u_glass ? mix(u_glass_opacity.x, u_glass_opacity.y, edge * edge * edge) : 1.0;
+  o_colour = vec4(colour * light * opacity, opacity);
   o_depth = v_depth;
 }

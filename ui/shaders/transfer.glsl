@@ -1,5 +1,6 @@
 // What every way of drawing the volume begins with: how a level looks. Before this stand the
-// #defines of TransferProgram.
+// #defines of TransferProgram and, where it
+// colours by depth, depth_tint.glsl.
 precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -27,6 +28,13 @@ vec4 look_up(float level) {
   return mix(transfer_entry(below), transfer_entry(min(below + 1, TRANSFER_LAST)),
              entry - float(below));
 }
+#endif
+
+// By which a colour is multiplied at a share of the volume's depth.
+#ifdef TRANSFER_BY_DEPTH
+vec3 tint_at(float depth) { return depth_tint(depth); }
+#else
+vec3 tint_at(float depth) { return vec3(1.0); }
 #endif
 
 // Of so many reference steps; exactly 0 for nothing, which exp2 and log2 do not promise.

@@ -64,6 +64,13 @@ ColourMap ColourMap::dawn() {
   return along_curve("dawn", {{{285, 0.03F}, {320, 0.24F}, {38, 0.22F}, {105, 0.1F}}});
 }
 
+ColourMap ColourMap::depth() {
+  ColourMap map = grey();
+  map.name_ = "depth";
+  map.by_depth_ = true;
+  return map;
+}
+
 TransferTable::Colour ColourMap::at(float u) const {
   const float place = std::clamp(u, 0.0F, 1.0F) * static_cast<float>(samples_.size() - 1);
   const std::size_t below = std::min(static_cast<std::size_t>(place), samples_.size() - 2);

@@ -23,6 +23,10 @@ public:
   static ColourMap blue_green(); // one hue, cool
   static ColourMap dawn();       // violet, red, yellow: distinguishes the most levels
 
+  // Grey by level; the hue is that of the depth (depth_colours.h).
+  static ColourMap depth();
+
+  bool by_depth() const { return by_depth_; }
   const std::string& name() const { return name_; }
   // u is clamped to 0…1.
   TransferTable::Colour at(float u) const;
@@ -30,6 +34,7 @@ public:
 private:
   std::string name_;
   std::vector<TransferTable::Colour> samples_;
+  bool by_depth_ = false;
 };
 
 } // namespace octascope::ui

@@ -37,9 +37,9 @@ template <typename Item> const Item& at_or_first(std::span<const Item> items, in
 } // namespace
 
 TransferSet::TransferSet()
-    : TransferSet{Contents{
-          built_in_functions(),
-          {ColourMap::grey(), ColourMap::amber(), ColourMap::blue_green(), ColourMap::dawn()}}} {}
+    : TransferSet{Contents{built_in_functions(),
+                           {ColourMap::grey(), ColourMap::amber(), ColourMap::blue_green(),
+                            ColourMap::dawn(), ColourMap::depth()}}} {}
 
 TransferSet::TransferSet(Contents contents)
     : contents_{std::make_shared<const Contents>(std::move(contents))} {}
@@ -99,6 +99,7 @@ void make_transfer_table(const ViewState& view, const TransferSet& set, Transfer
     table.colour[i] = colours.at(u);
     table.opacity[i] = function.curve.opacity(u) * view.opacity;
   }
+  table.depths = colours.by_depth() ? std::optional{DepthColours{}} : std::nullopt;
   table.window.reset();
 }
 

@@ -30,7 +30,7 @@ class TransferSet {
 public:
   // The built-in ones. Functions: "window", formula (1) of the OCT paper; "smooth", clear but for
   // what reflects strongly; "surface", opaque from where tissue begins, in lifted greys. Colour maps:
-  // "grey", "amber", "blue-green", "dawn".
+  // "grey", "amber", "blue-green", "dawn", "depth".
   TransferSet();
 
   // Adds functions after the existing ones. ErrorCode::invalid_argument: a name already exists.
@@ -58,7 +58,8 @@ private:
   std::shared_ptr<const Contents> contents_;
 };
 
-// Samples the view's selection. Allocates nothing; takes some ten microseconds.
+// Samples the view's selection; colours by depth are spread over the whole of it. Allocates nothing;
+// takes some ten microseconds.
 void make_transfer_table(const ViewState& view, const TransferSet& set, TransferTable& table);
 
 } // namespace octascope::ui

@@ -13,6 +13,7 @@ void make_window_table(const ViewState& view, TransferTable& table) {
     table.colour[i] = {grey, grey, grey};
     table.opacity[i] = grey * view.opacity;
   }
+  table.depths.reset();
   table.window = TransferTable::Window{window, view.opacity};
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "ui/transfer/depth_colours.h"
 #include "ui/view/view_state.h"
 #include "ui/view/window.h"
 
@@ -23,6 +24,9 @@ struct TransferTable {
 
   std::array<Colour, entries> colour{}; // 0…1, not premultiplied
   std::array<float, entries> opacity{}; // 0…1, over one reference step
+
+  // Set if `colour` is grey and gets its hue from the depth. Then `window` is not.
+  std::optional<DepthColours> depths;
 
   // Set if the table is only a display window: kernels then compute the ramp for sixteen samples at
   // once, instead of looking them up one by one.

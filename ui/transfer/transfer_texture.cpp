@@ -33,7 +33,7 @@ TransferTexture::TransferTexture()
 }
 
 void TransferTexture::update(const TransferTable& table) {
-  bool changed = version_ == 0 || !same_window(window_, table.window);
+  bool changed = version_ == 0 || !same_window(window_, table.window) || depths_ != table.depths;
   for (std::size_t i = 0; i < TransferTable::entries; ++i) {
     float* texel = texels_.data() + 4 * i;
     changed |= set(texel[0], table.colour[i].red);
@@ -44,6 +44,7 @@ void TransferTexture::update(const TransferTable& table) {
   if (!changed)
     return;
   window_ = table.window;
+  depths_ = table.depths;
   find_visible_levels(table, visible_);
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);

@@ -32,6 +32,8 @@ public:
   // Set if the table is a display window: shaders then compute it, because a software rasteriser
   // takes longer to look it up.
   const std::optional<TransferTable::Window>& window() const { return window_; }
+  // Set if the colours get their hue from the depth.
+  const std::optional<DepthColours>& depths() const { return depths_; }
   // The levels that are visible in shaders.
   const VisibleLevels& visible() const { return visible_; }
   // Counts the uploads; 0 before the first.
@@ -41,6 +43,7 @@ private:
   gl::Texture texture_;
   std::vector<float> texels_; // RGBA
   std::optional<TransferTable::Window> window_;
+  std::optional<DepthColours> depths_;
   VisibleLevels visible_;
   std::uint64_t version_ = 0;
 };

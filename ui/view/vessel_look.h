@@ -19,7 +19,7 @@ using VesselColour = std::array<float, 3>; // 0…1, display-referred
 
 // By VesselBranch. They also differ in lightness, for red-green colour blindness.
 inline constexpr std::array<VesselColour, pipeline::vessel_branch_count> branch_colours{{
-    {0.88F, 0.46F, 0.62F}, // of no branch: not grey, as tissue is
+    {0.36F, 0.76F, 0.48F}, // of no branch: not grey, as tissue is, nor a B-scan's blue or pink
     {0.93F, 0.33F, 0.24F},
     {0.98F, 0.80F, 0.42F},
     {0.42F, 0.66F, 0.95F},

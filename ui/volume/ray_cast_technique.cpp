@@ -141,6 +141,7 @@ void RayCastTechnique::set_light(const gl::Program& program, const VolumeScene& 
   set(program, "u_weak_slope", weak_slope);
   set(program, "u_open_light", open_light);
   set(program, "u_least_open", least_open);
+  glUniform2f(program.uniform("u_gleam"), gleam_from, gleam_to);
   set(program, "u_cue_near_mm", rays.cue_near_mm);
   set(program, "u_cue_per_mm", rays.cue_per_mm);
   set(program, "u_depth_cue", depth_cue);

@@ -1,6 +1,7 @@
 #include "ui/volume/surface_technique.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "embedded_shaders.h"
@@ -11,14 +12,20 @@
 
 #include "pipeline/volume/level_scale.h"
 #include "ui/ray_caster/ray_frame.h"
+#include "ui/view/window.h"
+#include "ui/volume/transfer_program.h"
 
 namespace octascope::ui {
 
 namespace {
 
-// Where in the window's colours a surface's own colour is taken from: bright, but not white, so
-// that its light and shade can be seen.
-constexpr float colour_place = 0.8F;
+// In the window: from where on tissue's colour becomes metal's, and where it has.
+constexpr float metal_from = 0.99F;
+constexpr float metal_to = 1.13F;
+
+// Of what covers: opacity face on falls by half with so many decibels, edge on it stays.
+constexpr float glass_halved_db = 4.8F;
+constexpr float glass_edge = 0.65F;
 
 const void* offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
@@ -35,7 +42,8 @@ hal::Result<std::unique_ptr<SurfaceTechnique>>
 SurfaceTechnique::create(TransferSet transfers, pipeline::ThreadSetup threads) {
   HAL_TRY(auto program,
           gl::Program::build("surface", shaders::surface_vert,
-                             fmt::format("{}{}", shaders::stops_glsl, shaders::surface_frag)));
+                             fmt::format("{}{}{}", shaders::depth_tint_glsl, shaders::stops_glsl,
+                                         shaders::surface_frag)));
   return std::unique_ptr<SurfaceTechnique>{
       new SurfaceTechnique{std::move(program), std::move(transfers), std::move(threads)}};
 }
@@ -50,10 +58,12 @@ SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers,
                                               program_.uniform("u_forward"),
                                               program_.uniform("u_extents"),
                                               program_.uniform("u_colour"),
+                                              program_.uniform("u_metal"),
                                               program_.uniform("u_ambient"),
                                               program_.uniform("u_cue"),
                                               program_.uniform("u_cue_loss"),
-                                              program_.uniform("u_kept")} {
+                                              program_.uniform("u_kept"),
+                                              program_.uniform("u_glass")} {
   using pipeline::IsoVertex;
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
@@ -95,8 +105,12 @@ void SurfaceTechnique::upload(const pipeline::IsoMesh& mesh) {
   extents_mm_ = {mesh.extents_mm[1], mesh.extents_mm[0], mesh.extents_mm[2]};
 }
 
-void SurfaceTechnique::set_uniforms(const Camera& camera, const ViewState& view) const {
-  const TransferTable::Colour colour = transfers_.colours(view).at(colour_place);
+void SurfaceTechnique::set_uniforms(const VolumeScene& scene) const {
+  const Camera& camera = scene.camera;
+  const ColourMap& colours = transfers_.colours(scene.view);
+  const auto set_colour = [](GLint uniform, const TransferTable::Colour& colour) {
+    glUniform3f(uniform, colour.red, colour.green, colour.blue);
+  };
   const float middle = camera.depth_of(glm::vec3{0});
   const float reach = glm::dot(glm::abs(camera.forward), extents_mm_ / 2.0F);
   const float near = std::max(middle - reach, camera.near_mm);
@@ -105,10 +119,40 @@ void SurfaceTechnique::set_uniforms(const Camera& camera, const ViewState& view)
   glUniform3fv(uniforms_.eye, 1, glm::value_ptr(camera.eye));
   glUniform3fv(uniforms_.forward, 1, glm::value_ptr(camera.forward));
   glUniform3fv(uniforms_.extents, 1, glm::value_ptr(extents_mm_));
-  glUniform3f(uniforms_.colour, colour.red, colour.green, colour.blue);
+  set_colour(uniforms_.colour, colours.at(surface_tissue));
+  set_colour(uniforms_.metal, colours.at(surface_metal));
+  glUniform1i(program_.uniform("u_by_depth"), scene.transfer.depths() ? 1 : 0);
+  if (scene.transfer.depths())
+    set_depth_tint(program_, *scene.transfer.depths());
   glUniform1f(uniforms_.ambient, surface_ambient);
   glUniform2f(uniforms_.cue, near, 1 / (middle + reach - near));
   glUniform1f(uniforms_.cue_loss, depth_cue);
+  glUniform2f(uniforms_.kept, scene.kept.from, scene.kept.to);
+}
+
+// What the corners are asked for: how bright it is inside, and whether they are a cover's.
+void SurfaceTechnique::set_levels(const VolumeScene& scene) const {
+  constexpr GLint weakened_unit = 2;
+  const WindowRamp window = window_ramp(scene.view);
+  glUniform1i(program_.uniform("u_levels"), 0);
+  glUniform1i(program_.uniform("u_weakened"), weakened_unit);
+  glUniform2f(program_.uniform("u_window"), window.scale, window.offset);
+  glUniform2f(program_.uniform("u_metallic"), metal_from, metal_to);
+  glUniform1f(
+      program_.uniform("u_weakened_by"),
+      scene.weakened == nullptr ? 0 : scene.view.see_through_db / pipeline::level_step_db / 255);
+  glUniform2f(program_.uniform("u_glass_opacity"),
+              std::exp2(-scene.view.see_through_db / glass_halved_db), glass_edge);
+  const VolumeTexture& weakened = scene.weakened != nullptr ? *scene.weakened : scene.volume;
+  glActiveTexture(GL_TEXTURE0 + weakened_unit);
+  glBindTexture(GL_TEXTURE_3D, weakened.name());
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_3D, scene.volume.name());
+}
+
+void SurfaceTechnique::draw_mesh(bool glass) const {
+  glUniform1i(uniforms_.glass, glass ? 1 : 0);
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners_), GL_UNSIGNED_INT, nullptr);
 }
 
 void SurfaceTechnique::do_draw(const VolumeScene& scene) {
@@ -116,8 +160,8 @@ void SurfaceTechnique::do_draw(const VolumeScene& scene) {
   if (corners_ == 0)
     return;
   program_.use();
-  set_uniforms(scene.camera, scene.view);
-  glUniform2f(uniforms_.kept, scene.kept.from, scene.kept.to);
+  set_uniforms(scene);
+  set_levels(scene);
   set_depth_mask(program_, scene.vessels, scene.camera);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -125,7 +169,17 @@ void SurfaceTechnique::do_draw(const VolumeScene& scene) {
   glClearDepthf(1);
   glClear(GL_DEPTH_BUFFER_BIT);
   glBindVertexArray(vertex_array_.name());
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners_), GL_UNSIGNED_INT, nullptr);
+  draw_mesh(false);
+  if (scene.weakened != nullptr) { // over the rest, and no depth of its own
+    constexpr GLenum colour = GL_COLOR_ATTACHMENT0;
+    glDrawBuffers(1, &colour);
+    glDepthMask(GL_FALSE);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    draw_mesh(true);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
+  }
   glBindVertexArray(0);
   glDisable(GL_DEPTH_TEST);
 }

@@ -21,10 +21,18 @@ float surface_level(const ViewState& view);
 
 inline constexpr float surface_ambient = 0.35F; // of the lamp at the eye's light
 
+// Where in the window's colours those of tissue and of metal are taken from: tissue's is dark enough to
+// show its light and shade and what lies on it. Metal is what is well above the window.
+inline constexpr float surface_tissue = 0.53F;
+inline constexpr float surface_metal = 1;
+
 // A separate thread makes the mesh (pipeline/surface/iso_surface_thread.h). Until a new mesh is
 // finished, for a new volume or a changed window, the last one is drawn; before the first, nothing.
 // A picture depends on the number that prepare() returns, and must be redrawn once has_newer() is
 // true.
+//
+// What covers other tissue (pipeline/volume/cover.h) is glass if the scene has a weakened volume, the
+// clearer the more the view sees through.
 //
 // The framebuffer needs a depth attachment of at least 16 bits, which draw() clears; without one,
 // far parts are drawn over near ones.
@@ -56,7 +64,9 @@ private:
   void do_draw(const VolumeScene& scene) override;
   bool do_writes_depth() const override { return true; }
   void upload(const pipeline::IsoMesh& mesh);
-  void set_uniforms(const Camera& camera, const ViewState& view) const;
+  void set_uniforms(const VolumeScene& scene) const;
+  void set_levels(const VolumeScene& scene) const;
+  void draw_mesh(bool glass) const;
 
   pipeline::IsoSurfaceThread thread_;
   TransferSet transfers_;
@@ -68,7 +78,8 @@ private:
   std::uint64_t mesh_ = 0;  // counts the meshes taken
   glm::vec3 extents_mm_{0}; // of the mesh's volume: fast, depth, slow
   struct {
-    GLint view_projection, eye, forward, extents, colour, ambient, cue, cue_loss, kept;
+    GLint view_projection, eye, forward, extents, colour, metal, ambient, cue, cue_loss, kept,
+        glass;
   } uniforms_;
 };
 

@@ -11,13 +11,17 @@ namespace octascope::ui {
 
 namespace {
 
-hal::Result<gl::Program> build(const VolumeShader& shader, bool window) {
-  const std::string fragment =
-      fmt::format("#define TRANSFER_ROW_BITS {}\n#define TRANSFER_LAST {}\n"
-                  "#define DITHER_SIZE {}\n{}{}{}{}{}",
-                  TransferTexture::row_bits, TransferTable::entries - 1, dither_size,
-                  window ? "#define TRANSFER_IS_WINDOW\n" : "", shader.defines,
-                  shaders::transfer_glsl, shaders::stops_glsl, shader.fragment);
+constexpr std::string_view as_window = "#define TRANSFER_IS_WINDOW\n";
+constexpr std::string_view as_table = "";
+constexpr std::string_view as_depth = "#define TRANSFER_BY_DEPTH\n";
+
+hal::Result<gl::Program> build(const VolumeShader& shader, std::string_view variant) {
+  const std::string fragment = fmt::format(
+      "#define TRANSFER_ROW_BITS {}\n#define TRANSFER_LAST {}\n"
+      "#define DITHER_SIZE {}\n{}{}{}{}{}{}",
+      TransferTexture::row_bits, TransferTable::entries - 1, dither_size, variant, shader.defines,
+      variant == as_depth ? shaders::depth_tint_glsl : std::string_view{}, shaders::transfer_glsl,
+      shaders::stops_glsl, shader.fragment);
   return gl::Program::build(shader.name, shader.vertex, fragment);
 }
 
@@ -35,20 +39,39 @@ gl::Texture make_dither_texture() {
 
 } // namespace
 
+void set_depth_tint(const gl::Program& program, const DepthColours& depths) {
+  const auto set = [&](const char* name, const std::array<float, 4>& cubic) {
+    glUniform4fv(program.uniform(name), 1, cubic.data());
+  };
+  set("u_tint_red", depth_tint_cubics[0]);
+  set("u_tint_green", depth_tint_cubics[1]);
+  set("u_tint_blue", depth_tint_cubics[2]);
+  const float scale = 1 / (depths.to - depths.from);
+  glUniform2f(program.uniform("u_tint_place"), scale, -depths.from * scale);
+}
+
 hal::Result<TransferProgram> TransferProgram::create(const VolumeShader& shader) {
-  HAL_TRY(auto window, build(shader, true));
-  HAL_TRY(auto table, build(shader, false));
-  return TransferProgram{std::move(window), std::move(table), make_dither_texture()};
+  HAL_TRY(auto window, build(shader, as_window));
+  HAL_TRY(auto table, build(shader, as_table));
+  HAL_TRY(auto by_depth, build(shader, as_depth));
+  return TransferProgram{std::move(window), std::move(table), std::move(by_depth),
+                         make_dither_texture()};
+}
+
+const gl::Program& TransferProgram::variant(const TransferTexture& transfer) const {
+  return transfer.depths() ? by_depth_ : transfer.window() ? window_ : table_;
 }
 
 const gl::Program& TransferProgram::use(const TransferTexture& transfer) const {
-  const gl::Program& program = transfer.window() ? window_ : table_;
+  const gl::Program& program = variant(transfer);
   constexpr GLint dither_unit = 4;
   program.use();
   glUniform1i(program.uniform("u_levels"), 0);
   glUniform1i(program.uniform("u_dither_mask"), dither_unit);
   glActiveTexture(GL_TEXTURE0 + dither_unit);
   glBindTexture(GL_TEXTURE_2D, dither_.name());
+  if (transfer.depths())
+    set_depth_tint(program, *transfer.depths());
   if (const auto& window = transfer.window()) {
     glUniform3f(program.uniform("u_window"), window->ramp.scale, window->ramp.offset,
                 window->opacity);

@@ -9,6 +9,9 @@
 
 namespace octascope::ui {
 
+// Sets what ui/shaders/depth_tint.glsl reads.
+void set_depth_tint(const gl::Program& program, const DepthColours& depths);
+
 struct VolumeShader {
   std::string_view name;
   std::string_view vertex;
@@ -16,8 +19,8 @@ struct VolumeShader {
   std::string_view defines = {}; // whole lines, for the fragment shader
 };
 
-// One program in two variants from the same source: one computes a display window, the other uses a
-// look-up table.
+// One program in three variants from the same source: one computes a display window, another uses a
+// look-up table, the third gives that table's greys the hue of their depth.
 //
 // Threads: as gl/objects.h.
 class TransferProgram {
@@ -29,10 +32,13 @@ public:
   const gl::Program& use(const TransferTexture& transfer) const;
 
 private:
-  TransferProgram(gl::Program window, gl::Program table, gl::Texture dither)
-      : window_{std::move(window)}, table_{std::move(table)}, dither_{std::move(dither)} {}
+  const gl::Program& variant(const TransferTexture& transfer) const;
+  TransferProgram(gl::Program window, gl::Program table, gl::Program by_depth, gl::Texture dither)
+      : window_{std::move(window)}, table_{std::move(table)}, by_depth_{std::move(by_depth)},
+        dither_{std::move(dither)} {}
   gl::Program window_;
   gl::Program table_;
+  gl::Program by_depth_;
   gl::Texture dither_;
 };
 

@@ -271,7 +271,7 @@ void add_look_options(CLI::App& command, RenderArguments& a) {
           ->check(within(0, 1000000000));
   command.add_option("--transfer", a.transfer,
                      "Transfer function: window, smooth, surface or the configuration's own");
-  command.add_option("--colours", a.colours, "Colour map: grey, amber, blue-green or dawn");
+  command.add_option("--colours", a.colours, "Colour map: grey, amber, blue-green, dawn or depth");
   command
       .add_option("--config", a.configuration,
                   "Configuration with transfer functions; its technique, opacity, colours and "

@@ -235,6 +235,7 @@ void draw(Drawn& drawn, const Fonts& fonts, const State& state, int width, int h
       state.status.missing_b_scans > 0 ? pipeline::BScanState::missing : pipeline::BScanState::good;
   scene.extents_mm = box_extents_mm(small_geometry);
   scene.scan_field = ScopePicture{4, 3}.field();
+  scene.depth_colours = DepthColours{0.1F, 0.8F};
   const LevelShares levels{};
   scene.levels = &levels;
   drawn.text = compose_hud_text(state.view, state.status, scene.shown);
@@ -250,8 +251,9 @@ void draw(Drawn& drawn, const Fonts& fonts, const State& state, int width, int h
   drawn.overlay.begin(fonts, width, height);
   draw_hud(drawn.overlay, drawn.layout, drawn.text, state.view, scene);
   drawn.pictures.clear();
-  for (const Rect& picture : {drawn.layout.view, drawn.layout.b_scan.picture,
-                              drawn.layout.en_face.picture, drawn.layout.scope.picture})
+  for (const Rect& picture :
+       {drawn.layout.view, drawn.layout.b_scan.picture, drawn.layout.crossed.picture,
+        drawn.layout.en_face.picture, drawn.layout.scope.picture})
     if (!picture.empty())
       drawn.pictures.push_back(picture);
   drawn.badges.clear();

@@ -19,7 +19,7 @@ constexpr std::array kinds{LayoutKind::volume, LayoutKind::b_scan, LayoutKind::m
                            LayoutKind::quad};
 constexpr std::array sizes{std::pair{1920, 1080}, std::pair{1280, 720},  std::pair{3840, 2160},
                            std::pair{1024, 768},  std::pair{1600, 1200}, std::pair{1280, 1024}};
-constexpr PictureAspects aspects{3.0 / 1.792, 1, 4.0 / 3, true};
+constexpr PictureAspects aspects{3.0 / 1.792, 1, 4.0 / 3, true, 3.0 / 1.792};
 
 class HudInAllSizes : public GlTest {};
 

@@ -137,6 +137,43 @@ TEST_F(ScanMarks, the_whole_scan_is_one_function_away) {
 }
 
 // The ruler's long ticks against the picture's physical height.
+// As in the volume's picture: the bar's colour at a depth is that depth's.
+TEST_F(ScanMarks, a_bar_says_which_colour_is_which_depth) {
+  ViewState view = whole(LayoutKind::volume);
+  const pipeline::Image grey = draw(view, live_status());
+  view.colour_map = *TransferSet{}.colour_map_named("depth");
+  const pipeline::Image coloured = draw(view, live_status());
+  const Rect& bar_room = places(LayoutKind::volume).view;
+  const int x = bar_room.x + 16 + 6;
+  int found = 0;
+  int last = -1;
+  for (int y = bar_room.y; y < bar_room.bottom(); ++y) {
+    const auto pixel = coloured.pixel(x, y);
+    if (pixel == grey.pixel(x, y))
+      continue;
+    // The place whose tint this is.
+    int nearest = 0;
+    double least = 1e9;
+    for (int place = 0; place <= 100; ++place) {
+      const auto tint = depth_tint(static_cast<float>(place) / 100);
+      double away = 0;
+      for (std::size_t channel = 0; channel < 3; ++channel)
+        away += std::abs(255.0 * static_cast<double>(tint[channel]) - pixel[channel]);
+      if (away < least) {
+        least = away;
+        nearest = place;
+      }
+    }
+    if (least > 12) // its dark border
+      continue;
+    EXPECT_GE(nearest, last) << "deeper downwards, at " << y;
+    last = nearest;
+    ++found;
+  }
+  EXPECT_GT(found, bar_room.height / 3);
+  EXPECT_EQ(last, 99);
+}
+
 TEST_F(ScanMarks, the_rulers_ticks_are_round_lengths_apart) {
   ASSERT_TRUE(renderer_->show_volume(uniform_volume(small_geometry, 0)));
   const pipeline::Image picture = draw(whole(LayoutKind::b_scan), live_status());

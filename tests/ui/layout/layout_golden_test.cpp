@@ -2,6 +2,7 @@
 #include "tests/ui/support/block_typeface.h"
 #include "tests/ui/support/golden.h"
 #include "tests/ui/support/renderer_stage.h"
+#include "tests/ui/support/vessels/vessel_along.h"
 
 namespace octascope::tests {
 namespace {
@@ -56,6 +57,39 @@ TEST_F(GoldenLayout, microscope) {
   view.layout = LayoutKind::microscope;
   view.b_scan = 12;
   expect_golden(draw(view, live_status(), 1280, 720), "microscope_1280x720");
+}
+
+// In the volume, and in the four flat pictures.
+TEST_F(GoldenLayout, vessels_in_each_picture) {
+  open_renderer(1280, 720, block_typeface());
+  ASSERT_TRUE(renderer_->show_volume(tissue_volume(small_geometry)));
+  show_scope();
+  constexpr float plane_mm = 20.5F * 0.075F; // of B-scan 20
+  const auto tree = vessel_along({{0.3F, plane_mm, 0.75F},
+                                  {1.1F, plane_mm, 0.6F},
+                                  {1.9F, plane_mm + 0.1F, 0.85F},
+                                  {2.7F, 2.2F, 0.7F},
+                                  {1.4F, 2.8F, 0.8F},
+                                  {1.2F, 0.4F, 0.7F}},
+                                 0.06F);
+  ASSERT_TRUE(renderer_->show_vessels(
+      {tree.view(), {1.5, plane_mm, 0.8}, pipeline::RigidTransform{}}, clock_));
+  ViewState view;
+  view.b_scan = 20;
+  view.a_scan = 60;
+  for (const LayoutKind kind : {LayoutKind::b_scan, LayoutKind::microscope}) {
+    view.layout = kind;
+    expect_golden(RendererTest::draw(view, live_status()), kind == LayoutKind::b_scan
+                                                               ? "vessels_b_scan_1280x720"
+                                                               : "vessels_microscope_1280x720");
+  }
+}
+
+TEST_F(GoldenLayout, colours_by_depth) {
+  ViewState view;
+  view.b_scan = 20;
+  view.colour_map = *TransferSet{}.colour_map_named("depth");
+  expect_golden(draw(view, live_status(), 1280, 720), "depth_colours_1280x720");
 }
 
 TEST_F(GoldenLayout, a_wide_microscope_picture) {

@@ -220,6 +220,65 @@ TEST(Projection, shows_what_lies_behind_a_gap_and_else_what_lies_below_the_surfa
   }
 }
 
+// Beyond an edge that runs obliquely over the bricks, what is found behind the gap and what below the
+// surface are mixed: else the bricks' own outline shows.
+TEST(Projection, has_no_stairs_along_an_edge) {
+  const pipeline::VolumeGeometry geometry{400, 96, 48, 5, 20, 80};
+  pipeline::Volume volume = uniform_volume(geometry, 0);
+  add_noise(volume);
+  for (int b = 0; b < 48; ++b) {
+    fill(volume, {40, 160}, {0, 96}, {b, b + 1}, 130);
+    fill(volume, {280, 340}, {0, 24 + b}, {b, b + 1}, 210); // behind a gap
+  }
+  std::vector<std::uint8_t> levels(96 * 48);
+  ui::project_slab(volume, tissue_of(volume), levels);
+  for (int b = 4; b < 44; ++b) {
+    const auto at = [&](int a) { return levels[static_cast<std::size_t>(b * 96 + a)]; };
+    EXPECT_EQ(at(24 + b - 4), 210);
+    EXPECT_EQ(at(24 + b + 12), 130);
+    for (int a = 24 + b + 1; a < 24 + b + 12; ++a)
+      EXPECT_LE(at(a) - at(a - 1), 30) << "not at once from noise to the surface's level, " << b;
+  }
+}
+
+// As a shaft's reflection: a few voxels deep, on a slope.
+TEST(Projection, finds_what_is_thin_and_slopes_behind_a_gap) {
+  const pipeline::VolumeGeometry geometry{400, 96, 24, 9, 32, 115};
+  pipeline::Volume volume = uniform_volume(geometry, 0);
+  add_noise(volume);
+  for (int b = 0; b < 24; ++b)
+    for (int a = 0; a < 96; ++a) {
+      fill(volume, {40, 90}, {a, a + 1}, {b, b + 1}, 130);
+      const int top = 300 - 3 * a / 2;
+      fill(volume, {top, top + 3}, {a, a + 1}, {b, b + 1}, 220);
+    }
+  std::vector<std::uint8_t> levels(96 * 24);
+  ui::project_slab(volume, tissue_of(volume), levels);
+  for (int b = 2; b < 22; ++b)
+    for (int a = 4; a < 92; ++a)
+      EXPECT_EQ(levels[static_cast<std::size_t>(b * 96 + a)], 220) << b << ' ' << a;
+}
+
+// An instrument, and its shadow below it.
+TEST(Projection, shows_a_surface_that_has_nothing_below_it) {
+  const pipeline::VolumeGeometry geometry{400, 96, 24, 9, 32, 115};
+  pipeline::Volume volume = uniform_volume(geometry, 0);
+  add_noise(volume);
+  fill(volume, {120, 240}, {0, 96}, {0, 24}, 130);
+  for (int b = 8; b < 16; ++b)
+    for (int a = 0; a < 96; ++a) {
+      for (int z = 120; z < 240; ++z)
+        volume.b_scan(b)[static_cast<std::size_t>(a * 400 + z)] = 70;
+      fill(volume, {100, 106}, {a, a + 1}, {b, b + 1}, 220);
+    }
+  std::vector<std::uint8_t> levels(96 * 24);
+  ui::project_slab(volume, tissue_of(volume), levels);
+  for (int a = 8; a < 88; ++a) {
+    EXPECT_EQ(levels[static_cast<std::size_t>(12 * 96 + a)], 220) << a;
+    EXPECT_EQ(levels[static_cast<std::size_t>(2 * 96 + a)], 130) << a;
+  }
+}
+
 TEST(Projection, contrast_ignores_missing_b_scans_and_outliers) {
   const pipeline::VolumeGeometry geometry{100, 100, 4, 1, 1, 1};
   pipeline::Volume volume = uniform_volume(geometry, 0);

@@ -179,7 +179,10 @@ ReferencePixel Reference::trace(const Vector& eye, const Vector& forward, const 
     const double depth = (t * cosine - nearest) / (centre + reach - nearest);
     const double shade = light(eye + t * ray, ray, lamp);
     const double brightness = pixel.grey / 255 / (1 - transparency);
-    const double gleam = settings_.light != nullptr ? std::pow(brightness, 4) : 0;
+    const double above = std::clamp((brightness - static_cast<double>(ui::gleam_from)) /
+                                        static_cast<double>(ui::gleam_to - ui::gleam_from),
+                                    0.0, 1.0);
+    const double gleam = settings_.light != nullptr ? above * above * (3 - 2 * above) : 0;
     pixel.grey *= (shade + gleam * (1 - shade)) *
                   (1 - static_cast<double>(ui::depth_cue) * std::clamp(depth, 0.0, 1.0));
   }

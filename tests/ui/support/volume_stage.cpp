@@ -129,7 +129,12 @@ StagePicture VolumeStage::cast(const ui::ViewState& view, ui::RayMode mode,
   ui::make_window_table(view, *table_);
   if (settings.as_table)
     table_->window.reset();
-  caster_.set_transfer(*table_);
+  return cast(view, *table_, mode, settings);
+}
+
+StagePicture VolumeStage::cast(const ui::ViewState& view, const ui::TransferTable& table,
+                               ui::RayMode mode, const StageSettings& settings) {
+  caster_.set_transfer(table);
   ui::RayImage image;
   image.resize(settings.width, settings.height);
   ui::RaySettings cast_settings{mode, settings.step_mm, settings.leap_empty};

@@ -54,6 +54,8 @@ public:
                     const StageSettings& settings);
   // By the processor.
   StagePicture cast(const ui::ViewState& view, ui::RayMode mode, const StageSettings& settings);
+  StagePicture cast(const ui::ViewState& view, const ui::TransferTable& table, ui::RayMode mode,
+                    const StageSettings& settings);
 
 private:
   StagePicture read() const;

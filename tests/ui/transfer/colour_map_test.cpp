@@ -20,10 +20,13 @@ protected:
   ui::TransferSet set_;
 };
 
-TEST_F(ColourMaps, are_grey_and_three_more) {
-  ASSERT_EQ(set_.colour_maps().size(), 4U);
+TEST_F(ColourMaps, are_grey_three_more_and_grey_with_the_hue_of_the_depth) {
+  ASSERT_EQ(set_.colour_maps().size(), 5U);
   for (const float u : {0.0F, 0.3F, 1.0F})
-    EXPECT_EQ(set_.colour_maps()[0].at(u), (Colour{u, u, u}));
+    for (const std::size_t map : {0U, 4U})
+      EXPECT_EQ(set_.colour_maps()[map].at(u), (Colour{u, u, u}));
+  for (const ui::ColourMap& map : set_.colour_maps())
+    EXPECT_EQ(map.by_depth(), map.name() == "depth");
 }
 
 TEST_F(ColourMaps, stay_within_what_a_display_shows) {
@@ -39,7 +42,7 @@ TEST_F(ColourMaps, stay_within_what_a_display_shows) {
 
 // To the display's 8 bits, lightness rises by the same everywhere.
 TEST_F(ColourMaps, rise_linearly_in_lightness) {
-  for (const ui::ColourMap& map : set_.colour_maps().subspan(1)) {
+  for (const ui::ColourMap& map : set_.colour_maps().subspan(1, 3)) {
     const float first = to_oklab(map.at(0)).lightness;
     const float last = to_oklab(map.at(1)).lightness;
     EXPECT_LT(first, 0.12F);
@@ -67,6 +70,31 @@ TEST_F(ColourMaps, keep_their_order_to_the_colour_blind) {
       }
       EXPECT_GT(last, 85) << map.name();
     }
+}
+
+// A brightness means the same at any depth.
+TEST(DepthColours, are_equally_light_and_can_be_shown) {
+  for (int i = 0; i <= 100; ++i) {
+    const auto [red, green, blue] = ui::depth_tint(static_cast<float>(i) / 100);
+    for (const float channel : {red, green, blue}) {
+      EXPECT_GE(channel, 0) << i;
+      EXPECT_LE(channel, 1) << i;
+    }
+    EXPECT_NEAR(ui::to_oklab({red, green, blue}).lightness, 0.768F, 0.013F) << i;
+  }
+}
+
+TEST(DepthColours, differ_from_depth_to_depth_for_the_colour_blind_too) {
+  constexpr int steps = 3;
+  for (const Vision& vision : std::span{all_visions}.first(3)) // the fourth is rare
+    for (int i = 0; i <= steps; ++i)
+      for (int k = 0; k < i; ++k) {
+        const auto seen = [&](int at) {
+          const auto [red, green, blue] = ui::depth_tint(static_cast<float>(at) / steps);
+          return seen_lab_of_srgb(glm::dvec3{red, green, blue}, vision);
+        };
+        EXPECT_GT(glm::distance(seen(i), seen(k)), 8) << vision.name << ' ' << i << ' ' << k;
+      }
 }
 
 TEST(Oklab, has_the_published_values) {

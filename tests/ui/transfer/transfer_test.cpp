@@ -134,6 +134,18 @@ TEST_F(TransferTables, a_colour_map_colours_the_window_s_ramp) {
   EXPECT_EQ(made.opacity[entry_at(40)], 0.5F);
 }
 
+TEST_F(TransferTables, colour_by_depth_leaves_the_levels_their_greys) {
+  const ui::TransferSet set;
+  EXPECT_FALSE(make(set).depths);
+  view_.colour_map = *set.colour_map_named("depth");
+  const TransferTable& made = make(set);
+  EXPECT_EQ(made.depths, (ui::DepthColours{0, 1}));
+  EXPECT_FALSE(made.window);
+  EXPECT_EQ(made.colour[entry_at(20)], (TransferTable::Colour{0.5F, 0.5F, 0.5F}));
+  view_.colour_map = 0;
+  EXPECT_FALSE(make(set).depths) << "no longer";
+}
+
 TEST_F(TransferTables, the_window_s_knobs_steer_every_function) {
   const ui::TransferSet set;
   for (int i = 1; i < static_cast<int>(set.functions().size()); ++i) {
@@ -170,7 +182,7 @@ TEST_F(TransferTables, allocate_nothing) {
   const ui::TransferSet set;
   const std::uint64_t before = allocations_of_this_thread();
   for (view_.transfer = 0; view_.transfer < 3; ++view_.transfer)
-    for (view_.colour_map = 0; view_.colour_map < 4; ++view_.colour_map)
+    for (view_.colour_map = 0; view_.colour_map < 5; ++view_.colour_map)
       make(set);
   EXPECT_EQ(allocations_of_this_thread(), before);
 }

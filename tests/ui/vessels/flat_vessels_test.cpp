@@ -73,13 +73,13 @@ protected:
   std::optional<FlatVessels> vessels_;
 };
 
-int red(const pipeline::Image& image, int x, int y) {
-  return image.pixel(x, y)[0];
+int green(const pipeline::Image& image, int x, int y) {
+  return image.pixel(x, y)[1];
 }
 
-// Red of the vessel's colour times the opacities of line and tint (vessel_section.frag).
-constexpr double line_red = 255 * 0.88 * 0.9;
-constexpr double tint_red = 255 * 0.88 * 0.22;
+// Green of the vessel's colour times the opacities of line and tint (vessel_section.frag).
+constexpr double line_green = 255 * 0.76 * 0.9;
+constexpr double tint_green = 255 * 0.76 * 0.22;
 
 TEST_F(FlatVesselsTest, a_vessel_in_the_plane_is_a_band_and_across_it_a_ring) {
   // Radius 6 pixels; its axis 100.5 pixels down.
@@ -87,13 +87,13 @@ TEST_F(FlatVesselsTest, a_vessel_in_the_plane_is_a_band_and_across_it_a_ring) {
   show(along);
   pipeline::Image picture = draw_b_scan();
   for (const int x : {80, 150, 220}) {
-    EXPECT_NEAR(red(picture, x, 100), tint_red, 3) << "inside";
-    EXPECT_GT(red(picture, x, 94) + red(picture, x, 95), line_red * 0.8) << "the upper wall";
-    EXPECT_GT(red(picture, x, 105) + red(picture, x, 106), line_red * 0.8) << "the lower one";
-    EXPECT_EQ(red(picture, x, 91), 0);
-    EXPECT_EQ(red(picture, x, 109), 0);
+    EXPECT_NEAR(green(picture, x, 100), tint_green, 3) << "inside";
+    EXPECT_GT(green(picture, x, 94) + green(picture, x, 95), line_green * 0.8) << "the upper wall";
+    EXPECT_GT(green(picture, x, 105) + green(picture, x, 106), line_green * 0.8) << "the lower one";
+    EXPECT_EQ(green(picture, x, 91), 0);
+    EXPECT_EQ(green(picture, x, 109), 0);
   }
-  EXPECT_EQ(red(picture, 40, 100), 0);
+  EXPECT_EQ(green(picture, 40, 100), 0);
   const auto across = vessel_along({{1.005F, 0.5F, 0.805F}, {1.005F, 2.5F, 0.805F}}, 0.06F);
   show(across);
   picture = draw_b_scan();
@@ -103,16 +103,16 @@ TEST_F(FlatVesselsTest, a_vessel_in_the_plane_is_a_band_and_across_it_a_ring) {
   for (int y = 60; y < 100; ++y)
     for (int x = 80; x < 120; ++x) {
       const double from_axis = std::hypot(x + 0.5 - 100.5, y + 0.5 - 80.5);
-      const int value = red(picture, x, y);
+      const int value = green(picture, x, y);
       sum += value;
       x_sum += value * (x + 0.5);
       y_sum += value * (y + 0.5);
       if (from_axis < 4.5) {
-        EXPECT_NEAR(value, tint_red, 3);
+        EXPECT_NEAR(value, tint_green, 3);
       } else if (from_axis > 7.5) {
         EXPECT_EQ(value, 0);
       } else if (std::abs(from_axis - 6) < 0.2) {
-        EXPECT_NEAR(value, line_red, 25);
+        EXPECT_NEAR(value, line_green, 25);
       }
     }
   EXPECT_NEAR(x_sum / sum, 100.5, 0.05);
@@ -135,9 +135,9 @@ TEST_F(FlatVesselsTest, at_a_slant_the_line_is_the_exact_ellipse) {
       const double from_ellipse = std::abs(std::hypot(across, down) - 1) * 8;
       if (from_ellipse < 0.15) {
         ++judged;
-        EXPECT_GT(red(picture, x, y), line_red * 0.6) << x << ' ' << y;
+        EXPECT_GT(green(picture, x, y), line_green * 0.6) << x << ' ' << y;
       } else if (from_ellipse > 2.5) {
-        EXPECT_LT(red(picture, x, y), tint_red + 3) << x << ' ' << y;
+        EXPECT_LT(green(picture, x, y), tint_green + 3) << x << ' ' << y;
       }
     }
   EXPECT_GT(judged, 10);
@@ -153,7 +153,7 @@ TEST_F(FlatVesselsTest, no_line_runs_through_a_vessel_where_segments_meet) {
   show(tree);
   const pipeline::Image picture = draw_b_scan();
   for (int x = 52; x < 249; ++x)
-    EXPECT_NEAR(red(picture, x, 100), tint_red, 3) << x;
+    EXPECT_NEAR(green(picture, x, 100), tint_green, 3) << x;
 }
 
 TEST_F(FlatVesselsTest, fade_with_the_distance_from_the_plane) {
@@ -166,14 +166,14 @@ TEST_F(FlatVesselsTest, fade_with_the_distance_from_the_plane) {
       const auto tree = vessel_along({{0.5F, y_mm, 1.005F}, {2.5F, y_mm, 1.005F}}, radius_mm);
       show(tree);
       const pipeline::Image picture = draw_b_scan();
-      EXPECT_NEAR(red(picture, 150, 100), tint_red * (1 - double{share}), 3) << share;
-      EXPECT_LT(red(picture, 150, 95), tint_red) << "no line: the plane cuts no wall";
-      EXPECT_EQ(red(picture, 150, 91), 0);
+      EXPECT_NEAR(green(picture, 150, 100), tint_green * (1 - double{share}), 3) << share;
+      EXPECT_LT(green(picture, 150, 95), tint_green) << "no line: the plane cuts no wall";
+      EXPECT_EQ(green(picture, 150, 91), 0);
     }
   const float y_mm = plane_mm + radius_mm + 1.05F * reach_mm;
   const auto beyond = vessel_along({{0.5F, y_mm, 1.005F}, {2.5F, y_mm, 1.005F}}, radius_mm);
   show(beyond);
-  EXPECT_EQ(red(draw_b_scan(), 150, 100), 0);
+  EXPECT_EQ(green(draw_b_scan(), 150, 100), 0);
 }
 
 TEST_F(FlatVesselsTest, a_vessel_that_is_cut_is_not_broken_by_one_that_is_not) {
@@ -192,18 +192,18 @@ TEST_F(FlatVesselsTest, a_vessel_that_is_cut_is_not_broken_by_one_that_is_not) {
   const auto arrays = pipeline::build_clusters(both);
   show(arrays);
   const pipeline::Image crossed = draw_b_scan();
-  EXPECT_GT(red(crossed, 150, 60), 5) << "it is there";
+  EXPECT_GT(green(crossed, 150, 60), 5) << "it is there";
   for (int x = 130; x < 170; ++x)
     for (const int y : {94, 95, 105, 106})
-      EXPECT_GE(red(crossed, x, y) + 2, red(alone, x, y)) << x;
+      EXPECT_GE(green(crossed, x, y) + 2, green(alone, x, y)) << x;
 }
 
 TEST_F(FlatVesselsTest, obey_the_opacity) {
   const auto tree = vessel_along({{0.5F, plane_mm, 1.005F}, {2.5F, plane_mm, 1.005F}}, 0.06F);
   show(tree);
-  const int full = red(draw_b_scan(), 150, 95);
+  const int full = green(draw_b_scan(), 150, 95);
   view_.vessel_opacity = 0.5F;
-  EXPECT_NEAR(red(draw_b_scan(), 150, 95), full / 2.0, 3);
+  EXPECT_NEAR(green(draw_b_scan(), 150, 95), full / 2.0, 3);
 }
 
 TEST_F(FlatVesselsTest, lie_in_the_microscopes_picture_as_the_scan_does) {
@@ -220,13 +220,13 @@ TEST_F(FlatVesselsTest, lie_in_the_microscopes_picture_as_the_scan_does) {
   };
   for (const double share : {0.15, 0.5, 0.85}) {
     const auto [x, y] = at(share);
-    EXPECT_NEAR(red(picture, static_cast<int>(x), static_cast<int>(y)), tint_red, 4) << share;
+    EXPECT_NEAR(green(picture, static_cast<int>(x), static_cast<int>(y)), tint_green, 4) << share;
   }
   for (const double share : {0.0, 1.0}) {
     const auto [x, y] = at(share);
-    EXPECT_EQ(red(picture, static_cast<int>(x), static_cast<int>(y)), 0) << share;
+    EXPECT_EQ(green(picture, static_cast<int>(x), static_cast<int>(y)), 0) << share;
   }
-  EXPECT_EQ(red(picture, 150, 40), 0);
+  EXPECT_EQ(green(picture, 150, 40), 0);
 }
 
 TEST_F(FlatVesselsTest, from_above_deep_vessels_are_weak_and_break_no_strong_one) {
@@ -244,16 +244,17 @@ TEST_F(FlatVesselsTest, from_above_deep_vessels_are_weak_and_break_no_strong_one
       draw(VesselPanel::en_face,
            ui::place_in_panel(ui::FlatPicture::from_above, geometry_, {}, panel_rect));
   const int middle = panel_rect.height / 2;
-  EXPECT_NEAR(red(picture, 80, middle), tint_red, 4) << "in the slab";
-  EXPECT_NEAR(red(picture, 150, 40), tint_red * 6 / 16, 4) << "a quarter of a millimetre deeper";
+  EXPECT_NEAR(green(picture, 80, middle), tint_green, 4) << "in the slab";
+  EXPECT_NEAR(green(picture, 150, 40), tint_green * 6 / 16, 4)
+      << "a quarter of a millimetre deeper";
   int wall = 0;
   for (int y = middle - 12; y < middle; ++y)
-    wall = std::max(wall, red(picture, 80, y));
-  EXPECT_GT(wall, 2 * tint_red);
+    wall = std::max(wall, green(picture, 80, y));
+  EXPECT_GT(wall, 2 * tint_green);
   for (int x = 130; x < 170; ++x) {
     int here = 0;
     for (int y = middle - 12; y < middle; ++y)
-      here = std::max(here, red(picture, x, y));
+      here = std::max(here, green(picture, x, y));
     EXPECT_GE(here + 2, wall) << x;
   }
 }

@@ -168,7 +168,10 @@ Slab slab(const Way& way, const ui::ViewState& view, const ui::Camera& camera,
     // No slope anywhere, and the same all around.
     const double shade = double{ui::level_light} *
                          std::clamp(double{ui::open_light} - grey, double{ui::least_open}, 1.0);
-    result.light *= shade + std::pow(grey, 4) * (1 - shade);
+    const double above = std::clamp((grey - static_cast<double>(ui::gleam_from)) /
+                                        static_cast<double>(ui::gleam_to - ui::gleam_from),
+                                    0.0, 1.0);
+    result.light *= shade + above * above * (3 - 2 * above) * (1 - shade);
   }
   return result;
 }

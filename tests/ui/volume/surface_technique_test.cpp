@@ -64,6 +64,8 @@ protected:
     transfer_.reset();
     colour_ = {};
     depth_ = {};
+    texture_ = {};
+    weakened_ = {};
     framebuffer_ = {};
   }
 
@@ -74,7 +76,9 @@ protected:
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT);
     const ui::Camera eye = camera();
-    technique_->draw({texture_, *transfer_, eye, view_, 0.05F});
+    ui::VolumeScene scene{texture_, *transfer_, eye, view_, 0.05F};
+    scene.weakened = weakened_.empty() ? nullptr : &weakened_;
+    technique_->draw(scene);
     pixels_.resize(std::size_t{size} * size);
     glReadPixels(0, 0, size, size, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
@@ -104,6 +108,7 @@ protected:
   ui::gl::Texture colour_, depth_;
   ui::gl::Framebuffer framebuffer_;
   ui::VolumeTexture texture_;
+  ui::VolumeTexture weakened_;
   std::optional<ui::TransferTexture> transfer_; // wants a context, as all of GL
   ui::ViewState view_;
   std::vector<Pixel> pixels_;
@@ -128,7 +133,7 @@ TEST_F(SurfaceTechniqueTest, is_lit_by_a_lamp_at_the_eye_with_depth_cue) {
   const ui::Camera eye = camera();
   const float half = 1.6F; // of the cube
   const float cue = 1 - ui::depth_cue * (half - radius_mm) / (2 * half);
-  EXPECT_NEAR(pixel(0, 0)[0], 255 * 0.8F * cue, 2);
+  EXPECT_NEAR(pixel(0, 0)[0], 255 * ui::surface_tissue * cue, 2);
   EXPECT_EQ(pixel(0, 0)[3], 255);
   // Where the ray from the eye meets the ball, and how steeply.
   const int x = static_cast<int>(silhouette(radius_mm) * 0.85F);
@@ -140,18 +145,22 @@ TEST_F(SurfaceTechniqueTest, is_lit_by_a_lamp_at_the_eye_with_depth_cue) {
   const float depth = (along - radius_mm * facing) * -ray.z;
   const float light = (ui::surface_ambient + (1 - ui::surface_ambient) * facing) *
                       (1 - ui::depth_cue * (depth - (glm::length(eye.eye) - half)) / (2 * half));
-  EXPECT_NEAR(pixel(x, 0)[0], 255 * 0.8F * light, 5);
+  EXPECT_NEAR(pixel(x, 0)[0], 255 * ui::surface_tissue * light, 5);
 }
 
-TEST_F(SurfaceTechniqueTest, near_parts_hide_far_ones) {
-  // Two plates across the view, the near one smaller; drawn from both sides.
-  pipeline::Volume plates{cube};
-  std::ranges::fill(plates.b_scan_states, pipeline::BScanState::good);
+// Two plates across the view.
+pipeline::Volume plates(std::uint8_t far, std::uint8_t near) {
+  pipeline::Volume volume{cube};
+  std::ranges::fill(volume.b_scan_states, pipeline::BScanState::good);
   for (int a = 16; a < 48; ++a)
     for (int z = 16; z < 48; ++z)
       for (const int b : {8, 9, 10, 53, 54, 55})
-        plates.b_scan(b)[static_cast<std::size_t>(a * 64 + z)] = 200;
-  technique_->show(plates);
+        volume.b_scan(b)[static_cast<std::size_t>(a * 64 + z)] = b < 32 ? far : near;
+  return volume;
+}
+
+TEST_F(SurfaceTechniqueTest, near_parts_hide_far_ones) {
+  technique_->show(plates(200, 200)); // drawn from both sides
   std::array<int, 2> brightness{};
   for (const int side : {0, 1}) {
     view_.yaw_deg = side == 0 ? 0.0F : 180.0F;
@@ -159,7 +168,7 @@ TEST_F(SurfaceTechniqueTest, near_parts_hide_far_ones) {
     brightness[static_cast<std::size_t>(side)] = pixel(0, 0)[0];
   }
   EXPECT_NEAR(brightness[0], brightness[1], 3) << "the depth cue tells near from far";
-  EXPECT_GT(brightness[0], 0.9 * 0.8 * 255 * (1 - 0.4 * 0.25));
+  EXPECT_GT(brightness[0], 0.9 * static_cast<double>(ui::surface_tissue) * 255 * (1 - 0.4 * 0.25));
 }
 
 TEST_F(SurfaceTechniqueTest, follows_the_window_and_has_the_colours_of_its_map) {
@@ -174,12 +183,67 @@ TEST_F(SurfaceTechniqueTest, follows_the_window_and_has_the_colours_of_its_map) 
   const ui::TransferSet set;
   view_.colour_map = *set.colour_map_named("amber");
   draw_finished();
-  const auto amber = set.colours(view_).at(0.8F);
+  const auto amber = set.colours(view_).at(ui::surface_tissue);
   const Pixel middle = pixel(0, 0);
   EXPECT_NEAR(static_cast<float>(middle[1]) / static_cast<float>(middle[0]),
               amber.green / amber.red, 0.02);
   EXPECT_NEAR(static_cast<float>(middle[2]) / static_cast<float>(middle[0]), amber.blue / amber.red,
               0.02);
+}
+
+// Of a plate that faces the eye, a share of the box away from its near side.
+double facing_light(double share) {
+  return 255 * (1 - static_cast<double>(ui::depth_cue) * share);
+}
+
+TEST_F(SurfaceTechniqueTest, what_is_brighter_than_the_window_is_white) {
+  view_.yaw_deg = 0;
+  for (const int level : {140, 190}) { // 30 and 55 dB: half up the window, and above it
+    const auto volume = plates(100, static_cast<std::uint8_t>(level));
+    technique_->show(volume);
+    ASSERT_TRUE(texture_.upload(volume));
+    draw_finished();
+    const auto place = static_cast<double>(level < 180 ? ui::surface_tissue : ui::surface_metal);
+    EXPECT_NEAR(pixel(0, 0)[0], facing_light(0.13) * place, 5);
+  }
+}
+
+TEST_F(SurfaceTechniqueTest, what_covers_is_glass) {
+  const auto volume = plates(150, 150);
+  technique_->show(volume);
+  ASSERT_TRUE(texture_.upload(volume));
+  draw_finished();
+  const double opaque = pixel(0, 0)[0];
+  const auto tissue = static_cast<double>(ui::surface_tissue);
+  EXPECT_NEAR(opaque, facing_light(0.13) * tissue, 5);
+  view_.see_through_db = 12;
+  ASSERT_TRUE(weakened_.upload(plates(150, 126))); // by 24 counts
+  draw_finished();
+  // Each of its two sides hides a share.
+  const double clear = std::pow(1 - std::exp2(-12 / 4.8), 2);
+  EXPECT_NEAR(pixel(0, 0)[0],
+              clear * facing_light(0.83) * tissue + (1 - clear) * facing_light(0.15) * tissue, 5);
+  EXPECT_EQ(pixel(0, 0)[3], 255);
+}
+
+TEST_F(SurfaceTechniqueTest, has_the_hue_of_its_depth) {
+  auto table = std::make_unique<ui::TransferTable>();
+  ui::make_window_table(view_, *table);
+  table->window.reset();
+  table->depths = ui::DepthColours{};
+  transfer_->update(*table);
+  technique_->show(plates(150, 150));
+  draw_finished();
+  const ui::Camera eye = camera();
+  for (const float depth_mm : {1.0F, 1.6F, 2.2F}) { // of 3.2
+    const int y = static_cast<int>(size * eye.project({0, 1.6F - depth_mm, 1.1F}).y);
+    const auto tint = ui::depth_tint(depth_mm / 3.2F);
+    const Pixel found = pixel(0, y);
+    for (const std::size_t channel : {0U, 2U})
+      EXPECT_NEAR(static_cast<float>(found[channel]) / static_cast<float>(found[1]),
+                  tint[channel] / tint[1], 0.04F)
+          << depth_mm;
+  }
 }
 
 TEST_F(SurfaceTechniqueTest, draws_the_last_mesh_until_there_is_a_newer_one) {

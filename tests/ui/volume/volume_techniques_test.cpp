@@ -209,6 +209,65 @@ TEST_F(VolumeTechniquesTest, colours_weigh_as_grey_does) {
   }
 }
 
+std::unique_ptr<ui::TransferTable> depth_table(const ui::ViewState& view) {
+  auto table = std::make_unique<ui::TransferTable>();
+  ui::make_window_table(view, *table);
+  table->window.reset();
+  table->depths = ui::DepthColours{0.2F, 0.7F};
+  return table;
+}
+
+TEST_F(VolumeTechniquesTest, processor_and_shader_colour_depths_alike) {
+  stage_->show(tissue_volume(small_geometry));
+  const StageSettings settings = steps(small_geometry, 400);
+  for (const Technique technique : ray_techniques)
+    for (const Place& place : places)
+      for (const float opacity : {1.0F, 0.5F, 0.02F}) {
+        const ui::ViewState view = view_from(place, technique, opacity);
+        const auto table = depth_table(view);
+        const StagePicture shader = stage_->draw(view, *table, settings);
+        const StagePicture processor = stage_->cast(view, *table, mode_of(technique), settings);
+        EXPECT_GT(mean_opacity(processor), 5);
+        EXPECT_LE(mean_difference(shader, processor), 1)
+            << ui::to_string(technique) << ", " << place.name << ", " << opacity;
+      }
+}
+
+// Seen from the side, a row of the picture is a depth.
+TEST_F(VolumeTechniquesTest, the_hue_is_that_of_the_depth) {
+  const pipeline::VolumeGeometry block{200, 60, 30, 10, 33, 10}; // 2 mm deep, 0.3 mm thick
+  stage_->show(uniform_volume(block, 140));
+  StageSettings settings;
+  settings.width = 60;
+  settings.height = 200;
+  const auto expect_hues = [&](const StagePicture& picture, const ui::ViewState& view,
+                               const std::string& what) {
+    const ui::Camera camera = ui::make_camera(view, ui::box_extents_mm(block), 0.3F);
+    const float mm_a_pixel = 2 * camera.tan_half_height * glm::length(camera.eye) / 200;
+    for (int y = 0; y < settings.height; ++y) {
+      // In the middle of its thickness; all of it is within a pixel there. A pixel is 4 % of the hues.
+      const float depth_mm = 1 + (static_cast<float>(y) + 0.5F - 100) * mm_a_pixel;
+      if (depth_mm < 0.2F || depth_mm > 1.8F)
+        continue;
+      const auto& pixel = picture.at(30, y);
+      ASSERT_GT(pixel.opacity, 0.05F) << what;
+      const auto tint = ui::depth_tint(ui::DepthColours{0.2F, 0.7F}.place_of(depth_mm / 2));
+      const float grey = pixel.green / tint[1];
+      EXPECT_NEAR(pixel.red, grey * tint[0], 0.06F * grey + 0.004F) << what << ' ' << depth_mm;
+      EXPECT_NEAR(pixel.blue, grey * tint[2], 0.06F * grey + 0.004F) << what << ' ' << depth_mm;
+    }
+  };
+  for (const Technique technique : all) {
+    const ui::ViewState view = view_from({"", 0, 0, 8}, technique, 0.1F);
+    const auto table = depth_table(view);
+    const std::string name{ui::to_string(technique)};
+    expect_hues(stage_->draw(view, *table, settings), view, name);
+    if (ui::casts_rays(technique))
+      expect_hues(stage_->cast(view, *table, mode_of(technique), settings), view,
+                  name + " by the processor");
+  }
+}
+
 TEST_F(VolumeTechniquesTest, leaping_over_empty_bricks_changes_not_one_bit) {
   // A few specks in much air, just below the window (level 120), so that all of a speck's cells
   // show up to their sides: most bricks are empty, and some specks lie on the bricks' sides.
