@@ -1,5 +1,6 @@
 // Pixel-buffer uploads: the caller copies into driver memory; the transfer to the texture runs
-// asynchronously.
+// asynchronously. Where the processor is the GPU that would be one copy more: textures then read
+// from the caller's memory.
 #pragma once
 
 #include <array>
@@ -12,7 +13,8 @@
 
 namespace octascope::ui::gl {
 
-// Cycles through three buffers, so that it never waits for a transfer in progress.
+// Cycles through three buffers, so that it never waits for a transfer in progress; a software
+// rasteriser needs none.
 //
 // Threads: as gl/objects.h. Allocates in create() only.
 class PixelUploader {
@@ -21,13 +23,14 @@ public:
 
   std::size_t bytes() const { return bytes_; }
 
-  // Copies `pixels` (at most bytes()) into the next buffer and leaves it bound to
-  // GL_PIXEL_UNPACK_BUFFER: texture updates with offset 0 read from it. unbind() afterwards.
-  hal::Result<> stage(std::span<const std::uint8_t> pixels);
+  // Where the next texture update reads `pixels` (at most bytes()) from: in a buffer, which is left
+  // bound to GL_PIXEL_UNPACK_BUFFER, or where they are. unbind() afterwards.
+  hal::Result<const void*> stage(std::span<const std::uint8_t> pixels);
   static void unbind() { glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0); }
 
 private:
   std::array<Buffer, 3> buffers_;
+  bool software_ = false;
   std::size_t bytes_ = 0;
   std::size_t next_ = 0;
 };

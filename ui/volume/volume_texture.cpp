@@ -52,13 +52,13 @@ void VolumeTexture::allocate(const pipeline::VolumeGeometry& geometry) {
 hal::Result<> VolumeTexture::write(const pipeline::Volume& volume,
                                    const pipeline::BScanRange& range) {
   const std::size_t size = geometry_.b_scan_voxels();
-  HAL_CHECK(uploader_.stage(
-      std::span{volume.levels}.subspan(static_cast<std::size_t>(range.from) * size,
-                                       static_cast<std::size_t>(range.to - range.from) * size)));
+  HAL_TRY(const void* const pixels, uploader_.stage(std::span{volume.levels}.subspan(
+                                        static_cast<std::size_t>(range.from) * size,
+                                        static_cast<std::size_t>(range.to - range.from) * size)));
   glBindTexture(GL_TEXTURE_3D, textures_[1 - front_].name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexSubImage3D(GL_TEXTURE_3D, 0, 0, 0, range.from, geometry_.depths, geometry_.a_scans,
-                  range.to - range.from, GL_RED, GL_UNSIGNED_BYTE, nullptr);
+                  range.to - range.from, GL_RED, GL_UNSIGNED_BYTE, pixels);
   gl::PixelUploader::unbind();
   return {};
 }
