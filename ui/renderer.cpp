@@ -100,9 +100,11 @@ struct Renderer::Parts {
   bool drew_volume = false;
 
   ViewState fitted(const ViewState& view) const;
+  ViewState without_confusion(const ViewState& view, const Layout& places) const;
   HudScene scene(const ViewState& view) const;
   DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height,
                           const DrawQuality& quality) const;
+  void follow(const pipeline::Volume& shown);
   hal::Duration spent_on_vessels() const;
   Crop crop_of(const ViewState& view) const {
     return view.zoom_to_tissue ? crop.current() : Crop{};
@@ -128,6 +130,15 @@ ViewState Renderer::Parts::fitted(const ViewState& view) const {
   if (!volume.empty())
     fit_indices(fitted, volume.texture().geometry());
   return fitted;
+}
+
+// Colours of depths say nothing without their scale, and some are those of vessels: grey instead.
+ViewState Renderer::Parts::without_confusion(const ViewState& view, const Layout& places) const {
+  const bool beside_vessels = volume.vessels() != nullptr && view.vessels_visible;
+  ViewState plain = view;
+  if (volume.depth_colours(view) && (beside_vessels || !has_room_for_depth_scale(places)))
+    plain.colour_map = 0;
+  return plain;
 }
 
 HudScene Renderer::Parts::scene(const ViewState& view) const {
@@ -260,7 +271,7 @@ hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Lay
 
 hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layout& places,
                                         StereoEye eye) {
-  const ViewState& view = picture.view;
+  const ViewState view = without_confusion(picture.view, places);
   const int height = picture.height;
   const EyeFrame frame = eye_frame(view.stereo, eye, picture.width, height);
   HudScene shown = scene(view);
@@ -285,8 +296,9 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   return {};
 }
 
-hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& view, const Layout& places,
+hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& wanted, const Layout& places,
                                               const DrawQuality& quality, StereoEye eye) {
+  const ViewState view = without_confusion(wanted, places);
   const int height = places.view.height;
   const EyeFrame frame = eye_frame(view.stereo, eye, places.view.width, height);
   const Rect rect = frame.place(places.view);
@@ -339,18 +351,26 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_{std::move(parts)} {}
 
 Renderer::~Renderer() = default;
 
+// The flat pictures keep their cut, and the colours of depths theirs, until a volume is whole.
+void Renderer::Parts::follow(const pipeline::Volume& shown) {
+  tissue.update(volume.occupancy(), shown.b_scan_states);
+  if (std::ranges::find(shown.b_scan_states, pipeline::BScanState::seam) ==
+      shown.b_scan_states.end()) {
+    crop.follow(tissue.extents());
+    const Section depth = crop.current().depth;
+    volume.colour_depths({depth.from, depth.to});
+  }
+  en_face_panel.show(shown, tissue);
+  state_texture.upload(shown);
+  states.assign(shown.b_scan_states.begin(), shown.b_scan_states.end());
+}
+
 hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
   HAL_CHECK(parts_->volume.show(volume));
-  parts_->tissue.update(parts_->volume.occupancy(), volume.b_scan_states);
   if (parts_->shown_geometry != volume.geometry)
     parts_->crop = {};
   parts_->shown_geometry = volume.geometry;
-  parts_->crop.follow(parts_->tissue.extents());
-  const Section depth = parts_->crop.current().depth;
-  parts_->volume.colour_depths({depth.from, depth.to});
-  parts_->en_face_panel.show(volume, parts_->tissue);
-  parts_->state_texture.upload(volume);
-  parts_->states.assign(volume.b_scan_states.begin(), volume.b_scan_states.end());
+  parts_->follow(volume);
   return {};
 }
 
@@ -361,13 +381,7 @@ hal::Result<> Renderer::renew_volume(const pipeline::Volume& volume,
   if (parts_->shown_geometry != volume.geometry)
     return show_volume(volume);
   HAL_CHECK(parts_->volume.renew(volume, changed));
-  if (changed.back().to == volume.geometry.b_scans) {
-    parts_->tissue.update(parts_->volume.occupancy(), volume.b_scan_states);
-    parts_->crop.follow(parts_->tissue.extents());
-  }
-  parts_->en_face_panel.renew(volume, parts_->tissue, changed);
-  parts_->state_texture.upload(volume);
-  parts_->states.assign(volume.b_scan_states.begin(), volume.b_scan_states.end());
+  parts_->follow(volume);
   return {};
 }
 

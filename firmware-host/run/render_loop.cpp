@@ -97,6 +97,7 @@ hal::Result<> RenderLoop::show_again() {
   if (parts_.vessels != nullptr)
     HAL_CHECK(parts_.vessels->show_again(*renderer_));
   renderer_->expect(controller_.state());
+  renewable_ = false;
   return volume_ != nullptr ? renderer_->show_volume(shown_volume()) : hal::Result<>{};
 }
 
@@ -249,8 +250,10 @@ const pipeline::Volume& RenderLoop::shown_volume() const {
 }
 
 void RenderLoop::take_volume() {
-  if (!renderer_)
+  if (!renderer_) {
+    rolling_ = rolling_ && may_roll(); // as what will be shown again
     return;
+  }
   const bool rolled = std::exchange(rolling_, may_roll());
   const pipeline::Volume* newest =
       controller_.state().frozen ? nullptr : parts_.volumes.take_newest();
@@ -273,6 +276,7 @@ void RenderLoop::take_volume() {
 }
 
 hal::Result<> RenderLoop::show_whole() {
+  renewable_ = false;
   HAL_CHECK(renderer_->show_volume(*volume_));
   line_latency_.show(*volume_, {0, volume_->geometry.b_scans});
   return {};
@@ -287,7 +291,10 @@ hal::Result<> RenderLoop::show_b_scans(const pipeline::Volume* newest) {
     parts_.volumes.give_back();
   }
   const auto changes = rolling_volume_->take_changes();
-  HAL_CHECK(renderer_->renew_volume(rolling_volume_->volume(), changes));
+  HAL_CHECK(std::exchange(renewable_, false)
+                ? renderer_->renew_volume(rolling_volume_->volume(), changes)
+                : renderer_->show_volume(rolling_volume_->volume()));
+  renewable_ = true;
   for (const pipeline::BScanRange& range : changes)
     line_latency_.show(rolling_volume_->volume(), range);
   return {};

@@ -195,6 +195,7 @@ private:
   const pipeline::Volume* volume_ = nullptr; // the newest taken, valid until the next take
   std::optional<pipeline::RollingVolume> rolling_volume_; // empty: no B-scans come by themselves
   bool rolling_ = false;                                  // it is shown, not volume_
+  bool renewable_ = false; // the renderer holds all of it but for its changes
   LineLatency line_latency_{setup_.geometry.b_scans};
   const hal::ScopeFrame* scope_picture_ = nullptr;      // likewise
   std::optional<hal::TimePoint> undisplayed_control_;   // time of the oldest event not shown yet

@@ -17,8 +17,14 @@ Colour colour_at(float place) {
 
 } // namespace
 
+bool has_room_for_depth_scale(const Layout& layout) {
+  const float u = layout.unit;
+  return static_cast<float>(layout.view.width) >= 370 * u &&
+         static_cast<float>(layout.view.height) >= 160 * u;
+}
+
 void draw_depth_scale(Canvas& canvas, const Layout& layout, const HudScene& scene) {
-  if (!scene.depth_colours || layout.view.empty())
+  if (!scene.depth_colours || !has_room_for_depth_scale(layout))
     return;
   const float u = layout.unit;
   const float letters = canvas.text_height(TextStyle::label);
@@ -26,12 +32,8 @@ void draw_depth_scale(Canvas& canvas, const Layout& layout, const HudScene& scen
   const float quarter = static_cast<float>(view.height) / 4;
   const float left = static_cast<float>(view.x) + (layout.view_frame.empty() ? 16 : 8) * u;
   const float top = static_cast<float>(view.y) + quarter + letters / 2;
-  const float height = static_cast<float>(view.height) - 2 * quarter - letters;
+  const float height = static_cast<float>(view.height) - 2 * quarter - 2 * letters - 8 * u;
   const float width = 12 * u;
-  const bool fits = left + width + 8 * u + canvas.text_width(TextStyle::label, "0.25 mm") <
-                    static_cast<float>(view.x) + static_cast<float>(view.width) / 4;
-  if (height < 2 * letters || !fits)
-    return;
   canvas.bar({left - u, top - u}, {left + width + u, top + height + u}, palette::ink.faded(160));
   constexpr int pieces = 48;
   const auto y_of = [&](float place) { return top + place * height; };
@@ -56,6 +58,8 @@ void draw_depth_scale(Canvas& canvas, const Layout& layout, const HudScene& scen
     canvas.shadowed_text({left + width + 8 * u, y - letters / 2}, TextStyle::label, palette::text,
                          words.view());
   }
+  canvas.shadowed_text({left, top + height + 8 * u}, TextStyle::label, palette::text,
+                       medium_words(scene.shown.geometry.refractive_index).view());
 }
 
 } // namespace octascope::ui

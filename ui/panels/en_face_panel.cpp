@@ -1,8 +1,5 @@
 #include "ui/panels/en_face_panel.h"
 
-#include <algorithm>
-#include <array>
-
 #include "embedded_shaders.h"
 
 #include "ui/gl/picture_texture.h"
@@ -26,26 +23,14 @@ EnFacePanel::EnFacePanel(gl::PicturePass pass)
 void EnFacePanel::allocate(int a_scans, int b_scans) {
   a_scans_ = a_scans;
   b_scans_ = b_scans;
-  levels_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
-  grey_.resize(levels_.size());
+  grey_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
   projection_ = gl::make_picture_texture(GL_R8, a_scans, b_scans);
 }
 
 void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue) {
   if (volume.geometry.a_scans != a_scans_ || volume.geometry.b_scans != b_scans_)
     allocate(volume.geometry.a_scans, volume.geometry.b_scans);
-  renew(volume, tissue, std::array{pipeline::BScanRange{0, b_scans_}});
-}
-
-void EnFacePanel::renew(const pipeline::Volume& volume, const TissueMap& tissue,
-                        std::span<const pipeline::BScanRange> changed) {
-  for (const pipeline::BScanRange& range : changed)
-    project_slab(volume, tissue, range, levels_);
-  upload(volume);
-}
-
-void EnFacePanel::upload(const pipeline::Volume& volume) {
-  std::ranges::copy(levels_, grey_.begin());
+  project_slab(volume, tissue, grey_);
   stretch_contrast(volume, grey_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glBindTexture(GL_TEXTURE_2D, projection_.name());

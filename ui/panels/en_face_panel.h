@@ -26,10 +26,6 @@ public:
   // `tissue`: of the same volume.
   void show(const pipeline::Volume& volume, const TissueMap& tissue);
 
-  // The same where the volume differs from the last one in these B-scans alone.
-  void renew(const pipeline::Volume& volume, const TissueMap& tissue,
-             std::span<const pipeline::BScanRange> changed);
-
   // Fills `rect` of the bound framebuffer with what the crop leaves; missing B-scans are hatched, saturated ones marked at
   // the right border.
   void draw(const StateTexture& states, const Crop& crop, const Rect& rect,
@@ -38,11 +34,9 @@ public:
 private:
   explicit EnFacePanel(gl::PicturePass pass);
   void allocate(int a_scans, int b_scans);
-  void upload(const pipeline::Volume& volume);
 
   gl::PicturePass pass_;
   gl::Texture projection_;
-  std::vector<std::uint8_t> levels_; // projected
   std::vector<std::uint8_t> grey_;
   int a_scans_ = 0;
   int b_scans_ = 0;

@@ -102,16 +102,11 @@ Slab SlabFinder::slab(const TissueMap::Begin& begin) const {
 
 void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
                   std::span<std::uint8_t> out) {
-  project_slab(volume, tissue, {0, volume.geometry.b_scans}, out);
-}
-
-void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
-                  const pipeline::BScanRange& b_scans, std::span<std::uint8_t> out) {
   const pipeline::VolumeGeometry& geometry = volume.geometry;
   const SlabFinder finder{geometry};
-  auto i = static_cast<std::size_t>(b_scans.from) * static_cast<std::size_t>(geometry.a_scans);
-  const std::uint8_t* line = volume.levels.data() + i * static_cast<std::size_t>(geometry.depths);
-  for (int b = b_scans.from; b < b_scans.to; ++b)
+  const std::uint8_t* line = volume.levels.data();
+  std::size_t i = 0;
+  for (int b = 0; b < geometry.b_scans; ++b)
     for (int a = 0; a < geometry.a_scans; ++a, line += geometry.depths)
       out[i++] = tissue.even_at(b, a)
                      ? level_in(line, tissue.begin_of(b, a), finder, tissue.level())

@@ -39,9 +39,6 @@ private:
 // `out` is [b][a], a_scans · b_scans values.
 void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
                   std::span<std::uint8_t> out);
-// Those B-scans of it alone.
-void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
-                  const pipeline::BScanRange& b_scans, std::span<std::uint8_t> out);
 
 // Converts projected levels to grey values in place: the darkest 1 % of the received A-scans become
 // 0, the brightest 1 % become 255, linear between. The display window is not used: it is for single

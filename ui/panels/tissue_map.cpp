@@ -26,7 +26,7 @@ std::uint8_t tissue_level(const pipeline::Occupancy& occupancy,
   std::array<std::uint32_t, 256> counts{};
   for (std::size_t b = 0;
        b<states.size(); b += states.size()> 3 * level_sampling ? level_sampling : 1)
-    if (states[b] != pipeline::BScanState::missing)
+    if (has_levels(states[b]))
       for (const std::uint8_t level : occupancy.highest(static_cast<int>(b)))
         ++counts[level];
   counts[0] = 0; // nothing was received there, or nothing is looked at

@@ -101,6 +101,24 @@ TEST_F(RollingLoop, what_is_frozen_is_whole) {
   EXPECT_TRUE(panel_shows(Tissue::reversed));
 }
 
+TEST_F(RollingLoop, a_volume_that_was_finished_while_frozen_is_shown_whole) {
+  start(rolling_view());
+  send_scope_picture();
+  send_volume(Tissue::usual);
+  turn();
+  send_b_scans(Tissue::reversed, 0, 21);
+  turn();
+  press_freeze();
+  turn();
+  ASSERT_TRUE(panel_shows(Tissue::usual));
+  send_b_scans(Tissue::reversed, 21, 40);
+  press_freeze();
+  turn();
+  ASSERT_FALSE(view().frozen);
+  EXPECT_EQ(seam_pixels(), 0);
+  EXPECT_TRUE(panel_shows(Tissue::reversed)) << "of what had come before the freeze, too";
+}
+
 TEST_F(RollingLoop, a_surface_stays_whole_and_says_so) {
   ui::ViewState view = rolling_view();
   view.technique = ui::Technique::surface;

@@ -113,9 +113,26 @@ technique = "maximum"
 
 ui::Layout replay_layout(const pipeline::Image& picture) {
   const pipeline::VolumeGeometry g = ball_facts(false).geometry;
-  return ui::lay_out(
-      picture.width, picture.height,
-      {.b_scan = g.a_mm() / g.depth_mm(), .en_face = g.a_mm() / g.b_mm(), .has_scope = false});
+  return ui::lay_out(picture.width, picture.height,
+                     {.b_scan = g.a_mm() / g.depth_mm(),
+                      .en_face = g.a_mm() / g.b_mm(),
+                      .has_scope = false,
+                      .crossed = g.b_mm() / g.depth_mm()});
+}
+
+// As wide as its frame: that depends on what the flat pictures beside it are cut to.
+ui::Rect framed_view(const pipeline::Image& picture) {
+  ui::Rect view = replay_layout(picture).view;
+  const auto framed = [&](int x) {
+    return count_colour(picture, {x, view.y + view.height / 2, 1, 1}, ui::palette::replay, 2) == 1;
+  };
+  int right = view.x + view.width / 2;
+  while (right < picture.width && !framed(right))
+    ++right;
+  while (right < picture.width && framed(right))
+    ++right;
+  view.width = right - view.x;
+  return view;
 }
 
 // Pixels of the middle of the view, where nothing is written, that differ from the volume's own.
@@ -155,7 +172,7 @@ TEST_F(ReplayProgram, of_a_simulated_recording_says_that_too) {
 TEST_F(ReplayProgram, shows_the_levels_that_were_recorded) {
   for (const int at : {0, 3}) {
     const pipeline::Image screen = replay({"--from", std::to_string(at), "--volumes", "1"});
-    const ui::Rect view = replay_layout(screen).view;
+    const ui::Rect view = framed_view(screen);
     const int same = different_from(screen, render(view, at), view);
     const int other = different_from(screen, render(view, 3 - at), view);
     // The frame of the B-scan lies over it, and it may be drawn more coarsely.

@@ -160,6 +160,7 @@ TEST_F(VesselMerging, comes_and_goes_without_a_jump) {
       steps, most, most_of_thin, all_at_once);
   EXPECT_LE(most, 0.15 * all_at_once);
   EXPECT_LE(most_of_thin, 0.05 * all_at_once);
+  EXPECT_GT(all_at_once, 1);
 }
 
 TEST_F(VesselMerging, is_the_same_with_every_instruction_set) {
