@@ -30,7 +30,7 @@ public:
   // Takes what was finished of the volume in the making since the last call, in the order of the
   // scan up to the first B-scan that is awaited; one that is overdue is missing, unless it comes
   // after all. Nothing before the first take(), and nothing of another volume than before until the
-  // whole one was taken. The seam never lies on B-scan `kept_clear`, which is shown by itself: the
+  // whole one was taken. The seam is never moved onto B-scan `kept_clear`, which is shown by itself: the
   // one before it waits until both are there.
   void follow(const VolumeInMaking& making, int kept_clear);
 
