@@ -31,6 +31,7 @@ hal::Result<> SplatPicture::upload(const DepthImage& image, SplatColumns columns
                      "at most {}; choose a smaller size, or let GL draw all",
                      image.width, image.height, bytes, most_bytes);
   if (image.width != width_ || image.height != height_) {
+    uploader_ = gl::PixelUploader::create(bytes);
     texture_ = gl::Texture::make();
     glBindTexture(GL_TEXTURE_2D, texture_.name());
     glTexStorage2D(GL_TEXTURE_2D, 1, GL_RG32UI, image.width, image.height);
@@ -39,14 +40,17 @@ hal::Result<> SplatPicture::upload(const DepthImage& image, SplatColumns columns
     width_ = image.width;
     height_ = image.height;
   }
-  // Straight from memory: by way of a buffer it would be copied twice, which software GL takes as
-  // long for as for the drawing.
+  HAL_TRY(const void* const pixels,
+          uploader_.stage({reinterpret_cast<const std::uint8_t*>(image.pixels.data()), bytes}));
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, image.width);
+  glPixelStorei(GL_UNPACK_SKIP_PIXELS, columns.first);
   glTexSubImage2D(GL_TEXTURE_2D, 0, columns.first, 0, columns.end - columns.first, image.height,
-                  GL_RG_INTEGER, GL_UNSIGNED_INT, image.pixels.data() + columns.first);
+                  GL_RG_INTEGER, GL_UNSIGNED_INT, pixels);
+  glPixelStorei(GL_UNPACK_SKIP_PIXELS, 0);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  gl::PixelUploader::unbind();
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include "ui/depth_mask/depth_image.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
+#include "ui/gl/pixel_uploader.h"
 #include "ui/vessels/splatter/splat_kernels.h"
 #include "ui/view/camera.h"
 
@@ -30,6 +31,7 @@ private:
   hal::Result<> upload(const DepthImage& image, SplatColumns columns);
 
   gl::PicturePass pass_;
+  gl::PixelUploader uploader_;
   gl::Texture texture_;
   int width_ = 0;
   int height_ = 0;
