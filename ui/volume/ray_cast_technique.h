@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "ui/bricks/brick_distances.h"
+#include "ui/bricks/brick_grid.h"
 #include "ui/gl/objects.h"
-#include "ui/ray_caster/brick_distances.h"
-#include "ui/ray_caster/brick_grid.h"
 #include "ui/ray_caster/ray_caster.h"
 #include "ui/volume/transfer_program.h"
 #include "ui/volume/volume_technique.h"

@@ -11,8 +11,8 @@
 
 #include "pipeline/threads/work_team.h"
 #include "tests/ui/support/synthetic_volume.h"
-#include "ui/ray_caster/brick_distances.h"
-#include "ui/ray_caster/brick_grid.h"
+#include "ui/bricks/brick_distances.h"
+#include "ui/bricks/brick_grid.h"
 #include "ui/ray_caster/ray_geometry.h"
 #include "ui/ray_caster/step_table.h"
 #include "ui/view/camera.h"

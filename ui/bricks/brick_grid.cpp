@@ -1,4 +1,4 @@
-#include "ui/ray_caster/brick_grid.h"
+#include "ui/bricks/brick_grid.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipeline/volume/occupancy.h"
-#include "ui/ray_caster/brick_grid.h"
+#include "ui/bricks/brick_grid.h"
 
 namespace octascope::ui {
 

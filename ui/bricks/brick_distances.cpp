@@ -1,4 +1,4 @@
-#include "ui/ray_caster/brick_distances.h"
+#include "ui/bricks/brick_distances.h"
 
 #include <algorithm>
 #include <cstddef>
