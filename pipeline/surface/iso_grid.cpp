@@ -101,6 +101,7 @@ void set_geometry(const VolumeGeometry& g, const std::array<int, 3>& factors, in
   grid.depths = (g.depths - first_depth) / factors[0];
   grid.a_scans = g.a_scans / factors[1];
   grid.b_scans = g.b_scans / factors[2];
+  grid.voxels = factors[0] * factors[1] * factors[2];
   grid.extents_mm = {static_cast<float>(g.depth_mm()), static_cast<float>(g.a_mm()),
                      static_cast<float>(g.b_mm())};
   for (std::size_t i = 0; i < 3; ++i) {

@@ -25,6 +25,7 @@ struct IsoGrid {
   std::array<float, 3> cell_mm{};
   std::array<float, 3> first_mm{};
   std::array<float, 3> extents_mm{}; // of the whole volume
+  int voxels = 0;                    // averaged to a sample
   std::vector<std::uint16_t> levels;
   std::vector<std::uint8_t> present; // one a slow sample: 0 where a B-scan is missing
 

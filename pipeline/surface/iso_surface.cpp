@@ -40,10 +40,10 @@ Vector gradient(const IsoGrid& grid, int z, int a, int b) {
               [&](int i) { return index_of(grid, z, a, i); }, grid.cell_mm[2])};
 }
 
-std::array<std::int16_t, 4> packed_normal(const Vector& gradient) {
+std::array<std::int16_t, 3> packed_normal(const Vector& gradient) {
   const float length = std::hypot(gradient[0], gradient[1], gradient[2]);
   const float scale = length > 0 ? -32767 / length : 0;
-  std::array<std::int16_t, 4> packed{};
+  std::array<std::int16_t, 3> packed{};
   for (std::size_t i = 0; i < 3; ++i)
     packed[i] = static_cast<std::int16_t>(std::lround(gradient[i] * scale));
   return packed;

@@ -18,7 +18,10 @@ namespace octascope::pipeline {
 // Axes in the order depth, fast, slow.
 struct IsoVertex {
   std::array<float, 3> position_mm;   // from the volume's corner
-  std::array<std::int16_t, 4> normal; // ·32767; points to where the level falls. The last is 0
+  std::array<std::int16_t, 3> normal; // ·32767; points to where the level falls
+  // Told by IsoLook, else 0.
+  std::uint8_t brightest; // level at hand
+  std::uint8_t cover;     // ·255: the share of a cover's lowering
 };
 
 struct IsoMesh {
@@ -26,6 +29,7 @@ struct IsoMesh {
   std::vector<std::uint32_t> corners; // three a triangle, counter-clockwise seen from outside in
                                       // a right-handed (depth, fast, slow)
   std::array<float, 3> extents_mm{};  // of the volume
+  bool covers = false;                // some of it may be a cover's (told by IsoLook)
 
   std::size_t triangles() const { return corners.size() / 3; }
   void clear() {

@@ -9,13 +9,18 @@ namespace {
 // A blob of 0.1 mm across: less is speckle that smoothing left.
 constexpr float least_piece_mm2 = 0.03F;
 
+// The brightest of many samples is speckle, unless it is calm: by averaging, else by smoothing, although
+// that takes away what is bright and thin.
+constexpr int least_voxels = 8;
+
 } // namespace
 
 IsoSurfaceThread::IsoSurfaceThread(int first_depth, ThreadSetup setup)
     : first_depth_{first_depth}, setup_{std::move(setup)} {}
 
-void IsoSurfaceThread::show(const Volume& volume) {
-  maker_.make(volume, first_depth_, grid_pool_[filling_]);
+void IsoSurfaceThread::show(const Volume& volume, const Cover& cover) {
+  maker_.make(volume, first_depth_, shown_pool_[filling_].grid);
+  shown_pool_[filling_].cover = cover;
   filling_ = grids_.publish(filling_).recycled;
   ++shown_;
 }
@@ -77,14 +82,17 @@ bool IsoSurfaceThread::make_mesh(std::uint64_t request, bool must_finish) {
   };
   if (grids_.take())
     smooth_ = false;
-  IsoGrid& grid = grid_pool_[grids_.front()];
+  auto& [grid, cover] = shown_pool_[grids_.front()];
   if (!smooth_) {
     // Another level of the same volume needs the smoothing all the same.
     const auto outdated = [&] {
       return superseded() && (grids_.has_newer() || thread_.stopping());
     };
+    look_.keep(grid);
     if (!smoother_.smooth(grid, outdated))
       return false;
+    if (grid.voxels < least_voxels)
+      look_.keep(grid);
     update_occupancy(grid, occupancy_, counts_);
     smooth_ = true;
   }
@@ -93,6 +101,7 @@ bool IsoSurfaceThread::make_mesh(std::uint64_t request, bool must_finish) {
                           superseded))
     return false;
   cleaner_.drop_small_pieces(least_piece_mm2, mesh);
+  look_.tell(grid, cover, mesh);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "pipeline/surface/iso_grid.h"
+#include "pipeline/surface/iso_look.h"
 #include "pipeline/surface/iso_surface.h"
 #include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/triple_buffer.h"
@@ -26,8 +27,9 @@ public:
 
   // All of these: the render thread.
 
-  // Copies what it needs before it returns; some two milliseconds for a live volume.
-  void show(const Volume& volume);
+  // Copies what it needs before it returns; some two milliseconds for a live volume. `cover`: the
+  // volume's, empty where nothing is seen through.
+  void show(const Volume& volume, const Cover& cover = {});
   // Of the volume shown last. Nothing happens when that has been asked for already.
   void request(float level);
   // The newest mesh, if one was finished since the last call; it stays, unchanged, until the next
@@ -46,18 +48,23 @@ private:
   void serve();
   bool make_mesh(std::uint64_t request, bool must_finish);
 
+  struct Shown {
+    IsoGrid grid;
+    Cover cover;
+  };
+
   const int first_depth_;
   const ThreadSetup setup_;
 
   // The render thread's.
   IsoGridMaker maker_;
-  std::uint32_t filling_ = 2; // of grid_pool_
+  std::uint32_t filling_ = 2; // of shown_pool_
   std::uint64_t shown_ = 0;   // counts volumes
   std::uint64_t asked_of_ = 0;
   float asked_level_ = 0;
 
   // Handed over.
-  std::array<IsoGrid, 3> grid_pool_;
+  std::array<Shown, 3> shown_pool_;
   TripleBuffer grids_{1, 0};
   std::array<IsoMesh, 3> mesh_pool_;
   TripleBuffer meshes_{1, 0};
@@ -71,6 +78,7 @@ private:
   IsoSmoother smoother_;
   IsoExtractor extractor_;
   IsoCleaner cleaner_;
+  IsoLook look_;
   Occupancy occupancy_;
   std::vector<std::uint8_t> counts_;
   bool smooth_ = false;      // the front grid is

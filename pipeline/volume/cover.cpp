@@ -214,17 +214,30 @@ void Cover::smooth() {
   }
 }
 
-Cover::Column Cover::between(int b, float column) const {
+Cover::Column Cover::at(int b, float a) const {
+  const float column = (a + 1) / (1 << brick_a_shift) - 0.5F;
   const int left = std::clamp(static_cast<int>(column), 0, columns_ - 1);
-  const auto at = [&](int a) {
+  const auto near = [&](int side) {
     return smoothed_[static_cast<std::size_t>(b) * static_cast<std::size_t>(columns_) +
-                     static_cast<std::size_t>(std::min(a, columns_ - 1))];
+                     static_cast<std::size_t>(std::min(side, columns_ - 1))];
   };
-  const Column l = at(left);
-  const Column r = at(left + 1);
+  const Column l = near(left);
+  const Column r = near(left + 1);
   const float share = std::clamp(column - static_cast<float>(left), 0.0F, 1.0F);
   return {std::lerp(l.weight > 0 ? l.end : r.end, r.weight > 0 ? r.end : l.end, share),
           std::lerp(l.weight, r.weight, share)};
+}
+
+float Cover::share_at(const std::array<float, 3>& place_mm) const noexcept {
+  if (empty())
+    return 0;
+  const auto voxel = [&](std::size_t axis, double spacing_um) {
+    return static_cast<float>(static_cast<double>(place_mm[axis]) * 1e3 / spacing_um) - 0.5F;
+  };
+  const auto b = static_cast<int>(std::lround(voxel(2, geometry_.b_spacing_um)));
+  const Column column =
+      at(std::clamp(b, 0, geometry_.b_scans - 1), voxel(1, geometry_.a_spacing_um));
+  return voxel(0, geometry_.depth_spacing_um) < column.end ? share_ * column.weight : 0;
 }
 
 void Cover::weaken(int b, std::span<const std::uint8_t> levels, float counts,
@@ -232,7 +245,7 @@ void Cover::weaken(int b, std::span<const std::uint8_t> levels, float counts,
   const auto depths = static_cast<std::size_t>(geometry_.depths);
   for (int a = 0; a < geometry_.a_scans; ++a) {
     const std::size_t first = static_cast<std::size_t>(a) * depths;
-    const Column column = between(b, (static_cast<float>(a) + 1) / (1 << brick_a_shift) - 0.5F);
+    const Column column = at(b, static_cast<float>(a));
     const auto end = std::min(static_cast<std::size_t>(column.end), depths);
     lower(levels.data() + first, end,
           static_cast<int>(std::lround(counts * share_ * column.weight)), strong_,

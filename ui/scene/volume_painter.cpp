@@ -105,7 +105,8 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
     light_.show(drawn);
   surface_shows_ = techniques_.surface() != nullptr;
   if (surface_shows_)
-    techniques_.surface()->show(volume); // whole: what is left of a cover would be in pieces
+    techniques_.surface()->show(volume,
+                                cover_); // whole: what is left of a cover would be in pieces
   return {};
 }
 
@@ -157,7 +158,9 @@ const pipeline::Volume& VolumePainter::see_through(const pipeline::Volume& volum
   shown_see_through_db_ = see_through_db_;
   if (see_through_db_ > 0)
     cover_.find(occupancy_);
-  weakened_shows_ = see_through_db_ > 0 && !cover_.empty();
+  else
+    cover_.clear();
+  weakened_shows_ = !cover_.empty();
   if (!weakened_shows_)
     return volume;
   if (weakened_.geometry != volume.geometry)
@@ -292,9 +295,6 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   pictures->camera = camera;
   pictures->kept = scene.kept;
   if (surface) {
-    if (weakened_shows_) {
-      HAL_TRY(scene.weakened, drawn_texture());
-    }
     HAL_CHECK(techniques_.get(view.technique));
     scene.mesh = techniques_.surface()->prepare(view);
   }

@@ -16,14 +16,23 @@ uniform float u_ambient;
 uniform vec2 u_cue;       // where the depth cue begins, and 1 / the length over which it falls
 uniform float u_cue_loss; // what the far end of the box loses
 uniform bool u_glass;     // only what covers is drawn, else only what does not
-uniform vec2 u_glass_opacity; // face on and edge on
+uniform float u_halvings; // of its opacity, face on
 
 layout(location = 0) out vec4 o_colour; // premultiplied
 layout(location = 1) out float o_depth; // mm along the view
 
+const float least_cover = 0.05;
+const float glass_edge = 0.65; // opacity that stays, edge on
+
+float glass_opacity(float facing) {
+  float face = exp2(-u_halvings * v_cover);
+  float edge = 1.0 - facing;
+  return mix(face, mix(1.0, max(glass_edge, face), v_cover), edge * edge * edge);
+}
+
 void main() {
   if (v_depth >= stop_mm() || v_texture.z < u_kept.x || v_texture.z > u_kept.y ||
-      (v_cover > 0.5) != u_glass)
+      (v_cover > least_cover) != u_glass)
     discard;
   float slant = max(length(v_normal) * length(v_from_eye), 1e-6);
   float facing = abs(dot(v_normal, v_from_eye)) / slant;
@@ -32,8 +41,7 @@ void main() {
   vec3 colour = mix(u_colour, u_metal, smoothstep(u_metallic.x, u_metallic.y, v_place));
   if (u_by_depth)
     colour *= depth_tint(v_texture.x);
-  float edge = 1.0 - facing;
-  float opacity = u_glass ? mix(u_glass_opacity.x, u_glass_opacity.y, edge * edge * edge) : 1.0;
+  float opacity = u_glass ? glass_opacity(facing) : 1.0;
   o_colour = vec4(colour * light * opacity, opacity);
   o_depth = v_depth;
 }

@@ -23,9 +23,8 @@ namespace {
 constexpr float metal_from = 0.99F;
 constexpr float metal_to = 1.13F;
 
-// Of what covers: opacity face on falls by half with so many decibels, edge on it stays.
+// By so many decibels of seeing through, the opacity of what covers is halved, face on.
 constexpr float glass_halved_db = 4.8F;
-constexpr float glass_edge = 0.65F;
 
 const void* offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
@@ -74,6 +73,12 @@ SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers,
   glEnableVertexAttribArray(1);
   glVertexAttribPointer(1, 3, GL_SHORT, GL_TRUE, sizeof(IsoVertex),
                         offset(offsetof(IsoVertex, normal)));
+  glEnableVertexAttribArray(2);
+  glVertexAttribPointer(2, 1, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(IsoVertex),
+                        offset(offsetof(IsoVertex, brightest)));
+  glEnableVertexAttribArray(3);
+  glVertexAttribPointer(3, 1, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(IsoVertex),
+                        offset(offsetof(IsoVertex, cover)));
   glBindVertexArray(0);
 }
 
@@ -102,6 +107,7 @@ void SurfaceTechnique::upload(const pipeline::IsoMesh& mesh) {
                GL_DYNAMIC_DRAW);
   glBindVertexArray(0);
   corners_ = mesh.corners.size();
+  covers_ = mesh.covers;
   extents_mm_ = {mesh.extents_mm[1], mesh.extents_mm[0], mesh.extents_mm[2]};
 }
 
@@ -128,26 +134,10 @@ void SurfaceTechnique::set_uniforms(const VolumeScene& scene) const {
   glUniform2f(uniforms_.cue, near, 1 / (middle + reach - near));
   glUniform1f(uniforms_.cue_loss, depth_cue);
   glUniform2f(uniforms_.kept, scene.kept.from, scene.kept.to);
-}
-
-// What the corners are asked for: how bright it is inside, and whether they are a cover's.
-void SurfaceTechnique::set_levels(const VolumeScene& scene) const {
-  constexpr GLint weakened_unit = 2;
   const WindowRamp window = window_ramp(scene.view);
-  glUniform1i(program_.uniform("u_levels"), 0);
-  glUniform1i(program_.uniform("u_weakened"), weakened_unit);
   glUniform2f(program_.uniform("u_window"), window.scale, window.offset);
   glUniform2f(program_.uniform("u_metallic"), metal_from, metal_to);
-  glUniform1f(
-      program_.uniform("u_weakened_by"),
-      scene.weakened == nullptr ? 0 : scene.view.see_through_db / pipeline::level_step_db / 255);
-  glUniform2f(program_.uniform("u_glass_opacity"),
-              std::exp2(-scene.view.see_through_db / glass_halved_db), glass_edge);
-  const VolumeTexture& weakened = scene.weakened != nullptr ? *scene.weakened : scene.volume;
-  glActiveTexture(GL_TEXTURE0 + weakened_unit);
-  glBindTexture(GL_TEXTURE_3D, weakened.name());
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_3D, scene.volume.name());
+  glUniform1f(program_.uniform("u_halvings"), scene.view.see_through_db / glass_halved_db);
 }
 
 void SurfaceTechnique::draw_mesh(bool glass) const {
@@ -161,7 +151,6 @@ void SurfaceTechnique::do_draw(const VolumeScene& scene) {
     return;
   program_.use();
   set_uniforms(scene);
-  set_levels(scene);
   set_depth_mask(program_, scene.vessels, scene.camera);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
@@ -170,7 +159,7 @@ void SurfaceTechnique::do_draw(const VolumeScene& scene) {
   glClear(GL_DEPTH_BUFFER_BIT);
   glBindVertexArray(vertex_array_.name());
   draw_mesh(false);
-  if (scene.weakened != nullptr) { // over the rest, and no depth of its own
+  if (covers_ && scene.view.see_through_db > 0) { // over the rest, and no depth of its own
     constexpr GLenum colour = GL_COLOR_ATTACHMENT0;
     glDrawBuffers(1, &colour);
     glDepthMask(GL_FALSE);

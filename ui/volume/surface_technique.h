@@ -31,8 +31,9 @@ inline constexpr float surface_metal = 1;
 // A picture depends on the number that prepare() returns, and must be redrawn once has_newer() is
 // true.
 //
-// What covers other tissue (pipeline/volume/cover.h) is glass if the scene has a weakened volume, the
-// clearer the more the view sees through.
+// What covers other tissue (pipeline/volume/cover.h) is glass, the clearer the more the view sees through
+// and the surer it is that it covers. Nothing of a scene's volume is looked at: where the mesh is, how bright
+// and what covers is all of the same volume.
 //
 // The framebuffer needs a depth attachment of at least 16 bits, which draw() clears; without one,
 // far parts are drawn over near ones.
@@ -45,8 +46,11 @@ public:
   static hal::Result<std::unique_ptr<SurfaceTechnique>> create(TransferSet transfers = {},
                                                                pipeline::ThreadSetup threads = {});
 
-  // Copies what it needs before it returns: two milliseconds for a live volume.
-  void show(const pipeline::Volume& volume) { thread_.show(volume); }
+  // Copies what it needs before it returns: two milliseconds for a live volume. `cover`: the volume's,
+  // empty where nothing is seen through.
+  void show(const pipeline::Volume& volume, const pipeline::Cover& cover = {}) {
+    thread_.show(volume, cover);
+  }
 
   // Requests the view's surface of the newest volume, takes the newest finished mesh and returns
   // its number. draw() does the same and draws that mesh.
@@ -65,7 +69,6 @@ private:
   bool do_writes_depth() const override { return true; }
   void upload(const pipeline::IsoMesh& mesh);
   void set_uniforms(const VolumeScene& scene) const;
-  void set_levels(const VolumeScene& scene) const;
   void draw_mesh(bool glass) const;
 
   pipeline::IsoSurfaceThread thread_;
@@ -75,6 +78,7 @@ private:
   gl::Buffer vertices_;
   gl::Buffer indices_;
   std::size_t corners_ = 0;
+  bool covers_ = false;     // the mesh has glass
   std::uint64_t mesh_ = 0;  // counts the meshes taken
   glm::vec3 extents_mm_{0}; // of the mesh's volume: fast, depth, slow
   struct {

@@ -30,7 +30,6 @@ struct VolumeScene {
   const LightVolume* light = nullptr;             // of `shaded`; null: nothing is lit
   // In what B-scans the volume differs from that of the upload before; empty: in any.
   std::span<const pipeline::BScanRange> changed{};
-  const VolumeTexture* weakened = nullptr; // of `surface`: `volume` with what covers drawn weaker
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first picture of a size.

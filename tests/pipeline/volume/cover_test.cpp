@@ -64,6 +64,39 @@ TEST(Cover, is_a_layer_with_a_gap_and_tissue_under_it) {
   EXPECT_EQ(to.b_scan(12)[33 * 200 + 50], 1) << "what was measured stays above nothing";
 }
 
+// An iso-surface asks place by place.
+TEST(Cover, says_by_which_share_a_place_is_lowered) {
+  Volume volume = noise_with({{30, 80}, {130, 170}});
+  for (int b = 0; b < 24; ++b) // tissue that covers nothing, since it has no end
+    for (int a = 0; a < 16; ++a)
+      std::fill_n(volume.b_scan(b).begin() + a * 200 + 80, 120, tissue);
+  pipeline::Occupancy occupancy{geometry, pipeline::blank_depth_bins};
+  occupancy.update(volume);
+  pipeline::Cover cover;
+  EXPECT_EQ(cover.share_at({0.5F, 1, 1}), 0);
+  cover.find(occupancy);
+  constexpr int counts = 20;
+  std::vector<std::uint8_t> to(geometry.b_scan_voxels());
+  int partly = 0;
+  for (const int b : {0, 11, 23}) {
+    cover.weaken(b, volume.b_scan(b), counts, to);
+    for (int a = 0; a < geometry.a_scans; ++a)
+      for (const int z : {35, 55, 79, 90, 130, 160}) {
+        const auto voxel = static_cast<std::size_t>(a * geometry.depths + z);
+        const int level = volume.b_scan(b)[voxel];
+        const float share = cover.share_at({(static_cast<float>(z) + 0.5F) * 0.009F,
+                                            (static_cast<float>(a) + 0.5F) * 0.032F,
+                                            (static_cast<float>(b) + 0.5F) * 0.115F});
+        partly += share > 0.1F && share < 0.9F ? 1 : 0;
+        ASSERT_NEAR(level - to[voxel], counts * share, 0.51) << b << ", " << a << ", " << z;
+      }
+  }
+  EXPECT_GT(partly, 10);
+  cover.clear();
+  EXPECT_TRUE(cover.empty());
+  EXPECT_EQ(cover.share_at({0.5F, 1, 1}), 0);
+}
+
 TEST(Cover, is_not_what_covers_nothing) {
   EXPECT_TRUE(weakened(noise_with({})).levels.empty());
   EXPECT_TRUE(weakened(noise_with({{30, 80}})).levels.empty()) << "a sheet alone in air";

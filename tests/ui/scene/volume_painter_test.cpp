@@ -1,5 +1,6 @@
 // The volume on the display: whoever draws it, it is the same picture, kept while it holds.
 #include <algorithm>
+#include <array>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -240,6 +241,42 @@ TEST_F(VolumePainterTest, sees_through_what_covers_tissue) {
   EXPECT_TRUE(painter_->wants_volume(view));
   draw(view, by_processor);
   EXPECT_FALSE(painter_->wants_volume(view));
+}
+
+// The mesh is made beside the render thread: until it is finished, the last one is drawn as it was, with
+// its own volume's glass and metal.
+TEST_F(VolumePainterTest, an_iso_surface_is_of_one_volume) {
+  const auto layers = [](std::uint8_t sheet, std::uint8_t tissue) {
+    pipeline::Volume volume = uniform_volume(small_geometry, 40);
+    for (int b = 0; b < small_geometry.b_scans; ++b)
+      for (int a = 0; a < small_geometry.a_scans; ++a) {
+        const auto column = volume.b_scan(b).begin() + a * small_geometry.depths;
+        std::fill_n(column + 16, 24, sheet);
+        std::fill_n(column + 80, 24, tissue);
+      }
+    return volume;
+  };
+  ui::ViewState view = view_from(35, 60, 2.4F);
+  view.technique = ui::Technique::surface;
+  const std::array volumes{layers(110, 220), layers(220, 40)}; // glass over metal, metal alone
+  std::array<pipeline::Image, 2> pictures;
+  for (const std::size_t i : {0U, 1U}) {
+    ASSERT_TRUE(show(volumes[i]));
+    pictures[i] = draw(view, by_shader);
+  }
+  ASSERT_GT(compare(pictures[0], pictures[1]).mean, 5);
+  for (std::size_t i = 0; i < 10; ++i) {
+    ASSERT_TRUE(painter_->show(volumes[i % 2]));
+    for (const bool whole : {false, true}) {
+      if (whole) {
+        ASSERT_TRUE(painter_->finish(volumes[i % 2], view));
+      }
+      ASSERT_TRUE(painter_->update(ui::StereoEye::left, view, camera(view), by_shader, rect));
+      const pipeline::Image picture = composite(0, ui::StereoEye::left);
+      const bool newest = picture.pixels == pictures[i % 2].pixels;
+      EXPECT_TRUE(newest || (!whole && picture.pixels == pictures[1 - i % 2].pixels)) << i;
+    }
+  }
 }
 
 // The eye is at the end of the last B-scans. What is bright lies there alone, then in one B-scan

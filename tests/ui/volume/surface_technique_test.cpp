@@ -8,7 +8,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "pipeline/volume/cover.h"
 #include "pipeline/volume/level_scale.h"
+#include "pipeline/volume/occupancy.h"
 #include "tests/ui/support/gl_test.h"
 #include "ui/gl/picture_texture.h"
 #include "ui/ray_caster/ray_frame.h"
@@ -65,7 +67,6 @@ protected:
     colour_ = {};
     depth_ = {};
     texture_ = {};
-    weakened_ = {};
     framebuffer_ = {};
   }
 
@@ -76,9 +77,7 @@ protected:
     glClearColor(0, 0, 0, 0);
     glClear(GL_COLOR_BUFFER_BIT);
     const ui::Camera eye = camera();
-    ui::VolumeScene scene{texture_, *transfer_, eye, view_, 0.05F};
-    scene.weakened = weakened_.empty() ? nullptr : &weakened_;
-    technique_->draw(scene);
+    technique_->draw({texture_, *transfer_, eye, view_, 0.05F});
     pixels_.resize(std::size_t{size} * size);
     glReadPixels(0, 0, size, size, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
@@ -107,8 +106,7 @@ protected:
   std::unique_ptr<ui::SurfaceTechnique> technique_;
   ui::gl::Texture colour_, depth_;
   ui::gl::Framebuffer framebuffer_;
-  ui::VolumeTexture texture_;
-  ui::VolumeTexture weakened_;
+  ui::VolumeTexture texture_; // empty: no volume is looked at but that of the mesh
   std::optional<ui::TransferTexture> transfer_; // wants a context, as all of GL
   ui::ViewState view_;
   std::vector<Pixel> pixels_;
@@ -199,31 +197,82 @@ double facing_light(double share) {
 TEST_F(SurfaceTechniqueTest, what_is_brighter_than_the_window_is_white) {
   view_.yaw_deg = 0;
   for (const int level : {140, 190}) { // 30 and 55 dB: half up the window, and above it
-    const auto volume = plates(100, static_cast<std::uint8_t>(level));
-    technique_->show(volume);
-    ASSERT_TRUE(texture_.upload(volume));
+    technique_->show(plates(100, static_cast<std::uint8_t>(level)));
     draw_finished();
     const auto place = static_cast<double>(level < 180 ? ui::surface_tissue : ui::surface_metal);
     EXPECT_NEAR(pixel(0, 0)[0], facing_light(0.13) * place, 5);
   }
 }
 
+// A sheet across the middle of the box, under which so many A-scans have tissue.
+struct Sheet {
+  explicit Sheet(int tissue_a_scans) {
+    std::ranges::fill(volume.b_scan_states, pipeline::BScanState::good);
+    for (std::size_t i = 0; i < volume.levels.size(); ++i) {
+      const std::size_t z = i % 64;
+      const bool tissue = z >= 50 && i / 64 % 64 < static_cast<std::size_t>(tissue_a_scans);
+      volume.levels[i] =
+          (z >= 24 && z < 32) || tissue ? 150 : static_cast<std::uint8_t>(45 + i * 7 % 11);
+    }
+    pipeline::Occupancy occupancy{cube, 0};
+    occupancy.update(volume);
+    cover.find(occupancy);
+  }
+  float share() const { return cover.share_at({1.4F, 1.6F, 1.6F}); }
+
+  pipeline::Volume volume{cube};
+  pipeline::Cover cover;
+};
+
 TEST_F(SurfaceTechniqueTest, what_covers_is_glass) {
-  const auto volume = plates(150, 150);
-  technique_->show(volume);
-  ASSERT_TRUE(texture_.upload(volume));
-  draw_finished();
-  const double opaque = pixel(0, 0)[0];
-  const auto tissue = static_cast<double>(ui::surface_tissue);
-  EXPECT_NEAR(opaque, facing_light(0.13) * tissue, 5);
+  const Sheet sheet{64};
+  ASSERT_EQ(sheet.share(), 1);
+  view_.tilt_deg = 89;
   view_.see_through_db = 12;
-  ASSERT_TRUE(weakened_.upload(plates(150, 126))); // by 24 counts
+  technique_->show(sheet.volume);
+  draw_finished();
+  const auto tissue = static_cast<double>(ui::surface_tissue);
+  EXPECT_NEAR(pixel(0, 0)[0], facing_light(0.37) * tissue, 5);
+  technique_->show(sheet.volume, sheet.cover);
   draw_finished();
   // Each of its two sides hides a share.
   const double clear = std::pow(1 - std::exp2(-12 / 4.8), 2);
   EXPECT_NEAR(pixel(0, 0)[0],
-              clear * facing_light(0.83) * tissue + (1 - clear) * facing_light(0.15) * tissue, 5);
+              clear * facing_light(0.78) * tissue + (1 - clear) * facing_light(0.43) * tissue, 5);
   EXPECT_EQ(pixel(0, 0)[3], 255);
+  view_.see_through_db = 0; // at once, of the same mesh
+  draw();
+  EXPECT_NEAR(pixel(0, 0)[0], facing_light(0.37) * tissue, 5);
+}
+
+TEST_F(SurfaceTechniqueTest, what_may_cover_is_seen_through_in_part) {
+  const Sheet sheet{20};
+  ASSERT_NEAR(sheet.share(), 0.5F, 0.1F);
+  view_.see_through_db = 12;
+  technique_->show(sheet.volume, sheet.cover);
+  view_.tilt_deg = 89;
+  draw_finished();
+  const auto alpha_of = [](float opacity) { return 255 * (1 - (1 - opacity) * (1 - opacity)); };
+  EXPECT_NEAR(pixel(0, 0)[3], alpha_of(std::exp2(-12 * sheet.share() / 4.8F)), 3);
+}
+
+TEST_F(SurfaceTechniqueTest, glass_is_never_clearer_where_it_is_seen_edge_on) {
+  const Sheet sheet{64};
+  pipeline::Volume alone = sheet.volume;
+  for (std::size_t i = 0; i < alone.levels.size(); ++i)
+    alone.levels[i] = i % 64 < 40 ? alone.levels[i] : 45;
+  technique_->show(alone, sheet.cover);
+  for (const float see_through_db : {1.0F, 4.0F, 12.0F}) {
+    view_.see_through_db = see_through_db;
+    int last = 0;
+    for (const float tilt : {89.0F, 60.0F, 40.0F, 20.0F}) {
+      view_.tilt_deg = tilt;
+      draw_finished();
+      EXPECT_GE(pixel(0, 0)[3], last - 1) << see_through_db << " dB, from " << tilt;
+      EXPECT_LT(pixel(0, 0)[3], 255);
+      last = pixel(0, 0)[3];
+    }
+  }
 }
 
 TEST_F(SurfaceTechniqueTest, has_the_hue_of_its_depth) {
