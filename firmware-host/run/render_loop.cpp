@@ -125,19 +125,9 @@ bool RenderLoop::draws_parts() const {
          (view.technique == ui::Technique::rays || view.technique == ui::Technique::maximum);
 }
 
-// With a GPU every refresh of a moving view gets a frame. Where the processor draws, every second
-// one: 30 a second. A volume that comes while the view rests may take longer, as long as it is
-// shown well within the 60 ms that are allowed from its last line. B-scans come all the time: each
-// refresh shows what has come where only that is drawn anew, and copying it takes its time, too.
 ui::FrameBudget RenderLoop::frame_budget() const {
-  using namespace std::chrono_literals;
-  const hal::Duration refresh = parts_.display.refresh_period();
-  if (!software_)
-    return {refresh * 8 / 10, refresh * (rolling_ ? 8 : 18) / 10};
-  const hal::Duration moving = refresh * 18 / 10;
-  return {moving, draws_parts() ? refresh * 7 / 10
-                  : rolling_    ? moving
-                                : std::max<hal::Duration>(moving, 45ms)};
+  return ui::frame_budget(parts_.display.refresh_period(),
+                          {.software = software_, .rolling = rolling_, .in_parts = draws_parts()});
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before

@@ -56,6 +56,16 @@ std::optional<float> visible_reduction(const DrawQuality& quality) {
   return seen ? std::optional{static_cast<float>(sample_share(quality))} : std::nullopt;
 }
 
+FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how) {
+  using namespace std::chrono_literals;
+  if (!how.software)
+    return {refresh * 8 / 10, refresh * (how.rolling ? 8 : 18) / 10};
+  const hal::Duration moving = refresh * 18 / 10;
+  if (how.in_parts)
+    return {moving, refresh * 7 / 10};
+  return {moving, how.rolling ? moving : std::max<hal::Duration>(moving, 45ms)};
+}
+
 double Governor::Median::value() const {
   const std::size_t count = std::min(count_, kept);
   std::array<double, kept> sorted = values_;

@@ -34,6 +34,18 @@ struct FrameBudget {
   hal::Duration resting; // while only new volumes arrive: their latency matters
 };
 
+struct DrawnHow {
+  bool software = false; // by the processor
+  bool rolling = false;  // B-scans come all the time
+  bool in_parts = false; // of a view at rest only what changed
+};
+
+// With a GPU every refresh of a moving view gets a frame. Where the processor draws, every second
+// one: 30 a second. A volume that comes while the view rests may take longer, as long as it is
+// shown well within the 60 ms that are allowed from its last line. Of what rolls, each refresh shows
+// what has come where only that is drawn anew; copying it takes its time, too.
+FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how);
+
 // Threads: one at a time. Allocates nothing.
 class Governor {
 public:

@@ -19,6 +19,15 @@ protected:
     view.b_scan = b_scan;
     return view;
   }
+  // Half of a volume is over the one before.
+  void start_with_a_seam(const ui::ViewState& view) {
+    start(view);
+    send_scope_picture();
+    send_volume(Tissue::usual);
+    turn();
+    send_b_scans(Tissue::reversed, 0, 21);
+    turn();
+  }
   int seam_pixels() const {
     return count_colour(display_.picture, layout().en_face.picture, ui::palette::seam);
   }
@@ -72,22 +81,12 @@ TEST_F(RollingLoop, shows_each_b_scan_before_its_volume_is_whole_and_says_how_ol
 }
 
 TEST_F(RollingLoop, a_b_scan_behind_the_seam_is_still_the_older_one) {
-  start(rolling_view(30));
-  send_scope_picture();
-  send_volume(Tissue::usual);
-  turn();
-  send_b_scans(Tissue::reversed, 0, 21);
-  turn();
+  start_with_a_seam(rolling_view(30));
   EXPECT_TRUE(panel_shows(Tissue::usual));
 }
 
 TEST_F(RollingLoop, what_is_frozen_is_whole) {
-  start(rolling_view());
-  send_scope_picture();
-  send_volume(Tissue::usual);
-  turn();
-  send_b_scans(Tissue::reversed, 0, 21);
-  turn();
+  start_with_a_seam(rolling_view());
   ASSERT_GT(seam_pixels(), 20);
   press_freeze();
   turn();
@@ -102,12 +101,7 @@ TEST_F(RollingLoop, what_is_frozen_is_whole) {
 }
 
 TEST_F(RollingLoop, a_volume_that_was_finished_while_frozen_is_shown_whole) {
-  start(rolling_view());
-  send_scope_picture();
-  send_volume(Tissue::usual);
-  turn();
-  send_b_scans(Tissue::reversed, 0, 21);
-  turn();
+  start_with_a_seam(rolling_view());
   press_freeze();
   turn();
   ASSERT_TRUE(panel_shows(Tissue::usual));

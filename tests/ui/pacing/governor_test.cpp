@@ -81,6 +81,17 @@ TEST(QualityLadder, goes_down_in_steps_that_are_neither_steep_nor_useless) {
   }
 }
 
+TEST(FrameBudget, leaves_the_processor_every_second_refresh_but_for_what_is_drawn_in_parts) {
+  const auto budget = [](const ui::DrawnHow& how) { return ui::frame_budget(10ms, how); };
+  EXPECT_EQ(budget({}).moving, 8ms);
+  EXPECT_EQ(budget({}).resting, 18ms);
+  EXPECT_EQ(budget({.rolling = true}).resting, 8ms);
+  EXPECT_EQ(budget({.software = true}).moving, 18ms);
+  EXPECT_EQ(budget({.software = true}).resting, 45ms);
+  EXPECT_EQ(budget({.software = true, .rolling = true}).resting, 18ms);
+  EXPECT_EQ(budget({.software = true, .rolling = true, .in_parts = true}).resting, 7ms);
+}
+
 TEST_F(GovernorTest, a_machine_that_can_draws_everything_in_full) {
   const Machine gpu{.fixed_ms = 0.5, .full_ms = 4};
   draw(gpu, 1, true);
