@@ -354,8 +354,7 @@ void RenderLoop::update_status() {
   const ui::ViewState& view = controller_.state();
   status_writer_.judge(setup_.freshness,
                        view.frozen ? std::optional{view.frozen_since} : std::nullopt);
-  status_writer_.roll(rolling_volume_ && view.rolling, rolling_,
-                      rolling_ ? rolling_volume_->seam() : std::nullopt);
+  status_writer_.roll(view.rolling, rolling_, rolling_ ? rolling_volume_->seam() : std::nullopt);
   if (parts_.vessels != nullptr)
     status_writer_.show_vessels(parts_.vessels->status());
 }

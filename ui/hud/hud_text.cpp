@@ -76,11 +76,11 @@ void add_replay_badge(HudText& hud, const ReplayStatus& replay) {
 }
 
 // Rounded down as every age is: seen at rest, the figures stand still.
-void add_rolling_badge(HudText& hud, const RollingStatus& rolling) {
+void add_rolling_badge(HudText& hud, const RollingStatus& rolling, bool replay) {
   FixedText<48>& text = add_badge(hud, BadgeKind::rolling).text;
   const auto tenths = [](hal::Duration age) { return std::floor(hal::to_seconds(age) * 10) / 10; };
   if (!rolling.possible)
-    text.format("whole volumes: surface");
+    text.format("whole volumes: {}", replay ? "recording" : "surface");
   else if (rolling.seam)
     text.format("rolling {:.1f} s | {:.1f} s", tenths(rolling.seam->newer),
                 tenths(rolling.seam->older));
@@ -108,7 +108,7 @@ void compose_badges(HudText& hud, const ViewState& view, const Status& status,
   if (view.cut && shown.volume)
     add_badge(hud, BadgeKind::cut).text.format("cut at B-scan {}", view.b_scan + 1);
   if (status.rolling && shown.volume && status.freshness.liveness != Liveness::frozen)
-    add_rolling_badge(hud, *status.rolling);
+    add_rolling_badge(hud, *status.rolling, status.replay.has_value());
 }
 
 Trouble& add_trouble(HudText& hud, Trouble::Sign sign) {

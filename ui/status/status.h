@@ -72,7 +72,7 @@ struct RecordingStatus {
 
 // B-scans are shown as they come ("rolling").
 struct RollingStatus {
-  bool possible = true; // else whole volumes are shown: an iso-surface is not renewed in parts
+  bool possible = true; // else whole volumes are shown: of an iso-surface, and of a recording
   struct Seam {         // ages of what was exposed last on either side of it
     hal::Duration newer{};
     hal::Duration older{};
@@ -112,9 +112,8 @@ struct Status {
   bool another_camera = false; // not the camera of the calibration
 
   Freshness freshness;
-  int missing_b_scans = 0; // of the shown volume
-  std::optional<RollingStatus>
-      rolling{}; // empty: whole volumes are asked for, or nothing else can be
+  int missing_b_scans = 0;                // of the shown volume
+  std::optional<RollingStatus> rolling{}; // empty: whole volumes are asked for
   int saturated_lines = 0;
 
   // Set while the volume is drawn at reduced quality: the share of full quality.

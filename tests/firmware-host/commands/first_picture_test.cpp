@@ -12,6 +12,7 @@
 #include "firmware-host/run/volume_source.h"
 #include "sim/phantoms/phantom_anterior_eye.h"
 #include "sim/phantoms/phantom_instrument.h"
+#include "tests/support/must.h"
 #include "ui/view/camera.h"
 
 namespace octascope::tests {
@@ -27,14 +28,16 @@ double linear_light(std::uint8_t value) {
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
+pipeline::Volume load_eye() {
+  firmware_host::VolumeRequest request;
+  request.phantom = "anterior_eye";
+  return must(firmware_host::load_volume(request)).volume;
+}
+
 class FirstPicture : public testing::TestWithParam<ui::Technique> {
 protected:
   void SetUp() override {
-    firmware_host::VolumeRequest request;
-    request.phantom = "anterior_eye";
-    auto loaded = firmware_host::load_volume(request);
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    volume_ = std::move(loaded->volume);
+    volume_ = load_eye();
     firmware_host::RenderOptions options;
     options.view.technique = GetParam();
     options.view.box_visible = false;
@@ -135,13 +138,7 @@ protected:
   static constexpr int width = 320;
   static constexpr int height = 240;
 
-  void SetUp() override {
-    firmware_host::VolumeRequest request;
-    request.phantom = "anterior_eye";
-    auto loaded = firmware_host::load_volume(request);
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    volume_ = std::move(loaded->volume);
-  }
+  void SetUp() override { volume_ = load_eye(); }
 
   void draw(const ui::ViewState& view) {
     firmware_host::RenderOptions options;

@@ -77,6 +77,10 @@ TEST(HudText, a_rolling_volume_says_how_old_either_side_of_its_seam_is) {
   status.rolling->seam.reset();
   status.rolling->possible = false;
   EXPECT_EQ(badge().view(), "whole volumes: surface");
+  status.replay.emplace();
+  const HudText replayed = compose_hud_text({}, status, shown);
+  EXPECT_EQ(replayed.badges[replayed.badge_count - 1].text.view(), "whole volumes: recording");
+  status.replay.reset();
   status.freshness.liveness = Liveness::frozen;
   EXPECT_EQ(compose_hud_text({}, status, shown).badge_count, 1U) << "what is frozen is whole";
 }
