@@ -138,8 +138,6 @@ TEST_P(TechniqueCoverage, leaves_out_nothing_that_all_others_show) {
     for (const ui::Technique technique : ui::all_techniques) {
       firmware_host::RenderOptions options;
       options.view.technique = technique;
-      if (technique == ui::Technique::surface)
-        options.view.see_through_db = 0; // its glass is a surface, too
       options.view.yaw_deg = yaw;
       options.view.tilt_deg = tilt;
       options.view.box_visible = false;

@@ -180,7 +180,11 @@ TEST(Layout, small_pictures_use_the_screen) {
       const Layout l = lay_out(w, h, {1.67, 1, 4.0 / 3}, kind);
       for (const Panel* panel : {&l.b_scan, &l.en_face, &l.scope}) {
         ASSERT_TRUE(panel->shown()) << w << "x" << h << ", kind " << static_cast<int>(kind);
-        EXPECT_GE(panel->picture.width, w / 9) << w << "x" << h << ", " << static_cast<int>(kind);
+        // Smallest beside a large B-scan, which takes what it can, and under two B-scans.
+        const bool smallest =
+            kind == LayoutKind::b_scan || (kind == LayoutKind::volume && panel == &l.scope);
+        EXPECT_GE(panel->picture.width, w / (smallest ? 9 : 8))
+            << w << "x" << h << ", " << static_cast<int>(kind);
         const Rect& frame = panel->frame; // with a title and a border
         EXPECT_TRUE(panel->picture.width >= frame.width * 9 / 10 ||
                     panel->picture.height + panel->title.height >= frame.height * 9 / 10);
@@ -277,7 +281,7 @@ TEST(Layout, without_a_microscope_its_room_is_shared) {
              (kind == LayoutKind::volume ? area(each.b_scan) + area(each.crossed) : 0);
     };
     EXPECT_TRUE(kind == LayoutKind::microscope || kind == LayoutKind::quad ||
-                room(without) > 1.15 * room(with));
+                room(without) > (kind == LayoutKind::volume ? 1.15 : 1.3) * room(with));
   }
 }
 
