@@ -77,7 +77,8 @@ void draw_box_marks(Canvas& canvas, const Layout& layout, const ViewState& view,
                colour.faded(190), thin_line(u));
     };
     const pipeline::VolumeGeometry& volume = scene.shown.geometry;
-    if (layout.crossed.shown() || !layout.legend.empty()) // which takes its place
+    if (layout.crossed.shown() || !layout.legend.empty() || // which takes its place
+        view.cut == CutShape::corner)
       draw_plane(SliceAcross::fast, view.a_scan, volume.a_scans, palette::crossed);
     draw_plane(SliceAcross::slow, view.b_scan, volume.b_scans, palette::accent);
   }

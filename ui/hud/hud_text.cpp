@@ -88,6 +88,13 @@ void add_rolling_badge(HudText& hud, const RollingStatus& rolling, bool replay) 
     text.format("rolling");
 }
 
+void say_cut(Badge& badge, const ViewState& view) {
+  if (view.cut == CutShape::corner)
+    badge.text.format("cut at both B-scans");
+  else
+    badge.text.format("cut at B-scan {}", view.b_scan + 1);
+}
+
 void compose_badges(HudText& hud, const ViewState& view, const Status& status,
                     const ShownPictures& shown) {
   if (status.replay)
@@ -105,8 +112,8 @@ void compose_badges(HudText& hud, const ViewState& view, const Status& status,
   add_incomplete_badge(hud, status.saturated_lines, "line saturated", "lines saturated");
   if (hud.vessels.shown && !status.vessels.registered)
     add_badge(hud, BadgeKind::unregistered).text.format("VESSELS NOT REGISTERED");
-  if (view.cut && shown.volume)
-    add_badge(hud, BadgeKind::cut).text.format("cut at B-scan {}", view.b_scan + 1);
+  if (view.cut != CutShape::none && shown.volume)
+    say_cut(add_badge(hud, BadgeKind::cut), view);
   if (status.rolling && shown.volume && status.freshness.liveness != Liveness::frozen)
     add_rolling_badge(hud, *status.rolling, status.replay.has_value());
 }

@@ -179,7 +179,7 @@ void RayCaster::prepare(float steps, Visibility visibility) {
 RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
                           RayImage& image) const {
   const pipeline::VolumeGeometry& g = cells_->geometry();
-  const RayGeometry rays = ray_geometry(g, camera, settings.kept);
+  const RayGeometry rays = ray_geometry(g, camera, settings.cut_away);
   RayFrame f{};
   f.cells = cells_->data();
   f.column_bytes = cells_->column_bytes();
@@ -190,6 +190,9 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   f.brick_octant = static_cast<std::int32_t>(bricks_.counts().all());
   set(f.lower, rays.lower);
   set(f.upper, rays.upper);
+  f.is_cut = rays.is_cut;
+  f.cut[0] = rays.cut.x;
+  f.cut[1] = rays.cut.y;
   f.opacity_and_red = steps_table_->opacity_and_red.data();
   f.green_and_blue = steps_table_->green_and_blue.data();
   if (const auto& ramp = steps_table_->ramp) {

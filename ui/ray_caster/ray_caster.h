@@ -53,9 +53,9 @@ struct RayImage {
 
 struct RaySettings {
   RayMode mode = RayMode::composite;
-  float step_mm = 0;                  // along each ray
-  bool leap_empty = true;             // affects only the drawing time, not the picture
-  SlowRange kept{};                   // by a cut
+  float step_mm = 0;      // along each ray
+  bool leap_empty = true; // affects only the drawing time, not the picture
+  CutAway cut_away{};
   const DepthImage* stops = nullptr;  // of the image's size: where vessels end the rays
   const LightVolume* light = nullptr; // of `shaded`, prepared; null: nothing is lit
   bool soften = false;                // ui/dither/soften.h

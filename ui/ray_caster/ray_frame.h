@@ -33,6 +33,8 @@ struct RayFrame {
   std::int32_t brick_octant;   // … between octants
   float lower[3];              // the box that is shown
   float upper[3];
+  bool is_cut;
+  float cut[2]; // RayGeometry::cut
 
   // The transfer function.
   const std::uint32_t* opacity_and_red;

@@ -11,7 +11,7 @@
 namespace octascope::ui {
 
 RayGeometry ray_geometry(const pipeline::VolumeGeometry& g, const Camera& camera,
-                         const SlowRange& kept) {
+                         const CutAway& away) {
   const glm::vec3 per_mm{1e3 / g.depth_spacing_um, 1e3 / g.a_spacing_um, 1e3 / g.b_spacing_um};
   const glm::vec3 counts{g.depths, g.a_scans, g.b_scans};
   const glm::vec3 middle = counts / 2.0F + glm::vec3{-0.5F, 0.5F, 0.5F};
@@ -20,8 +20,11 @@ RayGeometry ray_geometry(const pipeline::VolumeGeometry& g, const Camera& camera
     return glm::vec3{-world.y, world.x, world.z} * per_mm;
   };
   RayGeometry rays;
-  rays.lower = {static_cast<float>(pipeline::blank_depth_bins), 0.5F, 0.5F + kept.from * counts.z};
-  rays.upper = {counts.x - 0.5F, counts.y + 0.5F, 0.5F + kept.to * counts.z};
+  rays.lower = {static_cast<float>(pipeline::blank_depth_bins), 0.5F, 0.5F};
+  rays.upper = {counts.x - 0.5F, counts.y + 0.5F, counts.z + 0.5F};
+  rays.is_cut = !away.nothing();
+  for (const int axis : {0, 1})
+    rays.cut[axis] = away.has_face(axis) ? 0.5F + away.face(axis) * counts[axis + 1] : 1e9F;
   rays.eye = cells(camera.eye) + middle;
   rays.forward = cells(camera.forward);
   rays.right = cells(camera.right);

@@ -1,6 +1,7 @@
 // The geometry of rays, shared by the processor's ray caster and the shader's. Pure.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "pipeline/volume/volume.h"
@@ -15,6 +16,10 @@ namespace octascope::ui {
 struct RayGeometry {
   glm::vec3 lower; // the box that is shown: excludes the blank depth bins
   glm::vec3 upper;
+  // Where a cut's faces lie on the fast and the slow axis, far away where it has none. Rays begin where
+  // they leave the cut, that is at the first face that they reach.
+  bool is_cut;
+  glm::vec2 cut;
   glm::vec3 eye;
   glm::vec3 forward; // cells per mm
   glm::vec3 right;
@@ -27,7 +32,7 @@ struct RayGeometry {
 };
 
 RayGeometry ray_geometry(const pipeline::VolumeGeometry& geometry, const Camera& camera,
-                         const SlowRange& kept = {});
+                         const CutAway& away = {});
 
 // The octants of directions (see DistancesAhead) that a picture's rays can have, one bit each.
 unsigned octants_of_rays(const pipeline::VolumeGeometry& geometry, const Camera& camera);

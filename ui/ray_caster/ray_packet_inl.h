@@ -65,6 +65,18 @@ HWY_INLINE void clip(Interval& interval, float lower, float upper, float eye, Re
   interval.to = hn::Min(interval.to, hn::Max(at_lower, at_upper));
 }
 
+// Where rays leave what a cut takes away; the eye is in it.
+HWY_INLINE Real end_of_cut(const RayFrame& frame, const RealVector& direction) {
+  const Real never = real(1e9F);
+  const auto reaches = [&](float face, float eye, Real along) {
+    const Real safe = hn::IfThenElse(hn::Lt(hn::Abs(along), real(1e-12F)), real(1e-12F), along);
+    const Real at = hn::Div(real(face - eye), safe);
+    return hn::IfThenElse(hn::Ge(at, real(0)), at, never);
+  };
+  return hn::Min(reaches(frame.cut[0], frame.eye[1], direction.a),
+                 reaches(frame.cut[1], frame.eye[2], direction.b));
+}
+
 HWY_INLINE Real dither(const RayFrame& frame, Int x, Int y_from_bottom) {
   const Int last = whole(dither_size - 1);
   const Int row = hn::Mul(hn::And(y_from_bottom, last), whole(dither_size));
@@ -120,6 +132,8 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
   clip(inside, frame.lower[1], frame.upper[1], frame.eye[1], d.a);
   clip(inside, frame.lower[2], frame.upper[2], frame.eye[2], d.b);
 
+  if (frame.is_cut)
+    inside.from = hn::Max(inside.from, end_of_cut(frame, d));
   if (frame.stops != nullptr)
     inside.to = hn::Min(inside.to, hn::Mul(stops_of(frame, x, y), length));
 

@@ -1,4 +1,4 @@
-// The face of a cut volume: the B-scan, in its place in the volume.
+// The faces of a cut volume: the B-scan, or parts of both crossed ones, in their place in the volume.
 #pragma once
 
 #include "hal/result.h"
@@ -15,12 +15,13 @@ class CutFace {
 public:
   static hal::Result<CutFace> create();
 
-  // Blends it over the volume's picture in `rect` of the bound framebuffer; all that a cut leaves
+  // Blends them over the volume's picture in `rect` of the bound framebuffer; all that a cut leaves
   // lies behind it. In the levels as they came: nothing is drawn weaker here.
   void composite(const VolumeTexture& volume, const TransferTexture& transfer, const Camera& camera,
-                 const SlowRange& kept, const Rect& rect, int target_height) const;
+                 const CutAway& away, const Rect& rect, int target_height) const;
 
 private:
+  void draw_face(const gl::Program& program, const CutAway& away, int across) const;
   explicit CutFace(TransferProgram program)
       : program_{std::move(program)}, vertex_array_{gl::VertexArray::make()} {}
 

@@ -285,15 +285,15 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   VolumeScene scene{
       *drawn,      transfer_texture_, camera, view, step_mm(quality, texture_.geometry()),
       &occupancy_, uploads_};
-  scene.kept = kept_range(view, camera, texture_.geometry());
+  scene.cut_away = cut_away(view, camera, texture_.geometry());
   scene.light = light_for(view);
   scene.changed = changed_;
-  if (!scene.kept.whole() && !cut_face_) {
+  if (!scene.cut_away.nothing() && !cut_face_) {
     HAL_TRY(auto made, CutFace::create());
     cut_face_.emplace(std::move(made));
   }
   pictures->camera = camera;
-  pictures->kept = scene.kept;
+  pictures->cut_away = scene.cut_away;
   if (surface) {
     HAL_CHECK(techniques_.get(view.technique));
     scene.mesh = techniques_.surface()->prepare(view);
@@ -351,8 +351,8 @@ void VolumePainter::composite(StereoEye eye, const Rect& rect, int target_height
     pictures->by_processor->composite(rect, target_height);
   else
     pictures->by_gl.composite(rect, target_height);
-  if (!pictures->kept.whole())
-    cut_face_->composite(texture_, transfer_texture_, pictures->camera, pictures->kept, rect,
+  if (!pictures->cut_away.nothing())
+    cut_face_->composite(texture_, transfer_texture_, pictures->camera, pictures->cut_away, rect,
                          target_height);
 }
 

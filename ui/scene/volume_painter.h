@@ -116,7 +116,7 @@ private:
     std::optional<RayCastPicture> by_processor;
     bool processor_drew = false; // in the last update()
     Camera camera{};             // of the last update()
-    SlowRange kept{};
+    CutAway cut_away{};
   };
 
   VolumePainter(bool software, const TransferSet& transfers, const pipeline::ThreadSetup& threads);

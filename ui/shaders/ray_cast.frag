@@ -12,6 +12,8 @@ uniform vec3 u_to_texture_offset;
 
 uniform vec3 u_lower; // the box that is shown
 uniform vec3 u_upper;
+uniform bool u_is_cut;
+uniform vec2 u_cut; // where its faces lie, fast and slow axis
 uniform vec3 u_eye;
 uniform vec3 u_forward; // cells per mm
 uniform vec3 u_right;
@@ -52,6 +54,11 @@ Ray make_ray() {
   vec3 enter = min(at_lower, at_upper);
   vec3 leave = max(at_lower, at_upper);
   float from = max(max(u_near_mm * reach, enter.x), max(enter.y, enter.z));
+  if (u_is_cut) { // rays begin where they leave what is cut away
+    vec2 reach_face = (u_cut - u_eye.yz) / safe.yz;
+    reach_face = mix(vec2(1e9), reach_face, greaterThanEqual(reach_face, vec2(0.0)));
+    from = max(from, min(reach_face.x, reach_face.y));
+  }
   float to = min(min(stop_mm() * reach, leave.x), min(leave.y, leave.z));
 
   // Samples of all rays lie on the same shells around the eye, moved by each pixel's dither.

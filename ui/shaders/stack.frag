@@ -7,7 +7,7 @@ in vec2 v_depth;
 uniform sampler3D u_levels;
 uniform float u_steps; // spacing of the polygons in reference steps
 uniform float u_dither; // 1, or 0 for samples on the polygons themselves
-uniform vec2 u_kept; // by a cut, of the slow axis
+uniform vec4 u_cut_away; // from, to, on the fast and the slow axis
 uniform float u_first_depth; // above it lies what the background left behind, not tissue
 
 out vec4 o_colour; // premultiplied
@@ -19,7 +19,8 @@ void main() {
   vec3 position = v_texture + v_step * moved;
   vec4 substance = look_up(textureLod(u_levels, position, 0.0).r);
   substance.a *= step(u_first_depth, position.x);
-  substance.a *= step(u_kept.x, position.z) * step(position.z, u_kept.y);
+  bvec4 cut = bvec4(greaterThan(position.yz, u_cut_away.xy), lessThan(position.yz, u_cut_away.zw));
+  substance.a *= all(cut) ? 0.0 : 1.0;
   if (v_depth.x + v_depth.y * moved >= stop_mm())
     substance.a = 0.0;
   substance.rgb *= tint_at(position.x);

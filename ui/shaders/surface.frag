@@ -7,7 +7,7 @@ in float v_depth;
 in float v_cover;
 in float v_place;
 
-uniform vec2 u_kept;     // by a cut, of the slow axis
+uniform vec4 u_cut_away; // from, to, on the fast and the slow axis
 uniform vec3 u_colour;   // of tissue
 uniform vec3 u_metal;    // of what is well above the window
 uniform vec2 u_metallic; // from where to where in the window the one becomes the other
@@ -31,8 +31,8 @@ float glass_opacity(float facing) {
 }
 
 void main() {
-  if (v_depth >= stop_mm() || v_texture.z < u_kept.x || v_texture.z > u_kept.y ||
-      (v_cover > least_cover) != u_glass)
+  bvec4 cut = bvec4(greaterThan(v_texture.yz, u_cut_away.xy), lessThan(v_texture.yz, u_cut_away.zw));
+  if (v_depth >= stop_mm() || all(cut) || (v_cover > least_cover) != u_glass)
     discard;
   float slant = max(length(v_normal) * length(v_from_eye), 1e-6);
   float facing = abs(dot(v_normal, v_from_eye)) / slant;

@@ -25,6 +25,9 @@ inline constexpr std::array layout_values{
 inline constexpr std::array stereo_values{ChoiceValue{"off", "off"},
                                           ChoiceValue{"side_by_side", "side by side"},
                                           ChoiceValue{"top_bottom", "top and bottom"}};
+inline constexpr std::array cut_values{ChoiceValue{"off", "off"},
+                                       ChoiceValue{"b_scan", "at the B-scan"},
+                                       ChoiceValue{"corner", "at both B-scans"}};
 inline constexpr std::array figures_values{ChoiceValue{"hidden", "hidden"},
                                            ChoiceValue{"strip", "shown"},
                                            ChoiceValue{"timing", "with timing"}};

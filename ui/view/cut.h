@@ -1,7 +1,10 @@
-// The volume cut open at the shown B-scan: what lies between it and the eye is left out.
+// The volume cut open: at the shown B-scan, or at both crossed ones, with a corner left out. What lies
+// between the cut and the eye is not drawn.
 #pragma once
 
 #include <algorithm>
+
+#include <glm/vec2.hpp>
 
 #include "pipeline/volume/volume_geometry.h"
 #include "ui/view/camera.h"
@@ -9,25 +12,41 @@
 
 namespace octascope::ui {
 
-// The part of the slow axis that is drawn, as shares of its length.
-struct SlowRange {
-  float from = 0;
-  float to = 1;
+// What a cut takes away: all that lies between two places on the fast axis and between two on the slow
+// one, at every depth. Places are shares of an axis' length, those at the eye's side beyond the box: the
+// eye is in it, so that every ray leaves it once.
+struct CutAway {
+  glm::vec2 from{0}; // fast, slow
+  glm::vec2 to{0};
 
-  bool whole() const { return from <= 0 && to >= 1; }
-  float face() const { return from > 0 ? from : to; } // where it is cut
-  bool operator==(const SlowRange&) const = default;
+  bool nothing() const { return from == to; }
+  // Whether there is a face across that axis (0 fast, 1 slow), and where.
+  bool has_face(int axis) const { return from[axis] > 0 || to[axis] < 1; }
+  float face(int axis) const { return from[axis] > 0 ? from[axis] : to[axis]; }
+  bool operator==(const CutAway&) const = default;
 };
 
-// The cut runs through the middle of the view's B-scan, and its face looks at the eye.
-inline SlowRange kept_range(const ViewState& view, const Camera& camera,
-                            const pipeline::VolumeGeometry& geometry) {
-  if (!view.cut)
-    return {};
-  const int b_scan = std::clamp(view.b_scan, 0, geometry.b_scans - 1);
-  const float at = (static_cast<float>(b_scan) + 0.5F) / static_cast<float>(geometry.b_scans);
-  const float eye = 0.5F + camera.eye.z / box_extents_mm(geometry).z;
-  return eye > at ? SlowRange{0, at} : SlowRange{at, 1};
+// The cut runs through the middle of the view's B-scan, and of the crossed one; its faces look at the eye.
+inline CutAway cut_away(const ViewState& view, const Camera& camera,
+                        const pipeline::VolumeGeometry& geometry) {
+  constexpr float before = -1, behind = 2; // anywhere outside the box
+  CutAway away;
+  const auto open = [&](int axis, int index, int count, float eye_mm, float extent_mm) {
+    const float at =
+        (static_cast<float>(std::clamp(index, 0, count - 1)) + 0.5F) / static_cast<float>(count);
+    const bool beyond = 0.5F + eye_mm / extent_mm > at;
+    away.from[axis] = beyond ? at : before;
+    away.to[axis] = beyond ? behind : at;
+  };
+  if (view.cut == CutShape::none)
+    return away;
+  const glm::vec3 extents = box_extents_mm(geometry);
+  open(1, view.b_scan, geometry.b_scans, camera.eye.z, extents.z);
+  if (view.cut == CutShape::corner)
+    open(0, view.a_scan, geometry.a_scans, camera.eye.x, extents.x);
+  else
+    away.from[0] = before, away.to[0] = behind;
+  return away;
 }
 
 } // namespace octascope::ui

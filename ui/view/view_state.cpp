@@ -19,7 +19,8 @@ bool same_sight(const ViewState& a, const ViewState& b) {
     return !row.has(trait::drawn) ||
            std::visit([&](const auto& value) { return value.same(a, b); }, row.value);
   };
-  const bool same_cut = !(a.cut && b.cut) || a.b_scan == b.b_scan;
+  const bool same_cut = (a.cut == CutShape::none || a.b_scan == b.b_scan) &&
+                        (a.cut != CutShape::corner || a.a_scan == b.a_scan);
   return same_cut && std::ranges::all_of(action_table(), same);
 }
 

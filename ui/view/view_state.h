@@ -26,6 +26,13 @@ enum class LayoutKind : std::uint8_t {
 // For displays that show one picture to each eye.
 enum class StereoMode : std::uint8_t { off, side_by_side, top_bottom };
 
+// Where the volume is cut open.
+enum class CutShape : std::uint8_t {
+  none,
+  b_scan, // at `b_scan`
+  corner, // at `b_scan` and `a_scan`: the corner between them is left out
+};
+
 // What is shown of the machine itself.
 enum class FiguresShown : std::uint8_t {
   none,
@@ -60,7 +67,7 @@ struct ViewState {
   int colour_map = 0;            // index of the colour map; 0 is grey
   float opacity = 0.5F;          // of a voxel at the top of the window, per reference step
   float see_through_db = 12;     // by which tissue that covers other tissue is drawn weaker
-  bool cut = false;              // open at `b_scan` (ui/view/cut.h)
+  CutShape cut = CutShape::none; // ui/view/cut.h
   bool box_visible = true;       // the wire-frame box
   bool frozen = false;           // the volume stays; the view can still move
   hal::TimePoint frozen_since{}; // when `frozen` became true

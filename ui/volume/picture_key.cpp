@@ -18,7 +18,7 @@ VolumePictureKey volume_picture_key(const VolumeScene& scene, const DrawQuality&
           view.technique,
           scene.vessels != nullptr ? scene.vessels->version : 0,
           scene.vessels != nullptr ? scene.vessels->opacity : 1,
-          scene.kept,
+          scene.cut_away,
           scene.step_mm,
           picture_pixels(quality, rect.width),
           picture_pixels(quality, rect.height)};

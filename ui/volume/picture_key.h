@@ -22,7 +22,7 @@ struct VolumePictureKey {
   Technique technique = Technique::rays;
   std::uint64_t vessels = 0; // version of their picture; 0: none
   float vessel_opacity = 1;
-  SlowRange kept{};
+  CutAway cut_away{};
   float step_mm = 0;
   int width = 0;
   int height = 0;

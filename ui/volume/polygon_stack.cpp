@@ -58,7 +58,8 @@ void PolygonStack::draw(const VolumeScene& scene, const Spacing& spacing) {
   glUniform1f(program.uniform("u_steps"), spacing.mm / reference_step_mm(extents / 2.0F));
   glUniform1f(program.uniform("u_dither"), spacing.dithered ? 1.0F : 0.0F);
   glUniform1f(program.uniform("u_first_depth"), first_depth_share(scene.volume.geometry().depths));
-  glUniform2f(program.uniform("u_kept"), scene.kept.from, scene.kept.to);
+  const CutAway& away = scene.cut_away;
+  glUniform4f(program.uniform("u_cut_away"), away.from.x, away.from.y, away.to.x, away.to.y);
 
   glUniform3fv(program.uniform("u_forward"), 1, glm::value_ptr(scene.camera.forward));
   set_depth_mask(program, scene.vessels, scene.camera);

@@ -54,7 +54,7 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   RaySettings settings;
   settings.mode = mode;
   settings.step_mm = scene.step_mm;
-  settings.kept = scene.kept;
+  settings.cut_away = scene.cut_away;
   settings.light = scene.light;
   settings.soften = is_grained(scene.step_mm, scene.volume.geometry());
   const DepthMask* vessels = scene.vessels;

@@ -73,9 +73,11 @@ void RayCastTechnique::prepare_bricks(const VolumeScene& scene) {
 void RayCastTechnique::set_rays(const gl::Program& program, const VolumeScene& scene) const {
   const Camera& camera = scene.camera;
   const pipeline::VolumeGeometry& g = scene.volume.geometry();
-  const RayGeometry rays = ray_geometry(g, camera, scene.kept);
+  const RayGeometry rays = ray_geometry(g, camera, scene.cut_away);
   set(program, "u_lower", rays.lower);
   set(program, "u_upper", rays.upper);
+  glUniform1i(program.uniform("u_is_cut"), rays.is_cut ? 1 : 0);
+  glUniform2fv(program.uniform("u_cut"), 1, glm::value_ptr(rays.cut));
   set(program, "u_eye", rays.eye);
   set(program, "u_forward", rays.forward);
   set(program, "u_right", rays.right);
@@ -123,7 +125,7 @@ void RayCastTechnique::upload_light(const LightVolume& light) {
 }
 
 void RayCastTechnique::set_light(const gl::Program& program, const VolumeScene& scene) {
-  const RayGeometry rays = ray_geometry(scene.volume.geometry(), scene.camera, scene.kept);
+  const RayGeometry rays = ray_geometry(scene.volume.geometry(), scene.camera, scene.cut_away);
   glUniform1i(program.uniform("u_lit"), scene.light != nullptr ? 1 : 0);
   glUniform1i(program.uniform("u_light"), light_unit);
   if (scene.light != nullptr) {

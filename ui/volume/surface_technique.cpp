@@ -61,7 +61,7 @@ SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers,
                                               program_.uniform("u_ambient"),
                                               program_.uniform("u_cue"),
                                               program_.uniform("u_cue_loss"),
-                                              program_.uniform("u_kept"),
+                                              program_.uniform("u_cut_away"),
                                               program_.uniform("u_glass")} {
   using pipeline::IsoVertex;
   glBindVertexArray(vertex_array_.name());
@@ -133,7 +133,8 @@ void SurfaceTechnique::set_uniforms(const VolumeScene& scene) const {
   glUniform1f(uniforms_.ambient, surface_ambient);
   glUniform2f(uniforms_.cue, near, 1 / (middle + reach - near));
   glUniform1f(uniforms_.cue_loss, depth_cue);
-  glUniform2f(uniforms_.kept, scene.kept.from, scene.kept.to);
+  const CutAway& away = scene.cut_away;
+  glUniform4f(uniforms_.cut_away, away.from.x, away.from.y, away.to.x, away.to.y);
   const WindowRamp window = window_ramp(scene.view);
   glUniform2f(program_.uniform("u_window"), window.scale, window.offset);
   glUniform2f(program_.uniform("u_metallic"), metal_from, metal_to);

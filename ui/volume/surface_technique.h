@@ -82,7 +82,7 @@ private:
   std::uint64_t mesh_ = 0;  // counts the meshes taken
   glm::vec3 extents_mm_{0}; // of the mesh's volume: fast, depth, slow
   struct {
-    GLint view_projection, eye, forward, extents, colour, metal, ambient, cue, cue_loss, kept,
+    GLint view_projection, eye, forward, extents, colour, metal, ambient, cue, cue_loss, cut_away,
         glass;
   } uniforms_;
 };

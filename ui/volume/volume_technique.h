@@ -26,8 +26,8 @@ struct VolumeScene {
   std::uint64_t upload = 0;                       // counts the volumes shown
   std::uint64_t mesh = 0;                         // counts the iso-surfaces
   const DepthMask* vessels = nullptr;             // null: no vessel ends a ray
-  SlowRange kept{};                               // by a cut
-  const LightVolume* light = nullptr;             // of `shaded`; null: nothing is lit
+  CutAway cut_away{};
+  const LightVolume* light = nullptr; // of `shaded`; null: nothing is lit
   // In what B-scans the volume differs from that of the upload before; empty: in any.
   std::span<const pipeline::BScanRange> changed{};
 };

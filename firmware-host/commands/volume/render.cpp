@@ -49,10 +49,15 @@ hal::Result<pipeline::Image> render_volume(const pipeline::Volume& volume,
                      "--drawn-by is processor for the technique {}, which GL draws; expected rays, "
                      "shaded or maximum with it",
                      to_string(options.view.technique));
-  if (options.view.cut && options.view.b_scan >= volume.geometry.b_scans)
+  const ui::CutShape cut = options.view.cut;
+  if (cut != ui::CutShape::none && options.view.b_scan >= volume.geometry.b_scans)
     return hal::fail(hal::ErrorCode::invalid_argument,
                      "--cut is {}, expected a B-scan of the volume, 0 to {}", options.view.b_scan,
                      volume.geometry.b_scans - 1);
+  if (cut == ui::CutShape::corner && options.view.a_scan >= volume.geometry.a_scans)
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "--cut is {},{}, expected an A-scan of the volume, 0 to {}, behind the comma",
+                     options.view.b_scan, options.view.a_scan, volume.geometry.a_scans - 1);
   HAL_TRY(const auto gl, OffscreenGl::open(options.width, options.height));
   return draw(volume, options, gl->clock());
 }

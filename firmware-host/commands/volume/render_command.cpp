@@ -43,8 +43,8 @@ struct RenderArguments {
   std::string vessel_colours = "branch";
   TreeArguments tree;
   std::size_t volume_number = 0;
-  CLI::Option* at = nullptr; // whether one was said
-  int cut_at = 0;
+  CLI::Option* at = nullptr;      // whether one was said
+  std::vector<int> cut_at;        // B-scan, and A-scan if a corner is cut
   CLI::Option* cut = nullptr;     // likewise
   CLI::Option* opacity = nullptr; // the configuration may say another
 };
@@ -141,8 +141,10 @@ hal::Result<RenderOptions> options_of(const RenderArguments& a) {
   options.view = a.view;
   HAL_CHECK(read_look(a, options));
   if (!a.cut->empty()) {
-    options.view.cut = true;
-    options.view.b_scan = a.cut_at;
+    options.view.cut = a.cut_at.size() > 1 ? ui::CutShape::corner : ui::CutShape::b_scan;
+    options.view.b_scan = a.cut_at.front();
+    if (a.cut_at.size() > 1)
+      options.view.a_scan = a.cut_at.back();
   }
   options.view.stereo = stereo_modes().at(a.stereo);
   options.view.vessel_colouring = vessel_colourings().at(a.vessel_colours);
@@ -266,9 +268,15 @@ void add_look_options(CLI::App& command, RenderArguments& a) {
                   "dB by which tissue that covers other tissue is drawn weaker")
       ->check(within_range_of(ui::Action::see_through))
       ->capture_default_str();
-  a.cut =
-      command.add_option("--cut", a.cut_at, "Cut the volume open at this B-scan, counted from 0")
-          ->check(within(0, 1000000000));
+  a.cut = command
+              .add_option(
+                  "--cut", a.cut_at,
+                  "Cut the volume open at this B-scan, or at this one and this A-scan: a corner "
+                  "is left out; counted from 0, as 44 or 44,150")
+              ->expected(1, 2)
+              ->delimiter(',')
+              ->type_name("B[,A]")
+              ->check(within(0, 1000000000));
   command.add_option("--transfer", a.transfer,
                      "Transfer function: window, smooth, surface or the configuration's own");
   command.add_option("--colours", a.colours, "Colour map: grey, amber, blue-green, dawn or depth");

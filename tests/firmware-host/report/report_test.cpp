@@ -138,7 +138,7 @@ TEST(Report, says_every_figure_under_its_key) {
                              {"colours", 0},
                              {"opacity", 0.5},
                              {"see_through_db", 12.0},
-                             {"cut", false},
+                             {"cut", "off"},
                              {"layout", "b_scan"},
                              {"stereo", "top_bottom"},
                              {"frozen", false},

@@ -160,8 +160,11 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   EXPECT_FALSE(state().echo.chosen);
   choose(Action::cut);
   turn(1);
-  EXPECT_TRUE(state().cut);
+  EXPECT_EQ(state().cut, CutShape::b_scan);
   EXPECT_EQ(echo(), "at the B-scan");
+  turn(1);
+  EXPECT_EQ(state().cut, CutShape::corner);
+  EXPECT_EQ(echo(), "at both B-scans");
   tread({2});
   EXPECT_EQ(state().selected, Action::see_through);
   turn(-20);

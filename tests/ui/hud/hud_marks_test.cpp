@@ -59,7 +59,7 @@ ShownPictures one_volume() {
 
 ViewState cut_open() {
   ViewState view;
-  view.cut = true;
+  view.cut = CutShape::b_scan;
   return view;
 }
 
@@ -233,7 +233,10 @@ TEST(HudText, a_volume_that_is_cut_says_where) {
   ShownPictures shown;
   shown.volume = true;
   const std::size_t without = compose_hud_text(view, live_status(), shown).badge_count;
-  view.cut = true;
+  view.cut = CutShape::corner;
+  EXPECT_EQ(compose_hud_text(view, live_status(), shown).badges[without].text.view(),
+            "cut at both B-scans");
+  view.cut = CutShape::b_scan;
   const HudText text = compose_hud_text(view, live_status(), shown);
   ASSERT_EQ(text.badge_count, without + 1);
   EXPECT_EQ(text.badges[without].text.view(), "cut at B-scan 41");

@@ -279,6 +279,13 @@ TEST_F(VolumePainterTest, an_iso_surface_is_of_one_volume) {
   }
 }
 
+float grey_of(std::uint8_t level, const ui::ViewState& view) {
+  const float from_db =
+      view.window_offset_db + ui::window_lift(view.technique) * view.window_size_db;
+  const float size_db = ui::window_stretch(view.technique) * view.window_size_db;
+  return std::min((pipeline::level_db(level) - from_db) / size_db, 1.F);
+}
+
 // The eye is at the end of the last B-scans. What is bright lies there alone, then in one B-scan
 // behind it alone.
 TEST_F(VolumePainterTest, a_cut_takes_away_what_is_before_the_b_scan_and_shows_it) {
@@ -294,9 +301,9 @@ TEST_F(VolumePainterTest, a_cut_takes_away_what_is_before_the_b_scan_and_shows_i
       view.technique = technique;
       view.b_scan = 20;
       ASSERT_TRUE(show(before));
-      view.cut = false;
+      view.cut = ui::CutShape::none;
       EXPECT_GT(brightest(draw(view, quality)), 30);
-      view.cut = true;
+      view.cut = ui::CutShape::b_scan;
       EXPECT_EQ(brightest(draw(view, quality)), 0) << "all that is there is cut away";
       view.yaw_deg += 180; // seen from behind, it is what is kept
       EXPECT_GT(brightest(draw(view, quality)), 30);
@@ -304,16 +311,57 @@ TEST_F(VolumePainterTest, a_cut_takes_away_what_is_before_the_b_scan_and_shows_i
 
       ASSERT_TRUE(show(alone));
       const int face = brightest(draw(view, quality));
-      const float from_db =
-          view.window_offset_db + ui::window_lift(technique) * view.window_size_db;
-      const float size_db = ui::window_stretch(technique) * view.window_size_db;
-      const float grey = std::min((pipeline::level_db(140) - from_db) / size_db, 1.F);
-      EXPECT_NEAR(face, 255 * grey, 2) << "as bright as the B-scan, however clear the rest";
+      EXPECT_NEAR(face, 255 * grey_of(140, view), 2)
+          << "as bright as the B-scan, however clear the rest";
       view.b_scan = 30;                        // the cut follows it
       if (technique == ui::Technique::maximum) // finds it behind
         EXPECT_LE(brightest(draw(view, quality)), face);
       else
         EXPECT_LT(brightest(draw(view, quality)), face - 20);
+    }
+}
+
+// The eye is at the end of the last B-scans and last A-scans. What is bright lies in the corner there
+// alone; then beside it, along either axis; then in one of the crossed B-scans.
+TEST_F(VolumePainterTest, a_corner_that_is_cut_leaves_what_lies_beside_it_and_shows_both_b_scans) {
+  const auto bright_columns = [](int a_from, int a_to, int b_from, int b_to) {
+    const auto depths = static_cast<std::size_t>(small_geometry.depths);
+    pipeline::Volume volume = uniform_volume(small_geometry, 0);
+    for (int b = b_from; b < b_to; ++b)
+      for (int a = a_from; a < a_to; ++a)
+        std::ranges::fill(volume.b_scan(b).subspan(static_cast<std::size_t>(a) * depths, depths),
+                          std::uint8_t{140});
+    return volume;
+  };
+  const int a_scans = small_geometry.a_scans;
+  const int middle = a_scans / 2;
+  ui::ViewState view = view_from(45, 20, 2.4F, 0.02F);
+  view.b_scan = 20;
+  view.a_scan = middle;
+  for (const ui::Technique technique : ui::all_techniques)
+    for (const ui::DrawQuality& quality : {by_shader, by_processor}) {
+      SCOPED_TRACE(to_string(technique));
+      view.technique = technique;
+      ASSERT_TRUE(show(bright_columns(middle + 3, a_scans, 23, small_geometry.b_scans)));
+      view.cut = ui::CutShape::none;
+      EXPECT_GT(brightest(draw(view, quality)), 30);
+      view.cut = ui::CutShape::corner;
+      EXPECT_EQ(brightest(draw(view, quality)), 0) << "all that is there is cut away";
+      view.yaw_deg += 180; // the opposite corner is open then
+      EXPECT_GT(brightest(draw(view, quality)), 30);
+      view.yaw_deg -= 180;
+
+      for (const auto& beside : {bright_columns(0, middle - 3, 23, small_geometry.b_scans),
+                                 bright_columns(middle + 3, a_scans, 0, 18)}) {
+        ASSERT_TRUE(show(beside));
+        EXPECT_GT(brightest(draw(view, quality)), 30) << "beside the corner, all stays";
+      }
+
+      for (const auto& on_a_face : {bright_columns(middle, middle + 1, 0, small_geometry.b_scans),
+                                    bright_columns(0, a_scans, 20, 21)}) {
+        ASSERT_TRUE(show(on_a_face));
+        EXPECT_NEAR(brightest(draw(view, quality)), 255 * grey_of(140, view), 2) << "opaque";
+      }
     }
 }
 
