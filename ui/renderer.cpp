@@ -90,6 +90,7 @@ struct Renderer::Parts {
   pipeline::VolumeGeometry shown_geometry{};
   TissueMap tissue{};
   SteadyCrop crop{}; // of the flat pictures
+  GlidingDepths coloured_depths{};
   std::optional<LevelShares> levels{};
   std::uint64_t level_uploads = 0;
   std::uint64_t scope_uploads = 0;
@@ -358,7 +359,8 @@ void Renderer::Parts::follow(const pipeline::Volume& shown) {
       shown.b_scan_states.end()) {
     crop.follow(tissue.extents());
     const Section depth = crop.current().depth;
-    volume.colour_depths({depth.from, depth.to});
+    coloured_depths.follow({depth.from, depth.to});
+    volume.colour_depths(coloured_depths.current());
   }
   en_face_panel.show(shown, tissue);
   state_texture.upload(shown);
@@ -367,8 +369,10 @@ void Renderer::Parts::follow(const pipeline::Volume& shown) {
 
 hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
   HAL_CHECK(parts_->volume.show(volume));
-  if (parts_->shown_geometry != volume.geometry)
+  if (parts_->shown_geometry != volume.geometry) {
     parts_->crop = {};
+    parts_->coloured_depths = {};
+  }
   parts_->shown_geometry = volume.geometry;
   parts_->follow(volume);
   return {};

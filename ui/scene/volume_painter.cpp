@@ -187,8 +187,9 @@ hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
 
 void VolumePainter::update_transfer(const ViewState& of) {
   const ViewState view = stretched(of);
-  const TransferSource source{view.window_offset_db, view.window_size_db, view.opacity,
-                              view.transfer,         view.colour_map,     depths_};
+  const TransferSource source{view.window_offset_db, view.window_size_db,
+                              view.opacity,          view.transfer,
+                              view.colour_map,       depth_colours(view).value_or(DepthColours{})};
   if (transfer_source_ != source) {
     make_transfer_table(view, transfers_, *transfer_);
     if (transfer_->depths)

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace octascope::ui {
 
@@ -14,6 +16,26 @@ struct DepthColours {
 
   float place_of(float depth) const { return std::clamp((depth - from) / (to - from), 0.0F, 1.0F); }
   bool operator==(const DepthColours&) const = default;
+};
+
+// Follows the depths that have tissue without a jump of any hue: a quarter of what is missing from volume
+// to volume, so that an instrument that comes in above the tissue moves the hues within a second, and
+// only a little. Begins with the first.
+class GlidingDepths {
+public:
+  void follow(const DepthColours& wanted) {
+    constexpr float share = 0.25F, there = 1.0F / 512; // of the volume's depth
+    const auto glide = [](float at, float to) {
+      return std::abs(to - at) < there ? to : at + share * (to - at);
+    };
+    current_ =
+        current_ ? DepthColours{glide(current_->from, wanted.from), glide(current_->to, wanted.to)}
+                 : wanted;
+  }
+  DepthColours current() const { return current_.value_or(DepthColours{}); }
+
+private:
+  std::optional<DepthColours> current_;
 };
 
 // From orange (shallow) over yellow, green and turquoise to blue: an arc of 200° in OKLab

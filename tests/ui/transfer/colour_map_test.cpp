@@ -84,6 +84,23 @@ TEST(DepthColours, are_equally_light_and_can_be_shown) {
   }
 }
 
+TEST(GlidingDepths, begin_with_the_first_and_then_move_without_a_jump) {
+  ui::GlidingDepths depths;
+  depths.follow({0.25F, 0.75F});
+  EXPECT_EQ(depths.current(), (ui::DepthColours{0.25F, 0.75F}));
+  const ui::DepthColours wanted{0.125F, 0.75F};
+  float before = depths.current().from;
+  int volumes = 0;
+  for (; depths.current() != wanted && volumes < 100; ++volumes) {
+    depths.follow(wanted);
+    EXPECT_LT(depths.current().from, before);
+    EXPECT_LE(before - depths.current().from, 0.125F / 4 + 1e-6F);
+    EXPECT_EQ(depths.current().to, wanted.to) << "what does not change stays";
+    before = depths.current().from;
+  }
+  EXPECT_LE(volumes, 20) << "and they arrive, so that pictures are kept again";
+}
+
 TEST(DepthColours, differ_from_depth_to_depth_for_the_colour_blind_too) {
   constexpr int steps = 3;
   for (const Vision& vision : std::span{all_visions}.first(3)) // the fourth is rare
