@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 namespace octascope::pipeline {
 
@@ -32,6 +33,9 @@ void write_levels(const float* bins, int depths, std::uint8_t* levels) {
 }
 void write_levels(const float* bins, int depths, float* levels) {
   levels_db(bins, depths, levels);
+}
+void write_levels(const float* bins, int depths, std::complex<float>* copy) {
+  std::copy_n(reinterpret_cast<const std::complex<float>*>(bins), depths, copy);
 }
 
 // The line is read after the transform of the one before it; until then it comes to the cache.
@@ -118,13 +122,19 @@ template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffe
                                    std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffers&, float*,
                                    std::uint8_t*) const noexcept;
+template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffers&,
+                                   std::complex<float>*, std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&, std::uint8_t*,
                                    std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&, float*,
                                    std::uint8_t*) const noexcept;
+template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&,
+                                   std::complex<float>*, std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const float*, int, const float*, Buffers&, std::uint8_t*,
                                    std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const float*, int, const float*, Buffers&, float*,
+                                   std::uint8_t*) const noexcept;
+template int FftwPath::reconstruct(const float*, int, const float*, Buffers&, std::complex<float>*,
                                    std::uint8_t*) const noexcept;
 
 } // namespace octascope::pipeline

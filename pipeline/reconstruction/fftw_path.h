@@ -37,7 +37,8 @@ public:
 
   // Lines without gaps → levels, calibration.depths() each. `background` has N values in counts
   // after the shift. `saturated`: by line, whether a count is at full scale; returns the number of
-  // such lines. Count: std::uint8_t, std::uint16_t or float; Level: std::uint8_t or float (dB).
+  // such lines. Count: std::uint8_t, std::uint16_t or float; Level: std::uint8_t, float (dB) or
+  // std::complex<float> (bins).
   template <class Count, class Level>
   int reconstruct(const Count* counts, int lines, const float* background, Buffers& buffers,
                   Level* levels, std::uint8_t* saturated) const noexcept;

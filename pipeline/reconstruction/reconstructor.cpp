@@ -198,8 +198,9 @@ BScanOutcome Reconstructor::Plan::b_scan(Workspace::Buffers& buffers,
   assert(frame.size() >= format.line_bytes() * static_cast<std::size_t>(a_scans));
   assert(levels.size() >= static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(depths));
   const int saturated = dispatch(fused, buffers, a_scans, frame, levels.data(), running);
-  if (saturated > 0 && limit_saturated_lines)
-    limit_lines(buffers.saturated, levels.data(), static_cast<std::size_t>(depths));
+  if constexpr (!std::is_same_v<Level, std::complex<float>>)
+    if (saturated > 0 && limit_saturated_lines)
+      limit_lines(buffers.saturated, levels.data(), static_cast<std::size_t>(depths));
   return {saturated};
 }
 
@@ -311,6 +312,13 @@ BScanOutcome Reconstructor::reconstruct_b_scan_db(Workspace& workspace,
                                                   std::span<float> levels_db,
                                                   std::span<const float> running) const noexcept {
   return plan_->b_scan(*workspace.buffers_, frame, levels_db, running);
+}
+
+BScanOutcome Reconstructor::reconstruct_b_scan_bins(Workspace& workspace,
+                                                    std::span<const std::byte> frame,
+                                                    std::span<std::complex<float>> bins,
+                                                    std::span<const float> running) const noexcept {
+  return plan_->b_scan(*workspace.buffers_, frame, bins, running);
 }
 
 } // namespace octascope::pipeline

@@ -10,6 +10,7 @@
 // one (fused_path.h), a line in one pass, for integer counts and N = 256, 512 … 8192.
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -90,7 +91,7 @@ public:
   // after them are not read. `levels` has levels() values [a][z], depth fastest.
   // `running`: with BackgroundMode::running, the result of RunningBackground::add() for this
   // B-scan; ignored otherwise. Without it this B-scan's mean is taken, as with mode "mean".
-  // Neither allocates, locks nor logs.
+  // None of the three allocates, locks or logs.
   BScanOutcome reconstruct_b_scan(Workspace& workspace, std::span<const std::byte> frame,
                                   std::span<std::uint8_t> levels,
                                   std::span<const float> running = {}) const noexcept;
@@ -98,6 +99,11 @@ public:
   BScanOutcome reconstruct_b_scan_db(Workspace& workspace, std::span<const std::byte> frame,
                                      std::span<float> levels_db,
                                      std::span<const float> running = {}) const noexcept;
+  // The complex bins themselves, Y above, whose phase tells of motion: level = 10·log10(|bin|²).
+  // Saturated lines stay as they are.
+  BScanOutcome reconstruct_b_scan_bins(Workspace& workspace, std::span<const std::byte> frame,
+                                       std::span<std::complex<float>> bins,
+                                       std::span<const float> running = {}) const noexcept;
 
 private:
   struct Plan;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <string_view>
 
@@ -33,14 +34,15 @@ struct FusedKernels {
   using FirstPasses = std::array<std::array<FirstPass, 2>, 2>;  // [one window][real input]
   std::array<std::array<FirstPasses, 3>, raw_kinds> first_pass; // [kind][log2 of the tap pairs]
 
-  // The rest of the transform, bins 0 … N/2−1, and the levels.
+  // The rest of the transform, bins 0 … N/2−1, and the levels, or the bins as they are.
   void (*finish_u8)(const FusedTables& tables, float* work, std::uint8_t* levels);
   void (*finish_db)(const FusedTables& tables, float* work, float* levels_db);
+  void (*finish_bins)(const FusedTables& tables, float* work, std::complex<float>* bins);
 };
 
-// N complex numbers, and the rows of levels.
+// N complex numbers, and the rows of powers or, two of each, of complex bins.
 constexpr std::size_t work_floats(int samples) {
-  return static_cast<std::size_t>(2 * samples + samples / 2);
+  return static_cast<std::size_t>(3 * samples);
 }
 
 // The widest that this processor has and lines of `samples` have blocks enough for, or the one

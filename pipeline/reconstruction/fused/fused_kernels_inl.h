@@ -3,7 +3,8 @@
 //
 // First pass: counts, factors and radix 8 over the blocks. Middle passes in place. Last pass: the
 // last radix over the blocks, the transform over the lanes, of which only bins below N/2 are made,
-// and their levels, in rows; at the end the rows are put in the order of depth.
+// and their powers, in rows; at the end the rows' levels are put in the order of depth. Or the bins
+// themselves, in a row for their real and one for their imaginary parts.
 //
 // Real input (no dispersion phase): results 5, 6, 7 of the first radix are the conjugates of 3, 2,
 // 1. They are neither stored nor transformed; instead results 1, 2, 3 are transformed to all their
@@ -35,6 +36,7 @@ HWY_AFTER_NAMESPACE();
 #else
 
 #include <array>
+#include <complex>
 #include <type_traits>
 
 #include <hwy/cache_control.h>
@@ -129,11 +131,52 @@ HWY_INLINE void middle_pass(float* work, std::ptrdiff_t slots, std::ptrdiff_t si
   }
 }
 
-// One group: the last radix, the lanes, the power of the lower half of the bins. Mirrored: of the
-// upper half as well, backwards: as they are the conjugates of bins of another row, in its order.
-template <int Radix, bool Mirrored>
+// What is made of the bins of a group. `mirrored` bins are the conjugates of bins of another row,
+// backwards; `row` is where those begin, `size` how many there are.
+struct Powers {
+  float* rows;
+
+  template <std::size_t Registers>
+  HWY_INLINE void put(const Complex (&y)[Registers], int row) const {
+    store_power(y, rows + row);
+  }
+  template <std::size_t Registers>
+  HWY_INLINE void put_mirrored(const Complex (&y)[Registers], int row) const {
+    alignas(64) float power[Registers * lanes];
+    store_power(y, power);
+    for (std::size_t r = 0; r < Registers; ++r)
+      store_reversed(hn::Load(Floats{}, power + r * lanes), r, Registers, rows + row);
+  }
+  HWY_INLINE static void store_reversed(Real value, std::size_t r, std::size_t registers,
+                                        float* row) {
+    hn::Store(hn::Reverse(Floats{}, value), Floats{}, row + (registers - 1 - r) * lanes);
+  }
+};
+
+struct Bins {
+  float* re;
+  float* im;
+
+  template <std::size_t Registers>
+  HWY_INLINE void put(const Complex (&y)[Registers], int row) const {
+    for (std::size_t r = 0; r < Registers; ++r) {
+      hn::Store(y[r].re, Floats{}, re + row + r * lanes);
+      hn::Store(y[r].im, Floats{}, im + row + r * lanes);
+    }
+  }
+  template <std::size_t Registers>
+  HWY_INLINE void put_mirrored(const Complex (&y)[Registers], int row) const {
+    for (std::size_t r = 0; r < Registers; ++r) {
+      Powers::store_reversed(y[r].re, r, Registers, re + row);
+      Powers::store_reversed(hn::Neg(y[r].im), r, Registers, im + row);
+    }
+  }
+};
+
+// One group: the last radix, the lanes, the lower half of the bins. Mirrored: the upper half as well.
+template <int Radix, bool Mirrored, class Ending>
 HWY_INLINE void last_group(const FusedTables& tables, const float* from, const float* twiddles,
-                           float* row, float* mirrored_row) {
+                           const Ending& ending, int row, int mirrored_row) {
   Complex x[std::size_t{Radix}];
 #pragma GCC unroll 8
   for (int r = 0; r < Radix; ++r)
@@ -150,19 +193,13 @@ HWY_INLINE void last_group(const FusedTables& tables, const float* from, const f
     lower[r] = x[r / 2 * 4 + r % 2];
     upper[r] = x[r / 2 * 4 + r % 2 + 2];
   }
-  store_power(lower, row);
-  if constexpr (Mirrored) {
-    constexpr int size = Radix / 2 * lanes;
-    alignas(64) float power[std::size_t{size}];
-    store_power(upper, power);
-    for (int r = 0; r < size; r += lanes)
-      hn::Store(hn::Reverse(Floats{}, hn::Load(Floats{}, power + r)), Floats{},
-                mirrored_row + size - lanes - r);
-  }
+  ending.put(lower, row);
+  if constexpr (Mirrored)
+    ending.put_mirrored(upper, mirrored_row);
 }
 
-template <int Radix>
-HWY_INLINE void last_pass(const FusedTables& tables, const float* work, float* rows) {
+template <int Radix, class Ending>
+HWY_INLINE void last_pass(const FusedTables& tables, const float* work, const Ending& ending) {
   constexpr int row_size = Radix / 2 * lanes;
   const int groups = tables.blocks / Radix;
   const int groups_each = groups / first_radix; // of each of the first radix' results
@@ -173,11 +210,11 @@ HWY_INLINE void last_pass(const FusedTables& tables, const float* work, float* r
   for (int group = 0; group < made; ++group, twiddles += Radix * slot) {
     const float* from = work + static_cast<std::ptrdiff_t>(group) * Radix * slot;
     const int row = tables.last_rows[static_cast<std::size_t>(group)];
-    float* to = rows + row * row_size;
     if (group < mirrored_from || group >= mirrored_to)
-      last_group<Radix, false>(tables, from, twiddles, to, nullptr);
+      last_group<Radix, false>(tables, from, twiddles, ending, row * row_size, 0);
     else
-      last_group<Radix, true>(tables, from, twiddles, to, rows + (groups - row) * row_size);
+      last_group<Radix, true>(tables, from, twiddles, ending, row * row_size,
+                              (groups - row) * row_size);
   }
 }
 
@@ -185,7 +222,9 @@ template <class Level> const std::int32_t* row_offsets(const FusedTables& tables
   return std::is_same_v<Level, float> ? tables.offsets_db.data() : tables.offsets_u8.data();
 }
 
-template <class Level> void finish(const FusedTables& tables, float* work, Level* levels) {
+// The rest of the transform; says how many slots a group of the last pass has.
+template <class Ending>
+HWY_INLINE std::ptrdiff_t transform(const FusedTables& tables, float* work, const Ending& ending) {
   const std::ptrdiff_t slots =
       tables.real_input ? tables.blocks / first_radix * real_results : tables.blocks;
   std::ptrdiff_t size = tables.blocks / first_radix;
@@ -198,16 +237,31 @@ template <class Level> void finish(const FusedTables& tables, float* work, Level
       middle_pass<4>(work, slots, size, twiddles);
     size /= tables.radices[at];
   }
-  float* power = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
   if (size == 8)
-    last_pass<8>(tables, work, power);
+    last_pass<8>(tables, work, ending);
   else
-    last_pass<4>(tables, work, power);
+    last_pass<4>(tables, work, ending);
+  return size;
+}
+
+template <class Level> void finish(const FusedTables& tables, float* work, Level* levels) {
+  float* power = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
+  const std::ptrdiff_t size = transform(tables, work, Powers{power});
   Level* rows = reinterpret_cast<Level*>(work); // which is no longer needed
   make_levels(power, tables.samples / 2, rows);
   const int row_size = static_cast<int>(size) / 2 * lanes;
   for (int row = 0; row < tables.blocks / static_cast<int>(size); row += 8)
     unscramble_rows(rows + row * row_size, row_size, row_offsets<Level>(tables), levels + row);
+}
+
+void finish_bins(const FusedTables& tables, float* work, std::complex<float>* bins) {
+  float* re = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
+  float* im = re + tables.samples / 2;
+  const std::ptrdiff_t size = transform(tables, work, Bins{re, im});
+  const int row_size = static_cast<int>(size) / 2 * lanes;
+  for (int row = 0; row < tables.blocks / static_cast<int>(size); row += 8)
+    unscramble_bins(re + row * row_size, im + row * row_size, row_size, tables.offsets_db.data(),
+                    bins + row);
 }
 
 template <RawKind Kind, int Pairs> constexpr FusedKernels::FirstPasses first_passes() {
@@ -229,7 +283,8 @@ const FusedKernels* kernels() {
                                    all_first_passes<RawKind::u16>(),
                                    all_first_passes<RawKind::u16_shifted>()},
                                   &finish<std::uint8_t>,
-                                  &finish<float>};
+                                  &finish<float>,
+                                  &finish_bins};
   return &table;
 }
 

@@ -7,6 +7,7 @@
 #define OCTASCOPE_FUSED_LEVELS_INL
 #endif
 
+#include <complex>
 #include <cstring>
 
 #include "pipeline/reconstruction/fused/fast_level.h"
@@ -159,6 +160,32 @@ HWY_INLINE void unscramble_rows(const std::uint8_t* rows, int size, const std::i
       }
     }
   }
+}
+
+// Likewise of complex bins, eight rows each of real and imaginary parts.
+HWY_INLINE void unscramble_bins(const float* re, const float* im, int size,
+                                const std::int32_t* offsets, std::complex<float>* bins) {
+  const hn::Full128<float> four;
+  const hn::Full128<std::uint64_t> two;
+  auto* out = reinterpret_cast<float*>(bins);
+  for (int x = 0; x < size; x += 4)
+    for (int q = 0; q < 8; q += 2) {
+      const auto pairs = [&](int row, bool upper) HWY_ATTR {
+        const auto r = hn::Load(four, re + row * size + x);
+        const auto i = hn::Load(four, im + row * size + x);
+        return hn::BitCast(two,
+                           upper ? hn::InterleaveUpper(four, r, i) : hn::InterleaveLower(r, i));
+      };
+      for (int upper = 0; upper < 2; ++upper) {
+        const auto first = pairs(q, upper != 0);
+        const auto second = pairs(q + 1, upper != 0);
+        const std::int32_t* offset = offsets + x + 2 * upper;
+        hn::StoreU(hn::BitCast(four, hn::InterleaveLower(first, second)), four,
+                   out + 2 * (offset[0] + q));
+        hn::StoreU(hn::BitCast(four, hn::InterleaveUpper(two, first, second)), four,
+                   out + 2 * (offset[1] + q));
+      }
+    }
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <utility>
 
@@ -83,7 +84,9 @@ int FusedPath::reconstruct(const std::byte* counts, int lines, std::uint32_t ful
     saturated[a] = reached ? 1 : 0;
     saturated_lines += saturated[a];
     Level* profile = levels + static_cast<std::size_t>(a) * (samples / 2);
-    if constexpr (std::is_same_v<Level, float>)
+    if constexpr (std::is_same_v<Level, std::complex<float>>)
+      kernels_->finish_bins(tables_, buffers.work.data(), profile);
+    else if constexpr (std::is_same_v<Level, float>)
       kernels_->finish_db(tables_, buffers.work.data(), profile);
     else
       kernels_->finish_u8(tables_, buffers.work.data(), profile);
@@ -95,5 +98,7 @@ template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffer
                                     std::uint8_t*) const noexcept;
 template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&, float*,
                                     std::uint8_t*) const noexcept;
+template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&,
+                                    std::complex<float>*, std::uint8_t*) const noexcept;
 
 } // namespace octascope::pipeline

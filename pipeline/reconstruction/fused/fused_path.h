@@ -34,7 +34,8 @@ public:
   void set_background(const float* background, Buffers& buffers) const noexcept;
 
   // Lines without gaps → levels, N/2 each. `saturated`: by line, whether a shifted count is at
-  // least `full_scale`; returns the number of such lines. Level: std::uint8_t or float (dB).
+  // least `full_scale`; returns the number of such lines. Level: std::uint8_t, float (dB) or
+  // std::complex<float> (bins).
   template <class Level>
   int reconstruct(const std::byte* counts, int lines, std::uint32_t full_scale, Buffers& buffers,
                   Level* levels, std::uint8_t* saturated) const noexcept;

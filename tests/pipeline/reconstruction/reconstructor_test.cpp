@@ -147,10 +147,12 @@ TEST(Reconstructor, allocates_nothing) {
       const std::vector<std::uint16_t> frame(20 * 1024, 777);
       std::vector<std::uint8_t> levels(reconstructor.levels());
       std::vector<float> db(reconstructor.levels());
+      std::vector<std::complex<float>> bins(reconstructor.levels());
       const auto before = tests::allocations_of_this_thread();
       ASSERT_GT(before, 0U);
       reconstructor.reconstruct_b_scan(workspace, std::as_bytes(std::span{frame}), levels);
       reconstructor.reconstruct_b_scan_db(workspace, std::as_bytes(std::span{frame}), db);
+      reconstructor.reconstruct_b_scan_bins(workspace, std::as_bytes(std::span{frame}), bins);
       EXPECT_EQ(tests::allocations_of_this_thread(), before);
     }
   }

@@ -64,9 +64,9 @@ inline double reference_interpolate(std::span<const double> line, double positio
   return sum / weights;
 }
 
-// One line without its background → N/2 levels in dB (N with zero-padding), not clamped.
-inline std::vector<double> reference_levels_db(std::span<const double> line,
-                                               const pipeline::Calibration& calibration) {
+// One line without its background → N/2 complex bins (N with zero-padding) of Y = FFT(y).
+inline std::vector<std::complex<double>> reference_bins(std::span<const double> line,
+                                                        const pipeline::Calibration& calibration) {
   const std::size_t n = line.size();
   std::vector<std::complex<double>> shaped(n);
   for (std::size_t m = 0; m < n; ++m) {
@@ -75,17 +75,18 @@ inline std::vector<double> reference_levels_db(std::span<const double> line,
                 reference_interpolate(line, calibration.positions[m], calibration.interpolation);
   }
   shaped.resize(n * static_cast<std::size_t>(calibration.zero_padding));
-  const auto bins = reference_transform(std::move(shaped));
-  std::vector<double> levels(bins.size() / 2);
-  for (std::size_t z = 0; z < levels.size(); ++z)
-    levels[z] = 20 * std::log10(std::abs(bins[z]) / static_cast<double>(n));
-  return levels;
+  auto bins = reference_transform(std::move(shaped));
+  bins.resize(bins.size() / 2);
+  for (auto& bin : bins)
+    bin /= static_cast<double>(n);
+  return bins;
 }
 
-// The first B-scan, `lines` lines of counts (shifted already) → levels [a][z]. A running background
+// The first B-scan, `lines` lines of counts (shifted already) → bins [a][z]. A running background
 // is the mean there.
-inline std::vector<double> reference_b_scan_db(std::span<const double> counts, int lines,
-                                               const pipeline::Calibration& calibration) {
+inline std::vector<std::complex<double>>
+reference_b_scan_bins(std::span<const double> counts, int lines,
+                      const pipeline::Calibration& calibration) {
   const auto n = static_cast<std::size_t>(calibration.samples);
   std::vector<double> background(n, 0.0);
   if (calibration.background_mode == pipeline::BackgroundMode::file)
@@ -95,15 +96,29 @@ inline std::vector<double> reference_b_scan_db(std::span<const double> counts, i
     for (std::size_t i = 0; i < counts.size(); ++i)
       background[i % n] += counts[i] / lines;
   }
-  std::vector<double> levels;
+  std::vector<std::complex<double>> bins;
   for (std::size_t a = 0; a < static_cast<std::size_t>(lines); ++a) {
     std::vector<double> line(n);
     for (std::size_t p = 0; p < n; ++p)
       line[p] = counts[a * n + p] - background[p];
-    const auto profile = reference_levels_db(line, calibration);
-    levels.insert(levels.end(), profile.begin(), profile.end());
+    const auto profile = reference_bins(line, calibration);
+    bins.insert(bins.end(), profile.begin(), profile.end());
   }
+  return bins;
+}
+
+// Not clamped.
+inline std::vector<double> reference_levels_db(std::span<const std::complex<double>> bins) {
+  std::vector<double> levels;
+  for (const auto& bin : bins)
+    levels.push_back(20 * std::log10(std::abs(bin)));
   return levels;
+}
+
+// The same as levels in decibels.
+inline std::vector<double> reference_b_scan_db(std::span<const double> counts, int lines,
+                                               const pipeline::Calibration& calibration) {
+  return reference_levels_db(reference_b_scan_bins(counts, lines, calibration));
 }
 
 // The 8-bit count of a level, by its definition: half a decibel a count from −40 dB.
