@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -26,6 +27,7 @@ struct DisplayConfig {
 struct Flip {
   TimePoint completed;
   std::uint64_t sequence = 0; // number of completed flips since open()
+  TimePoint submitted{};      // handed to the output
 };
 
 enum class DisplayEventKind : std::uint8_t { close_requested, resized, key_pressed, key_released };
@@ -70,6 +72,11 @@ public:
   // The shortest time between two images.
   Duration refresh_period() const { return do_refresh_period(); }
 
+  // When the image after the last one can become visible, for an output that shows images once per
+  // refresh period and waits for that; also whole periods later. Empty for one that shows an image as
+  // soon as it is presented, and until the first was.
+  std::optional<TimePoint> next_refresh() const { return do_next_refresh(); }
+
   // Shows what was drawn; waits until it is visible and the next image may be drawn.
   // ErrorCode::disconnected: the output is gone, the state is `failed` and the GL context is lost
   // with all its objects: close() and open() again.
@@ -86,6 +93,7 @@ private:
   virtual int do_width() const = 0;
   virtual int do_height() const = 0;
   virtual Duration do_refresh_period() const = 0;
+  virtual std::optional<TimePoint> do_next_refresh() const { return std::nullopt; }
   virtual Result<Flip> do_present() = 0;
   virtual std::size_t do_poll_events(std::span<DisplayEvent> events) = 0;
   virtual void do_close() = 0;

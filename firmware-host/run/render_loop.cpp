@@ -101,7 +101,17 @@ hal::Result<> RenderLoop::show_again() {
   return volume_ != nullptr ? renderer_->show_volume(shown_volume()) : hal::Result<>{};
 }
 
+// A frame that begins late takes in what came meanwhile.
+void RenderLoop::wait_to_begin() {
+  const hal::Display& display = parts_.display;
+  if (renderer_)
+    parts_.clock.sleep_until(
+        late_start_.begin(parts_.clock.now(), display.next_refresh(), display.refresh_period()));
+  turn_began_ = parts_.clock.now();
+}
+
 bool RenderLoop::turn() {
+  wait_to_begin();
   const hal::TimePoint next = parts_.clock.now() + parts_.display.refresh_period();
   const bool go_on = handle_input();
   take_volume();
@@ -399,6 +409,7 @@ void RenderLoop::draw_if_changed() {
 
 void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
   presented_ = flip.completed;
+  late_start_.note(flip.submitted - turn_began_, flip.completed);
   if (flip.sequence == last_flip_) // another console is in front: nobody saw it
     return;
   last_flip_ = flip.sequence;

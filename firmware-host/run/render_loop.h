@@ -32,6 +32,7 @@
 #include "ui/controls/view_controller.h"
 #include "ui/layout/scan_field.h"
 #include "ui/pacing/governor.h"
+#include "ui/pacing/late_start.h"
 #include "ui/renderer.h"
 #include "ui/scene/ray_trial.h"
 #include "ui/status/freshness.h"
@@ -174,6 +175,7 @@ private:
   hal::Result<> show_again();
   void set_first_window(const ui::DisplayWindow& window);
   void show_scope_picture();
+  void wait_to_begin();
   bool display_ready();
 
   RenderLoopParts parts_;
@@ -202,6 +204,8 @@ private:
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume not shown yet
   bool volume_undisplayed_ = false;                     // volume_ has not been in a frame yet
   Showing showing_;                                     // of volume_, so far
+  ui::LateStart late_start_;
+  hal::TimePoint turn_began_{};
   std::uint64_t last_flip_ = 0;                // its number since this opening of the display
   std::optional<hal::TimePoint> presented_;    // time of the last presentation, seen or not
   std::optional<hal::TimePoint> display_lost_; // empty while it is present

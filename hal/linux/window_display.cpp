@@ -205,7 +205,7 @@ Result<Flip> WindowDisplay::do_present() {
   const TimePoint completed =
       pacer_.completed({.submitted = submitted, .stamp = std::nullopt, .received = clock_.now()});
   clock_.sleep_until(pacer_.next_allowed());
-  return Flip{completed, ++flips_};
+  return Flip{completed, ++flips_, submitted};
 }
 
 std::size_t WindowDisplay::do_poll_events(std::span<DisplayEvent> events) {

@@ -202,7 +202,7 @@ hal::Result<hal::Flip> OffscreenDisplay::do_present() {
   const hal::TimePoint completed = clock_.now();
   const std::int64_t ticks = (completed - opened_) / refresh_period_;
   clock_.sleep_until(opened_ + (ticks + 1) * refresh_period_);
-  return hal::Flip{completed, ++flips_};
+  return hal::Flip{completed, ++flips_, completed};
 }
 
 void OffscreenDisplay::do_close() {

@@ -84,6 +84,32 @@ TEST(FlipPacer, slows_an_output_that_flips_at_once) {
   }
 }
 
+TEST(FlipPacer, tells_the_next_refresh_of_an_output_that_paces_itself) {
+  FlipPacer pacer{period, start};
+  EXPECT_EQ(pacer.next_refresh(), std::nullopt) << "nothing was shown yet";
+  const auto output = monitor(period);
+  TimePoint now = start;
+  for (int i = 0; i < 10; ++i) {
+    const FlipTimes flip = output(now + 3ms);
+    const TimePoint completed = pacer.completed(flip);
+    if (i > 0) {
+      EXPECT_EQ(pacer.next_refresh(), completed + period);
+    }
+    now = flip.received;
+  }
+  EXPECT_NE(pacer.next_refresh(), std::nullopt);
+}
+
+TEST(FlipPacer, tells_no_refresh_of_an_output_that_flips_at_once) {
+  FlipPacer pacer{period, start};
+  TimePoint now = start;
+  for (int i = 0; i < 100; ++i) {
+    now = std::max(now, pacer.next_allowed()) + (i % 10 == 9 ? 300ms : i % 7 == 6 ? 16ms : 3ms);
+    pacer.completed({now, std::nullopt, now + 100us});
+    EXPECT_EQ(pacer.next_refresh(), std::nullopt) << i << ", after a rest or slow drawing, too";
+  }
+}
+
 TEST(FlipPacer, leaves_a_slow_output_alone) {
   const Loop loop{50, [] { return 1ms; },
                   [](TimePoint submitted) {

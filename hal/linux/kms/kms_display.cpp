@@ -199,7 +199,7 @@ Result<Flip> KmsDisplay::do_present() {
   const bool ours = session_->may_show();
   attend(ours);
   if (!ours)
-    return Flip{clock_.now(), flips_};
+    return Flip{clock_.now(), flips_, clock_.now()};
   session_->frame.copy_to_screen();
   const auto shown = session_->show();
   if (!shown)
@@ -207,11 +207,11 @@ Result<Flip> KmsDisplay::do_present() {
   if (!*shown) {
     session_->paused = true;
     attend(false);
-    return Flip{clock_.now(), flips_};
+    return Flip{clock_.now(), flips_, clock_.now()};
   }
   const TimePoint completed = pacer_.completed(**shown);
   clock_.sleep_until(pacer_.next_allowed());
-  return Flip{completed, ++flips_};
+  return Flip{completed, ++flips_, (*shown)->submitted};
 }
 
 Result<Flip> KmsDisplay::lose(const Error& error) {

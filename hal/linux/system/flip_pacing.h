@@ -31,10 +31,14 @@ public:
   // after the last one for an output that flips immediately.
   TimePoint next_allowed() const { return next_allowed_; }
 
+  // When the next image can become visible, for an output that paces itself; else empty.
+  std::optional<TimePoint> next_refresh() const;
+
 private:
   Duration period_{};
   TimePoint completed_;
   TimePoint next_allowed_;
+  bool paces_itself_ = false; // as far as the last flip told
 };
 
 } // namespace octascope::hal::linux_backend

@@ -36,14 +36,21 @@ hal::Result<hal::Flip> GlassDisplay::do_present() {
   if (covered)
     return hal::Flip{clock_.now(), last_flip_};
   pipeline::Image drawn = ui::gl::read_framebuffer(inner_.width(), inner_.height());
-  auto flip = inner_.present();
+  auto flip = inner_.present(); // returns at the next refresh
   if (flip) {
+    if (refreshes)
+      flip->completed = clock_.now();
     ++frames;
     picture = std::move(drawn);
     completed = flip->completed;
     last_flip_ = flip->sequence;
   }
   return flip;
+}
+
+std::optional<hal::TimePoint> GlassDisplay::do_next_refresh() const {
+  return refreshes && frames > 0 ? std::optional{completed + inner_.refresh_period()}
+                                 : std::nullopt;
 }
 
 std::size_t GlassDisplay::do_poll_events(std::span<hal::DisplayEvent>) {

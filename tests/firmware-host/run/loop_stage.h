@@ -36,6 +36,9 @@ public:
   // What drawing costs; called between a frame's beginning and its end.
   std::function<hal::Duration()> cost;
 
+  // It shows an image at the next refresh, as a monitor does; else as soon as it is presented.
+  bool refreshes = false;
+
   // Another console is in front: what is presented is seen by nobody.
   bool covered = false;
   // Opening it fails for this reason.
@@ -56,6 +59,7 @@ private:
   int do_width() const override { return inner_.width(); }
   int do_height() const override;
   hal::Duration do_refresh_period() const override { return inner_.refresh_period(); }
+  std::optional<hal::TimePoint> do_next_refresh() const override;
   hal::Result<hal::Flip> do_present() override;
   std::size_t do_poll_events(std::span<hal::DisplayEvent>) override;
   void do_close() override { inner_.close(); }

@@ -361,6 +361,40 @@ TEST_F(VolumeBooks, a_volume_counts_as_displayed_when_a_frame_with_it_reached_th
   EXPECT_EQ(loop_->statistics().volumes_displayed, 1U) << "once";
 }
 
+// ---- When a frame begins.
+
+class Pacing : public LoopStage {};
+
+TEST_F(Pacing, frames_for_a_monitor_begin_late_and_miss_no_refresh) {
+  constexpr hal::Duration cost = 3ms;
+  hal::TimePoint begun;
+  display_.cost = [&] {
+    begun = clock_.now();
+    return cost;
+  };
+  start({});
+  send_volume(Tissue::usual);
+  const hal::Duration period = display_.refresh_period();
+  for (const bool refreshes : {false, true}) {
+    display_.refreshes = refreshes;
+    for (int i = 0; i < 20; ++i) {
+      const hal::TimePoint last = display_.completed;
+      const int frames = display_.frames;
+      turn_knob(1, 1);
+      turn();
+      ASSERT_EQ(display_.frames, frames + 1);
+      if (i < 2)
+        continue; // nothing is known yet of what a frame takes
+      if (refreshes) {
+        EXPECT_EQ(display_.completed - last, period) << "no refresh is missed";
+        EXPECT_LT(display_.completed - begun, cost + period / 10 + 1us);
+      } else {
+        EXPECT_EQ(display_.completed - begun, cost) << "shown at once: nothing to wait for";
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Techniques, LostDisplay, testing::ValuesIn(all_losses()),
                          [](const auto& test) {
                            return std::string{ui::to_string(test.param.technique)} +
