@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -17,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/program/program_run.h"
+#include "tests/support/program/trace_file.h"
 #include "tests/virtual_hardware/appliance/virtual_rig.h"
 #include "tests/virtual_hardware/kms/vkms_card.h"
 #include "tests/virtual_hardware/support/scanout_reader.h"
@@ -199,6 +201,31 @@ TEST_F(InVirtualRig, finds_all_five_devices_by_itself_and_loses_nothing) {
   EXPECT_EQ(report["lost"]["volumes"], 0);
   EXPECT_EQ(report["hot_path"]["allocations"], 0);
   EXPECT_EQ(fault_count(report, "galvo_trigger"), 0U);
+}
+
+// Every stamp is the kernel's: the camera's of its frames, the monitor's of its flips.
+TEST_F(InVirtualRig, a_volumes_stages_follow_each_other_from_its_last_line_to_the_glass) {
+  constexpr const char* trace_file = "/tmp/trace.json";
+  start({}, {"--trace", trace_file});
+  ASSERT_TRUE(scanned(8));
+  const nlohmann::json report = end();
+  const TraceRows rows = read_trace(trace_file);
+  ASSERT_TRUE(rows.contains("display"));
+  const double sweep_us = 1e-3 * static_cast<double>(VirtualRig::plan().tick_period().count());
+  double longest_ms = 0;
+  std::set<std::uint64_t> volumes;
+  for (const auto& [begin, event] : rows.at("display"))
+    volumes.insert(event.at("args").at("volume").get<std::uint64_t>());
+  EXPECT_EQ(volumes.size(), report["volumes"]["displayed"].get<std::size_t>());
+  for (const std::uint64_t volume : volumes) {
+    const auto spans = passage(rows, volume);
+    EXPECT_EQ(gap_in(spans), "") << "volume " << volume;
+    longest_ms = std::max(longest_ms, 1e-3 * (spans.at("flip").end - spans.at("exposure").end));
+    const double exposed_us = spans.at("exposure").end - spans.at("exposure").begin;
+    EXPECT_GT(exposed_us, 0.5 * sweep_us);
+    EXPECT_LT(exposed_us, 3 * sweep_us);
+  }
+  EXPECT_NEAR(longest_ms, report["latency_ms"]["max"].get<double>(), 0.002);
 }
 
 // Else every depth on the screen would be wrong by the same share, unnoticed.
