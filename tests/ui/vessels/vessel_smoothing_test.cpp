@@ -178,6 +178,47 @@ TEST(VesselSmoothing, outlines_have_the_coverage_that_is_computed_exactly) {
     }
 }
 
+// Where it runs away from the eye, its parts' sides and round ends overlap on the screen: none of them
+// may be seen.
+TEST(VesselSmoothing, a_wide_vessel_of_many_parts_looks_like_one_of_a_single_part) {
+  const auto whole_arrays = pipeline::build_clusters(straight_vessel(24, 1));
+  const auto parted_arrays = pipeline::build_clusters(straight_vessel(24, 6));
+  const auto whole = whole_arrays.view();
+  const auto parted = parted_arrays.view();
+  const ui::Camera camera = straight_camera();
+  ui::Splatter splatter = make_splatter();
+  ui::DepthImage one;
+  ui::DepthImage many;
+  for (const float tilt_deg : {-45.0F, -30.0F, -15.0F, 0.0F, 15.0F, 30.0F, 45.0F}) {
+    glm::mat4 place = glm::rotate(glm::mat4{1}, glm::radians(20.0F), {0, 0, 1});
+    place = glm::rotate(place, glm::radians(tilt_deg), {0, 1, 0});
+    ui::VesselScene scene = scene_of(whole, camera);
+    scene.world_from_tree = place;
+    ASSERT_TRUE(splatter.draw(scene, one));
+    ui::VesselScene parted_scene = scene_of(parted, camera);
+    parted_scene.world_from_tree = place;
+    ASSERT_TRUE(splatter.draw(parted_scene, many));
+    int worst = 0;
+    int covered = 0;
+    for (int y = 2; y < height - 2; ++y)
+      for (int x = 2; x < width - 2; ++x) {
+        // Beside outlines, how each part's round end bulges in perspective makes a difference.
+        bool is_within = true;
+        for (int i = 0; i < 25; ++i)
+          is_within = is_within && one.rgba(x + i % 5 - 2, y + i / 5 - 2) >> 24U == 255U;
+        if (!is_within)
+          continue;
+        ++covered;
+        for (const unsigned shift : {0U, 8U, 16U})
+          worst = std::max(worst, std::abs(static_cast<int>(one.rgba(x, y) >> shift & 255U) -
+                                           static_cast<int>(many.rgba(x, y) >> shift & 255U)));
+      }
+    fmt::print("  tilted by {} degrees: {} of 255 apart at most\n", tilt_deg, worst);
+    EXPECT_GT(covered, 500);
+    EXPECT_LE(worst, 5) << tilt_deg;
+  }
+}
+
 // The pass in double precision: each pixel of the sharp picture takes of its neighbours what the
 // nearer one's outline says, along the row and then along the column.
 class ReferenceSmoothing {
