@@ -126,13 +126,10 @@ private:
   hal::Result<std::optional<pipeline::Image>> supersampled_quads(const ui::VesselView& view) {
     if (!options_.supersampled)
       return std::optional<pipeline::Image>{};
-    const ui::Camera camera = painter_.camera(view);
     pipeline::Image mean;
     std::vector<int> sums;
     for (const auto& [right, up] : sample_places) {
-      ui::VesselView shifted = view;
-      shifted.target_mm += view.mm_per_pixel * (right * camera.right + up * camera.up);
-      HAL_TRY(auto sample, painter_.picture(*brute_force_, shifted));
+      HAL_TRY(auto sample, painter_.picture_beside(*brute_force_, view, right, up));
       sums.resize(sample.pixels.size());
       for (std::size_t i = 0; i < sums.size(); ++i)
         sums[i] += sample.pixels[i];

@@ -24,7 +24,6 @@ public:
   const pipeline::VesselClusters& tree() const { return tree_; }
   int width() const { return width_; }
   int height() const { return height_; }
-  ui::Camera camera(const ui::VesselView& view) const;
 
   // The picture is complete when it returns. `occluded`: as ui::VesselLook.
   hal::Result<ui::SegmentCounts> draw(ui::VesselMethod& method, const ui::VesselView& view,
@@ -34,8 +33,15 @@ public:
   // draw() and read().
   hal::Result<pipeline::Image> picture(ui::VesselMethod& method, const ui::VesselView& view,
                                        bool occluded = false);
+  // With the eye turned by so many pixels.
+  hal::Result<pipeline::Image> picture_beside(ui::VesselMethod& method, const ui::VesselView& view,
+                                              float right_px, float up_px);
 
 private:
+  ui::Camera camera(const ui::VesselView& view) const;
+  hal::Result<ui::SegmentCounts> draw(ui::VesselMethod& method, const ui::VesselView& view,
+                                      const ui::Camera& seen, bool occluded);
+
   const pipeline::VesselClusters& tree_;
   ui::VesselBounds bounds_;
   ui::VesselPicture picture_;

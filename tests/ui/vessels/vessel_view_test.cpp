@@ -61,6 +61,22 @@ TEST(VesselView, has_its_scale_at_its_target) {
   EXPECT_GT(look.cue_far_mm, camera.depth_of(view.target_mm));
 }
 
+TEST(VesselView, turned_moves_what_is_near_and_what_is_far_alike) {
+  ui::VesselView view;
+  view.target_mm = {3, -2, 8};
+  const ui::VesselBounds bounds{{-50, -50, -50}, {50, 50, 50}};
+  const auto camera = ui::make_vessel_camera(view, bounds, 1280, 720);
+  const auto turned = ui::turned(camera, 0.375F, -0.125F, 720);
+  for (const float depth_mm : {-20.0F, 0.0F, 40.0F}) {
+    const glm::vec3 place = view.target_mm + depth_mm * camera.forward;
+    const glm::vec2 moved_px = 720.0F * (turned.project(place) - camera.project(place));
+    EXPECT_NEAR(moved_px.x, -0.375F, 1e-3F) << depth_mm;
+    EXPECT_NEAR(moved_px.y, -0.125F, 1e-3F) << depth_mm;
+    const glm::vec4 clip = turned.view_projection * glm::vec4{place, 1};
+    EXPECT_NEAR(0.5F * 1280 * clip.x / clip.w, -0.375F, 2e-3F) << depth_mm;
+  }
+}
+
 TEST(DensePlace, is_where_most_segments_are) {
   pipeline::ClusterArrays arrays;
   const auto add = [&](std::array<float, 3> at, std::uint8_t segments) {

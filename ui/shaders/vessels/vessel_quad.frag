@@ -19,7 +19,7 @@ void main() {
     discard;
   float distance_mm = 1.0 / (v_shape.z + t * v_shape.w);
 #ifdef ROUNDED
-  distance_mm = rounded_distance(distance_mm, radius, rest, along == t);
+  distance_mm = rounded_distance(distance_mm, radius, rest, along);
   gl_FragDepth = 0.5 + 0.5 * (u_depth.x + u_depth.y / distance_mm);
 #endif
   float off_axis =

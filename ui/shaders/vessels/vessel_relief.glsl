@@ -27,7 +27,8 @@ float enter_ball(vec3 ray, vec3 middle, float radius) {
 // ball that touches it where f(s, u) = |s ray - a - u e|^2 - (r + u g)^2 and its derivative by u are 0:
 // u = (s ray.e + m) / k with m = g r - a.e, k = |e|^2 - g^2, which leaves a quadratic equation for s.
 // What is met first, of the sides and the balls at the ends, is seen.
-float enter_cone(vec3 ray, vec3 a, float r, vec3 e, float g) {
+float enter_cone(vec3 ray, vec3 a, float r, vec3 e, float g, out bool on_sides) {
+  on_sides = false;
   float first = min(enter_ball(ray, a, r), enter_ball(ray, a + e, r + g));
   float k = dot(e, e) - g * g;
   if (k <= 0.0) // one end lies within the ball of the other
@@ -41,11 +42,20 @@ float enter_cone(vec3 ray, vec3 a, float r, vec3 e, float g) {
     return first;
   vec2 s = (-half_linear + vec2(-1.0, 1.0) * sqrt(rest)) / square;
   vec2 u = (s * along + m) / k;
+  float sides = 0.0;
   if (u.x >= 0.0 && u.x <= 1.0)
-    first = min(first, s.x);
+    sides = min(sides, s.x);
   if (u.y >= 0.0 && u.y <= 1.0)
-    first = min(first, s.y);
-  return first;
+    sides = min(sides, s.y);
+  on_sides = sides < first;
+  return min(first, sides);
+}
+
+// 1 + slope^2: see ui/vessels/scene/vessel_scene.h.
+float stretch() {
+  float slope =
+      min(abs(v_shape.w) / v_shape.z * u_middle.z / max(length(v_axis.zw), 1e-6), STEEPEST_RISE);
+  return 1.0 + slope * slope;
 }
 
 // Of a segment too thin for that: see ui/vessels/scene/vessel_scene.h. `height2`: the square of the
@@ -53,15 +63,14 @@ float enter_cone(vec3 ray, vec3 a, float r, vec3 e, float g) {
 float raised_distance(float distance_mm, float radius, float height2, bool in_body, float share) {
   if (radius < LEAST_RAISED)
     return distance_mm;
-  float slope =
-      min(abs(v_shape.w) / v_shape.z * u_middle.z / max(length(v_axis.zw), 1e-6), STEEPEST_RISE);
-  float rise = share * sqrt(height2 * (in_body ? 1.0 + slope * slope : 1.0));
+  float rise = share * sqrt(height2 * (in_body ? stretch() : 1.0));
   return distance_mm / (1.0 + rise / u_middle.z);
 }
 
 // Distance of the surface along the view; `distance_mm` is the axis's. Where the outline on the screen
-// is a little wider than the cone, it is as good as the axis's.
-float rounded_distance(float distance_mm, float radius, float height2, bool in_body) {
+// is a little wider than the cone, it is as good as the axis's. `height2` becomes that of its light.
+float rounded_distance(float distance_mm, float radius, inout float height2, float along) {
+  bool in_body = along >= 0.0 && along <= 1.0;
   if (max(v_shape.x, v_shape.x + v_shape.y) < LEAST_RELIEF)
     return raised_distance(distance_mm, radius, height2, in_body, 1.0);
   vec2 pixel = gl_FragCoord.xy;
@@ -72,8 +81,20 @@ float rounded_distance(float distance_mm, float radius, float height2, bool in_b
   float radius_a = v_shape.x * distance_a / u_middle.z;
   float radius_b = (v_shape.x + v_shape.y) * distance_b / u_middle.z;
   vec3 ray = vec3((pixel - u_middle.xy) / u_middle.z, 1.0);
-  float nearer = enter_cone(ray, a, radius_a, b - a, radius_b - radius_a);
+  bool on_sides;
+  float nearer = enter_cone(ray, a, radius_a, b - a, radius_b - radius_a, on_sides);
   // Before the near plane there is a cut, in the order of the axes.
   float seen_mm = max(distance_mm + nearer, u_near + CUT_RELIEF * (distance_mm - u_near));
-  return min(seen_mm, raised_distance(distance_mm, radius, height2, in_body, RELIEF_RISE));
+  float nearest = min(seen_mm, raised_distance(distance_mm, radius, height2, in_body, RELIEF_RISE));
+  if (in_body)
+    return nearest;
+  if (on_sides) {
+    vec2 across = gl_FragCoord.xy - v_axis.xy - along * v_axis.zw;
+    height2 = max(radius * radius - dot(across, across), 0.0);
+    return nearest;
+  }
+  bool at_far_end = along * v_shape.w < 0.0;
+  if (at_far_end)
+    height2 = min(height2 * stretch(), radius * radius);
+  return nearest * (1.0 + (at_far_end ? 2.0 : 1.0) * END_SET_BACK);
 }

@@ -13,8 +13,12 @@
 // pixels; slope is the segment's along the view as seen from a, at most steepest_rise, and 0 where t
 // is clamped.
 // So of two segments that overlap at a joint a pixel shows the one that it is deeper within, and no
-// end of one is seen on the other. With d = |p − a − t(b − a)| / r, its brightness is
-// vessel_brightness(). A pixel shows the nearest segment that covers its centre, however thin, so
+// end of one is seen on the other. Wide segments meet there in a ball that belongs to both; beyond an
+// end it is set back by end_set_back, so that the other one, of whose body it is, shows it. With
+// d = |p − a − t(b − a)| / r, its brightness is vessel_brightness(). Beyond a wide segment's end that
+// is the further one, its sides are seen, too: there t is not clamped for d; and its ball has the
+// sides' light where they meet: 1 − d² is (1 + slope²) times as much, at most 1, and it is set back
+// twice. A pixel shows the nearest segment that covers its centre, however thin, so
 // segments thinner than a pixel cover the right area on average. Segments of order 5 and above are
 // the exception: they are never narrower than a pixel, so that a connected vessel stays a connected
 // line.
@@ -37,6 +41,8 @@ inline constexpr float least_raised_px = 0.499F;
 inline constexpr float steepest_rise = 2;
 // Wide ones by this share of it, where the outline on the screen is a little wider than the cone.
 inline constexpr float relief_rise = 0.02F;
+// A share of its distance: more than rounding does to a ball's, and less than a tenth of a pixel.
+inline constexpr float end_set_back = 2e-5F;
 
 // Of the larger end, in pixels.
 inline constexpr float least_relief_px = 8;

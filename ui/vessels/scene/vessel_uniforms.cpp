@@ -12,10 +12,11 @@ std::string vessel_shader_head() {
       "#define LEAST_ORDER_KEPT_VISIBLE {}u\n#define LEAST_RADIUS {:f}\n"
       "#define LEAST_RELIEF {:f}\n#define CUT_RELIEF {:f}\n"
       "#define MEAN_OFF_AXIS {:f}\n#define LEAST_SHADED {:f}\n"
-      "#define LEAST_RAISED {:f}\n#define STEEPEST_RISE {:f}\n#define RELIEF_RISE {:f}\n",
+      "#define LEAST_RAISED {:f}\n#define STEEPEST_RISE {:f}\n#define RELIEF_RISE {:f}\n"
+      "#define END_SET_BACK {:e}\n",
       colour_by_order, palette_of_orders, palette_size, least_order_kept_visible,
       least_vessel_radius_px, least_relief_px, cut_relief, mean_off_axis, least_shaded_px,
-      least_raised_px, steepest_rise, relief_rise);
+      least_raised_px, steepest_rise, relief_rise, end_set_back);
 }
 
 void set_vessel_uniforms(const gl::Program& program, const VesselFrame& frame) {

@@ -35,9 +35,12 @@ public:
     k_ = ex_ * ex_ + ey_ * ey_ + ez_ * ez_ - growth_ * growth_;
   }
 
-  // 1 / distance of the surface along the view at the pixel (qx, qy) from the first end, where the
-  // axis has `axis_nearness`; the axis's nearness if the ray misses the cone.
-  HWY_INLINE Real nearness(Real qx, Real qy, Real axis_nearness) const {
+  struct Surface {
+    Real nearness; // 1 / distance along the view; the axis's if the ray misses the cone
+    Mask on_sides; // not on a ball at an end
+  };
+  // At the pixel (qx, qy) from the first end, where the axis has `axis_nearness`.
+  HWY_INLINE Surface surface(Real qx, Real qy, Real axis_nearness) const {
     const Real z = hn::Div(real(1), axis_nearness);
     const Real px = hn::Add(qx, real(first_x_));
     const Real py = hn::Add(qy, real(first_y_));
@@ -46,9 +49,11 @@ public:
     const Vector a{hn::Mul(hn::NegMulAdd(px, z, real(first_x_ * za_)), real(per_px_)),
                    hn::Mul(hn::NegMulAdd(py, z, real(first_y_ * za_)), real(per_px_)),
                    hn::Sub(real(za_), z)};
-    const Real change = hn::Min(enter_ends(ray, a), k_ > 0 ? enter_sides(ray, a) : real(0));
+    const Real ends = enter_ends(ray, a);
+    const Real sides = k_ > 0 ? enter_sides(ray, a) : real(0);
+    const Real change = hn::Min(ends, sides);
     const Real cut = hn::MulAdd(real(cut_relief), hn::Sub(z, real(near_)), real(near_));
-    return hn::Div(real(1), hn::Max(hn::Add(z, change), cut));
+    return {hn::Div(real(1), hn::Max(hn::Add(z, change), cut)), hn::Lt(sides, ends)};
   }
 
 private:

@@ -130,8 +130,9 @@ private:
   }
 
   // The lanes among `candidates` that cover the centre of the pixel at (qx, qy) from their first
-  // end. surface(nearness, height2, body) is what is raised further by the course: of the axis's
-  // nearness and the squared height of the round side above it; body: not in a round end.
+  // end. surface(where, nearness, height2, along) is what is raised further by the course: of the
+  // axis's nearness and the squared height of the round side above it. It may move the place;
+  // along: 0 to 1 in the body, else in a round end.
   template <class Surface>
   HWY_INLINE void cover(const Shapes& s, Real qx, Real qy, Int pixel, Mask candidates,
                         const Surface& surface) {
@@ -153,10 +154,14 @@ private:
     const Mask wide_covered = hn::And(wide, covered);
     if (hn::AllFalse(Floats{}, wide_covered))
       return;
-    const Mask body = hn::Eq(along, t);
-    const Word course = hn::IfThenElse(hn::RebindMask(Words{}, body), s.body, s.ends);
-    fragments_.add_wide(pixel, surface(nearness, hn::MulSub(r, r, off2), body), s.colour,
-                        {ex, ey, r, course}, wide_covered);
+    const Word course = hn::IfThenElse(hn::RebindMask(Words{}, in_body(along)), s.body, s.ends);
+    WithinVessel where{ex, ey, r, course};
+    const Real raised = surface(where, nearness, hn::MulSub(r, r, off2), along);
+    fragments_.add_wide(pixel, raised, s.colour, where, wide_covered);
+  }
+
+  static HWY_INLINE Mask in_body(Real along) {
+    return hn::And(hn::Ge(along, real(0)), hn::Le(along, real(1)));
   }
 
   // 1 + slope², see vessel_scene.h.
@@ -224,7 +229,7 @@ private:
     const Int pixel =
         hn::Add(hn::Mul(hn::ConvertTo(Ints{}, y), whole(frame_.width)), hn::ConvertTo(Ints{}, x));
     cover(s, hn::Sub(x, s.ax), hn::Sub(y, s.ay), pixel, hn::And(drawn, seen),
-          [](Real nearness, Real, Mask) { return nearness; });
+          [](WithinVessel&, Real nearness, Real, Real) { return nearness; });
   }
 
   HWY_INLINE void draw_small(const Shapes& s, Mask drawn) {
@@ -263,7 +268,7 @@ private:
         const Int pixel = hn::Add(hn::Mul(hn::ConvertTo(Ints{}, u), stride_u),
                                   hn::Mul(hn::ConvertTo(Ints{}, v), stride_v));
         cover(s, hn::IfThenElse(steep, qv, qu), hn::IfThenElse(steep, qu, qv), pixel, candidates,
-              [](Real nearness, Real, Mask) { return nearness; });
+              [](WithinVessel&, Real nearness, Real, Real) { return nearness; });
         v = hn::Add(v, real(1));
         candidates = hn::And(candidates, hn::Le(v, end));
       }
@@ -337,16 +342,48 @@ private:
         }
         const Int pixel = hn::Iota(Ints{}, y * frame_.width + x);
         const Real qx = hn::Add(steps, real(static_cast<float>(x) - ax));
-        cover(s, qx, real(qy), pixel, inside, [&](Real nearness, Real height2, Mask body) {
+        const auto surface = [&](WithinVessel& where, Real nearness, Real height2, Real along) {
           if (!in_relief)
             return nearness;
+          const Mask body = in_body(along);
+          const auto [seen, on_sides] = relief.surface(qx, real(qy), nearness);
           const Real most = hn::IfThenElse(body, hn::Mul(height2, stretch), height2);
           const Real rise = hn::Sqrt(hn::Max(most, real(0)));
-          return hn::Max(relief.nearness(qx, real(qy), nearness),
-                         raised(nearness, hn::Mul(rise, real(relief_rise))));
-        });
+          const Real nearest = hn::Max(seen, raised(nearness, hn::Mul(rise, real(relief_rise))));
+          if (hn::AllTrue(Floats{}, body))
+            return nearest;
+          const Mask prolonged = hn::AndNot(body, on_sides);
+          where.ex = hn::IfThenElse(prolonged, hn::NegMulAdd(along, s.dx, qx), where.ex);
+          where.ey = hn::IfThenElse(prolonged, hn::NegMulAdd(along, s.dy, real(qy)), where.ey);
+          where.course = hn::IfThenElse(hn::RebindMask(Words{}, prolonged), s.body, where.course);
+          const Mask ball = hn::Not(hn::Or(body, on_sides));
+          const Mask at_far_end = hn::And(ball, hn::Lt(hn::Mul(along, s.dw), real(0)));
+          light_far_end(where, height2, stretch, at_far_end);
+          const Real set_back = hn::IfThenElse(at_far_end, real(2 * end_set_back),
+                                               hn::IfThenElseZero(ball, real(end_set_back)));
+          return hn::NegMulAdd(nearest, set_back, nearest);
+        };
+        cover(s, qx, real(qy), pixel, inside, surface);
       }
     }
+  }
+
+  // Moves the place, as far within the outline as it was, to where the light is that of a round side
+  // so much higher (its square).
+  static HWY_INLINE void light_far_end(WithinVessel& where, Real height2, Real stretch,
+                                       Mask moved) {
+    const Real r2 = hn::Mul(where.r, where.r);
+    const Real off = hn::Sqrt(hn::Max(hn::Sub(r2, height2), real(1e-6F)));
+    const Real lit = hn::Min(hn::Div(hn::Mul(height2, stretch), r2), real(1));
+    const Real share = hn::Sqrt(hn::Sub(real(1), lit)); // of the radius
+    // No thinner than what is wholly shaded (least_shaded_px).
+    const Real r = hn::Max(hn::Div(hn::Max(hn::Sub(where.r, off), real(0)),
+                                   hn::Max(hn::Sub(real(1), share), real(1e-6F))),
+                           hn::Min(where.r, real(least_shaded_px + 1)));
+    const Real scale = hn::Div(hn::Mul(share, r), off);
+    where.ex = hn::IfThenElse(moved, hn::Mul(where.ex, scale), where.ex);
+    where.ey = hn::IfThenElse(moved, hn::Mul(where.ey, scale), where.ey);
+    where.r = hn::IfThenElse(moved, r, where.r);
   }
 
   // No part of the segment is nearer.

@@ -175,6 +175,17 @@ VesselBounds vessel_bounds(const pipeline::VesselClusters& tree) {
   return bounds;
 }
 
+namespace {
+
+void project(Camera& camera) {
+  const float top = camera.near_mm * camera.tan_half_height;
+  camera.view_projection = glm::frustum(-top * camera.aspect, top * camera.aspect, -top, top,
+                                        camera.near_mm, camera.far_mm) *
+                           glm::lookAt(camera.eye, camera.eye + camera.forward, camera.up);
+}
+
+} // namespace
+
 Camera make_vessel_camera(const VesselView& view, const VesselBounds& bounds, int width,
                           int height) {
   const Axes axes = axes_of(view);
@@ -189,10 +200,17 @@ Camera make_vessel_camera(const VesselView& view, const VesselBounds& bounds, in
   camera.far_mm = std::max(depths.farthest, 1.01F * camera.near_mm);
   camera.aspect = aspect_of(width, height);
   camera.tan_half_height = tangent(camera.aspect);
-  const float top = camera.near_mm * camera.tan_half_height;
-  camera.view_projection = glm::frustum(-top * camera.aspect, top * camera.aspect, -top, top,
-                                        camera.near_mm, camera.far_mm) *
-                           glm::lookAt(camera.eye, camera.eye + camera.forward, camera.up);
+  project(camera);
+  return camera;
+}
+
+Camera turned(Camera camera, float right_px, float up_px, int height) {
+  const float px = 2 * camera.tan_half_height / static_cast<float>(height);
+  camera.forward =
+      glm::normalize(camera.forward + px * (right_px * camera.right + up_px * camera.up));
+  camera.right = glm::normalize(glm::cross(camera.forward, camera.up));
+  camera.up = glm::cross(camera.right, camera.forward);
+  project(camera);
   return camera;
 }
 

@@ -44,6 +44,10 @@ VesselView fit_whole_tree(VesselView view, const pipeline::VesselClusters& tree,
 Camera make_vessel_camera(const VesselView& view, const VesselBounds& bounds, int width,
                           int height);
 
+// The eye turned, so that the picture of so many rows moves by so many pixels in its middle; moved
+// aside, it would shift what is far by less. For what lies within a pixel.
+Camera turned(Camera camera, float right_px, float up_px, int height);
+
 // Sets the look's depth cue to what the camera shows of the bounds, but at most to two picture
 // heights in front of and behind the target, so that a close look has depth too.
 VesselLook with_cue(VesselLook look, const VesselView& view, const VesselBounds& bounds, int width,

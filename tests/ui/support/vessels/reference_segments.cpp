@@ -82,8 +82,13 @@ double enter_ball(const ReferenceSegment& s, const glm::dvec3& ray, double share
          square;
 }
 
+struct Surface {
+  double mm;
+  double share = 0; // of the way from end to end: 0 and 1 are balls, else it is a side
+};
+
 // The first of all the balls between the ends that the ray enters, found by trying.
-double surface_mm(const ReferenceSegment& s, const glm::dvec3& ray, double axis_mm, double wider) {
+Surface enter(const ReferenceSegment& s, const glm::dvec3& ray, double axis_mm, double wider) {
   constexpr int tried = 96;
   double nearest = axis_mm;
   double share = 0;
@@ -99,7 +104,28 @@ double surface_mm(const ReferenceSegment& s, const glm::dvec3& ray, double axis_
         nearest = entered;
         share = std::clamp(near, 0.0, 1.0);
       }
-  return nearest;
+  return {nearest, share};
+}
+
+double stretch_of(const ReferenceSegment& s, const ui::VesselScene& scene) {
+  const double slope_px = std::abs(1 / s.zb - 1 / s.za) * double{scene.pixels_per_unit()} * s.za /
+                          glm::length(s.b - s.a);
+  const double steep = std::min(slope_px, 2.0);
+  return 1 + steep * steep;
+}
+
+// Of a wide segment beyond an end: its light and how far it is set back.
+void light_end(ReferencePlace& found, const ReferenceSegment& s, const glm::dvec2& place,
+               double along, double share, const ui::VesselScene& scene) {
+  const glm::dvec2 way = s.b - s.a;
+  const bool is_further = along > 1 ? s.zb > s.za : s.za > s.zb;
+  const ReferencePlace::Light ball{found.off_px, is_further ? stretch_of(s, scene) : 1};
+  const ReferencePlace::Light side{glm::length(place - s.a - along * way), 1};
+  const bool on_sides = share > 0 && share < 1;
+  const bool may_be_either = on_sides && (share < 0.05 || share > 0.95);
+  found.lights = {on_sides ? side : ball, on_sides && !may_be_either ? side : ball};
+  const double set_back = on_sides ? 0 : is_further ? 4e-5 : 2e-5;
+  found.distance_mm *= 1 + set_back;
 }
 
 // Of a segment too thin for relief: the round side, as vessel_scene.h has it.
@@ -107,18 +133,17 @@ void raise_round_side(ReferencePlace& found, const ReferenceSegment& s, double t
                       const ui::VesselScene& scene) {
   const double scale = scene.pixels_per_unit();
   const bool clamped = t <= 0 || t >= 1;
-  const double slope_px = std::abs(1 / s.zb - 1 / s.za) * scale * s.za / glm::length(s.b - s.a);
-  const double steep = std::min(slope_px, 2.0);
-  const auto seen_mm = [&](double wider, double slope) {
+  const double steep = stretch_of(s, scene);
+  const auto seen_mm = [&](double wider, double stretch) {
     const double r = wider * found.radius_px;
     const double height = std::sqrt(std::max(r * r - found.off_px * found.off_px, 0.0));
-    return found.axis_mm / (1 + height * std::hypot(1.0, slope) / scale);
+    return found.axis_mm / (1 + height * std::sqrt(stretch) / scale);
   };
-  found.distance_mm = seen_mm(1, clamped ? 0 : steep);
+  found.distance_mm = seen_mm(1, clamped ? 1 : steep);
   // Beside the ends, rounding decides whether t is clamped.
   const bool beside = t < 1e-4 || t > 1 - 1e-4;
-  found.nearest_mm = seen_mm(1.001, clamped && !beside ? 0 : steep);
-  found.farthest_mm = seen_mm(0.999, clamped || beside ? 0 : steep);
+  found.nearest_mm = seen_mm(1.001, clamped && !beside ? 1 : steep);
+  found.farthest_mm = seen_mm(0.999, clamped || beside ? 1 : steep);
 }
 
 } // namespace
@@ -128,13 +153,16 @@ ReferencePlace place_in(const ReferenceSegment& s, const glm::dvec2& place,
   const glm::dvec2 way = s.b - s.a;
   const double length2 = glm::dot(way, way);
   const bool end_on = length2 < 1e-8;
-  const double t = end_on ? 0 : std::clamp(glm::dot(place - s.a, way) / length2, 0.0, 1.0);
+  const double along = end_on ? 0 : glm::dot(place - s.a, way) / length2;
+  const double t = std::clamp(along, 0.0, 1.0);
   ReferencePlace found{glm::length(place - s.a - t * way),
                        end_on ? s.widest_px() : glm::mix(s.ra, s.rb, t),
                        1 / glm::mix(1 / s.za, 1 / s.zb, t),
                        0,
                        0,
-                       0};
+                       0,
+                       {}};
+  found.lights.fill({found.off_px, 1});
   found.distance_mm = found.farthest_mm = found.nearest_mm = found.axis_mm;
   if (s.widest_px() < 8 && found.radius_px >= 0.499 && found.outside_px() < 0.01)
     raise_round_side(found, s, t, scene);
@@ -144,21 +172,24 @@ ReferencePlace place_in(const ReferenceSegment& s, const glm::dvec2& place,
                          (0.5 * scene.height - place.y) / scale, 1};
     const double near_mm = scene.camera.near_mm;
     const auto seen_mm = [&](double wider) {
-      return std::max(surface_mm(s, ray, found.axis_mm, wider),
+      return std::max(enter(s, ray, found.axis_mm, wider).mm,
                       near_mm + 0.002 * (found.axis_mm - near_mm));
     };
     found.distance_mm = seen_mm(1);
+    if (along < 0 || along > 1)
+      light_end(found, s, place, along, enter(s, ray, found.axis_mm, 1).share, scene);
     found.farthest_mm = seen_mm(0.999);
     found.nearest_mm = seen_mm(1.001);
   }
   return found;
 }
 
-double reference_light(double d, double radius_px) {
+double reference_light(double d, double radius_px, double stretch) {
   const double mean = std::numbers::pi / 4;
   const double share = std::clamp(radius_px - 0.5, 0.0, 1.0);
   const double here = std::clamp(d, 0.0, 1.0);
-  return 0.35 + 0.65 * std::sqrt(share * (1 - here * here) + (1 - share) * mean * mean);
+  const double there = std::min(stretch * (1 - here * here), 1.0);
+  return 0.35 + 0.65 * std::sqrt(share * there + (1 - share) * mean * mean);
 }
 
 std::vector<ReferenceSegment> reference_segments(const ui::VesselScene& scene) {

@@ -2,6 +2,7 @@
 // precision.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,6 +35,13 @@ struct ReferencePlace {
   // Likewise, were the segment thinner or thicker by a thousandth: between them, rounding decides.
   double farthest_mm;
   double nearest_mm;
+  // What its light is that of: a place so far from the axis, of a round side whose height's square is
+  // so many times a ball's. Two, where rounding decides.
+  struct Light {
+    double off_px;
+    double stretch;
+  };
+  std::array<Light, 2> lights{};
 
   double outside_px() const { return off_px - radius_px; }
 };
@@ -42,7 +50,7 @@ ReferencePlace place_in(const ReferenceSegment& segment, const glm::dvec2& place
 
 // Of a place d radii from the axis of a vessel of that radius: the light of its round side, which
 // goes over, from a pixel of width to three, from the mean of the whole width to that of the place.
-double reference_light(double d, double radius_px);
+double reference_light(double d, double radius_px, double stretch = 1);
 
 // Of all segments those that are not wholly nearer than the near plane.
 std::vector<ReferenceSegment> reference_segments(const ui::VesselScene& scene);

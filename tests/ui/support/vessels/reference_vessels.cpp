@@ -23,7 +23,8 @@ void shade(ReferenceVesselPixel& pixel, const ui::VesselScene& scene, const Refe
     return;
   pixel.depth_mm = place.distance_mm;
   pixel.node = node;
-  pixel.brightness = reference_light(place.off_px / place.radius_px, place.radius_px) *
+  const auto& [off_px, stretch] = place.lights[0];
+  pixel.brightness = reference_light(off_px / place.radius_px, place.radius_px, stretch) *
                      double{ui::vessel_fading(scene.look, static_cast<float>(place.distance_mm))};
 }
 

@@ -16,12 +16,14 @@ constexpr double distance_tolerance = 2e-4;
 bool may_be(const ui::VesselScene& scene, const ReferenceSegment& s, const ReferencePlace& h,
             std::uint32_t rgba) {
   constexpr double rounding = 1.5;
-  const auto brightness = [&](double d) {
-    return 255 * reference_light(d / h.radius_px, h.radius_px) *
+  const auto brightness = [&](const ReferencePlace::Light& light, double moved_px) {
+    return 255 *
+           reference_light((light.off_px + moved_px) / h.radius_px, h.radius_px, light.stretch) *
            double{ui::vessel_fading(scene.look, static_cast<float>(h.distance_mm))};
   };
-  const double darkest = brightness(h.off_px + edge_px);
-  const double lightest = brightness(h.off_px - edge_px);
+  const auto& [one, other] = h.lights;
+  const double darkest = std::min(brightness(one, edge_px), brightness(other, edge_px));
+  const double lightest = std::max(brightness(one, -edge_px), brightness(other, -edge_px));
   for (std::size_t i = 0; i < 3; ++i) {
     const double shown = rgba >> (8 * i) & 255U;
     const double base = s.colour[i];
