@@ -28,6 +28,12 @@ struct Flip {
   std::uint64_t sequence = 0; // number of completed flips since open()
 };
 
+// The buffer into which the next image is drawn. A display that cannot say leaves it as it is.
+struct BackBuffer {
+  std::uint64_t image = 0; // the number of the next image that is handed over; 0: not known
+  std::uint64_t holds = 0; // that of the image that the buffer still holds; 0: not known
+};
+
 enum class DisplayEventKind : std::uint8_t { close_requested, resized, key_pressed, key_released };
 
 // Named keys. Letters and digits are reported by their ASCII codes (lower case); other keys are not
@@ -70,6 +76,9 @@ public:
   // The shortest time between two images.
   Duration refresh_period() const { return do_refresh_period(); }
 
+  // To be asked before an image is drawn. What the buffer holds may be drawn over in part only.
+  BackBuffer back_buffer() { return do_back_buffer(); }
+
   // Shows what was drawn; waits until it is visible and the next image may be drawn.
   // ErrorCode::disconnected: the output is gone, the state is `failed` and the GL context is lost
   // with all its objects: close() and open() again.
@@ -86,6 +95,7 @@ private:
   virtual int do_width() const = 0;
   virtual int do_height() const = 0;
   virtual Duration do_refresh_period() const = 0;
+  virtual BackBuffer do_back_buffer() { return {}; }
   virtual Result<Flip> do_present() = 0;
   virtual std::size_t do_poll_events(std::span<DisplayEvent> events) = 0;
   virtual void do_close() = 0;

@@ -58,6 +58,7 @@ private:
   int do_width() const override;
   int do_height() const override;
   Duration do_refresh_period() const override { return refresh_period_; }
+  BackBuffer do_back_buffer() override;
   Result<Flip> do_present() override;
   std::size_t do_poll_events(std::span<DisplayEvent> events) override {
     return keys_ ? keys_->poll_events(events) : 0;
