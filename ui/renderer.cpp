@@ -120,6 +120,7 @@ struct Renderer::Parts {
   PictureChanges picture_changes{};
   Damage damage{};
   DamageHistory history{};
+  std::vector<Rect> uncovered{}; // what is to be drawn and not covered by pictures
 
   ViewState fitted(const ViewState& view) const;
   ViewState without_confusion(const ViewState& view, const Layout& places) const;
@@ -137,6 +138,7 @@ struct Renderer::Parts {
   hal::Result<> draw(const DrawnPicture& picture, const hal::BackBuffer& buffer);
   RectList find_parts(const DrawnPicture& picture, const Layout& places, const EyeFrame& frame,
                       const hal::BackBuffer& buffer);
+  void find_uncovered(const Layout& places, const EyeFrame& frame, RectList parts);
   hal::Result<> draw_eye(const DrawnPicture& picture, const Layout& places, StereoEye eye,
                          const hal::BackBuffer& buffer);
   void draw_flat_pictures(const ViewState& view, const Layout& places, const EyeFrame& frame,
@@ -339,6 +341,19 @@ RectList Renderer::Parts::find_parts(const DrawnPicture& picture, const Layout& 
   return damage.rects();
 }
 
+// Where pictures will lie that hide all that is under them, nothing need be drawn.
+void Renderer::Parts::find_uncovered(const Layout& places, const EyeFrame& frame, RectList parts) {
+  uncovered.assign(parts.begin(), parts.end());
+  const auto cover = [&](const Panel& panel, bool shown) {
+    if (shown && panel.shown())
+      cut_out(uncovered, frame.place(panel.picture));
+  };
+  cover(places.b_scan, !volume.empty());
+  cover(places.crossed, !volume.empty());
+  cover(places.en_face, !volume.empty());
+  cover(places.scope, scope_shown);
+}
+
 hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layout& places,
                                         StereoEye eye, const hal::BackBuffer& buffer) {
   const ViewState view = without_confusion(picture.view, places);
@@ -354,10 +369,11 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   }
   fill_canvases(picture, places, shown);
   const RectList parts = find_parts(picture, places, frame, buffer);
+  find_uncovered(places, frame, parts);
   if (eye != StereoEye::right) // whose half is clear, too
-    draw_within(parts, {0, 0, picture.width, height}, height,
+    draw_within(uncovered, {0, 0, picture.width, height}, height,
                 [&] { clear(picture.width, height); });
-  canvas_renderer.draw(ground, frame, height, parts);
+  canvas_renderer.draw(ground, frame, height, uncovered);
   HAL_CHECK(draw_scope(picture, places, frame, parts));
   canvas_renderer.draw(under_volume, frame, height, parts);
   if (has_view)
@@ -417,6 +433,7 @@ hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& trans
   HAL_TRY(auto canvas, CanvasRenderer::create());
   std::unique_ptr<Parts> parts{new Parts{std::move(volume), std::move(b_scan), std::move(en_face),
                                          std::move(scope), std::move(canvas), typeface}};
+  parts->uncovered.reserve(512); // more pieces than a frame has
   return std::unique_ptr<Renderer>{new Renderer{std::move(parts)}};
 }
 

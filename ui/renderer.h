@@ -29,8 +29,8 @@ namespace octascope::ui {
 // the context is lost (Display::present() says disconnected), destroy it, open the display again
 // and create a new one.
 //
-// The volume's picture is kept and redrawn only when the volume, the view or the window changes, so
-// a frame that changes only the heads-up display is cheap. Allocates nothing of its own after the
+// The volume's picture is kept and redrawn only when the volume, the view or the window changes, and
+// of a frame only what differs from what its buffer holds (ui/damage). Allocates nothing of its own after the
 // first frame of a size.
 class Renderer {
 public:

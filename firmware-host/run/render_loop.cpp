@@ -127,7 +127,10 @@ bool RenderLoop::draws_parts() const {
 
 ui::FrameBudget RenderLoop::frame_budget() const {
   return ui::frame_budget(parts_.display.refresh_period(),
-                          {.software = software_, .rolling = rolling_, .in_parts = draws_parts()});
+                          {.software = software_,
+                           .rolling = rolling_,
+                           .in_parts = draws_parts(),
+                           .volume_period = setup_.freshness.volume_period});
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before

@@ -58,6 +58,26 @@ Rect Damage::take_rect(int x, int y) {
           std::min(bottom * damage_tile, height_) - y * damage_tile};
 }
 
+void cut_out(std::vector<Rect>& rects, const Rect& hole) {
+  for (std::size_t i = 0, count = rects.size(); i < count;) {
+    const Rect rect = rects[i];
+    const Rect gone = common(rect, hole);
+    if (gone.empty()) {
+      ++i;
+      continue;
+    }
+    rects[i] = rects[--count]; // what is behind `count` has no part of the hole
+    rects[count] = rects.back();
+    rects.pop_back();
+    for (const Rect& left : {Rect{rect.x, rect.y, rect.width, gone.y - rect.y},
+                             Rect{rect.x, gone.bottom(), rect.width, rect.bottom() - gone.bottom()},
+                             Rect{rect.x, gone.y, gone.x - rect.x, gone.height},
+                             Rect{gone.right(), gone.y, rect.right() - gone.right(), gone.height}})
+      if (!left.empty())
+        rects.push_back(left);
+  }
+}
+
 std::span<const Rect> Damage::rects() {
   rects_.clear();
   std::ranges::copy(tiles_, left_.begin());

@@ -52,4 +52,7 @@ private:
   std::vector<Rect> rects_;
 };
 
+// Takes `hole` out of rectangles that do not overlap.
+void cut_out(std::vector<Rect>& rects, const Rect& hole);
+
 } // namespace octascope::ui
