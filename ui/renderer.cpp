@@ -341,11 +341,13 @@ RectList Renderer::Parts::find_parts(const DrawnPicture& picture, const Layout& 
   return damage.rects();
 }
 
-// Where pictures will lie that hide all that is under them, nothing need be drawn.
+// Where pictures will lie that hide all that is under them, nothing need be drawn. (For two eyes, a
+// canvas is drawn as a whole.)
 void Renderer::Parts::find_uncovered(const Layout& places, const EyeFrame& frame, RectList parts) {
   uncovered.assign(parts.begin(), parts.end());
   const auto cover = [&](const Panel& panel, bool shown) {
-    if (shown && panel.shown())
+    if (shown && panel.shown() && frame.width == frame.target.width &&
+        frame.height == frame.target.height)
       cut_out(uncovered, frame.place(panel.picture));
   };
   cover(places.b_scan, !volume.empty());

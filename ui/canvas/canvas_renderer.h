@@ -20,7 +20,7 @@ public:
   static hal::Result<CanvasRenderer> create();
 
   // Draws into one eye's part of the bound framebuffer, only within `parts` of it, which do not
-  // overlap. begin() of the canvas must have had the frame's width and height. Allocates when there
+  // overlap; of a picture that is squeezed for one of two eyes, all of it. begin() of the canvas must have had the frame's width and height. Allocates when there
   // is more to draw than ever before.
   void draw(const Canvas& canvas, const EyeFrame& frame, int target_height,
             std::span<const Rect> parts);
