@@ -139,6 +139,7 @@ struct Renderer::Parts {
   RectList find_parts(const DrawnPicture& picture, const Layout& places, const EyeFrame& frame,
                       const hal::BackBuffer& buffer);
   void find_uncovered(const Layout& places, const EyeFrame& frame, RectList parts);
+  void clear_parts(const DrawnPicture& picture, RectList parts) const;
   hal::Result<> draw_eye(const DrawnPicture& picture, const Layout& places, StereoEye eye,
                          const hal::BackBuffer& buffer);
   void draw_flat_pictures(const ViewState& view, const Layout& places, const EyeFrame& frame,
@@ -356,6 +357,15 @@ void Renderer::Parts::find_uncovered(const Layout& places, const EyeFrame& frame
   cover(places.scope, scope_shown);
 }
 
+// With all of a picture, what lies around it in a larger framebuffer.
+void Renderer::Parts::clear_parts(const DrawnPicture& picture, RectList parts) const {
+  const Rect all{0, 0, picture.width, picture.height};
+  if (std::ranges::find(parts, all) != parts.end())
+    clear(all.width, all.height);
+  else
+    draw_within(uncovered, all, all.height, [&] { clear(all.width, all.height); });
+}
+
 hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layout& places,
                                         StereoEye eye, const hal::BackBuffer& buffer) {
   const ViewState view = without_confusion(picture.view, places);
@@ -373,8 +383,7 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
   const RectList parts = find_parts(picture, places, frame, buffer);
   find_uncovered(places, frame, parts);
   if (eye != StereoEye::right) // whose half is clear, too
-    draw_within(uncovered, {0, 0, picture.width, height}, height,
-                [&] { clear(picture.width, height); });
+    clear_parts(picture, parts);
   canvas_renderer.draw(ground, frame, height, uncovered);
   HAL_CHECK(draw_scope(picture, places, frame, parts));
   canvas_renderer.draw(under_volume, frame, height, parts);
