@@ -30,6 +30,12 @@ struct Flip {
   TimePoint submitted{};      // handed to the output
 };
 
+// The buffer into which the next image is drawn. A display that cannot say leaves it as it is.
+struct BackBuffer {
+  std::uint64_t image = 0; // the number of the next image that is handed over; 0: not known
+  std::uint64_t holds = 0; // that of the image that the buffer still holds; 0: not known
+};
+
 enum class DisplayEventKind : std::uint8_t { close_requested, resized, key_pressed, key_released };
 
 // Named keys. Letters and digits are reported by their ASCII codes (lower case); other keys are not
@@ -77,6 +83,9 @@ public:
   // soon as it is presented, and until the first was.
   std::optional<TimePoint> next_refresh() const { return do_next_refresh(); }
 
+  // To be asked before an image is drawn. What the buffer holds may be drawn over in part only.
+  BackBuffer back_buffer() { return do_back_buffer(); }
+
   // Shows what was drawn; waits until it is visible and the next image may be drawn.
   // ErrorCode::disconnected: the output is gone, the state is `failed` and the GL context is lost
   // with all its objects: close() and open() again.
@@ -94,6 +103,7 @@ private:
   virtual int do_height() const = 0;
   virtual Duration do_refresh_period() const = 0;
   virtual std::optional<TimePoint> do_next_refresh() const { return std::nullopt; }
+  virtual BackBuffer do_back_buffer() { return {}; }
   virtual Result<Flip> do_present() = 0;
   virtual std::size_t do_poll_events(std::span<DisplayEvent> events) = 0;
   virtual void do_close() = 0;

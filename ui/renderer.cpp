@@ -6,7 +6,11 @@
 #include <GLES3/gl3.h>
 
 #include "ui/canvas/canvas_renderer.h"
+#include "ui/damage/canvas_tiles.h"
+#include "ui/damage/damage_history.h"
+#include "ui/damage/picture_changes.h"
 #include "ui/gl/framebuffer.h"
+#include "ui/gl/scissor.h"
 #include "ui/hud/hud.h"
 #include "ui/layout/layout.h"
 #include "ui/layout/stereo.h"
@@ -35,6 +39,20 @@ struct DrawnPicture {
   HudText text;
   bool operator==(const DrawnPicture&) const = default;
 };
+
+using RectList = std::span<const Rect>;
+
+// Draws only in those parts of the picture that fills `rect`.
+template <class Draw>
+void draw_within(RectList parts, const Rect& rect, int target_height, const Draw& draw) {
+  for (const Rect& part : parts) {
+    const Rect shown = common(part, rect);
+    if (shown.empty())
+      continue;
+    const gl::Scissor clip{shown, target_height};
+    draw();
+  }
+}
 
 void clear(int width, int height) {
   constexpr Colour back = palette::background;
@@ -99,13 +117,18 @@ struct Renderer::Parts {
   bool scope_shown = false;
   std::optional<DrawnPicture> drawn{};
   bool drew_volume = false;
+  CanvasTiles canvas_tiles{};
+  PictureChanges picture_changes{};
+  Damage damage{};
+  DamageHistory history{};
+  std::vector<Rect> uncovered{}; // what is to be drawn and not covered by pictures
 
   ViewState fitted(const ViewState& view) const;
   ViewState without_confusion(const ViewState& view, const Layout& places) const;
   HudScene scene(const ViewState& view) const;
   DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height,
                           const DrawQuality& quality) const;
-  void follow(const pipeline::Volume& shown);
+  void follow(const pipeline::Volume& shown, std::span<const pipeline::BScanRange> changed);
   hal::Duration spent_on_vessels() const;
   Crop crop_of(const ViewState& view) const {
     return view.zoom_to_tissue ? crop.current() : Crop{};
@@ -113,15 +136,20 @@ struct Renderer::Parts {
   Layout layout(const DrawnPicture& picture) const;
   hal::Result<> prepare_fonts(float unit);
   void fill_canvases(const DrawnPicture& picture, const Layout& places, const HudScene& shown);
-  hal::Result<> draw(const DrawnPicture& picture);
-  hal::Result<> draw_eye(const DrawnPicture& picture, const Layout& places, StereoEye eye);
+  hal::Result<> draw(const DrawnPicture& picture, const hal::BackBuffer& buffer);
+  RectList find_parts(const DrawnPicture& picture, const Layout& places, const EyeFrame& frame,
+                      const hal::BackBuffer& buffer);
+  void find_uncovered(const Layout& places, const EyeFrame& frame, RectList parts);
+  void clear_parts(const DrawnPicture& picture, RectList parts) const;
+  hal::Result<> draw_eye(const DrawnPicture& picture, const Layout& places, StereoEye eye,
+                         const hal::BackBuffer& buffer);
   void draw_flat_pictures(const ViewState& view, const Layout& places, const EyeFrame& frame,
-                          int height);
+                          int height, RectList parts);
   VesselSections::Sight sight(const ViewState& view) const;
   hal::Result<> draw_flat_vessels(const ViewState& view, const Layout& places,
                                   const EyeFrame& frame, int height);
-  hal::Result<> draw_scope(const DrawnPicture& picture, const Layout& places,
-                           const EyeFrame& frame);
+  hal::Result<> draw_scope(const DrawnPicture& picture, const Layout& places, const EyeFrame& frame,
+                           RectList parts);
   hal::Result<> draw_eye_alone(const ViewState& view, const Layout& places,
                                const DrawQuality& quality, StereoEye eye);
 };
@@ -199,6 +227,7 @@ hal::Result<> Renderer::Parts::prepare_fonts(float unit) {
   HAL_TRY(auto made, Fonts::create(unit, typeface));
   fonts = std::move(made);
   fonts_unit = unit;
+  history.forget(); // glyphs of another atlas
   return {};
 }
 
@@ -214,17 +243,23 @@ void Renderer::Parts::fill_canvases(const DrawnPicture& picture, const Layout& p
 }
 
 void Renderer::Parts::draw_flat_pictures(const ViewState& view, const Layout& places,
-                                         const EyeFrame& frame, int height) {
+                                         const EyeFrame& frame, int height, RectList parts) {
   const Crop shown = crop_of(view);
   const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
-    if (panel.shown())
-      b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown,
-                        frame.place(panel.picture), height);
+    if (!panel.shown())
+      return;
+    const Rect rect = frame.place(panel.picture);
+    draw_within(parts, rect, height, [&] {
+      b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown, rect, height);
+    });
   };
   draw_b_scan(places.b_scan, ScanDirection::fast);
   draw_b_scan(places.crossed, ScanDirection::slow);
-  if (places.en_face.shown())
-    en_face_panel.draw(state_texture, shown, frame.place(places.en_face.picture), height);
+  if (places.en_face.shown()) {
+    const Rect rect = frame.place(places.en_face.picture);
+    draw_within(parts, rect, height,
+                [&] { en_face_panel.draw(state_texture, shown, rect, height); });
+  }
 }
 
 VesselSections::Sight Renderer::Parts::sight(const ViewState& view) const {
@@ -255,12 +290,13 @@ hal::Result<> Renderer::Parts::draw_flat_vessels(const ViewState& view, const La
 
 // The vessels lie where the volume has them: nothing in this picture says so if that is an old one.
 hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Layout& places,
-                                          const EyeFrame& frame) {
+                                          const EyeFrame& frame, RectList parts) {
   if (!scope_shown || !places.scope.shown())
     return {};
   const Rect& place = places.scope.picture;
   const Rect rect = frame.place(place);
-  scope_panel.draw(rect, picture.height, picture.text.scope_stale);
+  draw_within(parts, rect, picture.height,
+              [&] { scope_panel.draw(rect, picture.height, picture.text.scope_stale); });
   const bool both_live = picture.text.liveness == Liveness::live && !picture.text.scope_stale;
   if (!flat_vessels || volume.empty() || !scope_panel.field() || !both_live)
     return {};
@@ -270,8 +306,69 @@ hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Lay
       picture.height);
 }
 
+// What is to be drawn anew: all of what has vessels or is for two eyes, else what is different.
+RectList Renderer::Parts::find_parts(const DrawnPicture& picture, const Layout& places,
+                                     const EyeFrame& frame, const hal::BackBuffer& buffer) {
+  damage.begin(picture.width, picture.height);
+  canvas_tiles.begin(picture.width, picture.height);
+  for (const Canvas* canvas : {&ground, &under_volume, &overlay})
+    canvas_tiles.add(*canvas);
+  canvas_tiles.compare(damage);
+  const bool has_volume = !volume.empty();
+  const auto place = [&](const Rect& rect, bool shown) {
+    return shown && !rect.empty() ? frame.place(rect) : Rect{};
+  };
+  PictureSources now{.view = place(places.view, has_volume),
+                     .b_scan = place(places.b_scan.picture, has_volume),
+                     .crossed = place(places.crossed.picture, has_volume),
+                     .en_face = place(places.en_face.picture, has_volume),
+                     .scope = place(places.scope.picture, scope_shown)};
+  now.geometry = shown_geometry;
+  now.crop = crop_of(picture.view);
+  now.window_offset_db = picture.view.window_offset_db;
+  now.window_size_db = picture.view.window_size_db;
+  now.b_scan_index = picture.view.b_scan;
+  now.a_scan_index = picture.view.a_scan;
+  now.scope_uploads = scope_uploads;
+  now.scope_stale = picture.text.scope_stale;
+  picture_changes.compare(now, damage);
+  if (!now.view.empty())
+    volume.add_changed(StereoEye::centre, now.view, damage);
+  const bool two_eyes = picture.view.stereo != StereoMode::off;
+  if (two_eyes || flat_vessels)
+    damage.add_everything();
+  history.add(buffer, damage);
+  if (two_eyes) // what was compared was one of them
+    history.forget();
+  return damage.rects();
+}
+
+// Where pictures will lie that hide all that is under them, nothing need be drawn. (For two eyes, a
+// canvas is drawn as a whole.)
+void Renderer::Parts::find_uncovered(const Layout& places, const EyeFrame& frame, RectList parts) {
+  uncovered.assign(parts.begin(), parts.end());
+  const auto cover = [&](const Panel& panel, bool shown) {
+    if (shown && panel.shown() && frame.width == frame.target.width &&
+        frame.height == frame.target.height)
+      cut_out(uncovered, frame.place(panel.picture));
+  };
+  cover(places.b_scan, !volume.empty());
+  cover(places.crossed, !volume.empty());
+  cover(places.en_face, !volume.empty());
+  cover(places.scope, scope_shown);
+}
+
+// With all of a picture, what lies around it in a larger framebuffer.
+void Renderer::Parts::clear_parts(const DrawnPicture& picture, RectList parts) const {
+  const Rect all{0, 0, picture.width, picture.height};
+  if (std::ranges::find(parts, all) != parts.end())
+    clear(all.width, all.height);
+  else
+    draw_within(uncovered, all, all.height, [&] { clear(all.width, all.height); });
+}
+
 hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layout& places,
-                                        StereoEye eye) {
+                                        StereoEye eye, const hal::BackBuffer& buffer) {
   const ViewState view = without_confusion(picture.view, places);
   const int height = picture.height;
   const EyeFrame frame = eye_frame(view.stereo, eye, picture.width, height);
@@ -284,16 +381,20 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
     HAL_CHECK(volume.update(eye, view, shown.camera, picture.quality, view_rect));
   }
   fill_canvases(picture, places, shown);
-  canvas_renderer.draw(ground, frame, height);
-  HAL_CHECK(draw_scope(picture, places, frame));
-  canvas_renderer.draw(under_volume, frame, height);
+  const RectList parts = find_parts(picture, places, frame, buffer);
+  find_uncovered(places, frame, parts);
+  if (eye != StereoEye::right) // whose half is clear, too
+    clear_parts(picture, parts);
+  canvas_renderer.draw(ground, frame, height, uncovered);
+  HAL_CHECK(draw_scope(picture, places, frame, parts));
+  canvas_renderer.draw(under_volume, frame, height, parts);
   if (has_view)
-    volume.composite(eye, view_rect, height);
+    draw_within(parts, view_rect, height, [&] { volume.composite(eye, view_rect, height); });
   if (has_volume) {
-    draw_flat_pictures(view, places, frame, height);
+    draw_flat_pictures(view, places, frame, height, parts);
     HAL_CHECK(draw_flat_vessels(view, places, frame, height));
   }
-  canvas_renderer.draw(overlay, frame, height);
+  canvas_renderer.draw(overlay, frame, height, parts);
   return {};
 }
 
@@ -322,14 +423,13 @@ hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& wanted, const Lay
   return {};
 }
 
-hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture) {
+hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture, const hal::BackBuffer& buffer) {
   const Layout places = layout(picture);
   HAL_CHECK(prepare_fonts(places.unit));
-  clear(picture.width, picture.height);
   const std::uint64_t before = volume.drawings();
   const hal::Duration spent_before = spent_on_vessels();
   for (const StereoEye eye : eyes_of(picture.view.stereo))
-    HAL_CHECK(draw_eye(picture, places, eye));
+    HAL_CHECK(draw_eye(picture, places, eye, buffer));
   drew_volume = volume.drawings() != before;
   vessel_cost = spent_on_vessels() - spent_before;
   return {};
@@ -345,6 +445,7 @@ hal::Result<std::unique_ptr<Renderer>> Renderer::create(const TransferSet& trans
   HAL_TRY(auto canvas, CanvasRenderer::create());
   std::unique_ptr<Parts> parts{new Parts{std::move(volume), std::move(b_scan), std::move(en_face),
                                          std::move(scope), std::move(canvas), typeface}};
+  parts->uncovered.reserve(512); // more pieces than a frame has
   return std::unique_ptr<Renderer>{new Renderer{std::move(parts)}};
 }
 
@@ -353,7 +454,10 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_{std::move(parts)} {}
 Renderer::~Renderer() = default;
 
 // The flat pictures keep their cut, and the colours of depths theirs, until a volume is whole.
-void Renderer::Parts::follow(const pipeline::Volume& shown) {
+void Renderer::Parts::follow(const pipeline::Volume& shown,
+                             std::span<const pipeline::BScanRange> changed) {
+  for (const pipeline::BScanRange& range : changed)
+    picture_changes.note(range, shown.geometry.b_scans);
   tissue.update(volume.occupancy(), shown.b_scan_states);
   if (std::ranges::find(shown.b_scan_states, pipeline::BScanState::seam) ==
       shown.b_scan_states.end()) {
@@ -363,6 +467,7 @@ void Renderer::Parts::follow(const pipeline::Volume& shown) {
     volume.colour_depths(coloured_depths.current());
   }
   en_face_panel.show(shown, tissue);
+  picture_changes.note_projection(en_face_panel.changed_rows());
   state_texture.upload(shown);
   states.assign(shown.b_scan_states.begin(), shown.b_scan_states.end());
 }
@@ -374,7 +479,8 @@ hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
     parts_->coloured_depths = {};
   }
   parts_->shown_geometry = volume.geometry;
-  parts_->follow(volume);
+  const pipeline::BScanRange all{0, volume.geometry.b_scans};
+  parts_->follow(volume, {&all, 1});
   return {};
 }
 
@@ -385,7 +491,7 @@ hal::Result<> Renderer::renew_volume(const pipeline::Volume& volume,
   if (parts_->shown_geometry != volume.geometry)
     return show_volume(volume);
   HAL_CHECK(parts_->volume.renew(volume, changed));
-  parts_->follow(volume);
+  parts_->follow(volume, changed);
   return {};
 }
 
@@ -424,11 +530,15 @@ void Renderer::forget_scope_picture() {
 }
 
 hal::Result<> Renderer::draw(const ViewState& view, const Status& status, int width, int height,
-                             const DrawQuality& quality) {
+                             const DrawQuality& quality, const hal::BackBuffer& buffer) {
   HAL_CHECK(check_size(width, height));
   const DrawnPicture picture = parts_->picture_of(view, status, width, height, quality);
   parts_->drawn.reset();
-  HAL_CHECK(parts_->draw(picture));
+  const auto drawn = parts_->draw(picture, buffer);
+  if (!drawn) {
+    parts_->history.forget();
+    return drawn;
+  }
   parts_->drawn = picture;
   return {};
 }
@@ -442,6 +552,7 @@ hal::Result<> Renderer::draw_volume_alone(const ViewState& view, int width, int 
   const ViewState fitted = parts_->fitted(view);
   const Layout places = lay_out_alone(width, height);
   parts_->drawn.reset(); // what draw() made is not what stands there now
+  parts_->history.forget();
   HAL_CHECK(parts_->prepare_fonts(places.unit));
   clear(width, height);
   for (const StereoEye eye : eyes_of(fitted.stereo))

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "hal/clock.h"
+#include "hal/display.h"
 #include "hal/result.h"
 #include "hal/scope_camera.h"
 #include "pipeline/files/png_image.h"
@@ -28,8 +29,8 @@ namespace octascope::ui {
 // the context is lost (Display::present() says disconnected), destroy it, open the display again
 // and create a new one.
 //
-// The volume's picture is kept and redrawn only when the volume, the view or the window changes, so
-// a frame that changes only the heads-up display is cheap. Allocates nothing of its own after the
+// The volume's picture is kept and redrawn only when the volume, the view or the window changes, and
+// of a frame only what differs from what its buffer holds (ui/damage). Allocates nothing of its own after the
 // first frame of a size.
 class Renderer {
 public:
@@ -72,9 +73,11 @@ public:
   // Shows the histogram of the volume's levels while the window is being changed.
   void show_levels(const LevelShares& shares);
 
-  // Draws everything into the bound framebuffer of width × height pixels.
+  // Draws everything into the bound framebuffer of width × height pixels. Of a buffer that holds an
+  // image that was drawn here before, only what is different by now is drawn over: all pixels are
+  // then as if everything had been drawn. By default nothing is taken to be there.
   hal::Result<> draw(const ViewState& view, const Status& status, int width, int height,
-                     const DrawQuality& quality = {});
+                     const DrawQuality& quality = {}, const hal::BackBuffer& buffer = {});
 
   // Draws only the volume over the whole bound framebuffer, with a scale bar and, if the view has
   // it, the wire-frame box. ErrorCode::invalid_argument: no volume was shown, or the size is empty.

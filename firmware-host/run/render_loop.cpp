@@ -137,7 +137,10 @@ bool RenderLoop::draws_parts() const {
 
 ui::FrameBudget RenderLoop::frame_budget() const {
   return ui::frame_budget(parts_.display.refresh_period(),
-                          {.software = software_, .rolling = rolling_, .in_parts = draws_parts()});
+                          {.software = software_,
+                           .rolling = rolling_,
+                           .in_parts = draws_parts(),
+                           .volume_period = setup_.freshness.volume_period});
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
@@ -384,8 +387,11 @@ void RenderLoop::draw_if_changed() {
   if (renderer_->wants_volume(view) && volume_ != nullptr)
     static_cast<void>(
         renderer_->show_volume(shown_volume())); // that it can be shown, it has proved
+  hal::BackBuffer buffer = display.back_buffer();
+  if (rested) // which proves that all of it is true, not that it was
+    buffer.holds = 0;
   if (const auto drawn =
-          renderer_->draw(view, status(), display.width(), display.height(), quality_);
+          renderer_->draw(view, status(), display.width(), display.height(), quality_, buffer);
       !drawn) {
     lose_display(drawn.error());
     return;

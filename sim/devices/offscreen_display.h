@@ -44,6 +44,8 @@ private:
   int do_width() const override { return width_; }
   int do_height() const override { return height_; }
   hal::Duration do_refresh_period() const override { return refresh_period_; }
+  // There is one buffer only.
+  hal::BackBuffer do_back_buffer() override { return {flips_ + 1, flips_}; }
   hal::Result<hal::Flip> do_present() override;
   std::size_t do_poll_events(std::span<hal::DisplayEvent>) override { return 0; }
   void do_close() override;

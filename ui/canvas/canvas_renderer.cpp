@@ -1,21 +1,35 @@
 #include "ui/canvas/canvas_renderer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "embedded_shaders.h"
 #include <imgui.h>
 
+#include "ui/gl/scissor.h"
+
 namespace octascope::ui {
 
 namespace {
 
-void set_scissor(const ImVec4& clip, const EyeFrame& frame, int target_height) {
+Rect pixels_of(const ImVec4& clip) {
   const auto left = static_cast<int>(std::floor(clip.x));
   const auto top = static_cast<int>(std::floor(clip.y));
-  const Rect rect = frame.place({left, top, static_cast<int>(std::ceil(clip.z)) - left,
-                                 static_cast<int>(std::ceil(clip.w)) - top});
-  glScissor(rect.x, target_height - rect.bottom(), rect.width, rect.height);
+  return {left, top, static_cast<int>(std::ceil(clip.z)) - left,
+          static_cast<int>(std::ceil(clip.w)) - top};
+}
+
+bool contains(const Rect& whole, const Rect& part) {
+  return common(whole, part) == part;
+}
+
+// With a pixel to spare.
+bool may_meet(const ImDrawVert& a, const ImDrawVert& b, const ImDrawVert& c, const Rect& rect) {
+  return std::min({a.pos.x, b.pos.x, c.pos.x}) <= static_cast<float>(rect.right() + 1) &&
+         std::max({a.pos.x, b.pos.x, c.pos.x}) >= static_cast<float>(rect.x - 1) &&
+         std::min({a.pos.y, b.pos.y, c.pos.y}) <= static_cast<float>(rect.bottom() + 1) &&
+         std::max({a.pos.y, b.pos.y, c.pos.y}) >= static_cast<float>(rect.y - 1);
 }
 
 const void* byte_offset(std::size_t bytes) {
@@ -32,6 +46,9 @@ hal::Result<CanvasRenderer> CanvasRenderer::create() {
 CanvasRenderer::CanvasRenderer(gl::Program program)
     : program_{std::move(program)}, vertex_array_{gl::VertexArray::make()},
       vertices_{gl::Buffer::make()}, indices_{gl::Buffer::make()} {
+  constexpr std::size_t usual_indices = 1 << 16;
+  drawn_.reserve(usual_indices);
+  runs_.reserve(usual_indices / 64);
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
@@ -45,9 +62,42 @@ CanvasRenderer::CanvasRenderer(gl::Program program)
   glBindVertexArray(0);
 }
 
-void CanvasRenderer::draw(const Canvas& canvas, const EyeFrame& frame, int target_height) const {
+// The triangles that may be seen in `part`; all of them where it is the whole target.
+void CanvasRenderer::collect(const Canvas& canvas, const EyeFrame& frame, const Rect& part) {
   const ImDrawList& list = canvas.list();
-  if (list.VtxBuffer.empty())
+  const bool all = contains(part, frame.target);
+  for (const ImDrawCmd& command : list.CmdBuffer) {
+    Run run{.clip = common(frame.place(pixels_of(command.ClipRect)), part),
+            .texture = static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())),
+            .first = drawn_.size()};
+    if (run.clip.empty())
+      continue;
+    const ImDrawIdx* index = list.IdxBuffer.Data + command.IdxOffset;
+    const ImDrawVert* vertices = list.VtxBuffer.Data;
+    for (unsigned i = 0; i + 2 < command.ElemCount; i += 3, index += 3)
+      if (all || may_meet(vertices[index[0]], vertices[index[1]], vertices[index[2]], run.clip))
+        drawn_.insert(drawn_.end(), index, index + 3);
+    run.count = drawn_.size() - run.first;
+    if (run.count > 0)
+      runs_.push_back(run);
+  }
+}
+
+// What lies in two parts is drawn twice.
+void CanvasRenderer::make_room(std::size_t indices) {
+  if (drawn_.capacity() < 2 * indices)
+    drawn_.reserve(4 * indices);
+}
+
+void CanvasRenderer::draw(const Canvas& canvas, const EyeFrame& frame, int target_height,
+                          std::span<const Rect> parts) {
+  const ImDrawList& list = canvas.list();
+  drawn_.clear();
+  runs_.clear();
+  make_room(static_cast<std::size_t>(list.IdxBuffer.Size));
+  for (const Rect& part : parts)
+    collect(canvas, frame, part);
+  if (runs_.empty())
     return;
   const Rect& target = frame.target;
   glViewport(target.x, target_height - target.bottom(), target.width, target.height);
@@ -60,21 +110,17 @@ void CanvasRenderer::draw(const Canvas& canvas, const EyeFrame& frame, int targe
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
   glBufferData(GL_ARRAY_BUFFER, list.VtxBuffer.size_in_bytes(), list.VtxBuffer.Data,
                GL_STREAM_DRAW);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, list.IdxBuffer.size_in_bytes(), list.IdxBuffer.Data,
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(drawn_.size() * sizeof(drawn_.front())), drawn_.data(),
                GL_STREAM_DRAW);
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glEnable(GL_SCISSOR_TEST);
-  for (const ImDrawCmd& command : list.CmdBuffer) {
-    if (command.ElemCount == 0)
-      continue;
-    set_scissor(command.ClipRect, frame, target_height);
-    glBindTexture(GL_TEXTURE_2D,
-                  static_cast<GLuint>(reinterpret_cast<std::uintptr_t>(command.GetTexID())));
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,
-                   byte_offset(command.IdxOffset * sizeof(ImDrawIdx)));
+  for (const Run& run : runs_) {
+    const gl::Scissor clip{run.clip, target_height};
+    glBindTexture(GL_TEXTURE_2D, run.texture);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.count), GL_UNSIGNED_SHORT,
+                   byte_offset(run.first * sizeof(drawn_.front())));
   }
-  glDisable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
   glBindVertexArray(0);
 }

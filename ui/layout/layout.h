@@ -17,11 +17,20 @@ struct Rect {
   int width = 0;
   int height = 0;
 
-  int right() const { return x + width; }
-  int bottom() const { return y + height; }
-  bool empty() const { return width <= 0 || height <= 0; }
+  constexpr int right() const { return x + width; }
+  constexpr int bottom() const { return y + height; }
+  constexpr bool empty() const { return width <= 0 || height <= 0; }
   bool operator==(const Rect&) const = default;
 };
+
+// What lies in both; may be empty.
+constexpr Rect common(const Rect& a, const Rect& b) {
+  const int x = a.x > b.x ? a.x : b.x;
+  const int y = a.y > b.y ? a.y : b.y;
+  const int right = a.right() < b.right() ? a.right() : b.right();
+  const int bottom = a.bottom() < b.bottom() ? a.bottom() : b.bottom();
+  return {x, y, right - x, bottom - y};
+}
 
 // What sizes grow to: that of a picture 4320 pixels high (8K). Letters have a largest size
 // (ui/canvas/fonts.h), and what surrounds them does not grow without them.

@@ -63,7 +63,8 @@ FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how) {
   const hal::Duration moving = refresh * 18 / 10;
   if (how.in_parts)
     return {moving, refresh * 7 / 10};
-  return {moving, how.rolling ? moving : std::max<hal::Duration>(moving, 45ms)};
+  const hal::Duration quick = std::max(how.volume_period * 7 / 10, refresh * 15 / 10);
+  return {moving, how.rolling ? moving : std::min(std::max<hal::Duration>(moving, 45ms), quick)};
 }
 
 double Governor::Median::value() const {

@@ -38,11 +38,13 @@ struct DrawnHow {
   bool software = false; // by the processor
   bool rolling = false;  // B-scans come all the time
   bool in_parts = false; // of a view at rest only what changed
+  hal::Duration volume_period = std::chrono::milliseconds{141};
 };
 
 // With a GPU every refresh of a moving view gets a frame. Where the processor draws, every second
 // one: 30 a second. A volume that comes while the view rests may take longer, as long as it is
-// shown well within the 60 ms that are allowed from its last line. Of what rolls, each refresh shows
+// shown well within the 60 ms that are allowed from its last line; but where volumes come faster than
+// that, a frame leaves a third of their period to copying them, so that each can be shown. Of what rolls, each refresh shows
 // what has come where only that is drawn anew; copying it takes its time, too.
 FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how);
 

@@ -1,5 +1,8 @@
 #include "ui/panels/en_face_panel.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "embedded_shaders.h"
 
 #include "ui/gl/picture_texture.h"
@@ -24,18 +27,33 @@ void EnFacePanel::allocate(int a_scans, int b_scans) {
   a_scans_ = a_scans;
   b_scans_ = b_scans;
   grey_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
+  before_.clear();
   projection_ = gl::make_picture_texture(GL_R8, a_scans, b_scans);
 }
 
 void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue) {
   if (volume.geometry.a_scans != a_scans_ || volume.geometry.b_scans != b_scans_)
     allocate(volume.geometry.a_scans, volume.geometry.b_scans);
+  std::swap(grey_, before_);
+  grey_.resize(static_cast<std::size_t>(a_scans_) * static_cast<std::size_t>(b_scans_));
   project_slab(volume, tissue, grey_);
   stretch_contrast(volume, grey_);
+  compare_rows();
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glBindTexture(GL_TEXTURE_2D, projection_.name());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, a_scans_, b_scans_, GL_RED, GL_UNSIGNED_BYTE,
                   grey_.data());
+}
+
+void EnFacePanel::compare_rows() {
+  changed_.assign(static_cast<std::size_t>(b_scans_), 1);
+  if (before_.size() != grey_.size())
+    return;
+  const auto length = static_cast<std::size_t>(a_scans_);
+  for (std::size_t b = 0; b < changed_.size(); ++b) {
+    const auto row = std::span{grey_}.subspan(b * length, length);
+    changed_[b] = std::ranges::equal(row, std::span{before_}.subspan(b * length, length)) ? 0 : 1;
+  }
 }
 
 void EnFacePanel::draw(const StateTexture& states, const Crop& crop, const Rect& rect,

@@ -26,6 +26,9 @@ public:
   // `tissue`: of the same volume.
   void show(const pipeline::Volume& volume, const TissueMap& tissue);
 
+  // Of the last show(): 1 for each B-scan of which it changed the projection.
+  std::span<const std::uint8_t> changed_rows() const { return changed_; }
+
   // Fills `rect` of the bound framebuffer with what the crop leaves; missing B-scans are hatched, saturated ones marked at
   // the right border.
   void draw(const StateTexture& states, const Crop& crop, const Rect& rect,
@@ -34,10 +37,13 @@ public:
 private:
   explicit EnFacePanel(gl::PicturePass pass);
   void allocate(int a_scans, int b_scans);
+  void compare_rows();
 
   gl::PicturePass pass_;
   gl::Texture projection_;
   std::vector<std::uint8_t> grey_;
+  std::vector<std::uint8_t> before_; // of the show() before the last
+  std::vector<std::uint8_t> changed_;
   int a_scans_ = 0;
   int b_scans_ = 0;
   struct {

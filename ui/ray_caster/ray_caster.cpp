@@ -274,7 +274,7 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
     const int index = static_cast<int>(tile);
     const Tile at{image.drawn.x + index % across * tile_size,
                   image.drawn.y + index / across * tile_size};
-    if (is_changed({at.x, at.y, tile_size, tile_size}))
+    if (may_have_changed({at.x, at.y, tile_size, tile_size}))
       kernel(rays, at);
   });
   if (settings.soften)
@@ -303,9 +303,9 @@ void RayCaster::find_slabs(const Camera& camera, const RaySettings& settings, Ra
     image.renewed = tiles_around(bounds, image.drawn);
 }
 
-bool RayCaster::is_changed(const Rect& tile) const {
+bool RayCaster::may_have_changed(const Rect& pixels) const {
   return slabs_.empty() || std::ranges::any_of(slabs_, [&](const ProjectedSlab& slab) {
-           return slab.may_meet(tile);
+           return slab.may_meet(pixels);
          });
 }
 

@@ -89,6 +89,12 @@ public:
   // positive share of the box, or the stops are of another size.
   hal::Result<> draw(const Camera& camera, const RaySettings& settings, RayImage& image);
 
+  // Whether the last draw() may have changed pixels of its image there: false only of a renewal.
+  bool may_have_changed(const Rect& pixels) const;
+
+  // The threads that draw, for other work between two pictures.
+  WorkTeam& team() { return *team_; }
+
   bool empty() const { return !cells_; }
   const pipeline::VolumeGeometry& geometry() const { return cells_->geometry(); }
   std::string_view isa() const { return kernels_->isa; }
@@ -98,7 +104,6 @@ private:
   RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team);
   void prepare(float steps, Visibility visibility);
   void find_slabs(const Camera& camera, const RaySettings& settings, RayImage& image);
-  bool is_changed(const Rect& tile) const;
   Rect rectangle_of_box(const Camera& camera, const RayImage& image) const;
   void soften(const RaySettings& settings, RayImage& image);
   RayFrame frame(const Camera& camera, const RaySettings& settings, RayImage& image) const;

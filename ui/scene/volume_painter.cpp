@@ -166,11 +166,24 @@ const pipeline::Volume& VolumePainter::see_through(const pipeline::Volume& volum
   if (weakened_.geometry != volume.geometry)
     weakened_ = pipeline::Volume{volume.geometry};
   weakened_.b_scan_states = volume.b_scan_states;
-  const float counts = see_through_db_ / pipeline::level_step_db;
-  for (int b = 0; b < volume.geometry.b_scans; ++b)
-    cover_.weaken(b, volume.b_scan(b), counts, weakened_.b_scan(b));
-  occupancy_.widen_below(static_cast<int>(counts) + 1);
+  weaken(volume);
   return weakened_;
+}
+
+// By all threads that there are.
+void VolumePainter::weaken(const pipeline::Volume& volume) {
+  const float counts = see_through_db_ / pipeline::level_step_db;
+  const auto weaken_one = [&](std::uint32_t at) {
+    const auto b = static_cast<int>(at);
+    cover_.weaken(b, volume.b_scan(b), counts, weakened_.b_scan(b));
+  };
+  const auto count = static_cast<std::uint32_t>(volume.geometry.b_scans);
+  if (caster_)
+    caster_->team().run(count, weaken_one);
+  else
+    for (std::uint32_t b = 0; b < count; ++b)
+      weaken_one(b);
+  occupancy_.widen_below(static_cast<int>(counts) + 1);
 }
 
 hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
@@ -293,6 +306,9 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
     HAL_TRY(auto made, CutFace::create());
     cut_face_.emplace(std::move(made));
   }
+  // A cut's face is drawn by composite(), of what is there then.
+  pictures->all_changed =
+      processor != pictures->processor_drew || !scene.cut_away.nothing() || !pictures->cut_away.nothing();
   pictures->camera = camera;
   pictures->cut_away = scene.cut_away;
   if (surface) {
@@ -305,8 +321,19 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   if (!vessels)
     return tl::make_unexpected(vessels.error());
   scene.vessels = *vessels ? &**vessels : nullptr;
-  return processor ? cast_rays(*pictures, scene, quality, rect)
-                   : draw_by_gl(*pictures, scene, quality, rect);
+  const std::uint64_t gl_drawings = pictures->by_gl.drawings();
+  HAL_CHECK(processor ? cast_rays(*pictures, scene, quality, rect)
+                      : draw_by_gl(*pictures, scene, quality, rect));
+  pictures->all_changed = pictures->all_changed || pictures->by_gl.drawings() != gl_drawings;
+  return {};
+}
+
+void VolumePainter::add_changed(StereoEye eye, const Rect& rect, Damage& damage) const {
+  const auto& pictures = pictures_[index_of(eye)];
+  if (!pictures || pictures->all_changed)
+    damage.add(rect);
+  else if (pictures->processor_drew)
+    pictures->by_processor->add_changed(rect, damage);
 }
 
 bool VolumePainter::wants_volume(const ViewState& view) const {

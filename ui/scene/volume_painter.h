@@ -84,6 +84,10 @@ public:
   // Blends the eye's picture over the bound framebuffer.
   void composite(StereoEye eye, const Rect& rect, int target_height) const;
 
+  // Adds what of `rect` composite() draws in another way since the update() before the last one of
+  // that eye. The rectangle must be that of both.
+  void add_changed(StereoEye eye, const Rect& rect, Damage& damage) const;
+
   // What volumes are going to be seen with: show() computes what that needs.
   void expect(const ViewState& view);
   // Whether the view needs data that was not computed for the shown volume. If so, show() it again.
@@ -117,6 +121,7 @@ private:
     bool processor_drew = false; // in the last update()
     Camera camera{};             // of the last update()
     CutAway cut_away{};
+    bool all_changed = true; // by the last update()
   };
 
   VolumePainter(bool software, const TransferSet& transfers, const pipeline::ThreadSetup& threads);
@@ -124,6 +129,7 @@ private:
   bool must_show_all(const pipeline::Volume& volume) const;
   void renew_occupancy(const pipeline::Volume& volume, const pipeline::BScanRange& range);
   const pipeline::Volume& see_through(const pipeline::Volume& volume);
+  void weaken(const pipeline::Volume& volume);
   hal::Result<const VolumeTexture*> drawn_texture();
   hal::Result<EyePictures*> pictures_of(StereoEye eye);
   void update_transfer(const ViewState& of);

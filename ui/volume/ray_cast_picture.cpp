@@ -1,11 +1,13 @@
 #include "ui/volume/ray_cast_picture.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "embedded_shaders.h"
 
 #include "ui/dither/soften.h"
 #include "ui/gl/picture_texture.h"
+#include "ui/gl/scissor.h"
 #include "ui/ray_caster/mask_merge.h"
 
 namespace octascope::ui {
@@ -27,6 +29,8 @@ hal::Result<> RayCastPicture::resize(int width, int height, const Rect& rect) {
                      width, height, glGetError());
   image_.make_room(rect.width, rect.height);
   image_.resize(width, height);
+  const auto tiles = [](int pixels) { return static_cast<std::size_t>(pixels / tile_size + 2); };
+  changed_.reserve(tiles(rect.width) * tiles(rect.height));
   return {};
 }
 
@@ -91,6 +95,7 @@ bool RayCastPicture::is_renewal(const VolumeScene& scene, RayMode mode,
 hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                                      const DrawQuality& quality, const Rect& rect) {
   const VolumePictureKey key = volume_picture_key(scene, quality, rect);
+  changed_.clear();
   if (drawn_ == key && drawn_mode_ == mode)
     return {};
   cast_ = std::exchange(drawn_, std::nullopt);
@@ -99,6 +104,7 @@ hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene
     HAL_CHECK(resize(key.width, key.height, rect));
   HAL_CHECK(cast(caster, scene, mode, key));
   upload_image(scene.vessels != nullptr);
+  note_changes(caster, scene.vessels == nullptr && is_renewal(scene, mode, key));
   drawn_ = key;
   ++drawings_;
   drawn_mode_ = mode;
@@ -121,6 +127,48 @@ Rect RayCastPicture::visible_in(const Rect& rect) const {
           scaled(to(drawn.bottom(), image_.height), image_.height, rect.height) - top};
 }
 
+// Tile by tile, of a renewal; side by side in one piece.
+void RayCastPicture::note_changes(const RayCaster& caster, bool renewed) {
+  if (!renewed) {
+    changed_.push_back({0, 0, image_.width, image_.height});
+    return;
+  }
+  const Rect& drawn = image_.drawn;
+  for (int y = drawn.y; y < drawn.bottom(); y += tile_size) {
+    Rect run{drawn.x, y, 0, tile_size};
+    for (int x = drawn.x; x < drawn.right() + tile_size; x += tile_size) {
+      const bool changed =
+          x < drawn.right() && caster.may_have_changed({x, y, tile_size, tile_size});
+      if (changed && run.empty())
+        run.x = x;
+      if (changed)
+        run.width = x + tile_size - run.x;
+      else if (!run.empty())
+        changed_.push_back(std::exchange(run, {x, y, 0, tile_size}));
+    }
+  }
+}
+
+// With what is softened and interpolated with it.
+Rect RayCastPicture::shown_at(const Rect& texels, const Rect& rect) const {
+  constexpr int reach = soften_radius + 2;
+  const auto from = [](int texel, int all, int pixels) {
+    return static_cast<int>(std::int64_t{std::max(texel - reach, 0)} * pixels / all);
+  };
+  const auto to = [](int texel, int all, int pixels) {
+    return static_cast<int>((std::int64_t{std::min(texel + reach, all)} * pixels + all - 1) / all);
+  };
+  const int left = from(texels.x, image_.width, rect.width);
+  const int top = from(texels.y, image_.height, rect.height);
+  return {rect.x + left, rect.y + top, to(texels.right(), image_.width, rect.width) - left,
+          to(texels.bottom(), image_.height, rect.height) - top};
+}
+
+void RayCastPicture::add_changed(const Rect& rect, Damage& damage) const {
+  for (const Rect& texels : changed_)
+    damage.add(shown_at(texels, rect));
+}
+
 void RayCastPicture::composite(const Rect& rect, int target_height) const {
   const Rect visible = visible_in(rect);
   if (image_.drawn.empty() || visible.empty())
@@ -132,10 +180,8 @@ void RayCastPicture::composite(const Rect& rect, int target_height) const {
   const GLint filter = as_it_is ? GL_NEAREST : GL_LINEAR;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(visible.x, target_height - visible.bottom(), visible.width, visible.height);
+  const gl::Scissor clip{visible, target_height};
   pass_.blend(texture_, rect, target_height);
-  glDisable(GL_SCISSOR_TEST);
 }
 
 } // namespace octascope::ui

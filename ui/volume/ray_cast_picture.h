@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "hal/result.h"
+#include "ui/damage/damage.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
 #include "ui/ray_caster/ray_caster.h"
@@ -25,6 +27,9 @@ public:
   // Blends the picture over the bound framebuffer.
   void composite(const Rect& rect, int target_height) const;
 
+  // Adds what composite() draws in another way since the last update(), within `rect`.
+  void add_changed(const Rect& rect, Damage& damage) const;
+
   std::uint64_t drawings() const { return drawings_; } // counts the pictures made
 
   const RayImage& image() const { return image_; } // the last one, with its depths
@@ -35,6 +40,8 @@ private:
   hal::Result<> cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                      const VolumePictureKey& key);
   bool is_renewal(const VolumeScene& scene, RayMode mode, VolumePictureKey key) const;
+  void note_changes(const RayCaster& caster, bool renewed);
+  Rect shown_at(const Rect& texels, const Rect& rect) const;
   void upload_image(bool all);
   Rect visible_in(const Rect& rect) const;
 
@@ -47,6 +54,7 @@ private:
   std::optional<VolumePictureKey> drawn_;
   std::optional<VolumePictureKey> cast_; // of update(): what the image held before
   RayMode cast_mode_ = RayMode::composite;
+  std::vector<Rect> changed_; // of the image, by the last update()
   std::uint64_t drawings_ = 0;
   RayMode drawn_mode_ = RayMode::composite;
 };

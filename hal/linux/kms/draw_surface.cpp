@@ -146,8 +146,10 @@ struct DrawSurface::Parts {
       return no_egl(described, "EGL could not be initialised");
     display = found;
     eglBindAPI(EGL_OPENGL_ES_API);
-    if (has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_ANDROID_native_fence_sync"))
+    const char* const extensions = eglQueryString(display, EGL_EXTENSIONS);
+    if (has_extension(extensions, "EGL_ANDROID_native_fence_sync"))
       find_fence_calls();
+    knows_ages = has_extension(extensions, "EGL_EXT_buffer_age");
     return {};
   }
 
@@ -232,6 +234,8 @@ struct DrawSurface::Parts {
   }
 
   bool swapped = false;
+  bool knows_ages = false;
+  std::uint64_t images = 0; // swapped so far
 };
 
 DrawSurface::DrawSurface(std::unique_ptr<Parts> parts) : parts_{std::move(parts)} {}
@@ -251,6 +255,16 @@ bool DrawSurface::uses_modifiers() const {
   return parts_->has_modifiers;
 }
 
+BackBuffer DrawSurface::back_buffer() const {
+  BackBuffer buffer{parts_->images + 1, 0};
+  EGLint age = 0; // in images; 0: the content is undefined
+  if (parts_->knows_ages &&
+      eglQuerySurface(parts_->display, parts_->surface, EGL_BUFFER_AGE_EXT, &age) == EGL_TRUE &&
+      age > 0 && static_cast<std::uint64_t>(age) <= parts_->images)
+    buffer.holds = buffer.image - static_cast<std::uint64_t>(age);
+  return buffer;
+}
+
 Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
   // Before the flip: it would show an old picture as if it were new.
   if (const auto cause = parts_->reset.cause())
@@ -268,6 +282,7 @@ Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
                 "kms display: the picture could not be finished (EGL error 0x{:04x}): the graphics "
                 "device is gone or has been reset; it is opened again",
                 static_cast<unsigned>(eglGetError()));
+  ++parts_->images;
   picture.buffer = gbm_surface_lock_front_buffer(parts_->buffers);
   if (picture.buffer == nullptr)
     return fail(ErrorCode::system, "kms display: no buffer with the picture; it is opened again");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "hal/display.h"
 #include "hal/linux/kms/drm/topology.h"
 #include "hal/linux/system/file_descriptor.h"
 
@@ -39,6 +40,9 @@ public:
 
   // Whether the buffers' layout is given by a modifier.
   bool uses_modifiers() const;
+
+  // What the buffer to draw into holds; images are counted by take_picture().
+  BackBuffer back_buffer() const;
 
   // Ends the image that was being drawn and returns it, with a fence if requested and supported.
   // The buffer belongs to the caller until release().

@@ -189,6 +189,16 @@ int KmsDisplay::do_height() const {
   return session_ ? session_->frame.height() : 0;
 }
 
+// With margins there is one buffer, which is copied.
+BackBuffer KmsDisplay::do_back_buffer() {
+  if (!session_)
+    return {};
+  BackBuffer buffer = session_->surface->back_buffer();
+  if (session_->frame.has_margins())
+    buffer.holds = buffer.image - 1;
+  return buffer;
+}
+
 Result<Flip> KmsDisplay::do_present() {
   if (!session_)
     return fail(ErrorCode::absent, "kms display: not open; open() it first");

@@ -59,6 +59,7 @@ private:
   int do_height() const override;
   Duration do_refresh_period() const override { return refresh_period_; }
   std::optional<TimePoint> do_next_refresh() const override { return pacer_.next_refresh(); }
+  BackBuffer do_back_buffer() override;
   Result<Flip> do_present() override;
   std::size_t do_poll_events(std::span<DisplayEvent> events) override {
     return keys_ ? keys_->poll_events(events) : 0;

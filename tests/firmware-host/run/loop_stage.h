@@ -60,6 +60,7 @@ private:
   int do_height() const override;
   hal::Duration do_refresh_period() const override { return inner_.refresh_period(); }
   std::optional<hal::TimePoint> do_next_refresh() const override;
+  hal::BackBuffer do_back_buffer() override { return inner_.back_buffer(); }
   hal::Result<hal::Flip> do_present() override;
   std::size_t do_poll_events(std::span<hal::DisplayEvent>) override;
   void do_close() override { inner_.close(); }

@@ -88,6 +88,8 @@ TEST(FrameBudget, leaves_the_processor_every_second_refresh_but_for_what_is_draw
   EXPECT_EQ(budget({.rolling = true}).resting, 8ms);
   EXPECT_EQ(budget({.software = true}).moving, 18ms);
   EXPECT_EQ(budget({.software = true}).resting, 45ms);
+  EXPECT_EQ(budget({.software = true, .volume_period = 30ms}).resting, 21ms);
+  EXPECT_EQ(budget({.software = true, .volume_period = 10ms}).resting, 15ms);
   EXPECT_EQ(budget({.software = true, .rolling = true}).resting, 18ms);
   EXPECT_EQ(budget({.software = true, .rolling = true, .in_parts = true}).resting, 7ms);
 }

@@ -23,9 +23,10 @@ public:
   int width() const { return part_.width; }
   int height() const { return part_.height; }
 
-private:
+  // Whether what is drawn into is another framebuffer than the screen's.
   bool has_margins() const { return framebuffer_ != 0; }
 
+private:
   Rectangle part_;
   int screen_height_ = 0;
   std::uint32_t framebuffer_ = 0;
