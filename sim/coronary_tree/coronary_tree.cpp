@@ -5,8 +5,10 @@
 
 #include "sim/coronary_tree/heart/main_courses.h"
 #include "sim/coronary_tree/myocardium_voxels.h"
+#include "sim/coronary_tree/spacing/relaxation.h"
 #include "sim/coronary_tree/tree_layout.h"
 #include "sim/coronary_tree/trunk_growth.h"
+#include "sim/coronary_tree/trunk_spacing.h"
 #include "sim/coronary_tree/twig_growth.h"
 #include "sim/spectrometer/noise.h"
 
@@ -27,7 +29,7 @@ struct Trunks {
   std::array<std::size_t, 3> first_cell{};
 };
 
-Trunks grow_trunks(std::uint64_t seed) {
+Trunks grow_trunks(std::uint64_t seed, std::size_t threads) {
   Trunks trunks;
   std::array<double, 3> shares{};
   double all = 0;
@@ -52,6 +54,7 @@ Trunks grow_trunks(std::uint64_t seed) {
                    Region{trunks.cells}.subspan(first, counts[b]), key_of(seed, Purpose::trunk, b));
     first += counts[b];
   }
+  space_trunks(trunks.plans, trunks.grown, threads);
   return trunks;
 }
 
@@ -164,6 +167,16 @@ void write_trunks(const Trunks& trunks, const TreeLayout& layout, pipeline::Vess
   }
 }
 
+// Away from the large vessels, which keep still, and from each other.
+void space_twigs(pipeline::VesselTree& tree, std::size_t threads,
+                 const std::function<void(double)>& progress) {
+  std::vector<bool> still(tree.nodes());
+  for (std::size_t i = 0; i < tree.nodes(); ++i)
+    still[i] = tree.orders[i] >= lowest_trunk_order;
+  relax(tree, still, {.rounds = 8, .unbending_rounds = 5, .threads = threads}, held_in_place,
+        progress);
+}
+
 } // namespace
 
 hal::Result<CoronaryTree> generate_coronary_tree(const CoronaryTreeRequest& request,
@@ -175,7 +188,7 @@ hal::Result<CoronaryTree> generate_coronary_tree(const CoronaryTreeRequest& requ
   if (request.threads < 1 || request.threads > most_threads)
     return hal::fail(hal::ErrorCode::invalid_argument, "{} threads, expected 1 to {}",
                      request.threads, most_threads);
-  const Trunks trunks = grow_trunks(request.seed);
+  const Trunks trunks = grow_trunks(request.seed, request.threads);
   const TreeLayout layout =
       lay_out(trunks.plans, request.segments, key_of(request.seed, Purpose::layout));
   CoronaryTree result;
@@ -188,9 +201,17 @@ hal::Result<CoronaryTree> generate_coronary_tree(const CoronaryTreeRequest& requ
   std::vector<std::thread> threads;
   for (std::size_t i = 1; i < request.threads; ++i)
     threads.emplace_back([&work] { work.work({}); });
-  work.work(progress);
+  constexpr double growing = 0.4; // of the time
+  if (progress)
+    work.work([&](double done) { progress(growing * done); });
+  else
+    work.work({});
   for (std::thread& thread : threads)
     thread.join();
+  space_twigs(result.tree, request.threads, [&](double done) {
+    if (progress)
+      progress(growing + (1 - growing) * done);
+  });
   if (progress)
     progress(1);
   return result;

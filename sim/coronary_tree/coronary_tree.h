@@ -4,7 +4,8 @@
 // the heart is in sim/coronary_tree/heart/heart_wall.h. Layout after Kaimovitz, Lanir, Kassab (Ann
 // Biomed Eng 33, 2005): orders 11 to 9 on the heart's surface, 8 to 5 through its wall, 4 to 0
 // filling it. To fill the space, the muscle is divided from the trunk to the twigs, and each vessel
-// heads for the middle of its own piece.
+// heads for the middle of its own piece. Then vessels are moved out of each other and bent
+// gently (sim/coronary_tree/spacing/relaxation.h), the large ones first.
 //
 // The same seed and number of segments give the same bits, for any number of threads and on every
 // machine with IEEE 754 double and single precision. For this, the arithmetic uses only sums,

@@ -1,6 +1,7 @@
 #include "sim/coronary_tree/trunk_growth.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "sim/coronary_tree/heart/course_regions.h"
 #include "sim/coronary_tree/heart/heart_wall.h"
@@ -50,6 +51,7 @@ private:
                     const CourseRegions& regions);
 
   std::vector<std::uint32_t> daughters_at(const PlannedElement& mother, std::uint32_t joint) const;
+  double end_um(const PlannedElement& element) const;
   std::size_t share(const Way& way, double weight) const;
   void begin(std::uint32_t daughter, const Way& way, std::size_t cells, double mother_um,
              double sister_um);
@@ -74,6 +76,15 @@ std::vector<std::uint32_t> Grower::daughters_at(const PlannedElement& mother,
   // The first one is what the element goes on with where it ends: it takes what is left.
   std::ranges::reverse(found);
   return found;
+}
+
+// As wide as the widest that springs from its end can begin.
+double Grower::end_um(const PlannedElement& element) const {
+  double widest = 0;
+  for (const std::uint32_t daughter : daughters_at(element, element.segments - 1))
+    widest = std::max(widest, branch_.orders[plan_.elements[daughter].order].diameter_um.mean);
+  return widest > 0 ? static_cast<double>(pipeline::widest_start) * widest
+                    : std::numeric_limits<double>::infinity();
 }
 
 // Cells for a daughter of that weight: at least one.
@@ -128,7 +139,8 @@ void Grower::grow_element(std::uint32_t index) {
   const PlannedElement& element = plan_.elements[index];
   GrownElement& grown = grown_.elements[index];
   grown.first_node = grown_.nodes.size();
-  const Calibre calibre{branch_, element.order, element.segments, grown.mother_um, draws_};
+  const Calibre calibre{branch_,         element.order,   element.segments,
+                        grown.mother_um, end_um(element), draws_};
   Way way{grown.start, grown.direction, grown.first_cell, grown.cells, element.weight};
   for (std::uint32_t k = 0; k < element.segments; ++k) {
     step_freely(element, k, way);
@@ -198,7 +210,8 @@ void Grower::grow_on_course(std::uint32_t index) {
   CourseRegions regions{region(grown.first_cell, grown.cells), course_};
   const std::vector<double> joints = joints_on_course(element);
   place_joints(element, joints, regions);
-  const Calibre calibre{branch_, element.order, element.segments, grown.mother_um, draws_};
+  const Calibre calibre{branch_,         element.order,   element.segments,
+                        grown.mother_um, end_um(element), draws_};
   Way way{grown.start, grown.direction, grown.first_cell, grown.cells, element.weight};
   for (std::uint32_t k = 0; k < element.segments; ++k) {
     way.place = course_.at(joints[k]);

@@ -178,7 +178,8 @@ void Grower::grow(const Twig& twig) {
   constexpr double winding = 0.12;
   const Family family = family_of(twig);
   const OrderMorphometry& facts = rules_.facts->orders[twig.order];
-  const Calibre calibre{*rules_.facts, twig.order, family.own, twig.mother_um, draws_};
+  const Calibre calibre{*rules_.facts,  twig.order,     family.own,
+                        twig.mother_um, twig.mother_um, draws_};
   Region region = twig.region;
   Vector3 place = twig.start;
   Vector3 direction = twig.direction;

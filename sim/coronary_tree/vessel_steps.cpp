@@ -10,7 +10,7 @@ constexpr double sqrt_3 = 1.7320508075688772;
 } // namespace
 
 Calibre::Calibre(const BranchMorphometry& branch, std::size_t order, std::size_t segments,
-                 double mother_um, HashRandom& draws) {
+                 double mother_um, double end_um, HashRandom& draws) {
   const OrderMorphometry& facts = branch.orders[order];
   const DiameterRange range = diameter_range(branch, order);
   most_um_ = std::min(range.most_um * 0.9999, mother_um);
@@ -27,7 +27,8 @@ Calibre::Calibre(const BranchMorphometry& branch, std::size_t order, std::size_t
   const double steps = static_cast<double>(segments - 1);
   const double widest = sqrt_3 * std::sqrt(std::max(0.0, all * all - between * between));
   const double steepest = (1 - large_daughter_ratio(order)) * steps / 2 * mean_um_;
-  first_um_ = std::min(widest, steepest);
+  const double to_end = std::min(mean_um_ - end_um, most_um_ - mean_um_);
+  first_um_ = std::max({0.0, std::min(widest, steepest), to_end});
   step_um_ = 2 * first_um_ / steps;
 }
 

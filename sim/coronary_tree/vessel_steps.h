@@ -10,9 +10,10 @@ namespace octascope::sim {
 // The diameters of an element's segments, from the first to the last.
 class Calibre {
 public:
-  // Never wider than the mother.
+  // Never wider than the mother. A large vessel of several segments tapers as published, or further,
+  // as far as its order's range allows with the same mean: until its end is as narrow as `end_um`.
   Calibre(const BranchMorphometry& branch, std::size_t order, std::size_t segments,
-          double mother_um, HashRandom& draws);
+          double mother_um, double end_um, HashRandom& draws);
 
   double diameter_um(std::size_t segment) const;
 
