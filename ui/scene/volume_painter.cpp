@@ -307,8 +307,8 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
     cut_face_.emplace(std::move(made));
   }
   // A cut's face is drawn by composite(), of what is there then.
-  pictures->all_changed =
-      processor != pictures->processor_drew || !scene.cut_away.nothing() || !pictures->cut_away.nothing();
+  pictures->all_changed = processor != pictures->processor_drew || !scene.cut_away.nothing() ||
+                          !pictures->cut_away.nothing();
   pictures->camera = camera;
   pictures->cut_away = scene.cut_away;
   if (surface) {

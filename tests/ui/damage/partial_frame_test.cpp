@@ -224,11 +224,11 @@ TEST_P(EveryChange, gives_the_picture_of_a_full_drawing) {
     }
     quality_.resolution = round == 0 ? 1.0F : 0.6F;
     compare("a quality");
-    view_.cut = true;
+    view_.cut = round == 0 ? ui::CutShape::b_scan : ui::CutShape::corner;
     compare("a cut");
     renew(9, 14);
     compare("B-scans in a cut");
-    view_.cut = false;
+    view_.cut = ui::CutShape::none;
     compare("no cut");
     for_both([&](ui::Renderer& renderer) { renderer.forget_scope_picture(); });
     compare("no microscope picture");
