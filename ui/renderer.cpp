@@ -128,7 +128,8 @@ struct Renderer::Parts {
   HudScene scene(const ViewState& view) const;
   DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height,
                           const DrawQuality& quality) const;
-  void follow(const pipeline::Volume& shown, std::span<const pipeline::BScanRange> changed);
+  void note(std::span<const pipeline::BScanRange> changed, int b_scans);
+  void follow(const pipeline::Volume& shown);
   hal::Duration spent_on_vessels() const;
   Crop crop_of(const ViewState& view) const {
     return view.zoom_to_tissue ? crop.current() : Crop{};
@@ -453,11 +454,14 @@ Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_{std::move(parts)} {}
 
 Renderer::~Renderer() = default;
 
-// The flat pictures keep their cut, and the colours of depths theirs, until a volume is whole.
-void Renderer::Parts::follow(const pipeline::Volume& shown,
-                             std::span<const pipeline::BScanRange> changed) {
+// Before they are shown: a part of them may be even where the rest cannot.
+void Renderer::Parts::note(std::span<const pipeline::BScanRange> changed, int b_scans) {
   for (const pipeline::BScanRange& range : changed)
-    picture_changes.note(range, shown.geometry.b_scans);
+    picture_changes.note(range, b_scans);
+}
+
+// The flat pictures keep their cut, and the colours of depths theirs, until a volume is whole.
+void Renderer::Parts::follow(const pipeline::Volume& shown) {
   tissue.update(volume.occupancy(), shown.b_scan_states);
   if (std::ranges::find(shown.b_scan_states, pipeline::BScanState::seam) ==
       shown.b_scan_states.end()) {
@@ -473,14 +477,15 @@ void Renderer::Parts::follow(const pipeline::Volume& shown,
 }
 
 hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
+  const pipeline::BScanRange all{0, volume.geometry.b_scans};
+  parts_->note({&all, 1}, volume.geometry.b_scans);
   HAL_CHECK(parts_->volume.show(volume));
   if (parts_->shown_geometry != volume.geometry) {
     parts_->crop = {};
     parts_->coloured_depths = {};
   }
   parts_->shown_geometry = volume.geometry;
-  const pipeline::BScanRange all{0, volume.geometry.b_scans};
-  parts_->follow(volume, {&all, 1});
+  parts_->follow(volume);
   return {};
 }
 
@@ -490,8 +495,9 @@ hal::Result<> Renderer::renew_volume(const pipeline::Volume& volume,
     return {};
   if (parts_->shown_geometry != volume.geometry)
     return show_volume(volume);
+  parts_->note(changed, volume.geometry.b_scans);
   HAL_CHECK(parts_->volume.renew(volume, changed));
-  parts_->follow(volume, changed);
+  parts_->follow(volume);
   return {};
 }
 

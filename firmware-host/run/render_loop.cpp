@@ -103,16 +103,17 @@ hal::Result<> RenderLoop::show_again() {
 
 // A frame that begins late takes in what came meanwhile.
 void RenderLoop::wait_to_begin() {
-  const hal::Display& display = parts_.display;
-  if (renderer_)
-    parts_.clock.sleep_until(
-        late_start_.begin(parts_.clock.now(), display.next_refresh(), display.refresh_period()));
+  const hal::TimePoint now = parts_.clock.now();
+  parts_.clock.sleep_until(late_start_.begin(now, next_refresh(), parts_.display.refresh_period()));
   turn_began_ = parts_.clock.now();
+}
+
+std::optional<hal::TimePoint> RenderLoop::next_refresh() const {
+  return renderer_ ? parts_.display.next_refresh() : std::nullopt;
 }
 
 bool RenderLoop::turn() {
   wait_to_begin();
-  const hal::TimePoint next = parts_.clock.now() + parts_.display.refresh_period();
   const bool go_on = handle_input();
   take_volume();
   take_scope_picture();
@@ -123,6 +124,8 @@ bool RenderLoop::turn() {
     draw_if_changed();
     choose_ray_backend();
   }
+  const hal::TimePoint next = late_start_.next_look(turn_began_, parts_.clock.now(), next_refresh(),
+                                                    parts_.display.refresh_period());
   // At once when something came meanwhile; a long press is due when it is.
   parts_.news.wait_until(parts_.clock, std::min(next, controller_.next_deadline().value_or(next)));
   return go_on;
@@ -387,9 +390,13 @@ void RenderLoop::draw_if_changed() {
   if (renderer_->wants_volume(view) && volume_ != nullptr)
     static_cast<void>(
         renderer_->show_volume(shown_volume())); // that it can be shown, it has proved
+  // A picture that is drawn in parts is drawn as a whole as often: which proves that all of it is true,
+  // not that it was.
   hal::BackBuffer buffer = display.back_buffer();
-  if (rested) // which proves that all of it is true, not that it was
+  if (!drawn_whole_ || status().now - *drawn_whole_ >= longest_rest) {
     buffer.holds = 0;
+    drawn_whole_ = status().now;
+  }
   if (const auto drawn =
           renderer_->draw(view, status(), display.width(), display.height(), quality_, buffer);
       !drawn) {
@@ -415,9 +422,9 @@ void RenderLoop::draw_if_changed() {
 
 void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
   presented_ = flip.completed;
-  late_start_.note(flip.submitted - turn_began_, flip.completed);
   if (flip.sequence == last_flip_) // another console is in front: nobody saw it
     return;
+  late_start_.note(flip.submitted - turn_began_, flip.completed);
   last_flip_ = flip.sequence;
   prove_picture(flip);
   const hal::Duration took = flip.completed - begin;

@@ -176,6 +176,7 @@ private:
   void set_first_window(const ui::DisplayWindow& window);
   void show_scope_picture();
   void wait_to_begin();
+  std::optional<hal::TimePoint> next_refresh() const;
   bool display_ready();
 
   RenderLoopParts parts_;
@@ -206,6 +207,7 @@ private:
   Showing showing_;                                     // of volume_, so far
   ui::LateStart late_start_;
   hal::TimePoint turn_began_{};
+  std::optional<hal::TimePoint> drawn_whole_;  // not in parts
   std::uint64_t last_flip_ = 0;                // its number since this opening of the display
   std::optional<hal::TimePoint> presented_;    // time of the last presentation, seen or not
   std::optional<hal::TimePoint> display_lost_; // empty while it is present

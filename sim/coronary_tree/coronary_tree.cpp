@@ -173,8 +173,8 @@ void space_twigs(pipeline::VesselTree& tree, std::size_t threads,
   std::vector<bool> still(tree.nodes());
   for (std::size_t i = 0; i < tree.nodes(); ++i)
     still[i] = tree.orders[i] >= lowest_trunk_order;
-  relax(tree, still, {.rounds = 8, .unbending_rounds = 5, .threads = threads}, held_in_place,
-        progress);
+  relax(tree, still, {.rounds = 8, .unbending_rounds = 5, .threads = threads, .farthest_radii = 30},
+        held_in_place, progress);
 }
 
 } // namespace

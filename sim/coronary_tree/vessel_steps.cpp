@@ -27,7 +27,7 @@ Calibre::Calibre(const BranchMorphometry& branch, std::size_t order, std::size_t
   const double steps = static_cast<double>(segments - 1);
   const double widest = sqrt_3 * std::sqrt(std::max(0.0, all * all - between * between));
   const double steepest = (1 - large_daughter_ratio(order)) * steps / 2 * mean_um_;
-  const double to_end = std::min(mean_um_ - end_um, most_um_ - mean_um_);
+  const double to_end = std::min({mean_um_ - end_um, most_um_ - mean_um_, mean_um_ - least_um_});
   first_um_ = std::max({0.0, std::min(widest, steepest), to_end});
   step_um_ = 2 * first_um_ / steps;
 }

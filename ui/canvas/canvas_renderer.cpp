@@ -36,6 +36,8 @@ const void* byte_offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
 }
 
+constexpr std::size_t most_parts = 64; // that a frame has (ui/damage/damage.h)
+
 } // namespace
 
 hal::Result<CanvasRenderer> CanvasRenderer::create() {
@@ -48,7 +50,7 @@ CanvasRenderer::CanvasRenderer(gl::Program program)
       vertices_{gl::Buffer::make()}, indices_{gl::Buffer::make()} {
   constexpr std::size_t usual_indices = 1 << 16;
   drawn_.reserve(usual_indices);
-  runs_.reserve(usual_indices / 64);
+  runs_.reserve(1024);
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.name());
@@ -83,10 +85,12 @@ void CanvasRenderer::collect(const Canvas& canvas, const EyeFrame& frame, const 
   }
 }
 
-// What lies in two parts is drawn twice.
-void CanvasRenderer::make_room(std::size_t indices) {
+// A large triangle lies in many parts, and a command in each may be a run of its own.
+void CanvasRenderer::make_room(std::size_t indices, std::size_t commands) {
   if (drawn_.capacity() < 2 * indices)
     drawn_.reserve(4 * indices);
+  if (runs_.capacity() < most_parts * commands)
+    runs_.reserve(2 * most_parts * commands);
 }
 
 void CanvasRenderer::draw(const Canvas& canvas, const EyeFrame& frame, int target_height,
@@ -94,7 +98,8 @@ void CanvasRenderer::draw(const Canvas& canvas, const EyeFrame& frame, int targe
   const ImDrawList& list = canvas.list();
   drawn_.clear();
   runs_.clear();
-  make_room(static_cast<std::size_t>(list.IdxBuffer.Size));
+  make_room(static_cast<std::size_t>(list.IdxBuffer.Size),
+            static_cast<std::size_t>(list.CmdBuffer.Size));
   for (const Rect& part : parts)
     collect(canvas, frame, part);
   if (runs_.empty())

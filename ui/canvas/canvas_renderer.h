@@ -38,7 +38,7 @@ private:
   };
 
   explicit CanvasRenderer(gl::Program program);
-  void make_room(std::size_t indices);
+  void make_room(std::size_t indices, std::size_t commands);
   void collect(const Canvas& canvas, const EyeFrame& frame, const Rect& part);
 
   gl::Program program_;

@@ -32,6 +32,7 @@ void DamageHistory::add(const hal::BackBuffer& buffer, Damage& damage) {
   entry.image = buffer.image;
   if (buffer.holds == 0 || buffer.holds >= buffer.image) {
     damage.add_everything();
+    entry.damage.add_everything(); // so that the other buffers get all of the next images, too
     return;
   }
   for (std::uint64_t image = buffer.holds + 1; image <= buffer.image; ++image) {

@@ -18,7 +18,8 @@ public:
 
   // `damage`, what this image changed against the one that was drawn before it, becomes what
   // `buffer` lacks. An image that is drawn again before it was handed over keeps its number; one
-  // without a number is drawn as a whole, and so is the one after it.
+  // without a number is drawn as a whole, and so is the one after it. Where it is not known what the
+  // buffer holds, all of it is drawn, and of the others, too, when it is their turn.
   void add(const hal::BackBuffer& buffer, Damage& damage);
 
 private:

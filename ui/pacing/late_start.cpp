@@ -19,6 +19,13 @@ constexpr double most_busy = 0.85;          // of a period, that frames may take
 // A clock that is off by a thousandth drifts by a millisecond in this time.
 constexpr hal::Duration longest_known = std::chrono::seconds{1};
 
+// The first of `refresh` and whole periods from it that is not before `time`.
+hal::TimePoint first_from(hal::TimePoint refresh, hal::Duration period, hal::TimePoint time) {
+  const hal::Duration ahead = time - refresh;
+  const std::int64_t down = ahead / period; // towards zero
+  return refresh + (down + (ahead > down * period ? 1 : 0)) * period;
+}
+
 } // namespace
 
 hal::Duration LateStart::predicted() const {
@@ -34,14 +41,19 @@ hal::TimePoint LateStart::begin(hal::TimePoint now, std::optional<hal::TimePoint
   const auto share = [&](double of) {
     return hal::Duration{static_cast<std::int64_t>(of * static_cast<double>(period.count()))};
   };
-  const hal::Duration needed = predicted() + std::max(share(margin_), shortest_margin);
+  const hal::Duration margin = std::max(share(margin_), shortest_margin);
+  const hal::Duration needed = predicted() + margin;
   if (needed > share(most_busy))
     return now;
-  const hal::Duration ahead = now + needed - *refresh;
-  const std::int64_t periods =
-      ahead <= hal::Duration{0} ? -(-ahead / period) : (ahead - hal::Duration{1}) / period + 1;
-  planned_ = *refresh + periods * period;
-  return *planned_ - needed;
+  planned_ = first_from(*refresh, period, now + needed - margin / 2);
+  return std::max(now, *planned_ - needed);
+}
+
+hal::TimePoint LateStart::next_look(hal::TimePoint began, hal::TimePoint now,
+                                    std::optional<hal::TimePoint> refresh, hal::Duration period) {
+  const hal::TimePoint from = std::max(now, began + period / 2);
+  const hal::TimePoint next = begin(from, refresh, period);
+  return next > from ? next : began + period;
 }
 
 void LateStart::note(hal::Duration cost, hal::TimePoint seen) {

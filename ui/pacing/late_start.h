@@ -19,12 +19,17 @@ namespace octascope::ui {
 class LateStart {
 public:
   // The latest time, not before `now`, from which a frame is ready for the next refresh that it can
-  // reach. `refresh`: when one is or was (others are whole periods from it); empty for an output that
-  // shows an image as soon as it is there. `now` where there is nothing to gain: there, while nothing is
-  // known of what frames take, if they take most of a period, and if the last refresh that is known of
-  // is so long ago that the next ones cannot be told.
+  // reach; half of the margin may be spent on having come too late. `refresh`: when one is or was
+  // (others are whole periods from it); empty for an output that shows an image as soon as it is
+  // there. `now` where there is nothing to gain: there, while nothing is known of what frames take, if
+  // they take most of a period, and if the refresh is so long ago that the next ones cannot be told.
   hal::TimePoint begin(hal::TimePoint now, std::optional<hal::TimePoint> refresh,
                        hal::Duration period);
+
+  // When the renderer looks again, at the latest, whether there is something to draw, having done so
+  // at `began`: when the next frame begins, or else a period later.
+  hal::TimePoint next_look(hal::TimePoint began, hal::TimePoint now,
+                           std::optional<hal::TimePoint> refresh, hal::Duration period);
 
   // Reports the frame that begin() was asked about, from its beginning until it was drawn, and when it
   // was seen.

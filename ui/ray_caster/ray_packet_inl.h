@@ -65,7 +65,7 @@ HWY_INLINE void clip(Interval& interval, float lower, float upper, float eye, Re
   interval.to = hn::Min(interval.to, hn::Max(at_lower, at_upper));
 }
 
-// Where rays leave what a cut takes away; the eye is in it.
+// Where rays leave what a cut takes away, in which they begin (ui/view/cut.h).
 HWY_INLINE Real end_of_cut(const RayFrame& frame, const RealVector& direction) {
   const Real never = real(1e9F);
   const auto reaches = [&](float face, float eye, Real along) {

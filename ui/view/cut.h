@@ -13,8 +13,8 @@
 namespace octascope::ui {
 
 // What a cut takes away: all that lies between two places on the fast axis and between two on the slow
-// one, at every depth. Places are shares of an axis' length, those at the eye's side beyond the box: the
-// eye is in it, so that every ray leaves it once.
+// one, at every depth. Places are shares of an axis' length; at the eye's side it reaches beyond the box,
+// and rays are taken to begin in it, so that each leaves it once.
 struct CutAway {
   glm::vec2 from{0}; // fast, slow
   glm::vec2 to{0};

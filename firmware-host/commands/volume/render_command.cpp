@@ -44,7 +44,7 @@ struct RenderArguments {
   TreeArguments tree;
   std::size_t volume_number = 0;
   CLI::Option* at = nullptr;      // whether one was said
-  std::vector<int> cut_at;        // B-scan, and A-scan if a corner is cut
+  std::string cut_at;             // B-scan, and A-scan if a corner is cut
   CLI::Option* cut = nullptr;     // likewise
   CLI::Option* opacity = nullptr; // the configuration may say another
 };
@@ -136,15 +136,30 @@ hal::Result<> read_look(const RenderArguments& a, RenderOptions& options) {
   return {};
 }
 
+// B-scan, or B-scan and A-scan.
+hal::Result<> read_cut(std::string_view text, ui::ViewState& view) {
+  const std::size_t comma = text.find(',');
+  const auto b_scan = hal::number_of<int>(text.substr(0, comma));
+  view.cut = comma == text.npos ? ui::CutShape::b_scan : ui::CutShape::corner;
+  const auto a_scan =
+      comma == text.npos ? std::optional<int>{0} : hal::number_of<int>(text.substr(comma + 1));
+  if (!b_scan || *b_scan < 0 || !a_scan || *a_scan < 0)
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "--cut is \"{}\", expected a B-scan, or a B-scan and an A-scan, counted from "
+                     "0, as in 44 or 44,150",
+                     text);
+  view.b_scan = *b_scan;
+  if (view.cut == ui::CutShape::corner)
+    view.a_scan = *a_scan;
+  return {};
+}
+
 hal::Result<RenderOptions> options_of(const RenderArguments& a) {
   RenderOptions options;
   options.view = a.view;
   HAL_CHECK(read_look(a, options));
   if (!a.cut->empty()) {
-    options.view.cut = a.cut_at.size() > 1 ? ui::CutShape::corner : ui::CutShape::b_scan;
-    options.view.b_scan = a.cut_at.front();
-    if (a.cut_at.size() > 1)
-      options.view.a_scan = a.cut_at.back();
+    HAL_CHECK(read_cut(a.cut_at, options.view));
   }
   options.view.stereo = stereo_modes().at(a.stereo);
   options.view.vessel_colouring = vessel_colourings().at(a.vessel_colours);
@@ -273,10 +288,7 @@ void add_look_options(CLI::App& command, RenderArguments& a) {
                   "--cut", a.cut_at,
                   "Cut the volume open at this B-scan, or at this one and this A-scan: a corner "
                   "is left out; counted from 0, as 44 or 44,150")
-              ->expected(1, 2)
-              ->delimiter(',')
-              ->type_name("B[,A]")
-              ->check(within(0, 1000000000));
+              ->type_name("B[,A]");
   command.add_option("--transfer", a.transfer,
                      "Transfer function: window, smooth, surface or the configuration's own");
   command.add_option("--colours", a.colours, "Colour map: grey, amber, blue-green, dawn or depth");

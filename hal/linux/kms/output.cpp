@@ -98,6 +98,7 @@ Result<std::optional<FlipTimes>> Output::set_mode(const DrawnPicture& picture) {
     return system_failure(name_, fmt::format("setting the mode {}", to_text(mode_)), error,
                           "configure another mode of the monitor's (octascope devices lists them)");
   mode_wanted_ = false;
+  times.mode_set = true;
   times.received = clock_.now();
   return times;
 }

@@ -13,7 +13,9 @@ TimePoint FlipPacer::completed(const FlipTimes& flip) {
   // counts, else the clock's nominal one would drift against it until a refresh is missed.
   const TimePoint next_refresh = std::min(next_allowed_, completed_) + period_;
   next_allowed_ = next_refresh - completed_ > period_ / 10 ? next_refresh : completed_;
-  if (!rested)
+  if (flip.mode_set)
+    paces_itself_ = false;
+  else if (!rested)
     paces_itself_ = next_allowed_ == completed_ && flip.received - flip.submitted >= period_ / 20;
   return completed_;
 }

@@ -12,6 +12,7 @@ struct FlipTimes {
   TimePoint submitted;            // handed to the kernel
   std::optional<TimePoint> stamp; // the driver's, from its event; empty if it has none
   TimePoint received;             // when its event was read
+  bool mode_set = false;          // it came with the mode, not with a refresh
 };
 
 // Real outputs flip once per refresh, with a correct time stamp. Virtual ones may flip immediately,

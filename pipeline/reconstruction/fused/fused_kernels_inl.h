@@ -131,8 +131,12 @@ HWY_INLINE void middle_pass(float* work, std::ptrdiff_t slots, std::ptrdiff_t si
   }
 }
 
-// What is made of the bins of a group. `mirrored` bins are the conjugates of bins of another row,
-// backwards; `row` is where those begin, `size` how many there are.
+HWY_INLINE void store_reversed(Real value, std::size_t r, std::size_t registers, float* row) {
+  hn::Store(hn::Reverse(Floats{}, value), Floats{}, row + (registers - 1 - r) * lanes);
+}
+
+// What is made of the bins of a group, from place `row` on. Mirrored ones are the conjugates of bins of
+// another row, backwards.
 struct Powers {
   float* rows;
 
@@ -146,10 +150,6 @@ struct Powers {
     store_power(y, power);
     for (std::size_t r = 0; r < Registers; ++r)
       store_reversed(hn::Load(Floats{}, power + r * lanes), r, Registers, rows + row);
-  }
-  HWY_INLINE static void store_reversed(Real value, std::size_t r, std::size_t registers,
-                                        float* row) {
-    hn::Store(hn::Reverse(Floats{}, value), Floats{}, row + (registers - 1 - r) * lanes);
   }
 };
 
@@ -167,8 +167,8 @@ struct Bins {
   template <std::size_t Registers>
   HWY_INLINE void put_mirrored(const Complex (&y)[Registers], int row) const {
     for (std::size_t r = 0; r < Registers; ++r) {
-      Powers::store_reversed(y[r].re, r, Registers, re + row);
-      Powers::store_reversed(hn::Neg(y[r].im), r, Registers, im + row);
+      store_reversed(y[r].re, r, Registers, re + row);
+      store_reversed(hn::Neg(y[r].im), r, Registers, im + row);
     }
   }
 };

@@ -1,6 +1,7 @@
 #include "sim/coronary_tree/spacing/relaxation.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/coronary_tree/spacing/in_chunks.h"
 #include "sim/coronary_tree/spacing/segment_grid.h"
@@ -25,9 +26,10 @@ struct Push {
 
 class Relaxer {
 public:
-  Relaxer(pipeline::VesselTree& tree, const std::vector<bool>& still, std::size_t threads,
+  Relaxer(pipeline::VesselTree& tree, const std::vector<bool>& still, const Relaxation& how,
           const std::function<Vector3(Vector3, std::size_t)>& hold)
-      : tree_{tree}, still_{still}, threads_{threads}, hold_{hold}, next_{widest_daughters(tree)},
+      : tree_{tree}, still_{still}, threads_{how.threads},
+        farthest_radii_{how.farthest_radii}, hold_{hold}, next_{widest_daughters(tree)},
         moves_(tree.nodes()), pairs_(chunks_of(tree.nodes())), pushes_(chunks_of(tree.nodes())),
         least_mm_(tree.nodes()) {
     constexpr double of_now = 0.5;
@@ -78,7 +80,8 @@ public:
 private:
   static constexpr double close = 2; // times both radii
   static constexpr double clear = 1.05;
-  static constexpr double near_along = 2.5; // there a fork's daughters may touch
+  static constexpr double most_of_least = 4; // lengths: from half to twice of what they were
+  static constexpr double near_along = 2.5;  // there a fork's daughters may touch
 
   bool is_still(std::uint32_t node) const {
     return still_[node] || tree_.parents[node] == pipeline::no_parent;
@@ -117,13 +120,14 @@ private:
     push(pair.b, nearest.b, (part_of_a - 1) * by, pushes);
   }
 
-  // Moves its two nodes so that the place at `along` moves by that much.
+  // Moves its two nodes so that the place at `along` moves by that much; where the start keeps still, a
+  // place near it hardly moves, or the end would be thrown far out.
   void push(std::uint32_t segment, double along, Vector3 by, std::vector<Push>& pushes) const {
     constexpr double least = 0.3;
     if (is_still(segment))
       return;
     if (is_still(tree_.parents[segment])) {
-      pushes.push_back({segment, {}, (1 / std::max(along, least)) * by});
+      pushes.push_back({segment, {}, (along / std::max(along * along, least * least)) * by});
       return;
     }
     const double scale = 1 / (along * along + (1 - along) * (1 - along));
@@ -135,19 +139,20 @@ private:
     return length(line.to - line.from);
   }
 
-  // Of its end, so that a hairpin is not straightened to nothing.
+  // Of its end, so that a hairpin is not straightened to nothing, and none becomes a spike.
   Vector3 lengthening(std::uint32_t segment) const {
     if (is_still(segment))
       return {};
-    const double lacking = static_cast<double>(least_mm_[segment]) - length_mm(segment);
-    if (lacking <= 0)
+    const double now = length_mm(segment);
+    const auto least = static_cast<double>(least_mm_[segment]);
+    const double wanted = std::clamp(now, least, most_of_least * least);
+    if (wanted == now)
       return {};
     const Line line = segment_line(tree_, segment);
-    return lacking * unit(line.to - line.from, {1, 0, 0});
+    return (wanted - now) * unit(line.to - line.from, {1, 0, 0});
   }
 
-  // Where a vessel bends too sharply, towards the line between the neighbours, without moving along
-  // it; the end of a segment that leaves a node that keeps still, towards where it would go on to.
+  // Where a vessel bends too sharply, towards the line between the neighbours; the end of a segment that leaves a node that keeps still, towards where it would go on to.
   Vector3 straighter(std::uint32_t node) const {
     if (is_still(node))
       return {};
@@ -180,10 +185,13 @@ private:
            (before * out - after * in);
   }
 
+  // Many pushes add up where vessels are dense.
   void move(std::uint32_t node) {
-    const Vector3 by = moves_[node];
-    if (is_still(node) || dot(by, by) == 0)
+    const double far = length(moves_[node]);
+    if (is_still(node) || far == 0)
       return;
+    const double most = static_cast<double>(least_mm_[node]) + farthest_radii_ * radius_mm(node);
+    const Vector3 by = std::min(1.0, most / far) * moves_[node];
     const Vector3 place = hold_(node_place(tree_, node) + by, tree_.orders[node]);
     tree_.positions_mm[node] = {static_cast<float>(place.x), static_cast<float>(place.y),
                                 static_cast<float>(place.z)};
@@ -192,6 +200,7 @@ private:
   pipeline::VesselTree& tree_;
   const std::vector<bool>& still_;
   std::size_t threads_;
+  double farthest_radii_;
   const std::function<Vector3(Vector3, std::size_t)>& hold_;
   std::vector<std::uint32_t> next_;
   std::vector<Vector3> moves_;
@@ -206,7 +215,7 @@ void relax(pipeline::VesselTree& tree, const std::vector<bool>& still, const Rel
            const std::function<Vector3(Vector3, std::size_t)>& hold,
            const std::function<void(double)>& progress) {
   constexpr std::size_t rounds_a_search = 4;
-  Relaxer relaxer{tree, still, how.threads, hold};
+  Relaxer relaxer{tree, still, how, hold};
   for (std::size_t i = 0; i < how.rounds; ++i) {
     if (i % rounds_a_search == 0)
       relaxer.find_pairs();

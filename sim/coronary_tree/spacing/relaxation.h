@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "pipeline/vessels/tree.h"
@@ -20,6 +21,8 @@ struct Relaxation {
   std::size_t rounds = 1;
   std::size_t unbending_rounds = 1; // the first ones; the others only move vessels apart
   std::size_t threads = 1;          // including the caller's
+  // In a round no node moves further than half its segment's first length and so many of its radii.
+  double farthest_radii = std::numeric_limits<double>::infinity();
 };
 
 // `still`: for each node whether it keeps its place, as roots always do. `hold` gives the place near

@@ -233,6 +233,12 @@ TEST(Reconstructor, saturated_lines_are_no_brighter_than_their_neighbours) {
       std::fill_n(frame.begin() + line * samples, samples, std::uint16_t{4095});
     const auto [limited, saturated] = of();
     EXPECT_EQ(saturated, 3);
+    std::vector<std::complex<float>> bins(made.levels());
+    auto workspace = made.make_workspace();
+    EXPECT_EQ(made.reconstruct_b_scan_bins(workspace, std::as_bytes(std::span{frame}), bins)
+                  .saturated_lines,
+              3);
+    EXPECT_GT(std::norm(bins.front()), 1e4F) << "bins stay as they are";
     const std::size_t depths = good.size() / lines;
     const auto brighter = [&](std::size_t left, std::size_t right, std::size_t z) {
       return std::max(good[left * depths + z], good[right * depths + z]);

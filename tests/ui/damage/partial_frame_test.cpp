@@ -61,9 +61,9 @@ protected:
   }
 
   // B-scans of the newer volume, and the seam behind them.
-  void renew(int from, int to) {
+  void renew(int from, int to, BScanState state = BScanState::good) {
     for (int b = from; b < to; ++b)
-      copy(newer_.b_scan(b), b, BScanState::good);
+      copy(newer_.b_scan(b), b, state);
     const bool seam = to < mixed_.geometry.b_scans;
     if (seam)
       copy(std::vector<std::uint8_t>(mixed_.geometry.b_scan_voxels()), to, BScanState::seam);
@@ -224,12 +224,32 @@ TEST_P(EveryChange, gives_the_picture_of_a_full_drawing) {
     }
     quality_.resolution = round == 0 ? 1.0F : 0.6F;
     compare("a quality");
-    view_.cut = round == 0 ? ui::CutShape::b_scan : ui::CutShape::corner;
-    compare("a cut");
-    renew(9, 14);
-    compare("B-scans in a cut");
+    for (const ui::CutShape cut : {ui::CutShape::b_scan, ui::CutShape::corner}) {
+      view_.cut = cut;
+      compare("a cut");
+      renew(9, 14);
+      compare("B-scans in a cut");
+      view_.a_scan += 3;
+      compare("an A-scan in a cut");
+    }
     view_.cut = ui::CutShape::none;
     compare("no cut");
+    for (const BScanState state : {BScanState::missing, BScanState::saturated, BScanState::good}) {
+      renew(6, 12, state);
+      compare("B-scans that are missing");
+    }
+    view_.window_offset_db += 3;
+    compare("a window");
+    view_.opacity += 0.1F;
+    compare("an opacity");
+    view_.see_through_db = 4;
+    compare("a cover");
+    status_.now += seconds{20};
+    compare("an old microscope picture");
+    quality_.rays = round == 0 ? ui::RayBackend::shader : ui::RayBackend::processor;
+    compare("another ray caster");
+    renew(3, 8);
+    compare("B-scans of it");
     for_both([&](ui::Renderer& renderer) { renderer.forget_scope_picture(); });
     compare("no microscope picture");
     view_.stereo = ui::StereoMode::side_by_side;

@@ -1,5 +1,5 @@
-// Outlines of the processor's vessels against exactly computed coverage, and what flickers from frame
-// to frame.
+// Outlines of the processor's vessels against exactly computed coverage, joints without seams, and what
+// flickers from frame to frame.
 #include <algorithm>
 #include <bit>
 #include <cmath>
