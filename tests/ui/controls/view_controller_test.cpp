@@ -183,7 +183,7 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   EXPECT_EQ(state().selected, Action::figures);
   turn(1);
   EXPECT_EQ(state().figures, FiguresShown::strip);
-  EXPECT_EQ(count(Action::adjust), 6U);
+  EXPECT_EQ(count(Action::adjust), 7U);
   EXPECT_EQ(count(Action::b_scan), 1U);
 }
 
