@@ -126,9 +126,9 @@ TEST(DeviceChoice, the_display_follows_the_configuration_or_else_the_machine) {
   EXPECT_EQ(choose_devices(detected, {}).display.backend, "kms");
   detected.has_window_system = true;
   EXPECT_EQ(choose_devices(detected, {}).display.backend, "window");
-  const auto wanted = [&](DisplayChoice wanted) {
+  const auto wanted = [&](DisplayChoice choice) {
     RunOptions options;
-    options.display = wanted;
+    options.display = choice;
     return choose_devices(detected, options).display.backend;
   };
   EXPECT_EQ(wanted(DisplayChoice::offscreen), "offscreen");

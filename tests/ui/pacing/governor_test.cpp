@@ -82,16 +82,16 @@ TEST(QualityLadder, goes_down_in_steps_that_are_neither_steep_nor_useless) {
 }
 
 TEST(FrameBudget, leaves_the_processor_every_second_refresh_but_for_what_is_drawn_in_parts) {
-  const auto budget = [](const ui::DrawnHow& how) { return ui::frame_budget(10ms, how); };
-  EXPECT_EQ(budget({}).moving, 8ms);
-  EXPECT_EQ(budget({}).resting, 18ms);
-  EXPECT_EQ(budget({.rolling = true}).resting, 8ms);
-  EXPECT_EQ(budget({.software = true}).moving, 18ms);
-  EXPECT_EQ(budget({.software = true}).resting, 45ms);
-  EXPECT_EQ(budget({.software = true, .volume_period = 30ms}).resting, 21ms);
-  EXPECT_EQ(budget({.software = true, .volume_period = 10ms}).resting, 15ms);
-  EXPECT_EQ(budget({.software = true, .rolling = true}).resting, 18ms);
-  EXPECT_EQ(budget({.software = true, .rolling = true, .in_parts = true}).resting, 7ms);
+  const auto budget_of = [](const ui::DrawnHow& how) { return ui::frame_budget(10ms, how); };
+  EXPECT_EQ(budget_of({}).moving, 8ms);
+  EXPECT_EQ(budget_of({}).resting, 18ms);
+  EXPECT_EQ(budget_of({.rolling = true}).resting, 8ms);
+  EXPECT_EQ(budget_of({.software = true}).moving, 18ms);
+  EXPECT_EQ(budget_of({.software = true}).resting, 45ms);
+  EXPECT_EQ(budget_of({.software = true, .volume_period = 30ms}).resting, 21ms);
+  EXPECT_EQ(budget_of({.software = true, .volume_period = 10ms}).resting, 15ms);
+  EXPECT_EQ(budget_of({.software = true, .rolling = true}).resting, 18ms);
+  EXPECT_EQ(budget_of({.software = true, .rolling = true, .in_parts = true}).resting, 7ms);
 }
 
 TEST_F(GovernorTest, a_machine_that_can_draws_everything_in_full) {
