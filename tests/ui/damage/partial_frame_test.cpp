@@ -6,6 +6,7 @@
 #include <GLES3/gl3.h>
 
 #include "tests/support/allocation_counter.h"
+#include "tests/ui/support/mixed_volume.h"
 #include "tests/ui/support/renderer_stage.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_texture.h"
@@ -35,11 +36,6 @@ protected:
     make_buffers(1000, 562);
     view_.zoom_to_tissue = false; // which remembers what was there
     view_.b_scan = 11;
-    for (pipeline::Volume* volume : {&older_, &newer_}) {
-      volume->occupancy = pipeline::Occupancy{volume->geometry, pipeline::blank_depth_bins};
-      volume->occupancy.update(*volume);
-    }
-    mixed_ = older_;
   }
   void TearDown() override {
     whole_.reset();
@@ -54,21 +50,18 @@ protected:
   void show_all() {
     for_both([&](ui::Renderer& renderer) {
       renderer.expect(view_);
-      ASSERT_TRUE(renderer.show_volume(mixed_));
-      renderer.show_levels(level_shares(mixed_));
+      ASSERT_TRUE(renderer.show_volume(mixed_.volume()));
+      renderer.show_levels(level_shares(mixed_.volume()));
       ASSERT_TRUE(renderer.show_scope_picture(scope_.frame(status_.now), scope_.field()));
     });
   }
 
   // B-scans of the newer volume, and the seam behind them.
   void renew(int from, int to, BScanState state = BScanState::good) {
-    for (int b = from; b < to; ++b)
-      copy(newer_.b_scan(b), b, state);
-    const bool seam = to < mixed_.geometry.b_scans;
-    if (seam)
-      copy(std::vector<std::uint8_t>(mixed_.geometry.b_scan_voxels()), to, BScanState::seam);
-    const std::array changed{BScanRange{from, seam ? to + 1 : to}};
-    for_both([&](ui::Renderer& renderer) { ASSERT_TRUE(renderer.renew_volume(mixed_, changed)); });
+    const std::array changed{mixed_.renew(from, to, state)};
+    for_both([&](ui::Renderer& renderer) {
+      ASSERT_TRUE(renderer.renew_volume(mixed_.volume(), changed));
+    });
   }
 
   pipeline::Image draw_in_part(const hal::BackBuffer& buffer) {
@@ -128,22 +121,9 @@ protected:
   std::size_t buffers_ = 1;
   std::uint64_t image_ = 1;
   std::array<std::uint64_t, most_buffers> held_{};
-  pipeline::Volume older_ = tissue_volume(small_geometry);
-  pipeline::Volume newer_ = [] {
-    pipeline::Volume volume = tissue_volume(small_geometry);
-    for (std::uint8_t& level : volume.levels)
-      level = static_cast<std::uint8_t>(level < 200 ? level + 30 : 100);
-    return volume;
-  }();
-  pipeline::Volume mixed_;
+  MixedVolume mixed_;
 
 private:
-  void copy(std::span<const std::uint8_t> levels, int b, BScanState state) {
-    std::ranges::copy(levels, mixed_.b_scan(b).begin());
-    mixed_.b_scan_states[static_cast<std::size_t>(b)] = state;
-    mixed_.occupancy.update(b, mixed_.b_scan(b));
-  }
-
   std::array<ui::gl::Framebuffer, most_buffers + 1> framebuffers_;
   std::array<ui::gl::Texture, most_buffers + 1> colours_;
 };
@@ -257,7 +237,7 @@ TEST_P(EveryChange, gives_the_picture_of_a_full_drawing) {
     view_.stereo = ui::StereoMode::off;
     show_all();
     compare("all of it");
-    mixed_ = round == 0 ? newer_ : older_;
+    mixed_.become(round == 0 ? mixed_.newer() : mixed_.older());
     show_all();
     compare("a whole volume");
   }

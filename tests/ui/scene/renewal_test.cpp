@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tests/support/allocation_counter.h"
+#include "tests/ui/support/mixed_volume.h"
 #include "tests/ui/support/renderer_stage.h"
 #include "ui/canvas/palette.h"
 #include "ui/layout/layout.h"
@@ -16,23 +17,9 @@ using ui::Technique;
 
 class RenewalTest : public RendererTest {
 protected:
-  RenewalTest() {
-    for (pipeline::Volume* volume : {&older_, &newer_}) {
-      volume->occupancy = pipeline::Occupancy{volume->geometry, pipeline::blank_depth_bins};
-      volume->occupancy.update(*volume);
-    }
-    mixed_ = older_;
-  }
-
-  // Of the newer volume, and the seam behind them.
   void renew(int from, int to) {
-    for (int b = from; b < to; ++b)
-      copy(newer_.b_scan(b), b, BScanState::good);
-    const bool seam = to < mixed_.geometry.b_scans;
-    if (seam)
-      copy(std::vector<std::uint8_t>(mixed_.geometry.b_scan_voxels()), to, BScanState::seam);
-    const std::array changed{BScanRange{from, seam ? to + 1 : to}};
-    const auto renewed = renderer_->renew_volume(mixed_, changed);
+    const std::array changed{mixed_.renew(from, to)};
+    const auto renewed = renderer_->renew_volume(mixed_.volume(), changed);
     ASSERT_TRUE(renewed) << renewed.error().message;
   }
 
@@ -48,29 +35,13 @@ protected:
     auto renderer = ui::Renderer::create();
     EXPECT_TRUE(renderer);
     (*renderer)->expect(view);
-    EXPECT_TRUE((*renderer)->show_volume(mixed_));
+    EXPECT_TRUE((*renderer)->show_volume(mixed_.volume()));
     return picture(**renderer, view, quality);
   }
 
   ui::Rect whole() const { return {0, 0, width_, height_}; }
 
-  const pipeline::Volume& mixed() const { return mixed_; }
-
-  pipeline::Volume older_ = tissue_volume(small_geometry);
-  pipeline::Volume newer_ = [] {
-    pipeline::Volume volume = tissue_volume(small_geometry);
-    for (std::uint8_t& level : volume.levels)
-      level = static_cast<std::uint8_t>(level < 200 ? level + 30 : 100);
-    return volume;
-  }();
-  pipeline::Volume mixed_;
-
-private:
-  void copy(std::span<const std::uint8_t> levels, int b, BScanState state) {
-    std::ranges::copy(levels, mixed_.b_scan(b).begin());
-    mixed_.b_scan_states[static_cast<std::size_t>(b)] = state;
-    mixed_.occupancy.update(b, mixed_.b_scan(b));
-  }
+  MixedVolume mixed_;
 };
 
 struct Way {
@@ -90,11 +61,11 @@ TEST_P(RenewedPicture, is_that_of_the_whole_volume) {
   view.b_scan = 11;
   for (const float yaw : {20.0F, 200.0F}) {
     view.yaw_deg = yaw;
-    mixed_ = older_;
+    mixed_.become(mixed_.older());
     renderer_->expect(view);
-    ASSERT_TRUE(renderer_->show_volume(mixed_));
+    ASSERT_TRUE(renderer_->show_volume(mixed_.volume()));
     picture(*renderer_, view, quality);
-    const int end = mixed_.geometry.b_scans;
+    const int end = mixed_.volume().geometry.b_scans;
     for (const auto& [from, to] :
          {BScanRange{0, 3}, {3, 4}, {4, 17}, {17, end - 1}, {end - 1, end}}) {
       renew(from, to);
@@ -122,8 +93,8 @@ TEST_F(RenewalTest, the_seam_is_a_line_of_its_own_colour_where_it_is_said_to_be)
   view.zoom_to_tissue = false;
   view.layout = ui::LayoutKind::quad;
   view.b_scan = 2;
-  ASSERT_TRUE(renderer_->show_volume(mixed_));
-  const pipeline::VolumeGeometry& g = mixed_.geometry;
+  ASSERT_TRUE(renderer_->show_volume(mixed_.volume()));
+  const pipeline::VolumeGeometry& g = mixed_.volume().geometry;
   const ui::Layout places = ui::lay_out(width_, height_,
                                         {.b_scan = g.a_mm() / g.depth_mm(),
                                          .en_face = g.a_mm() / g.b_mm(),
@@ -157,14 +128,14 @@ TEST_F(RenewalTest, the_seam_is_a_line_of_its_own_colour_where_it_is_said_to_be)
 TEST_F(RenewalTest, a_frame_allocates_nothing) {
   ui::ViewState view;
   view.zoom_to_tissue = false;
-  ASSERT_TRUE(renderer_->show_volume(mixed_));
+  ASSERT_TRUE(renderer_->show_volume(mixed_.volume()));
   for (int b = 0; b < 3; ++b) {
     renew(b, b + 1);
     draw(view, live_status());
   }
   const std::array changed{BScanRange{3, 5}};
   const auto before = allocations_of_this_thread();
-  ASSERT_TRUE(renderer_->renew_volume(mixed_, changed));
+  ASSERT_TRUE(renderer_->renew_volume(mixed_.volume(), changed));
   EXPECT_EQ(allocations_of_this_thread(), before);
 }
 

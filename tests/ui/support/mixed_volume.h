@@ -1,0 +1,59 @@
+// A rolling volume for tests: B-scans of a newer one over those of an older one, with the seam behind them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "pipeline/volume/occupancy.h"
+#include "tests/ui/support/synthetic_volume.h"
+
+namespace octascope::tests {
+
+class MixedVolume {
+public:
+  MixedVolume() {
+    for (pipeline::Volume* volume : {&older_, &newer_}) {
+      volume->occupancy = pipeline::Occupancy{volume->geometry, pipeline::blank_depth_bins};
+      volume->occupancy.update(*volume);
+    }
+    mixed_ = older_;
+  }
+
+  const pipeline::Volume& older() const { return older_; }
+  const pipeline::Volume& newer() const { return newer_; }
+  const pipeline::Volume& volume() const { return mixed_; }
+
+  void become(const pipeline::Volume& whole) { mixed_ = whole; }
+
+  // Takes these of the newer one; says what has changed, the seam included.
+  pipeline::BScanRange renew(int from, int to,
+                             pipeline::BScanState state = pipeline::BScanState::good) {
+    for (int b = from; b < to; ++b)
+      copy(newer_.b_scan(b), b, state);
+    const bool seam = to < mixed_.geometry.b_scans;
+    if (seam)
+      copy(std::vector<std::uint8_t>(mixed_.geometry.b_scan_voxels()), to,
+           pipeline::BScanState::seam);
+    return {from, seam ? to + 1 : to};
+  }
+
+private:
+  void copy(std::span<const std::uint8_t> levels, int b, pipeline::BScanState state) {
+    std::ranges::copy(levels, mixed_.b_scan(b).begin());
+    mixed_.b_scan_states[static_cast<std::size_t>(b)] = state;
+    mixed_.occupancy.update(b, mixed_.b_scan(b));
+  }
+
+  pipeline::Volume older_ = tissue_volume(small_geometry);
+  pipeline::Volume newer_ = [] {
+    pipeline::Volume volume = tissue_volume(small_geometry);
+    for (std::uint8_t& level : volume.levels)
+      level = static_cast<std::uint8_t>(level < 200 ? level + 30 : 100);
+    return volume;
+  }();
+  pipeline::Volume mixed_;
+};
+
+} // namespace octascope::tests
