@@ -12,7 +12,6 @@ namespace octascope::tests {
 namespace {
 
 using pipeline::BScanRange;
-using pipeline::BScanState;
 using ui::Technique;
 
 class RenewalTest : public RendererTest {

@@ -1,0 +1,351 @@
+#include "ui/renderer_parts.h"
+
+#include <algorithm>
+
+#include <GLES3/gl3.h>
+
+#include "ui/gl/scissor.h"
+#include "ui/view/action_table.h"
+#include "ui/view/camera.h"
+
+namespace octascope::ui {
+
+namespace {
+
+// Draws only in those parts of the picture that fills `rect`.
+template <class Draw>
+void draw_within(RectList parts, const Rect& rect, int target_height, const Draw& draw) {
+  for (const Rect& part : parts) {
+    const Rect shown = common(part, rect);
+    if (shown.empty())
+      continue;
+    const gl::Scissor clip{shown, target_height};
+    draw();
+  }
+}
+
+float aspect_of(const Rect& rect) {
+  return static_cast<float>(rect.width) / static_cast<float>(rect.height);
+}
+
+// The echo shows only through the text.
+ViewState without_times(ViewState view) {
+  view.echo = {};
+  view.frozen_since = {};
+  return view;
+}
+
+} // namespace
+
+void clear_to_background(int width, int height) {
+  constexpr Colour back = palette::background;
+  glViewport(0, 0, width, height);
+  glClearColor(static_cast<float>(back.r) / 255, static_cast<float>(back.g) / 255,
+               static_cast<float>(back.b) / 255, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+}
+
+ViewState Renderer::Parts::fitted(const ViewState& view) const {
+  ViewState fitted = view.clamped();
+  if (!volume.empty())
+    fit_indices(fitted, volume.texture().geometry());
+  return fitted;
+}
+
+// Colours of depths say nothing without their scale, and some are those of vessels: grey instead.
+ViewState Renderer::Parts::without_confusion(const ViewState& view, const Layout& places) const {
+  const bool beside_vessels = volume.vessels() != nullptr && view.vessels_visible;
+  ViewState plain = view;
+  if (volume.depth_colours(view) && (beside_vessels || !has_room_for_depth_scale(places)))
+    plain.colour_map = 0;
+  return plain;
+}
+
+HudScene Renderer::Parts::scene(const ViewState& view) const {
+  HudScene scene;
+  scene.shown.volume = !volume.empty();
+  if (scene.shown.volume) {
+    scene.shown.geometry = volume.texture().geometry();
+    scene.shown.b_scan = states[static_cast<std::size_t>(view.b_scan)];
+    scene.extents_mm = box_extents_mm(volume.texture().geometry());
+    scene.states = states;
+    scene.crop = crop_of(view);
+    scene.depth_colours = volume.depth_colours(view);
+    scene.levels = levels ? &*levels : nullptr;
+  }
+  scene.shown.vessels_left_out = flat_vessels && flat_vessels->left_out();
+  scene.shown.scope = scope_shown;
+  if (scope_shown) {
+    scene.shown.scope_time = scope_panel.time();
+    scene.scan_field = scope_panel.field();
+  }
+  return scene;
+}
+
+DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& status, int width,
+                                         int height, const DrawQuality& quality) const {
+  const ViewState shown = fitted(view);
+  return {volume.uploads(),     scope_uploads, level_uploads,
+          vessel_uploads,       width,         height,
+          without_times(shown), quality,       compose_hud_text(shown, status, scene(shown).shown)};
+}
+
+hal::Duration Renderer::Parts::spent_on_vessels() const {
+  return volume.vessels() != nullptr ? volume.vessels()->spent() : hal::Duration{};
+}
+
+Layout Renderer::Parts::layout(const DrawnPicture& picture) const {
+  PictureAspects aspects;
+  if (!volume.empty()) {
+    const pipeline::VolumeGeometry& g = volume.texture().geometry();
+    const Crop shown = crop_of(picture.view);
+    aspects.b_scan = shown.a_mm(g) / shown.depth_mm(g);
+    aspects.crossed = shown.b_mm(g) / shown.depth_mm(g);
+    aspects.en_face = shown.a_mm(g) / shown.b_mm(g);
+  }
+  aspects.has_scope = scope_shown;
+  if (scope_shown)
+    aspects.scope = scope_panel.aspect();
+  return lay_out(picture.width, picture.height, aspects, picture.view.layout,
+                 {.figures = picture.text.figures_shown,
+                  .legend = picture.text.legend != nullptr,
+                  .timing = picture.text.timing != nullptr});
+}
+
+hal::Result<> Renderer::Parts::prepare_fonts(float unit) {
+  if (fonts && fonts_unit == unit)
+    return {};
+  HAL_TRY(auto made, Fonts::create(unit, typeface));
+  fonts = std::move(made);
+  fonts_unit = unit;
+  history.forget(); // glyphs of another atlas
+  return {};
+}
+
+void Renderer::Parts::fill_canvases(const DrawnPicture& picture, const Layout& places,
+                                    const HudScene& shown) {
+  for (Canvas* canvas : {&ground, &under_volume, &overlay})
+    canvas->begin(*fonts, picture.width, picture.height);
+  draw_hud_ground(ground, places);
+  draw_view_ground(under_volume, places);
+  draw_box_marks(under_volume, places, picture.view, shown, false);
+  draw_box_marks(overlay, places, picture.view, shown, true);
+  draw_hud(overlay, places, picture.text, picture.view, shown);
+}
+
+void Renderer::Parts::draw_flat_pictures(const ViewState& view, const Layout& places,
+                                         const EyeFrame& frame, int height, RectList parts) {
+  const Crop shown = crop_of(view);
+  const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
+    if (!panel.shown())
+      return;
+    const Rect rect = frame.place(panel.picture);
+    draw_within(parts, rect, height, [&] {
+      b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown, rect, height);
+    });
+  };
+  draw_b_scan(places.b_scan, ScanDirection::fast);
+  draw_b_scan(places.crossed, ScanDirection::slow);
+  if (places.en_face.shown()) {
+    const Rect rect = frame.place(places.en_face.picture);
+    draw_within(parts, rect, height,
+                [&] { en_face_panel.draw(state_texture, shown, rect, height); });
+  }
+}
+
+VesselSections::Sight Renderer::Parts::sight(const ViewState& view) const {
+  return {view, volume.texture().geometry(), tissue, volume.uploads()};
+}
+
+hal::Result<> Renderer::Parts::draw_flat_vessels(const ViewState& view, const Layout& places,
+                                                 const EyeFrame& frame, int height) {
+  if (!flat_vessels)
+    return {};
+  const auto draw = [&](VesselPanel panel, FlatPicture picture, const Rect& rect) {
+    return flat_vessels->draw(
+        panel, sight(view),
+        place_in_panel(picture, volume.texture().geometry(), crop_of(view), rect), places.unit,
+        frame.place(rect), height);
+  };
+  // Where nothing was received, nothing is registered.
+  const bool received =
+      states[static_cast<std::size_t>(view.b_scan)] != pipeline::BScanState::missing;
+  if (places.b_scan.shown() && received)
+    HAL_CHECK(draw(VesselPanel::b_scan, FlatPicture::b_scan, places.b_scan.picture));
+  if (places.crossed.shown())
+    HAL_CHECK(draw(VesselPanel::crossed, FlatPicture::crossed, places.crossed.picture));
+  if (places.en_face.shown())
+    HAL_CHECK(draw(VesselPanel::en_face, FlatPicture::from_above, places.en_face.picture));
+  return {};
+}
+
+// The vessels lie where the volume has them: nothing in this picture says so if that is an old one.
+hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Layout& places,
+                                          const EyeFrame& frame, RectList parts) {
+  if (!scope_shown || !places.scope.shown())
+    return {};
+  const Rect& place = places.scope.picture;
+  const Rect rect = frame.place(place);
+  draw_within(parts, rect, picture.height,
+              [&] { scope_panel.draw(rect, picture.height, picture.text.scope_stale); });
+  const bool both_live = picture.text.liveness == Liveness::live && !picture.text.scope_stale;
+  if (!flat_vessels || volume.empty() || !scope_panel.field() || !both_live)
+    return {};
+  return flat_vessels->draw(
+      VesselPanel::microscope, sight(picture.view),
+      place_in_field(volume.texture().geometry(), *scope_panel.field(), place), places.unit, rect,
+      picture.height);
+}
+
+// What is to be drawn anew: all of what has vessels or is for two eyes, else what is different.
+RectList Renderer::Parts::find_parts(const DrawnPicture& picture, const Layout& places,
+                                     const EyeFrame& frame, const hal::BackBuffer& buffer) {
+  damage.begin(picture.width, picture.height);
+  canvas_tiles.begin(picture.width, picture.height);
+  for (const Canvas* canvas : {&ground, &under_volume, &overlay})
+    canvas_tiles.add(*canvas);
+  canvas_tiles.compare(damage);
+  const bool has_volume = !volume.empty();
+  const auto place = [&](const Rect& rect, bool shown) {
+    return shown && !rect.empty() ? frame.place(rect) : Rect{};
+  };
+  PictureSources now{.view = place(places.view, has_volume),
+                     .b_scan = place(places.b_scan.picture, has_volume),
+                     .crossed = place(places.crossed.picture, has_volume),
+                     .en_face = place(places.en_face.picture, has_volume),
+                     .scope = place(places.scope.picture, scope_shown)};
+  now.geometry = shown_geometry;
+  now.crop = crop_of(picture.view);
+  now.window_offset_db = picture.view.window_offset_db;
+  now.window_size_db = picture.view.window_size_db;
+  now.b_scan_index = picture.view.b_scan;
+  now.a_scan_index = picture.view.a_scan;
+  now.scope_uploads = scope_uploads;
+  now.scope_stale = picture.text.scope_stale;
+  picture_changes.compare(now, damage);
+  if (!now.view.empty())
+    volume.add_changed(StereoEye::centre, now.view, damage);
+  const bool two_eyes = picture.view.stereo != StereoMode::off;
+  if (two_eyes || flat_vessels)
+    damage.add_everything();
+  history.add(buffer, damage);
+  if (two_eyes) // what was compared was one of them
+    history.forget();
+  return damage.rects();
+}
+
+// Where pictures will lie that hide all that is under them, nothing need be drawn. (For two eyes, a
+// canvas is drawn as a whole.)
+void Renderer::Parts::find_uncovered(const Layout& places, const EyeFrame& frame, RectList parts) {
+  uncovered.assign(parts.begin(), parts.end());
+  const auto cover = [&](const Panel& panel, bool shown) {
+    if (shown && panel.shown() && frame.width == frame.target.width &&
+        frame.height == frame.target.height)
+      cut_out(uncovered, frame.place(panel.picture));
+  };
+  cover(places.b_scan, !volume.empty());
+  cover(places.crossed, !volume.empty());
+  cover(places.en_face, !volume.empty());
+  cover(places.scope, scope_shown);
+}
+
+// With all of a picture, what lies around it in a larger framebuffer.
+void Renderer::Parts::clear_parts(const DrawnPicture& picture, RectList parts) const {
+  const Rect all{0, 0, picture.width, picture.height};
+  if (std::ranges::find(parts, all) != parts.end())
+    clear_to_background(all.width, all.height);
+  else
+    draw_within(uncovered, all, all.height, [&] { clear_to_background(all.width, all.height); });
+}
+
+hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layout& places,
+                                        StereoEye eye, const hal::BackBuffer& buffer) {
+  const ViewState view = without_confusion(picture.view, places);
+  const int height = picture.height;
+  const EyeFrame frame = eye_frame(view.stereo, eye, picture.width, height);
+  HudScene shown = scene(view);
+  const bool has_volume = shown.shown.volume;
+  const bool has_view = has_volume && !places.view.empty();
+  const Rect view_rect = frame.place(places.view);
+  if (has_view) {
+    shown.camera = make_camera(view, shown.extents_mm, aspect_of(places.view), eye);
+    HAL_CHECK(volume.update(eye, view, shown.camera, picture.quality, view_rect));
+  }
+  fill_canvases(picture, places, shown);
+  const RectList parts = find_parts(picture, places, frame, buffer);
+  find_uncovered(places, frame, parts);
+  if (eye != StereoEye::right) // whose half is clear, too
+    clear_parts(picture, parts);
+  canvas_renderer.draw(ground, frame, height, uncovered);
+  HAL_CHECK(draw_scope(picture, places, frame, parts));
+  canvas_renderer.draw(under_volume, frame, height, parts);
+  if (has_view)
+    draw_within(parts, view_rect, height, [&] { volume.composite(eye, view_rect, height); });
+  if (has_volume) {
+    draw_flat_pictures(view, places, frame, height, parts);
+    HAL_CHECK(draw_flat_vessels(view, places, frame, height));
+  }
+  canvas_renderer.draw(overlay, frame, height, parts);
+  return {};
+}
+
+hal::Result<> Renderer::Parts::draw_eye_alone(const ViewState& wanted, const Layout& places,
+                                              const DrawQuality& quality, StereoEye eye) {
+  const ViewState view = without_confusion(wanted, places);
+  const int height = places.view.height;
+  const EyeFrame frame = eye_frame(view.stereo, eye, places.view.width, height);
+  const Rect rect = frame.place(places.view);
+  HudScene shown = scene(view);
+  shown.camera = make_camera(view, shown.extents_mm, aspect_of(places.view), eye);
+  HAL_CHECK(volume.update(eye, view, shown.camera, quality, rect));
+  for (Canvas* canvas : {&under_volume, &overlay}) {
+    canvas->begin(*fonts, places.view.width, height);
+    if (view.box_visible)
+      draw_wire_frame(*canvas, places.view, shown, places.unit, canvas == &overlay);
+  }
+  draw_view_scale(overlay, places, shown);
+  draw_depth_scale(overlay, places, shown);
+  if (volume.vessels() != nullptr && volume.vessels()->shows_unregistered(view))
+    overlay.shadowed_text({16 * places.unit, 12 * places.unit}, TextStyle::label, palette::warning,
+                          "Vessels not registered");
+  canvas_renderer.draw(under_volume, frame, height);
+  volume.composite(eye, rect, height);
+  canvas_renderer.draw(overlay, frame, height);
+  return {};
+}
+
+hal::Result<> Renderer::Parts::draw(const DrawnPicture& picture, const hal::BackBuffer& buffer) {
+  const Layout places = layout(picture);
+  HAL_CHECK(prepare_fonts(places.unit));
+  const std::uint64_t before = volume.drawings();
+  const hal::Duration spent_before = spent_on_vessels();
+  for (const StereoEye eye : eyes_of(picture.view.stereo))
+    HAL_CHECK(draw_eye(picture, places, eye, buffer));
+  drew_volume = volume.drawings() != before;
+  vessel_cost = spent_on_vessels() - spent_before;
+  return {};
+}
+
+// Before they are shown: a part of them may be even where the rest cannot.
+void Renderer::Parts::note(std::span<const pipeline::BScanRange> changed, int b_scans) {
+  for (const pipeline::BScanRange& range : changed)
+    picture_changes.note(range, b_scans);
+}
+
+// The flat pictures keep their cut, and the colours of depths theirs, until a volume is whole.
+void Renderer::Parts::follow(const pipeline::Volume& shown) {
+  tissue.update(volume.occupancy(), shown.b_scan_states);
+  if (std::ranges::find(shown.b_scan_states, pipeline::BScanState::seam) ==
+      shown.b_scan_states.end()) {
+    crop.follow(tissue.extents());
+    const Section depth = crop.current().depth;
+    coloured_depths.follow({depth.from, depth.to});
+    volume.colour_depths(coloured_depths.current());
+  }
+  en_face_panel.show(shown, tissue);
+  picture_changes.note_projection(en_face_panel.changed_rows());
+  state_texture.upload(shown);
+  states.assign(shown.b_scan_states.begin(), shown.b_scan_states.end());
+}
+
+} // namespace octascope::ui
