@@ -32,8 +32,6 @@ RenderLoop::RenderLoop(const RenderLoopParts& parts, RenderLoopSetup setup)
       key_legend_(ui::make_key_legend()),
       controller_(setup_.view, setup_.geometry, setup_.controls, setup_.transfers.names()),
       governor_({}) {
-  if (parts_.volumes.lends())
-    rolling_volume_.emplace(setup_.geometry);
   if (setup_.restored_view)
     controller_.actions().replace(controller_.actions().initial(), *setup_.restored_view);
   status_writer_.orient(setup_.orientation);
@@ -97,8 +95,7 @@ hal::Result<> RenderLoop::show_again() {
   if (parts_.vessels != nullptr)
     HAL_CHECK(parts_.vessels->show_again(*renderer_));
   renderer_->expect(controller_.state());
-  renewable_ = false;
-  return volume_ != nullptr ? renderer_->show_volume(shown_volume()) : hal::Result<>{};
+  return volume_.show_again(*renderer_);
 }
 
 // A frame that begins late takes in what came meanwhile.
@@ -134,14 +131,14 @@ bool RenderLoop::turn() {
 // Of a rolling volume's picture, at rest (ui/volume/ray_cast_picture.h).
 bool RenderLoop::draws_parts() const {
   const ui::ViewState& view = controller_.state();
-  return rolling_ && software_ && (parts_.vessels == nullptr || !view.vessels_visible) &&
+  return volume_.rolls() && software_ && (parts_.vessels == nullptr || !view.vessels_visible) &&
          (view.technique == ui::Technique::rays || view.technique == ui::Technique::maximum);
 }
 
 ui::FrameBudget RenderLoop::frame_budget() const {
   return ui::frame_budget(parts_.display.refresh_period(),
                           {.software = software_,
-                           .rolling = rolling_,
+                           .rolling = volume_.rolls(),
                            .in_parts = draws_parts(),
                            .volume_period = setup_.freshness.volume_period});
 }
@@ -168,7 +165,7 @@ ui::DrawQuality RenderLoop::choose_quality() {
 
 // While the first volume is awaited: later, it would take its time from the picture.
 void RenderLoop::choose_ray_backend() {
-  if (rays_tried_ || !renderer_ || statistics_.frames_drawn == 0 || volume_ != nullptr)
+  if (rays_tried_ || !renderer_ || statistics_.frames_drawn == 0 || volume_.whole() != nullptr)
     return;
   rays_tried_ = true;
   if (const auto trial = ui::try_ray_backends(parts_.clock)) {
@@ -180,11 +177,11 @@ void RenderLoop::choose_ray_backend() {
 // How often each level occurs, for the histogram that is shown while the window changes.
 void RenderLoop::show_levels() {
   const ui::ViewState& view = controller_.state();
-  if (volume_ == nullptr || status().now >= view.echo.until ||
-      !ui::changes_window(view.echo.action) || levels_of_ == volume_->metadata.index)
+  if (volume_.whole() == nullptr || status().now >= view.echo.until ||
+      !ui::changes_window(view.echo.action) || levels_of_ == volume_.whole()->metadata.index)
     return;
-  renderer_->show_levels(ui::make_level_histogram(*volume_).shares());
-  levels_of_ = volume_->metadata.index;
+  renderer_->show_levels(ui::make_level_histogram(*volume_.whole()).shares());
+  levels_of_ = volume_.whole()->metadata.index;
 }
 
 bool RenderLoop::handle_input() {
@@ -217,8 +214,8 @@ void RenderLoop::answer(const ui::ControlRequests& requests) {
   picture_wanted_ = picture_wanted_ || requests.snapshot;
   if (requests.auto_window)
     find_window();
-  if (requests.keep_registration && parts_.vessels != nullptr && volume_ != nullptr)
-    parts_.vessels->keep_registration(volume_->geometry, controller_.actions());
+  if (requests.keep_registration && parts_.vessels != nullptr && volume_.whole() != nullptr)
+    parts_.vessels->keep_registration(volume_.whole()->geometry, controller_.actions());
   if (requests.record)
     controller_.actions().tell(ui::Action::record,
                                status().replay ? "not while a recording is replayed"
@@ -228,7 +225,8 @@ void RenderLoop::answer(const ui::ControlRequests& requests) {
 }
 
 void RenderLoop::find_window() {
-  const auto window = volume_ != nullptr ? ui::suggest_window(*volume_) : std::nullopt;
+  const auto window =
+      volume_.whole() != nullptr ? ui::suggest_window(*volume_.whole()) : std::nullopt;
   if (window)
     controller_.actions().show_window(window->offset_db, window->size_db, parts_.clock.now());
   else
@@ -244,66 +242,25 @@ void RenderLoop::keep_picture() {
   picture_wanted_ = false;
 }
 
-// What is frozen is whole, and so is what an iso-surface is made of.
-bool RenderLoop::may_roll() const {
-  const ui::ViewState& view = controller_.state();
-  return rolling_volume_ && view.rolling && !view.frozen &&
-         view.technique != ui::Technique::surface;
-}
-
-const pipeline::Volume& RenderLoop::shown_volume() const {
-  return rolling_ ? rolling_volume_->volume() : *volume_;
-}
-
 void RenderLoop::take_volume() {
+  const ui::ViewState& view = controller_.state();
   if (!renderer_) {
-    rolling_ = rolling_ && may_roll(); // as what will be shown again
+    volume_.keep(view);
     return;
   }
-  const bool rolled = std::exchange(rolling_, may_roll());
-  const pipeline::Volume* newest =
-      controller_.state().frozen ? nullptr : parts_.volumes.take_newest();
+  const pipeline::Volume* newest = volume_.take(view);
   if (newest != nullptr) {
-    volume_ = newest;
     ++statistics_.volumes_taken;
     volume_undisplayed_ = false; // of the one before: if it was, it is lost
   }
-  if (volume_ == nullptr || (newest == nullptr && !rolled && !rolling_))
+  if (!volume_.has_news())
     return;
   const hal::TimePoint begin = parts_.clock.now();
-  renderer_->expect(controller_.state());
-  const auto shown = rolling_                      ? show_b_scans(rolled ? newest : volume_)
-                     : newest != nullptr || rolled ? show_whole()
-                                                   : hal::Result<>{};
-  if (!shown)
+  renderer_->expect(view);
+  if (const auto shown = volume_.show(*renderer_, view); !shown)
     parts_.faults.add(pipeline::Device::display, shown.error(), begin);
   else if (newest != nullptr)
     note_taken(*newest, begin);
-}
-
-hal::Result<> RenderLoop::show_whole() {
-  renewable_ = false;
-  HAL_CHECK(renderer_->show_volume(*volume_));
-  line_latency_.show(*volume_, {0, volume_->geometry.b_scans});
-  return {};
-}
-
-// `newest`: the last whole volume, unless it was taken before.
-hal::Result<> RenderLoop::show_b_scans(const pipeline::Volume* newest) {
-  if (newest != nullptr)
-    rolling_volume_->take(*newest);
-  if (const auto making = parts_.volumes.borrow_after(volume_->metadata.index)) {
-    rolling_volume_->follow(*making, controller_.state().b_scan);
-    parts_.volumes.give_back();
-  }
-  const auto changes = rolling_volume_->take_changes();
-  HAL_CHECK(std::exchange(renewable_, false)
-                ? renderer_->renew_volume(rolling_volume_->volume(), changes)
-                : renderer_->show_volume(rolling_volume_->volume()));
-  renewable_ = true;
-  for (const pipeline::BScanRange& range : changes)
-    line_latency_.show(rolling_volume_->volume(), range);
-  return {};
 }
 
 void RenderLoop::note_taken(const pipeline::Volume& newest, hal::TimePoint begin) {
@@ -370,7 +327,7 @@ void RenderLoop::update_status() {
   const ui::ViewState& view = controller_.state();
   status_writer_.judge(setup_.freshness,
                        view.frozen ? std::optional{view.frozen_since} : std::nullopt);
-  status_writer_.roll(view.rolling, rolling_, rolling_ ? rolling_volume_->seam() : std::nullopt);
+  status_writer_.roll(view.rolling, volume_.rolls(), volume_.seam());
   if (parts_.vessels != nullptr)
     status_writer_.show_vessels(parts_.vessels->status());
 }
@@ -387,9 +344,9 @@ void RenderLoop::draw_if_changed() {
     return;
   const hal::TimePoint begin = parts_.clock.now();
   renderer_->expect(view);
-  if (renderer_->wants_volume(view) && volume_ != nullptr)
+  if (renderer_->wants_volume(view) && volume_.whole() != nullptr)
     static_cast<void>(
-        renderer_->show_volume(shown_volume())); // that it can be shown, it has proved
+        renderer_->show_volume(volume_.shown())); // that it can be shown, it has proved
   // A picture that is drawn in parts is drawn as a whole as often: which proves that all of it is true,
   // not that it was.
   hal::BackBuffer buffer = display.back_buffer();
@@ -432,7 +389,7 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
   statistics_.draw.add(took);
   statistics_.frames_missed +=
       static_cast<std::uint64_t>(std::max<std::int64_t>(took / parts_.display.refresh_period(), 0));
-  line_latency_.flipped(flip.completed);
+  volume_.flipped(flip.completed);
   if (undisplayed_control_) {
     statistics_.control.add(flip.completed - *undisplayed_control_);
     undisplayed_control_.reset();
@@ -452,21 +409,21 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
 
 // One that is replayed has come no such way.
 void RenderLoop::note_passage() {
-  if (volume_->work.empty())
+  if (volume_.whole()->work.empty())
     return;
-  const auto lengths = stages_of(volume_->metadata, showing_);
+  const auto lengths = stages_of(volume_.whole()->metadata, showing_);
   for (std::size_t i = 0; i < stage_count; ++i)
     statistics_.stages[i].add(lengths[i]);
-  timing_.add(*volume_, showing_);
+  timing_.add(*volume_.whole(), showing_);
   if (parts_.trace != nullptr)
-    parts_.trace->add(*volume_, showing_);
+    parts_.trace->add(*volume_.whole(), showing_);
 }
 
 // What the frame says was judged in this turn, so it is true, unless drawing and showing it took so
 // long that the picture would have had to be covered meanwhile.
 void RenderLoop::prove_picture(const hal::Flip& flip) {
   if (parts_.proof != nullptr && flip.completed - status().now <= setup_.freshness.veil_after)
-    parts_.proof->shown(volume_ != nullptr);
+    parts_.proof->shown(volume_.whole() != nullptr);
 }
 
 // Without a monitor a restart would bring none, and it would cost a frozen picture and the view:
@@ -486,7 +443,7 @@ void RenderLoop::lose_display(const hal::Error& error) {
   renderer_.reset();
   parts_.display.close();
   undisplayed_last_line_.reset();
-  line_latency_.forget();
+  volume_.forget_unseen();
   undisplayed_control_.reset();
   drawn_view_.reset();
   levels_of_ = 0;

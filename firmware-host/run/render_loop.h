@@ -8,10 +8,10 @@
 #include <optional>
 #include <string_view>
 
-#include "firmware-host/ledger/line_latency.h"
 #include "firmware-host/ledger/passage.h"
 #include "firmware-host/ledger/timing_history.h"
 #include "firmware-host/ledger/trace.h"
+#include "firmware-host/run/shown_volume.h"
 #include "firmware-host/run/status_writer.h"
 #include "firmware-host/supervision/picture_proof.h"
 #include "firmware-host/vessels/vessel_display.h"
@@ -19,7 +19,6 @@
 #include "hal/control_input.h"
 #include "hal/display.h"
 #include "pipeline/acquisition/acquisition.h"
-#include "pipeline/acquisition/rolling_volume.h"
 #include "pipeline/acquisition/volume_feed.h"
 #include "pipeline/controls/control_thread.h"
 #include "pipeline/controls/scope_thread.h"
@@ -112,7 +111,7 @@ public:
 
   // Whether the newest published volume has been in a frame.
   bool shows_newest() const {
-    return volume_ != nullptr && !undisplayed_last_line_ && !parts_.volumes.has_newer();
+    return volume_.whole() != nullptr && !undisplayed_last_line_ && !parts_.volumes.has_newer();
   }
 
   // Draws the newest state and returns the picture; empty if the display is gone.
@@ -142,7 +141,7 @@ public:
   void change_controls(ui::ControlProfile profile);
 
   // Of all lines that were shown so far.
-  pipeline::DurationSummary line_latency() const { return line_latency_.summary(); }
+  pipeline::DurationSummary line_latency() const { return volume_.line_latency(); }
 
   // Of the newest frame's volume picture.
   const ui::DrawQuality& quality() const { return quality_; }
@@ -156,13 +155,9 @@ private:
   void answer(const ui::ControlRequests& requests);
   void find_window();
   void keep_picture();
-  bool may_roll() const;
   bool draws_parts() const;
   void take_volume();
   void note_taken(const pipeline::Volume& newest, hal::TimePoint begin);
-  hal::Result<> show_whole();
-  hal::Result<> show_b_scans(const pipeline::Volume* newest);
-  const pipeline::Volume& shown_volume() const;
   void take_scope_picture();
   void update_status();
   void draw_if_changed();
@@ -195,16 +190,12 @@ private:
   std::uint64_t levels_of_ = 0;        // the volume that the histogram is of
   std::optional<ui::ViewState> drawn_view_;
   ui::Liveness drawn_liveness_ = ui::Liveness::waiting;
-  const pipeline::Volume* volume_ = nullptr; // the newest taken, valid until the next take
-  std::optional<pipeline::RollingVolume> rolling_volume_; // empty: no B-scans come by themselves
-  bool rolling_ = false;                                  // it is shown, not volume_
-  bool renewable_ = false; // the renderer holds all of it but for its changes
-  LineLatency line_latency_{setup_.geometry.b_scans};
-  const hal::ScopeFrame* scope_picture_ = nullptr;      // likewise
-  std::optional<hal::TimePoint> undisplayed_control_;   // time of the oldest event not shown yet
+  ShownVolume volume_{parts_.volumes, setup_.geometry};
+  const hal::ScopeFrame* scope_picture_ = nullptr;    // the newest taken, valid until the next take
+  std::optional<hal::TimePoint> undisplayed_control_; // time of the oldest event not shown yet
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume not shown yet
-  bool volume_undisplayed_ = false;                     // volume_ has not been in a frame yet
-  Showing showing_;                                     // of volume_, so far
+  bool volume_undisplayed_ = false; // the newest whole one has not been in a frame yet
+  Showing showing_;                 // of the newest whole one, so far
   ui::LateStart late_start_;
   hal::TimePoint turn_began_{};
   std::optional<hal::TimePoint> drawn_whole_;  // not in parts
