@@ -156,8 +156,12 @@ void Renderer::expect(const ViewState& view) {
   parts_->volume.expect(view);
 }
 
-bool Renderer::wants_volume(const ViewState& view) const {
-  return parts_->volume.wants_volume(view);
+hal::Result<> Renderer::complete(const pipeline::Volume& volume, const ViewState& view,
+                                 const DrawQuality& quality) {
+  parts_->volume.expect(view);
+  if (parts_->volume.wants_volume(view))
+    HAL_CHECK(show_volume(volume));
+  return parts_->volume.complete(volume, parts_->fitted(view), quality);
 }
 
 bool Renderer::needs_redraw(const ViewState& view, const Status& status, int width, int height,

@@ -107,9 +107,11 @@ public:
   // it, too, for the next one.
   void expect(const ViewState& view);
 
-  // Whether the view needs data that was not computed for the shown volume. If so, call
-  // show_volume() with it again.
-  bool wants_volume(const ViewState& view) const;
+  // Copies and computes what drawing that view at that quality needs of the shown volume and is not
+  // there yet; `volume` must be the one shown last. From the first call on, show_volume() and
+  // renew_volume() leave out what is not drawn, and it must be called before each draw().
+  hal::Result<> complete(const pipeline::Volume& volume, const ViewState& view,
+                         const DrawQuality& quality = {});
 
   // The content of the bound framebuffer. Waits for the drawing and allocates: for snapshots.
   pipeline::Image read_back(int width, int height) const;

@@ -343,10 +343,9 @@ void RenderLoop::draw_if_changed() {
       !renderer_->needs_redraw(view, status(), display.width(), display.height(), quality_))
     return;
   const hal::TimePoint begin = parts_.clock.now();
-  renderer_->expect(view);
-  if (renderer_->wants_volume(view) && volume_.whole() != nullptr)
-    static_cast<void>(
-        renderer_->show_volume(volume_.shown())); // that it can be shown, it has proved
+  if (volume_.whole() != nullptr)
+    static_cast<void>(renderer_->complete(volume_.shown(), view,
+                                          quality_)); // that it can be shown, it has proved
   // A picture that is drawn in parts is drawn as a whole as often: which proves that all of it is true,
   // not that it was.
   hal::BackBuffer buffer = display.back_buffer();
@@ -478,6 +477,9 @@ std::optional<pipeline::Image> RenderLoop::picture() {
   // As it was shown: of a display that draws slowly, a live picture is STALE when we are back here.
   const int width = parts_.display.width();
   const int height = parts_.display.height();
+  if (volume_.whole() != nullptr &&
+      !renderer_->complete(volume_.shown(), controller_.state(), quality_))
+    return std::nullopt;
   if (!renderer_->draw(controller_.state(), status(), width, height, quality_))
     return std::nullopt;
   return renderer_->read_back(width, height);

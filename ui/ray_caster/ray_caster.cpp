@@ -111,8 +111,8 @@ RayCaster::RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team)
   slabs_.reserve(most_slabs);
 }
 
-hal::Result<> RayCaster::show(const pipeline::Volume& volume,
-                              const pipeline::Occupancy& occupancy) {
+hal::Result<> RayCaster::show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
+                              const std::function<void(int)>& prepare) {
   const pipeline::VolumeGeometry& g = volume.geometry;
   if (!CellVolume::fits(g) || volume.levels.size() != g.voxels())
     return hal::fail(hal::ErrorCode::unsupported,
@@ -130,6 +130,8 @@ hal::Result<> RayCaster::show(const pipeline::Volume& volume,
   occupancy_ = occupancy;
   team_->run(static_cast<std::uint32_t>(g.b_scans), [&](std::uint32_t b_scan) {
     const int b = static_cast<int>(b_scan);
+    if (prepare)
+      prepare(b);
     cells_->update(b, volume.b_scan(b));
   });
   bricks_current_ = false;

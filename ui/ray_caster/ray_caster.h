@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -75,7 +76,9 @@ public:
 
   // Copies both. ErrorCode::unsupported: too large for 32-bit offsets. ErrorCode::invalid_argument:
   // the occupancy has another geometry. On errors the previous volume stays.
-  hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy);
+  // `prepare` is called with each B-scan before it is copied, by one of the threads.
+  hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
+                     const std::function<void(int)>& prepare = {});
 
   // The same where they differ from those shown last in these B-scans alone.
   hal::Result<> renew(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,

@@ -93,13 +93,13 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
     return hal::fail(hal::ErrorCode::invalid_argument,
                      "volume display: found the occupancy of a volume of another shape, expected "
                      "that of the one to be shown");
-  HAL_CHECK(texture_.upload(volume));
+  HAL_CHECK(texture_.upload(volume, expected_parts()));
   occupancy_ = occupancy;
   ++uploads_;
   changed_.clear();
   changed_.reserve(volume.b_scan_states.size());
   const pipeline::Volume& drawn = see_through(volume);
-  caster_shows_ = caster_ && caster_->show(drawn, occupancy_);
+  copy_for_rays(volume);
   light_shows_ = light_wanted_;
   if (light_shows_)
     light_.show(drawn);
@@ -124,12 +124,12 @@ void VolumePainter::renew_occupancy(const pipeline::Volume& volume,
     cover_.find(occupancy_);
   if (!weakened_shows_)
     return;
-  const float counts = see_through_db_ / pipeline::level_step_db;
+  const int widened = static_cast<int>(see_through_db_ / pipeline::level_step_db) + 1;
   for (int b = range.from; b < range.to; ++b) {
     const auto at = static_cast<std::size_t>(b);
     weakened_.b_scan_states[at] = volume.b_scan_states[at];
-    cover_.weaken(b, volume.b_scan(b), counts, weakened_.b_scan(b));
-    occupancy_.widen_below(b, static_cast<int>(counts) + 1);
+    weaken(volume, b);
+    occupancy_.widen_below(b, widened);
   }
 }
 
@@ -141,7 +141,7 @@ hal::Result<> VolumePainter::renew(const pipeline::Volume& volume,
     renew_occupancy(volume, range);
   if (see_through_db_ > 0 && weakened_shows_ == cover_.empty())
     return show(volume); // a cover appeared, or went
-  HAL_CHECK(texture_.renew(volume, changed));
+  HAL_CHECK(texture_.renew(volume, changed, expected_parts()));
   ++uploads_;
   changed_.assign(changed.begin(), changed.end());
   const pipeline::Volume& drawn = weakened_shows_ ? weakened_ : volume;
@@ -166,24 +166,48 @@ const pipeline::Volume& VolumePainter::see_through(const pipeline::Volume& volum
   if (weakened_.geometry != volume.geometry)
     weakened_ = pipeline::Volume{volume.geometry};
   weakened_.b_scan_states = volume.b_scan_states;
-  weaken(volume);
+  occupancy_.widen_below(static_cast<int>(see_through_db_ / pipeline::level_step_db) + 1);
   return weakened_;
 }
 
-// By all threads that there are.
-void VolumePainter::weaken(const pipeline::Volume& volume) {
-  const float counts = see_through_db_ / pipeline::level_step_db;
-  const auto weaken_one = [&](std::uint32_t at) {
-    const auto b = static_cast<int>(at);
-    cover_.weaken(b, volume.b_scan(b), counts, weakened_.b_scan(b));
+void VolumePainter::weaken(const pipeline::Volume& volume, int b_scan) {
+  cover_.weaken(b_scan, volume.b_scan(b_scan), see_through_db_ / pipeline::level_step_db,
+                weakened_.b_scan(b_scan));
+}
+
+// A B-scan is drawn weaker by the thread that copies it, which then has it in its cache.
+void VolumePainter::copy_for_rays(const pipeline::Volume& volume) {
+  const auto show = [&] {
+    return weakened_shows_ ? caster_->show(weakened_, occupancy_,
+                                           [this, &volume](int b) { weaken(volume, b); })
+                           : caster_->show(volume, occupancy_);
   };
-  const auto count = static_cast<std::uint32_t>(volume.geometry.b_scans);
-  if (caster_)
-    caster_->team().run(count, weaken_one);
-  else
-    for (std::uint32_t b = 0; b < count; ++b)
-      weaken_one(b);
-  occupancy_.widen_below(static_cast<int>(counts) + 1);
+  caster_shows_ = caster_ && show();
+  if (!caster_shows_ && weakened_shows_)
+    for (int b = 0; b < volume.geometry.b_scans; ++b)
+      weaken(volume, b);
+}
+
+// Of two sections the flat pictures and a cut's faces are made; all else the processor draws from its own copy.
+TextureParts VolumePainter::parts_for(const ViewState& view, RayBackend rays) const {
+  return {.all = !ray_mode(view.technique) || rays != RayBackend::processor,
+          .b_scan = view.b_scan,
+          .a_scan = view.a_scan};
+}
+
+TextureParts VolumePainter::expected_parts() const {
+  return completed_by_caller_ ? expected_ : TextureParts{};
+}
+
+hal::Result<> VolumePainter::complete(const pipeline::Volume& volume, const ViewState& view,
+                                      const DrawQuality& quality) {
+  completed_by_caller_ = true;
+  expect(view);
+  if (wants_volume(view))
+    HAL_CHECK(show(volume));
+  expected_ = parts_for(view, backend(quality));
+  return empty() || texture_.holds(expected_) ? hal::Result<>{}
+                                              : texture_.renew(volume, {}, expected_);
 }
 
 hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
@@ -215,6 +239,8 @@ void VolumePainter::update_transfer(const ViewState& of) {
 }
 
 void VolumePainter::expect(const ViewState& view) {
+  expected_.b_scan = view.b_scan;
+  expected_.a_scan = view.a_scan;
   see_through_db_ = view.see_through_db;
   light_wanted_ = view.technique == Technique::shaded;
   if (view.technique == Technique::surface)
@@ -291,6 +317,9 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   update_transfer(view);
   expect(view);
   const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
+  if (!texture_.holds(parts_for(view, backend(quality))))
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "volume display: found parts of a volume, expected complete() for this view");
   const VolumeTexture* drawn = &texture_; // the processor's rays need only its shape
   const bool surface = view.technique == Technique::surface;
   if (!processor && !surface) {

@@ -78,7 +78,14 @@ public:
     return transfers_.colours(view).by_depth() ? std::optional{depths_} : std::nullopt;
   }
 
+  // Copies what drawing that view at that quality needs of the shown volume and is not there yet;
+  // `volume` must be the one shown last. From the first call on, show() and renew() leave out what
+  // the view expected does not need, and it must be called before each update().
+  hal::Result<> complete(const pipeline::Volume& volume, const ViewState& view,
+                         const DrawQuality& quality);
+
   // Brings the eye's picture up to date; `camera` must be that eye's, with the rectangle's aspect.
+  // ErrorCode::invalid_argument: complete() was not called for it.
   hal::Result<> update(StereoEye eye, const ViewState& view, const Camera& camera,
                        const DrawQuality& quality, const Rect& rect);
   // Blends the eye's picture over the bound framebuffer.
@@ -129,7 +136,10 @@ private:
   bool must_show_all(const pipeline::Volume& volume) const;
   void renew_occupancy(const pipeline::Volume& volume, const pipeline::BScanRange& range);
   const pipeline::Volume& see_through(const pipeline::Volume& volume);
-  void weaken(const pipeline::Volume& volume);
+  void weaken(const pipeline::Volume& volume, int b_scan);
+  void copy_for_rays(const pipeline::Volume& volume);
+  TextureParts expected_parts() const;
+  TextureParts parts_for(const ViewState& view, RayBackend rays) const;
   hal::Result<const VolumeTexture*> drawn_texture();
   hal::Result<EyePictures*> pictures_of(StereoEye eye);
   void update_transfer(const ViewState& of);
@@ -157,6 +167,8 @@ private:
   TransferSet transfers_;
   pipeline::ThreadSetup threads_;
   VolumeTexture texture_;
+  TextureParts expected_; // of it, where the caller completes them
+  bool completed_by_caller_ = false;
   pipeline::Occupancy occupancy_;
   pipeline::Occupancy own_occupancy_; // for volumes that come without one
   std::uint64_t uploads_ = 0;

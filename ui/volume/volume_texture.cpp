@@ -63,29 +63,34 @@ hal::Result<> VolumeTexture::write(const pipeline::Volume& volume,
   return {};
 }
 
-hal::Result<> VolumeTexture::upload(const pipeline::Volume& volume) {
-  HAL_CHECK(check(volume));
-  if (empty() || volume.geometry != geometry_)
-    allocate(volume.geometry);
-  geometry_ = volume.geometry;
-  HAL_CHECK(write(volume, {0, geometry_.b_scans}));
-  old_.assign(static_cast<std::size_t>(geometry_.b_scans), static_cast<std::uint8_t>(1U << front_));
-  front_ = 1 - front_;
+// [b][a][depth], as all of a volume.
+hal::Result<> VolumeTexture::write_a_scans(const pipeline::Volume& volume,
+                                           const pipeline::BScanRange& a_scans) {
+  const auto depths = static_cast<std::size_t>(geometry_.depths);
+  const std::size_t size = depths * static_cast<std::size_t>(a_scans.to - a_scans.from);
+  a_scans_.resize(size * static_cast<std::size_t>(geometry_.b_scans));
+  auto to = a_scans_.begin();
+  for (int b = 0; b < geometry_.b_scans; ++b)
+    to = std::ranges::copy(volume.b_scan(b).subspan(
+                               static_cast<std::size_t>(a_scans.from) * depths, size),
+                           to)
+             .out;
+  HAL_TRY(const void* const pixels, uploader_.stage(a_scans_));
+  glBindTexture(GL_TEXTURE_3D, textures_[1 - front_].name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, a_scans.from, 0, geometry_.depths,
+                  a_scans.to - a_scans.from, geometry_.b_scans, GL_RED, GL_UNSIGNED_BYTE, pixels);
+  gl::PixelUploader::unbind();
   return {};
 }
 
-// What the texture in the back lacks from before is written, too.
-hal::Result<> VolumeTexture::renew(const pipeline::Volume& volume,
-                                   std::span<const pipeline::BScanRange> changed) {
-  if (empty() || volume.geometry != geometry_)
-    return upload(volume);
-  HAL_CHECK(check(volume));
-  for (const pipeline::BScanRange& range : changed)
-    std::fill(old_.begin() + range.from, old_.begin() + range.to, std::uint8_t{3});
+// Into the texture in the back, what it lacks from before, too.
+hal::Result<> VolumeTexture::write_lacking(const pipeline::Volume& volume,
+                                           const pipeline::BScanRange& within) {
   const auto back = static_cast<std::uint8_t>(2U >> front_);
-  for (int b = 0; b < geometry_.b_scans;) {
+  for (int b = within.from; b < within.to;) {
     pipeline::BScanRange range{b, b};
-    for (; b < geometry_.b_scans && (old_[static_cast<std::size_t>(b)] & back) != 0; ++b)
+    for (; b < within.to && (old_[static_cast<std::size_t>(b)] & back) != 0; ++b)
       old_[static_cast<std::size_t>(b)] &= static_cast<std::uint8_t>(~back);
     range.to = b;
     if (range.from == range.to)
@@ -93,8 +98,62 @@ hal::Result<> VolumeTexture::renew(const pipeline::Volume& volume,
     else
       HAL_CHECK(write(volume, range));
   }
+  return {};
+}
+
+// With neighbours, which are interpolated with next to nothing.
+pipeline::BScanRange VolumeTexture::b_scans_of(const TextureParts& parts) const {
+  if (parts.all)
+    return {0, geometry_.b_scans};
+  const int middle = std::clamp(parts.b_scan, 0, geometry_.b_scans - 1);
+  return {std::max(middle - 1, 0), std::min(middle + 2, geometry_.b_scans)};
+}
+
+hal::Result<> VolumeTexture::fill_back(const pipeline::Volume& volume, const TextureParts& parts) {
+  HAL_CHECK(write_lacking(volume, b_scans_of(parts)));
+  if (!parts.all) {
+    const int middle = std::clamp(parts.a_scan, 0, geometry_.a_scans - 1);
+    HAL_CHECK(write_a_scans(
+        volume, {std::max(middle - 1, 0), std::min(middle + 2, geometry_.a_scans)}));
+    a_scan_[1 - front_] = middle;
+  }
   front_ = 1 - front_;
   return {};
+}
+
+bool VolumeTexture::lacks_none(std::size_t texture, const pipeline::BScanRange& b_scans) const {
+  return std::none_of(old_.begin() + b_scans.from, old_.begin() + b_scans.to,
+                      [bit = 1U << texture](std::uint8_t old) { return (old & bit) != 0; });
+}
+
+bool VolumeTexture::holds(const TextureParts& parts) const {
+  if (empty() || !lacks_none(front_, b_scans_of(parts)))
+    return false;
+  return parts.all || a_scan_[front_] == std::clamp(parts.a_scan, 0, geometry_.a_scans - 1) ||
+         lacks_none(front_, {0, geometry_.b_scans});
+}
+
+hal::Result<> VolumeTexture::upload(const pipeline::Volume& volume, const TextureParts& parts) {
+  HAL_CHECK(check(volume));
+  if (empty() || volume.geometry != geometry_)
+    allocate(volume.geometry);
+  geometry_ = volume.geometry;
+  old_.assign(static_cast<std::size_t>(geometry_.b_scans), std::uint8_t{3});
+  a_scan_ = {-1, -1};
+  return fill_back(volume, parts);
+}
+
+hal::Result<> VolumeTexture::renew(const pipeline::Volume& volume,
+                                   std::span<const pipeline::BScanRange> changed,
+                                   const TextureParts& parts) {
+  if (empty() || volume.geometry != geometry_)
+    return upload(volume, parts);
+  HAL_CHECK(check(volume));
+  if (!changed.empty())
+    a_scan_ = {-1, -1};
+  for (const pipeline::BScanRange& range : changed)
+    std::fill(old_.begin() + range.from, old_.begin() + range.to, std::uint8_t{3});
+  return fill_back(volume, parts);
 }
 
 } // namespace octascope::ui

@@ -13,6 +13,14 @@
 
 namespace octascope::ui {
 
+// What of a volume is going to be read from its texture: all of it, or no more than two sections, those
+// at a B-scan and at an A-scan, as a software GL needs whose volume the processor draws.
+struct TextureParts {
+  bool all = true;
+  int b_scan = 0; // limited to those there are
+  int a_scan = 0;
+};
+
 // R8 texels in the volume's own order: s is depth, t the fast axis, r the slow axis; sample i of n
 // lies at (i + 0.5) / n. Alternates between two textures, so that it never writes one that the GPU
 // may still read.
@@ -23,13 +31,18 @@ public:
   // Whether the GL that is current here has textures for it. ErrorCode::unsupported: it has not.
   static hal::Result<> check_size(const pipeline::VolumeGeometry& geometry);
 
-  // Copies the levels before it returns. Errors: check_size()'s;
+  // Copies the levels of those parts before it returns. Errors: check_size()'s;
   // ErrorCode::bad_data: fewer voxels than the geometry says. The previous volume stays.
-  hal::Result<> upload(const pipeline::Volume& volume);
+  hal::Result<> upload(const pipeline::Volume& volume, const TextureParts& parts = {});
 
-  // The same where the volume differs from the one that was uploaded last in these B-scans alone.
+  // The same where the volume differs from the one that was uploaded last in these B-scans alone;
+  // none: in nothing, and what of the parts was left out then is copied.
   hal::Result<> renew(const pipeline::Volume& volume,
-                      std::span<const pipeline::BScanRange> changed);
+                      std::span<const pipeline::BScanRange> changed,
+                      const TextureParts& parts = {});
+
+  // Whether it has them of the volume that was uploaded or renewed last.
+  bool holds(const TextureParts& parts) const;
 
   bool empty() const { return !textures_[front_]; }
   GLuint name() const { return textures_[front_].name(); }
@@ -38,12 +51,19 @@ public:
 private:
   void allocate(const pipeline::VolumeGeometry& geometry);
   hal::Result<> write(const pipeline::Volume& volume, const pipeline::BScanRange& range);
+  hal::Result<> write_lacking(const pipeline::Volume& volume, const pipeline::BScanRange& range);
+  hal::Result<> write_a_scans(const pipeline::Volume& volume, const pipeline::BScanRange& a_scans);
+  hal::Result<> fill_back(const pipeline::Volume& volume, const TextureParts& parts);
+  pipeline::BScanRange b_scans_of(const TextureParts& parts) const;
+  bool lacks_none(std::size_t texture, const pipeline::BScanRange& b_scans) const;
 
   std::array<gl::Texture, 2> textures_;
   gl::PixelUploader uploader_;
   pipeline::VolumeGeometry geometry_;
   std::size_t front_ = 0;
   std::vector<std::uint8_t> old_; // by B-scan: bits of the textures that lack its newest levels
+  std::array<int, 2> a_scan_{-1, -1}; // of the section that a texture has the newest levels of
+  std::vector<std::uint8_t> a_scans_; // what is copied of that one
 };
 
 } // namespace octascope::ui
