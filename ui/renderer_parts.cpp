@@ -342,7 +342,7 @@ void Renderer::Parts::follow(const pipeline::Volume& shown) {
     coloured_depths.follow({depth.from, depth.to});
     volume.colour_depths(coloured_depths.current());
   }
-  en_face_panel.show(shown, tissue);
+  en_face_panel.show(shown, tissue, volume.team());
   picture_changes.note_projection(en_face_panel.changed_rows());
   state_texture.upload(shown);
   states.assign(shown.b_scan_states.begin(), shown.b_scan_states.end());

@@ -153,8 +153,7 @@ ui::DrawQuality RenderLoop::choose_quality() {
       {.now = status().now,
        .technique = view.technique,
        .moved = moved,
-       .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_),
-       .in_parts = draws_parts()});
+       .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_)});
   quality.rays = rays_;
   if (parts_.vessels != nullptr) {
     quality.vessel_detail_px = parts_.vessels->detail_px(status().now, moved);

@@ -43,4 +43,12 @@ private:
   pipeline::WorkerPool helpers_; // last: its threads stop before the rest is gone
 };
 
+// By the team; where there is none, by the caller alone.
+template <class Work> void run_pieces(WorkTeam* team, std::uint32_t pieces, const Work& work) {
+  if (team != nullptr)
+    return team->run(pieces, work);
+  for (std::uint32_t i = 0; i < pieces; ++i)
+    work(i);
+}
+
 } // namespace octascope::ui

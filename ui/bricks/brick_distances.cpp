@@ -1,7 +1,9 @@
 #include "ui/bricks/brick_distances.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include "pipeline/threads/cpu_clones.h"
@@ -102,14 +104,17 @@ void DistancesAround::measure(const BrickGrid& grid) {
   combine(grid.highest().data(), distance_.data(), numbers_.data(), distance_.size());
 }
 
-void DistancesAhead::measure(const BrickGrid& grid, unsigned wanted) {
+void DistancesAhead::measure(const BrickGrid& grid, unsigned wanted, WorkTeam* team) {
   const std::size_t all = grid.counts().all();
-  distance_.resize(all);
-  line_.resize(static_cast<std::size_t>(grid.counts().depth));
+  distance_.resize(octants * all);
+  line_.resize(octants * static_cast<std::size_t>(grid.counts().depth));
   numbers_.resize(octants * all + 1);
+  std::array<unsigned, octants> missing{};
+  std::uint32_t count = 0;
   for (unsigned octant = 0; octant < octants; ++octant)
     if ((wanted & ~measured_ & (1U << octant)) != 0)
-      measure_octant(grid, octant);
+      missing[count++] = octant;
+  run_pieces(team, count, [&](std::uint32_t i) { measure_octant(grid, missing[i]); });
   measured_ |= wanted;
 }
 
@@ -118,6 +123,8 @@ void DistancesAhead::measure(const BrickGrid& grid, unsigned wanted) {
 void DistancesAhead::measure_octant(const BrickGrid& grid, unsigned octant) {
   const pipeline::BrickCounts& n = grid.counts();
   const auto length = static_cast<std::size_t>(n.depth);
+  std::uint8_t* const distance = distance_.data() + octant * n.all();
+  const std::span line{line_.data() + octant * length, length};
   const bool up_z = (octant & 1U) != 0;
   const int ahead_a = (octant & 2U) != 0 ? 1 : -1;
   const int ahead_b = (octant & 4U) != 0 ? 1 : -1;
@@ -131,17 +138,17 @@ void DistancesAhead::measure_octant(const BrickGrid& grid, unsigned octant) {
     const int b = ahead_b > 0 ? i : n.b - 1 - i;
     for (int j = n.a; j-- > 0;) {
       const int a = ahead_a > 0 ? j : n.a - 1 - j;
-      std::ranges::fill(line_, std::uint8_t{most});
+      std::ranges::fill(line, std::uint8_t{most});
       for (const auto& [next_a, next_b] :
            {std::pair{a + ahead_a, b}, {a, b + ahead_b}, {a + ahead_a, b + ahead_b}})
         if (inside(next_a, n.a) && inside(next_b, n.b))
-          take_least(line_.data(), distance_.data() + line_at(next_a, next_b), length);
+          take_least(line.data(), distance + line_at(next_a, next_b), length);
       const std::size_t at = line_at(a, b);
-      (up_z ? measure_line_up : measure_line_down)(grid.occupied().data() + at, line_.data(),
-                                                   length, distance_.data() + at);
+      (up_z ? measure_line_up : measure_line_down)(grid.occupied().data() + at, line.data(), length,
+                                                   distance + at);
     }
   }
-  combine(grid.highest().data(), distance_.data(), numbers_.data() + octant * n.all(), n.all());
+  combine(grid.highest().data(), distance, numbers_.data() + octant * n.all(), n.all());
 }
 
 } // namespace octascope::ui

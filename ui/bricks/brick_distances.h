@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/threads/work_team.h"
 #include "pipeline/volume/occupancy.h"
 #include "ui/bricks/brick_grid.h"
 
@@ -44,8 +45,8 @@ public:
   // To be called when the grid has changed.
   void forget() { measured_ = 0; }
 
-  // Computes the octants with a bit in `wanted` that are not known yet.
-  void measure(const BrickGrid& grid, unsigned wanted);
+  // Computes the octants with a bit in `wanted` that are not known yet, shared among the team.
+  void measure(const BrickGrid& grid, unsigned wanted, WorkTeam* team = nullptr);
 
   // In the order [octant][b][a][depth]; octants that were never wanted are undefined.
   const std::uint16_t* data() const { return numbers_.data(); }
@@ -54,8 +55,8 @@ private:
   void measure_octant(const BrickGrid& grid, unsigned octant);
 
   std::vector<std::uint16_t> numbers_; // with one element of padding: kernels load two at a time
-  std::vector<std::uint8_t> distance_; // of one octant
-  std::vector<std::uint8_t> line_;
+  std::vector<std::uint8_t> distance_; // [octant][b][a][depth]
+  std::vector<std::uint8_t> line_;     // [octant][depth]
   unsigned measured_ = 0;
 };
 

@@ -31,36 +31,37 @@ void BrickGrid::resize(const pipeline::BrickCounts& counts) {
     plane->assign(counts.all(), 0);
 }
 
-void BrickGrid::merge_b_scans(const pipeline::Occupancy& occupancy) {
+// Those of one row of bricks along the slow axis.
+void BrickGrid::merge_b_scans(const pipeline::Occupancy& occupancy, int row) {
   const std::size_t slab = counts_.per_b_scan();
-  std::ranges::fill(highest_, std::uint8_t{0});
-  std::ranges::fill(lowest_, std::uint8_t{255});
-  for (int brick = 0; brick < counts_.b; ++brick) {
-    const std::size_t at = slab * static_cast<std::size_t>(brick);
-    // Cell i lies between B-scans i−1 and i.
-    const int first = std::max((brick << pipeline::brick_b_shift) - 1, 0);
-    const int last =
-        std::min(((brick + 1) << pipeline::brick_b_shift) - 1, occupancy.geometry().b_scans - 1);
-    for (int b = first; b <= last; ++b) {
-      raise(highest_.data() + at, occupancy.highest(b).data(), slab);
-      lower(lowest_.data() + at, occupancy.lowest(b).data(), slab);
-    }
+  const std::size_t at = slab * static_cast<std::size_t>(row);
+  std::fill_n(highest_.data() + at, slab, std::uint8_t{0});
+  std::fill_n(lowest_.data() + at, slab, std::uint8_t{255});
+  // Cell i lies between B-scans i−1 and i.
+  const int first = std::max((row << pipeline::brick_b_shift) - 1, 0);
+  const int last =
+      std::min(((row + 1) << pipeline::brick_b_shift) - 1, occupancy.geometry().b_scans - 1);
+  for (int b = first; b <= last; ++b) {
+    raise(highest_.data() + at, occupancy.highest(b).data(), slab);
+    lower(lowest_.data() + at, occupancy.lowest(b).data(), slab);
   }
 }
 
 void BrickGrid::update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
-                       Visibility visibility) {
+                       Visibility visibility, WorkTeam* team) {
   resize(occupancy.bricks());
-  merge_b_scans(occupancy);
-  if (visibility == Visibility::everything)
-    std::ranges::fill(highest_, std::uint8_t{255});
-  std::size_t occupied = 0;
-  for (std::size_t i = 0; i < occupied_.size(); ++i) {
-    const int lowest = visibility == Visibility::range ? lowest_[i] : 0;
-    const bool empty = visibility != Visibility::everything && levels.empty(lowest, highest_[i]);
-    occupied_[i] = empty ? 0 : 1;
-    occupied += occupied_[i];
-  }
+  const std::size_t slab = counts_.per_b_scan();
+  run_pieces(team, static_cast<std::uint32_t>(counts_.b), [&](std::uint32_t row) {
+    merge_b_scans(occupancy, static_cast<int>(row));
+    for (std::size_t i = row * slab; i < (row + 1) * slab; ++i) {
+      if (visibility == Visibility::everything)
+        highest_[i] = 255;
+      const int lowest = visibility == Visibility::range ? lowest_[i] : 0;
+      const bool empty = visibility != Visibility::everything && levels.empty(lowest, highest_[i]);
+      occupied_[i] = empty ? 0 : 1;
+    }
+  });
+  const auto occupied = std::ranges::count(occupied_, std::uint8_t{1});
   occupied_share_ = static_cast<double>(occupied) / static_cast<double>(occupied_.size());
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/threads/work_team.h"
 #include "pipeline/volume/occupancy.h"
 #include "ui/transfer/visible_levels.h"
 
@@ -20,8 +21,9 @@ enum class Visibility : std::uint8_t {
 // Bricks in the order [b][a][depth]. Allocates when their number changes.
 class BrickGrid {
 public:
+  // Shared among the team.
   void update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
-              Visibility visibility);
+              Visibility visibility, WorkTeam* team = nullptr);
 
   const pipeline::BrickCounts& counts() const { return counts_; }
   std::span<const std::uint8_t> occupied() const { return occupied_; } // 0: empty; 1
@@ -30,7 +32,7 @@ public:
 
 private:
   void resize(const pipeline::BrickCounts& counts);
-  void merge_b_scans(const pipeline::Occupancy& occupancy);
+  void merge_b_scans(const pipeline::Occupancy& occupancy, int row);
 
   pipeline::BrickCounts counts_;
   std::vector<std::uint8_t> highest_;

@@ -30,9 +30,8 @@ constexpr double finer_share = 0.8;
 // No step of the ladder costs more than 1.6 times the next coarser one: from here it still fits.
 constexpr double idle_share = 0.55;
 
-// Where coarsest_in_parts is.
-constexpr std::size_t rung_in_parts = 6;
-static_assert(ladder[rung_in_parts] == Governor::coarsest_in_parts);
+constexpr std::size_t coarsest_rung_at_rest = 6;
+static_assert(ladder[coarsest_rung_at_rest] == Governor::coarsest_at_rest);
 
 std::size_t index_of(Technique technique) {
   return static_cast<std::size_t>(technique);
@@ -57,14 +56,13 @@ std::optional<float> visible_reduction(const DrawQuality& quality) {
 }
 
 FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how) {
-  using namespace std::chrono_literals;
   if (!how.software)
     return {refresh * 8 / 10, refresh * (how.rolling ? 8 : 18) / 10};
   const hal::Duration moving = refresh * 18 / 10;
   if (how.in_parts)
     return {moving, refresh * 7 / 10};
   const hal::Duration quick = std::max(how.volume_period * 7 / 10, refresh * 15 / 10);
-  return {moving, how.rolling ? moving : std::min(std::max<hal::Duration>(moving, 45ms), quick)};
+  return {moving, how.rolling ? moving : std::min(moving, quick)};
 }
 
 double Governor::Median::value() const {
@@ -128,7 +126,7 @@ DrawQuality Governor::choose(const Situation& situation) {
   if (still_)
     return full_quality;
   Place& place = places_[technique_][moving_ ? 1 : 0];
-  const std::size_t coarsest = situation.in_parts && !moving_ ? rung_in_parts : ladder.size() - 1;
+  const std::size_t coarsest = moving_ ? ladder.size() - 1 : coarsest_rung_at_rest;
   if (place.rung > coarsest)
     enter(place, coarsest);
   settle(place, knowledge_[technique_], budget_ms(), coarsest);

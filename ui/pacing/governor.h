@@ -41,11 +41,10 @@ struct DrawnHow {
   hal::Duration volume_period = std::chrono::milliseconds{141};
 };
 
-// With a GPU every refresh of a moving view gets a frame. Where the processor draws, every second
-// one: 30 a second. A volume that comes while the view rests may take longer, as long as it is
-// shown well within the 60 ms that are allowed from its last line; but where volumes come faster than
-// that, a frame leaves a third of their period to copying them, so that each can be shown. Of what rolls, each refresh shows
-// what has come where only that is drawn anew; copying it takes its time, too.
+// With a GPU every refresh of a moving view gets a frame, and a volume that comes while the view rests
+// may take two. Where the processor draws, a frame takes two; but where volumes come faster than that,
+// it leaves a third of their period to copying them, so that each can be shown. Of what rolls, each
+// refresh shows what has come where only that is drawn anew; copying it takes its time, too.
 FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how);
 
 // Threads: one at a time. Allocates nothing.
@@ -60,12 +59,11 @@ public:
     Technique technique = Technique::rays;
     bool moved = false; // the request differs from the last frame's
     bool live = true;   // volumes keep coming; else the picture is drawn once and may take longer
-    bool in_parts = false; // at rest only what changed is drawn: then never below coarsest_in_parts
   };
 
-  // Most of what a frame of few samples costs is its fixed part: still fewer would blur the picture
-  // and gain nothing.
-  static constexpr DrawQuality coarsest_in_parts{0.5F, 192};
+  // Most of what a frame of few samples costs is its fixed part: of a view at rest, which is looked
+  // at, still fewer would blur the picture and gain next to nothing.
+  static constexpr DrawQuality coarsest_at_rest{0.5F, 192};
 
   // For the frame that begins now. Full quality at rest without live volumes, or within budget.
   DrawQuality choose(const Situation& situation);

@@ -17,44 +17,56 @@ float middle_of(int index, int count) {
 
 hal::Result<BScanPanel> BScanPanel::create() {
   HAL_TRY(auto pass, gl::PicturePass::create("b_scan", with_hatch(shaders::b_scan_frag)));
-  return BScanPanel{std::move(pass)};
+  HAL_TRY(auto plain, gl::PicturePass::create("b_scan, all good", all_good(shaders::b_scan_frag)));
+  return BScanPanel{std::move(pass), std::move(plain)};
 }
 
-BScanPanel::BScanPanel(gl::PicturePass pass)
-    : pass_{std::move(pass)}, uniforms_{pass_.uniform("u_levels"), pass_.uniform("u_states"),
-                                        pass_.uniform("u_window"), pass_.uniform("u_corner"),
-                                        pass_.uniform("u_across"), pass_.uniform("u_down"),
-                                        pass_.uniform("u_hatch"),  pass_.uniform("u_mark_height"),
-                                        pass_.uniform("u_mark"),   pass_.uniform("u_seam")} {}
+BScanPanel::Pass::Pass(gl::PicturePass made)
+    : pass{std::move(made)}, levels{pass.uniform("u_levels")}, window{pass.uniform("u_window")},
+      corner{pass.uniform("u_corner")}, across{pass.uniform("u_across")}, down{pass.uniform(
+                                                                              "u_down")} {}
+
+BScanPanel::BScanPanel(gl::PicturePass pass, gl::PicturePass plain)
+    : marking_{std::move(pass)}, plain_{std::move(plain)},
+      marks_{marking_.pass.uniform("u_states"), marking_.pass.uniform("u_hatch"),
+             marking_.pass.uniform("u_mark_height"), marking_.pass.uniform("u_mark"),
+             marking_.pass.uniform("u_seam")} {}
+
+void BScanPanel::set_marks(const StateTexture& states, ScanDirection direction, const Rect& rect,
+                           int target_height) const {
+  glActiveTexture(GL_TEXTURE1);
+  glBindTexture(GL_TEXTURE_2D, states.name());
+  glUniform1i(marks_.states, 1);
+  set_hatch(marks_.hatch, rect, target_height);
+  glUniform1f(marks_.mark_height, direction == ScanDirection::slow ? mark_share : 0);
+  set_colour(marks_.mark, palette::warning);
+  set_colour(marks_.seam, palette::seam);
+}
 
 void BScanPanel::draw(const VolumeTexture& volume, const StateTexture& states,
                       ScanDirection direction, const ViewState& view, const Crop& crop,
                       const Rect& rect, int target_height) const {
   const WindowRamp window = window_ramp(view);
   const pipeline::VolumeGeometry& geometry = volume.geometry();
-  pass_.use();
-  glActiveTexture(GL_TEXTURE1);
-  glBindTexture(GL_TEXTURE_2D, states.name());
+  const Pass& with = states.all_good() ? plain_ : marking_;
+  with.pass.use();
+  if (!states.all_good())
+    set_marks(states, direction, rect, target_height);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_3D, volume.name());
-  glUniform1i(uniforms_.levels, 0);
-  glUniform1i(uniforms_.states, 1);
-  glUniform2f(uniforms_.window, window.scale, window.offset);
+  glUniform1i(with.levels, 0);
+  glUniform2f(with.window, window.scale, window.offset);
   if (direction == ScanDirection::fast) {
-    glUniform3f(uniforms_.corner, crop.depth.from, crop.a.from,
+    glUniform3f(with.corner, crop.depth.from, crop.a.from,
                 middle_of(view.b_scan, geometry.b_scans));
-    glUniform3f(uniforms_.across, 0, crop.a.length(), 0);
+    glUniform3f(with.across, 0, crop.a.length(), 0);
   } else {
-    glUniform3f(uniforms_.corner, crop.depth.from, middle_of(view.a_scan, geometry.a_scans),
+    glUniform3f(with.corner, crop.depth.from, middle_of(view.a_scan, geometry.a_scans),
                 crop.b.from);
-    glUniform3f(uniforms_.across, 0, 0, crop.b.length());
+    glUniform3f(with.across, 0, 0, crop.b.length());
   }
-  glUniform3f(uniforms_.down, crop.depth.length(), 0, 0);
-  set_hatch(uniforms_.hatch, rect, target_height);
-  glUniform1f(uniforms_.mark_height, direction == ScanDirection::slow ? mark_share : 0);
-  set_colour(uniforms_.mark, palette::warning);
-  set_colour(uniforms_.seam, palette::seam);
-  pass_.fill(rect, target_height);
+  glUniform3f(with.down, crop.depth.length(), 0, 0);
+  with.pass.fill(rect, target_height);
 }
 
 } // namespace octascope::ui

@@ -26,11 +26,21 @@ public:
             const ViewState& view, const Crop& crop, const Rect& rect, int target_height) const;
 
 private:
-  explicit BScanPanel(gl::PicturePass pass);
-  gl::PicturePass pass_;
+  // A shader and where it takes what from.
+  struct Pass {
+    explicit Pass(gl::PicturePass made);
+    gl::PicturePass pass;
+    GLint levels, window, corner, across, down;
+  };
+  BScanPanel(gl::PicturePass pass, gl::PicturePass plain);
+  void set_marks(const StateTexture& states, ScanDirection direction, const Rect& rect,
+                 int target_height) const;
+
+  Pass marking_;
+  Pass plain_; // where every B-scan is good
   struct {
-    GLint levels, states, window, corner, across, down, hatch, mark_height, mark, seam;
-  } uniforms_;
+    GLint states, hatch, mark_height, mark, seam;
+  } marks_;
 };
 
 } // namespace octascope::ui

@@ -13,15 +13,22 @@ namespace octascope::ui {
 
 hal::Result<EnFacePanel> EnFacePanel::create() {
   HAL_TRY(auto pass, gl::PicturePass::create("en_face", with_hatch(shaders::en_face_frag)));
-  return EnFacePanel{std::move(pass)};
+  HAL_TRY(auto plain,
+          gl::PicturePass::create("en_face, all good", all_good(shaders::en_face_frag)));
+  return EnFacePanel{std::move(pass), std::move(plain)};
 }
 
-EnFacePanel::EnFacePanel(gl::PicturePass pass)
-    : pass_{std::move(pass)}, uniforms_{
-                                  pass_.uniform("u_projection"), pass_.uniform("u_states"),
-                                  pass_.uniform("u_corner"),     pass_.uniform("u_extent"),
-                                  pass_.uniform("u_hatch"),      pass_.uniform("u_mark_width"),
-                                  pass_.uniform("u_mark"),       pass_.uniform("u_seam")} {}
+EnFacePanel::EnFacePanel(gl::PicturePass pass, gl::PicturePass plain)
+    : pass_{std::move(pass)}, plain_{std::move(plain)}, uniforms_{pass_.uniform("u_projection"),
+                                                                  pass_.uniform("u_states"),
+                                                                  pass_.uniform("u_corner"),
+                                                                  pass_.uniform("u_extent"),
+                                                                  pass_.uniform("u_hatch"),
+                                                                  pass_.uniform("u_mark_width"),
+                                                                  pass_.uniform("u_mark"),
+                                                                  pass_.uniform("u_seam")},
+      plain_uniforms_{plain_.uniform("u_projection"), plain_.uniform("u_corner"),
+                      plain_.uniform("u_extent")} {}
 
 void EnFacePanel::allocate(int a_scans, int b_scans) {
   a_scans_ = a_scans;
@@ -31,12 +38,12 @@ void EnFacePanel::allocate(int a_scans, int b_scans) {
   projection_ = gl::make_picture_texture(GL_R8, a_scans, b_scans);
 }
 
-void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue) {
+void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue, WorkTeam* team) {
   if (volume.geometry.a_scans != a_scans_ || volume.geometry.b_scans != b_scans_)
     allocate(volume.geometry.a_scans, volume.geometry.b_scans);
   std::swap(grey_, before_);
   grey_.resize(static_cast<std::size_t>(a_scans_) * static_cast<std::size_t>(b_scans_));
-  project_slab(volume, tissue, grey_);
+  project_slab(volume, tissue, grey_, team);
   stretch_contrast(volume, grey_);
   compare_rows();
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -58,6 +65,8 @@ void EnFacePanel::compare_rows() {
 
 void EnFacePanel::draw(const StateTexture& states, const Crop& crop, const Rect& rect,
                        int target_height) const {
+  if (states.all_good())
+    return draw_plain(crop, rect, target_height);
   pass_.use();
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_2D, states.name());
@@ -72,6 +81,16 @@ void EnFacePanel::draw(const StateTexture& states, const Crop& crop, const Rect&
   set_colour(uniforms_.mark, palette::warning);
   set_colour(uniforms_.seam, palette::seam);
   pass_.fill(rect, target_height);
+}
+
+void EnFacePanel::draw_plain(const Crop& crop, const Rect& rect, int target_height) const {
+  plain_.use();
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, projection_.name());
+  glUniform1i(plain_uniforms_.projection, 0);
+  glUniform2f(plain_uniforms_.corner, crop.a.from, crop.b.from);
+  glUniform2f(plain_uniforms_.extent, crop.a.length(), crop.b.length());
+  plain_.fill(rect, target_height);
 }
 
 } // namespace octascope::ui

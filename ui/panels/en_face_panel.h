@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hal/result.h"
+#include "pipeline/threads/work_team.h"
 #include "pipeline/volume/volume.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_pass.h"
@@ -23,8 +24,8 @@ public:
   static hal::Result<EnFacePanel> create();
 
   // Projects on the CPU (about a millisecond for 300 × 80 × 512) and uploads the projection.
-  // `tissue`: of the same volume.
-  void show(const pipeline::Volume& volume, const TissueMap& tissue);
+  // `tissue`: of the same volume. The work is shared among the team.
+  void show(const pipeline::Volume& volume, const TissueMap& tissue, WorkTeam* team = nullptr);
 
   // Of the last show(): 1 for each B-scan of which it changed the projection.
   std::span<const std::uint8_t> changed_rows() const { return changed_; }
@@ -35,11 +36,13 @@ public:
             int target_height) const;
 
 private:
-  explicit EnFacePanel(gl::PicturePass pass);
+  explicit EnFacePanel(gl::PicturePass pass, gl::PicturePass plain);
+  void draw_plain(const Crop& crop, const Rect& rect, int target_height) const;
   void allocate(int a_scans, int b_scans);
   void compare_rows();
 
   gl::PicturePass pass_;
+  gl::PicturePass plain_; // where every B-scan is good
   gl::Texture projection_;
   std::vector<std::uint8_t> grey_;
   std::vector<std::uint8_t> before_; // of the show() before the last
@@ -49,6 +52,9 @@ private:
   struct {
     GLint projection, states, corner, extent, hatch, mark_width, mark, seam;
   } uniforms_;
+  struct {
+    GLint projection, corner, extent;
+  } plain_uniforms_;
 };
 
 } // namespace octascope::ui

@@ -101,16 +101,19 @@ Slab SlabFinder::slab(const TissueMap::Begin& begin) const {
 }
 
 void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
-                  std::span<std::uint8_t> out) {
+                  std::span<std::uint8_t> out, WorkTeam* team) {
   const pipeline::VolumeGeometry& geometry = volume.geometry;
   const SlabFinder finder{geometry};
-  const std::uint8_t* line = volume.levels.data();
-  std::size_t i = 0;
-  for (int b = 0; b < geometry.b_scans; ++b)
+  const auto a_scans = static_cast<std::size_t>(geometry.a_scans);
+  run_pieces(team, static_cast<std::uint32_t>(geometry.b_scans), [&](std::uint32_t piece) {
+    const int b = static_cast<int>(piece);
+    const std::uint8_t* line = volume.b_scan(b).data();
+    std::size_t i = piece * a_scans;
     for (int a = 0; a < geometry.a_scans; ++a, line += geometry.depths)
       out[i++] = tissue.even_at(b, a)
                      ? level_in(line, tissue.begin_of(b, a), finder, tissue.level())
                      : mixed_level(line, tissue.around(b, a), finder, tissue.level());
+  });
 }
 
 void stretch_contrast(const pipeline::Volume& volume, std::span<std::uint8_t> levels) {

@@ -1,5 +1,7 @@
 #include "ui/panels/state_texture.h"
 
+#include <algorithm>
+
 namespace octascope::ui {
 
 void StateTexture::upload(const pipeline::Volume& volume) {
@@ -12,6 +14,9 @@ void StateTexture::upload(const pipeline::Volume& volume) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   }
+  all_good_ = std::ranges::all_of(volume.b_scan_states, [](pipeline::BScanState state) {
+    return state == pipeline::BScanState::good;
+  });
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, b_scans_, 1, GL_RED_INTEGER, GL_UNSIGNED_BYTE,

@@ -11,10 +11,12 @@ class StateTexture {
 public:
   void upload(const pipeline::Volume& volume);
   GLuint name() const { return texture_.name(); }
+  bool all_good() const { return all_good_; } // then no shader need look
 
 private:
   gl::Texture texture_;
   int b_scans_ = 0;
+  bool all_good_ = false;
 };
 
 } // namespace octascope::ui

@@ -171,7 +171,7 @@ void RayCaster::prepare(float steps, Visibility visibility) {
     table_current_ = true;
   }
   if (!bricks_current_ || visibility != visibility_) {
-    bricks_.update(occupancy_, steps_table_->visible, visibility);
+    bricks_.update(occupancy_, steps_table_->visible, visibility, team_.get());
     distances_.forget();
     visibility_ = visibility;
     bricks_current_ = true;
@@ -266,7 +266,7 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
   const RayKernels::Draw kernel = settings.mode == RayMode::maximum  ? kernels_->maximum
                                   : settings.mode == RayMode::shaded ? kernels_->shaded[look]
                                                                      : kernels_->composite[look];
-  distances_.measure(bricks_, octants_of_rays(geometry(), camera));
+  distances_.measure(bricks_, octants_of_rays(geometry(), camera), team_.get());
   const RayFrame rays = frame(camera, settings, image);
   image.draw_into(rectangle_of_box(camera, image));
   find_slabs(camera, settings, image);

@@ -178,9 +178,9 @@ void VolumePainter::weaken(const pipeline::Volume& volume, int b_scan) {
 // A B-scan is drawn weaker by the thread that copies it, which then has it in its cache.
 void VolumePainter::copy_for_rays(const pipeline::Volume& volume) {
   const auto show = [&] {
-    return weakened_shows_ ? caster_->show(weakened_, occupancy_,
-                                           [this, &volume](int b) { weaken(volume, b); })
-                           : caster_->show(volume, occupancy_);
+    return weakened_shows_
+               ? caster_->show(weakened_, occupancy_, [this, &volume](int b) { weaken(volume, b); })
+               : caster_->show(volume, occupancy_);
   };
   caster_shows_ = caster_ && show();
   if (!caster_shows_ && weakened_shows_)

@@ -111,6 +111,9 @@ public:
   const pipeline::Occupancy& occupancy() const { return occupancy_; } // of the shown volume
   std::uint64_t uploads() const { return uploads_; }                  // the number of volumes shown
 
+  // The processor's drawing threads, for other work between two pictures; null: there are none.
+  WorkTeam* team() { return caster_ ? &caster_->team() : nullptr; }
+
   // The number of pictures that update() drew; unchanged pictures are not redrawn.
   std::uint64_t drawings() const;
 

@@ -1,5 +1,5 @@
 // A cross-section of the volume, depth downwards, windowed by formula 1 of the OCT paper: along a
-// B-scan, or across all of them.
+// B-scan, or across all of them. With ALL_GOOD, of B-scans that are all good.
 precision highp sampler3D;
 precision highp usampler2D;
 
@@ -20,12 +20,15 @@ uniform vec3 u_seam;
 
 out vec4 o_colour;
 
+#ifndef ALL_GOOD
 uint state_of(int b_scan, int count) {
   return texelFetch(u_states, ivec2(clamp(b_scan, 0, count - 1), 0), 0).r;
 }
+#endif
 
 void main() {
   vec3 place = u_corner + v_unit.x * u_across + v_unit.y * u_down;
+#ifndef ALL_GOOD
   int count = textureSize(u_states, 0).x;
   float slow = place.z * float(count);
   int here = clamp(int(slow), 0, count - 1);
@@ -34,13 +37,16 @@ void main() {
   uint beside = state_of(slow - float(here) < 0.5 ? here - 1 : here + 1, count);
   if (beside == 0u || beside == 3u)
     place.z = (float(here) + 0.5) / float(count);
+#endif
   float level = texture(u_levels, place).r;
   vec3 colour = vec3(clamp(level * u_window.x + u_window.y, 0.0, 1.0));
+#ifndef ALL_GOOD
   if (state == 2u && v_unit.y < u_mark_height)
     colour = u_mark;
   if (state == 0u)
     colour = hatch(gl_FragCoord.xy, u_hatch);
   if (state == 3u && u_across.z > 0.0)
     colour = u_seam;
+#endif
   o_colour = vec4(colour, 1.0);
 }

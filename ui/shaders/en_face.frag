@@ -1,4 +1,5 @@
 // The projection along depth: the fast axis to the right, B-scans downwards.
+// With ALL_GOOD, of B-scans that are all good.
 precision highp usampler2D;
 
 in vec2 v_unit;
@@ -16,16 +17,17 @@ out vec4 o_colour;
 
 void main() {
   vec2 place = u_corner + v_unit * u_extent;
+  vec3 colour = vec3(texture(u_projection, place).r);
+#ifndef ALL_GOOD
   int count = textureSize(u_states, 0).x;
   int b_scan = clamp(int(place.y * float(count)), 0, count - 1);
   uint state = texelFetch(u_states, ivec2(b_scan, 0), 0).r;
-  float grey = texture(u_projection, place).r;
-  vec3 colour = vec3(grey);
   if (state == 2u && v_unit.x > 1.0 - u_mark_width)
     colour = u_mark;
   if (state == 0u)
     colour = hatch(gl_FragCoord.xy, u_hatch);
   if (state == 3u)
     colour = u_seam;
+#endif
   o_colour = vec4(colour, 1.0);
 }

@@ -12,6 +12,21 @@
 
 namespace octascope::ui {
 
+namespace {
+
+std::size_t tile_count(int pixels) {
+  return static_cast<std::size_t>((pixels + tile_size - 1) / tile_size);
+}
+
+bool any_of(const std::uint32_t* from, const std::uint32_t* to) {
+  std::uint32_t all = 0;
+  for (; from != to; ++from)
+    all |= *from;
+  return all != 0;
+}
+
+} // namespace
+
 hal::Result<RayCastPicture> RayCastPicture::create() {
   HAL_TRY(auto pass, gl::PicturePass::create("ray_image", shaders::ray_image_frag));
   return RayCastPicture{std::move(pass)};
@@ -30,7 +45,11 @@ hal::Result<> RayCastPicture::resize(int width, int height, const Rect& rect) {
   image_.make_room(rect.width, rect.height);
   image_.resize(width, height);
   const auto tiles = [](int pixels) { return static_cast<std::size_t>(pixels / tile_size + 2); };
-  changed_.reserve(tiles(rect.width) * tiles(rect.height));
+  const std::size_t most_tiles = tiles(rect.width) * tiles(rect.height);
+  changed_.reserve(most_tiles);
+  filled_.reserve(most_tiles);
+  was_filled_.reserve(most_tiles);
+  filled_.assign(tile_count(width) * tile_count(height), 1); // what stands there now is unknown
   return {};
 }
 
@@ -127,10 +146,31 @@ Rect RayCastPicture::visible_in(const Rect& rect) const {
           scaled(to(drawn.bottom(), image_.height), image_.height, rect.height) - top};
 }
 
-// Tile by tile, of a renewal; side by side in one piece.
+void RayCastPicture::find_filled() {
+  std::swap(filled_, was_filled_);
+  filled_.assign(was_filled_.size(), 0);
+  const std::size_t across = tile_count(image_.width);
+  const Rect& drawn = image_.drawn;
+  for (int y = drawn.y; y < drawn.bottom(); ++y) {
+    const std::uint32_t* const row =
+        image_.rgba.data() + static_cast<std::ptrdiff_t>(y) * image_.width;
+    std::uint8_t* const filled = filled_.data() + static_cast<std::size_t>(y / tile_size) * across;
+    for (int x = drawn.x; x < drawn.right(); x = (x / tile_size + 1) * tile_size)
+      if (filled[x / tile_size] == 0)
+        filled[x / tile_size] =
+            any_of(row + x, row + std::min((x / tile_size + 1) * tile_size, drawn.right())) ? 1 : 0;
+  }
+}
+
+// Tile by tile, side by side in one piece. What was empty and is empty has not changed.
 void RayCastPicture::note_changes(const RayCaster& caster, bool renewed) {
+  find_filled();
   if (!renewed) {
-    changed_.push_back({0, 0, image_.width, image_.height});
+    const auto across = static_cast<int>(tile_count(image_.width));
+    for (std::size_t i = 0; i < filled_.size(); ++i)
+      if ((filled_[i] | was_filled_[i]) != 0)
+        changed_.push_back({static_cast<int>(i) % across * tile_size,
+                            static_cast<int>(i) / across * tile_size, tile_size, tile_size});
     return;
   }
   const Rect& drawn = image_.drawn;

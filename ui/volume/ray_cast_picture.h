@@ -41,6 +41,7 @@ private:
                      const VolumePictureKey& key);
   bool is_renewal(const VolumeScene& scene, RayMode mode, VolumePictureKey key) const;
   void note_changes(const RayCaster& caster, bool renewed);
+  void find_filled();
   Rect shown_at(const Rect& texels, const Rect& rect) const;
   void upload_image(bool all);
   Rect visible_in(const Rect& rect) const;
@@ -54,7 +55,9 @@ private:
   std::optional<VolumePictureKey> drawn_;
   std::optional<VolumePictureKey> cast_; // of update(): what the image held before
   RayMode cast_mode_ = RayMode::composite;
-  std::vector<Rect> changed_; // of the image, by the last update()
+  std::vector<Rect> changed_;        // of the image, by the last update()
+  std::vector<std::uint8_t> filled_; // by tile of the image: whether anything is in it
+  std::vector<std::uint8_t> was_filled_;
   std::uint64_t drawings_ = 0;
   RayMode drawn_mode_ = RayMode::composite;
 };

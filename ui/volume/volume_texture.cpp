@@ -71,15 +71,14 @@ hal::Result<> VolumeTexture::write_a_scans(const pipeline::Volume& volume,
   a_scans_.resize(size * static_cast<std::size_t>(geometry_.b_scans));
   auto to = a_scans_.begin();
   for (int b = 0; b < geometry_.b_scans; ++b)
-    to = std::ranges::copy(volume.b_scan(b).subspan(
-                               static_cast<std::size_t>(a_scans.from) * depths, size),
-                           to)
+    to = std::ranges::copy(
+             volume.b_scan(b).subspan(static_cast<std::size_t>(a_scans.from) * depths, size), to)
              .out;
   HAL_TRY(const void* const pixels, uploader_.stage(a_scans_));
   glBindTexture(GL_TEXTURE_3D, textures_[1 - front_].name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, a_scans.from, 0, geometry_.depths,
-                  a_scans.to - a_scans.from, geometry_.b_scans, GL_RED, GL_UNSIGNED_BYTE, pixels);
+  glTexSubImage3D(GL_TEXTURE_3D, 0, 0, a_scans.from, 0, geometry_.depths, a_scans.to - a_scans.from,
+                  geometry_.b_scans, GL_RED, GL_UNSIGNED_BYTE, pixels);
   gl::PixelUploader::unbind();
   return {};
 }
@@ -113,8 +112,8 @@ hal::Result<> VolumeTexture::fill_back(const pipeline::Volume& volume, const Tex
   HAL_CHECK(write_lacking(volume, b_scans_of(parts)));
   if (!parts.all) {
     const int middle = std::clamp(parts.a_scan, 0, geometry_.a_scans - 1);
-    HAL_CHECK(write_a_scans(
-        volume, {std::max(middle - 1, 0), std::min(middle + 2, geometry_.a_scans)}));
+    HAL_CHECK(
+        write_a_scans(volume, {std::max(middle - 1, 0), std::min(middle + 2, geometry_.a_scans)}));
     a_scan_[1 - front_] = middle;
   }
   front_ = 1 - front_;

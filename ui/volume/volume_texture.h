@@ -37,8 +37,7 @@ public:
 
   // The same where the volume differs from the one that was uploaded last in these B-scans alone;
   // none: in nothing, and what of the parts was left out then is copied.
-  hal::Result<> renew(const pipeline::Volume& volume,
-                      std::span<const pipeline::BScanRange> changed,
+  hal::Result<> renew(const pipeline::Volume& volume, std::span<const pipeline::BScanRange> changed,
                       const TextureParts& parts = {});
 
   // Whether it has them of the volume that was uploaded or renewed last.
@@ -61,7 +60,7 @@ private:
   gl::PixelUploader uploader_;
   pipeline::VolumeGeometry geometry_;
   std::size_t front_ = 0;
-  std::vector<std::uint8_t> old_; // by B-scan: bits of the textures that lack its newest levels
+  std::vector<std::uint8_t> old_;     // by B-scan: bits of the textures that lack its newest levels
   std::array<int, 2> a_scan_{-1, -1}; // of the section that a texture has the newest levels of
   std::vector<std::uint8_t> a_scans_; // what is copied of that one
 };
