@@ -26,7 +26,8 @@ OCTASCOPE_INLINE std::uint32_t load_counts(const Count* counts, const float* bac
 
 // Four lines at a time: the sums are loaded and stored a quarter as often. The counts come from
 // memory, and this is the first to read them: the next four lines are fetched meanwhile, as the
-// processor's own prefetching ends with each page.
+// processor's own prefetching ends with each page. Into the second-level cache: the first has too
+// few outstanding misses for that, and the counts are read again anyway.
 template <class Count, class Sum>
 OCTASCOPE_INLINE void sum_counts(const Count* counts, int lines, int samples, Sum* sum) {
   const auto stride = static_cast<std::size_t>(samples);
@@ -37,7 +38,7 @@ OCTASCOPE_INLINE void sum_counts(const Count* counts, int lines, int samples, Su
     const Count* ahead = counts + (line + 8 <= lines ? 4 * stride : 0);
     for (std::size_t start = 0; start < stride; start += block) {
       for (std::size_t i = 0; i < 4; ++i)
-        __builtin_prefetch(ahead + i * stride + start);
+        __builtin_prefetch(ahead + i * stride + start, 0, 2);
       const std::size_t end = std::min(start + block, stride);
       for (std::size_t p = start; p < end; ++p)
         sum[p] +=

@@ -135,40 +135,42 @@ HWY_INLINE void store_reversed(Real value, std::size_t r, std::size_t registers,
   hn::Store(hn::Reverse(Floats{}, value), Floats{}, row + (registers - 1 - r) * lanes);
 }
 
-// What is made of the bins of a group, from place `row` on. Mirrored ones are the conjugates of bins of
-// another row, backwards.
+// What is made of the bins of a group, in rows `stride` floats apart. Mirrored ones are the
+// conjugates of bins of another row, backwards.
 struct Powers {
   float* rows;
+  int stride;
 
   template <std::size_t Registers>
   HWY_INLINE void put(const Complex (&y)[Registers], int row) const {
-    store_power(y, rows + row);
+    store_power(y, rows + row * stride);
   }
   template <std::size_t Registers>
   HWY_INLINE void put_mirrored(const Complex (&y)[Registers], int row) const {
     alignas(64) float power[Registers * lanes];
     store_power(y, power);
     for (std::size_t r = 0; r < Registers; ++r)
-      store_reversed(hn::Load(Floats{}, power + r * lanes), r, Registers, rows + row);
+      store_reversed(hn::Load(Floats{}, power + r * lanes), r, Registers, rows + row * stride);
   }
 };
 
 struct Bins {
   float* re;
   float* im;
+  int stride;
 
   template <std::size_t Registers>
   HWY_INLINE void put(const Complex (&y)[Registers], int row) const {
     for (std::size_t r = 0; r < Registers; ++r) {
-      hn::Store(y[r].re, Floats{}, re + row + r * lanes);
-      hn::Store(y[r].im, Floats{}, im + row + r * lanes);
+      hn::Store(y[r].re, Floats{}, re + row * stride + r * lanes);
+      hn::Store(y[r].im, Floats{}, im + row * stride + r * lanes);
     }
   }
   template <std::size_t Registers>
   HWY_INLINE void put_mirrored(const Complex (&y)[Registers], int row) const {
     for (std::size_t r = 0; r < Registers; ++r) {
-      store_reversed(y[r].re, r, Registers, re + row);
-      store_reversed(hn::Neg(y[r].im), r, Registers, im + row);
+      store_reversed(y[r].re, r, Registers, re + row * stride);
+      store_reversed(hn::Neg(y[r].im), r, Registers, im + row * stride);
     }
   }
 };
@@ -200,7 +202,6 @@ HWY_INLINE void last_group(const FusedTables& tables, const float* from, const f
 
 template <int Radix, class Ending>
 HWY_INLINE void last_pass(const FusedTables& tables, const float* work, const Ending& ending) {
-  constexpr int row_size = Radix / 2 * lanes;
   const int groups = tables.blocks / Radix;
   const int groups_each = groups / first_radix; // of each of the first radix' results
   const int made = tables.real_input ? real_results * groups_each : groups;
@@ -211,10 +212,9 @@ HWY_INLINE void last_pass(const FusedTables& tables, const float* work, const En
     const float* from = work + static_cast<std::ptrdiff_t>(group) * Radix * slot;
     const int row = tables.last_rows[static_cast<std::size_t>(group)];
     if (group < mirrored_from || group >= mirrored_to)
-      last_group<Radix, false>(tables, from, twiddles, ending, row * row_size, 0);
+      last_group<Radix, false>(tables, from, twiddles, ending, row, 0);
     else
-      last_group<Radix, true>(tables, from, twiddles, ending, row * row_size,
-                              (groups - row) * row_size);
+      last_group<Radix, true>(tables, from, twiddles, ending, row, groups - row);
   }
 }
 
@@ -222,9 +222,9 @@ template <class Level> const std::int32_t* row_offsets(const FusedTables& tables
   return std::is_same_v<Level, float> ? tables.offsets_db.data() : tables.offsets_u8.data();
 }
 
-// The rest of the transform; says how many slots a group of the last pass has.
+// The rest of the transform.
 template <class Ending>
-HWY_INLINE std::ptrdiff_t transform(const FusedTables& tables, float* work, const Ending& ending) {
+HWY_INLINE void transform(const FusedTables& tables, float* work, const Ending& ending) {
   const std::ptrdiff_t slots =
       tables.real_input ? tables.blocks / first_radix * real_results : tables.blocks;
   std::ptrdiff_t size = tables.blocks / first_radix;
@@ -241,25 +241,31 @@ HWY_INLINE std::ptrdiff_t transform(const FusedTables& tables, float* work, cons
     last_pass<8>(tables, work, ending);
   else
     last_pass<4>(tables, work, ending);
-  return size;
 }
 
 template <class Level> void finish(const FusedTables& tables, float* work, Level* levels) {
-  float* power = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
-  const std::ptrdiff_t size = transform(tables, work, Powers{power});
+  const bool ordered =
+      std::is_same_v<Level, std::uint8_t> && ordered_blocks > 0 && tables.blocks == ordered_blocks;
+  const int row_size = tables.last_radix() / 2 * lanes;
+  // Where nothing else is written, each row takes the place of the group that it comes from: a line
+  // touches less memory.
+  const int stride = ordered ? tables.last_radix() * slot : row_size;
+  float* power = ordered ? work : work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
+  transform(tables, work, Powers{power, stride});
+  if (ordered)
+    return make_ordered_levels(power, stride, levels);
   Level* rows = reinterpret_cast<Level*>(work); // which is no longer needed
   make_levels(power, tables.samples / 2, rows);
-  const int row_size = static_cast<int>(size) / 2 * lanes;
-  for (int row = 0; row < tables.blocks / static_cast<int>(size); row += 8)
+  for (int row = 0; row < tables.blocks / tables.last_radix(); row += 8)
     unscramble_rows(rows + row * row_size, row_size, row_offsets<Level>(tables), levels + row);
 }
 
 void finish_bins(const FusedTables& tables, float* work, std::complex<float>* bins) {
+  const int row_size = tables.last_radix() / 2 * lanes;
   float* re = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
   float* im = re + tables.samples / 2;
-  const std::ptrdiff_t size = transform(tables, work, Bins{re, im});
-  const int row_size = static_cast<int>(size) / 2 * lanes;
-  for (int row = 0; row < tables.blocks / static_cast<int>(size); row += 8)
+  transform(tables, work, Bins{re, im, row_size});
+  for (int row = 0; row < tables.blocks / tables.last_radix(); row += 8)
     unscramble_bins(re + row * row_size, im + row * row_size, row_size, tables.offsets_db.data(),
                     bins + row);
 }

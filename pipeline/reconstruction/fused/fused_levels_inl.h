@@ -83,15 +83,20 @@ HWY_INLINE void make_levels(const float* power, int count, float* levels) {
   }
 }
 
-// Levels in counts: of two registers each, the parts of 128 bits in turns.
-HWY_INLINE void make_levels(const float* power, int count, std::uint8_t* levels) {
+// Levels in counts, as yet unrounded.
+HWY_INLINE void load_counts(const float* power, Real (&level)[registers_at_once]) {
   constexpr float counts_per_octave = db_per_octave_of_power / level_step_db;
   constexpr float zero_db = level_count(0.0F);
+  load_levels(power, counts_per_octave, zero_db, level);
+}
+
+// Levels in counts: of two registers each, the parts of 128 bits in turns.
+HWY_INLINE void make_levels(const float* power, int count, std::uint8_t* levels) {
   const hn::Rebind<std::uint8_t, Words> bytes;
   constexpr int step = static_cast<int>(registers_at_once) * lanes;
   for (int x = 0; x < count; x += step) {
     Real level[registers_at_once];
-    load_levels(power + x, counts_per_octave, zero_db, level);
+    load_counts(power + x, level);
 #pragma GCC unroll 4
     for (std::size_t r = 0; r < registers_at_once; r += 2) {
       const auto words = hn::ReorderDemote2To(Words{}, nearest(level[r]), nearest(level[r + 1]));
@@ -99,6 +104,55 @@ HWY_INLINE void make_levels(const float* power, int count, std::uint8_t* levels)
     }
   }
 }
+
+// Whether make_ordered_levels() serves lines of so many blocks: the last pass then has radix 8, and
+// its rows are eight of four registers.
+inline constexpr int ordered_blocks = HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86 ? first_radix * 8 : 0;
+
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+
+// Eight rows of powers, `stride` floats apart → the levels of a line in the order of depth, without
+// rows of levels between.
+HWY_INLINE void make_ordered_levels(const float* power, int stride, std::uint8_t* levels) {
+  __m512i row[8]; // [part of 128 bits][group of four results][v, u: eight bins]
+#pragma GCC unroll 8
+  for (int q = 0; q < 8; ++q) {
+    Real value[registers_at_once];
+    load_counts(power + std::ptrdiff_t{q} * stride, value);
+    row[q] = _mm512_packus_epi16(_mm512_packs_epi32(nearest(value[0]).raw, nearest(value[1]).raw),
+                                 _mm512_packs_epi32(nearest(value[2]).raw, nearest(value[3]).raw));
+  }
+  __m512i column[2][4]; // [group][pair of bins]: [part][bin][row]
+  for (int group = 0; group < 2; ++group) {
+    __m512i pair[4];
+    for (int i = 0; i < 4; ++i)
+      pair[i] = group == 0 ? _mm512_unpacklo_epi8(row[2 * i], row[2 * i + 1])
+                           : _mm512_unpackhi_epi8(row[2 * i], row[2 * i + 1]);
+    const __m512i four[2][2] = {
+        {_mm512_unpacklo_epi16(pair[0], pair[1]), _mm512_unpackhi_epi16(pair[0], pair[1])},
+        {_mm512_unpacklo_epi16(pair[2], pair[3]), _mm512_unpackhi_epi16(pair[2], pair[3])}};
+    for (int i = 0; i < 2; ++i) {
+      column[group][2 * i] = _mm512_unpacklo_epi32(four[0][i], four[1][i]);
+      column[group][2 * i + 1] = _mm512_unpackhi_epi32(four[0][i], four[1][i]);
+    }
+  }
+  const __m512i even = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14);
+  const __m512i odd = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
+  for (int i = 0; i < 4; ++i) {
+    const __m512i& low = column[0][i];
+    const __m512i& high = column[1][i];
+    _mm512_storeu_si512(levels + 128 * i, _mm512_permutex2var_epi64(low, even, high));
+    _mm512_storeu_si512(levels + 128 * i + 64, _mm512_permutex2var_epi64(low, odd, high));
+  }
+}
+
+#else
+
+HWY_INLINE void make_ordered_levels(const float*, int, std::uint8_t*) {}
+
+#endif
+
+HWY_INLINE void make_ordered_levels(const float*, int, float*) {}
 
 HWY_INLINE void store_halves(hn::Vec<hn::Full128<std::uint8_t>> both, std::uint8_t* lower,
                              std::uint8_t* upper) {
