@@ -318,7 +318,8 @@ RunCounters RenderLoop::final_counters(hal::Duration lasted) const {
   const auto per_s = [lasted](std::uint64_t count) {
     return static_cast<double>(count) / hal::to_seconds(lasted);
   };
-  all.rates = {per_s(all.lines), per_s(all.volumes.published), per_s(all.frames_drawn)};
+  all.rates = {per_s(all.lines), per_s(all.volumes.published), per_s(all.displayed),
+               per_s(all.frames_drawn)};
   return all;
 }
 
@@ -387,6 +388,8 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
   const hal::Duration took = flip.completed - begin;
   ++statistics_.frames_drawn;
   statistics_.draw.add(took);
+  if (renderer_->drew_volume())
+    statistics_.quality.add(controller_.state().technique, quality_);
   statistics_.frames_missed +=
       static_cast<std::uint64_t>(std::max<std::int64_t>(took / parts_.display.refresh_period(), 0));
   volume_.flipped(flip.completed);
