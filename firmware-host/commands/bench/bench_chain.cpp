@@ -24,8 +24,8 @@ namespace {
 constexpr std::array formats{ChainFormat{1024, 300, 80}, ChainFormat{1024, 512, 128},
                              ChainFormat{2048, 300, 80}, ChainFormat{2048, 512, 128}};
 constexpr std::array given_rates_hz{215e3, 430e3, 860e3};
-constexpr double given_runs = 80; // what the time is divided by: each starts a program
-constexpr double search_runs = 160;
+constexpr double displayed_runs = 80; // what the time is divided by: each starts a program
+constexpr double undisplayed_runs = 160;
 constexpr double shortest_run_s = 1.5;  // a display needs a part of it to open
 constexpr double fewest_volumes = 6;    // that a run is long enough for
 constexpr double fly_back_share = 0.26; // of the kept lines
@@ -54,11 +54,12 @@ public:
   Chain(BenchFolder folder, const ChainConditions& conditions)
       : folder_{std::move(folder)}, conditions_{conditions} {}
 
-  // For at least so long.
-  hal::Result<ChainFigures> measure(const ChainCase& what, double least_s) {
+  hal::Result<ChainFigures> measure(const ChainCase& what) {
     const std::filesystem::path file = folder_.file("chain.toml");
     write_configuration(file, what);
-    const double run_s = std::max(least_s, fewest_volumes / planned_per_s(what));
+    const double run_s =
+        std::max(what.display ? conditions_.displayed_run_s : conditions_.undisplayed_run_s,
+                 fewest_volumes / planned_per_s(what));
     const ProcessorTime before = ProcessorTime::now();
     HAL_TRY(ChainFigures figures, what.display ? displayed(file, run_s) : undisplayed(file, run_s));
     const ProcessorTime after = ProcessorTime::now();
@@ -71,7 +72,7 @@ public:
     int held = 0;
     int lost = 0;
     while (lost < 2) {
-      HAL_TRY(const ChainFigures figures, measure(what, conditions_.search_run_s));
+      HAL_TRY(const ChainFigures figures, measure(what));
       // Neither a chain that was not fed nor one that showed nothing has held.
       const bool came = figures.volumes_per_s >= planned_per_s(what) / 2;
       const bool shown = !what.display || figures.quality.frames > 0;
@@ -174,7 +175,7 @@ private:
   hal::Result<> measure_given(const ChainCase& what) {
     if (seconds_since(began_) >= seconds_)
       return {};
-    HAL_TRY(const ChainFigures figures, chain_.measure(what, report_.conditions.given_run_s));
+    HAL_TRY(const ChainFigures figures, chain_.measure(what));
     add({what, figures, RateSign::given});
     return {};
   }
@@ -256,8 +257,8 @@ ChainConditions conditions_of(const ChainOptions& options) {
   return {.cpu = processor_name(),
           .cores = static_cast<int>(std::thread::hardware_concurrency()),
           .size = options.size,
-          .given_run_s = std::max(options.seconds / given_runs, shortest_run_s),
-          .search_run_s = std::max(options.seconds / search_runs, shortest_run_s)};
+          .displayed_run_s = std::max(options.seconds / displayed_runs, shortest_run_s),
+          .undisplayed_run_s = std::max(options.seconds / undisplayed_runs, shortest_run_s)};
 }
 
 hal::Result<ChainReport> bench_chain(const ChainOptions& options,
@@ -272,7 +273,8 @@ std::string to_json(const ChainReport& report) {
       {"cpu", conditions.cpu},
       {"cores", conditions.cores},
       {"display", fmt::format("offscreen, {}x{}", conditions.size[0], conditions.size[1])},
-      {"run_s", {{"given", conditions.given_run_s}, {"search", conditions.search_run_s}}},
+      {"run_s",
+       {{"with_display", conditions.displayed_run_s}, {"without", conditions.undisplayed_run_s}}},
       {"cases", nlohmann::ordered_json::array()},
       {"highest_line_rate_hz",
        {{"reconstruct_only", report.reconstruct_only_hz},

@@ -23,9 +23,9 @@ struct ChainOptions {
 struct ChainConditions {
   std::string cpu;
   int cores = 1;
-  std::array<int, 2> size{}; // of the picture, offscreen
-  double given_run_s = 0;    // at a given rate, start included
-  double search_run_s = 0;   // for the highest
+  std::array<int, 2> size{};  // of the picture, offscreen
+  double displayed_run_s = 0; // start included
+  double undisplayed_run_s = 0;
 };
 
 ChainConditions conditions_of(const ChainOptions& options);
