@@ -144,17 +144,19 @@ ui::FrameBudget RenderLoop::frame_budget() const {
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
-// it: the badge does not wait for a picture that takes its time.
+// it: the badge does not wait for a picture that takes its time. Nor is one that came too late, where
+// others follow it: drawn finely, it would make the next one later still.
 ui::DrawQuality RenderLoop::choose_quality() {
   const ui::ViewState& view = controller_.state();
   const bool moved = drawn_view_ && !ui::same_sight(*drawn_view_, view);
   governor_.set_budget(frame_budget());
-  ui::DrawQuality quality = governor_.choose(
-      {.now = status().now,
-       .technique = view.technique,
-       .moved = moved,
-       .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_),
-       .in_parts = draws_parts()});
+  ui::DrawQuality quality =
+      governor_.choose({.now = status().now,
+                        .technique = view.technique,
+                        .moved = moved,
+                        .live = brings_volumes(status().freshness.liveness) ||
+                                brings_volumes(drawn_liveness_) || volume_undisplayed_,
+                        .in_parts = draws_parts()});
   quality.rays = rays_;
   if (parts_.vessels != nullptr) {
     quality.vessel_detail_px = parts_.vessels->detail_px(status().now, moved);
