@@ -42,6 +42,7 @@ std::string to_json(const ReplayReport& r) {
       {"saturated_lines", volumes.saturated_lines},
       {"latency_ms", to_json(r.counters.latency)},
       {"frames", {{"drawn", r.counters.frames_drawn}}},
+      {"quality", to_json(r.quality)},
       {"hot_path", {{"allocations", r.counters.hot_path_allocations}}},
       {"faults", to_json(r.faults, r.started)}};
   // What a file says of itself may be in anything.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware-host/ledger/shown_quality.h"
 #include "firmware-host/supervision/run_counters.h"
 #include "hal/clock.h"
 #include "hal/result.h"
@@ -20,6 +21,7 @@ struct ReplayReport {
   std::size_t recorded = 0;           // volumes in the file
   std::string control_input, display; // backends
   RunCounters counters;
+  QualitySummary quality; // of the shown frames
   double duration_s = 0;
   std::vector<pipeline::FaultRecord> faults;
   hal::TimePoint started; // fault times are relative to it

@@ -157,6 +157,7 @@ std::string to_json(const RunReport& r) {
       {"rays", rays_to_json(r)},
       {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},
       {"frames", {{"drawn", r.counters.frames_drawn}, {"missed", r.counters.frames_missed}}},
+      {"quality", to_json(r.quality)},
       {"hot_path", {{"allocations", r.counters.hot_path_allocations}}},
       {"picture", picture_to_json(r.picture)},
       {"view", view_to_json(r.view)},
@@ -175,6 +176,8 @@ std::string to_text(const RunReport& r) {
       r.duration_s, c.displayed, c.volumes.acquired, c.rates.volumes_per_s, c.rates.lines_per_s,
       c.frames_drawn, c.rates.frames_per_s, c.volumes.lost_lines, c.volumes.lost_b_scans,
       c.volumes.lost_volumes, c.latency.p50_ms, c.latency.p95_ms);
+  if (const std::string quality = to_text(r.quality); !quality.empty())
+    text += fmt::format("the volume was drawn at {}\n", quality);
   if (r.plan.bidirectional)
     text +=
         fmt::format("bidirectional: phase offset {:.2f} A-scans, {}\n", r.scan_lag.in_use_a_scans,

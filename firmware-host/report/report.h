@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware-host/ledger/passage.h"
+#include "firmware-host/ledger/shown_quality.h"
 #include "firmware-host/supervision/appliance_status.h"
 #include "firmware-host/supervision/run_counters.h"
 #include "hal/clock.h"
@@ -62,6 +63,7 @@ struct RunReport {
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, control;
   pipeline::DurationSummary line_latency;       // of every line that was shown
   std::array<StageSummary, stage_count> stages; // of the latency
+  QualitySummary quality;                       // of the shown frames
   std::optional<ui::RayTrial> rays;
   std::optional<double> first_picture_s; // since the process began
   ShownPicture picture;

@@ -144,16 +144,18 @@ ui::FrameBudget RenderLoop::frame_budget() const {
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
-// it: the badge does not wait for a picture that takes its time.
+// it: the badge does not wait for a picture that takes its time. Nor is one that came too late, where
+// others follow it: drawn finely, it would make the next one later still.
 ui::DrawQuality RenderLoop::choose_quality() {
   const ui::ViewState& view = controller_.state();
   const bool moved = drawn_view_ && !ui::same_sight(*drawn_view_, view);
   governor_.set_budget(frame_budget());
-  ui::DrawQuality quality = governor_.choose(
-      {.now = status().now,
-       .technique = view.technique,
-       .moved = moved,
-       .live = brings_volumes(status().freshness.liveness) || brings_volumes(drawn_liveness_)});
+  ui::DrawQuality quality =
+      governor_.choose({.now = status().now,
+                        .technique = view.technique,
+                        .moved = moved,
+                        .live = brings_volumes(status().freshness.liveness) ||
+                                brings_volumes(drawn_liveness_) || volume_undisplayed_});
   quality.rays = rays_;
   if (parts_.vessels != nullptr) {
     quality.vessel_detail_px = parts_.vessels->detail_px(status().now, moved);
@@ -317,7 +319,8 @@ RunCounters RenderLoop::final_counters(hal::Duration lasted) const {
   const auto per_s = [lasted](std::uint64_t count) {
     return static_cast<double>(count) / hal::to_seconds(lasted);
   };
-  all.rates = {per_s(all.lines), per_s(all.volumes.published), per_s(all.frames_drawn)};
+  all.rates = {per_s(all.lines), per_s(all.volumes.published), per_s(all.displayed),
+               per_s(all.frames_drawn)};
   return all;
 }
 
@@ -385,6 +388,8 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
   const hal::Duration took = flip.completed - begin;
   ++statistics_.frames_drawn;
   statistics_.draw.add(took);
+  if (renderer_->drew_volume())
+    statistics_.quality.add(controller_.state().technique, quality_);
   statistics_.frames_missed +=
       static_cast<std::uint64_t>(std::max<std::int64_t>(took / parts_.display.refresh_period(), 0));
   volume_.flipped(flip.completed);

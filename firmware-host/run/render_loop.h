@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "firmware-host/ledger/passage.h"
+#include "firmware-host/ledger/shown_quality.h"
 #include "firmware-host/ledger/timing_history.h"
 #include "firmware-host/ledger/trace.h"
 #include "firmware-host/run/shown_volume.h"
@@ -87,6 +88,7 @@ struct FrameStatistics {
   pipeline::DurationStatistics latency;
   StageStatistics stages;               // of it, for volumes from the pipeline
   pipeline::DurationStatistics control; // pedal or knob → end of the first frame that shows it
+  ShownQuality quality;
   std::uint64_t frames_drawn = 0;
   std::uint64_t frames_missed = 0;
   std::uint64_t volumes_taken = 0;             // from the triple buffer

@@ -134,6 +134,7 @@ hal::Result<> ReplaySource::report(const RenderLoop& loop, const RunTimes& times
                    .control_input = std::string{devices_->control_input().backend()},
                    .display = std::string{devices_->display().backend()},
                    .counters = loop.final_counters(lasted),
+                   .quality = loop.statistics().quality.summary(),
                    .duration_s = hal::to_seconds(lasted),
                    .faults = faults_.records(),
                    .started = times.started},

@@ -52,6 +52,7 @@ void add_frames(RunReport& report, const FrameStatistics& frames) {
     report.stages[i].lengths = frames.stages[i].summary();
     frames.stages[i].histogram(StageSummary::most_ms, report.stages[i].histogram);
   }
+  report.quality = frames.quality.summary();
   report.rays = frames.rays;
 }
 

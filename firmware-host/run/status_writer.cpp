@@ -45,9 +45,11 @@ void StatusWriter::show(const pipeline::Volume& volume) {
 void StatusWriter::count(const RunCounters& counters, hal::TimePoint now) {
   status_.now = now;
   volume_rate_.update(counters.volumes.acquired, now);
+  shown_rate_.update(counters.displayed, now);
   line_rate_.update(counters.lines, now);
   frame_rate_.update(counters.frames_drawn, now);
   status_.volumes_per_s = volume_rate_.per_second();
+  status_.shown_volumes_per_s = shown_rate_.per_second();
   status_.lines_per_s = line_rate_.per_second();
   status_.frames_per_s = frame_rate_.per_second();
   status_.losses = {counters.volumes.lost_lines, counters.volumes.lost_b_scans,

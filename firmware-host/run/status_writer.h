@@ -44,7 +44,8 @@ public:
 
   const ui::Status& status() const { return status_; }
   RunRates rates() const {
-    return {line_rate_.per_second(), volume_rate_.per_second(), frame_rate_.per_second()};
+    return {line_rate_.per_second(), volume_rate_.per_second(), shown_rate_.per_second(),
+            frame_rate_.per_second()};
   }
   bool has_volume() const { return shown_.has_value(); }
 
@@ -67,7 +68,7 @@ public:
 private:
   ui::Status status_;
   std::optional<ui::ShownVolume> shown_;
-  RateMeter volume_rate_, line_rate_, frame_rate_;
+  RateMeter volume_rate_, shown_rate_, line_rate_, frame_rate_;
 };
 
 } // namespace octascope::firmware_host

@@ -26,6 +26,7 @@ inline ReportJson to_json(const pipeline::DurationSummary& s) {
 inline ReportJson to_json(const RunRates& rates) {
   return {{"lines_per_s", rounded(rates.lines_per_s)},
           {"volumes_per_s", rounded(rates.volumes_per_s)},
+          {"shown_volumes_per_s", rounded(rates.shown_volumes_per_s)},
           {"frames_per_s", rounded(rates.frames_per_s)}};
 }
 

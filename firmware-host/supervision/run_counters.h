@@ -10,7 +10,10 @@
 namespace octascope::firmware_host {
 
 struct RunRates {
-  double lines_per_s = 0, volumes_per_s = 0, frames_per_s = 0;
+  double lines_per_s = 0;
+  double volumes_per_s = 0;       // that were acquired
+  double shown_volumes_per_s = 0; // of those, in a frame that reached the glass
+  double frames_per_s = 0;
 };
 
 // The books balance once the threads have ended (ARCHITECTURE.md, "What counts as lost"):

@@ -217,8 +217,11 @@ void format_losses(StatusCell& cell, const Losses& losses) {
 
 void compose_figures(HudText& hud, const ViewState& view, const Status& status) {
   auto& [volumes, lines, frames, latency, lost, window] = hud.figures;
-  volumes.label = "Volumes/s";
-  volumes.value.format("{:.1f}", status.volumes_per_s);
+  volumes.label = "Vol./s shown";
+  // Over their last seconds one more may have been shown than came.
+  volumes.value.format("{:.1f} of {:.1f}",
+                       std::min(status.shown_volumes_per_s, status.volumes_per_s),
+                       status.volumes_per_s);
   if (!status.replay) // no line comes
     lines.label = "Lines/s";
   if (status.lines_per_s < 999'500)

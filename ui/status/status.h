@@ -87,7 +87,8 @@ struct Status {
 
   hal::TimePoint now; // of this frame; reference for ages and echoes
 
-  double volumes_per_s = 0;
+  double volumes_per_s = 0;       // that were acquired
+  double shown_volumes_per_s = 0; // of those, in a frame that reached the glass
   double lines_per_s = 0;
   double frames_per_s = 0;
   // Camera timestamp of a volume's last line → first frame that shows it. Empty: none measured.

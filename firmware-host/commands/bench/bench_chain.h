@@ -1,5 +1,5 @@
 // octascope bench chain: the highest line rate that the whole chain holds on this machine without a
-// loss, on its twins, and what it shows at that rate and others.
+// loss, on its twins, and what it shows at that rate and others, at which quality.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware-host/ledger/shown_quality.h"
 #include "hal/result.h"
 
 namespace octascope::firmware_host {
@@ -17,6 +18,17 @@ struct ChainOptions {
   double seconds = 240; // the last measurement may end a few seconds later
   std::array<int, 2> size{1280, 720};
 };
+
+// Of all figures. The view rests and shows what is configured by default.
+struct ChainConditions {
+  std::string cpu;
+  int cores = 1;
+  std::array<int, 2> size{};  // of the picture, offscreen
+  double displayed_run_s = 0; // start included
+  double undisplayed_run_s = 0;
+};
+
+ChainConditions conditions_of(const ChainOptions& options);
 
 struct ChainFormat {
   int samples = 1024;
@@ -41,13 +53,14 @@ struct ChainFigures {
   double volumes_per_s = 0;     // acquired
   double shown_per_s = 0;       // volumes
   double frames_per_s = 0;
-  std::optional<ChainLatency> latency{}; // with a display
+  std::optional<ChainLatency> latency{}; // where volumes were shown
   std::optional<ChainLatency> line_latency{};
+  QualitySummary quality{};
   double stolen = 0; // share of the processors' time that the host of this machine took
 };
 
 enum class RateSign : std::uint8_t {
-  highest, // the highest at which two of three runs lost nothing
+  highest, // the highest at which two of three runs lost nothing; figures of the last of them
   held,    // likewise, but the time was over before a higher one was tried
   given,
 };
@@ -59,9 +72,8 @@ struct ChainResult {
 };
 
 struct ChainReport {
-  std::string cpu;
-  std::array<int, 2> size{}; // of the picture
-  std::vector<ChainResult> cases;
+  ChainConditions conditions;
+  std::vector<ChainResult> cases; // first those of given rates
   double reconstruct_only_hz =
       0; // the highest of all formats; 0: none held, or none was tried in time
   double with_display_hz = 0;

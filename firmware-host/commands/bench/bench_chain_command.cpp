@@ -1,5 +1,7 @@
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -21,22 +23,59 @@ struct BenchChainArguments {
   std::string size;
 };
 
+constexpr char columns[] =
+    "{:<16}  {:<7} {:>6}{:1} {:>8} {:>6} {:>6} {:>7}  {:>5} {:>5} {:>5}  {:>10}  {:>8} {:>7}\n";
+
+void print_head(const ChainConditions& c) {
+  say("{}, {} cores; picture {}x{}, offscreen at 60 Hz; the view rests. Runs of {:.1f} s, start\n"
+      "included; without a display of {:.1f} s.\n"
+      "*: the highest rate at which two of three runs lost nothing; +: the time was over before a\n"
+      "higher one was tried. Volumes acquired and shown, and frames, a second. Latency in ms:\n"
+      "whole, from a volume's last line; rolling, from any line. Quality of the volume's picture,\n"
+      "median and worst frame: share of full resolution, steps along the longest edge.\n\n",
+      c.cpu, c.cores, c.size[0], c.size[1], c.displayed_run_s, c.undisplayed_run_s);
+  say(columns, "samples, scan", "display", "kHz", "", "lost", "acq.", "shown", "frames", "p50",
+      "p95", "p99", "resolution", "steps", "stolen");
+}
+
+std::string text_of(const std::optional<QualityRange>& range, int digits) {
+  return range ? fmt::format("{:.{}f} {:.{}f}", range->median, digits, range->worst, digits)
+               : std::string{"-"};
+}
+
+std::string_view words_for(const ChainCase& what) {
+  return what.rolling ? "rolling" : what.display ? "whole" : "none";
+}
+
+std::string_view mark_of(RateSign sign) {
+  switch (sign) {
+  case RateSign::highest: return "*";
+  case RateSign::held: return "+";
+  case RateSign::given: return "";
+  }
+  return "";
+}
+
 void print_line(const ChainResult& result) {
   const auto& [what, figures, sign] = result;
-  std::string shown = "-";
-  if (const auto& latency = what.rolling ? figures.line_latency : figures.latency)
-    shown = fmt::format("{:>7.1f} {:>9.1f}  {:>4.0f} {:>4.0f} {:>4.0f} ms", figures.shown_per_s,
-                        figures.frames_per_s, latency->p50_ms, latency->p95_ms, latency->p99_ms);
-  say("{:>4} x {:>3} x {:>3}  {:<8} {:>8.0f}{} {:>9} {:>10.1f} {}  stolen {:.1f} %\n",
-      what.format.samples, what.format.a_scans, what.format.b_scans,
-      what.rolling   ? "rolling"
-      : what.display ? "drawn"
-                     : "no",
-      what.line_rate_hz * 1e-3,
-      sign == RateSign::highest ? "*"
-      : sign == RateSign::held  ? "+"
-                                : " ",
-      figures.lost_lines, figures.volumes_per_s, shown, figures.stolen * 100);
+  const auto rounded_to = [](double value, int digits) {
+    return fmt::format("{:.{}f}", value, digits);
+  };
+  const auto shown = [&](double value) {
+    return what.display ? rounded_to(value, 1) : std::string{"-"};
+  };
+  const auto& latency = what.rolling ? figures.line_latency : figures.latency;
+  const auto latency_text = [&](double ChainLatency::*share) {
+    return latency ? rounded_to((*latency).*share, 0) : std::string{"-"};
+  };
+  say(columns,
+      fmt::format("{:>4} x {:>3} x {:>3}", what.format.samples, what.format.a_scans,
+                  what.format.b_scans),
+      words_for(what), rounded_to(what.line_rate_hz * 1e-3, 0), mark_of(sign), figures.lost_lines,
+      rounded_to(figures.volumes_per_s, 1), shown(figures.shown_per_s), shown(figures.frames_per_s),
+      latency_text(&ChainLatency::p50_ms), latency_text(&ChainLatency::p95_ms),
+      latency_text(&ChainLatency::p99_ms), text_of(figures.quality.resolution, 2),
+      text_of(figures.quality.steps, 0), rounded_to(figures.stolen * 100, 1) + " %");
 }
 
 int run(const BenchChainArguments& arguments) {
@@ -49,12 +88,7 @@ int run(const BenchChainArguments& arguments) {
     options.size = *size;
   }
   if (!arguments.as_json)
-    say("*: the highest rate at which two of three runs lost nothing; +: the time was over before "
-        "a\n"
-        "higher one was tried\n\n"
-        "samples, scan    display    kHz   lost lines  volumes/s   shown/s  frames/s  latency p50, "
-        "p95, p99\n"
-        "(of volumes from their last lines; rolling, of every line)\n");
+    print_head(conditions_of(options));
   const auto report = bench_chain(options, [&](const ChainResult& result) {
     if (!arguments.as_json)
       print_line(result);
@@ -64,7 +98,7 @@ int run(const BenchChainArguments& arguments) {
   if (arguments.as_json)
     say("{}\n", to_json(*report));
   else
-    say("\n{}\nhighest: {:.0f} kHz without a display, {:.0f} kHz with one\n", report->cpu,
+    say("\nhighest: {:.0f} kHz without a display, {:.0f} kHz with one\n",
         report->reconstruct_only_hz * 1e-3, report->with_display_hz * 1e-3);
   return exit_done;
 }

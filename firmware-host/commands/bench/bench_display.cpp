@@ -8,6 +8,7 @@
 #include "firmware-host/commands/bench/bench_timing.h"
 #include "firmware-host/commands/offscreen_gl.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
+#include "firmware-host/report/report_parts.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/files/png_image.h"
 #include "pipeline/volume/occupancy.h"
@@ -255,8 +256,10 @@ std::string to_json(const DisplayBenchReport& report) {
                     {"frames_per_s_turning", live->frames_per_s},
                     {"latency_ms_p50_turning", live->latency_ms_p50},
                     {"latency_ms_p95_turning", live->latency_ms_p95},
+                    {"quality_turning", to_json(live->turning_quality)},
                     {"latency_ms_p50", live->resting_latency_ms_p50},
                     {"latency_ms_p95", live->resting_latency_ms_p95},
+                    {"quality", to_json(live->resting_quality)},
                     {"lost_volumes", live->lost_volumes}};
   }
   return json.dump(2);

@@ -11,6 +11,7 @@
 #include "firmware-host/commands/bench/bench_display.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/numbers.h"
+#include "firmware-host/report/report_parts.h"
 #include "firmware-host/run/volume_source.h"
 #include "firmware-host/terminal/terminal.h"
 
@@ -46,10 +47,11 @@ void print_text(const DisplayBenchReport& report) {
   if (const auto& live = report.live)
     say("live at 1280x720: first picture after {:.0f} ms; {:.1f} frames/s while the view "
         "turns, knob to frame {:.0f} ms (p95 {:.0f}); last line to frame {:.0f} ms (p95 "
-        "{:.0f}), at rest {:.0f} ms (p95 {:.0f})\n",
+        "{:.0f}), at rest {:.0f} ms (p95 {:.0f}); turning at {}, at rest at {}\n",
         live->start_to_first_picture_ms, live->frames_per_s, live->knob_to_frame_ms_p50,
         live->knob_to_frame_ms_p95, live->latency_ms_p50, live->latency_ms_p95,
-        live->resting_latency_ms_p50, live->resting_latency_ms_p95);
+        live->resting_latency_ms_p50, live->resting_latency_ms_p95, to_text(live->turning_quality),
+        to_text(live->resting_quality));
 }
 
 int run(const BenchDisplayArguments& arguments) {

@@ -44,12 +44,14 @@ hal::Result<LiveFigures> probe_live(int width, int height, double seconds) {
   HAL_TRY(const auto resting, run({}));
   return LiveFigures{1000 * number_in(turning, "/first_picture_s"),
                      number_in(turning, "/rates/frames_per_s"),
+                     quality_in(turning),
                      number_in(turning, "/control_ms/p50"),
                      number_in(turning, "/control_ms/p95"),
                      number_in(turning, "/latency_ms/p50"),
                      number_in(turning, "/latency_ms/p95"),
                      number_in(resting, "/latency_ms/p50"),
                      number_in(resting, "/latency_ms/p95"),
+                     quality_in(resting),
                      number_in(turning, "/lost/volumes") + number_in(resting, "/lost/volumes")};
 }
 

@@ -2,6 +2,7 @@
 // its report.
 #pragma once
 
+#include "firmware-host/ledger/shown_quality.h"
 #include "hal/result.h"
 
 namespace octascope::firmware_host {
@@ -9,12 +10,14 @@ namespace octascope::firmware_host {
 struct LiveFigures {
   double start_to_first_picture_ms = 0; // from process start
   double frames_per_s = 0;              // while the view turns
+  QualitySummary turning_quality{};     // meanwhile
   double knob_to_frame_ms_p50 = 0;      // turn of the knob → end of the first frame that shows it
   double knob_to_frame_ms_p95 = 0;
   double latency_ms_p50 = 0; // camera's timestamp of a volume's last line → end of its first frame
   double latency_ms_p95 = 0;
   double resting_latency_ms_p50 = 0; // the same while the view is at rest
   double resting_latency_ms_p95 = 0;
+  QualitySummary resting_quality{};
   double lost_volumes = 0;
 };
 

@@ -20,19 +20,24 @@ struct FoundRate {
   bool complete = true; // else the time was over: a higher one may hold
 };
 
-// The highest rung that holds, if those below all do. Begins at `start` and doubles its steps until
+struct SearchRange {
+  int start = 0;          // the first that is tried
+  int rungs = rate_rungs; // those from here on are known not to hold
+};
+
+// The highest rung that holds, if those below all do. Begins at the start and doubles its steps until
 // one holds and one does not, then halves what is between, as long as there is time.
-inline hal::Result<FoundRate> highest_rung(int start,
+inline hal::Result<FoundRate> highest_rung(const SearchRange& range,
                                            const std::function<hal::Result<bool>(int rung)>& holds,
                                            const std::function<bool()>& time_is_left) {
   int held = -1;
-  int failed = rate_rungs;
-  for (int rung = start, step = 1; failed - held > 1; step *= 2) {
+  int failed = range.rungs;
+  for (int rung = std::clamp(range.start, 0, failed - 1), step = 1; failed - held > 1; step *= 2) {
     if (!time_is_left())
       return FoundRate{held, false};
     HAL_TRY(const bool held_here, holds(rung));
     (held_here ? held : failed) = rung;
-    const bool both = held >= 0 && failed < rate_rungs;
+    const bool both = held >= 0 && failed < range.rungs;
     rung = both ? (held + failed) / 2 : held_here ? rung + step : rung - step;
     rung = std::clamp(rung, held + 1, std::max(failed - 1, held + 1));
   }

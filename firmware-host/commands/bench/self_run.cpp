@@ -66,4 +66,16 @@ double number_in(const nlohmann::json& report, const char* pointer) {
   return value.is_number() ? value.get<double>() : 0;
 }
 
+QualitySummary quality_in(const nlohmann::json& report) {
+  const auto& quality = report.at("quality");
+  const auto range = [&](const char* key) -> std::optional<QualityRange> {
+    const auto& values = quality.at(key);
+    if (values.is_null())
+      return std::nullopt;
+    return QualityRange{.median = values.at("median"), .worst = values.at("worst")};
+  };
+  return {
+      .frames = quality.at("frames"), .resolution = range("resolution"), .steps = range("steps")};
+}
+
 } // namespace octascope::firmware_host

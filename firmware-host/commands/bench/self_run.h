@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "firmware-host/ledger/shown_quality.h"
 #include "hal/result.h"
 
 namespace octascope::firmware_host {
@@ -34,5 +35,8 @@ hal::Result<nlohmann::json> report_of(std::vector<std::string> arguments,
 
 // A number in that report; 0 if it is null.
 double number_in(const nlohmann::json& report, const char* pointer);
+
+// Its "quality".
+QualitySummary quality_in(const nlohmann::json& report);
 
 } // namespace octascope::firmware_host

@@ -62,9 +62,9 @@ void add_picture(Words& words, const Json& json) {
     words.line(name, "{}, {}", device.value("backend", ""), device.value("state", ""));
   if (const auto calibration = json.find("calibration"); calibration != json.end())
     words.line("calibration", "{}", calibration_words(*calibration));
-  words.line("rates", "{:.2f} volumes/s, {:.0f} lines/s, {:.1f} frames/s",
-             number(json, "rates", "volumes_per_s"), number(json, "rates", "lines_per_s"),
-             number(json, "rates", "frames_per_s"));
+  words.line("rates", "{:.2f} volumes/s, {:.2f} shown, {:.0f} lines/s, {:.1f} frames/s",
+             number(json, "rates", "volumes_per_s"), number(json, "rates", "shown_volumes_per_s"),
+             number(json, "rates", "lines_per_s"), number(json, "rates", "frames_per_s"));
   words.line("volumes", "{:.0f} acquired, {:.0f} displayed, {:.0f} skipped",
              number(json, "volumes", "acquired"), number(json, "volumes", "displayed"),
              number(json, "volumes", "skipped"));

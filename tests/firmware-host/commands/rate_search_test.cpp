@@ -18,7 +18,7 @@ TEST(RateSearch, finds_the_highest_that_holds_from_wherever_it_begins) {
       SCOPED_TRACE(testing::Message() << "highest " << highest << ", from " << start);
       int tries = 0;
       const auto found = highest_rung(
-          start,
+          {.start = start},
           [&](int rung) -> hal::Result<bool> {
             EXPECT_GE(rung, 0);
             EXPECT_LT(rung, rate_rungs);
@@ -33,10 +33,27 @@ TEST(RateSearch, finds_the_highest_that_holds_from_wherever_it_begins) {
     }
 }
 
+TEST(RateSearch, tries_none_that_is_known_not_to_hold) {
+  for (int rungs = 1; rungs <= 8; ++rungs)
+    for (int start = 0; start < rate_rungs; ++start) {
+      SCOPED_TRACE(testing::Message() << rungs << " rungs, from " << start);
+      const auto found = highest_rung(
+          {.start = start, .rungs = rungs},
+          [&](int rung) -> hal::Result<bool> {
+            EXPECT_LT(rung, rungs);
+            return true;
+          },
+          always);
+      ASSERT_TRUE(found);
+      EXPECT_EQ(found->rung, rungs - 1);
+      EXPECT_TRUE(found->complete);
+    }
+}
+
 TEST(RateSearch, ends_with_what_it_knows_when_the_time_is_over) {
   int tries = 0;
   const auto found = highest_rung(
-      4,
+      {.start = 4},
       [&](int) -> hal::Result<bool> {
         ++tries;
         return true;
@@ -49,7 +66,8 @@ TEST(RateSearch, ends_with_what_it_knows_when_the_time_is_over) {
 
 TEST(RateSearch, passes_an_error_on) {
   const auto found = highest_rung(
-      3, [](int) -> hal::Result<bool> { return hal::fail(hal::ErrorCode::system, "no place"); },
+      {.start = 3},
+      [](int) -> hal::Result<bool> { return hal::fail(hal::ErrorCode::system, "no place"); },
       always);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().message, "no place");

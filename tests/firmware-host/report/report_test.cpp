@@ -50,7 +50,9 @@ RunReport example() {
   r.duration_s = 1.5;
   r.counters.rates.lines_per_s = 215000.12345;
   r.counters.rates.volumes_per_s = 7.1;
+  r.counters.rates.shown_volumes_per_s = 6.25;
   r.counters.rates.frames_per_s = 30;
+  r.quality = {.frames = 12, .resolution = {{0.7, 0.25}}, .steps = {{256, 80}}};
   r.counters.latency = {.count = 3, .p50_ms = 12.34567, .p95_ms = 20, .p99_ms = 20.5, .max_ms = 21};
   r.counters.frames_drawn = 45;
   r.counters.frames_missed = 3;
@@ -108,8 +110,13 @@ TEST(Report, says_every_figure_under_its_key) {
                                 {"lost", 1},
                                 {"unfinished", 3}}));
   EXPECT_EQ(j["lost"], (json{{"lines", 600}, {"b_scans", 2}, {"volumes", 1}}));
-  EXPECT_EQ(j["rates"],
-            (json{{"lines_per_s", 215000.123}, {"volumes_per_s", 7.1}, {"frames_per_s", 30.0}}));
+  EXPECT_EQ(j["rates"], (json{{"lines_per_s", 215000.123},
+                              {"volumes_per_s", 7.1},
+                              {"shown_volumes_per_s", 6.25},
+                              {"frames_per_s", 30.0}}));
+  EXPECT_EQ(j["quality"], (json{{"frames", 12},
+                                {"resolution", {{"median", 0.7}, {"worst", 0.25}}},
+                                {"steps", {{"median", 256.0}, {"worst", 80.0}}}}));
   EXPECT_EQ(j["latency_ms"], (json{{"p50", 12.346}, {"p95", 20.0}, {"p99", 20.5}, {"max", 21.0}}));
   EXPECT_EQ(j["frames"], (json{{"drawn", 45}, {"missed", 3}}));
   EXPECT_EQ(j["hot_path"], (json{{"allocations", 4}}));
@@ -159,6 +166,14 @@ TEST(Report, says_every_figure_under_its_key) {
     EXPECT_EQ(j["stage_ms"][stage].size(), 4U) << stage;
 }
 
+TEST(Report, has_no_quality_of_a_volume_that_was_not_drawn) {
+  RunReport r = example();
+  r.quality = {};
+  EXPECT_EQ(json::parse(to_json(r))["quality"],
+            (json{{"frames", 0}, {"resolution", nullptr}, {"steps", nullptr}}));
+  EXPECT_THAT(to_text(r), testing::Not(testing::HasSubstr("drawn at")));
+}
+
 TEST(Report, tells_a_faults_times_from_the_start) {
   const json faults = json::parse(to_json(example()))["faults"];
   EXPECT_EQ(faults, json::array({{{"device", "line_camera"},
@@ -173,6 +188,7 @@ TEST(Report, speaks_to_people_too) {
   const std::string text = to_text(example());
   EXPECT_THAT(text, testing::HasSubstr("7 volumes displayed of 10 acquired"));
   EXPECT_THAT(text, testing::HasSubstr("lost: 600 lines, 2 B-scans, 1 volumes"));
+  EXPECT_THAT(text, testing::HasSubstr("drawn at resolution 0.70 (worst 0.25), steps 256 (80)"));
   EXPECT_THAT(text, testing::HasSubstr("phase offset 5.43 A-scans, found in the picture"));
   EXPECT_THAT(text, testing::HasSubstr("fault: line_camera disconnected ×2: it went away"));
 }

@@ -170,6 +170,25 @@ TEST_F(Staleness, does_not_wait_for_a_finer_picture) {
       << "what stands still is drawn as finely as it can";
 }
 
+// As at a line rate of which frames are slower than volumes.
+TEST_F(Staleness, of_volumes_that_keep_coming_makes_no_picture_finer) {
+  firmware_host::RenderLoopSetup quick = setup();
+  quick.freshness.volume_period = 20ms;
+  open(std::move(quick), *volumes_, acquisition_.get(), scope_thread_.get());
+  draw_slowly(200ms);
+  longest_turn_ = 130ms;
+  for (int i = 0; i < 12; ++i) {
+    send_volume(i % 2 == 0 ? Tissue::usual : Tissue::reversed);
+    if (HasFatalFailure())
+      return;
+    clock_.advance(35ms);
+    turn();
+    ASSERT_EQ(loop_->status().freshness.liveness, Liveness::stale);
+    ASSERT_LT(ui::sample_share(loop_->quality()), 0.4) << "frame " << i;
+  }
+  EXPECT_LT(ui::sample_share(loop_->quality()), 0.2);
+}
+
 TEST_F(Staleness, is_told_while_the_view_moves_and_frames_are_slow) {
   start({});
   draw_slowly(300ms);

@@ -26,7 +26,7 @@ void expect_contract(const json& report) {
     EXPECT_TRUE(report.at("volumes").at(key).is_number_unsigned()) << key;
   for (const char* key : {"lines", "b_scans", "volumes"})
     EXPECT_TRUE(report.at("lost").at(key).is_number_unsigned()) << key;
-  for (const char* key : {"lines_per_s", "volumes_per_s", "frames_per_s"})
+  for (const char* key : {"lines_per_s", "volumes_per_s", "shown_volumes_per_s", "frames_per_s"})
     EXPECT_TRUE(report.at("rates").at(key).is_number_float()) << key;
   const auto expect_durations = [](const json& durations) {
     EXPECT_GE(durations.at("p50").get<double>(), 0);
@@ -37,6 +37,12 @@ void expect_contract(const json& report) {
   for (const char* stage : {"reconstruct", "assemble", "publish", "upload", "draw"})
     expect_durations(report.at("stage_ms").at(stage));
   expect_durations(report.at("latency_ms"));
+  const json& quality = report.at("quality");
+  for (const char* key : {"resolution", "steps"}) {
+    EXPECT_GT(quality.at(key).at("worst").get<double>(), 0) << key;
+    EXPECT_LE(quality.at(key).at("worst"), quality.at(key).at("median")) << key;
+  }
+  EXPECT_LE(quality.at("frames"), report.at("frames").at("drawn"));
   for (const char* key : {"drawn", "missed"})
     EXPECT_TRUE(report.at("frames").at(key).is_number_unsigned()) << key;
   EXPECT_TRUE(report.at("hot_path").at("allocations").is_number_unsigned());

@@ -168,16 +168,19 @@ TEST(HudText, the_machines_figures_are_behind_an_action_and_have_their_units) {
   Status status = live_status();
   EXPECT_EQ(compose_hud_text({}, status, {}).figures[0].label, "") << "nobody asked for them";
   HudText hud = compose_hud_text(with_figures(), status, {});
-  EXPECT_EQ(hud.figures[0].value.view(), "7.1");
+  EXPECT_EQ(hud.figures[0].label, "Vol./s shown");
+  EXPECT_EQ(hud.figures[0].value.view(), "6.6 of 7.1");
   EXPECT_EQ(hud.figures[1].value.view(), "215 k");
   EXPECT_EQ(hud.figures[2].value.view(), "60");
   EXPECT_EQ(hud.figures[3].value.view(), "32 / 44 ms");
   EXPECT_EQ(hud.figures[4].value.view(), "none");
   EXPECT_EQ(hud.figures[5].value.view(), "8 to 44 dB");
+  status.shown_volumes_per_s = 7.3; // over the last seconds
   status.lines_per_s = 1'234'000;
   status.latency_p95_ms.reset();
   status.losses.b_scans = 2;
   hud = compose_hud_text(with_figures(), status, {});
+  EXPECT_EQ(hud.figures[0].value.view(), "7.1 of 7.1") << "never more than came";
   EXPECT_EQ(hud.figures[1].value.view(), "1.23 M");
   EXPECT_EQ(hud.figures[3].value.view(), "–");
   EXPECT_EQ(hud.figures[4].value.view(), "0 / 2 / 0");

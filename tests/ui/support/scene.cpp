@@ -10,6 +10,7 @@ ui::Status live_status() {
   ui::Status status;
   status.now = hal::TimePoint{std::chrono::seconds{100}};
   status.volumes_per_s = 7.09;
+  status.shown_volumes_per_s = 6.62;
   status.lines_per_s = 214'900;
   status.frames_per_s = 59.8;
   status.latency_p50_ms = 31.6;
