@@ -101,7 +101,7 @@ void BScanFlow::sum_line(std::span<const std::complex<float>> bins, int a,
     const int end = repeat.shift.last(depths);
     if (is_there)
       repeat.shift.apply(bins.data() + size(m) * voxels_ + size(from) * size(depths), begin, end,
-                         repeat.real.data(), repeat.imaginary.data());
+                         repeat.real.data(), repeat.imaginary.data(), scratch_.data());
     if (is_there && before_is_there) {
       const Repeat& other = repeats_[size(m - 1)];
       const int first = std::max(begin, other.shift.first(depths));

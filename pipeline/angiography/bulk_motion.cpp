@@ -179,9 +179,9 @@ int FractionalShift::last(int depths) const {
 }
 
 void FractionalShift::apply(const std::complex<float>* line, int begin, int end, float* real,
-                            float* imaginary) const noexcept {
+                            float* imaginary, float* scratch) const noexcept {
   if (interpolates)
-    interpolate(line + whole - 2, taps, begin, end, real, imaginary);
+    interpolate(line + whole - 2, taps, begin, end, real, imaginary, scratch);
   else
     split_parts(line + whole, begin, end, real, imaginary);
 }

@@ -23,20 +23,20 @@ void split_loop(const float* __restrict line, int begin, int end, float* __restr
   }
 }
 
+// re[z + i] and im[z + i] are the parts of the bins that taps[i] weighs.
 OCTASCOPE_CPU_CLONES
-void interpolate_loop(const float* __restrict line, const float* __restrict taps, int begin,
-                      int end, float* __restrict real, float* __restrict imaginary) {
-  for (int z = begin; z < end; ++z) {
-    float re = 0;
-    float im = 0;
+void interpolate_loop(const float* __restrict re, const float* __restrict im,
+                      const float* __restrict taps, int count, float* __restrict real,
+                      float* __restrict imaginary) {
+  for (int z = 0; z < count; ++z) {
+    float x = 0;
+    float y = 0;
     for (int i = 0; i < 6; ++i) {
-      const float x = line[2 * (z + i)];
-      const float y = line[2 * (z + i) + 1];
-      re += taps[2 * i] * x - taps[2 * i + 1] * y;
-      im += taps[2 * i] * y + taps[2 * i + 1] * x;
+      x += taps[2 * i] * re[z + i] - taps[2 * i + 1] * im[z + i];
+      y += taps[2 * i] * im[z + i] + taps[2 * i + 1] * re[z + i];
     }
-    real[z] = re;
-    imaginary[z] = im;
+    real[z] = x;
+    imaginary[z] = y;
   }
 }
 
@@ -176,8 +176,14 @@ void split_parts(const std::complex<float>* line, int begin, int end, float* rea
 }
 
 void interpolate(const std::complex<float>* line, const std::array<std::complex<float>, 6>& taps,
-                 int begin, int end, float* real, float* imaginary) noexcept {
-  interpolate_loop(floats(line), floats(taps.data()), begin, end, real, imaginary);
+                 int begin, int end, float* real, float* imaginary, float* scratch) noexcept {
+  const int count = end - begin;
+  if (count <= 0)
+    return;
+  const int read = count + 5;
+  split_loop(floats(line + begin), 0, read, scratch, scratch + read);
+  interpolate_loop(scratch, scratch + read, floats(taps.data()), count, real + begin,
+                   imaginary + begin);
 }
 
 void correlate_lags(const float* first, const float* second, int depths,

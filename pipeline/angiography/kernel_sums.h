@@ -17,9 +17,9 @@ inline constexpr int kernel_depths = 5;
 void split_parts(const std::complex<float>* line, int begin, int end, float* real,
                  float* imaginary) noexcept;
 
-// The same of Σ_i taps[i]·line[z + i].
+// The same of Σ_i taps[i]·line[z + i]. `scratch` has room for two lines.
 void interpolate(const std::complex<float>* line, const std::array<std::complex<float>, 6>& taps,
-                 int begin, int end, float* real, float* imaginary) noexcept;
+                 int begin, int end, float* real, float* imaginary, float* scratch) noexcept;
 
 // real[s] + i·imaginary[s] += Σ_z first[z]·conj(second[z + s − 16]). Lines are `depths` real parts,
 // then as many imaginary ones; depths > 32.

@@ -104,15 +104,14 @@ void find_vessels(const float* __restrict flow, const float* __restrict excess,
     vessels[z] = flow[z] >= 0.5F ? excess[z] * growth[z] : 0.0F; // 0 of NaN
 }
 
-// values[z] becomes the greatest of those before it; returns whether any is positive.
-bool keep_maximum(float* values, int count) {
+// values[z] becomes the greatest of those before it.
+void keep_maximum(float* values, int count) {
   float most = 0;
   for (int z = 0; z < count; ++z) {
     const float here = values[z];
     values[z] = most;
     most = here > most ? here : most;
   }
-  return most > 0;
 }
 
 OCTASCOPE_CPU_CLONES
@@ -244,8 +243,10 @@ void StaticTissue::classify(const KernelPlanes& planes, std::span<float> flow) n
                          noise_.data(), d0_, noise_spread, static_spread, depths_, line,
                          excess_.data());
     find_vessels(line, excess_.data(), growth_.data(), depths_, vessels_.data());
-    if (keep_maximum(vessels_.data(), depths_))
-      suppress_tails(vessels_.data(), excess_.data(), growth_.data(), depths_, line);
+    if (!(sum_of_squares(vessels_.data(), depths_) > 0))
+      continue; // as in most A-scans
+    keep_maximum(vessels_.data(), depths_);
+    suppress_tails(vessels_.data(), excess_.data(), growth_.data(), depths_, line);
   }
 }
 
