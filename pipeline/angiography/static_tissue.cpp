@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "pipeline/angiography/kernel_sums.h"
 #include "pipeline/threads/cpu_clones.h"
@@ -96,7 +97,7 @@ void classify_intensity(const float* __restrict decorrelation, const float* __re
 }
 
 // What flows, as decorrelation without noise, in a scale that grows along depth as shadows fade: so the
-// shadow of all above is a running maximum, the only step of tails that is serial.
+// shadow of all above is a running maximum.
 OCTASCOPE_CPU_CLONES
 void find_vessels(const float* __restrict flow, const float* __restrict excess,
                   const float* __restrict growth, int depths, float* __restrict vessels) {
@@ -104,14 +105,24 @@ void find_vessels(const float* __restrict flow, const float* __restrict excess,
     vessels[z] = flow[z] >= 0.5F ? excess[z] * growth[z] : 0.0F; // 0 of NaN
 }
 
-// values[z] becomes the greatest of those before it.
-void keep_maximum(float* values, int count) {
-  float most = 0;
-  for (int z = 0; z < count; ++z) {
-    const float here = values[z];
-    values[z] = most;
-    most = here > most ? here : most;
+// to[z] = max(from[z], from[z - distance])
+OCTASCOPE_CPU_CLONES
+void widen_maximum(const float* __restrict from, int distance, int count, float* __restrict to) {
+  std::copy_n(from, distance, to);
+  for (int z = distance; z < count; ++z)
+    to[z] = from[z] > from[z - distance] ? from[z] : from[z - distance];
+}
+
+// The greatest of those before each, over 1, 2, 4 … of them: no step waits for the one before it.
+// Returns the array that has it.
+const float* greatest_before(float* values, float* other, int count) {
+  std::copy_n(values, count - 1, other + 1);
+  other[0] = 0;
+  for (int distance = 1; distance < count; distance *= 2) {
+    widen_maximum(other, distance, count, values);
+    std::swap(values, other);
   }
+  return other;
 }
 
 OCTASCOPE_CPU_CLONES
@@ -132,7 +143,7 @@ StaticTissue::StaticTissue(FlowMethod method, int a_scans, int depths, int repea
     : method_(method), a_scans_(a_scans), depths_(depths), pair_factor_(factors_of(repeats).pairs),
       level_factor_(factors_of(repeats).level), noise_(static_cast<std::size_t>(depths)),
       blocks_(static_cast<std::size_t>((depths + block_depths - 1) / block_depths)),
-      excess_(noise_), vessels_(noise_), growth_(noise_) {
+      excess_(noise_), vessels_(noise_), shadows_(noise_), growth_(noise_) {
   float growth = 1;
   for (float& g : growth_) {
     g = growth;
@@ -245,8 +256,8 @@ void StaticTissue::classify(const KernelPlanes& planes, std::span<float> flow) n
     find_vessels(line, excess_.data(), growth_.data(), depths_, vessels_.data());
     if (!(sum_of_squares(vessels_.data(), depths_) > 0))
       continue; // as in most A-scans
-    keep_maximum(vessels_.data(), depths_);
-    suppress_tails(vessels_.data(), excess_.data(), growth_.data(), depths_, line);
+    const float* const shadows = greatest_before(vessels_.data(), shadows_.data(), depths_);
+    suppress_tails(shadows, excess_.data(), growth_.data(), depths_, line);
   }
 }
 

@@ -81,9 +81,11 @@ private:
   std::vector<float> noise_;
   std::vector<float> blocks_;
   std::vector<float> values_; // to take quantiles of
-  // Of one A-scan, while it is classified: decorrelation without noise; vessels above.
+  // Of one A-scan, while it is classified: decorrelation without noise; that of
+  // vessels, and its maximum above each depth.
   std::vector<float> excess_;
   std::vector<float> vessels_;
+  std::vector<float> shadows_;
   std::vector<float> growth_; // of the scale of shadows along depth
 };
 
