@@ -36,8 +36,10 @@ bool is_file(const CLI::Option& option) {
 bool is_written(const CLI::App& command, const CLI::Option& option) {
   if (option.get_name() == "--registration") // of a phantom's vessels, beside them
     return command.get_name() == "generate";
-  constexpr std::array<std::string_view, 6> written{"--out",   "--snapshot", "--report",
-                                                    "--trace", "--png",      "--picture"};
+  if (option.get_name() == "--flow") // a switch of other commands
+    return is_file(option);
+  constexpr std::array<std::string_view, 7> written{
+      "--out", "--snapshot", "--report", "--trace", "--png", "--picture", "--decorrelation"};
   return std::ranges::find(written, option.get_name()) != written.end();
 }
 

@@ -11,7 +11,7 @@ namespace octascope::firmware_host {
 //   letters), or has no ending.
 // - No file is written that is also read, nor two times, whatever way its names lead to it.
 // Files to write are known by their options' names (--out, --snapshot, --report, --png,
-// --picture, and --registration of vessels generate); the others with a type name that begins with
+// --picture, --flow, --decorrelation, and --registration of vessels generate); the others with a type name that begins with
 // FILE are read.
 void guard_options(CLI::App& command);
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -14,8 +15,10 @@
 
 #include "firmware-host/commands/level_picture.h"
 #include "firmware-host/commands/spectra_type.h"
+#include "firmware-host/commands/volume/flow_volumes.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
 #include "firmware-host/terminal/terminal.h"
+#include "pipeline/acquisition/b_scan_builder.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/reconstruction/reconstructor.h"
 #include "pipeline/volume/level_scale.h"
@@ -26,15 +29,33 @@ namespace {
 
 using hal::ErrorCode;
 
-// The workers take one B-scan after the other; the first error ends the work.
+// The mean of the levels of several sweeps, as the display has it (b_scan_builder.h).
+void average_sweeps(const std::vector<std::vector<float>>& sweeps, std::vector<float>& average) {
+  average = sweeps.front();
+  for (std::size_t m = 1; m < sweeps.size(); ++m)
+    std::ranges::transform(average, sweeps[m], average.begin(), std::plus<>{});
+  const float part = 1.0F / static_cast<float>(sweeps.size());
+  for (float& level : average)
+    level *= part;
+}
+
+void average_sweeps(const std::vector<std::vector<std::uint8_t>>& sweeps,
+                    std::vector<std::uint8_t>& average) {
+  std::vector<std::uint8_t> all;
+  for (const auto& sweep : sweeps)
+    all.insert(all.end(), sweep.begin(), sweep.end());
+  pipeline::average_repeats(all, static_cast<int>(sweeps.size()), average);
+}
+
+// The workers take one B-scan, with its repeats, after the other; the first error ends the work.
 class VolumeReconstruction {
 public:
   VolumeReconstruction(const ReconstructOptions& options, const pipeline::SpectrumFormat& format,
                        const pipeline::SpectraFile& spectra,
                        const pipeline::Reconstructor& reconstructor,
-                       const pipeline::NrrdWriter& writer)
+                       const pipeline::NrrdWriter& writer, FlowVolumes* flow)
       : options_(options), format_(format), spectra_(spectra), reconstructor_(reconstructor),
-        writer_(writer),
+        writer_(writer), flow_(flow), b_scans_(spectra.shape().b_scans / options.repeats),
         running_background_(reconstructor.make_running_background(spectra.shape().b_scans)) {}
 
   hal::Result<> run(unsigned threads);
@@ -46,9 +67,12 @@ public:
 private:
   void work();
   void look_ahead();
-  int take_next(std::vector<float>& running);
-  hal::Result<> check_counts(int b_scan) const;
+  int take_next(std::vector<std::vector<float>>& running);
+  hal::Result<> check_counts(int sweep) const;
   template <class Level> hal::Result<> reconstruct_all();
+  template <class Level>
+  void reconstruct_sweep(pipeline::Reconstructor::Workspace& workspace, int sweep,
+                         const std::vector<float>& running, std::vector<Level>& levels);
   template <class Level> void keep_for_picture(const std::vector<Level>& levels);
   void show_progress();
 
@@ -57,7 +81,9 @@ private:
   const pipeline::SpectraFile& spectra_;
   const pipeline::Reconstructor& reconstructor_;
   const pipeline::NrrdWriter& writer_;
-  std::mutex taking_; // B-scans are taken in order, and so is their running background
+  FlowVolumes* const flow_; // may be null
+  const int b_scans_;       // of the volume
+  std::mutex taking_;       // B-scans are taken in order, and so is their running background
   int next_ = 0;
   std::optional<pipeline::RunningBackground> running_background_;
   std::atomic<int> done_{0};
@@ -86,7 +112,7 @@ void VolumeReconstruction::work() {
       options_.display_counts ? reconstruct_all<std::uint8_t>() : reconstruct_all<float>();
   if (!result) {
     const std::scoped_lock lock{taking_};
-    next_ = spectra_.shape().b_scans;
+    next_ = b_scans_;
   }
   const std::scoped_lock lock{mutex_};
   if (!result && outcome_)
@@ -102,40 +128,66 @@ void VolumeReconstruction::look_ahead() {
     running_background_->add(spectra_.b_scan(b));
 }
 
-// The number of a B-scan that nobody has yet, and its running background; B when all are taken.
-int VolumeReconstruction::take_next(std::vector<float>& running) {
+// The number of a B-scan that nobody has yet, and the running background of each of its sweeps; the
+// volume's count when all are taken.
+int VolumeReconstruction::take_next(std::vector<std::vector<float>>& running) {
   const std::scoped_lock lock{taking_};
-  if (next_ == spectra_.shape().b_scans)
+  if (next_ == b_scans_)
     return next_;
-  if (running_background_) {
-    const auto mean = running_background_->add(spectra_.b_scan(next_));
-    running.assign(mean.begin(), mean.end());
+  for (std::size_t m = 0; running_background_ && m < running.size(); ++m) {
+    const auto mean =
+        running_background_->add(spectra_.b_scan(next_ * options_.repeats + static_cast<int>(m)));
+    running[m].assign(mean.begin(), mean.end());
   }
   return next_++;
 }
 
-hal::Result<> VolumeReconstruction::check_counts(int b_scan) const {
-  if (const auto fault = spectra_.find_non_finite(b_scan))
+hal::Result<> VolumeReconstruction::check_counts(int sweep) const {
+  if (const auto fault = spectra_.find_non_finite(sweep))
     return hal::fail(ErrorCode::bad_data, *fault);
-  if (const auto fault = spectra_.find_above_full_scale(b_scan, format_))
+  if (const auto fault = spectra_.find_above_full_scale(sweep, format_))
     return hal::fail(ErrorCode::bad_data, *fault + "; another --dtype or --shift");
   return {};
 }
 
+template <class Level>
+void VolumeReconstruction::reconstruct_sweep(pipeline::Reconstructor::Workspace& workspace,
+                                             int sweep, const std::vector<float>& running,
+                                             std::vector<Level>& levels) {
+  pipeline::BScanOutcome outcome;
+  if constexpr (std::is_same_v<Level, float>)
+    outcome =
+        reconstructor_.reconstruct_b_scan_db(workspace, spectra_.b_scan(sweep), levels, running);
+  else
+    outcome = reconstructor_.reconstruct_b_scan(workspace, spectra_.b_scan(sweep), levels, running);
+  saturated_lines_.fetch_add(outcome.saturated_lines);
+}
+
 template <class Level> hal::Result<> VolumeReconstruction::reconstruct_all() {
   auto workspace = reconstructor_.make_workspace();
-  std::vector<Level> levels(reconstructor_.levels());
-  std::vector<float> running;
-  for (int b = take_next(running); b < spectra_.shape().b_scans; b = take_next(running)) {
-    HAL_CHECK(check_counts(b));
-    pipeline::BScanOutcome outcome;
-    if constexpr (std::is_same_v<Level, float>)
-      outcome =
-          reconstructor_.reconstruct_b_scan_db(workspace, spectra_.b_scan(b), levels, running);
-    else
-      outcome = reconstructor_.reconstruct_b_scan(workspace, spectra_.b_scan(b), levels, running);
-    saturated_lines_.fetch_add(outcome.saturated_lines);
+  const auto repeats = static_cast<std::size_t>(options_.repeats);
+  std::vector<std::vector<Level>> sweeps(repeats, std::vector<Level>(reconstructor_.levels()));
+  std::vector<Level> average(repeats > 1 ? reconstructor_.levels() : 0);
+  std::vector<std::vector<float>> running(repeats);
+  std::optional<FlowVolumes::Worker> flow;
+  if (flow_ != nullptr) {
+    HAL_TRY(flow, flow_->make_worker());
+  }
+  for (int b = take_next(running); b < b_scans_; b = take_next(running)) {
+    for (std::size_t m = 0; m < repeats; ++m) {
+      const int sweep = b * options_.repeats + static_cast<int>(m);
+      HAL_CHECK(check_counts(sweep));
+      reconstruct_sweep(workspace, sweep, running[m], sweeps[m]);
+      if (flow)
+        reconstructor_.reconstruct_b_scan_bins(workspace, spectra_.b_scan(sweep), flow->bins(m),
+                                               running[m]);
+    }
+    if (repeats > 1)
+      average_sweeps(sweeps, average);
+    const std::vector<Level>& levels = repeats > 1 ? average : sweeps.front();
     HAL_CHECK(writer_.write_b_scan(b, levels));
+    if (flow)
+      HAL_CHECK(flow->write_b_scan(b));
     if (options_.picture && b == options_.picture_b_scan)
       keep_for_picture(levels);
     done_.fetch_add(1);
@@ -160,8 +212,7 @@ void VolumeReconstruction::show_progress() {
   std::unique_lock lock{mutex_};
   while (!finished_.wait_for(lock, std::chrono::milliseconds{200}, [&] { return running_ == 0; })) {
     if (terminal)
-      firmware_host::show_progress(
-          fmt::format("{} of {} B-scans", done_.load(), spectra_.shape().b_scans));
+      firmware_host::show_progress(fmt::format("{} of {} B-scans", done_.load(), b_scans_));
   }
   if (terminal)
     firmware_host::show_progress("");
@@ -170,14 +221,14 @@ void VolumeReconstruction::show_progress() {
 unsigned worker_count(const ReconstructOptions& options) {
   const unsigned wanted =
       options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-  return std::min(wanted, static_cast<unsigned>(options.shape.b_scans));
+  return std::min(wanted, static_cast<unsigned>(options.shape.b_scans / options.repeats));
 }
 
 hal::Result<> check(const ReconstructOptions& options) {
-  if (options.picture &&
-      (options.picture_b_scan < 0 || options.picture_b_scan >= options.shape.b_scans))
+  const int b_scans = options.shape.b_scans / options.repeats;
+  if (options.picture && (options.picture_b_scan < 0 || options.picture_b_scan >= b_scans))
     return hal::fail(ErrorCode::invalid_argument, "--bscan is {}, expected 0 to {}",
-                     options.picture_b_scan, options.shape.b_scans - 1);
+                     options.picture_b_scan, b_scans - 1);
   if (options.picture && options.picture->lexically_normal() == options.volume.lexically_normal())
     return hal::fail(ErrorCode::invalid_argument, "--out and --png are both {}, expected two files",
                      options.volume.string());
@@ -211,17 +262,37 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
                                            .memory = &cache}));
   static_cast<void>(cache.save()); // what was not kept is measured again; the doctor says why
 
-  const pipeline::VolumeGeometry geometry{
-      reconstructor.depths(),        options.shape.a_scans,        options.shape.b_scans,
-      calibration->bin_spacing_um(), calibration->a_spacing_um,    calibration->b_spacing_um,
-      calibration->refractive_index, calibration->assumed_spacings};
+  const pipeline::VolumeGeometry geometry{reconstructor.depths(),
+                                          options.shape.a_scans,
+                                          options.shape.b_scans / options.repeats,
+                                          calibration->bin_spacing_um(),
+                                          calibration->a_spacing_um,
+                                          calibration->b_spacing_um,
+                                          calibration->refractive_index,
+                                          calibration->assumed_spacings};
   HAL_TRY(auto writer,
           pipeline::NrrdWriter::create(options.volume, geometry,
                                        options.display_counts ? pipeline::NrrdType::uint8
                                                               : pipeline::NrrdType::float32));
-  VolumeReconstruction work{options, format, spectra, reconstructor, writer};
+  std::optional<FlowVolumes> flow;
+  if (options.flow || options.decorrelation) {
+    HAL_TRY(auto volumes, FlowVolumes::create({.repeats = options.repeats,
+                                               .a_scans = options.shape.a_scans,
+                                               .depths = reconstructor.depths()},
+                                              geometry, options.flow, options.decorrelation));
+    flow.emplace(std::move(volumes));
+  }
+  VolumeReconstruction work{options,       format, spectra,
+                            reconstructor, writer, flow ? &*flow : nullptr};
   HAL_CHECK(work.run(worker_count(options)));
   HAL_CHECK(writer.commit());
+  if (flow) {
+    HAL_CHECK(flow->commit());
+    if (flow->left_out() > 0)
+      warn("warning: the flow of {} of {} B-scans is not told: their repeats have nothing in "
+           "common, or moved too far\n",
+           flow->left_out(), geometry.b_scans);
+  }
   if (geometry.assumed.any())
     warn("octascope reconstruct: warning: spacings are assumed: {} ({:.4g}, {:.4g}, {:.4g} "
          "µm); [depth] of a calibration gives them\n",

@@ -1,4 +1,5 @@
-// octascope reconstruct: turns raw spectra into a volume of levels and a picture of one B-scan.
+// octascope reconstruct: turns raw spectra into a volume of levels and a picture of one B-scan; repeated
+// sweeps into a volume of what flows as well.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +20,12 @@ struct ReconstructOptions {
   int right_shift = 0;                              // of left-justified counts
   std::optional<std::filesystem::path> calibration; // empty: no resampling, no dispersion
                                                     // compensation
+  int repeats = 1;                                  // successive sweeps of one position
   std::filesystem::path volume;                     // NRRD to write
-  bool display_counts = false;                      // 8 bits instead of float dB
+  // Likewise, of repeats: what flows, and how far they decorrelate before anything is decided.
+  std::optional<std::filesystem::path> flow;
+  std::optional<std::filesystem::path> decorrelation;
+  bool display_counts = false; // 8 bits instead of float dB
   int picture_b_scan = 0;
   std::optional<std::filesystem::path> picture; // PNG to write
   unsigned threads = 0;                         // 0: one per core

@@ -9,6 +9,7 @@
 #include "firmware-host/commands/spectra_type.h"
 #include "firmware-host/commands/volume/reconstruct.h"
 #include "firmware-host/terminal/terminal.h"
+#include "pipeline/angiography/b_scan_flow.h"
 
 namespace octascope::firmware_host {
 
@@ -25,6 +26,9 @@ struct ReconstructCommandLine {
   std::string calibration;
   std::string out;
   bool u8 = false;
+  int repeats = 1;
+  std::string flow;
+  std::string decorrelation;
   int b_scan = 0;
   std::string png;
 };
@@ -51,11 +55,22 @@ int run(const ReconstructCommandLine& line) {
     options.calibration = line.calibration;
   if (!line.png.empty())
     options.picture = line.png;
-  if (line.b_scan < 0 || line.b_scan >= shape->b_scans)
-    return complain(
-        {hal::ErrorCode::invalid_argument,
-         fmt::format("--bscan is {}, expected 0 to {}", line.b_scan, shape->b_scans - 1)},
-        wrong_use);
+  options.repeats = line.repeats;
+  if (!line.flow.empty())
+    options.flow = line.flow;
+  if (!line.decorrelation.empty())
+    options.decorrelation = line.decorrelation;
+  if (shape->b_scans % line.repeats != 0)
+    return complain({hal::ErrorCode::invalid_argument,
+                     fmt::format("--shape has {} sweeps, expected a multiple of the {} repeats of "
+                                 "each B-scan",
+                                 shape->b_scans, line.repeats)},
+                    wrong_use);
+  const int b_scans = shape->b_scans / line.repeats;
+  if (line.b_scan < 0 || line.b_scan >= b_scans)
+    return complain({hal::ErrorCode::invalid_argument,
+                     fmt::format("--bscan is {}, expected 0 to {}", line.b_scan, b_scans - 1)},
+                    wrong_use);
   const auto done = reconstruct_volume(options);
   return done ? 0 : complain(done.error(), failed);
 }
@@ -72,7 +87,8 @@ void add_reconstruct_command(CLI::App& app, int& exit_status) {
                              ->type_name("FILE");
   command
       ->add_option("--shape", line->shape,
-                   "B-scans, A-scans per B-scan and samples per line, like 100,100,1024")
+                   "B-scans (all their sweeps), A-scans per B-scan and samples per line, like "
+                   "100,100,1024")
       ->required()
       ->type_name("B,A,N");
   add_spectra_type_options(*command, line->type, spectra);
@@ -84,6 +100,28 @@ void add_reconstruct_command(CLI::App& app, int& exit_status) {
       ->required()
       ->type_name("FILE.nrrd");
   command->add_flag("--u8", line->u8, "Write the display's 8-bit counts instead of float dB");
+  CLI::Option* repeats =
+      command
+          ->add_option("--repeats", line->repeats,
+                       "Successive sweeps of one position: their levels are averaged, and volumes "
+                       "have B/M B-scans")
+          ->check(within(pipeline::BScanFlow::fewest_repeats, pipeline::BScanFlow::most_repeats))
+          ->type_name("M");
+  command
+      ->add_option("--flow", line->flow,
+                   "Volume to write: what flows between repeats, 0 static to 1 flowing, NaN where "
+                   "it cannot be told")
+      ->needs(repeats)
+      ->type_name("FILE.nrrd");
+  command
+      ->add_option(
+          "--decorrelation", line->decorrelation,
+          "Volume to write: D = 1 - |S Y1 conj(Y2) exp(-ip)| / (S (|Y1|^2 + |Y2|^2) / 2); "
+          "Y1, Y2 successive repeats' complex bins; S the sum over the M - 1 pairs and 3 "
+          "A-scans by 5 depths, as far as they lie in the B-scan; p the argument of the sum "
+          "of Y1 conj(Y2) over all depths of an A-scan; axial and lateral motion taken off")
+      ->needs(repeats)
+      ->type_name("FILE.nrrd");
   CLI::Option* b_scan = command->add_option("--bscan", line->b_scan, "B-scan to draw, from 0")
                             ->check(within(0, 65535))
                             ->type_name("I");
@@ -95,7 +133,9 @@ void add_reconstruct_command(CLI::App& app, int& exit_status) {
   png->needs(b_scan);
   command->footer("Example:\n"
                   "  octascope reconstruct --spectra spectra.raw --shape 100,100,1024 \\\n"
-                  "    --calibration spectrometer.toml --out volume.nrrd --bscan 50 --png b50.png");
+                  "    --calibration spectrometer.toml --out volume.nrrd --bscan 50 --png b50.png\n"
+                  "  octascope reconstruct --spectra repeated.raw --shape 200,100,1024 \\\n"
+                  "    --repeats 2 --out volume.nrrd --flow flow.nrrd");
   command->callback([line, &exit_status] { exit_status = run(*line); });
 }
 
