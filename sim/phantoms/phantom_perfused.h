@@ -24,7 +24,7 @@ public:
   const Instrument* instrument() const override { return nullptr; }
 
   static constexpr float widest_mm = 0.04F;      // radii
-  static constexpr float capillary_mm = 0.0035F; // the thinnest
+  static constexpr float capillary_mm = 0.0045F; // the thinnest
   float top_mm(float x_mm, float y_mm) const;
 
 private:

@@ -17,6 +17,7 @@
 #include "sim/phantoms/phantom_perfused.h"
 #include "sim/phantoms/phantom_profile.h"
 #include "sim/phantoms/scatterer_motion.h"
+#include "sim/spectra/repeated_sweeps.h"
 #include "tests/sim/loop_lines.h"
 #include "tests/support/fails_with.h"
 
@@ -256,6 +257,24 @@ TEST(RepeatedSweeps, are_the_same_whichever_thread_makes_them) {
   for (const std::uint64_t volume : {0U, 1U})
     for (int sweep = 0; sweep < first->sweeps(); ++sweep)
       EXPECT_TRUE(std::ranges::equal(first->frame(volume, sweep), again->frame(volume, sweep)));
+}
+
+TEST(RepeatedSweeps, come_with_their_truth) {
+  const VolumeLoopConfig config = few_b_scans(2);
+  const auto made = simulate_repeats(config);
+  ASSERT_TRUE(made) << made.error().message;
+  const auto loop = make(config);
+  EXPECT_EQ(made->plan().sweeps(), 8);
+  for (int sweep = 0; sweep < 8; ++sweep) {
+    const auto lines = made->sweep(sweep);
+    ASSERT_EQ(lines.size(), 300U * 1024);
+    EXPECT_TRUE(std::ranges::equal(lines.last(1024), line_of(*loop, 0, sweep, 299)));
+  }
+  EXPECT_EQ(made->flow, flow_truth(loop->phantom(), config.plan.geometry()));
+  EXPECT_GT(made->tree.tree.nodes(), 1000U);
+  VolumeLoopConfig there_and_back = config;
+  there_and_back.plan.bidirectional = true;
+  EXPECT_THAT(simulate_repeats(there_and_back), tests::FailsSaying("bidirectional"));
 }
 
 // A second tone of no frequency is a constant displacement.
