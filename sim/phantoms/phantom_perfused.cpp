@@ -53,11 +53,11 @@ float PerfusedTissue::top_mm(float x_mm, float y_mm) const {
 void PerfusedTissue::fill(Column& column, double /*phase*/, float x_mm, float y_mm) const {
   column.clear();
   const float top = top_mm(x_mm, y_mm);
-  column.add(Layer{top, top + 0.05F, 11, 1});
-  column.add(Layer{top + 0.05F, 20, 9, 1, Grain::granules, 0.4F});
+  column.add(Layer{top, top + 0.05F, 12.5F, 1});
+  column.add(Layer{top + 0.05F, 20, 10.5F, 1.2F, Grain::granules, 0.4F});
   column.add(Surface{top, 40, 1});
   bed_.fill(column, x_mm, y_mm, top, 20,
-            Layer{.backscatter_counts = 12, .attenuation_per_mm = 2.5F});
+            Layer{.backscatter_counts = 14, .attenuation_per_mm = 2.5F});
 }
 
 std::vector<VesselSegment> PerfusedTissue::vessels() const {

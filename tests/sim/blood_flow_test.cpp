@@ -219,7 +219,7 @@ TEST(RepeatedSweeps, a_beam_that_goes_there_and_back_returns_sooner_at_one_end) 
   };
   std::array<End, 2> ends;
   for (int b = 0; b < config.plan.b_scans; ++b) {
-    for (int a = 0; a < config.plan.a_scans; ++a) {
+    for (int a = 0; a < config.plan.a_scans; a += 3) {
       if (a >= 60 && a < 240)
         continue;
       const auto column = std::span{truth}.subspan(
@@ -429,7 +429,7 @@ TEST(PerfusedTissue, is_about_25_db_above_the_noise_and_falls_with_depth) {
   const auto truth = flow_truth(loop->phantom(), config.plan.geometry());
   std::array<double, 3> signal{}; // 0.05, 0.4 and 0.8 mm below the surface
   std::array<double, 3> noise{};
-  for (int a = 0; a < config.plan.a_scans; a += 2) {
+  for (int a = 0; a < config.plan.a_scans; a += 6) {
     const auto column = std::span{truth}.subspan(static_cast<std::size_t>(300 + a) * 512, 512);
     if (std::ranges::max(column) > 0)
       continue;
