@@ -201,10 +201,21 @@ void read_outputs(ConfigTable observation, ConfigTable recordings, Configuration
                         folder->string());
 }
 
+std::vector<sim::MotionTone> read_tones(ConfigTable& table, std::string_view key) {
+  std::vector<sim::MotionTone> tones;
+  for (const auto& row : table.rows(key, 2))
+    tones.push_back({.amplitude_um = row[0], .frequency_hz = row[1]});
+  return tones;
+}
+
 void read_sim(ConfigTable table, Configuration& configuration) {
   configuration.phantom = table.text("phantom", configuration.phantom);
   configuration.loop_volumes = table.integer("loop_volumes", configuration.loop_volumes, {1, 64});
   configuration.galvo_lag_us = table.number("galvo_lag_us", configuration.galvo_lag_us, {0, 1e6});
+  configuration.tissue_motion = {.axial = read_tones(table, "axial_motion"),
+                                 .lateral = read_tones(table, "lateral_motion")};
+  if (const auto possible = configuration.tissue_motion.validate(); !possible)
+    table.complain(possible.error().message);
   configuration.faults = table.path("faults");
   configuration.controls = table.path("controls");
 }

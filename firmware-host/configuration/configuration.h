@@ -16,6 +16,7 @@
 #include "pipeline/acquisition/neighbour_average.h"
 #include "pipeline/files/config_document.h"
 #include "pipeline/scan/scan_plan.h"
+#include "sim/spectra/tissue_motion.h"
 #include "ui/controls/built_in_profiles.h"
 #include "ui/status/axis_words.h"
 #include "ui/transfer/auto_window.h"
@@ -60,6 +61,7 @@ struct Configuration {
   std::string phantom = "anterior_eye";
   int loop_volumes = 6;
   double galvo_lag_us = 25; // of the mirror, in a bidirectional scan
+  sim::TissueMotion tissue_motion;
   std::optional<std::filesystem::path> faults;
   std::optional<std::filesystem::path> controls;
 };

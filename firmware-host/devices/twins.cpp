@@ -113,6 +113,7 @@ hal::Result<> play_phantom(const RunOptions& options, const Configuration& confi
     return pass_on(loop.error());
   loop->volumes = configuration.loop_volumes;
   loop->galvo_lag_us = configuration.galvo_lag_us;
+  loop->motion = configuration.tissue_motion;
   loop->seed = phantom_seed;
   if (configuration.plan)
     loop->plan = *configuration.plan;

@@ -6,6 +6,7 @@
 #include "sim/phantoms/phantom_anterior_eye.h"
 #include "sim/phantoms/phantom_cap.h"
 #include "sim/phantoms/phantom_nail_fold.h"
+#include "sim/phantoms/phantom_perfused.h"
 
 namespace octascope::sim {
 
@@ -16,6 +17,8 @@ hal::Result<std::unique_ptr<Phantom>> make_phantom(std::string_view name, std::u
     return std::make_unique<NailFold>(seed);
   if (name == phantom_names[2])
     return std::make_unique<PlasticCap>(seed);
+  if (name == phantom_names[3])
+    return std::make_unique<PerfusedTissue>(seed);
   return hal::fail(hal::ErrorCode::invalid_argument,
                    "phantom: there is none named \"{}\", expected one of {}", name,
                    fmt::join(phantom_names, ", "));

@@ -63,8 +63,8 @@ public:
   virtual const Instrument* instrument() const = 0;
 };
 
-inline constexpr std::array<std::string_view, 3> phantom_names = {"anterior_eye", "nail_fold",
-                                                                  "cap"};
+inline constexpr std::array<std::string_view, 4> phantom_names = {"anterior_eye", "nail_fold",
+                                                                  "cap", "perfused"};
 
 // ErrorCode::invalid_argument: no such phantom. The same seed gives the same phantom.
 hal::Result<std::unique_ptr<Phantom>> make_phantom(std::string_view name, std::uint64_t seed);

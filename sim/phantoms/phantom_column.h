@@ -1,6 +1,7 @@
 // The structure below one lateral position of a phantom, by depth in millimetres.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,22 @@ enum class Grain : std::uint8_t {
   granules, // lumps
 };
 
+// The flow in a vessel's lumen, below one place.
+struct LumenFlow {
+  float axis_mm = 0;         // depth of the vessel's axis
+  float aside_mm = 0;        // of the place, from the axis as seen from above
+  float radius_mm = 0;       // 0: nothing flows
+  float across_mm_per_s = 0; // at the axis: level, and downwards
+  float along_mm_per_s = 0;
+
+  // Speed relative to that at the axis, 0 … 1: a parabola.
+  float speed_at(float depth_mm) const {
+    const float off = depth_mm - axis_mm;
+    const float squared = radius_mm * radius_mm;
+    return squared > 0 ? std::max(1 - (aside_mm * aside_mm + off * off) / squared, 0.0F) : 0;
+  }
+};
+
 struct Layer {
   float top_mm = 0;
   float bottom_mm = 0;
@@ -22,7 +39,8 @@ struct Layer {
   float attenuation_per_mm = 0; // of amplitude, round trip
   Grain grain = Grain::none;
   float grain_strength = 0; // 0 … 1: variation of the backscatter, relative
-  bool flowing = false;     // its scatterers differ at each visit of the beam
+  bool flowing = false;     // its scatterers are new in each volume; between repeats, as `flow`
+  LumenFlow flow{};
 };
 
 // A smooth surface: reflects at an exact depth and transmits a part of the light.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "sim/spectrometer/spectrometer_simd.h"
 
@@ -27,10 +26,8 @@ void multiply_speckle(const float* amplitude, const float* first, float first_we
   }
 }
 
-// A surface's phase follows its depth by half a wavelength (840 nm, in water): neighbouring A-scans
-// of a slope differ in it at random, as they do in nature, so that their mean does not keep a
-// ghost of the surface as background.
-constexpr double phase_rad_per_mm = 4 * std::numbers::pi * 1.35 / 0.84e-3;
+// √½: the Gaussian table's real and imaginary parts have variance 1 each.
+constexpr float unit_power = 0.70710678F;
 
 } // namespace
 
@@ -49,22 +46,31 @@ ProfileMaker::Profile ProfileMaker::make_profile() const {
   profile.amplitude.resize(n);
   profile.transmission.resize(n);
   profile.flowing.resize(n);
+  profile.flowing_share.resize(n);
   return profile;
 }
 
 void ProfileMaker::fill(Profile& profile, const Column& column, float x_mm, float y_mm,
-                        std::uint64_t visit) const {
+                        const Visit& visit) const {
   std::ranges::fill(profile.amplitude, 0.0F);
   std::ranges::fill(profile.transmission, 1.0F);
   std::ranges::fill(profile.flowing, std::uint8_t{0});
-  for (const Layer& layer : column.layers())
-    paint(profile, layer, x_mm, y_mm);
+  std::ranges::fill(profile.flowing_share, 0.0F);
+  for (std::size_t layer = 0; layer < column.layers().size(); ++layer)
+    paint(profile, column, layer, x_mm, y_mm);
   attenuate(profile, column.surfaces());
-  speckle(profile, x_mm, y_mm, visit);
+  const SpeckleKeys keys = keys_of(x_mm, y_mm);
+  speckle(profile, keys);
+  if (visit.repeats == 1)
+    renew_blood(profile, keys, visit.number);
+  else
+    move_blood(profile, column, keys, visit);
 }
 
 // Bin d reaches from d − 1/2 to d + 1/2; those that a layer covers in part get that part of it.
-void ProfileMaker::paint(Profile& profile, const Layer& layer, float x_mm, float y_mm) const {
+void ProfileMaker::paint(Profile& profile, const Column& column, std::size_t index, float x_mm,
+                         float y_mm) const {
+  const Layer& layer = column.layers()[index];
   const float top = std::max(layer.top_mm / depth_spacing_mm_, 0.0F);
   const float bottom =
       std::min(layer.bottom_mm / depth_spacing_mm_, static_cast<float>(depths_) - 1.5F);
@@ -73,11 +79,14 @@ void ProfileMaker::paint(Profile& profile, const Layer& layer, float x_mm, float
   if (bottom <= top)
     return;
   const float kept = std::exp(-layer.attenuation_per_mm * depth_spacing_mm_);
+  const float flows = layer.flowing ? 1 : 0;
   const auto cover = [&](int depth, float level) {
     const float middle = static_cast<float>(depth);
     const float part = std::min(bottom, middle + 0.5F) - std::max(top, middle - 0.5F);
     float& amplitude = profile.amplitude[static_cast<std::size_t>(depth)];
     amplitude += (level - amplitude) * part;
+    float& share = profile.flowing_share[static_cast<std::size_t>(depth)];
+    share += (flows - share) * part;
   };
   float level = layer.backscatter_counts * grain(layer, x_mm, y_mm, first);
   for (int depth = first; depth <= last; depth += grain_step) {
@@ -95,7 +104,10 @@ void ProfileMaker::paint(Profile& profile, const Layer& layer, float x_mm, float
   const auto end = static_cast<std::ptrdiff_t>(last) + 1;
   std::fill(profile.transmission.begin() + begin, profile.transmission.begin() + end, kept);
   std::fill(profile.flowing.begin() + begin, profile.flowing.begin() + end,
-            static_cast<std::uint8_t>(layer.flowing));
+            static_cast<std::uint8_t>(layer.flowing ? index + 1 : 0));
+  if (end - begin > 2)
+    std::fill(profile.flowing_share.begin() + begin + 1, profile.flowing_share.begin() + end - 1,
+              flows);
 }
 
 float ProfileMaker::grain(const Layer& layer, float x_mm, float y_mm, int depth) const {
@@ -127,6 +139,8 @@ void ProfileMaker::attenuate(Profile& profile, std::span<const Surface> surfaces
     left *= profile.transmission[d];
     profile.transmission[d] = here; // from now on: the light that arrives
   }
+  // A surface's phase follows its depth: neighbouring A-scans of a slope differ in it at random, as
+  // they do in nature, so that their mean does not keep a ghost of the surface as background.
   for (const Surface& surface : surfaces) {
     const float depth = surface.depth_mm / depth_spacing_mm_;
     const auto bin = static_cast<std::size_t>(depth + 0.5F);
@@ -138,26 +152,86 @@ void ProfileMaker::attenuate(Profile& profile, std::span<const Surface> surfaces
   }
 }
 
-void ProfileMaker::speckle(Profile& profile, float x_mm, float y_mm, std::uint64_t visit) const {
-  const std::size_t n = profile.amplitude.size();
+ProfileMaker::SpeckleKeys ProfileMaker::keys_of(float x_mm, float y_mm) const {
   // Half a spacing off, so that A-scans lie between two places of the speckle and share them.
   const float a = x_mm / a_spacing_mm_ + 0.5F;
   const float lower = std::floor(a);
-  const auto a_key = static_cast<std::uint64_t>(static_cast<std::int64_t>(lower));
-  const auto b_key = static_cast<std::uint64_t>(std::llround(y_mm / b_spacing_mm_ * 2));
-  // √½, as the table's real and imaginary parts have variance 1 each.
   const float angle = (a - lower) * 1.57079633F;
-  const float first_weight = std::cos(angle) * 0.70710678F;
-  const float second_weight = std::sin(angle) * 0.70710678F;
+  return {.b = static_cast<std::uint64_t>(std::llround(y_mm / b_spacing_mm_ * 2)),
+          .a = static_cast<std::uint64_t>(static_cast<std::int64_t>(lower)),
+          .first_weight = std::cos(angle) * unit_power,
+          .second_weight = std::sin(angle) * unit_power};
+}
+
+void ProfileMaker::speckle(Profile& profile, const SpeckleKeys& keys) const {
+  const std::size_t n = profile.amplitude.size();
   auto* out = reinterpret_cast<float*>(profile.scatterers.data());
-  multiply_speckle(profile.amplitude.data(), gaussian_.run(hash(seed_, b_key, a_key), 2 * n).data(),
-                   first_weight, gaussian_.run(hash(seed_, b_key, a_key + 1), 2 * n).data(),
-                   second_weight, out, n);
-  const float* moved = gaussian_.run(hash(seed_ + 3, b_key, a_key, visit), 2 * n).data();
+  multiply_speckle(profile.amplitude.data(),
+                   gaussian_.run(hash(seed_, keys.b, keys.a), 2 * n).data(), keys.first_weight,
+                   gaussian_.run(hash(seed_, keys.b, keys.a + 1), 2 * n).data(), keys.second_weight,
+                   out, n);
+}
+
+void ProfileMaker::renew_blood(Profile& profile, const SpeckleKeys& keys,
+                               std::uint64_t visit) const {
+  const std::size_t n = profile.amplitude.size();
+  const float* moved = gaussian_.run(hash(seed_ + 3, keys.b, keys.a, visit), 2 * n).data();
   for (std::size_t d = 0; d < n; ++d)
     if (profile.flowing[d] != 0)
-      profile.scatterers[d] = std::complex<float>(moved[2 * d], moved[2 * d + 1]) *
-                              (profile.amplitude[d] * 0.70710678F);
+      profile.scatterers[d] =
+          std::complex<float>(moved[2 * d], moved[2 * d + 1]) * (profile.amplitude[d] * unit_power);
+}
+
+// Each repeat brings a number of its own to each voxel, and is a sum of those so far.
+void ProfileMaker::move_blood(Profile& profile, const Column& column, const SpeckleKeys& keys,
+                              const Visit& visit) const {
+  const std::size_t n = profile.amplitude.size();
+  const auto repeat = static_cast<std::size_t>(visit.repeat);
+  struct Numbers {
+    const float* first;
+    const float* second;
+  };
+  std::array<Numbers, most_repeats> numbers{};
+  for (std::size_t j = 0; j <= repeat; ++j) {
+    const std::uint64_t number = visit.number - repeat + j;
+    numbers[j] = {gaussian_.run(hash(seed_ + 3, keys.b, keys.a, number), 2 * n).data(),
+                  gaussian_.run(hash(seed_ + 3, keys.b, keys.a + 1, number), 2 * n).data()};
+  }
+  const auto number = [&](std::size_t j, std::size_t d) {
+    const auto part = [&](std::size_t i) {
+      return keys.first_weight * numbers[j].first[i] + keys.second_weight * numbers[j].second[i];
+    };
+    return std::complex<float>(part(2 * d), part(2 * d + 1));
+  };
+  const std::span<const double> times = std::span{visit.times_s}.first(repeat + 1);
+  ScattererMotion motion;     // of the bin
+  ScattererMotion lumen_mean; // of the lumen above
+  float crossed_mm = 0;       // blood above
+  std::array<std::complex<float>, most_repeats> weights = repeat_weights(motion, times);
+  for (std::size_t d = 0; d < n; ++d) {
+    ScattererMotion here = lumen_mean;
+    here.share = 1 - std::exp(-static_cast<float>(tail_per_mm) * crossed_mm);
+    const bool flowing = profile.flowing[d] != 0;
+    if (flowing) {
+      const LumenFlow& flow = column.layers()[profile.flowing[d] - 1U].flow;
+      const float speed = flow.speed_at(static_cast<float>(d) * depth_spacing_mm_);
+      here = {flow.across_mm_per_s * speed, flow.along_mm_per_s * speed,
+              std::max(profile.flowing_share[d], here.share)};
+      lumen_mean = {flow.across_mm_per_s / 2, flow.along_mm_per_s / 2};
+      crossed_mm += profile.flowing_share[d] * depth_spacing_mm_;
+    } else if (here.share == 0) {
+      continue;
+    }
+    if (here != motion) { // a tail's is one all the way down
+      motion = here;
+      weights = repeat_weights(motion, times);
+    }
+    std::complex<float> sum =
+        weights[0] * (flowing ? number(0, d) * profile.amplitude[d] : profile.scatterers[d]);
+    for (std::size_t j = 1; j <= repeat; ++j)
+      sum += weights[j] * number(j, d) * profile.amplitude[d];
+    profile.scatterers[d] = sum;
+  }
 }
 
 } // namespace octascope::sim

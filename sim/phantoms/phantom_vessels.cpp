@@ -6,13 +6,13 @@
 #include <numeric>
 #include <utility>
 
+#include "sim/phantoms/scatterer_motion.h"
 #include "sim/spectrometer/noise.h"
 
 namespace octascope::sim {
 namespace {
 
 constexpr float cell_mm = 0.15F;
-constexpr float smallest_part = 1.0F / 3;
 
 struct Branch {
   VesselPoint at;
@@ -20,6 +20,16 @@ struct Branch {
   float radius_mm;
   float length_mm;
 };
+
+LumenFlow flow_of(const VesselSegment& s) {
+  const float dx = s.to.x_mm - s.from.x_mm;
+  const float dy = s.to.y_mm - s.from.y_mm;
+  const float dz = s.to.depth_mm - s.from.depth_mm;
+  const float level = std::sqrt(dx * dx + dy * dy);
+  const float speed = static_cast<float>(wall_shear_per_s) / 2 * s.radius_mm /
+                      std::max(std::sqrt(level * level + dz * dz), 1e-6F);
+  return {.radius_mm = s.radius_mm, .across_mm_per_s = speed * level, .along_mm_per_s = speed * dz};
+}
 
 // −1 … 1
 float signed_unit(std::uint64_t key) {
@@ -47,7 +57,8 @@ Nearest nearest_on(const VesselSegment& s, float x_mm, float y_mm) {
 } // namespace
 
 std::vector<VesselSegment> grow_vessels(VesselPoint root, float heading_rad, float radius_mm,
-                                        float length_mm, std::uint64_t seed) {
+                                        float length_mm, std::uint64_t seed,
+                                        const VesselGrowth& growth) {
   constexpr int steps = 8; // segments of a branch
   std::vector<VesselSegment> segments;
   std::vector<Branch> open{{root, heading_rad, radius_mm, length_mm}};
@@ -58,10 +69,11 @@ std::vector<VesselSegment> grow_vessels(VesselPoint root, float heading_rad, flo
     for (int i = 0; i < steps; ++i) {
       branch.heading_rad += 0.28F * signed_unit(++key);
       const float step_mm = branch.length_mm / steps;
-      const VesselPoint next{branch.at.x_mm + step_mm * std::cos(branch.heading_rad),
-                             branch.at.y_mm + step_mm * std::sin(branch.heading_rad),
-                             std::max(branch.at.depth_mm + 0.12F * step_mm * signed_unit(++key),
-                                      1.5F * branch.radius_mm)};
+      const VesselPoint next{
+          branch.at.x_mm + step_mm * std::cos(branch.heading_rad),
+          branch.at.y_mm + step_mm * std::sin(branch.heading_rad),
+          std::clamp(branch.at.depth_mm + growth.steepness * step_mm * signed_unit(++key),
+                     1.5F * branch.radius_mm, growth.lowest_mm)};
       segments.push_back({branch.at, next, branch.radius_mm});
       branch.at = next;
     }
@@ -71,7 +83,7 @@ std::vector<VesselSegment> grow_vessels(VesselPoint root, float heading_rad, flo
     for (const auto& [part, turn] :
          {std::pair{share, 0.9F * (1 - share)}, std::pair{1 - share, -0.9F * share}}) {
       const float radius = branch.radius_mm * std::cbrt(part);
-      if (radius > smallest_part * radius_mm)
+      if (radius > growth.smallest_part * radius_mm)
         open.push_back(
             {branch.at, branch.heading_rad + side * turn, radius, branch.length_mm * 0.8F});
     }
@@ -151,6 +163,9 @@ void VesselBed::fill(Column& column, float x_mm, float y_mm, float surface_mm, f
     lumen.flowing = true;
     lumen.top_mm = surface_mm + nearest.depth_mm - half_height;
     lumen.bottom_mm = std::min(surface_mm + nearest.depth_mm + half_height, deepest_mm);
+    lumen.flow = flow_of(s);
+    lumen.flow.axis_mm = surface_mm + nearest.depth_mm;
+    lumen.flow.aside_mm = nearest.distance_mm;
     column.add(lumen);
   }
 }

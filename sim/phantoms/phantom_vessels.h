@@ -22,10 +22,18 @@ struct VesselSegment {
   float radius_mm = 0;
 };
 
+struct VesselGrowth {
+  float smallest_part = 1.0F / 3; // of the root's radius: thinner branches end
+  float steepness = 0.12F;        // the greatest slope, up or down
+  float lowest_mm = 1e3F;         // depths that it keeps above
+};
+
 // Grows a winding tree from `root` towards `heading_rad` (0: along x), forking until its branches
-// are thinner than a third of `radius_mm`. Radii at forks obey Murray's law.
+// are too thin. Radii at forks obey Murray's law. Blood flows from each segment's `from` to its
+// `to`.
 std::vector<VesselSegment> grow_vessels(VesselPoint root, float heading_rad, float radius_mm,
-                                        float length_mm, std::uint64_t seed);
+                                        float length_mm, std::uint64_t seed,
+                                        const VesselGrowth& growth = {});
 
 // Vessel segments in a grid of cells, for fast lookup by column. Immutable, thread-safe.
 class VesselBed {
@@ -34,7 +42,7 @@ public:
   explicit VesselBed(std::vector<VesselSegment> segments);
 
   // Adds the lumens at (x, y) to a column whose tissue begins at `surface_mm`, as flowing layers
-  // like `blood`, whose depths are ignored. Nothing below `deepest_mm`.
+  // like `blood`, whose depths are ignored. They flow as scatterer_motion.h says. Nothing below `deepest_mm`.
   void fill(Column& column, float x_mm, float y_mm, float surface_mm, float deepest_mm,
             const Layer& blood) const;
 

@@ -29,6 +29,7 @@ hal::Result<> VolumeLoopConfig::validate() const {
   if (!(galvo_lag_us >= 0 && galvo_lag_us <= 1e6))
     return hal::fail(hal::ErrorCode::invalid_argument,
                      "volume loop: galvo_lag_us is {}, expected 0 to 1e6", galvo_lag_us);
+  HAL_CHECK(motion.validate());
   SpectrometerConfig with_plan = spectrometer;
   with_plan.samples = plan.samples;
   return with_plan.validate();
@@ -57,19 +58,45 @@ public:
 
   void make(int volume, int sweep, int line, std::span<std::uint16_t> counts) {
     const pipeline::ScanPlan& plan = loop_.config_.plan;
-    const BeamPlace place = loop_.beam_path_.at(sweep, line);
+    BeamPlace place = loop_.beam_path_.at(sweep, line);
     const double in_volume =
         (sweep + static_cast<double>(line) / plan.lines_per_frame()) / plan.sweeps();
-    const auto visit = static_cast<std::uint64_t>(volume * plan.sweeps() + sweep);
+    const Visit visit = visit_of(volume, sweep, line);
+    const double t_s =
+        (static_cast<double>(visit.number) * plan.lines_per_frame() + line) / plan.line_rate_hz;
+    const TissueMotion& motion = loop_.config_.motion;
+    place.x_mm -= static_cast<float>(motion.lateral_um(t_s) * 1e-3);
+    const double deeper_um = motion.axial_um(t_s);
     loop_.phantom_->fill(column_, (volume + in_volume) / loop_.config_.volumes, place.x_mm,
                          place.y_mm);
     loop_.profiles_.fill(profile_, column_, place.x_mm, place.y_mm, visit);
-    loop_.synthesis_.mean_counts(profile_.scatterers, profile_.surfaces, workspace_, mean_);
+    loop_.synthesis_.mean_counts(
+        profile_.scatterers, profile_.surfaces, workspace_, mean_,
+        {deeper_um / plan.depth_spacing_um, phase_rad_per_mm * deeper_um * 1e-3});
     loop_.synthesis_.expose(
-        mean_, hash(loop_.config_.seed, visit, static_cast<std::uint64_t>(line)), counts);
+        mean_, hash(loop_.config_.seed, visit.number, static_cast<std::uint64_t>(line)), counts);
   }
 
 private:
+  Visit visit_of(int volume, int sweep, int line) const {
+    const pipeline::ScanPlan& plan = loop_.config_.plan;
+    const BeamPath& path = loop_.beam_path_;
+    Visit visit{.number = static_cast<std::uint64_t>(volume * plan.sweeps() + sweep),
+                .repeat = sweep % plan.repeats,
+                .repeats = plan.repeats};
+    const double a_scan = path.a_scan_at(sweep, line);
+    for (int repeat = 0; repeat <= visit.repeat; ++repeat) {
+      double met = line; // in that repeat, at the same place
+      if (plan.bidirectional)
+        met = path.lag_lines() + (plan.runs_backwards(sweep - visit.repeat + repeat)
+                                      ? plan.a_scans - 1 - a_scan
+                                      : a_scan);
+      visit.times_s[static_cast<std::size_t>(repeat)] =
+          (repeat * static_cast<double>(plan.lines_per_frame()) + met) / plan.line_rate_hz;
+    }
+    return visit;
+  }
+
   const VolumeLoop& loop_;
   Column column_;
   SpectrumSynthesis::Workspace workspace_;

@@ -16,6 +16,7 @@
 #include "sim/phantoms/phantom_profile.h"
 #include "sim/spectra/beam_path.h"
 #include "sim/spectra/spectra_source.h"
+#include "sim/spectra/tissue_motion.h"
 #include "sim/spectrometer/spectrometer.h"
 #include "sim/spectrometer/spectrometer_synthesis.h"
 
@@ -27,6 +28,7 @@ struct VolumeLoopConfig {
   int volumes = 6; // in the loop; each takes plan.sweeps() frames of memory
   std::uint64_t seed = 1;
   double galvo_lag_us = 25; // of the mirror behind its command, bidirectional; as drivers leave it
+  TissueMotion motion;      // as time goes by in the loop, so it jumps where the loop ends
   SpectrometerConfig spectrometer; // `samples` is replaced by the plan's
 
   hal::Result<> validate() const;
@@ -36,8 +38,9 @@ struct VolumeLoopConfig {
 hal::Result<VolumeLoopConfig> suggested_loop(std::string_view phantom);
 
 // Line l of sweep s of volume v shows the scene at the phase (v + (s + l/lines)/sweeps)/volumes:
-// instruments move along their path once per loop, flowing scatterers are new at each visit, tissue
-// keeps its speckle, and noise differs from line to line. The beam is where the mirrors point
+// instruments move along their path once per loop, tissue keeps its speckle, flowing scatterers are new
+// in each volume and move between the repeats of a B-scan (scatterer_motion.h) for as long as it
+// takes the beam to come back, and noise differs from line to line. The beam is where the mirrors point
 // (beam_path.h): at A-scan a, x = (a − (a_scans − 1)/2)·a_spacing; B-scan b lies at
 // y = (b − (b_scans − 1)/2)·b_spacing, each of its repeats with fly-back or turn-around.
 //

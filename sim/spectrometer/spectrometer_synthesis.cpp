@@ -88,6 +88,31 @@ void add_fringe(std::complex<double> start, std::complex<double> step, float* gr
   }
 }
 
+// grid[i] *= start · step^i, likewise.
+OCTASCOPE_VECTOR_LOOP
+void turn_grid(std::complex<double> start, std::complex<double> step, float* grid,
+               std::size_t blocks_of_8) {
+  std::array<float, 8> re;
+  std::array<float, 8> im;
+  std::complex<double> power = 1;
+  for (std::size_t lane = 0; lane < 8; ++lane, power *= step) {
+    re[lane] = static_cast<float>((start * power).real());
+    im[lane] = static_cast<float>((start * power).imag());
+  }
+  const auto step_re = static_cast<float>(power.real());
+  const auto step_im = static_cast<float>(power.imag());
+  for (std::size_t block = 0; block < blocks_of_8; ++block, grid += 16) {
+    for (std::size_t lane = 0; lane < 8; ++lane) {
+      const float here = grid[2 * lane];
+      grid[2 * lane] = here * re[lane] - grid[2 * lane + 1] * im[lane];
+      grid[2 * lane + 1] = here * im[lane] + grid[2 * lane + 1] * re[lane];
+      const float turned = re[lane] * step_re - im[lane] * step_im;
+      im[lane] = re[lane] * step_im + im[lane] * step_re;
+      re[lane] = turned;
+    }
+  }
+}
+
 OCTASCOPE_VECTOR_LOOP
 void add_noise_and_round(const float* mean, const float* noise, float counts_per_electron,
                          float read_variance, float full_scale, std::uint16_t* counts,
@@ -176,19 +201,21 @@ SpectrumSynthesis::Workspace SpectrumSynthesis::make_workspace() const {
 
 void SpectrumSynthesis::mean_counts(std::span<const std::complex<float>> scatterers,
                                     std::span<const Reflector> surfaces, Workspace& workspace,
-                                    std::span<float> counts) const {
+                                    std::span<float> counts, const Shift& shift) const {
   const Tables& t = *tables_;
   const auto n = static_cast<std::size_t>(t.samples);
   fftwf_complex* bins = workspace.buffers_->bins.get();
   fftwf_complex* grid = workspace.buffers_->grid.get();
 
+  const int moved = static_cast<int>(std::lround(shift.depth_bins));
   // Depth d is frequency d − middle, the negative ones at the array's end.
   for (int d = 0; d < t.depths; ++d) {
     const auto depth = static_cast<std::size_t>(d);
     const int frequency = d - t.middle;
+    const auto seen_at = static_cast<std::size_t>(std::clamp(d + moved, 0, t.depths - 1));
     fftwf_complex& bin = bins[frequency < 0 ? frequency + t.samples : frequency];
-    bin[0] = scatterers[depth].real() * t.depth_factors[depth];
-    bin[1] = scatterers[depth].imag() * t.depth_factors[depth];
+    bin[0] = scatterers[depth].real() * t.depth_factors[seen_at];
+    bin[1] = scatterers[depth].imag() * t.depth_factors[seen_at];
   }
   fftwf_execute_dft(t.plan.get(), bins, grid + margin);
   std::memcpy(grid, grid + n, margin * sizeof(fftwf_complex));
@@ -197,9 +224,15 @@ void SpectrumSynthesis::mean_counts(std::span<const std::complex<float>> scatter
   for (const Reflector& surface : surfaces) {
     const double angle = 2 * pi * (surface.depth_bin - t.middle) / t.samples;
     const std::complex<double> start =
-        std::polar(surface.amplitude_counts * t.depth_factor(surface.depth_bin),
+        std::polar(surface.amplitude_counts * t.depth_factor(surface.depth_bin + shift.depth_bins),
                    surface.phase_rad - angle * static_cast<double>(margin));
     add_fringe(start, std::polar(1.0, angle), &grid[0][0], (n + 2 * margin + 7) / 8);
+  }
+  if (shift.depth_bins != 0 || shift.phase_rad != 0) {
+    const double angle = 2 * pi * shift.depth_bins / t.samples;
+    const double middle_of_line = t.samples / 2.0 + static_cast<double>(margin);
+    turn_grid(std::polar(1.0, shift.phase_rad - angle * middle_of_line), std::polar(1.0, angle),
+              &grid[0][0], (n + 2 * margin + 7) / 8);
   }
   read_grid(&grid[0][0], t.pixels.data(), t.first_tap.data(), t.base.data(), counts.data(), n);
 }

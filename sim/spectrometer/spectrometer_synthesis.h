@@ -44,11 +44,22 @@ public:
 
   Workspace make_workspace() const;
 
+  // Of all that is seen, downwards, to a fraction of a bin.
+  struct Shift {
+    double depth_bins = 0;
+    double phase_rad = 0; // that the way there and back gains, at the middle of the line
+  };
+
   // mean[p] of one line. `scatterers`: N/2 amplitudes, one per depth bin, with counts and phases as
   // in a Reflector. `counts`: N.
   void mean_counts(std::span<const std::complex<float>> scatterers,
                    std::span<const Reflector> surfaces, Workspace& workspace,
-                   std::span<float> counts) const;
+                   std::span<float> counts, const Shift& shift) const;
+  void mean_counts(std::span<const std::complex<float>> scatterers,
+                   std::span<const Reflector> surfaces, Workspace& workspace,
+                   std::span<float> counts) const {
+    mean_counts(scatterers, surfaces, workspace, counts, {});
+  }
 
   // count[p]: adds noise (the same for the same key) to mean[p], rounds and saturates.
   void expose(std::span<const float> mean, std::uint64_t noise_key,

@@ -148,7 +148,7 @@ TEST(AnteriorEye, the_instrument_reflects_and_casts_a_full_shadow) {
   auto profile = maker.make_profile();
   Column column;
   eye.fill(column, 0.1, x, y);
-  maker.fill(profile, column, x, y, 0);
+  maker.fill(profile, column, x, y, {});
   const auto metal = static_cast<std::size_t>(top->depth_mm * 1e3F /
                                               static_cast<float>(geometry.depth_spacing_um));
   float brightest = 0;

@@ -1,19 +1,15 @@
 #include <algorithm>
 #include <chrono>
-#include <complex>
-#include <cstring>
 #include <thread>
 
 #include <gtest/gtest.h>
 
 #include "sim/phantoms/phantom_anterior_eye.h"
 #include "sim/spectra/volume_loop.h"
-#include "tests/sim/exact_inverse.h"
+#include "tests/sim/loop_lines.h"
 
 namespace octascope::sim {
 namespace {
-
-using tests::ReferenceChain;
 
 VolumeLoopConfig small_loop(std::string_view phantom) {
   VolumeLoopConfig config = *suggested_loop(phantom);
@@ -36,49 +32,6 @@ std::unique_ptr<VolumeLoop> complete_loop(const VolumeLoopConfig& config) {
     std::this_thread::sleep_for(std::chrono::milliseconds{1});
   return std::move(*loop);
 }
-
-std::span<const std::uint16_t> line_of(const VolumeLoop& loop, std::uint64_t volume, int b_scan,
-                                       int line) {
-  const auto frame = loop.frame(volume, b_scan);
-  const auto n = static_cast<std::size_t>(loop.format().samples_per_line);
-  return {reinterpret_cast<const std::uint16_t*>(frame.data()) + static_cast<std::size_t>(line) * n,
-          n};
-}
-
-// Complex A-scan, bins 0 … N/2.
-std::vector<std::complex<double>> a_scan(const VolumeLoop& loop, std::uint64_t volume, int b_scan,
-                                         int line) {
-  const Spectrometer& s = loop.spectrometer();
-  const ReferenceChain chain(s.true_k_positions(), s.true_dispersion_rad());
-  const auto counts = line_of(loop, volume, b_scan, line);
-  const std::vector<double> background = s.mean_counts({});
-  std::vector<double> fringes(counts.size());
-  for (std::size_t p = 0; p < fringes.size(); ++p)
-    fringes[p] = counts[p] - background[p];
-  const auto y = chain.prepare(fringes);
-  std::vector<std::complex<double>> depths(counts.size() / 2);
-  for (std::size_t d = 0; d < depths.size(); ++d)
-    depths[d] = ReferenceChain::at_depth(y, static_cast<double>(d));
-  return depths;
-}
-
-class Correlation {
-public:
-  void add(std::complex<double> a, std::complex<double> b) {
-    product_ += a * std::conj(b);
-    a_ += std::norm(a);
-    b_ += std::norm(b);
-    ++count_;
-  }
-  double value() const { return std::abs(product_) / std::sqrt(a_ * b_); }
-  int count() const { return count_; }
-
-private:
-  std::complex<double> product_;
-  double a_ = 0;
-  double b_ = 0;
-  int count_ = 0;
-};
 
 TEST(VolumeLoop, comes_round_and_differs_from_volume_to_volume) {
   const auto loop = complete_loop(small_loop("anterior_eye"));

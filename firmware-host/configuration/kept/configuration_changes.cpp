@@ -47,7 +47,7 @@ auto screen_of(const Configuration& c) {
 }
 
 auto twins_of(const Configuration& c) {
-  return std::tie(c.phantom, c.loop_volumes, c.galvo_lag_us, c.faults, c.controls);
+  return std::tie(c.phantom, c.loop_volumes, c.galvo_lag_us, c.tissue_motion, c.faults, c.controls);
 }
 
 bool same_curves(const ui::TransferFunction& a, const ui::TransferFunction& b, float u) {

@@ -159,6 +159,8 @@ std::vector<KeyCase> key_cases() {
       {"sim phantom", "[sim]\nphantom = \"cap\"\n"},
       {"sim loop_volumes", "[sim]\nloop_volumes = 2\n"},
       {"sim galvo_lag_us", "[sim]\ngalvo_lag_us = 40\n"},
+      {"sim axial_motion", "[sim]\naxial_motion = [[10, 1.2]]\n"},
+      {"sim lateral_motion", "[sim]\nlateral_motion = [[10, 1.2]]\n"},
       {"sim faults", "[sim]\nfaults = \"" + faults + "\"\n"},
       {"sim controls", "[sim]\ncontrols = \"" + controls + "\"\n"},
   };
@@ -223,7 +225,8 @@ protected:
                       std::tuple{c.workers, c.worker_cores, c.neighbour_weights.here, c.devices,
                                  display.width, display.height, display.fullscreen},
                       std::tuple{c.metrics, c.recording_folder},
-                      std::tuple{c.phantom, c.loop_volumes, c.galvo_lag_us, c.faults, c.controls}};
+                      std::tuple{c.phantom, c.loop_volumes, c.galvo_lag_us, c.tissue_motion,
+                                 c.faults, c.controls}};
   }
 
   void start(const std::string& text) {

@@ -1,6 +1,7 @@
 // Which vessels are marked in the flat pictures, where, and how strongly.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "sim/phantoms/phantom_tree.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "tests/ui/support/vessels/vessel_along.h"
+#include "ui/vessels/sections/near_segments.h"
 #include "ui/vessels/sections/vessel_sections.h"
 
 namespace octascope::tests {
@@ -95,6 +97,18 @@ protected:
            at.z < static_cast<float>(geometry_.depth_mm());
   }
 
+  // Radii from which on vessels are drawn: of more than most_segments in the volume, the thinnest are
+  // not. Half more than the thinnest that is, as a branch starts as thick as what it leaves.
+  float thinnest_drawn_mm() const {
+    std::vector<float> radii;
+    for (const Vessel& v : vessels_)
+      radii.push_back(v.radius_mm);
+    std::ranges::sort(radii, std::greater{});
+    return radii.size() > ui::NearSegments::most_segments
+               ? 1.5F * radii[ui::NearSegments::most_segments]
+               : 0;
+  }
+
   std::span<const VesselMark> marks(FlatPicture picture, int place) {
     view_.b_scan = view_.a_scan = place;
     sections_.update(picture, {view_, geometry_, tissue_, 1});
@@ -174,9 +188,11 @@ TEST_P(PhantomSections, lie_from_above_where_the_phantom_has_its_vessels) {
   const auto voxel_mm =
       static_cast<float>(1e-3 * std::max(geometry_.a_spacing_um, geometry_.b_spacing_um));
   int judged = 0;
+  const float thinnest_mm = thinnest_drawn_mm();
   for (const Vessel& v : vessels_) {
     const glm::vec3 middle = 0.5F * (v.from_mm + v.to_mm);
-    if (middle.z * 1e3F < static_cast<float>(behind * geometry_.depth_spacing_um))
+    if (middle.z * 1e3F < static_cast<float>(behind * geometry_.depth_spacing_um) ||
+        v.radius_mm < thinnest_mm)
       continue;
     ++judged;
     EXPECT_LT(from_marks(found, middle.x, middle.y), 0);
