@@ -3,7 +3,7 @@
 // Steps and their sources: flow_grid.h, flowing_voxels.h (hysteresis), wall_distance.h, voxel_paths.h
 // (minimum-cost paths), branch_fit.h (places between voxels), tree_assembly.h.
 //
-// Takes about 20 bytes a voxel of the grid, which has a third of an OCT volume's voxels, and 40 a
+// Takes 12 bytes a voxel of the grid, which has a third of an OCT volume's voxels, and about 50 a
 // flowing voxel. Allocates, and takes a good part of a second: not for threads that others wait for.
 #pragma once
 
