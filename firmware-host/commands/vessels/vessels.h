@@ -15,6 +15,7 @@ void add_vessels_info_command(CLI::App& vessels, int& exit_status);
 void add_vessels_render_command(CLI::App& vessels, int& exit_status);
 void add_vessels_bench_command(CLI::App& vessels, int& exit_status);
 void add_vessels_register_command(CLI::App& vessels, int& exit_status);
+void add_vessels_trace_command(CLI::App& vessels, int& exit_status);
 
 // "vessels", of "bench".
 void add_bench_vessels_command(CLI::App& bench, int& exit_status);

@@ -13,6 +13,7 @@ void add_vessels_command(CLI::App& program, int& exit_status) {
   add_vessels_render_command(*vessels, exit_status);
   add_vessels_bench_command(*vessels, exit_status);
   add_vessels_register_command(*vessels, exit_status);
+  add_vessels_trace_command(*vessels, exit_status);
 }
 
 } // namespace octascope::firmware_host
