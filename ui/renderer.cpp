@@ -158,10 +158,11 @@ void Renderer::expect(const ViewState& view) {
 
 hal::Result<> Renderer::complete(const pipeline::Volume& volume, const ViewState& view,
                                  const DrawQuality& quality) {
-  parts_->volume.expect(view);
-  if (parts_->volume.wants_volume(view))
+  const ViewState fitted = parts_->fitted(view);
+  parts_->volume.expect(fitted);
+  if (parts_->volume.wants_volume(fitted))
     HAL_CHECK(show_volume(volume));
-  return parts_->volume.complete(volume, parts_->fitted(view), quality);
+  return parts_->volume.complete(volume, fitted, quality);
 }
 
 bool Renderer::needs_redraw(const ViewState& view, const Status& status, int width, int height,

@@ -128,19 +128,23 @@ bool RenderLoop::turn() {
   return go_on;
 }
 
+bool RenderLoop::casts_rays() const {
+  const ui::Technique technique = controller_.state().technique;
+  return software_ && (technique == ui::Technique::rays || technique == ui::Technique::maximum ||
+                       technique == ui::Technique::shaded);
+}
+
 // Of a rolling volume's picture, at rest (ui/volume/ray_cast_picture.h).
 bool RenderLoop::draws_parts() const {
   const ui::ViewState& view = controller_.state();
-  return volume_.rolls() && software_ && (parts_.vessels == nullptr || !view.vessels_visible) &&
-         (view.technique == ui::Technique::rays || view.technique == ui::Technique::maximum);
+  return volume_.rolls() && casts_rays() && view.technique != ui::Technique::shaded &&
+         (parts_.vessels == nullptr || !view.vessels_visible);
 }
 
 ui::FrameBudget RenderLoop::frame_budget() const {
-  return ui::frame_budget(parts_.display.refresh_period(),
-                          {.software = software_,
-                           .rolling = volume_.rolls(),
-                           .in_parts = draws_parts(),
-                           .volume_period = setup_.freshness.volume_period});
+  return ui::frame_budget(
+      parts_.display.refresh_period(),
+      {.software = software_, .rolling = volume_.rolls(), .in_parts = draws_parts()});
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
@@ -155,7 +159,8 @@ ui::DrawQuality RenderLoop::choose_quality() {
                         .technique = view.technique,
                         .moved = moved,
                         .live = brings_volumes(status().freshness.liveness) ||
-                                brings_volumes(drawn_liveness_) || volume_undisplayed_});
+                                brings_volumes(drawn_liveness_) || volume_undisplayed_,
+                        .cast = casts_rays()});
   quality.rays = rays_;
   if (parts_.vessels != nullptr) {
     quality.vessel_detail_px = parts_.vessels->detail_px(status().now, moved);
@@ -334,6 +339,19 @@ void RenderLoop::update_status() {
     status_writer_.show_vessels(parts_.vessels->status());
 }
 
+// A frame that shows nothing new of the volume, such as one for the microscope camera's picture, lets the
+// next volume go first where that comes before the frame would be done; if it is late, no more.
+bool RenderLoop::awaits_volume() const {
+  constexpr std::chrono::milliseconds patience{3};
+  const pipeline::Volume* const last = volume_.whole();
+  if (last == nullptr || volume_.rolls() || volume_undisplayed_ || undisplayed_control_ ||
+      status().freshness.liveness != ui::Liveness::live)
+    return false;
+  const hal::TimePoint due = last->metadata.last_line + setup_.freshness.volume_period;
+  const hal::TimePoint now = parts_.clock.now();
+  return now + governor_.fixed_cost() > due && now < due + patience;
+}
+
 void RenderLoop::draw_if_changed() {
   const ui::ViewState& view = controller_.state();
   quality_ = choose_quality();
@@ -342,12 +360,14 @@ void RenderLoop::draw_if_changed() {
   hal::Display& display = parts_.display;
   const bool rested = presented_ && status().now - *presented_ >= longest_rest;
   if (!picture_wanted_ && !rested &&
-      !renderer_->needs_redraw(view, status(), display.width(), display.height(), quality_))
+      (awaits_volume() ||
+       !renderer_->needs_redraw(view, status(), display.width(), display.height(), quality_)))
     return;
   const hal::TimePoint begin = parts_.clock.now();
-  if (volume_.whole() != nullptr)
-    static_cast<void>(renderer_->complete(volume_.shown(), view,
-                                          quality_)); // that it can be shown, it has proved
+  if (const auto complete = volume_.complete(*renderer_, view, quality_); !complete) {
+    lose_display(complete.error());
+    return;
+  }
   // A picture that is drawn in parts is drawn as a whole as often: which proves that all of it is true,
   // not that it was.
   hal::BackBuffer buffer = display.back_buffer();
@@ -481,10 +501,8 @@ std::optional<pipeline::Image> RenderLoop::picture() {
   // As it was shown: of a display that draws slowly, a live picture is STALE when we are back here.
   const int width = parts_.display.width();
   const int height = parts_.display.height();
-  if (volume_.whole() != nullptr &&
-      !renderer_->complete(volume_.shown(), controller_.state(), quality_))
-    return std::nullopt;
-  if (!renderer_->draw(controller_.state(), status(), width, height, quality_))
+  if (!volume_.complete(*renderer_, controller_.state(), quality_) ||
+      !renderer_->draw(controller_.state(), status(), width, height, quality_))
     return std::nullopt;
   return renderer_->read_back(width, height);
 }

@@ -157,11 +157,13 @@ private:
   void answer(const ui::ControlRequests& requests);
   void find_window();
   void keep_picture();
+  bool casts_rays() const;
   bool draws_parts() const;
   void take_volume();
   void note_taken(const pipeline::Volume& newest, hal::TimePoint begin);
   void take_scope_picture();
   void update_status();
+  bool awaits_volume() const;
   void draw_if_changed();
   void flip_done(const hal::Flip& flip, hal::TimePoint begin);
   void note_passage();

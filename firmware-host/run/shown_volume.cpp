@@ -24,7 +24,23 @@ const pipeline::Volume* ShownVolume::take(const ui::ViewState& view) {
   return newest_;
 }
 
+// What could not be given, complete() tries again as a whole: the renderer may hold another one.
 hal::Result<> ShownVolume::show(ui::Renderer& renderer, const ui::ViewState& view) {
+  const auto result = give(renderer, view);
+  given_ = result.has_value();
+  return result;
+}
+
+hal::Result<> ShownVolume::complete(ui::Renderer& renderer, const ui::ViewState& view,
+                                    const ui::DrawQuality& quality) {
+  if (whole_ == nullptr)
+    return {};
+  if (!given_)
+    HAL_CHECK(show_again(renderer));
+  return renderer.complete(shown(), view, quality);
+}
+
+hal::Result<> ShownVolume::give(ui::Renderer& renderer, const ui::ViewState& view) {
   if (rolling_)
     return show_b_scans(renderer, rolled_ ? newest_ : whole_, view.b_scan);
   return newest_ != nullptr || rolled_ ? show_whole(renderer) : hal::Result<>{};
@@ -32,7 +48,10 @@ hal::Result<> ShownVolume::show(ui::Renderer& renderer, const ui::ViewState& vie
 
 hal::Result<> ShownVolume::show_again(ui::Renderer& renderer) {
   renewable_ = false;
-  return whole_ != nullptr ? renderer.show_volume(shown()) : hal::Result<>{};
+  if (whole_ != nullptr)
+    HAL_CHECK(renderer.show_volume(shown()));
+  given_ = true;
+  return {};
 }
 
 hal::Result<> ShownVolume::show_whole(ui::Renderer& renderer) {

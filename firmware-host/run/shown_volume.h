@@ -40,6 +40,9 @@ public:
 
   // Gives the renderer what it lacks since the last take().
   hal::Result<> show(ui::Renderer& renderer, const ui::ViewState& view);
+  // What a frame of that view needs of it and was not given so far, right before it is drawn.
+  hal::Result<> complete(ui::Renderer& renderer, const ui::ViewState& view,
+                         const ui::DrawQuality& quality);
   // All of it, to a renderer that has nothing; does nothing while there is no volume.
   hal::Result<> show_again(ui::Renderer& renderer);
 
@@ -52,6 +55,7 @@ public:
 
 private:
   bool may_roll(const ui::ViewState& view) const;
+  hal::Result<> give(ui::Renderer& renderer, const ui::ViewState& view);
   hal::Result<> show_whole(ui::Renderer& renderer);
   hal::Result<> show_b_scans(ui::Renderer& renderer, const pipeline::Volume* taken, int kept_clear);
 
@@ -62,6 +66,7 @@ private:
   bool rolling_ = false;                                  // it is shown, not whole_
   bool rolled_ = false;                                   // before the last take()
   bool renewable_ = false; // the renderer holds all of it but for its changes
+  bool given_ = true;      // what the last show() was to give
   LineLatency line_latency_;
 };
 

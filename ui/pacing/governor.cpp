@@ -61,8 +61,7 @@ FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how) {
   const hal::Duration moving = refresh * 18 / 10;
   if (how.in_parts)
     return {moving, refresh * 7 / 10};
-  const hal::Duration quick = std::max(how.volume_period * 7 / 10, refresh * 15 / 10);
-  return {moving, how.rolling ? moving : std::min(moving, quick)};
+  return {moving, how.rolling ? moving : refresh * 15 / 10};
 }
 
 double Governor::Median::value() const {
@@ -72,6 +71,10 @@ double Governor::Median::value() const {
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(count / 2);
   std::nth_element(sorted.begin(), middle, end);
   return *middle;
+}
+
+hal::Duration Governor::fixed_cost() const {
+  return fixed_ms_.empty() ? hal::Duration{} : hal::from_seconds(fixed_ms_.value() * 1e-3);
 }
 
 double Governor::predict_ms(const Knowledge& knowledge, std::size_t rung) const {
@@ -126,7 +129,8 @@ DrawQuality Governor::choose(const Situation& situation) {
   if (still_)
     return full_quality;
   Place& place = places_[technique_][moving_ ? 1 : 0];
-  const std::size_t coarsest = moving_ ? ladder.size() - 1 : coarsest_rung_at_rest;
+  const std::size_t coarsest =
+      situation.cast && !moving_ ? coarsest_rung_at_rest : ladder.size() - 1;
   if (place.rung > coarsest)
     enter(place, coarsest);
   settle(place, knowledge_[technique_], budget_ms(), coarsest);

@@ -38,12 +38,11 @@ struct DrawnHow {
   bool software = false; // by the processor
   bool rolling = false;  // B-scans come all the time
   bool in_parts = false; // of a view at rest only what changed
-  hal::Duration volume_period = std::chrono::milliseconds{141};
 };
 
 // With a GPU every refresh of a moving view gets a frame, and a volume that comes while the view rests
-// may take two. Where the processor draws, a frame takes two; but where volumes come faster than that,
-// it leaves a third of their period to copying them, so that each can be shown. Of what rolls, each
+// may take two. Where the processor draws, a frame takes two, with a new volume one and a half: copying it
+// takes the rest, and where volumes come faster than that, a third of their period, so that each can be shown. Of what rolls, each
 // refresh shows what has come where only that is drawn anew; copying it takes its time, too.
 FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how);
 
@@ -59,14 +58,18 @@ public:
     Technique technique = Technique::rays;
     bool moved = false; // the request differs from the last frame's
     bool live = true;   // volumes keep coming; else the picture is drawn once and may take longer
+    bool cast = false;  // by the processor's rays: at rest never below coarsest_at_rest
   };
 
-  // Most of what a frame of few samples costs is its fixed part: of a view at rest, which is looked
-  // at, still fewer would blur the picture and gain next to nothing.
+  // Most of what a frame of few rays costs is its fixed part: of a view at rest, which is looked at,
+  // still fewer would blur the picture and gain next to nothing.
   static constexpr DrawQuality coarsest_at_rest{0.5F, 192};
 
   // For the frame that begins now. Full quality at rest without live volumes, or within budget.
   DrawQuality choose(const Situation& situation);
+
+  // What a frame costs whose volume's picture is not redrawn.
+  hal::Duration fixed_cost() const;
 
   // Reports the cost of that frame, from its beginning until it was drawn.
   void note(hal::Duration cost, bool volume_drawn);

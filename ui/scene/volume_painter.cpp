@@ -202,9 +202,6 @@ TextureParts VolumePainter::expected_parts() const {
 hal::Result<> VolumePainter::complete(const pipeline::Volume& volume, const ViewState& view,
                                       const DrawQuality& quality) {
   completed_by_caller_ = true;
-  expect(view);
-  if (wants_volume(view))
-    HAL_CHECK(show(volume));
   expected_ = parts_for(view, backend(quality));
   return empty() || texture_.holds(expected_) ? hal::Result<>{}
                                               : texture_.renew(volume, {}, expected_);

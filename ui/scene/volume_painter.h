@@ -79,7 +79,7 @@ public:
   }
 
   // Copies what drawing that view at that quality needs of the shown volume and is not there yet;
-  // `volume` must be the one shown last. From the first call on, show() and renew() leave out what
+  // `volume` must be the one shown last, and nothing of it be wanted (below). From the first call on, show() and renew() leave out what
   // the view expected does not need, and it must be called before each update().
   hal::Result<> complete(const pipeline::Volume& volume, const ViewState& view,
                          const DrawQuality& quality);

@@ -162,30 +162,15 @@ void RayCastPicture::find_filled() {
   }
 }
 
-// Tile by tile, side by side in one piece. What was empty and is empty has not changed.
+// What was empty and is empty has not changed.
 void RayCastPicture::note_changes(const RayCaster& caster, bool renewed) {
   find_filled();
-  if (!renewed) {
-    const auto across = static_cast<int>(tile_count(image_.width));
-    for (std::size_t i = 0; i < filled_.size(); ++i)
-      if ((filled_[i] | was_filled_[i]) != 0)
-        changed_.push_back({static_cast<int>(i) % across * tile_size,
-                            static_cast<int>(i) / across * tile_size, tile_size, tile_size});
-    return;
-  }
-  const Rect& drawn = image_.drawn;
-  for (int y = drawn.y; y < drawn.bottom(); y += tile_size) {
-    Rect run{drawn.x, y, 0, tile_size};
-    for (int x = drawn.x; x < drawn.right() + tile_size; x += tile_size) {
-      const bool changed =
-          x < drawn.right() && caster.may_have_changed({x, y, tile_size, tile_size});
-      if (changed && run.empty())
-        run.x = x;
-      if (changed)
-        run.width = x + tile_size - run.x;
-      else if (!run.empty())
-        changed_.push_back(std::exchange(run, {x, y, 0, tile_size}));
-    }
+  const auto across = static_cast<int>(tile_count(image_.width));
+  for (std::size_t i = 0; i < filled_.size(); ++i) {
+    const int at = static_cast<int>(i);
+    const Rect tile{at % across * tile_size, at / across * tile_size, tile_size, tile_size};
+    if ((filled_[i] | was_filled_[i]) != 0 && (!renewed || caster.may_have_changed(tile)))
+      changed_.push_back(tile);
   }
 }
 

@@ -46,6 +46,8 @@ void VolumeTexture::allocate(const pipeline::VolumeGeometry& geometry) {
     glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
   }
   uploader_ = gl::PixelUploader::create(geometry.voxels());
+  a_scans_.reserve(3 * static_cast<std::size_t>(geometry.depths) *
+                   static_cast<std::size_t>(geometry.b_scans));
 }
 
 // Into the texture in the back.
@@ -89,13 +91,16 @@ hal::Result<> VolumeTexture::write_lacking(const pipeline::Volume& volume,
   const auto back = static_cast<std::uint8_t>(2U >> front_);
   for (int b = within.from; b < within.to;) {
     pipeline::BScanRange range{b, b};
-    for (; b < within.to && (old_[static_cast<std::size_t>(b)] & back) != 0; ++b)
-      old_[static_cast<std::size_t>(b)] &= static_cast<std::uint8_t>(~back);
-    range.to = b;
-    if (range.from == range.to)
+    while (b < within.to && (old_[static_cast<std::size_t>(b)] & back) != 0)
       ++b;
-    else
-      HAL_CHECK(write(volume, range));
+    range.to = b;
+    if (range.from == range.to) {
+      ++b;
+      continue;
+    }
+    HAL_CHECK(write(volume, range));
+    for (int written = range.from; written < range.to; ++written)
+      old_[static_cast<std::size_t>(written)] &= static_cast<std::uint8_t>(~back);
   }
   return {};
 }
@@ -120,6 +125,14 @@ hal::Result<> VolumeTexture::fill_back(const pipeline::Volume& volume, const Tex
   return {};
 }
 
+void VolumeTexture::make_old(std::size_t texture, std::span<const pipeline::BScanRange> changed) {
+  for (const pipeline::BScanRange& range : changed)
+    for (int b = range.from; b < range.to; ++b)
+      old_[static_cast<std::size_t>(b)] |= static_cast<std::uint8_t>(1U << texture);
+  if (!changed.empty())
+    a_scan_[texture] = -1;
+}
+
 bool VolumeTexture::lacks_none(std::size_t texture, const pipeline::BScanRange& b_scans) const {
   return std::none_of(old_.begin() + b_scans.from, old_.begin() + b_scans.to,
                       [bit = 1U << texture](std::uint8_t old) { return (old & bit) != 0; });
@@ -134,12 +147,14 @@ bool VolumeTexture::holds(const TextureParts& parts) const {
 
 hal::Result<> VolumeTexture::upload(const pipeline::Volume& volume, const TextureParts& parts) {
   HAL_CHECK(check(volume));
-  if (empty() || volume.geometry != geometry_)
+  if (empty() || volume.geometry != geometry_) {
     allocate(volume.geometry);
-  geometry_ = volume.geometry;
-  old_.assign(static_cast<std::size_t>(geometry_.b_scans), std::uint8_t{3});
-  a_scan_ = {-1, -1};
-  return fill_back(volume, parts);
+    geometry_ = volume.geometry;
+    old_.assign(static_cast<std::size_t>(geometry_.b_scans), std::uint8_t{3});
+    a_scan_ = {-1, -1};
+  }
+  const pipeline::BScanRange all{0, geometry_.b_scans};
+  return renew(volume, {&all, 1}, parts);
 }
 
 hal::Result<> VolumeTexture::renew(const pipeline::Volume& volume,
@@ -148,11 +163,11 @@ hal::Result<> VolumeTexture::renew(const pipeline::Volume& volume,
   if (empty() || volume.geometry != geometry_)
     return upload(volume, parts);
   HAL_CHECK(check(volume));
-  if (!changed.empty())
-    a_scan_ = {-1, -1};
-  for (const pipeline::BScanRange& range : changed)
-    std::fill(old_.begin() + range.from, old_.begin() + range.to, std::uint8_t{3});
-  return fill_back(volume, parts);
+  const std::size_t shown = front_; // until another one is written
+  make_old(1 - shown, changed);
+  HAL_CHECK(fill_back(volume, parts));
+  make_old(shown, changed);
+  return {};
 }
 
 } // namespace octascope::ui

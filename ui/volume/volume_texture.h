@@ -32,7 +32,8 @@ public:
   static hal::Result<> check_size(const pipeline::VolumeGeometry& geometry);
 
   // Copies the levels of those parts before it returns. Errors: check_size()'s;
-  // ErrorCode::bad_data: fewer voxels than the geometry says. The previous volume stays.
+  // ErrorCode::bad_data: fewer voxels than the geometry says; a driver's that has no memory. Of the
+  // same geometry the previous volume stays.
   hal::Result<> upload(const pipeline::Volume& volume, const TextureParts& parts = {});
 
   // The same where the volume differs from the one that was uploaded last in these B-scans alone;
@@ -53,6 +54,7 @@ private:
   hal::Result<> write_lacking(const pipeline::Volume& volume, const pipeline::BScanRange& range);
   hal::Result<> write_a_scans(const pipeline::Volume& volume, const pipeline::BScanRange& a_scans);
   hal::Result<> fill_back(const pipeline::Volume& volume, const TextureParts& parts);
+  void make_old(std::size_t texture, std::span<const pipeline::BScanRange> changed);
   pipeline::BScanRange b_scans_of(const TextureParts& parts) const;
   bool lacks_none(std::size_t texture, const pipeline::BScanRange& b_scans) const;
 

@@ -64,7 +64,9 @@ protected:
     });
   }
 
+  // Of a volume of which it is given no more than is drawn.
   pipeline::Image draw_in_part(const hal::BackBuffer& buffer) {
+    EXPECT_TRUE(renderer_->complete(mixed_.volume(), view_, quality_));
     const auto drawn = renderer_->draw(view_, status_, width_, height_, quality_, buffer);
     EXPECT_TRUE(drawn) << drawn.error().message;
     return renderer_->read_back(width_, height_);
@@ -76,6 +78,7 @@ protected:
     bind(at);
     const pipeline::Image in_part = draw_in_part({image_, held_[at]});
     bind(most_buffers);
+    EXPECT_TRUE(whole_->prepare(mixed_.volume(), view_, quality_));
     const auto drawn = whole_->draw(view_, status_, width_, height_, quality_);
     ASSERT_TRUE(drawn) << drawn.error().message;
     const pipeline::Image all = whole_->read_back(width_, height_);
@@ -299,6 +302,9 @@ TEST_F(PartialFrame, allocates_nothing_once_it_runs) {
       before = allocations_of_this_thread();
     status_.simulated = i % 2 == 0;
     view_.yaw_deg = static_cast<float>(10 * i);
+    view_.b_scan = i;
+    view_.a_scan = 2 * i;
+    ASSERT_TRUE(renderer_->complete(mixed_.volume(), view_, quality_));
     ASSERT_TRUE(renderer_->draw(view_, status_, width_, height_, quality_, {image_, image_ - 1}));
     ++image_;
   }

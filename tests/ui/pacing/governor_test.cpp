@@ -87,9 +87,7 @@ TEST(FrameBudget, leaves_the_processor_every_second_refresh_but_for_what_is_draw
   EXPECT_EQ(budget_of({}).resting, 18ms);
   EXPECT_EQ(budget_of({.rolling = true}).resting, 8ms);
   EXPECT_EQ(budget_of({.software = true}).moving, 18ms);
-  EXPECT_EQ(budget_of({.software = true}).resting, 18ms);
-  EXPECT_EQ(budget_of({.software = true, .volume_period = 24ms}).resting, 16800us);
-  EXPECT_EQ(budget_of({.software = true, .volume_period = 10ms}).resting, 15ms);
+  EXPECT_EQ(budget_of({.software = true}).resting, 15ms);
   EXPECT_EQ(budget_of({.software = true, .rolling = true}).resting, 18ms);
   EXPECT_EQ(budget_of({.software = true, .rolling = true, .in_parts = true}).resting, 7ms);
 }
@@ -138,7 +136,7 @@ TEST_F(GovernorTest, a_view_at_rest_is_not_blurred_for_a_fixed_part_that_nothing
   EXPECT_LT(ui::sample_share(draw(machine, 4, true).back()), 0.1);
   now_ += Governor::rest_after;
   for (int i = 0; i < 200; ++i) {
-    const auto quality = governor_.choose({now_, Technique::rays, false, true});
+    const auto quality = governor_.choose({now_, Technique::rays, false, true, true});
     EXPECT_GE(quality.resolution, Governor::coarsest_at_rest.resolution);
     EXPECT_GE(quality.steps, Governor::coarsest_at_rest.steps);
     governor_.note(hal::from_seconds(machine.true_ms(quality) * 1e-3), true);
