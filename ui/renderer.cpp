@@ -54,7 +54,7 @@ hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
     parts_->coloured_depths = {};
   }
   parts_->shown_geometry = volume.geometry;
-  parts_->follow(volume);
+  parts_->follow(volume, {});
   return {};
 }
 
@@ -66,7 +66,7 @@ hal::Result<> Renderer::renew_volume(const pipeline::Volume& volume,
     return show_volume(volume);
   parts_->note(changed, volume.geometry.b_scans);
   HAL_CHECK(parts_->volume.renew(volume, changed));
-  parts_->follow(volume);
+  parts_->follow(volume, changed);
   return {};
 }
 

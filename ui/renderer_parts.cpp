@@ -333,7 +333,8 @@ void Renderer::Parts::note(std::span<const pipeline::BScanRange> changed, int b_
 }
 
 // The flat pictures keep their cut, and the colours of depths theirs, until a volume is whole.
-void Renderer::Parts::follow(const pipeline::Volume& shown) {
+void Renderer::Parts::follow(const pipeline::Volume& shown,
+                             std::span<const pipeline::BScanRange> changed) {
   tissue.update(volume.occupancy(), shown.b_scan_states);
   if (std::ranges::find(shown.b_scan_states, pipeline::BScanState::seam) ==
       shown.b_scan_states.end()) {
@@ -342,7 +343,7 @@ void Renderer::Parts::follow(const pipeline::Volume& shown) {
     coloured_depths.follow({depth.from, depth.to});
     volume.colour_depths(coloured_depths.current());
   }
-  en_face_panel.show(shown, tissue, volume.team());
+  en_face_panel.show(shown, tissue, changed, volume.team());
   picture_changes.note_projection(en_face_panel.changed_rows());
   state_texture.upload(shown);
   states.assign(shown.b_scan_states.begin(), shown.b_scan_states.end());

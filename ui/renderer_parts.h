@@ -80,7 +80,7 @@ struct Renderer::Parts {
   DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height,
                           const DrawQuality& quality) const;
   void note(std::span<const pipeline::BScanRange> changed, int b_scans);
-  void follow(const pipeline::Volume& shown);
+  void follow(const pipeline::Volume& shown, std::span<const pipeline::BScanRange> changed);
   hal::Duration spent_on_vessels() const;
   Crop crop_of(const ViewState& view) const {
     return view.zoom_to_tissue ? crop.current() : Crop{};

@@ -48,10 +48,12 @@ void BrickGrid::merge_b_scans(const pipeline::Occupancy& occupancy, int row) {
 }
 
 void BrickGrid::update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
-                       Visibility visibility, WorkTeam* team) {
+                       Visibility visibility, WorkTeam* team, std::span<const std::uint8_t> stale) {
   resize(occupancy.bricks());
   const std::size_t slab = counts_.per_b_scan();
   run_pieces(team, static_cast<std::uint32_t>(counts_.b), [&](std::uint32_t row) {
+    if (!stale.empty() && stale[row] == 0)
+      return;
     merge_b_scans(occupancy, static_cast<int>(row));
     for (std::size_t i = row * slab; i < (row + 1) * slab; ++i) {
       if (visibility == Visibility::everything)

@@ -21,9 +21,11 @@ enum class Visibility : std::uint8_t {
 // Bricks in the order [b][a][depth]. Allocates when their number changes.
 class BrickGrid {
 public:
-  // Shared among the team.
+  // Shared among the team. `stale`: not 0 for rows along the slow axis to update, the others stay as
+  // they are; empty: all.
   void update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
-              Visibility visibility, WorkTeam* team = nullptr);
+              Visibility visibility, WorkTeam* team = nullptr,
+              std::span<const std::uint8_t> stale = {});
 
   const pipeline::BrickCounts& counts() const { return counts_; }
   std::span<const std::uint8_t> occupied() const { return occupied_; } // 0: empty; 1

@@ -33,17 +33,26 @@ EnFacePanel::EnFacePanel(gl::PicturePass pass, gl::PicturePass plain)
 void EnFacePanel::allocate(int a_scans, int b_scans) {
   a_scans_ = a_scans;
   b_scans_ = b_scans;
-  grey_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
+  levels_.resize(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans));
+  wanted_.resize(static_cast<std::size_t>(b_scans));
+  grey_ = levels_;
   before_.clear();
   projection_ = gl::make_picture_texture(GL_R8, a_scans, b_scans);
 }
 
-void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue, WorkTeam* team) {
-  if (volume.geometry.a_scans != a_scans_ || volume.geometry.b_scans != b_scans_)
+void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue,
+                       std::span<const pipeline::BScanRange> changed, WorkTeam* team) {
+  const bool other = volume.geometry.a_scans != a_scans_ || volume.geometry.b_scans != b_scans_;
+  if (other)
     allocate(volume.geometry.a_scans, volume.geometry.b_scans);
+  for (int b = 0; b < b_scans_; ++b)
+    wanted_[static_cast<std::size_t>(b)] =
+        other || changed.empty() || tissue.changed_at(b) ? std::uint8_t{1} : std::uint8_t{0};
+  for (const pipeline::BScanRange& range : changed)
+    std::fill(wanted_.begin() + range.from, wanted_.begin() + range.to, std::uint8_t{1});
+  project_slab(volume, tissue, levels_, wanted_, team);
   std::swap(grey_, before_);
-  grey_.resize(static_cast<std::size_t>(a_scans_) * static_cast<std::size_t>(b_scans_));
-  project_slab(volume, tissue, grey_, team);
+  grey_.assign(levels_.begin(), levels_.end());
   stretch_contrast(volume, grey_);
   compare_rows();
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

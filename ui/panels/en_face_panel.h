@@ -24,8 +24,10 @@ public:
   static hal::Result<EnFacePanel> create();
 
   // Projects on the CPU (about a millisecond for 300 × 80 × 512) and uploads the projection.
-  // `tissue`: of the same volume. The work is shared among the team.
-  void show(const pipeline::Volume& volume, const TissueMap& tissue, WorkTeam* team = nullptr);
+  // `tissue`: of the same volume, which differs from that of the last show() in those B-scans alone,
+  // in any if there are none. The work is shared among the team.
+  void show(const pipeline::Volume& volume, const TissueMap& tissue,
+            std::span<const pipeline::BScanRange> changed = {}, WorkTeam* team = nullptr);
 
   // Of the last show(): 1 for each B-scan of which it changed the projection.
   std::span<const std::uint8_t> changed_rows() const { return changed_; }
@@ -44,7 +46,9 @@ private:
   gl::PicturePass pass_;
   gl::PicturePass plain_; // where every B-scan is good
   gl::Texture projection_;
-  std::vector<std::uint8_t> grey_;
+  std::vector<std::uint8_t> levels_; // projected
+  std::vector<std::uint8_t> wanted_; // by B-scan: whether it has to be projected anew
+  std::vector<std::uint8_t> grey_;   // the same with its contrast
   std::vector<std::uint8_t> before_; // of the show() before the last
   std::vector<std::uint8_t> changed_;
   int a_scans_ = 0;

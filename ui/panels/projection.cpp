@@ -101,11 +101,14 @@ Slab SlabFinder::slab(const TissueMap::Begin& begin) const {
 }
 
 void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
-                  std::span<std::uint8_t> out, WorkTeam* team) {
+                  std::span<std::uint8_t> out, std::span<const std::uint8_t> wanted,
+                  WorkTeam* team) {
   const pipeline::VolumeGeometry& geometry = volume.geometry;
   const SlabFinder finder{geometry};
   const auto a_scans = static_cast<std::size_t>(geometry.a_scans);
   run_pieces(team, static_cast<std::uint32_t>(geometry.b_scans), [&](std::uint32_t piece) {
+    if (!wanted.empty() && wanted[piece] == 0)
+      return;
     const int b = static_cast<int>(piece);
     const std::uint8_t* line = volume.b_scan(b).data();
     std::size_t i = piece * a_scans;

@@ -37,9 +37,11 @@ private:
 // is taken instead: iris, lens and instruments. A surface with nothing below it, as an instrument's
 // with its shadow, is shown itself.
 //
-// `out` is [b][a], a_scans · b_scans values. The work is shared among the team.
+// `out` is [b][a], a_scans · b_scans values. `wanted`: not 0 for B-scans to project, the others stay as
+// they are; empty: all. The work is shared among the team.
 void project_slab(const pipeline::Volume& volume, const TissueMap& tissue,
-                  std::span<std::uint8_t> out, WorkTeam* team = nullptr);
+                  std::span<std::uint8_t> out, std::span<const std::uint8_t> wanted = {},
+                  WorkTeam* team = nullptr);
 
 // Converts projected levels to grey values in place: the darkest 1 % of the received A-scans become
 // 0, the brightest 1 % become 255, linear between. The display window is not used: it is for single

@@ -104,6 +104,7 @@ void TissueMap::update(const pipeline::Occupancy& occupancy,
   if (occupancy.geometry() != geometry_) {
     geometry_ = occupancy.geometry();
     bricks_ = occupancy.bricks();
+    changed_.clear(); // all of it
     rows_ = (geometry_.b_scans + (1 << pipeline::brick_b_shift) - 1) >> pipeline::brick_b_shift;
     const std::size_t columns =
         static_cast<std::size_t>(rows_) * static_cast<std::size_t>(bricks_.a);
@@ -118,7 +119,10 @@ void TissueMap::update(const pipeline::Occupancy& occupancy,
   }
   for (auto* counts : {&at_depth_, &at_a_, &at_b_})
     std::ranges::fill(*counts, 0U);
+  const std::uint8_t level_before = level_;
   level_ = tissue_level(occupancy, states);
+  const bool all_changed = level_ != level_before || changed_.size() != at_b_.size();
+  changed_.assign(at_b_.size(), all_changed ? 1 : 0);
   for (int row = 0; row < rows_; ++row)
     find_begins(occupancy, row);
   smooth();
@@ -181,8 +185,11 @@ void TissueMap::smooth() {
           middle(along_[place(row - 1, a)], along_[place(row, a)], along_[place(row + 1, a)]);
   for (int row = 0; row < rows_; ++row)
     for (int a = 0; a < bricks_.a; ++a) {
-      smoothed_[place(row, a)] = interpolated(row, a);
-      smoothed_[place(row, a)].even = is_even(row, a);
+      Brick brick = interpolated(row, a);
+      brick.even = is_even(row, a);
+      if (brick != smoothed_[place(row, a)])
+        changed_[static_cast<std::size_t>(row)] = 1;
+      smoothed_[place(row, a)] = brick;
     }
 }
 

@@ -50,6 +50,14 @@ public:
   };
   Around around(int b, int a) const;
 
+  // Whether the last update() changed anything of that above for the B-scan.
+  bool changed_at(int b) const {
+    const int row = b >> pipeline::brick_b_shift;
+    return std::any_of(changed_.begin() + std::max(row - 1, 0),
+                       changed_.begin() + std::min(row + 2, rows_),
+                       [](std::uint8_t changed) { return changed != 0; });
+  }
+
   // The lowest of what is tissue.
   std::uint8_t level() const { return level_; }
 
@@ -69,6 +77,7 @@ private:
     std::array<std::uint16_t, brick_a_scans> depths{};
     bool behind_gap = false;
     bool even = false;
+    bool operator==(const Brick&) const = default;
   };
 
   const Brick& brick_of(int b, int a) const {
@@ -90,6 +99,7 @@ private:
   std::vector<Found> along_;                          // likewise, medians along the fast axis
   std::vector<Found> median_;                         // likewise
   std::vector<Brick> smoothed_;                       // likewise
+  std::vector<std::uint8_t> changed_;                 // by row, by the last update()
   std::vector<std::uint32_t> at_depth_, at_a_, at_b_; // how many bricks with tissue
   std::vector<std::uint8_t> is_tissue_;               // of one column
   Crop extents_;

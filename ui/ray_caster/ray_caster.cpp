@@ -139,20 +139,33 @@ hal::Result<> RayCaster::show(const pipeline::Volume& volume, const pipeline::Oc
 }
 
 hal::Result<> RayCaster::renew(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
-                               std::span<const pipeline::BScanRange> changed) {
+                               std::span<const pipeline::BScanRange> changed,
+                               const std::function<void(int)>& prepare) {
   const pipeline::VolumeGeometry& g = volume.geometry;
   if (!cells_ || cells_->geometry() != g || occupancy.geometry() != g)
-    return show(volume, occupancy);
+    return show(volume, occupancy, prepare);
   for (const pipeline::BScanRange& range : changed) {
     for (int b = range.from; b < range.to; ++b)
       occupancy_.copy(b, occupancy);
     team_->run(static_cast<std::uint32_t>(range.to - range.from), [&](std::uint32_t i) {
       const int b = range.from + static_cast<int>(i);
+      if (prepare)
+        prepare(b);
       cells_->update(b, volume.b_scan(b));
     });
+    make_stale(range);
   }
-  bricks_current_ = false;
   return {};
+}
+
+// A B-scan's cells are those on either side of it.
+void RayCaster::make_stale(const pipeline::BScanRange& b_scans) {
+  stale_.resize(static_cast<std::size_t>(occupancy_.bricks().b));
+  const auto from = stale_.begin() + (b_scans.from >> pipeline::brick_b_shift);
+  const auto to =
+      stale_.begin() + std::min(b_scans.to >> pipeline::brick_b_shift, occupancy_.bricks().b - 1);
+  std::fill(from, to + 1, std::uint8_t{1});
+  any_stale_ = true;
 }
 
 void RayCaster::set_transfer(const TransferTable& transfer) {
@@ -170,8 +183,12 @@ void RayCaster::prepare(float steps, Visibility visibility) {
     bricks_current_ = bricks_current_ && table_current_; // the same levels are empty at any step
     table_current_ = true;
   }
-  if (!bricks_current_ || visibility != visibility_) {
-    bricks_.update(occupancy_, steps_table_->visible, visibility, team_.get());
+  const bool all = !bricks_current_ || visibility != visibility_;
+  if (all || any_stale_) {
+    bricks_.update(occupancy_, steps_table_->visible, visibility, team_.get(),
+                   all ? std::span<const std::uint8_t>{} : stale_);
+    std::ranges::fill(stale_, std::uint8_t{0});
+    any_stale_ = false;
     distances_.forget();
     visibility_ = visibility;
     bricks_current_ = true;

@@ -82,7 +82,8 @@ public:
 
   // The same where they differ from those shown last in these B-scans alone.
   hal::Result<> renew(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
-                      std::span<const pipeline::BScanRange> changed);
+                      std::span<const pipeline::BScanRange> changed,
+                      const std::function<void(int)>& prepare = {});
 
   // Takes effect with the next draw(). Setting an equal table again costs only the comparison.
   void set_transfer(const TransferTable& transfer);
@@ -105,6 +106,7 @@ public:
 
 private:
   RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team);
+  void make_stale(const pipeline::BScanRange& b_scans);
   void prepare(float steps, Visibility visibility);
   void find_slabs(const Camera& camera, const RaySettings& settings, RayImage& image);
   Rect rectangle_of_box(const Camera& camera, const RayImage& image) const;
@@ -123,7 +125,9 @@ private:
   float steps_ = 0;
   Visibility visibility_ = Visibility::range;
   bool table_current_ = false;
-  bool bricks_current_ = false;
+  bool bricks_current_ = false;     // but for the rows that are stale
+  std::vector<std::uint8_t> stale_; // by row of bricks
+  bool any_stale_ = false;
   std::vector<ProjectedSlab> slabs_; // of what changed, in the last draw(); empty: everything
 };
 

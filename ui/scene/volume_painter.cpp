@@ -128,7 +128,6 @@ void VolumePainter::renew_occupancy(const pipeline::Volume& volume,
   for (int b = range.from; b < range.to; ++b) {
     const auto at = static_cast<std::size_t>(b);
     weakened_.b_scan_states[at] = volume.b_scan_states[at];
-    weaken(volume, b);
     occupancy_.widen_below(b, widened);
   }
 }
@@ -144,11 +143,9 @@ hal::Result<> VolumePainter::renew(const pipeline::Volume& volume,
   HAL_CHECK(texture_.renew(volume, changed, expected_parts()));
   ++uploads_;
   changed_.assign(changed.begin(), changed.end());
-  const pipeline::Volume& drawn = weakened_shows_ ? weakened_ : volume;
-  if (caster_shows_)
-    HAL_CHECK(caster_->renew(drawn, occupancy_, changed));
+  HAL_CHECK(renew_for_rays(volume, changed));
   if (light_shows_)
-    light_.show(drawn);
+    light_.show(weakened_shows_ ? weakened_ : volume);
   surface_shows_ = false;
   return {};
 }
@@ -186,6 +183,18 @@ void VolumePainter::copy_for_rays(const pipeline::Volume& volume) {
   if (!caster_shows_ && weakened_shows_)
     for (int b = 0; b < volume.geometry.b_scans; ++b)
       weaken(volume, b);
+}
+
+hal::Result<> VolumePainter::renew_for_rays(const pipeline::Volume& volume,
+                                            std::span<const pipeline::BScanRange> changed) {
+  if (caster_shows_)
+    return weakened_shows_ ? caster_->renew(weakened_, occupancy_, changed,
+                                            [this, &volume](int b) { weaken(volume, b); })
+                           : caster_->renew(volume, occupancy_, changed);
+  for (const pipeline::BScanRange& range : changed)
+    for (int b = range.from; weakened_shows_ && b < range.to; ++b)
+      weaken(volume, b);
+  return {};
 }
 
 // Of two sections the flat pictures and a cut's faces are made; all else the processor draws from its own copy.

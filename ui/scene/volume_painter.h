@@ -141,6 +141,8 @@ private:
   const pipeline::Volume& see_through(const pipeline::Volume& volume);
   void weaken(const pipeline::Volume& volume, int b_scan);
   void copy_for_rays(const pipeline::Volume& volume);
+  hal::Result<> renew_for_rays(const pipeline::Volume& volume,
+                               std::span<const pipeline::BScanRange> changed);
   TextureParts expected_parts() const;
   TextureParts parts_for(const ViewState& view, RayBackend rays) const;
   hal::Result<const VolumeTexture*> drawn_texture();
