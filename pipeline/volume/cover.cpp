@@ -63,13 +63,26 @@ std::uint8_t tissue_level(const Occupancy& occupancy) {
   return 255;
 }
 
+constexpr std::uint8_t byte_of(int value) {
+  return static_cast<std::uint8_t>(std::clamp(value, 0, 255));
+}
+
+constexpr std::uint8_t least_0(std::uint8_t from, std::uint8_t taken) {
+  return static_cast<std::uint8_t>(std::max(from, taken) - taken);
+}
+
+// max(level - by, 2 * level - strong), but at most the level and at least 1 of what is not 0. In bytes
+// alone, of which a register holds most; `beyond`: what of `strong` is no byte.
 OCTASCOPE_CPU_CLONES
-void lower(const std::uint8_t* from, std::size_t count, int by, int strong,
-           std::uint8_t* __restrict to) {
+void lower(const std::uint8_t* from, std::size_t count, std::uint8_t by, std::uint8_t strong,
+           std::uint8_t beyond, std::uint8_t* __restrict to) {
   for (std::size_t i = 0; i < count; ++i) {
-    const int level = from[i];
-    const int lowered = std::max(level - by, 2 * level - strong);
-    to[i] = static_cast<std::uint8_t>(std::clamp(lowered, std::min(level, 1), level));
+    const std::uint8_t level = from[i];
+    const std::uint8_t below = least_0(strong, level);
+    const auto to_strong =
+        static_cast<std::uint8_t>(below + std::min(beyond, static_cast<std::uint8_t>(255 - below)));
+    to[i] =
+        std::max({least_0(level, by), least_0(level, to_strong), std::min(level, std::uint8_t{1})});
   }
 }
 
@@ -248,8 +261,8 @@ void Cover::weaken(int b, std::span<const std::uint8_t> levels, float counts,
     const Column column = at(b, static_cast<float>(a));
     const auto end = std::min(static_cast<std::size_t>(column.end), depths);
     lower(levels.data() + first, end,
-          static_cast<int>(std::lround(counts * share_ * column.weight)), strong_,
-          to.data() + first);
+          byte_of(static_cast<int>(std::lround(counts * share_ * column.weight))), byte_of(strong_),
+          byte_of(strong_ - 255), to.data() + first);
     std::copy_n(levels.data() + first + end, depths - end, to.data() + first + end);
   }
 }
