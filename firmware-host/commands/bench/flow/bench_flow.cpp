@@ -106,7 +106,7 @@ private:
         const auto flow =
             std::span{results_[i].flow}.subspan(static_cast<std::size_t>(b) * voxels, voxels);
         left_out[i] += flows[i].compute(bins, flow, decorrelation).left_out ? 1 : 0;
-        tallies[i].add_b_scan(truth, flow);
+        tallies[i].add_voxels(truth.kinds(), truth.radii_um(), flow);
       }
     }
     const std::scoped_lock lock{mutex_};

@@ -40,9 +40,10 @@ double area_under_curve(std::span<const float> still, std::span<const float> flo
 
 } // namespace
 
-void FlowTally::add_b_scan(const VoxelTruth& truth, std::span<const float> flow) {
+void FlowTally::add_voxels(std::span<const VoxelKind> kinds, std::span<const float> radii_um,
+                           std::span<const float> flow) {
   for (std::size_t i = 0; i < flow.size(); ++i) {
-    const VoxelKind kind = truth.kinds()[i];
+    const VoxelKind kind = kinds[i];
     if (kind == VoxelKind::left_out)
       continue;
     ++voxels_;
@@ -50,7 +51,7 @@ void FlowTally::add_b_scan(const VoxelTruth& truth, std::span<const float> flow)
       (kind == VoxelKind::flowing ? flowing_ : still_).push_back(flow[i]);
     if (kind != VoxelKind::flowing)
       continue;
-    const std::size_t bin = radius_bin(truth.radii_um()[i]);
+    const std::size_t bin = radius_bin(radii_um[i]);
     ++by_radius_[bin];
     if (flow[i] >= called_flowing)
       ++detected_[bin];

@@ -28,7 +28,9 @@ struct FlowFigures {
 // Takes 4 bytes a told voxel. Add what several threads counted, in any order.
 class FlowTally {
 public:
-  void add_b_scan(const VoxelTruth& truth, std::span<const float> flow);
+  // A voxel each; radii are read of flowing ones.
+  void add_voxels(std::span<const VoxelKind> kinds, std::span<const float> radii_um,
+                  std::span<const float> flow);
   void add(const FlowTally& other);
 
   FlowFigures figures() &&;
