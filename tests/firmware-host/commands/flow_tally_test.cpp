@@ -1,6 +1,6 @@
 // What a benchmark of flow counts, and which vessels it measures against.
 #include <limits>
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <complex>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <thread>
 #include <utility>
