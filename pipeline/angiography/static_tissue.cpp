@@ -24,8 +24,6 @@ constexpr float least_spread = 0.03F;
 constexpr float flowing_spreads = 3;
 constexpr float tiny = 1e-30F;
 
-// Along depth a vessel's shadow is forgotten by half in 200 bins.
-constexpr float shadow_kept = 0.99654F;
 // Between these parts of the vessel's decorrelation a voxel below it counts from not at all to wholly.
 constexpr float tail_part = 0.4F;
 constexpr float vessel_part = 0.6F;
@@ -96,13 +94,12 @@ void classify_intensity(const float* __restrict decorrelation, const float* __re
   }
 }
 
-// What flows, as decorrelation without noise, in a scale that grows along depth as shadows fade: so the
-// shadow of all above is a running maximum.
+// What flows, as decorrelation without noise.
 OCTASCOPE_CPU_CLONES
-void find_vessels(const float* __restrict flow, const float* __restrict excess,
-                  const float* __restrict growth, int depths, float* __restrict vessels) {
+void find_vessels(const float* __restrict flow, const float* __restrict excess, int depths,
+                  float* __restrict vessels) {
   for (int z = 0; z < depths; ++z)
-    vessels[z] = flow[z] >= 0.5F ? excess[z] * growth[z] : 0.0F; // 0 of NaN
+    vessels[z] = flow[z] >= 0.5F ? excess[z] : 0.0F; // 0 of NaN
 }
 
 // to[z] = max(from[z], from[z - distance])
@@ -126,12 +123,11 @@ const float* greatest_before(float* values, float* other, int count) {
 }
 
 OCTASCOPE_CPU_CLONES
-void suppress_tails(const float* __restrict shadows, const float* __restrict excess,
-                    const float* __restrict growth, int depths, float* __restrict flow) {
+void suppress_tails(const float* __restrict shadows, const float* __restrict excess, int depths,
+                    float* __restrict flow) {
   for (int z = 0; z < depths; ++z) {
-    const float e = excess[z] * growth[z];
     const float part =
-        (e - tail_part * shadows[z]) / ((vessel_part - tail_part) * shadows[z] + tiny);
+        (excess[z] - tail_part * shadows[z]) / ((vessel_part - tail_part) * shadows[z] + tiny);
     const float kept = std::min(1.0F, std::max(0.0F, part));
     flow[z] *= shadows[z] > 0 ? kept : 1.0F;
   }
@@ -143,12 +139,7 @@ StaticTissue::StaticTissue(FlowMethod method, int a_scans, int depths, int repea
     : method_(method), a_scans_(a_scans), depths_(depths), pair_factor_(factors_of(repeats).pairs),
       level_factor_(factors_of(repeats).level), noise_(static_cast<std::size_t>(depths)),
       blocks_(static_cast<std::size_t>((depths + block_depths - 1) / block_depths)),
-      excess_(noise_), vessels_(noise_), shadows_(noise_), growth_(noise_) {
-  float growth = 1;
-  for (float& g : growth_) {
-    g = growth;
-    growth = std::min(growth / shadow_kept, 1e12F);
-  }
+      excess_(noise_), vessels_(noise_), shadows_(noise_) {
   values_.reserve(static_cast<std::size_t>((a_scans + step - 1) / step) *
                   static_cast<std::size_t>((depths + step - 1) / step));
 }
@@ -253,11 +244,11 @@ void StaticTissue::classify(const KernelPlanes& planes, std::span<float> flow) n
       classify_intensity(decorrelation, level, planes.second_moment.data() + a * depths,
                          noise_.data(), d0_, noise_spread, static_spread, depths_, line,
                          excess_.data());
-    find_vessels(line, excess_.data(), growth_.data(), depths_, vessels_.data());
+    find_vessels(line, excess_.data(), depths_, vessels_.data());
     if (!(sum_of_squares(vessels_.data(), depths_) > 0))
       continue; // as in most A-scans
     const float* const shadows = greatest_before(vessels_.data(), shadows_.data(), depths_);
-    suppress_tails(shadows, excess_.data(), growth_.data(), depths_, line);
+    suppress_tails(shadows, excess_.data(), depths_, line);
   }
 }
 

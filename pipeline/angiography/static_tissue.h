@@ -53,8 +53,8 @@ public:
   // 0 static … 1 flowing, NaN below least_level: u⁴/(1 + u⁴), where 3u is the distance of D above the
   // line in spreads; so it is ½ at three of them. Tails: flow below a vessel stays only where the
   // decorrelation without noise is about half of the vessel's or more, which real vessels reach and
-  // their tails do not; as in projection-resolved angiography (M. Zhang et al., Biomed. Opt.
-  // Express 7, 816, 2016), with a vessel's shadow forgotten along depth.
+  // their tails do not, however far below: all the light from there went through the vessel. As in
+  // projection-resolved angiography (M. Zhang et al., Biomed. Opt. Express 7, 816, 2016).
   void classify(const KernelPlanes& planes, std::span<float> flow) noexcept;
 
   std::span<const float> noise() const { return noise_; } // power of each depth
@@ -86,7 +86,6 @@ private:
   std::vector<float> excess_;
   std::vector<float> vessels_;
   std::vector<float> shadows_;
-  std::vector<float> growth_; // of the scale of shadows along depth
 };
 
 } // namespace octascope::pipeline

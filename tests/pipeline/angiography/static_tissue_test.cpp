@@ -25,13 +25,13 @@ protected:
     std::gamma_distribution<float> deviation{8.6F, 1 / 8.6F};
     for (int a = 0; a < a_scans; ++a)
       for (int z = 0; z < depths; ++z) {
-        const float level = z < 220 ? 60 * noise : noise;
+        const float level = z < lit_depths ? 60 * noise : noise;
         level_.push_back(level);
         const float own = a < first_a ? 0
                           : z < 40    ? 0
                           : z < 60    ? 0.75F
                           : z < 140   ? tail
-                          : z < 160   ? 0.7F
+                          : z < 160   ? second_vessel
                                       : tail;
         decorrelation_.push_back(own + (1 - own) * noise / level * deviation(generator));
       }
@@ -53,6 +53,8 @@ protected:
   }
 
   float tail = 0.2F;
+  float second_vessel = 0.7F;
+  int lit_depths = 220;
   std::vector<float> decorrelation_;
   std::vector<float> level_;
   std::vector<float> flow_ = std::vector<float>(static_cast<std::size_t>(a_scans * depths));
@@ -67,6 +69,21 @@ TEST_F(Tails, are_suppressed_and_what_flows_below_them_is_not) {
   EXPECT_LT(flow_at(130), 0.1F);
   EXPECT_GT(flow_at(150), 0.9F);
   EXPECT_LT(flow_at(200), 0.1F);
+}
+
+class LongTail : public Tails {
+protected:
+  LongTail() {
+    second_vessel = tail = 0.25F;
+    lit_depths = depths;
+  }
+};
+
+TEST_F(LongTail, is_suppressed_however_far_below) {
+  classify();
+  EXPECT_GT(flow_at(50), 0.9F);
+  for (const int z : {70, 150, 250, 315})
+    EXPECT_LT(flow_at(z), 0.1F) << z;
 }
 
 TEST_F(Tails, noise_is_measured_in_tissue_and_below_it) {

@@ -1,0 +1,63 @@
+// octascope bench flow: flow, and vessels traced in it, against what is true of a simulated bed of
+// vessels, from raw spectra on.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include "firmware-host/commands/bench/flow/flow_tally.h"
+#include "hal/result.h"
+#include "pipeline/angiography/kernel_sums.h"
+#include "pipeline/angiography/static_tissue.h"
+#include "pipeline/scan/scan_plan.h"
+#include "pipeline/vessels/tree_comparison.h"
+#include "sim/spectra/tissue_motion.h"
+
+namespace octascope::firmware_host {
+
+struct FlowBenchOptions {
+  std::vector<int> repeats{2, 4};
+  int b_scans = pipeline::ScanPlan{}.b_scans; // the middle ones of the phantom's field
+};
+
+// 10 µm to either side, as fast as a hand trembles: up to 2.2 µm from one repeat to the next.
+sim::TissueMotion bench_motion();
+
+// Vessels of which the centreline is looked for: 4 A-scans wide or more.
+inline constexpr double traced_radius_um = 20;
+
+// `comparison` without meaning where the tree was refused.
+struct TreeFigures {
+  std::string refusal;
+  double quality = 0;
+  pipeline::TreeComparison comparison;
+};
+
+struct FlowBenchCase {
+  int repeats = 0;
+  pipeline::FlowMethod method = pipeline::FlowMethod::complex_bins;
+  int left_out_b_scans = 0; // moved too far; their voxels are not told
+  FlowFigures flow;
+  TreeFigures tree;
+};
+
+struct FlowBenchReport {
+  pipeline::ScanPlan plan; // but for its repeats
+  std::vector<FlowBenchCase> cases;
+};
+
+// Both methods for each number of repeats, on all cores. Takes about 5 s a repeat of 80 B-scans on one
+// core, and 62 MB. `progress`: words for what is done at the moment.
+hal::Result<FlowBenchReport> bench_flow(const FlowBenchOptions& options,
+                                        const std::function<void(const std::string&)>& progress);
+
+std::string to_text(const FlowBenchReport& report);
+std::string to_json(const FlowBenchReport& report);
+
+// `exit_status` as in add_run_command().
+void add_bench_flow_command(CLI::App& bench, int& exit_status);
+
+} // namespace octascope::firmware_host
