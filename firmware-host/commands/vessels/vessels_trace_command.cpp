@@ -54,6 +54,8 @@ hal::Result<pipeline::NrrdVolume> read_flow(const std::filesystem::path& file) {
 
 hal::Result<TraceReport> trace(const std::filesystem::path& file) {
   HAL_TRY(const auto volume, read_flow(file));
+  for (const std::string& remark : volume.remarks)
+    warn("octascope vessels trace: {}: {}\n", file.string(), remark);
   const auto begun = std::chrono::steady_clock::now();
   auto traced =
       pipeline::trace_vessels(volume.geometry, std::get<std::vector<float>>(volume.levels));
