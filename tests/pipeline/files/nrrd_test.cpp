@@ -118,6 +118,17 @@ TEST_F(Nrrd, header_is_the_contract) {
   EXPECT_EQ(text.size(), text.find("\n\n") + 2 + 24 * sizeof(float));
 }
 
+TEST_F(Nrrd, decibels_are_said_of_levels_alone) {
+  const auto header = [&](const NrrdNotes& notes) {
+    auto writer = tests::must(
+        NrrdWriter::create(folder / "v.nrrd", float_volume().geometry, NrrdType::float32, notes));
+    EXPECT_TRUE(writer.commit());
+    return tests::whole_file(folder / "v.nrrd");
+  };
+  EXPECT_THAT(header({}), HasSubstr("\n# OCT volume, 20 log10(|Y|/N) of camera counts\n"));
+  EXPECT_THAT(header({{"content", "flow"}}), testing::Not(HasSubstr("log10")));
+}
+
 TEST_F(Nrrd, appears_complete_or_not_at_all) {
   {
     auto writer = tests::must(
