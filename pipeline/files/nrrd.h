@@ -72,6 +72,7 @@ struct NrrdVolume {
   // In the file's type, [b][a][z], depth fastest.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> levels;
   std::vector<std::string> remarks = {}; // when read: what was assumed or left out, a sentence each
+  std::string content = {};              // when read: the note nrrd_content; empty: there is none
 };
 
 hal::Result<> write_nrrd(const std::filesystem::path& file, const NrrdVolume& volume);

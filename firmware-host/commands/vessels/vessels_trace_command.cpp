@@ -44,6 +44,13 @@ hal::Result<pipeline::NrrdVolume> read_flow(const std::filesystem::path& file) {
                      "{}: found 8-bit levels, expected a flow volume: numbers from 0 (static) to 1 "
                      "(flowing)",
                      file.string());
+  // As `reconstruct --decorrelation` notes it. In noise all decorrelates: a tree would be found in it.
+  if (volume.content.starts_with("decorrelation"))
+    return hal::fail(
+        hal::ErrorCode::bad_data,
+        "{}: found decorrelation, expected a flow volume: octascope reconstruct --flow "
+        "writes one",
+        file.string());
   if (volume.geometry.assumed.any())
     return hal::fail(hal::ErrorCode::bad_data,
                      "{}: found no spacing ({}), expected those of all three axes: a tree in "
