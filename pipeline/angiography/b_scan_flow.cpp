@@ -59,8 +59,9 @@ FlowOutcome BScanFlow::compute(std::span<const std::complex<float>> bins, std::s
   const KernelPlanes planes{decorrelation, level_, second_moment_};
   tissue_.measure(planes, coherence_.independent_samples(kernel_depths));
   outcome.static_decorrelation = tissue_.static_decorrelation();
-  outcome.left_out = tissue_.incoherent();
-  if (outcome.left_out)
+  // One of several repeats may have nothing in common with the others, which are alike.
+  outcome.left_out = tissue_.incoherent() || (tissue_.is_lit() && !outcome.largest_motion.found);
+  if (outcome.left_out || !tissue_.is_lit())
     std::fill(flow.begin(), flow.end(), std::numeric_limits<float>::quiet_NaN());
   else
     tissue_.classify(planes, flow);

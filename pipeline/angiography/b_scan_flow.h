@@ -7,8 +7,8 @@
 //   complex bins: D = 1 − |Σ Y_m·conj(Y_m+1)·exp(−iφ)| / ½Σ(|Y_m|² + |Y_m+1|²),
 //                 φ = arg Σ over all depths of the A-scan's Y_m·conj(Y_m+1);
 //   intensities:  D = 1 − 2Σ I_m·I_m+1 / Σ(I_m² + I_m+1²), I = |Y|².
-// The first is the complex differential variance of A. S. Nam, I. Chico-Calero and B. J. Vakoc, Biomed.
-// Opt. Express 5, 3822 (2014).
+// The first is after the complex differential variance of A. S. Nam, I. Chico-Calero and B. J. Vakoc,
+// Biomed. Opt. Express 5, 3822 (2014); they take the modulus pair by pair.
 #pragma once
 
 #include <array>
@@ -32,7 +32,8 @@ struct FlowSetup {
 };
 
 struct FlowOutcome {
-  // Repeats that have nothing in common, or moved too far: the flow of this B-scan is NaN.
+  // Repeats, be it one of several, that have nothing in common, or moved too far: the flow of this
+  // B-scan is NaN.
   bool left_out = false;
   BulkMotion largest_motion;      // of a repeat against the one before
   float static_decorrelation = 0; // of tissue that does not flow, noise taken off
@@ -51,7 +52,8 @@ public:
 
   // `bins`: repeats × voxels() of them, [repeat][a][z]. `flow`, [a][z]: 0 static … 1 flowing, NaN
   // where it cannot be told. `decorrelation`: D above, likewise, before anything is decided, of
-  // B-scans that are left out as well. Allocates nothing, locks nothing, logs nothing.
+  // B-scans that are left out as well; 1 where repeats have no power or do not overlap. Allocates
+  // nothing, locks nothing, logs nothing.
   FlowOutcome compute(std::span<const std::complex<float>> bins, std::span<float> flow,
                       std::span<float> decorrelation) noexcept;
 

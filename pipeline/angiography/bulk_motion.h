@@ -23,10 +23,11 @@ struct BulkMotion {
 };
 
 // How bins of one A-scan hang together along depth. It is the spectral window's, so that signal
-// and noise share it.
+// and noise share it. Unmeasured it is that of a Hann window, without zero-padding.
 struct AxialCoherence {
-  std::complex<float> carrier{-1, 0};              // from one bin to the next: of modulus 1
-  std::array<float, 5> correlation{1, 0, 0, 0, 0}; // modulus at distances of 0 to 4 bins
+  std::complex<float> carrier{-1, 0}; // from one bin to the next: of modulus 1
+  // Modulus at distances of 0 to 4 bins.
+  std::array<float, 5> correlation{1, 2.0F / 3, 1.0F / 6, 0, 0};
 
   // How many independent samples `bins` neighbouring ones are worth in a mean of products.
   float independent_samples(int bins) const;
@@ -42,6 +43,7 @@ public:
 
   // B-scans of less than 48 depths are too short to compare: no motion.
   BulkMotion estimate(const std::complex<float>* first, const std::complex<float>* second) noexcept;
+  // Unmeasured of such, and of a sweep without power.
   AxialCoherence coherence(const std::complex<float>* sweep) noexcept;
 
 private:

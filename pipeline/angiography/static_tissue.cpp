@@ -13,7 +13,9 @@ namespace octascope::pipeline {
 namespace {
 
 constexpr int block_depths = 32;
-constexpr int step = 4; // every fourth A-scan and depth is enough for quantiles
+// Every fourth A-scan and depth is enough for quantiles of many voxels.
+constexpr int step_of_many = 4;
+constexpr int many_voxels = 1 << 14;
 // The quantile that stands for static tissue: as many as 30 % of the voxels may flow.
 constexpr double quantile = 0.35;
 constexpr float normal_quantile = -0.385F;
@@ -68,7 +70,7 @@ void classify_complex(const float* __restrict decorrelation, const float* __rest
     const float above = decorrelation[z] - inverse - d0 * signal;
     const float u = std::max(0.0F, above / spread) * (1 / flowing_spreads);
     const float u4 = std::min(u * u * u * u, 1e9F);
-    const bool told = inverse < 1 / StaticTissue::least_level;
+    const bool told = level[z] > 0.0F && inverse < 1 / StaticTissue::least_level;
     flow[z] = told ? u4 / (1 + u4) : nan;
     excess[z] = told ? (decorrelation[z] - inverse) / signal : 0.0F;
   }
@@ -136,12 +138,14 @@ void suppress_tails(const float* __restrict shadows, const float* __restrict exc
 } // namespace
 
 StaticTissue::StaticTissue(FlowMethod method, int a_scans, int depths, int repeats)
-    : method_(method), a_scans_(a_scans), depths_(depths), pair_factor_(factors_of(repeats).pairs),
-      level_factor_(factors_of(repeats).level), noise_(static_cast<std::size_t>(depths)),
+    : method_(method), a_scans_(a_scans), depths_(depths),
+      step_(a_scans < many_voxels / depths ? 1 : step_of_many),
+      pair_factor_(factors_of(repeats).pairs), level_factor_(factors_of(repeats).level),
+      noise_(static_cast<std::size_t>(depths)),
       blocks_(static_cast<std::size_t>((depths + block_depths - 1) / block_depths)),
       excess_(noise_), vessels_(noise_), shadows_(noise_) {
-  values_.reserve(static_cast<std::size_t>((a_scans + step - 1) / step) *
-                  static_cast<std::size_t>((depths + step - 1) / step));
+  values_.reserve(static_cast<std::size_t>((a_scans + step_ - 1) / step_) *
+                  static_cast<std::size_t>((depths + step_ - 1) / step_));
 }
 
 // The noise that this voxel would have if it were static.
@@ -168,14 +172,14 @@ template <class Value>
 float StaticTissue::lower_quantile(const KernelPlanes& planes, int begin, int end,
                                    const Value& value) noexcept {
   values_.clear();
-  for (int a = 0; a < a_scans_; a += step)
-    for (int z = begin; z < end; z += step) {
+  for (int a = 0; a < a_scans_; a += step_)
+    for (int z = begin; z < end; z += step_) {
       const std::size_t i =
           static_cast<std::size_t>(a) * noise_.size() + static_cast<std::size_t>(z);
       if (planes.level[i] > 0)
         values_.push_back(value(i));
     }
-  return values_.empty() ? 0.0F : quantile_of(values_);
+  return values_.empty() ? std::numeric_limits<float>::quiet_NaN() : quantile_of(values_);
 }
 
 void StaticTissue::measure_noise(const KernelPlanes& planes) noexcept {
@@ -191,6 +195,7 @@ void StaticTissue::measure_noise(const KernelPlanes& planes) noexcept {
     // Of noise alone the change is estimated too low: a few samples always have something in common.
     blocks_[block] = by_level < 2 * by_change ? by_level : by_change;
   }
+  fill_empty_blocks();
   values_.assign(blocks_.begin(), blocks_.end());
   const auto lower = values_.begin() + static_cast<std::ptrdiff_t>(values_.size() / 4);
   std::nth_element(values_.begin(), lower, values_.end());
@@ -208,10 +213,18 @@ void StaticTissue::measure_noise(const KernelPlanes& planes) noexcept {
   }
 }
 
+// As the block before, or else the first that has power.
+void StaticTissue::fill_empty_blocks() noexcept {
+  const auto first = std::ranges::find_if(blocks_, [](float noise) { return !std::isnan(noise); });
+  float last = first == blocks_.end() ? 0.0F : *first;
+  for (float& noise : blocks_)
+    last = noise = std::isnan(noise) ? last : noise;
+}
+
 void StaticTissue::measure_static(const KernelPlanes& planes) noexcept {
   values_.clear();
-  for (int a = 0; a < a_scans_; a += step)
-    for (int z = 0; z < depths_; z += step) {
+  for (int a = 0; a < a_scans_; a += step_)
+    for (int z = 0; z < depths_; z += step_) {
       const std::size_t i =
           static_cast<std::size_t>(a) * noise_.size() + static_cast<std::size_t>(z);
       const float noise = noise_[static_cast<std::size_t>(z)];
@@ -223,8 +236,8 @@ void StaticTissue::measure_static(const KernelPlanes& planes) noexcept {
                                  : noise * (2 * level - noise) / planes.second_moment[i];
       values_.push_back((planes.decorrelation[i] - expected) / (1 - std::min(0.9F, expected)));
     }
-  const bool lit = values_.size() >= fewest_lit;
-  d0_ = lit ? std::max(0.0F, quantile_of(values_)) : 0.0F;
+  is_lit_ = values_.size() >= fewest_lit;
+  d0_ = is_lit_ ? std::max(0.0F, quantile_of(values_)) : 0.0F;
   incoherent_ = d0_ > most_static;
 }
 

@@ -16,7 +16,7 @@
 //
 // σ² is measured: in static tissue it is D·I, in noise I. The lower quantile over the A-scans, for 32
 // depths at a time, is the noise there; at most twice that of the quietest depths, lest a
-// layer of vessels be taken for noise. What is left of motion, galvo jitter and interpolation
+// layer of vessels be taken for noise. Depths that repeats do not share have their neighbours'. What is left of motion, galvo jitter and interpolation
 // decorrelates static tissue in proportion to its signal: d0, the lower quantile of
 // (D − σ²/I)/(1 − σ²/I) over voxels that are well lit.
 #pragma once
@@ -50,7 +50,7 @@ public:
   // Measures noise and d0 in one B-scan. `depth_samples`: independent samples in the kernel's depths.
   void measure(const KernelPlanes& planes, float depth_samples) noexcept;
 
-  // 0 static … 1 flowing, NaN below least_level: u⁴/(1 + u⁴), where 3u is the distance of D above the
+  // 0 static … 1 flowing, NaN below least_level and where there is no power: u⁴/(1 + u⁴), where 3u is the distance of D above the
   // line in spreads; so it is ½ at three of them. Tails: flow below a vessel stays only where the
   // decorrelation without noise is about half of the vessel's or more, which real vessels reach and
   // their tails do not, however far below: all the light from there went through the vessel. As in
@@ -59,24 +59,30 @@ public:
 
   std::span<const float> noise() const { return noise_; } // power of each depth
   float static_decorrelation() const { return d0_; }
+  // Voxels are well lit, enough of them to measure d0; otherwise it is 0, and no flow can be told.
+  bool is_lit() const { return is_lit_; }
   // There is tissue, and most of it has decorrelated: repeats of different places, or moved too far.
   bool incoherent() const { return incoherent_; }
 
 private:
   float noise_at(const KernelPlanes& planes, std::size_t i) const;
+  // NaN where there is no power.
   template <class Value>
   float lower_quantile(const KernelPlanes& planes, int begin, int end, const Value& value) noexcept;
   void measure_noise(const KernelPlanes& planes) noexcept;
+  void fill_empty_blocks() noexcept;
   void measure_static(const KernelPlanes& planes) noexcept;
 
   FlowMethod method_;
   int a_scans_;
   int depths_;
+  int step_;           // between the A-scans, and the depths, that quantiles are taken of
   float pair_factor_;  // independent samples of decorrelation a sample of the kernel
   float level_factor_; // likewise of the level
   float samples_ = 1;
   float level_samples_ = 1;
   float d0_ = 0;
+  bool is_lit_ = false;
   bool incoherent_ = false;
   std::vector<float> noise_;
   std::vector<float> blocks_;

@@ -24,7 +24,7 @@ namespace octascope::pipeline {
 
 enum class NrrdType : std::uint8_t {
   uint8,   // display counts; level_scale.h and the file's header give their meaning in dB
-  float32, // decibels
+  float32, // decibels, or what the note nrrd_content says
 };
 
 // Additional header lines `key:=value`, as pairs of key and value. Other programs display them.
@@ -64,11 +64,15 @@ inline constexpr std::size_t longest_nrrd_line = 4096;
 // The key under which a file says which spacings were assumed (VolumeGeometry::assumed).
 inline constexpr std::string_view nrrd_assumed_spacings = "assumed_spacings";
 
+// The key under which a file says what its values are, where they are no levels.
+inline constexpr std::string_view nrrd_content = "content";
+
 struct NrrdVolume {
   VolumeGeometry geometry;
   // In the file's type, [b][a][z], depth fastest.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> levels;
   std::vector<std::string> remarks = {}; // when read: what was assumed or left out, a sentence each
+  std::string content = {};              // when read: the note nrrd_content; empty: there is none
 };
 
 hal::Result<> write_nrrd(const std::filesystem::path& file, const NrrdVolume& volume);

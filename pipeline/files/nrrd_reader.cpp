@@ -188,6 +188,8 @@ hal::Result<NrrdVolume> NrrdReader::read(std::span<const std::byte> data) {
     }
     HAL_CHECK(note_what_follows(*bytes, geometry.b_scan_voxels() * sizeof(Value)));
     volume.remarks = std::move(remarks_);
+    if (const std::string* content = header_.find_key(nrrd_content))
+      volume.content = *content;
     return volume;
   });
 }

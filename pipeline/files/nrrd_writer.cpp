@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <string>
 #include <string_view>
@@ -35,8 +36,10 @@ std::string escaped(std::string_view text) {
 }
 
 std::string header(const VolumeGeometry& g, NrrdType type, const NrrdNotes& notes) {
-  std::string text = "NRRD0005\n"
-                     "# OCT volume, 20 log10(|Y|/N) of camera counts\n";
+  std::string text = "NRRD0005\n";
+  const bool levels =
+      std::ranges::none_of(notes, [](const auto& note) { return note.first == nrrd_content; });
+  text += levels ? "# OCT volume, 20 log10(|Y|/N) of camera counts\n" : "# OCT volume\n";
   text += fmt::format("type: {}\n", type == NrrdType::uint8 ? "uint8" : "float");
   text += "dimension: 3\n";
   text += fmt::format("sizes: {} {} {}\n", g.depths, g.a_scans, g.b_scans);

@@ -16,9 +16,9 @@
 // arteriole of 40 µm flows at 12 mm/s and a capillary of 7 µm at 2 mm/s.
 //
 // Light that crosses blood is scattered forwards as well and takes its fluctuation along: below a
-// lumen of height h a share 1 − exp(−tail·h) of the tissue's light moves as the lumen's mean does
-// (Zhang et al., "Projection-resolved optical coherence tomographic angiography", Biomed. Opt.
-// Express 7, 816 (2016)).
+// lumen of height h a share 1 − exp(−tail·h) of the tissue's light moves as the lumen's mean does. The
+// artefact is described by Zhang et al., "Projection-resolved optical coherence tomographic
+// angiography", Biomed. Opt. Express 7, 816 (2016); the exponential and its constant are ours.
 #pragma once
 
 #include <array>

@@ -23,22 +23,22 @@ double sum_of(const std::vector<MotionTone>& tones, double t_s) {
 
 hal::Result<> check(std::string_view name, const std::vector<MotionTone>& tones) {
   if (tones.size() > most_tones)
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     "{} motion has {} tones, expected at most {}", name, tones.size(), most_tones);
+    return hal::fail(hal::ErrorCode::invalid_argument, "{} has {} tones, expected at most {}", name,
+                     tones.size(), most_tones);
   for (const MotionTone& tone : tones)
     if (!(tone.amplitude_um >= 0 && tone.amplitude_um <= most_um && tone.frequency_hz >= 0 &&
           tone.frequency_hz <= most_hz))
       return hal::fail(hal::ErrorCode::invalid_argument,
-                       "{} motion has a tone of {} um at {} Hz, expected 0 to {} um at 0 to {} Hz",
-                       name, tone.amplitude_um, tone.frequency_hz, most_um, most_hz);
+                       "{} has a tone of {} µm at {} Hz, expected 0 to {} µm at 0 to {} Hz", name,
+                       tone.amplitude_um, tone.frequency_hz, most_um, most_hz);
   return {};
 }
 
 } // namespace
 
 hal::Result<> TissueMotion::validate() const {
-  HAL_CHECK(check("axial", axial));
-  return check("lateral", lateral);
+  HAL_CHECK(check("axial_motion", axial));
+  return check("lateral_motion", lateral);
 }
 
 double TissueMotion::axial_um(double t_s) const {

@@ -44,6 +44,13 @@ hal::Result<pipeline::NrrdVolume> read_flow(const std::filesystem::path& file) {
                      "{}: found 8-bit levels, expected a flow volume: numbers from 0 (static) to 1 "
                      "(flowing)",
                      file.string());
+  // As `reconstruct --decorrelation` notes it. In noise all decorrelates: a tree would be found in it.
+  if (volume.content.starts_with("decorrelation"))
+    return hal::fail(
+        hal::ErrorCode::bad_data,
+        "{}: found decorrelation, expected a flow volume: octascope reconstruct --flow "
+        "writes one",
+        file.string());
   if (volume.geometry.assumed.any())
     return hal::fail(hal::ErrorCode::bad_data,
                      "{}: found no spacing ({}), expected those of all three axes: a tree in "
@@ -54,6 +61,8 @@ hal::Result<pipeline::NrrdVolume> read_flow(const std::filesystem::path& file) {
 
 hal::Result<TraceReport> trace(const std::filesystem::path& file) {
   HAL_TRY(const auto volume, read_flow(file));
+  for (const std::string& remark : volume.remarks)
+    warn("octascope vessels trace: {}: {}\n", file.string(), remark);
   const auto begun = std::chrono::steady_clock::now();
   auto traced =
       pipeline::trace_vessels(volume.geometry, std::get<std::vector<float>>(volume.levels));

@@ -35,7 +35,7 @@ FlowVolumes::create(const pipeline::FlowSetup& setup, const pipeline::VolumeGeom
   FlowVolumes volumes{setup};
   const auto open = [&](const std::filesystem::path& file, const char* content) {
     return pipeline::NrrdWriter::create(file, geometry, pipeline::NrrdType::float32,
-                                        {{"content", content}});
+                                        {{std::string{pipeline::nrrd_content}, content}});
   };
   if (flow) {
     HAL_TRY(auto writer, open(*flow, "flow: 0 static to 1 flowing, NaN not told"));

@@ -207,7 +207,7 @@ void LineFit::move(VesselLine& line, std::size_t first) {
   for (std::size_t i = 0; i < size; ++i)
     line.points[i] = sum(line.points[i], moves[i]);
   line.radii = std::move(radii);
-  constexpr double strength = 0.3; // halves waves of six points, leaves those of ten
+  constexpr double strength = 0.3; // leaves 0.45 of waves of 4 points, 0.77 of 6, 0.96 of 10
   smooth_points(line.points, strength);
 }
 

@@ -17,7 +17,7 @@ double FlowGrid::narrowest_um() const {
 
 namespace {
 
-hal::Result<> check_shape(const VolumeGeometry& g, std::size_t values) {
+hal::Result<> check_shape(const VolumeGeometry& g) {
   if (g.depths < 1 || g.a_scans < 1 || g.b_scans < 1)
     return hal::fail(ErrorCode::invalid_argument,
                      "found a flow volume of {} B-scans of {} A-scans of {} depths, expected at "
@@ -29,14 +29,21 @@ hal::Result<> check_shape(const VolumeGeometry& g, std::size_t values) {
                        "found a spacing of {:g} µm in the flow volume, expected one above 0 µm and "
                        "below a metre",
                        spacing);
-  if (values != g.voxels())
-    return hal::fail(ErrorCode::invalid_argument,
-                     "found {} values of flow, expected {} = {} × {} × {}", values, g.voxels(),
-                     g.b_scans, g.a_scans, g.depths);
-  constexpr std::size_t most_voxels = std::size_t{1} << 31;
-  if (values > most_voxels)
-    return hal::fail(ErrorCode::unsupported, "found {} voxels, expected at most {}: cut the volume",
-                     values, most_voxels);
+  return {};
+}
+
+// Cells have 32-bit numbers, a few of which are marks (flowing_voxels.h).
+hal::Result<> check_cells(const FlowGrid& grid) {
+  constexpr double most_cells = 0xFFFFFFF0;
+  double cells = 1;
+  for (const int count : grid.counts)
+    cells *= count + 2.0;
+  if (cells > most_cells)
+    return hal::fail(
+        ErrorCode::unsupported,
+        "found {:.0f} cells of a volume of {} × {} × {} with a border around, expected "
+        "at most {:.0f}: cut the volume",
+        cells, grid.counts[1], grid.counts[0], grid.counts[2], most_cells);
   return {};
 }
 
@@ -145,7 +152,8 @@ std::span<float> row_of(FlowGrid& grid, int y) {
   return std::span{grid.flow}.subspan(static_cast<std::size_t>(y) * size, size);
 }
 
-void leave_out_moved(FlowGrid& grid) {
+// `together`: B-scans of a row; the last row may have fewer of the `b_scans`.
+void leave_out_moved(FlowGrid& grid, int together, int b_scans) {
   for (int y = 0; y < grid.counts[1]; ++y) {
     const std::span<float> row = row_of(grid, y);
     double sum = 0;
@@ -156,9 +164,10 @@ void leave_out_moved(FlowGrid& grid) {
     }
     if (known == 0)
       continue;
-    ++grid.told_b_scans;
+    const int in_row = std::min(together, b_scans - y * together);
+    grid.told_b_scans += in_row;
     if (sum > most_flow_of_a_b_scan * static_cast<double>(known)) {
-      ++grid.moved_b_scans;
+      grid.moved_b_scans += in_row;
       std::ranges::fill(row, unknown_flow);
     }
   }
@@ -231,7 +240,7 @@ void smooth(FlowGrid& grid) {
 } // namespace
 
 hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& g, std::span<const float> flow) {
-  HAL_CHECK(check_shape(g, flow.size()));
+  HAL_CHECK(check_shape(g));
   const std::array<double, 3> spacing{g.a_spacing_um, g.b_spacing_um, g.depth_spacing_um};
   const std::array<int, 3> counts{g.a_scans, g.b_scans, g.depths};
   const std::array<int, 3> together = voxels_together(spacing);
@@ -240,10 +249,15 @@ hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& g, std::span<const fl
     grid.counts[axis] = (counts[axis] + together[axis] - 1) / together[axis];
     grid.spacing_um[axis] = spacing[axis] * together[axis];
   }
+  HAL_CHECK(check_cells(grid));
+  if (flow.size() != g.voxels())
+    return hal::fail(ErrorCode::invalid_argument,
+                     "found {} values of flow, expected {} = {} × {} × {}", flow.size(), g.voxels(),
+                     g.b_scans, g.a_scans, g.depths);
   grid.flow.resize(grid.at(0, grid.counts[1], 0));
   if (!average(grid, g, flow, together))
     HAL_CHECK(check_values(flow));
-  leave_out_moved(grid);
+  leave_out_moved(grid, together[1], g.b_scans);
   bridge_b_scans(grid);
   smooth(grid);
   return grid;

@@ -25,7 +25,7 @@ struct FlowGrid {
   std::array<double, 3> spacing_um{};
   std::vector<float> flow;   // mean over the voxel; unknown_flow where more than half was not told
   std::vector<float> smooth; // over the next voxels in x and z (¼, ½, ¼), of those that are known
-  int told_b_scans = 0;      // rows of y with known flow
+  int told_b_scans = 0;      // of the volume, in rows of y with known flow
   int moved_b_scans = 0;     // of them, taken for moved as a whole: unknown
 
   std::size_t at(int x, int y, int z) const {
@@ -44,7 +44,8 @@ inline constexpr double most_flow_of_a_b_scan = 0.5;
 
 // `flow`: geometry.voxels() values [b][a][z], NaN where unknown. Up to two B-scans in a row that are
 // unknown at a place are interpolated between their neighbours. ErrorCode::invalid_argument: counts or
-// spacings that are not positive, or another number of values; bad_data: values that are no flow.
+// spacings that are not positive, or another number of values; unsupported: more cells than 32 bits
+// number; bad_data: values that are no flow.
 hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& geometry, std::span<const float> flow);
 
 } // namespace octascope::pipeline

@@ -177,21 +177,100 @@ TEST(BScanFlow, of_noise_nothing_is_told) {
   EXPECT_FALSE(result.outcome.left_out);
 }
 
-// Another place, and a motion beyond the limit.
+bool is_left_out(const Result& result) {
+  return result.outcome.left_out &&
+         std::ranges::all_of(result.flow, [](float flow) { return std::isnan(flow); });
+}
+
+// One repeat of another place: the first, one between, the last.
 TEST(BScanFlow, repeats_that_have_nothing_in_common_are_left_out) {
+  const unsigned seed = tests::fresh_seed();
+  for (const int repeats : {2, 3, 4}) {
+    SpeckleScene scene;
+    scene.repeats = repeats;
+    const Bins bins = SpeckleSweeps{scene, seed}.bins();
+    const Bins other = SpeckleSweeps{scene, seed + 1}.bins();
+    for (const auto method : {FlowMethod::complex_bins, FlowMethod::intensity}) {
+      EXPECT_FALSE(is_left_out(compute(setup_of(scene, method), bins)));
+      for (int m = 0; m < repeats; ++m) {
+        Bins jumped = bins;
+        const auto at = m * static_cast<std::ptrdiff_t>(scene.voxels());
+        std::copy_n(other.begin() + at, scene.voxels(), jumped.begin() + at);
+        EXPECT_TRUE(is_left_out(compute(setup_of(scene, method), jumped)))
+            << "repeat " << m << " of " << repeats;
+      }
+    }
+  }
+}
+
+TEST(BScanFlow, motion_beyond_the_limit_is_left_out) {
   SpeckleScene scene;
+  for (const int repeats : {2, 3, 4}) {
+    scene.repeats = repeats;
+    scene.axial_shifts.assign(4, 0);
+    scene.axial_shifts[static_cast<std::size_t>(repeats - 1)] = 20;
+    EXPECT_TRUE(
+        is_left_out(compute(setup_of(scene), SpeckleSweeps{scene, tests::fresh_seed()}.bins())))
+        << repeats << " repeats";
+  }
+}
+
+TEST(BScanFlow, small_b_scans_that_moved_are_left_out) {
+  SpeckleScene scene;
+  scene.a_scans = 12;
+  scene.depths = 60;
   const unsigned seed = tests::fresh_seed();
   Bins bins = SpeckleSweeps{scene, seed}.bins();
-  const auto all_nan = [](const Result& result) {
-    return result.outcome.left_out &&
-           std::ranges::all_of(result.flow, [](float flow) { return std::isnan(flow); });
-  };
-  EXPECT_FALSE(all_nan(compute(setup_of(scene), bins)));
+  EXPECT_FALSE(is_left_out(compute(setup_of(scene), bins)));
   const Bins other = SpeckleSweeps{scene, seed + 1}.bins();
   std::copy_n(other.begin(), scene.voxels(), bins.begin());
-  EXPECT_TRUE(all_nan(compute(setup_of(scene), bins)));
-  scene.axial_shifts[1] = 20;
-  EXPECT_TRUE(all_nan(compute(setup_of(scene), SpeckleSweeps{scene, seed}.bins())));
+  EXPECT_TRUE(is_left_out(compute(setup_of(scene), bins)));
+}
+
+// Other places, so dim that no motion is measured; what is told of dim voxels alone would be flow.
+TEST(BScanFlow, of_dim_tissue_nothing_is_told) {
+  SpeckleScene scene;
+  scene.snr_db = 1;
+  scene.fall_db_per_depth = 0;
+  const unsigned seed = tests::fresh_seed();
+  Bins bins = SpeckleSweeps{scene, seed}.bins();
+  const Bins other = SpeckleSweeps{scene, seed + 1}.bins();
+  std::copy_n(other.begin(), scene.voxels(), bins.begin());
+  const auto result = compute(setup_of(scene), bins);
+  EXPECT_TRUE(std::ranges::all_of(result.flow, [](float flow) { return std::isnan(flow); }));
+}
+
+TEST(BScanFlow, where_there_is_no_power_nothing_is_told) {
+  SpeckleScene scene;
+  Bins bins = SpeckleSweeps{scene, tests::fresh_seed()}.bins();
+  constexpr int empty_from = 200;
+  for (std::size_t i = 0; i < scene.voxels(); ++i) {
+    if (static_cast<int>(i) % scene.depths >= empty_from)
+      bins[i] = 0;
+    bins[scene.voxels() + i] = bins[i]; // alike to the last bit: noise is 0
+  }
+  const auto flow = compute(setup_of(scene), bins).flow;
+  EXPECT_EQ(flow[100], 0);
+  EXPECT_TRUE(std::isnan(flow[empty_from + 10]));
+}
+
+// The last block of depths is one depth, which repeats do not share once they moved.
+TEST(BScanFlow, depths_that_repeats_do_not_share_take_no_noise_from_the_others) {
+  SpeckleScene scene;
+  scene.depths = 65;
+  scene.surface = 32;
+  for (const double shift : {8, -8}) {
+    scene.axial_shifts[1] = shift;
+    const auto result = compute(setup_of(scene), SpeckleSweeps{scene, tests::fresh_seed()}.bins());
+    int told = 0;
+    for (int a = 0; a < scene.a_scans; ++a) {
+      const float* const line = &result.flow[static_cast<std::size_t>(a * scene.depths)];
+      told += static_cast<int>(std::count_if(line, line + 20, [](float f) { return f >= 0; }));
+      EXPECT_TRUE(std::isnan(shift > 0 ? line[64] : line[0]));
+    }
+    EXPECT_LE(told, scene.a_scans / 2) << "of 20 depths of noise, shifted by " << shift;
+    EXPECT_LE(flow_figures(scene, result.flow).false_share, 0.02);
+  }
 }
 
 // Whatever was computed before, and with no memory but its own.

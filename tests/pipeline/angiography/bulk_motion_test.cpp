@@ -88,5 +88,11 @@ TEST_P(Shift, gives_the_bins_between_bins) {
   }
 }
 
+TEST(AxialCoherence, of_short_b_scans_is_that_of_a_hann_window) {
+  const std::vector<std::complex<float>> sweep(4 * 40, 1.0F);
+  BulkMotionEstimator estimator{4, 40};
+  EXPECT_NEAR(estimator.coherence(sweep.data()).independent_samples(5), 2.87, 0.01);
+}
+
 } // namespace
 } // namespace octascope::pipeline

@@ -118,6 +118,21 @@ TEST_F(Nrrd, header_is_the_contract) {
   EXPECT_EQ(text.size(), text.find("\n\n") + 2 + 24 * sizeof(float));
 }
 
+TEST_F(Nrrd, decibels_are_said_of_levels_alone) {
+  const auto header = [&](const NrrdNotes& notes) {
+    auto writer = tests::must(
+        NrrdWriter::create(folder / "v.nrrd", float_volume().geometry, NrrdType::float32, notes));
+    for (const int b : {0, 1})
+      EXPECT_TRUE(writer.write_b_scan(b, std::vector<float>(12)));
+    EXPECT_TRUE(writer.commit());
+    return tests::whole_file(folder / "v.nrrd");
+  };
+  EXPECT_THAT(header({}), HasSubstr("\n# OCT volume, 20 log10(|Y|/N) of camera counts\n"));
+  EXPECT_EQ(tests::must(read_nrrd(folder / "v.nrrd")).content, "");
+  EXPECT_THAT(header({{"content", "flow"}}), testing::Not(HasSubstr("log10")));
+  EXPECT_EQ(tests::must(read_nrrd(folder / "v.nrrd")).content, "flow");
+}
+
 TEST_F(Nrrd, appears_complete_or_not_at_all) {
   {
     auto writer = tests::must(

@@ -1,15 +1,20 @@
 // Trees to flow volumes and back: how far centrelines are off, what is found, what is invented.
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <functional>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include "pipeline/vessels/tracing/vessel_tracer.h"
 #include "pipeline/vessels/tree_comparison.h"
@@ -131,8 +136,10 @@ void PrintTo(const Scene& scene, std::ostream* out) {
 
 class VesselTracer : public testing::TestWithParam<Scene> {};
 
-TreeComparison compare(const TracedVessels& traced, const VesselTree& truth) {
-  return compare_trees(traced.tree, truth, {});
+// Wide enough for the limits below to fail; what is farther away counts as invented.
+TreeComparison compare(const TracedVessels& traced, const VesselTree& truth, double radius_um) {
+  return compare_trees(traced.tree, truth,
+                       {.tolerance_mm = static_cast<float>(std::max(0.1, 2e-3 * radius_um))});
 }
 
 // The figures: 15 µm across depth and A-scans, 55 µm across B-scans, 90 % found, 5 % invented.
@@ -142,7 +149,7 @@ TEST_P(VesselTracer, finds_centrelines_within_voxels) {
   const auto traced = trace_vessels(field, flow_of(truth, field, flaws));
   ASSERT_TRUE(traced) << traced.error().message;
   ASSERT_EQ(traced->refusal, "");
-  const TreeComparison found = compare(*traced, truth);
+  const TreeComparison found = compare(*traced, truth, scene.radius_um);
   fmt::print("{:8} {:3.0f} µm: A {:5.1f} B {:5.1f} depth {:5.1f} µm (p95), found {:.3f}, invented "
              "{:.3f}, radius {:+.2f}, quality {:.2f}\n",
              scene.name, scene.radius_um, found.axes[0].p95_um, found.axes[1].p95_um,
@@ -202,7 +209,7 @@ TEST(VesselTracerTree, reaches_across_missing_b_scans) {
   missing.missing_every = 8;
   const auto traced = trace_vessels(field, flow_of(truth, field, missing));
   ASSERT_TRUE(traced);
-  const TreeComparison found = compare(*traced, truth);
+  const TreeComparison found = compare(*traced, truth, 40);
   EXPECT_EQ(summarise(traced->tree).roots, 1U);
   EXPECT_GE(found.found_share, 0.97);
   EXPECT_LE(found.axes[0].p95_um, 15);
@@ -218,7 +225,9 @@ TEST(VesselTracerTree, leaves_out_b_scans_that_moved) {
   ASSERT_TRUE(traced);
   EXPECT_EQ(traced->refusal, "");
   EXPECT_EQ(traced->moved_b_scans, 4);
-  EXPECT_LE(compare(*traced, truth).invented_share, 0.05);
+  const TreeComparison found = compare(*traced, truth, 40);
+  EXPECT_GE(found.found_share, 0.9);
+  EXPECT_LE(found.invented_share, 0.05);
 }
 
 TEST(VesselTracerTree, is_refused_where_nothing_has_the_shape_of_vessels) {
@@ -233,6 +242,12 @@ TEST(VesselTracerTree, is_refused_where_nothing_has_the_shape_of_vessels) {
   EXPECT_EQ(refusal(std::vector<float>(small.voxels(), 0.0F)), "no vessel was found");
   EXPECT_EQ(refusal(std::vector<float>(small.voxels(), 1.0F)),
             "24 of 24 B-scans flow as a whole: motion, not vessels");
+  VolumeGeometry fine = small; // three B-scans together, and two in the last row
+  fine.b_scans = 23;
+  fine.b_spacing_um = 3.5;
+  fine.depth_spacing_um = 10;
+  EXPECT_EQ(trace_vessels(fine, std::vector<float>(fine.voxels(), 1.0F))->refusal,
+            "23 of 23 B-scans flow as a whole: motion, not vessels");
   FlowFlaws noise{.salt = 0.02};
   EXPECT_NE(refusal(flow_of({}, small, noise)), "");
   noise.clusters = 60;
@@ -282,25 +297,61 @@ TEST(VesselTracerTree, is_refused_of_what_is_no_flow) {
               FailsWith(hal::ErrorCode::invalid_argument, "found 7 values of flow"));
   EXPECT_THAT(trace_vessels(oct_geometry(0, 10, 2), {}),
               FailsWith(hal::ErrorCode::invalid_argument, "expected at least one of each"));
+  EXPECT_THAT(
+      trace_vessels(oct_geometry(1, 40'000, 40'000), {}),
+      FailsWith(hal::ErrorCode::unsupported, "expected at most 4294967280: cut the volume"));
   VolumeGeometry flat = small;
   flat.a_spacing_um = 0;
   EXPECT_THAT(trace_vessels(flat, std::vector<float>(small.voxels())),
               FailsWith(hal::ErrorCode::invalid_argument, "expected one above 0"));
 }
 
-TEST(VesselTracerTree, may_be_stopped) {
-  const std::vector<float> flow = flow_of(tubes(60), field);
-  std::stop_source source;
-  source.request_stop();
-  EXPECT_TRUE(trace_vessels(field, flow, source.get_token()));
+// Of one thread, so that others on the machine do not count.
+double processor_s(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double processor_s() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+// By another thread, at tenths of the time that the whole takes.
+TEST(VesselTracerTree, may_be_stopped) {
+  const std::vector<float> flow = flow_of(winding(60), field);
+  double begun = processor_s();
+  ASSERT_TRUE(trace_vessels(field, flow));
+  const double whole = processor_s() - begun;
+  clockid_t clock{};
+  ASSERT_EQ(pthread_getcpuclockid(pthread_self(), &clock), 0);
+  double longest = 0;
+  for (int tenth = 1; tenth < 10; ++tenth) {
+    std::stop_source source;
+    double stopped = 0;
+    begun = processor_s();
+    {
+      const std::jthread other{[&] {
+        while (processor_s(clock) < begun + whole * tenth / 10)
+          std::this_thread::sleep_for(std::chrono::microseconds{200});
+        stopped = processor_s(clock);
+        source.request_stop();
+      }};
+      const auto traced = trace_vessels(field, flow, source.get_token());
+      EXPECT_TRUE(traced);
+    }
+    longest = std::max(longest, processor_s() - stopped);
+  }
+  EXPECT_LT(longest, whole / 2);
+}
+
+TEST(VesselTracerTree, finds_nothing_once_it_is_stopped) {
+  std::stop_source source;
+  source.request_stop();
+  const auto traced = trace_vessels(field, flow_of(tubes(60), field), source.get_token());
+  ASSERT_TRUE(traced);
+  EXPECT_EQ(traced->tree.nodes(), 0U);
+  EXPECT_NE(traced->refusal, "");
 }
 
 // Prints what a whole volume costs; the bound is wide, since tests share the machine.
-TEST(VesselTracerTree, takes_less_than_a_second_of_one_core) {
+TEST(VesselTracerTree, takes_less_than_three_seconds_of_one_core) {
   const VolumeGeometry g = oct_geometry(512, 300, 80);
   VesselTree truth;
   std::mt19937_64 random{3};

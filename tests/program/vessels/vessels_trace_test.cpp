@@ -85,5 +85,16 @@ TEST(VesselsTrace, tells_other_volumes_from_flow) {
   EXPECT_THAT(refusal(bare), HasSubstr("found no spacing (depth, A-scan, B-scan), expected"));
 }
 
+TEST(VesselsTrace, tells_what_of_the_file_was_assumed) {
+  const ScratchFolder folder;
+  const std::vector<float> flow = flow_of(fork(), flow_field);
+  std::string file = "NRRD0004\ntype: float\nendian: little\ndimension: 3\nsizes: 160 90 24\n"
+                     "spacings: 0.0035 0.01 0.0375\nencoding: raw\n\n";
+  file.append(reinterpret_cast<const char*>(flow.data()), flow.size() * sizeof(float));
+  const ProgramResult result =
+      run_well({"vessels", "trace", folder.write("flow.nrrd", file), "--out", folder / "tree.swc"});
+  EXPECT_THAT(result.err, HasSubstr("flow.nrrd: its spacings have no units: mm is assumed"));
+}
+
 } // namespace
 } // namespace octascope::tests
