@@ -1,6 +1,8 @@
 // The thread that takes surfaces: with real threads, so that a thread sanitizer has what to look
 // at.
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -70,7 +72,11 @@ TEST(IsoSurfaceThread, keeps_up_with_a_surgeon_who_turns_the_knob) {
   const Volume even = slope_volume(5);
   const Volume odd = slope_volume(6);
   int taken = 0;
-  for (int i = 0; i < 400; ++i) {
+  // On a busy machine all turns of the knob may be over before the thread runs at all.
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+  for (int i = 0; i < 400 || (taken == 0 && std::chrono::steady_clock::now() < patience); ++i) {
+    if (i >= 400)
+      std::this_thread::sleep_for(std::chrono::milliseconds{1});
     if (i % 3 == 0)
       thread.show(i % 2 == 0 ? even : odd);
     thread.request(static_cast<float>(60 + i % 60));
