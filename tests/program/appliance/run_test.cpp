@@ -39,6 +39,10 @@ void expect_contract(const json& report) {
   expect_durations(report.at("latency_ms"));
   const json& quality = report.at("quality");
   for (const char* key : {"resolution", "steps"}) {
+    if (quality.at("frames") == 0) { // a run may end before its first volume
+      EXPECT_TRUE(quality.at(key).is_null()) << key;
+      continue;
+    }
     EXPECT_GT(quality.at(key).at("worst").get<double>(), 0) << key;
     EXPECT_LE(quality.at(key).at("worst"), quality.at(key).at("median")) << key;
   }
