@@ -327,8 +327,10 @@ TEST(VesselTracerTree, may_be_stopped) {
     double stopped = 0;
     begun = processor_s();
     {
-      const std::jthread other{[&] {
-        while (processor_s(clock) < begun + whole * tenth / 10)
+      // It ends with the tracing, too, which may take less than the first one did: then this
+      // thread waits for the other, and its clock stands still.
+      const std::jthread other{[&](const std::stop_token& over) {
+        while (!over.stop_requested() && processor_s(clock) < begun + whole * tenth / 10)
           std::this_thread::sleep_for(std::chrono::microseconds{200});
         stopped = processor_s(clock);
         source.request_stop();
