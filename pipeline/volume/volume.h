@@ -25,6 +25,12 @@ constexpr bool has_levels(BScanState state) {
   return state == BScanState::good || state == BScanState::saturated;
 }
 
+enum class FlowState : std::uint8_t {
+  none,     // not received whole, or the seam: its flow is flow_untold
+  told,     // as far as its voxels could be told
+  left_out, // it moved too far between its sweeps: its flow is flow_untold
+};
+
 // From `from` to before `to`.
 struct BScanRange {
   int from = 0;
@@ -48,6 +54,22 @@ struct Volume {
       : geometry(g), levels(g.voxels()),
         b_scan_states(static_cast<std::size_t>(g.b_scans), BScanState::missing) {}
 
+  // Adds room for what flows. Allocates.
+  void add_flow() {
+    flow.resize(geometry.voxels());
+    flow_states.resize(static_cast<std::size_t>(geometry.b_scans), FlowState::none);
+  }
+  bool has_flow() const { return !flow.empty(); }
+  // Of volumes that have it.
+  std::span<std::uint8_t> b_scan_flow(int b) {
+    return std::span{flow}.subspan(geometry.b_scan_voxels() * static_cast<std::size_t>(b),
+                                   geometry.b_scan_voxels());
+  }
+  std::span<const std::uint8_t> b_scan_flow(int b) const {
+    return std::span{flow}.subspan(geometry.b_scan_voxels() * static_cast<std::size_t>(b),
+                                   geometry.b_scan_voxels());
+  }
+
   std::span<std::uint8_t> b_scan(int b) {
     return std::span{levels}.subspan(geometry.b_scan_voxels() * static_cast<std::size_t>(b),
                                      geometry.b_scan_voxels());
@@ -63,6 +85,10 @@ struct Volume {
   VolumeGeometry geometry;
   std::vector<std::uint8_t> levels;
   std::vector<BScanState> b_scan_states;
+  // What flows, in counts (flow_scale.h) in the order of the levels, and of each B-scan whether that
+  // could be told: of volumes from repeated sweeps that were compared. Else empty.
+  std::vector<std::uint8_t> flow;
+  std::vector<FlowState> flow_states;
   // Set in volumes from the pipeline; empty() where it was not built.
   Occupancy occupancy;
   std::vector<BScanWork> work; // by B-scan, likewise; `end` is zero of those that nobody built
