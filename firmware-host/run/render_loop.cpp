@@ -105,9 +105,11 @@ bool RenderLoop::draws_parts() const {
 }
 
 ui::FrameBudget RenderLoop::frame_budget() const {
-  return ui::frame_budget(
-      parts_.display.refresh_period(),
-      {.software = software_, .rolling = volume_.rolls(), .in_parts = draws_parts()});
+  return ui::frame_budget(parts_.display.refresh_period(),
+                          {.software = software_,
+                           .rolling = volume_.rolls(),
+                           .in_parts = draws_parts(),
+                           .waits_for_refresh = next_refresh().has_value()});
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
@@ -348,7 +350,7 @@ void RenderLoop::draw_if_changed() {
   const auto vessels = renderer_->vessel_report();
   governor_.note(parts_.clock.now() - begin - vessels.cost, renderer_->drew_volume());
   if (parts_.vessels != nullptr)
-    parts_.vessels->note(vessels, frame_budget().moving);
+    parts_.vessels->note(vessels, std::max(frame_budget().moving, frame_budget().resting));
   drawn_view_ = view;
   drawn_liveness_ = status().freshness.liveness;
   if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
