@@ -54,7 +54,7 @@ ViewState Renderer::Parts::fitted(const ViewState& view) const {
 
 // Colours of depths say nothing without their scale, and some are those of vessels: grey instead.
 ViewState Renderer::Parts::without_confusion(const ViewState& view, const Layout& places) const {
-  const bool beside_vessels = volume.vessels() != nullptr && view.vessels_visible;
+  const bool beside_vessels = volume.vessels() != nullptr && shows_tree(view);
   ViewState plain = view;
   if (volume.depth_colours(view) && (beside_vessels || !has_room_for_depth_scale(places)))
     plain.colour_map = 0;

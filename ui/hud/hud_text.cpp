@@ -255,7 +255,7 @@ void compose_registration(FixedText<40>& text, const ViewState& view, const Vess
 }
 
 void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels) {
-  hud.vessels.shown = vessels.state == VesselStatus::State::shown && view.vessels_visible &&
+  hud.vessels.shown = vessels.state == VesselStatus::State::shown && shows_tree(view) &&
                       view.vessel_opacity > 0;
   if (!hud.vessels.shown)
     return;

@@ -250,7 +250,7 @@ TEST(HudText, vessels_say_whether_they_are_where_they_seem_to_be) {
   EXPECT_EQ(troubles_of(status), Words{"vessels not registered"});
   EXPECT_EQ(badges_of(status), std::vector<std::string>{"VESSELS NOT REGISTERED"});
   ViewState hidden;
-  hidden.vessels_visible = false;
+  hidden.vessels = VesselsShown::off;
   EXPECT_EQ(compose_hud_text(hidden, status, {}).badge_count, 0U);
   status.vessels.registered = true;
   EXPECT_EQ(badges_of(status), std::vector<std::string>{});
@@ -318,7 +318,7 @@ TEST(HudText, vessels_that_a_flat_picture_leaves_out_are_told) {
   status.vessels.account.merged = 3;
   EXPECT_EQ(compose_hud_text(view, status, shown).facts[2].view(),
             "thinnest vessels merged or left out");
-  view.vessels_visible = false;
+  view.vessels = VesselsShown::flow;
   EXPECT_EQ(compose_hud_text(view, status, shown).facts[2].view(), "");
 }
 
