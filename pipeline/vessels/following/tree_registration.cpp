@@ -61,7 +61,8 @@ public:
   TreePair(const VesselTree& planned, const VesselTree& live, const RigidTransform& start,
            const PoseReach& reach)
       : live_box_{box_around(live)}, middle_{live_box_.middle()}, start_{start},
-        planned_box_{box_around(planned)}, live_{sample_tree(live, step_mm, {}, live_box_)} {
+        planned_box_{box_around(planned).grown(same_vessel_mm)}, live_{sample_tree(live, step_mm,
+                                                                                   {}, live_box_)} {
     const double half_diagonal = length(difference(live_box_.upper, live_box_.lower)) / 2;
     constexpr double margin_mm = 0.3;
     const PointBox reached =
