@@ -179,7 +179,7 @@ TEST(VesselTracerTree, is_the_same_of_a_live_volumes_counts) {
   std::vector<float> flow = flow_of(forks(50), field, flaws);
   for (float& value : flow) {
     counts.push_back(quantise_flow(value));
-    value = flow_of(counts.back());
+    value = pipeline::flow_of(counts.back());
   }
   const auto of_counts = trace_vessels(field, counts);
   const auto of_flow = trace_vessels(field, flow);
