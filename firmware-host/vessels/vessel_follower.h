@@ -1,0 +1,71 @@
+// Keeps a loaded tree where the tissue is, beside the running display (tree_following.h).
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "firmware-host/vessels/live_tree.h"
+#include "firmware-host/vessels/vessel_source.h"
+#include "hal/clock.h"
+#include "pipeline/threads/role_thread.h"
+#include "pipeline/threads/wakeup.h"
+#include "pipeline/vessels/following/tree_following.h"
+#include "pipeline/volume/volume.h"
+
+namespace octascope::firmware_host {
+
+// One job at a time, as LiveTreeThread: nothing is locked.
+class VesselFollower {
+public:
+  // `vessels` is read by the thread until this ends; `start` is where they lie, if somebody said.
+  // `news` is posted with each new place; it and `clock` outlive this.
+  VesselFollower(const LoadedVessels& vessels, const std::optional<pipeline::RigidTransform>& start,
+                 hal::Clock& clock, pipeline::Wakeup& news, pipeline::ThreadSetup setup = {});
+  VesselFollower(const VesselFollower&) = delete;
+  VesselFollower& operator=(const VesselFollower&) = delete;
+
+  // All of these: the render thread.
+
+  // Copies the volume's levels, some milliseconds, if the thread is idle, the volume is another than the last
+  // one, and that was at least `least_interval` ago.
+  void offer(const pipeline::Volume& volume);
+  // A tree that was traced and not refused; the newest waits for the thread.
+  void offer(std::shared_ptr<const LiveTree> tree);
+  // Where the tree lies now, once for each time that it was looked for.
+  std::optional<pipeline::FollowedPlace> take();
+
+  static constexpr hal::Duration least_interval = std::chrono::milliseconds{200};
+
+private:
+  enum class Turn : std::uint8_t { starting, idle, at_work, finished };
+
+  void run();
+  void follow(pipeline::TreeFollowing& following);
+
+  const LoadedVessels& vessels_;
+  const std::optional<pipeline::RigidTransform> start_;
+  hal::Clock& clock_;
+  pipeline::Wakeup& news_;
+  const pipeline::ThreadSetup setup_;
+  pipeline::Wakeup wakeup_;
+  std::atomic<Turn> turn_{Turn::idle};
+
+  // The render thread's.
+  std::optional<hal::TimePoint> offered_;
+  std::shared_ptr<const LiveTree> waiting_;
+
+  // Of the thread while it is at work or starts, else of the render thread.
+  pipeline::VolumeGeometry geometry_;
+  std::vector<std::uint8_t> levels_;
+  std::vector<pipeline::BScanState> states_;
+  std::uint64_t index_ = 0;
+  std::shared_ptr<const LiveTree> tree_; // null: none is new
+  pipeline::FollowedPlace place_;
+
+  pipeline::RoleThread thread_{&wakeup_}; // last: it uses all of the above
+};
+
+} // namespace octascope::firmware_host
