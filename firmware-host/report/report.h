@@ -43,6 +43,13 @@ struct StageSummary {
   std::array<std::uint64_t, most_ms.size() + 1> histogram{};
 };
 
+// Trees that were traced in the volumes' flow.
+struct TracedTreesSummary {
+  std::uint64_t traced = 0;
+  std::uint64_t refused = 0; // not among the traced
+  pipeline::DurationSummary took;
+};
+
 struct RunReport {
   bool simulated = false;
   std::string source;                // what the spectra were
@@ -65,7 +72,8 @@ struct RunReport {
   std::array<StageSummary, stage_count> stages; // of the latency
   QualitySummary quality;                       // of the shown frames
   std::optional<ui::RayTrial> rays;
-  std::optional<double> first_picture_s; // since the process began
+  std::optional<TracedTreesSummary> trees; // empty: the volumes come without flow
+  std::optional<double> first_picture_s;   // since the process began
   ShownPicture picture;
   ui::ViewState view;                                    // at the end of the run
   std::array<std::uint64_t, ui::action_count> actions{}; // times each was performed

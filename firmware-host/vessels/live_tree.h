@@ -52,6 +52,9 @@ public:
   // What was found last, once; null if nothing new was.
   std::shared_ptr<const LiveTree> take();
 
+  // A tree is being traced, of a volume that was copied.
+  bool is_at_work() const { return turn_.load(std::memory_order_acquire) == Turn::at_work; }
+
   struct Counters {
     std::uint64_t traced = 0;
     std::uint64_t refused = 0;      // not among the traced

@@ -23,8 +23,9 @@ const std::string nothing_to_say;
 } // namespace
 
 hal::Result<std::unique_ptr<VesselDisplay>>
-make_vessel_display(const RunOptions& options, pipeline::PatientEye operated, hal::Clock& clock,
-                    pipeline::FaultLog& faults, pipeline::Wakeup& news) {
+make_vessel_display(const RunOptions& options, bool live, pipeline::PatientEye operated,
+                    hal::Clock& clock, pipeline::FaultLog& faults, pipeline::Wakeup& news,
+                    const pipeline::ThreadSetup& threads) {
   VesselDisplaySetup setup;
   if (options.registration) {
     HAL_TRY(auto loaded, pipeline::Registration::load(*options.registration));
@@ -32,18 +33,30 @@ make_vessel_display(const RunOptions& options, pipeline::PatientEye operated, ha
     setup.registration = std::move(loaded);
   }
   setup.operated = std::move(operated);
-  if (!options.vessels)
+  if (!options.vessels && !live)
     return std::unique_ptr<VesselDisplay>{};
-  setup.file = *options.vessels;
+  setup.file = options.vessels.value_or(std::filesystem::path{});
+  setup.live = live;
+  setup.threads = threads;
   setup.registration_file = options.registration;
   return std::make_unique<VesselDisplay>(std::move(setup), clock, faults, news);
 }
 
 VesselDisplay::VesselDisplay(VesselDisplaySetup setup, hal::Clock& clock,
                              pipeline::FaultLog& faults, pipeline::Wakeup& news)
-    : setup_{std::move(setup)}, clock_{clock}, faults_{faults}, loader_{setup_.file, news} {}
+    : setup_{std::move(setup)}, clock_{clock}, faults_{faults} {
+  if (!setup_.file.empty())
+    loader_.emplace(setup_.file, news);
+  if (setup_.live)
+    live_.emplace(clock, news, setup_.threads);
+}
 
+// A traced tree is in the volume's frame.
 ui::PlacedVessels VesselDisplay::placed() const {
+  if (!loaded_)
+    return live_ && live_->drawn() != nullptr
+               ? place_vessels(*live_->drawn()->packed, pipeline::RigidTransform{})
+               : ui::PlacedVessels{};
   if (!setup_.registration)
     return place_vessels(*loaded_, std::nullopt);
   return place_vessels(*loaded_, setup_.registration->volume_from_tree);
@@ -54,7 +67,7 @@ hal::Result<> VesselDisplay::show(ui::Renderer& renderer) const {
 }
 
 hal::Result<> VesselDisplay::show_again(ui::Renderer& renderer) {
-  return loaded_ ? show(renderer) : hal::Result<>{};
+  return status_.state == ui::VesselStatus::State::shown ? show(renderer) : hal::Result<>{};
 }
 
 // What is registered to this eye by hand is this eye's.
@@ -73,20 +86,68 @@ const std::string& VesselDisplay::notice(hal::TimePoint now) const {
   return now < notice_until_ ? notice_ : nothing_to_say;
 }
 
-void VesselDisplay::advance(ui::Renderer* renderer, ui::ViewActions& actions) {
-  take_loaded(renderer, actions);
+void VesselDisplay::advance(ui::Renderer* renderer, ui::ViewActions& actions,
+                            const pipeline::Volume* shown) {
+  if (loader_)
+    take_loaded(renderer, actions);
+  if (live_)
+    show_live(renderer, actions, shown);
   take_written(renderer, actions);
   if (status_.state == ui::VesselStatus::State::loading)
-    status_.progress = loader_.progress();
-  status_.registered = setup_.registration.has_value();
+    status_.progress = loader_->progress();
+  status_.registered = setup_.registration.has_value() || status_.traced;
   status_.residual_mm = std::nullopt;
   if (setup_.registration)
     status_.residual_mm = setup_.registration->provenance.residual_mm;
 }
 
+// Beside a tree from a file, which is drawn in its stead, it only serves to tell where that one lies.
+void VesselDisplay::show_live(ui::Renderer* renderer, ui::ViewActions& actions,
+                              const pipeline::Volume* shown) {
+  using State = ui::VesselStatus::State;
+  const bool changed = live_->advance(shown, actions.state().frozen);
+  take_kept_tree();
+  if (loader_ || status_.state == State::failed || !live_->status())
+    return;
+  if (!status_.traced)
+    actions.set_vessels_traced();
+  status_.traced = live_->status();
+  if (!changed)
+    return;
+  const auto drawn = renderer != nullptr ? show(*renderer) : hal::Result<>{};
+  status_.state = live_->drawn() != nullptr ? State::shown : State::none;
+  if (drawn)
+    return;
+  status_.state = State::failed;
+  status_.traced.reset();
+  faults_.add(pipeline::Fault::vessels_not_shown, drawn.error().message, clock_.now());
+  say(fmt::format("No vessels: {}", drawn.error().message));
+}
+
+void VesselDisplay::keep_tree(const std::filesystem::path& folder) {
+  if (live_ && !loader_)
+    live_->keep(folder);
+}
+
+void VesselDisplay::take_kept_tree() {
+  const auto kept = live_->take_kept();
+  if (!kept)
+    return;
+  if (*kept) {
+    say(fmt::format("Vessel tree kept in {}", (*kept)->filename().string()));
+    return;
+  }
+  faults_.add(pipeline::Fault::picture_not_kept, kept->error().message, clock_.now());
+  say(fmt::format("Vessel tree not kept: {}", kept->error().message));
+}
+
+std::optional<LiveTreeThread::Counters> VesselDisplay::traced() const {
+  return live_ ? std::optional{live_->counters()} : std::nullopt;
+}
+
 void VesselDisplay::take_loaded(ui::Renderer* renderer, ui::ViewActions& actions) {
   using State = ui::VesselStatus::State;
-  auto result = loader_.take();
+  auto result = loader_->take();
   if (!result) {
     if (status_.state == State::none)
       status_.state = State::loading;

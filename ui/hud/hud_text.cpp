@@ -135,6 +135,15 @@ void compose_badges_without_room(HudText& hud) {
       add_trouble(hud, Trouble::Sign::lost).words.format("{}", hud.badges[i].text.view());
 }
 
+// In every picture, also where there is no room for the marks beside the volume.
+void add_tree_trouble(HudText& hud, const TracedTreeStatus& tree) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(tree.age).count();
+  if (tree.state != TracedTreeStatus::State::shown)
+    add_trouble(hud, Trouble::Sign::absent).words.format("no vessel tree");
+  else if (hud.vessels.tree_old)
+    add_trouble(hud, Trouble::Sign::lost).words.format("tree {} s old", seconds);
+}
+
 // What must not wait until somebody asks for the figures.
 void compose_troubles(HudText& hud, const Status& status) {
   if (hud.vessels.shown && !status.vessels.registered)
@@ -162,6 +171,8 @@ void compose_troubles(HudText& hud, const Status& status) {
   if (status.vessels.state == VesselStatus::State::loading)
     add_trouble(hud, Trouble::Sign::loading)
         .words.format("vessels {:.0f} %", std::floor(status.vessels.progress * 100));
+  if (!hud.vessels.tree.view().empty())
+    add_tree_trouble(hud, *status.vessels.traced);
   if (status.vessels.state == VesselStatus::State::failed)
     add_trouble(hud, Trouble::Sign::failed).words.format("no vessels");
 }
@@ -254,13 +265,31 @@ void compose_registration(FixedText<40>& text, const ViewState& view, const Vess
     text.format("residual {:.4g} mm", *vessels.residual_mm);
 }
 
+// In whole seconds: a tree comes about once a second, and no frame is drawn for its age alone more often.
+void compose_traced(VesselMarks& marks, const TracedTreeStatus& tree) {
+  using State = TracedTreeStatus::State;
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(tree.age).count();
+  marks.tree_old = tree.age >= TracedTreeStatus::old_after;
+  if (tree.state == State::refused)
+    marks.tree.format("no tree: {}", tree.refusal);
+  else if (tree.state == State::removed)
+    marks.tree.format("no tree: the last is {} s old", seconds);
+  else if (seconds == 0)
+    marks.tree.format("tree < 1 s old, {} vessels, {:.1f} mm", tree.vessels, tree.length_mm);
+  else
+    marks.tree.format("tree {} s old, {} vessels, {:.1f} mm", seconds, tree.vessels,
+                      tree.length_mm);
+}
+
 void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels) {
-  hud.vessels.shown = vessels.state == VesselStatus::State::shown && view.vessels_visible &&
-                      view.vessel_opacity > 0;
+  const bool wanted = view.vessels_visible && view.vessel_opacity > 0;
+  if (wanted && vessels.traced)
+    compose_traced(hud.vessels, *vessels.traced);
+  hud.vessels.shown = wanted && vessels.state == VesselStatus::State::shown;
   if (!hud.vessels.shown)
     return;
   hud.vessels.registered = vessels.registered;
-  if (vessels.registered)
+  if (vessels.registered && !vessels.traced)
     compose_registration(hud.vessels.registration, view, vessels);
   hud.vessels.colouring = view.vessel_colouring;
   // SWC leaves their types to any program: they are the heart's where all three are there.

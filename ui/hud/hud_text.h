@@ -71,6 +71,8 @@ struct VesselMarks {
   VesselColouring colouring = VesselColouring::branch;
   std::array<bool, pipeline::vessel_branch_count> branches{}; // that are named
   std::optional<SegmentCounts> account;                       // if requested
+  FixedText<96> tree;    // of one traced in the live flow: its age, or why there is none
+  bool tree_old = false; // is to be marked
   bool operator==(const VesselMarks&) const = default;
 };
 
@@ -87,7 +89,7 @@ struct ShownPictures {
 struct HudText {
   // One per kind, and two of kind incomplete.
   static constexpr std::size_t most_badges = 10;
-  static constexpr std::size_t most_troubles = Status::most_devices + 6;
+  static constexpr std::size_t most_troubles = Status::most_devices + 7;
 
   // Lines, frames and volumes per second: dropped in this order if the strip is too narrow.
   static constexpr std::array<std::size_t, 3> dispensable_figures{1, 2, 0};

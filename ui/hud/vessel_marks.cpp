@@ -21,7 +21,8 @@ Colour to_colour(const VesselColour& colour) {
 
 // What stands there, row by row.
 struct MarkRow {
-  FixedText<40> words;
+  FixedText<96> words;
+  bool warning = false;
   Colour colour{};
   bool swatch = false;
 };
@@ -82,17 +83,24 @@ void draw_unregistered(Canvas& canvas, const Layout& layout) {
 } // namespace
 
 void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& marks) {
-  if (!marks.shown || layout.view.empty())
+  const bool traced = !marks.tree.view().empty();
+  if ((!marks.shown && !traced) || layout.view.empty())
     return;
   if (!layout.view_frame.empty()) {
-    if (!marks.registered)
+    if (marks.shown && !marks.registered)
       draw_unregistered(canvas, layout);
     return;
   }
   MarkRows rows;
-  add_colours(rows, marks);
+  if (marks.shown)
+    add_colours(rows, marks);
   if (!marks.registration.view().empty())
-    rows.add().words = marks.registration;
+    rows.add().words.format("{}", marks.registration.view());
+  if (traced) {
+    MarkRow& row = rows.add();
+    row.words.format("{}", marks.tree.view());
+    row.warning = marks.tree_old;
+  }
   if (marks.account)
     add_account(rows, *marks.account);
   if (rows.count == 0)
@@ -126,7 +134,7 @@ void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& 
         canvas.dot({x + swatch * u / 2, middle}, swatch * u / 2, row.colour);
       canvas.text(
           {x + (row.swatch ? text_left : 0), middle - canvas.text_height(TextStyle::label) / 2},
-          TextStyle::label, palette::text, row.words.view());
+          TextStyle::label, row.warning ? palette::warning : palette::text, row.words.view());
       middle += row_height * u;
     }
     left += static_cast<float>(plate.width) + 4 * u;

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "pipeline/files/atomic_file.h"
 #include "pipeline/vessels/files/decimal.h"
 #include "pipeline/vessels/files/swc_comments.h"
 #include "pipeline/vessels/files/swc_reader.h"
@@ -88,9 +87,9 @@ private:
 } // namespace
 
 hal::Result<> write_swc(const fs::path& file, const VesselTree& tree, LengthUnit unit,
-                        const std::function<void(double)>& progress) {
+                        const std::function<void(double)>& progress, Readers readers) {
   HAL_CHECK(check_tree_to_write(file, tree, largest_swc_id));
-  HAL_TRY(auto out, AtomicFile::create(file));
+  HAL_TRY(auto out, AtomicFile::create(file, readers));
   SwcText swc{tree, unit};
   std::uint64_t written = 0;
   for (std::size_t first = 0; first < tree.nodes(); first += nodes_in_piece) {
