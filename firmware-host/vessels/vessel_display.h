@@ -9,6 +9,7 @@
 
 #include "firmware-host/outputs/registration_writer.h"
 #include "firmware-host/vessels/live_tree_display.h"
+#include "firmware-host/vessels/vessel_follower.h"
 #include "firmware-host/vessels/vessel_loader.h"
 #include "hal/clock.h"
 #include "pipeline/faults/fault_log.h"
@@ -80,6 +81,12 @@ public:
 private:
   void take_loaded(ui::Renderer* renderer, ui::ViewActions& actions);
   void show_live(ui::Renderer* renderer, ui::ViewActions& actions, const pipeline::Volume* shown);
+  void follow(ui::Renderer* renderer, const pipeline::Volume* shown);
+  void take_place(pipeline::FollowedPlace place, ui::Renderer* renderer);
+  void say_place(bool was_known);
+  // Where the tree from the file is drawn, empty: nobody knows.
+  std::optional<pipeline::RigidTransform> drawn_place() const;
+  void describe_place();
   void take_kept_tree();
   void take_written(ui::Renderer* renderer, ui::ViewActions& actions);
   void say(std::string notice);
@@ -90,9 +97,12 @@ private:
   VesselDisplaySetup setup_;
   hal::Clock& clock_;
   pipeline::FaultLog& faults_;
+  pipeline::Wakeup& news_;
   std::optional<VesselLoader> loader_;
   std::optional<LoadedVessels> loaded_;
   std::optional<LiveTreeDisplay> live_;
+  std::optional<VesselFollower> follower_; // of the tree from the file, where trees are traced
+  std::optional<pipeline::FollowedPlace> followed_; // what it said last
   RegistrationWriter keeper_{"."};
   pipeline::RigidTransform kept_; // what is being written
   ui::VesselNudge kept_nudge_;    // the nudge included in it

@@ -30,19 +30,31 @@ void VesselFollower::offer(const pipeline::Volume& volume) {
   levels_.assign(volume.levels.begin(), volume.levels.end());
   states_.assign(volume.b_scan_states.begin(), volume.b_scan_states.end());
   tree_ = std::move(waiting_);
+  begins_at_ = std::exchange(begin_at_, std::nullopt);
   turn_.store(Turn::at_work, std::memory_order_release);
   wakeup_.post();
 }
 
-void VesselFollower::offer(std::shared_ptr<const LiveTree> tree) {
-  if (tree && tree->refusal.empty())
-    waiting_ = std::move(tree);
+void VesselFollower::offer(const std::shared_ptr<const LiveTree>& tree) {
+  if (!tree || tree->number == offered_tree_)
+    return;
+  offered_tree_ = tree->number;
+  if (tree->refusal.empty())
+    waiting_ = tree;
+}
+
+void VesselFollower::begin_at(const pipeline::RigidTransform& place) {
+  begin_at_ = place;
+  const Turn turn = turn_.load(std::memory_order_acquire);
+  outdated_ = turn == Turn::at_work || turn == Turn::finished;
 }
 
 std::optional<pipeline::FollowedPlace> VesselFollower::take() {
   if (turn_.load(std::memory_order_acquire) != Turn::finished)
     return std::nullopt;
-  pipeline::FollowedPlace place = std::move(place_);
+  std::optional<pipeline::FollowedPlace> place;
+  if (!std::exchange(outdated_, false))
+    place = std::move(place_);
   turn_.store(Turn::idle, std::memory_order_relaxed);
   return place;
 }
@@ -62,6 +74,8 @@ void VesselFollower::run() {
 }
 
 void VesselFollower::follow(pipeline::TreeFollowing& following) {
+  if (begins_at_)
+    following.begin_at(*begins_at_);
   following.add_volume(geometry_, levels_, states_, index_);
   if (tree_)
     following.add_tree(tree_->tree, tree_->volume_index);

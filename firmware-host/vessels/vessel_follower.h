@@ -32,8 +32,11 @@ public:
   // Copies the volume's levels, some milliseconds, if the thread is idle, the volume is another than the last
   // one, and that was at least `least_interval` ago.
   void offer(const pipeline::Volume& volume);
-  // A tree that was traced and not refused; the newest waits for the thread.
-  void offer(std::shared_ptr<const LiveTree> tree);
+  // A tree that was traced, the same as often as one likes; the newest that was not refused waits for the
+  // thread. Null is none.
+  void offer(const std::shared_ptr<const LiveTree>& tree);
+  // Somebody says that it lies about there: it is looked for anew.
+  void begin_at(const pipeline::RigidTransform& place);
   // Where the tree lies now, once for each time that it was looked for.
   std::optional<pipeline::FollowedPlace> take();
 
@@ -56,6 +59,9 @@ private:
   // The render thread's.
   std::optional<hal::TimePoint> offered_;
   std::shared_ptr<const LiveTree> waiting_;
+  std::uint64_t offered_tree_ = 0; // its number
+  std::optional<pipeline::RigidTransform> begin_at_;
+  bool outdated_ = false; // what the thread is at has begun before begin_at()
 
   // Of the thread while it is at work or starts, else of the render thread.
   pipeline::VolumeGeometry geometry_;
@@ -63,6 +69,7 @@ private:
   std::vector<pipeline::BScanState> states_;
   std::uint64_t index_ = 0;
   std::shared_ptr<const LiveTree> tree_; // null: none is new
+  std::optional<pipeline::RigidTransform> begins_at_;
   pipeline::FollowedPlace place_;
 
   pipeline::RoleThread thread_{&wakeup_}; // last: it uses all of the above

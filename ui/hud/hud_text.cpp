@@ -171,8 +171,10 @@ void compose_troubles(HudText& hud, const Status& status) {
   if (status.vessels.state == VesselStatus::State::loading)
     add_trouble(hud, Trouble::Sign::loading)
         .words.format("vessels {:.0f} %", std::floor(status.vessels.progress * 100));
-  if (!hud.vessels.tree.view().empty())
+  if (status.vessels.traced && !hud.vessels.tree.view().empty())
     add_tree_trouble(hud, *status.vessels.traced);
+  if (status.vessels.followed && !hud.vessels.tree.view().empty())
+    add_trouble(hud, Trouble::Sign::lost).words.format("{}", hud.vessels.tree.view());
   if (status.vessels.state == VesselStatus::State::failed)
     add_trouble(hud, Trouble::Sign::failed).words.format("no vessels");
 }
@@ -259,6 +261,9 @@ void compose_registration(FixedText<40>& text, const ViewState& view, const Vess
     text.format("adjusted by hand");
   else if (!vessels.residual_mm)
     text.format("residual unknown");
+  else if (vessels.followed && vessels.followed->state == FollowedTreeStatus::State::followed)
+    text.format("residual {:.0f} µm, overlap {:.0f} %", *vessels.residual_mm * 1000,
+                std::floor(vessels.followed->overlap * 100));
   else if (*vessels.residual_mm < 0.9995)
     text.format("residual {:.0f} µm", *vessels.residual_mm * 1000);
   else
@@ -281,10 +286,22 @@ void compose_traced(VesselMarks& marks, const TracedTreeStatus& tree) {
                       tree.length_mm);
 }
 
+// Nothing of a tree that is where it belongs.
+void compose_followed(VesselMarks& marks, const FollowedTreeStatus& tree) {
+  using State = FollowedTreeStatus::State;
+  marks.tree_old = tree.state == State::unmatched;
+  if (tree.state == State::unmatched)
+    marks.tree.format("vessels do not match");
+  else if (tree.state == State::looking)
+    marks.tree.format("vessels not placed yet");
+}
+
 void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels) {
   const bool wanted = view.vessels_visible && view.vessel_opacity > 0;
   if (wanted && vessels.traced)
     compose_traced(hud.vessels, *vessels.traced);
+  if (wanted && vessels.followed)
+    compose_followed(hud.vessels, *vessels.followed);
   hud.vessels.shown = wanted && vessels.state == VesselStatus::State::shown;
   if (!hud.vessels.shown)
     return;

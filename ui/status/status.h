@@ -51,6 +51,18 @@ struct TracedTreeStatus {
   bool operator==(const TracedTreeStatus&) const = default;
 };
 
+// How a tree from a file is kept over what flows in the live volume (docs/ANGIOGRAPHY.md).
+struct FollowedTreeStatus {
+  enum class State : std::uint8_t {
+    looking, // for its place
+    followed,
+    unmatched, // it has too little of the vessels that flow
+  };
+  State state = State::looking;
+  double overlap = 0; // while followed: of the vessels that flow, those that it has
+  bool operator==(const FollowedTreeStatus&) const = default;
+};
+
 // The vessel tree shown in the volume.
 struct VesselStatus {
   enum class State : std::uint8_t { none, loading, shown, failed };
@@ -61,6 +73,7 @@ struct VesselStatus {
   std::array<bool, pipeline::vessel_branch_count> branches{}; // the branches that it has
   SegmentCounts account;                                      // of the last frame that drew it
   std::optional<TracedTreeStatus> traced; // empty: the tree is from a file, or there is none yet
+  std::optional<FollowedTreeStatus> followed; // empty: its place is not looked for
   bool operator==(const VesselStatus&) const = default;
 };
 

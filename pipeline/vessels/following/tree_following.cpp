@@ -19,6 +19,14 @@ std::uint64_t apart(std::uint64_t a, std::uint64_t b) {
 TreeFollowing::TreeFollowing(VesselTree tree, const std::optional<RigidTransform>& start)
     : tree_{std::move(tree)}, registered_{start.value_or(RigidTransform{})} {}
 
+void TreeFollowing::begin_at(const RigidTransform& start) {
+  registered_ = start;
+  known_ = false;
+  misses_ = 0;
+  left_alone_ = 0;
+  place_ = {};
+}
+
 void TreeFollowing::add_volume(const VolumeGeometry& geometry, std::span<const std::uint8_t> levels,
                                std::span<const BScanState> states, std::uint64_t index) {
   if (geometry_ != geometry) {

@@ -36,6 +36,9 @@ public:
 
   TreeFollowing(VesselTree tree, const std::optional<RigidTransform>& start);
 
+  // Forgets where it was: it lies about there.
+  void begin_at(const RigidTransform& start);
+
   // In their order, `index` as in VolumeMetadata; of those that are left out nothing is known.
   void add_volume(const VolumeGeometry& geometry, std::span<const std::uint8_t> levels,
                   std::span<const BScanState> states, std::uint64_t index);
