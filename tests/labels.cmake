@@ -26,6 +26,7 @@ set(clock
   "program\\.(NoFault|Scripts/ShownFaults|Window)\\.")
 
 set(slow
+  "vessel_following\\."
   "bidirectional\\."
   "coronary_tree\\."
   "firmware_host\\.(BenchReconstruct|EveryKey|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."

@@ -49,6 +49,19 @@ Json flow_to_json(const RunReport& report) {
           {"ms", to_json(flow.tell)}};
 }
 
+// Null where the volumes come without flow.
+Json trees_to_json(const RunReport& report) {
+  if (!report.trees)
+    return {};
+  const auto& [traced, refused, took] = *report.trees;
+  return {{"traced", traced},
+          {"refused", refused},
+          {"seconds",
+           {{"p50", rounded(took.p50_ms * 1e-3)},
+            {"p95", rounded(took.p95_ms * 1e-3)},
+            {"max", rounded(took.max_ms * 1e-3)}}}};
+}
+
 Json stages_to_json(const RunReport& report) {
   Json json = {{"histogram_ms", StageSummary::most_ms}};
   for (std::size_t i = 0; i < stage_count; ++i) {
@@ -167,6 +180,7 @@ std::string to_json(const RunReport& r) {
       {"latency_stages", stages_to_json(r)},
       {"control_ms", to_json(r.control)},
       {"rays", rays_to_json(r)},
+      {"vessel_trees", trees_to_json(r)},
       {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},
       {"frames", {{"drawn", r.counters.frames_drawn}, {"missed", r.counters.frames_missed}}},
       {"quality", to_json(r.quality)},
@@ -203,6 +217,10 @@ std::string to_text(const RunReport& r) {
                     !r.scan_lag.automatic ? "as configured"
                     : r.scan_lag.used > 0 ? "found in the picture"
                                           : "as configured: the picture shows no better one");
+  if (r.trees)
+    text += fmt::format("vessel trees: {} traced, {} refused; {:.2f} s median, {:.2f} s p95\n",
+                        r.trees->traced, r.trees->refused, r.trees->took.p50_ms * 1e-3,
+                        r.trees->took.p95_ms * 1e-3);
   return text + to_text(r.faults);
 }
 

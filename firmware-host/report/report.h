@@ -51,6 +51,13 @@ struct FlowSummary {
   pipeline::DurationSummary tell; // a worker's time for one B-scan, its reconstruction apart
 };
 
+// Trees that were traced in the volumes' flow.
+struct TracedTreesSummary {
+  std::uint64_t traced = 0;
+  std::uint64_t refused = 0; // not among the traced
+  pipeline::DurationSummary took;
+};
+
 struct RunReport {
   bool simulated = false;
   std::string source;                // what the spectra were
@@ -74,7 +81,8 @@ struct RunReport {
   std::optional<FlowSummary> flow;              // empty: nobody asked
   QualitySummary quality;                       // of the shown frames
   std::optional<ui::RayTrial> rays;
-  std::optional<double> first_picture_s; // since the process began
+  std::optional<TracedTreesSummary> trees; // empty: the volumes come without flow
+  std::optional<double> first_picture_s;   // since the process began
   ShownPicture picture;
   ui::ViewState view;                                    // at the end of the run
   std::array<std::uint64_t, ui::action_count> actions{}; // times each was performed

@@ -78,7 +78,7 @@ bool RenderLoop::turn() {
   take_volume();
   take_scope_picture();
   if (parts_.vessels != nullptr)
-    parts_.vessels->advance(renderer_.get(), controller_.actions());
+    parts_.vessels->advance(renderer_.get(), controller_.actions(), volume_.whole());
   update_status();
   if (display_ready()) {
     draw_if_changed();

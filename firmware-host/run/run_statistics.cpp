@@ -100,6 +100,8 @@ RunReport report_on(const RunStatistics& run, const RunTimes& times,
   const FrameStatistics& frames = run.loop.statistics();
   add_frames(report, frames);
   report.line_latency = run.loop.line_latency();
+  if (const auto trees = run.loop.traced_trees())
+    report.trees = {trees->traced, trees->refused, trees->took};
   add_picture(report, run.loop.status());
   report.started = times.started;
   report.duration_s = hal::to_seconds(times.ended - times.started);

@@ -76,7 +76,7 @@ void ViewActions::show_window(float offset_db, float size_db, hal::TimePoint tim
 
 void ViewActions::turn(Action action, double detents) {
   const Number* number = number_of(action);
-  if (number == nullptr)
+  if (number == nullptr || (vessels_fixed_ && number->nudge != nullptr))
     return;
   double change = detents * static_cast<double>(number->range.detent);
   if (number->index != nullptr) {
@@ -106,11 +106,19 @@ void ViewActions::drive(Action action, double amount, hal::TimePoint time) {
   tell(driven, "", time);
 }
 
+bool ViewActions::moves_vessels(Action action) const {
+  const Number* number = number_of(action);
+  return (number != nullptr && number->nudge != nullptr) || action == Action::keep_registration ||
+         action == Action::reset_registration;
+}
+
 // The parallax of a picture that is not in stereo cannot be seen, nor what becomes of vessels that
 // are not shown.
 bool ViewActions::can_be_selected(Action action) const {
   const ActionRow& row = row_of(action);
   if (row.has(trait::needs_vessels) && !(vessels_loaded_ && shows_tree(state_)))
+    return false;
+  if (vessels_fixed_ && moves_vessels(action))
     return false;
   return !row.has(trait::needs_stereo) || state_.stereo != StereoMode::off;
 }

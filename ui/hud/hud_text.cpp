@@ -135,6 +135,15 @@ void compose_badges_without_room(HudText& hud) {
       add_trouble(hud, Trouble::Sign::lost).words.format("{}", hud.badges[i].text.view());
 }
 
+// In every picture, also where there is no room for the marks beside the volume.
+void add_tree_trouble(HudText& hud, const TracedTreeStatus& tree) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(tree.age).count();
+  if (tree.state != TracedTreeStatus::State::shown)
+    add_trouble(hud, Trouble::Sign::absent).words.format("no vessel tree");
+  else if (hud.vessels.tree_old)
+    add_trouble(hud, Trouble::Sign::lost).words.format("tree {} s old", seconds);
+}
+
 // What must not wait until somebody asks for the figures.
 void compose_troubles(HudText& hud, const Status& status, const FlowShown& flow) {
   // Where most of it is not there, its absence must not be taken for vessels that do not flow.
@@ -167,6 +176,10 @@ void compose_troubles(HudText& hud, const Status& status, const FlowShown& flow)
   if (status.vessels.state == VesselStatus::State::loading)
     add_trouble(hud, Trouble::Sign::loading)
         .words.format("vessels {:.0f} %", std::floor(status.vessels.progress * 100));
+  if (status.vessels.traced && !hud.vessels.tree.view().empty())
+    add_tree_trouble(hud, *status.vessels.traced);
+  if (status.vessels.followed && !hud.vessels.tree.view().empty())
+    add_trouble(hud, Trouble::Sign::lost).words.format("{}", hud.vessels.tree.view());
   if (status.vessels.state == VesselStatus::State::failed)
     add_trouble(hud, Trouble::Sign::failed).words.format("no vessels");
 }
@@ -258,20 +271,53 @@ void compose_registration(FixedText<40>& text, const ViewState& view, const Vess
     text.format("adjusted by hand");
   else if (!vessels.residual_mm)
     text.format("residual unknown");
+  else if (vessels.followed && vessels.followed->state == FollowedTreeStatus::State::followed)
+    text.format("residual {:.0f} µm, overlap {:.0f} %", *vessels.residual_mm * 1000,
+                std::floor(vessels.followed->overlap * 100));
   else if (*vessels.residual_mm < 0.9995)
     text.format("residual {:.0f} µm", *vessels.residual_mm * 1000);
   else
     text.format("residual {:.4g} mm", *vessels.residual_mm);
 }
 
+// In whole seconds: a tree comes about once a second, and no frame is drawn for its age alone more often.
+void compose_traced(VesselMarks& marks, const TracedTreeStatus& tree) {
+  using State = TracedTreeStatus::State;
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(tree.age).count();
+  marks.tree_old = tree.age >= TracedTreeStatus::old_after;
+  if (tree.state == State::refused)
+    marks.tree.format("no tree: {}", tree.refusal);
+  else if (tree.state == State::removed)
+    marks.tree.format("no tree: the last is {} s old", seconds);
+  else if (seconds == 0)
+    marks.tree.format("tree < 1 s old, {} vessels, {:.1f} mm", tree.vessels, tree.length_mm);
+  else
+    marks.tree.format("tree {} s old, {} vessels, {:.1f} mm", seconds, tree.vessels,
+                      tree.length_mm);
+}
+
+// Nothing of a tree that is where it belongs.
+void compose_followed(VesselMarks& marks, const FollowedTreeStatus& tree) {
+  using State = FollowedTreeStatus::State;
+  marks.tree_old = tree.state == State::unmatched;
+  if (tree.state == State::unmatched)
+    marks.tree.format("vessels do not match");
+  else if (tree.state == State::looking)
+    marks.tree.format("vessels not placed yet");
+}
+
 void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels, bool flow) {
+  const bool wanted = shows_tree(view) && view.vessel_opacity > 0;
   hud.vessels.flow = flow;
-  hud.vessels.shown =
-      vessels.state == VesselStatus::State::shown && shows_tree(view) && view.vessel_opacity > 0;
+  if (wanted && vessels.traced)
+    compose_traced(hud.vessels, *vessels.traced);
+  if (wanted && vessels.followed)
+    compose_followed(hud.vessels, *vessels.followed);
+  hud.vessels.shown = wanted && vessels.state == VesselStatus::State::shown;
   if (!hud.vessels.shown)
     return;
   hud.vessels.registered = vessels.registered;
-  if (vessels.registered)
+  if (vessels.registered && !vessels.traced)
     compose_registration(hud.vessels.registration, view, vessels);
   hud.vessels.colouring = view.vessel_colouring;
   // SWC leaves their types to any program: they are the heart's where all three are there.

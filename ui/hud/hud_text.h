@@ -73,6 +73,8 @@ struct VesselMarks {
   VesselColouring colouring = VesselColouring::branch;
   std::array<bool, pipeline::vessel_branch_count> branches{}; // that are named
   std::optional<SegmentCounts> account;                       // if requested
+  FixedText<96> tree;    // traced in the live flow: its age; or why there is none
+  bool tree_old = false; // is to be marked
   bool operator==(const VesselMarks&) const = default;
 };
 

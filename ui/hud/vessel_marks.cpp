@@ -23,12 +23,13 @@ Colour to_colour(const VesselColour& colour) {
 
 // What stands there, row by row.
 struct MarkRow {
-  FixedText<40> words;
+  FixedText<96> words;
+  bool warning = false;
   Colour colour{};
   float swatch = 0; // its width, at unit 1; 0: none
 };
 struct MarkRows {
-  std::array<MarkRow, 11> rows;
+  std::array<MarkRow, 12> rows;
   std::size_t count = 0;
   MarkRow& add() { return rows[count++]; }
 };
@@ -104,7 +105,8 @@ void draw_unregistered(Canvas& canvas, const Layout& layout) {
 } // namespace
 
 void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& marks) {
-  if ((!marks.shown && !marks.flow) || layout.view.empty())
+  const bool traced = !marks.tree.view().empty();
+  if ((!marks.shown && !marks.flow && !traced) || layout.view.empty())
     return;
   if (!layout.view_frame.empty()) {
     if (marks.shown && !marks.registered)
@@ -117,7 +119,12 @@ void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& 
   if (marks.shown)
     add_colours(rows, marks);
   if (!marks.registration.view().empty())
-    rows.add().words = marks.registration;
+    rows.add().words.format("{}", marks.registration.view());
+  if (traced) {
+    MarkRow& row = rows.add();
+    row.words.format("{}", marks.tree.view());
+    row.warning = marks.tree_old;
+  }
   if (marks.account)
     add_account(rows, *marks.account);
   if (rows.count == 0)
@@ -154,7 +161,8 @@ void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& 
       else if (row.swatch > 0)
         canvas.dot({x + swatch * u / 2, middle}, swatch * u / 2, row.colour);
       canvas.text({x + text_left(row), middle - canvas.text_height(TextStyle::label) / 2},
-                  TextStyle::label, palette::text, row.words.view());
+                  TextStyle::label, row.warning ? palette::warning : palette::text,
+                  row.words.view());
       middle += row_height * u;
     }
     left += static_cast<float>(plate.width) + 4 * u;

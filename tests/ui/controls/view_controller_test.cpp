@@ -214,6 +214,21 @@ TEST_F(Controller, vessels_are_steered_by_the_knob_where_they_are_shown) {
   EXPECT_EQ(state().selected, Action::vessels) << "hidden vessels are not steered";
 }
 
+TEST_F(Controller, vessels_traced_in_the_volume_cannot_be_moved) {
+  controller_.handle(press('i'));
+  EXPECT_TRUE(state().vessel_nudge.any());
+  actions().set_vessels_traced();
+  EXPECT_FALSE(state().vessel_nudge.any()) << "what was left";
+  for (const char key : {'i', 'j', 'k', 'u', 'y', 'z'})
+    controller_.handle(press(key));
+  EXPECT_FALSE(state().vessel_nudge.any());
+  choose(Action::vessel_opacity);
+  tread({2});
+  EXPECT_EQ(state().selected, Action::vessel_colours);
+  tread({2});
+  EXPECT_EQ(state().selected, Action::vessel_account) << "past what moves them";
+}
+
 TEST_F(Controller, the_vessels_place_is_kept_or_undone_by_a_turn_to_the_right) {
   EXPECT_FALSE(controller_.handle(press('m')).keep_registration);
   EXPECT_EQ(echo(), "none loaded");

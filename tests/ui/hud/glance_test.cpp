@@ -215,6 +215,20 @@ std::vector<State> glance_states(const Legend& pedal, const Legend& keys) {
                        .in_scope = true};
   all.push_back({"flow", strip, live, flow});
   all.push_back({"flow and vessels", vessels, eye, flow});
+  Status traced = live;
+  traced.vessels.state = VesselStatus::State::shown;
+  traced.vessels.registered = true;
+  traced.vessels.traced = TracedTreeStatus{.state = TracedTreeStatus::State::shown,
+                                           .age = std::chrono::seconds{9},
+                                           .vessels = 1234,
+                                           .length_mm = 987.6,
+                                           .refusal = {}};
+  all.push_back({"traced", view, traced});
+  traced.vessels.state = VesselStatus::State::none;
+  traced.vessels.traced->state = TracedTreeStatus::State::refused;
+  traced.vessels.traced->refusal =
+      "what flows stands out by 40 % from what does not, expected 70 %";
+  all.push_back({"refused", view, traced});
   Status scale = live;
   scale.configuration = ConfigurationState::built_in;
   scale.another_camera = true;

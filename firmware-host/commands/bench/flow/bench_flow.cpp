@@ -140,6 +140,16 @@ sim::TissueMotion bench_motion() {
   return {.axial = {{10, 20}}, .lateral = {}};
 }
 
+hal::Result<pipeline::TracedVessels> trace_bench_scene(int repeats) {
+  HAL_TRY(const auto phantom, sim::suggested_loop("perfused"));
+  HAL_TRY(const auto sweeps,
+          sim::simulate_repeats(scene_config(phantom, repeats, pipeline::ScanPlan{}.b_scans)));
+  HAL_TRY(const auto reconstructor, make_reconstructor(sweeps));
+  FlowMeasurement measurement{sweeps, reconstructor};
+  HAL_CHECK(measurement.run());
+  return pipeline::trace_vessels(sweeps.plan().geometry(), measurement.results().front().flow);
+}
+
 hal::Result<FlowBenchReport> bench_flow(const FlowBenchOptions& options, const FlowProbe& probe,
                                         const std::function<void(const std::string&)>& progress) {
   HAL_TRY(const auto phantom, sim::suggested_loop("perfused"));

@@ -14,6 +14,7 @@
 #include "pipeline/angiography/kernel_sums.h"
 #include "pipeline/angiography/static_tissue.h"
 #include "pipeline/scan/scan_plan.h"
+#include "pipeline/vessels/tracing/vessel_tracer.h"
 #include "pipeline/vessels/tree_comparison.h"
 #include "sim/spectra/tissue_motion.h"
 
@@ -68,6 +69,9 @@ struct FlowBenchReport {
 // computed. `progress`: words for what is done at the moment.
 hal::Result<FlowBenchReport> bench_flow(const FlowBenchOptions& options, const FlowProbe& probe,
                                         const std::function<void(const std::string&)>& progress);
+
+// Vessels traced in the flow of the whole field, by complex bins.
+hal::Result<pipeline::TracedVessels> trace_bench_scene(int repeats);
 
 std::string to_text(const FlowBenchReport& report);
 std::string to_json(const FlowBenchReport& report);
