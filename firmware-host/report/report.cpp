@@ -45,7 +45,11 @@ Json flow_to_json(const RunReport& report) {
   const FlowSummary& flow = *report.flow;
   return {{"angiograms", flow.angiograms},
           {"angiograms_per_s", rounded(static_cast<double>(flow.angiograms) / report.duration_s)},
-          {"b_scans", {{"told", flow.told}, {"left_out", flow.left_out}, {"none", flow.none}}},
+          {"b_scans",
+           {{"told", flow.told},
+            {"left_out", flow.left_out},
+            {"none", flow.none},
+            {"no_time", flow.no_time}}},
           {"ms", to_json(flow.tell)}};
 }
 
@@ -205,12 +209,12 @@ std::string to_text(const RunReport& r) {
   if (const std::string quality = to_text(r.quality); !quality.empty())
     text += fmt::format("the volume was drawn at {}\n", quality);
   if (r.flow)
-    text += fmt::format("flow: {} angiograms ({:.2f}/s), told in {} B-scans, {} left out that "
-                        "moved too far, {} not "
-                        "received whole; {:.1f} ms a B-scan median, {:.1f} ms p95\n",
-                        r.flow->angiograms, static_cast<double>(r.flow->angiograms) / r.duration_s,
-                        r.flow->told, r.flow->left_out, r.flow->none, r.flow->tell.p50_ms,
-                        r.flow->tell.p95_ms);
+    text += fmt::format(
+        "flow: {} angiograms ({:.2f}/s); of their B-scans {} told, {} left out that "
+        "moved too far, {} without (no time for {}); {:.1f} ms each median, "
+        "{:.1f} ms p95\n",
+        r.flow->angiograms, static_cast<double>(r.flow->angiograms) / r.duration_s, r.flow->told,
+        r.flow->left_out, r.flow->none, r.flow->no_time, r.flow->tell.p50_ms, r.flow->tell.p95_ms);
   if (r.plan.bidirectional)
     text +=
         fmt::format("bidirectional: phase offset {:.2f} A-scans, {}\n", r.scan_lag.in_use_a_scans,

@@ -45,9 +45,10 @@ struct StageSummary {
 
 // Of volumes that say what flows (docs/ANGIOGRAPHY.md).
 struct FlowSummary {
-  std::uint64_t angiograms = 0; // volumes published with flow that is told somewhere
-  // B-scans of published volumes: told; moved too far between sweeps; not received whole.
+  std::uint64_t angiograms = 0; // published volumes, all B-scans of which were compared
+  // B-scans of published volumes: told; moved too far between sweeps; neither.
   std::uint64_t told = 0, left_out = 0, none = 0;
+  std::uint64_t no_time = 0;      // B-scans without flow since workers were behind
   pipeline::DurationSummary tell; // a worker's time for one B-scan, its reconstruction apart
 };
 

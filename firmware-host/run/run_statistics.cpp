@@ -49,6 +49,7 @@ void add_volumes(RunReport& report, const pipeline::VolumeThread& volumes) {
                             .told = flow.told.load(),
                             .left_out = flow.left_out.load(),
                             .none = flow.none.load(),
+                            .no_time = flow.no_time.load(),
                             .tell = flow.tell.summary()};
 }
 

@@ -46,6 +46,7 @@ public:
             std::span<std::uint8_t> levels);
 
   bool compares() const { return comparison_.has_value(); }
+  bool is_whole(std::size_t worker) const { return comparison_->is_whole(worker); }
   // What flows in the B-scan that this worker built last, `flow` in counts, [a][z]. Where it
   // compares.
   FlowState tell_flow(std::size_t worker, std::span<std::uint8_t> flow) noexcept {

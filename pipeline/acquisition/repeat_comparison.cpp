@@ -71,7 +71,7 @@ int RepeatComparison::convert(std::size_t worker, int repeat, const hal::LineFra
 
 FlowState RepeatComparison::tell(std::size_t worker, std::span<std::uint8_t> flow) noexcept {
   Buffers& buffers = buffers_[worker];
-  if (buffers.came < plan_.repeats) {
+  if (!is_whole(worker)) {
     std::ranges::fill(flow, flow_untold);
     return FlowState::none;
   }

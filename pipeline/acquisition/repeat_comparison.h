@@ -45,6 +45,8 @@ public:
   // Converts a sweep to `levels` and keeps its bins. Returns the number of saturated lines.
   int convert(std::size_t worker, int repeat, const hal::LineFrame& frame,
               std::span<std::uint8_t> levels);
+  // All sweeps of the B-scan came.
+  bool is_whole(std::size_t worker) const { return buffers_[worker].came == plan_.repeats; }
   // What flows in the B-scan of which these sweeps came, as counts (flow_scale.h), [a][z]. Where one
   // is missing nothing is told; nor is it in and beside a saturated line, whose change is the
   // clipping's.

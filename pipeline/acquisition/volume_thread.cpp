@@ -262,9 +262,20 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   arrived_.post();
 }
 
+// Workers that cannot keep up lose lines at last; before that they go without flow.
+bool VolumeThread::is_behind(const BScanWork& work, hal::TimePoint now) const {
+  return now - work.last_line > setup_.plan.sweep_duration() / 8;
+}
+
 // Before the B-scan is said to be built, so that whoever sees it sees its flow.
 void VolumeThread::tell_flow(std::size_t worker, Volume& volume, int b_scan) {
   const hal::TimePoint begin = clock_.now();
+  if (builder_.is_whole(worker) &&
+      is_behind(volume.work[static_cast<std::size_t>(b_scan)], begin)) {
+    std::ranges::fill(volume.b_scan_flow(b_scan), flow_untold); // its state is FlowState::none
+    statistics_.flow.no_time.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
   volume.flow_states[static_cast<std::size_t>(b_scan)] =
       builder_.tell_flow(worker, volume.b_scan_flow(b_scan));
   statistics_.flow.tell.add(clock_.now() - begin);
@@ -278,12 +289,12 @@ void VolumeThread::finish_flow(Volume& volume) {
   const auto count = [&](FlowState state) {
     return static_cast<std::uint64_t>(std::ranges::count(volume.flow_states, state));
   };
-  const std::uint64_t told = count(FlowState::told);
+  const std::uint64_t none = count(FlowState::none);
   FlowStatistics& flow = statistics_.flow;
-  flow.volumes.fetch_add(told > 0 ? 1 : 0, std::memory_order_relaxed);
-  flow.told.fetch_add(told, std::memory_order_relaxed);
+  flow.volumes.fetch_add(none == 0 ? 1 : 0, std::memory_order_relaxed);
+  flow.told.fetch_add(count(FlowState::told), std::memory_order_relaxed);
   flow.left_out.fetch_add(count(FlowState::left_out), std::memory_order_relaxed);
-  flow.none.fetch_add(count(FlowState::none), std::memory_order_relaxed);
+  flow.none.fetch_add(none, std::memory_order_relaxed);
 }
 
 void VolumeThread::finish_due_volumes(hal::TimePoint looked_until) {

@@ -62,10 +62,11 @@ struct VolumeThreadSetup {
 // Any thread may read it. Zero without a comparison.
 struct FlowStatistics {
   DurationStatistics tell;                // a worker's time for the flow of one B-scan
-  std::atomic<std::uint64_t> volumes{0};  // published with flow that is told somewhere
+  std::atomic<std::uint64_t> volumes{0};  // published, all B-scans of which were compared
   std::atomic<std::uint64_t> told{0};     // B-scans of published volumes
   std::atomic<std::uint64_t> left_out{0}; // likewise: moved too far between sweeps
-  std::atomic<std::uint64_t> none{0};     // likewise: not received whole
+  std::atomic<std::uint64_t> none{0};     // likewise: not received whole, or no time for it
+  std::atomic<std::uint64_t> no_time{0};  // B-scans for which there was none
 };
 
 struct PipelineStatistics {
@@ -126,6 +127,7 @@ private:
   static void note_exposure(BScanWork& work, const Sweeps& sweeps);
   void reconstruct(std::size_t worker, std::uint32_t job);
   void tell_flow(std::size_t worker, Volume& volume, int b_scan);
+  bool is_behind(const BScanWork& work, hal::TimePoint now) const;
   void finish_due_volumes(hal::TimePoint looked_until);
   void lose(std::uint32_t buffer);
   void publish(std::uint32_t buffer, const FinishedVolume& finished);

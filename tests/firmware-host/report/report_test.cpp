@@ -63,6 +63,12 @@ RunReport example() {
                .missing_b_scans = 2,
                .saturated_lines = 6,
                .another_camera = true};
+  r.flow = FlowSummary{.angiograms = 8,
+                       .told = 600,
+                       .left_out = 20,
+                       .none = 4,
+                       .no_time = 3,
+                       .tell = {700, 1, 1.25, 1.5, 2}};
   r.view.yaw_deg = -12.5F;
   r.view.technique = ui::Technique::shaded;
   r.view.layout = ui::LayoutKind::b_scan;
@@ -110,6 +116,11 @@ TEST(Report, says_every_figure_under_its_key) {
                                 {"skipped", 2},
                                 {"lost", 1},
                                 {"unfinished", 3}}));
+  const json& flow = j["flow"];
+  EXPECT_EQ(flow["angiograms"], 8);
+  EXPECT_NEAR(flow["angiograms_per_s"].get<double>(), 8 / j["duration_s"].get<double>(), 0.001);
+  EXPECT_EQ(flow["b_scans"], (json{{"told", 600}, {"left_out", 20}, {"none", 4}, {"no_time", 3}}));
+  EXPECT_EQ(flow["ms"], (json{{"p50", 1.0}, {"p95", 1.25}, {"p99", 1.5}, {"max", 2.0}}));
   EXPECT_EQ(j["lost"], (json{{"lines", 600}, {"b_scans", 2}, {"volumes", 1}}));
   EXPECT_EQ(j["rates"], (json{{"lines_per_s", 215000.123},
                               {"volumes_per_s", 7.1},

@@ -203,9 +203,9 @@ TEST_F(RollingVolumeTest, flow_goes_with_its_b_scan) {
     making->volume.add_flow();
     for (int b = 0; b < count; ++b) {
       making->volume.flow_states[static_cast<std::size_t>(b)] =
-          b % 2 == 0 ? FlowState::told : FlowState::left_out;
+          b % 2 == 0 ? FlowState::left_out : FlowState::told;
       std::ranges::fill(making->volume.b_scan_flow(b),
-                        b % 2 == 0 ? static_cast<std::uint8_t>(making->number) : flow_untold);
+                        b % 2 == 0 ? flow_untold : static_cast<std::uint8_t>(making->number));
     }
   }
   flowing.take(first.published());
@@ -219,13 +219,14 @@ TEST_F(RollingVolumeTest, flow_goes_with_its_b_scan) {
     EXPECT_EQ(shown.flow_states[static_cast<std::size_t>(b)], state) << b;
     EXPECT_TRUE(std::ranges::all_of(shown.b_scan_flow(b), [=](int at) { return at == flow; })) << b;
   };
-  expect_flow(0, FlowState::told, 8);
-  expect_flow(1, FlowState::left_out, flow_untold);
-  expect_flow(2, FlowState::told, 8);
+  expect_flow(0, FlowState::left_out, flow_untold);
+  expect_flow(1, FlowState::told, 8);
+  expect_flow(2, FlowState::left_out, flow_untold);
   expect_flow(3, FlowState::none, flow_untold); // missing
-  expect_flow(4, FlowState::told, 8);
+  expect_flow(4, FlowState::left_out, flow_untold);
   expect_flow(5, FlowState::none, flow_untold); // the seam
-  expect_flow(6, FlowState::told, 7);
+  expect_flow(6, FlowState::left_out, flow_untold);
+  expect_flow(7, FlowState::told, 7);
   flowing.take(second.finish_all().published());
   EXPECT_EQ(shown.flow, second.volume.flow);
   EXPECT_EQ(shown.flow_states, second.volume.flow_states);

