@@ -51,6 +51,17 @@ Json trees_to_json(const RunReport& report) {
             {"max", rounded(took.max_ms * 1e-3)}}}};
 }
 
+// Null where nobody asked.
+Json flow_to_json(const RunReport& report) {
+  if (!report.flow)
+    return {};
+  const FlowSummary& flow = *report.flow;
+  return {{"angiograms", flow.angiograms},
+          {"angiograms_per_s", rounded(static_cast<double>(flow.angiograms) / report.duration_s)},
+          {"b_scans", {{"told", flow.told}, {"left_out", flow.left_out}, {"none", flow.none}}},
+          {"ms", to_json(flow.tell)}};
+}
+
 Json stages_to_json(const RunReport& report) {
   Json json = {{"histogram_ms", StageSummary::most_ms}};
   for (std::size_t i = 0; i < stage_count; ++i) {
@@ -156,6 +167,7 @@ std::string to_json(const RunReport& r) {
         {"unfinished", volumes.unfinished}}},
       {"lost", lost_to_json(r.counters)},
       {"saturated_lines", volumes.saturated_lines},
+      {"flow", flow_to_json(r)},
       {"rates", to_json(r.counters.rates)},
       {"stage_ms",
        {{"reconstruct", to_json(r.reconstruct)},
@@ -192,6 +204,13 @@ std::string to_text(const RunReport& r) {
       c.volumes.lost_volumes, c.latency.p50_ms, c.latency.p95_ms);
   if (const std::string quality = to_text(r.quality); !quality.empty())
     text += fmt::format("the volume was drawn at {}\n", quality);
+  if (r.flow)
+    text += fmt::format("flow: {} angiograms ({:.2f}/s), told in {} B-scans, {} left out that "
+                        "moved too far, {} not "
+                        "received whole; {:.1f} ms a B-scan median, {:.1f} ms p95\n",
+                        r.flow->angiograms, static_cast<double>(r.flow->angiograms) / r.duration_s,
+                        r.flow->told, r.flow->left_out, r.flow->none, r.flow->tell.p50_ms,
+                        r.flow->tell.p95_ms);
   if (r.plan.bidirectional)
     text +=
         fmt::format("bidirectional: phase offset {:.2f} A-scans, {}\n", r.scan_lag.in_use_a_scans,

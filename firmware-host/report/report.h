@@ -50,6 +50,14 @@ struct TracedTreesSummary {
   pipeline::DurationSummary took;
 };
 
+// Of volumes that say what flows (docs/ANGIOGRAPHY.md).
+struct FlowSummary {
+  std::uint64_t angiograms = 0; // volumes published with flow that is told somewhere
+  // B-scans of published volumes: told; moved too far between sweeps; not received whole.
+  std::uint64_t told = 0, left_out = 0, none = 0;
+  pipeline::DurationSummary tell; // a worker's time for one B-scan, its reconstruction apart
+};
+
 struct RunReport {
   bool simulated = false;
   std::string source;                // what the spectra were
@@ -70,6 +78,7 @@ struct RunReport {
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, control;
   pipeline::DurationSummary line_latency;       // of every line that was shown
   std::array<StageSummary, stage_count> stages; // of the latency
+  std::optional<FlowSummary> flow;              // empty: nobody asked
   QualitySummary quality;                       // of the shown frames
   std::optional<ui::RayTrial> rays;
   std::optional<TracedTreesSummary> trees; // empty: the volumes come without flow

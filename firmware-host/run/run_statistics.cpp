@@ -42,6 +42,14 @@ void add_volumes(RunReport& report, const pipeline::VolumeThread& volumes) {
   report.reconstruct = volumes.statistics().reconstruct.summary();
   report.assemble = volumes.statistics().assemble.summary();
   report.publish = volumes.statistics().publish.summary();
+  if (!volumes.has_flow())
+    return;
+  const pipeline::FlowStatistics& flow = volumes.statistics().flow;
+  report.flow = FlowSummary{.angiograms = flow.volumes.load(),
+                            .told = flow.told.load(),
+                            .left_out = flow.left_out.load(),
+                            .none = flow.none.load(),
+                            .tell = flow.tell.summary()};
 }
 
 void add_frames(RunReport& report, const FrameStatistics& frames) {

@@ -34,8 +34,10 @@ void average_repeats(std::span<const std::uint8_t> repeats, int count,
     average(repeats.data(), result.size(), static_cast<std::size_t>(count), result.data());
 }
 
-BScanBuilder::BScanBuilder(const ScanPlan& plan, std::size_t workers, ReconstructSweep reconstruct)
-    : plan_(plan), reconstruct_(std::move(reconstruct)), buffers_(workers) {
+BScanBuilder::BScanBuilder(const ScanPlan& plan, std::size_t workers, ReconstructSweep reconstruct,
+                           std::optional<RepeatComparison> comparison)
+    : plan_(plan), reconstruct_(std::move(reconstruct)), comparison_(std::move(comparison)),
+      buffers_(workers) {
   const VolumeGeometry geometry = plan.geometry();
   for (Buffers& buffers : buffers_) {
     if (plan.bidirectional)
@@ -51,6 +53,8 @@ int BScanBuilder::build(std::size_t worker, int b_scan, std::span<const hal::Lin
                         std::span<std::uint8_t> levels) {
   const auto came = std::ranges::count_if(frames, [](const auto& f) { return f.buffer >= 0; });
   const std::span repeats{buffers_[worker].repeats};
+  if (comparison_)
+    comparison_->begin(worker);
   int saturated = 0;
   std::size_t done = 0;
   for (std::size_t repeat = 0; repeat < frames.size(); ++repeat) {
@@ -69,6 +73,8 @@ int BScanBuilder::build(std::size_t worker, int b_scan, std::span<const hal::Lin
 int BScanBuilder::convert(std::size_t worker, int sweep, const hal::LineFrame& frame,
                           const SweepAlignment& alignment, DownsampledSweep* sketch,
                           std::span<std::uint8_t> levels) {
+  if (comparison_)
+    return comparison_->convert(worker, sweep % plan_.repeats, frame, levels);
   if (!plan_.bidirectional)
     return reconstruct_(worker, frame, levels);
   const std::span lines{buffers_[worker].lines};

@@ -10,6 +10,7 @@
 
 #include "pipeline/reconstruction/fftw_path.h"
 #include "pipeline/reconstruction/fused/fused_path.h"
+#include "pipeline/reconstruction/line_kernels.h"
 
 namespace octascope::pipeline {
 
@@ -319,6 +320,25 @@ BScanOutcome Reconstructor::reconstruct_b_scan_bins(Workspace& workspace,
                                                     std::span<std::complex<float>> bins,
                                                     std::span<const float> running) const noexcept {
   return plan_->b_scan(*workspace.buffers_, frame, bins, running);
+}
+
+BScanOutcome Reconstructor::reconstruct_b_scan_both(Workspace& workspace,
+                                                    std::span<const std::byte> frame,
+                                                    std::span<std::complex<float>> bins,
+                                                    std::span<std::uint8_t> levels,
+                                                    std::span<const float> running) const noexcept {
+  const BScanOutcome outcome = plan_->b_scan(*workspace.buffers_, frame, bins, running);
+  const auto depths = static_cast<std::size_t>(plan_->depths);
+  for (std::size_t at = 0; at < this->levels(); at += depths)
+    levels_u8(reinterpret_cast<const float*>(&bins[at]), plan_->depths, &levels[at]);
+  if (outcome.saturated_lines > 0 && plan_->limit_saturated_lines)
+    limit_lines(workspace.buffers_->saturated, levels.data(), depths);
+  return outcome;
+}
+
+std::span<const std::uint8_t>
+Reconstructor::saturated_lines(const Workspace& workspace) const noexcept {
+  return workspace.buffers_->saturated;
 }
 
 } // namespace octascope::pipeline

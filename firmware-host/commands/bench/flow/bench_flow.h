@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,18 @@
 #include "sim/spectra/tissue_motion.h"
 
 namespace octascope::firmware_host {
+
+// Of a run that tells flow while it displays, on the twin.
+struct LiveFlowFigures {
+  double line_rate_hz = 0;
+  double planned_per_s = 0;    // volumes
+  double angiograms_per_s = 0; // the share of the planned ones that came with flow, at that rate
+  double lost_lines = 0;
+  double left_out_share = 0; // of B-scans
+  double b_scan_ms_p50 = 0;  // a worker's time for the flow of one
+  double b_scan_ms_p95 = 0;
+};
+using FlowProbe = std::function<hal::Result<LiveFlowFigures>(int repeats)>;
 
 struct FlowBenchOptions {
   std::vector<int> repeats{2, 4};
@@ -43,6 +56,7 @@ struct FlowBenchCase {
   int left_out_b_scans = 0; // moved too far; their voxels are not told
   FlowFigures flow;
   TreeFigures tree;
+  std::optional<LiveFlowFigures> live; // by complex bins, which a run uses
 };
 
 struct FlowBenchReport {
@@ -51,8 +65,9 @@ struct FlowBenchReport {
 };
 
 // Both methods for each number of repeats, on all cores. Takes about 5 s a repeat of 80 B-scans on one
-// core, and 62 MB. `progress`: words for what is done at the moment.
-hal::Result<FlowBenchReport> bench_flow(const FlowBenchOptions& options,
+// core, and 62 MB, and what `probe` takes, once for each number of repeats when nothing else is
+// computed. `progress`: words for what is done at the moment.
+hal::Result<FlowBenchReport> bench_flow(const FlowBenchOptions& options, const FlowProbe& probe,
                                         const std::function<void(const std::string&)>& progress);
 
 // Vessels traced in the flow of the whole field, by complex bins.
@@ -62,6 +77,6 @@ std::string to_text(const FlowBenchReport& report);
 std::string to_json(const FlowBenchReport& report);
 
 // `exit_status` as in add_run_command().
-void add_bench_flow_command(CLI::App& bench, int& exit_status);
+void add_bench_flow_command(CLI::App& bench, int& exit_status, FlowProbe probe);
 
 } // namespace octascope::firmware_host
