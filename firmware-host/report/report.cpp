@@ -38,6 +38,17 @@ Json rays_to_json(const RunReport& report) {
           {"shader_ms", rounded(hal::to_ms(report.rays->shader))}};
 }
 
+// Null where nobody asked.
+Json flow_to_json(const RunReport& report) {
+  if (!report.flow)
+    return {};
+  const FlowSummary& flow = *report.flow;
+  return {{"angiograms", flow.angiograms},
+          {"angiograms_per_s", rounded(static_cast<double>(flow.angiograms) / report.duration_s)},
+          {"b_scans", {{"told", flow.told}, {"left_out", flow.left_out}, {"none", flow.none}}},
+          {"ms", to_json(flow.tell)}};
+}
+
 // Null where the volumes come without flow.
 Json trees_to_json(const RunReport& report) {
   if (!report.trees)
@@ -49,17 +60,6 @@ Json trees_to_json(const RunReport& report) {
            {{"p50", rounded(took.p50_ms * 1e-3)},
             {"p95", rounded(took.p95_ms * 1e-3)},
             {"max", rounded(took.max_ms * 1e-3)}}}};
-}
-
-// Null where nobody asked.
-Json flow_to_json(const RunReport& report) {
-  if (!report.flow)
-    return {};
-  const FlowSummary& flow = *report.flow;
-  return {{"angiograms", flow.angiograms},
-          {"angiograms_per_s", rounded(static_cast<double>(flow.angiograms) / report.duration_s)},
-          {"b_scans", {{"told", flow.told}, {"left_out", flow.left_out}, {"none", flow.none}}},
-          {"ms", to_json(flow.tell)}};
 }
 
 Json stages_to_json(const RunReport& report) {

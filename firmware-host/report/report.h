@@ -43,19 +43,19 @@ struct StageSummary {
   std::array<std::uint64_t, most_ms.size() + 1> histogram{};
 };
 
-// Trees that were traced in the volumes' flow.
-struct TracedTreesSummary {
-  std::uint64_t traced = 0;
-  std::uint64_t refused = 0; // not among the traced
-  pipeline::DurationSummary took;
-};
-
 // Of volumes that say what flows (docs/ANGIOGRAPHY.md).
 struct FlowSummary {
   std::uint64_t angiograms = 0; // volumes published with flow that is told somewhere
   // B-scans of published volumes: told; moved too far between sweeps; not received whole.
   std::uint64_t told = 0, left_out = 0, none = 0;
   pipeline::DurationSummary tell; // a worker's time for one B-scan, its reconstruction apart
+};
+
+// Trees that were traced in the volumes' flow.
+struct TracedTreesSummary {
+  std::uint64_t traced = 0;
+  std::uint64_t refused = 0; // not among the traced
+  pipeline::DurationSummary took;
 };
 
 struct RunReport {

@@ -104,8 +104,8 @@ public:
   BScanOutcome reconstruct_b_scan_bins(Workspace& workspace, std::span<const std::byte> frame,
                                        std::span<std::complex<float>> bins,
                                        std::span<const float> running = {}) const noexcept;
-  // Both with one transform: levels as reconstruct_b_scan() gives them, but for the rounding of a
-  // few, and the bins that they are of.
+  // Both with one transform: the levels of reconstruct_b_scan(), to the bit, and the bins that they
+  // are of.
   BScanOutcome reconstruct_b_scan_both(Workspace& workspace, std::span<const std::byte> frame,
                                        std::span<std::complex<float>> bins,
                                        std::span<std::uint8_t> levels,

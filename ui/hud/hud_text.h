@@ -58,14 +58,16 @@ struct Trouble {
 
 struct Caption {
   FixedText<32> title;
-  FixedText<64> note; // at the other end of the line
+  FixedText<64> note;    // at the other end of the line
+  FixedText<16> deepest; // a bar of the hues of depths, and what the last one means; empty: none
   Tone note_tone = Tone::quiet;
   bool operator==(const Caption&) const = default;
 };
 
 // The legend of the vessel colours, how the vessels were registered, and the segment counts.
 struct VesselMarks {
-  bool shown = false;
+  bool flow = false;  // is shown
+  bool shown = false; // the tree is
   bool registered = false;
   FixedText<40> registration; // how good it is; empty: there is none
   VesselColouring colouring = VesselColouring::branch;
@@ -76,6 +78,16 @@ struct VesselMarks {
   bool operator==(const VesselMarks&) const = default;
 };
 
+// What flows, as far as it is shown.
+struct FlowShown {
+  bool shown = false;
+  pipeline::FlowState b_scan = pipeline::FlowState::none; // of the one in the panel
+  int told = 0;                                           // B-scans, of the volume
+  int left_out = 0;                                       // likewise
+  double deepest_mm = 0; // below the surface: the last hue; 0: nothing flows
+  bool in_scope = false; // in the microscope's picture, too
+};
+
 // What the renderer shows.
 struct ShownPictures {
   bool volume = false;
@@ -84,6 +96,7 @@ struct ShownPictures {
   bool scope = false;
   std::optional<hal::TimePoint> scope_time;
   bool vessels_left_out = false; // the thinnest, of a flat picture
+  FlowShown flow;
 };
 
 struct HudText {
@@ -105,7 +118,7 @@ struct HudText {
   // finely it is drawn, what the volumes are. A notice takes the place of the last two.
   std::array<FixedText<96>, 4> facts;
   FixedText<160> notice;
-  std::array<StatusCell, 6> figures; // unused if the label is empty
+  std::array<StatusCell, 7> figures; // unused if the label is empty
   bool figures_shown = false;
   const Timing* timing = nullptr; // null: no diagram; owned by the host, see Status
   std::uint64_t timed_volume = 0; // its newest: another one, another diagram

@@ -43,12 +43,7 @@ void expect_agreement(const Reconstructor& reconstructor, const std::vector<Coun
   reconstructor.reconstruct_b_scan_both(workspace, std::as_bytes(std::span{raw}), same_bins,
                                         counts_of_bins);
   EXPECT_EQ(same_bins, bins);
-  int others = 0;
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    ASSERT_NEAR(counts_of_bins[i], counts[i], 1) << i;
-    others += counts_of_bins[i] != counts[i] ? 1 : 0;
-  }
-  EXPECT_LE(others, static_cast<int>(counts.size() / 200)) << "of " << counts.size();
+  EXPECT_EQ(counts_of_bins, counts);
   const bool fused = reconstructor.path() == ReconstructionPath::fused;
   const double fixed_point_floor = fused ? 2e-4 : 0; // of the root mean square: weights are Q14
   double power = 0;

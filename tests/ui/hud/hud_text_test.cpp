@@ -250,10 +250,45 @@ TEST(HudText, vessels_say_whether_they_are_where_they_seem_to_be) {
   EXPECT_EQ(troubles_of(status), Words{"vessels not registered"});
   EXPECT_EQ(badges_of(status), std::vector<std::string>{"VESSELS NOT REGISTERED"});
   ViewState hidden;
-  hidden.vessels_visible = false;
+  hidden.vessels = VesselsShown::off;
   EXPECT_EQ(compose_hud_text(hidden, status, {}).badge_count, 0U);
   status.vessels.registered = true;
   EXPECT_EQ(badges_of(status), std::vector<std::string>{});
+}
+
+TEST(HudText, flow_that_could_not_be_told_is_said) {
+  const Status status = live_status();
+  ShownPictures shown;
+  shown.volume = true;
+  shown.geometry = {512, 300, 80, 3.5, 10, 37.5};
+  shown.b_scan = pipeline::BScanState::good;
+  shown.scope = true;
+  shown.scope_time = status.now;
+  ViewState view;
+  view.figures = FiguresShown::strip;
+  EXPECT_EQ(compose_hud_text(view, status, shown).en_face.deepest.view(), "");
+  EXPECT_FALSE(compose_hud_text(view, status, shown).vessels.flow);
+  shown.flow = {.shown = true,
+                .b_scan = pipeline::FlowState::told,
+                .told = 60,
+                .left_out = 20,
+                .deepest_mm = 0.5,
+                .in_scope = true};
+  const HudText told = compose_hud_text(view, status, shown);
+  EXPECT_EQ(told.en_face.deepest.view(), "0.5 mm");
+  EXPECT_EQ(told.scope.deepest.view(), "0.5 mm");
+  EXPECT_EQ(told.b_scan.note.view(), "41 of 80");
+  EXPECT_EQ(told.figures.back().value.view(), "60 / 20");
+  EXPECT_EQ(told.trouble_count, 0U);
+  EXPECT_TRUE(told.vessels.flow);
+  EXPECT_FALSE(told.vessels.shown);
+  shown.flow.b_scan = pipeline::FlowState::left_out;
+  EXPECT_EQ(compose_hud_text(view, status, shown).b_scan.note.view(), "41 of 80, moved: no flow");
+  shown.flow.b_scan = pipeline::FlowState::none;
+  EXPECT_EQ(compose_hud_text(view, status, shown).b_scan.note.view(), "41 of 80, no flow");
+  shown.flow.left_out = 70;
+  shown.flow.told = 10;
+  EXPECT_EQ(compose_hud_text(view, status, shown).troubles[0].words.view(), "no flow: 87 % moved");
 }
 
 TEST(HudText, branches_are_named_in_the_hearts_arteries_only) {
@@ -320,7 +355,7 @@ TEST(HudText, a_tree_that_is_followed_says_its_overlap_or_that_it_does_not_match
   EXPECT_EQ(told().tree.view(), "vessels not placed yet");
   EXPECT_FALSE(told().tree_old);
   ViewState hidden;
-  hidden.vessels_visible = false;
+  hidden.vessels = VesselsShown::off;
   EXPECT_EQ(told(hidden).tree.view(), "") << "nobody wants to see them";
 }
 
@@ -350,7 +385,7 @@ TEST(HudText, a_tree_that_is_old_is_marked_and_one_that_is_not_drawn_has_its_rea
   EXPECT_TRUE(told().tree_old);
   EXPECT_EQ(troubles_of(status), Words{"tree 3 s old"});
   ViewState hidden;
-  hidden.vessels_visible = false;
+  hidden.vessels = VesselsShown::off;
   EXPECT_EQ(told(hidden).tree.view(), "");
 
   status.vessels.state = VesselStatus::State::none;
@@ -391,7 +426,7 @@ TEST(HudText, vessels_that_a_flat_picture_leaves_out_are_told) {
   status.vessels.account.merged = 3;
   EXPECT_EQ(compose_hud_text(view, status, shown).facts[2].view(),
             "thinnest vessels merged or left out");
-  view.vessels_visible = false;
+  view.vessels = VesselsShown::flow;
   EXPECT_EQ(compose_hud_text(view, status, shown).facts[2].view(), "");
 }
 
