@@ -134,8 +134,8 @@ void add_options(CLI::App& command, RunArguments& a) {
       ->check(within(1, pipeline::ScanPlan::most_repeats));
   command
       .add_option("--flow", a.flow,
-                  "Compare the repeats of each B-scan and say what flows; needs 2 or more, in one "
-                  "direction")
+                  "Compare the repeats of each B-scan, say what flows, and show it as a tree of "
+                  "vessels (without --vessels); needs 2 or more, in one direction")
       ->check(CLI::IsMember({"on", "off"}));
   command.add_option("--faults", a.faults, "Faults that the simulated devices suffer")
       ->type_name("FILE.toml");

@@ -15,9 +15,9 @@
 
 namespace octascope::pipeline {
 
-// Below, a tree is not drawn at the place that was found. Of other vessels a third is matched by
-// chance, of the same ones nine tenths are (docs/VESSELS.md).
-inline constexpr double least_tree_overlap = 0.6;
+// Below, a tree is not drawn at the place that was found. Of other vessels up to half is matched by
+// chance, of the same ones nine tenths are (docs/ANGIOGRAPHY.md).
+inline constexpr double least_tree_overlap = 0.65;
 // A second place that fits nearly as well makes the first one a guess.
 inline constexpr double least_pose_lead = 0.1;
 // Of live vessels, and of those where the planned tree reaches: fewer may lie anywhere.

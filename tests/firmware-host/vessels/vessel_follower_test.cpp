@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "firmware-host/vessels/vessel_follower.h"
-#include "hal/linux/system/monotonic_clock.h"
+#include "hal/linux/monotonic_clock.h"
 #include "pipeline/vessels/clusters/cluster_builder.h"
 #include "tests/support/files/fresh_seed.h"
 
@@ -83,9 +83,11 @@ TEST(VesselFollower, says_where_a_tree_lies_once_one_was_traced) {
     return std::move(*place);
   };
   EXPECT_FALSE(next_place().volume_from_tree);
+  live->number = 1;
   live->refusal = "too little";
   follower.offer(live);
   EXPECT_FALSE(next_place().volume_from_tree) << "a refused tree tells nothing";
+  live->number = 2;
   live->refusal.clear();
   live->volume_index = volume.metadata.index;
   follower.offer(live);
@@ -105,6 +107,7 @@ TEST(VesselFollower, ends_while_it_looks_for_a_tree) {
   const LoadedVessels loaded{arrays, pipeline::facts_of(tree, arrays.error, "by lot")};
   const auto live = std::make_shared<LiveTree>();
   live->tree = bed(random);
+  live->number = 1;
   hal::linux_backend::MonotonicClock clock;
   pipeline::Wakeup news;
   VesselFollower follower{loaded, {}, clock, news};
