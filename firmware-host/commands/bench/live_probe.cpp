@@ -85,6 +85,7 @@ hal::Result<LiveFlowFigures> probe_flow(int repeats) {
                          .planned_per_s = planned_per_s,
                          .angiograms_per_s =
                              number("/flow/angiograms") / std::max(planned, 1.0) * planned_per_s,
+                         .compared_share = (told + left_out) / std::max(b_scans, 1.0),
                          .lost_lines = number("/lost/lines"),
                          .left_out_share = left_out / std::max(b_scans, 1.0),
                          .b_scan_ms_p50 = number("/flow/ms/p50"),

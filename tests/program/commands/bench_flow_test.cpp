@@ -35,7 +35,7 @@ TEST(BenchFlow, flow_in_spectra_agrees_with_the_truth) {
     }
     const json& live = one.at("live");
     EXPECT_EQ(live.at("line_rate_hz"), four ? 860e3 : 215e3);
-    EXPECT_GT(one.at("angiograms_per_s"), 0);
+    EXPECT_GT(live.at("compared_share"), 0) << "all of them where the machine is quick enough";
     EXPECT_LE(one["angiograms_per_s"], live.at("planned_per_s"));
     EXPECT_TRUE(one.at("lost_lines").is_number()) << "how many depends on the machine";
     EXPECT_GE(one.at("detected_share"), 0.8);

@@ -23,10 +23,12 @@ namespace octascope::firmware_host {
 // Of a run that tells flow while it displays, on the twin.
 struct LiveFlowFigures {
   double line_rate_hz = 0;
-  double planned_per_s = 0;    // volumes
-  double angiograms_per_s = 0; // the share of the planned ones that came with flow, at that rate
+  double planned_per_s = 0; // volumes
+  // The share of the planned ones, all B-scans of which were compared, at that rate.
+  double angiograms_per_s = 0;
+  double compared_share = 0; // of the B-scans that came
   double lost_lines = 0;
-  double left_out_share = 0; // of B-scans
+  double left_out_share = 0; // of them: moved too far
   double b_scan_ms_p50 = 0;  // a worker's time for the flow of one
   double b_scan_ms_p95 = 0;
 };
