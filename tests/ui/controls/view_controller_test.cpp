@@ -220,7 +220,7 @@ TEST_F(Controller, vessels_traced_in_the_volume_cannot_be_moved) {
   actions().set_vessels_traced();
   EXPECT_FALSE(state().vessel_nudge.any()) << "what was left";
   for (const char key : {'i', 'j', 'k', 'u', 'y', 'z'})
-    controller_.handle(press(key));
+    controller_.handle(press(static_cast<std::uint16_t>(key)));
   EXPECT_FALSE(state().vessel_nudge.any());
   choose(Action::vessel_opacity);
   tread({2});
