@@ -25,23 +25,33 @@ public:
   const pipeline::Volume& newer() const { return newer_; }
   const pipeline::Volume& volume() const { return mixed_; }
 
+  // Tubes in both.
+  void add_flow() {
+    add_tubes(older_);
+    add_tubes(newer_, 1);
+    mixed_ = older_;
+  }
+
   void become(const pipeline::Volume& whole) { mixed_ = whole; }
 
   // Takes these of the newer one; says what has changed, the seam included.
   pipeline::BScanRange renew(int from, int to,
                              pipeline::BScanState state = pipeline::BScanState::good) {
+    const std::span<const std::uint8_t> none;
     for (int b = from; b < to; ++b)
-      copy(newer_.b_scan(b), b, state);
+      copy(newer_.b_scan(b), newer_.has_flow() ? newer_.b_scan_flow(b) : none, b, state);
     const bool seam = to < mixed_.geometry.b_scans;
     if (seam)
-      copy(std::vector<std::uint8_t>(mixed_.geometry.b_scan_voxels()), to,
-           pipeline::BScanState::seam);
+      copy(blank_, blank_, to, pipeline::BScanState::seam);
     return {from, seam ? to + 1 : to};
   }
 
 private:
-  void copy(std::span<const std::uint8_t> levels, int b, pipeline::BScanState state) {
+  void copy(std::span<const std::uint8_t> levels, std::span<const std::uint8_t> flow, int b,
+            pipeline::BScanState state) {
     std::ranges::copy(levels, mixed_.b_scan(b).begin());
+    if (mixed_.has_flow())
+      std::ranges::copy(flow, mixed_.b_scan_flow(b).begin());
     mixed_.b_scan_states[static_cast<std::size_t>(b)] = state;
     mixed_.occupancy.update(b, mixed_.b_scan(b));
   }
@@ -54,6 +64,7 @@ private:
     return volume;
   }();
   pipeline::Volume mixed_;
+  std::vector<std::uint8_t> blank_ = std::vector<std::uint8_t>(small_geometry.b_scan_voxels());
 };
 
 } // namespace octascope::tests
