@@ -249,9 +249,9 @@ HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
 // Whether something may flow at any ray's next few samples. `still_before`: up to which sample of each
 // ray nothing is known to.
 HWY_INLINE bool meets_flow(const RayFrame& frame, const Rays& rays, Int& still_before) {
-  const Int needed =
-      hn::Min(hn::Add(rays.next, whole(samples_per_check)), rays.end); // what has ended needs none
-  const IntMask open = hn::Lt(still_before, needed);
+  const Int needed = hn::Min(hn::Add(rays.next, whole(samples_per_check)), rays.end);
+  // Not of rays that have ended: their positions may lie outside of all bricks.
+  const IntMask open = hn::And(rays.active(), hn::Lt(still_before, needed));
   if (hn::AllFalse(Ints{}, open))
     return false;
   const Int distance =
@@ -260,7 +260,7 @@ HWY_INLINE bool meets_flow(const RayFrame& frame, const Rays& rays, Int& still_b
   const Int more = hn::Max(hn::Sub(distance, whole(1)), hn::Zero(Ints{}));
   const Int samples = samples_to_leap(rays.axes, rays.position, more);
   still_before = hn::IfThenElse(empty, hn::Add(rays.next, samples), still_before);
-  return !hn::AllFalse(Ints{}, hn::Lt(still_before, needed));
+  return !hn::AllFalse(Ints{}, hn::And(open, hn::Lt(still_before, needed)));
 }
 
 // Advances by a few samples.
