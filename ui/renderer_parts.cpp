@@ -56,7 +56,8 @@ ViewState Renderer::Parts::fitted(const ViewState& view) const {
 ViewState Renderer::Parts::without_confusion(const ViewState& view, const Layout& places) const {
   const bool beside_vessels = volume.vessels() != nullptr && shows_tree(view);
   ViewState plain = view;
-  if (volume.depth_colours(view) && (beside_vessels || !has_room_for_depth_scale(places)))
+  if (volume.depth_colours(view) &&
+      (beside_vessels || volume.draws_flow(view) || !has_room_for_depth_scale(places)))
     plain.colour_map = 0;
   return plain;
 }
