@@ -1,4 +1,5 @@
 // B-scans renewed one after the other give the picture that the whole volume does.
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "tests/ui/support/renderer_stage.h"
 #include "ui/canvas/palette.h"
 #include "ui/layout/layout.h"
+#include "ui/view/choice_value.h"
 
 namespace octascope::tests {
 namespace {
@@ -51,6 +53,14 @@ struct Way {
   ui::DrawQuality quality;
   float see_through_db;
   bool flow = false;
+
+  // Also in the test's name.
+  friend void PrintTo(const Way& way, std::ostream* out) {
+    *out << ui::technique_values[static_cast<std::size_t>(way.technique)].name << ", "
+         << way.quality.resolution << ", " << way.quality.steps << " steps, "
+         << (way.quality.rays == ui::RayBackend::shader ? "shader" : "processor") << ", "
+         << way.see_through_db << " dB" << (way.flow ? ", flow" : "");
+  }
 };
 
 class RenewedPicture : public RenewalTest, public testing::WithParamInterface<Way> {};
