@@ -12,6 +12,7 @@
 #include "pipeline/volume/flow_scale.h"
 #include "pipeline/volume/volume_geometry.h"
 #include "tests/support/fails_with.h"
+#include "tests/ui/support/instruction_sets.h"
 #include "tests/ui/support/reference_rays.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "tests/ui/support/view_places.h"
@@ -79,15 +80,7 @@ protected:
   ui::LightVolume light_;
 };
 
-std::vector<std::string> isas() {
-  std::vector<std::string> names;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-    if (ui::ray_kernels(hwy::TargetName(target)) != nullptr)
-      names.emplace_back(hwy::TargetName(target));
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Isas, FlowRays, testing::ValuesIn(isas()),
+INSTANTIATE_TEST_SUITE_P(Isas, FlowRays, testing::ValuesIn(instruction_sets()),
                          [](const auto& each) { return each.param; });
 
 constexpr pipeline::VolumeGeometry tissue{70, 45, 21, 25.6, 66.7, 142.9};

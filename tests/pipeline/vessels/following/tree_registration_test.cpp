@@ -9,6 +9,7 @@
 
 #include "pipeline/vessels/following/tree_registration.h"
 #include "pipeline/vessels/following/tree_samples.h"
+#include "pipeline/vessels/tree_node.h"
 #include "pipeline/vessels/vectors.h"
 #include "tests/support/files/fresh_seed.h"
 
@@ -17,14 +18,9 @@ namespace {
 
 using testing::HasSubstr;
 
+// All of them are as wide.
 std::uint32_t add_node(VesselTree& tree, const Point& at, std::uint32_t parent) {
-  tree.positions_mm.push_back(
-      {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
-  tree.radii_mm.push_back(0.02F);
-  tree.parents.push_back(parent);
-  tree.orders.push_back(0);
-  tree.branches.push_back(VesselBranch::unknown);
-  return static_cast<std::uint32_t>(tree.nodes() - 1);
+  return add_node(tree, at, 0.02F, parent);
 }
 
 class TreeRegistrationTest : public testing::Test {
