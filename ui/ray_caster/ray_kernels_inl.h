@@ -27,128 +27,15 @@ HWY_AFTER_NAMESPACE();
 
 #include <algorithm>
 
+#include "ui/ray_caster/ray_colour_inl.h"
 #include "ui/ray_caster/ray_light_inl.h"
-#include "ui/transfer/depth_colours.h"
-#include "ui/transfer/flow_look.h"
+#include "ui/ray_caster/ray_maximum_inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace octascope::ui::HWY_NAMESPACE {
 
 inline constexpr int square_size = 16; // pixels whose packets are traced alternately
 static_assert(tile_size % square_size == 0 && square_size % packet_height == 0);
-inline constexpr int samples_per_check = 4; // between two checks for empty bricks
-
-// The light accumulated in the lanes of a packet.
-struct Light {
-  Real red, green, blue; // premultiplied, 0…65535
-  Real transparency;
-  Int half_opaque; // the sample at which half the opacity was reached
-  // Where most of it comes from: the mean of the samples' numbers, by the fourth powers of their
-  // weights, so that of two layers the stronger has it. For "shaded" alone.
-  Real powers, numbers;
-  Real flow; // the share of the opacity that flows, likewise
-
-  HWY_INLINE static Light none() {
-    return {hn::Zero(Floats{}), hn::Zero(Floats{}), hn::Zero(Floats{}), real(1),
-            hn::Zero(Ints{}),   hn::Zero(Floats{}), hn::Zero(Floats{}), hn::Zero(Floats{})};
-  }
-  HWY_INLINE Real main_sample() const {
-    return hn::Div(numbers, hn::Max(powers, real(least_power)));
-  }
-};
-
-HWY_INLINE Real lower_16_bits(Int v) {
-  return hn::ConvertTo(Floats{}, hn::And(v, whole(0xFFFF)));
-}
-HWY_INLINE Real upper_16_bits(Int v) {
-  using Unsigned = hn::RebindToUnsigned<Ints>;
-  return hn::ConvertTo(Floats{},
-                       hn::BitCast(Ints{}, hn::ShiftRight<16>(hn::BitCast(Unsigned{}, v))));
-}
-
-// One sample: opacity 0…1, colours 0…65535.
-struct Substance {
-  Real opacity, red, green, blue;
-  Real flow; // weight
-};
-
-// What a piece of a ray sees of flow: its kernel knows none; there may be some; there is none here.
-enum class Flow : std::uint8_t { none, here, elsewhere };
-
-constexpr bool has_hue(Look look, Flow flow) {
-  return look == Look::coloured || look == Look::by_depth || flow != Flow::none;
-}
-
-// What a grey is multiplied with at a depth in cells.
-struct Tint {
-  Real red, green, blue;
-};
-HWY_INLINE Tint tint_at(const RayFrame& frame, Real cells) {
-  const Real along = hn::MulAdd(cells, real(frame.tint_scale), real(frame.tint_offset));
-  const Real place = hn::Min(hn::Max(along, real(0)), real(1));
-  const auto channel = [&](std::size_t of) {
-    const auto& cubic = depth_tint_cubics[of];
-    return hn::MulAdd(
-        hn::MulAdd(hn::MulAdd(real(cubic[3]), place, real(cubic[2])), place, real(cubic[1])), place,
-        real(cubic[0]));
-  };
-  return {channel(0), channel(1), channel(2)};
-}
-HWY_INLINE Real depth_cells(const Position& position) {
-  return hn::Mul(hn::ConvertTo(Floats{}, position.z), real(1.0F / one_cell));
-}
-
-template <Look How>
-HWY_INLINE Substance classify_level(const RayFrame& frame, const Position& position, Int level,
-                                    IntMask valid) {
-  if constexpr (How == Look::ramp) {
-    constexpr float per_level = 1.0F / (1 << level_shift);
-    constexpr float rounded_up = 1.0F / (2 * TransferTable::entries_per_level);
-    const Real ramp = hn::MulAdd(hn::ConvertTo(Floats{}, level), real(frame.ramp_scale * per_level),
-                                 real(frame.ramp_offset - rounded_up * frame.ramp_scale));
-    const Real inside = hn::Min(hn::Max(ramp, real(0)), real(1));
-    const Real grey = hn::IfThenElseZero(hn::RebindMask(Floats{}, valid), inside);
-    // In pairs, to halve the chain of dependent operations.
-    const auto pair = [&](int power) {
-      return hn::MulAdd(grey, real(frame.ramp_opacity[power + 1]), real(frame.ramp_opacity[power]));
-    };
-    const Real square = hn::Mul(grey, grey);
-    const Real sum = hn::MulAdd(hn::MulAdd(pair(4), square, pair(2)), square, pair(0));
-    return {hn::Mul(sum, grey), hn::Mul(grey, real(65535)), real(0), real(0), real(0)};
-  } else {
-    const Int entry = hn::IfThenElseZero(valid, table_entry(frame.opacity_and_red, level));
-    Substance substance{hn::Mul(upper_16_bits(entry), real(1.0F / 65535)), lower_16_bits(entry),
-                        real(0), real(0), real(0)};
-    if constexpr (How == Look::coloured) {
-      const Int others = table_entry(frame.green_and_blue, level);
-      substance.green = upper_16_bits(others);
-      substance.blue = lower_16_bits(others);
-    }
-    if constexpr (How == Look::by_depth) {
-      const Tint tint = tint_at(frame, depth_cells(position));
-      substance.green = hn::Mul(substance.red, tint.green);
-      substance.blue = hn::Mul(substance.red, tint.blue);
-      substance.red = hn::Mul(substance.red, tint.red);
-    }
-    return substance;
-  }
-}
-
-// Towards the colour of flow, by its weight.
-HWY_INLINE Real mix_flow(Real tissue, float wall, float middle, Real weight) {
-  const Real flow = hn::MulAdd(weight, real(65535 * (middle - wall)), real(65535 * wall));
-  return hn::MulAdd(weight, hn::Sub(flow, tissue), tissue);
-}
-
-// What flows in tissue, by the table's entry. An entry of 0 changes nothing.
-HWY_INLINE void add_flow(Int entry, Substance& tissue) {
-  const Real weight = hn::Mul(lower_16_bits(entry), real(1.0F / 65535));
-  tissue.flow = weight;
-  tissue.opacity = hn::Max(tissue.opacity, hn::Mul(upper_16_bits(entry), real(1.0F / 65535)));
-  tissue.red = mix_flow(tissue.red, flow_wall.red, flow_middle.red, weight);
-  tissue.green = mix_flow(tissue.green, flow_wall.green, flow_middle.green, weight);
-  tissue.blue = mix_flow(tissue.blue, flow_wall.blue, flow_middle.blue, weight);
-}
 
 // A sample whose loads are in progress.
 struct Sample {
@@ -320,92 +207,6 @@ HWY_INLINE void complete(const RayFrame& frame, const Rays& rays, Light& light) 
   light.blue = HasHue ? hn::Div(light.blue, share) : light.red;
 }
 
-// Advances active lanes until each is in a brick with a level above `highest`.
-HWY_INLINE void leap_lower_bricks(const RayFrame& frame, const std::uint16_t* bricks, Rays& rays,
-                                  Int highest) {
-  const Int highest_level = hn::ShiftRight<level_shift>(highest);
-  while (true) {
-    const IntMask active = rays.active();
-    const Int brick = brick_at(frame, bricks, rays.octant, rays.position, active);
-    const Int distance = hn::And(brick, whole(0xFF));
-    const Int level = hn::And(hn::ShiftRight<8>(brick), whole(0xFF));
-    const IntMask lower = hn::And(
-        active, hn::Or(hn::Gt(distance, hn::Zero(Ints{})), hn::Not(hn::Gt(level, highest_level))));
-    if (hn::AllFalse(Ints{}, lower))
-      return;
-    const Int more = hn::Max(hn::Sub(distance, whole(1)), hn::Zero(Ints{}));
-    rays.leap(hn::IfThenElseZero(lower, samples_to_leap(rays.axes, rays.position, more)));
-  }
-}
-
-// The highest level along each ray, and where it was.
-struct Highest {
-  Int level;
-  Int sample;
-};
-
-HWY_INLINE Highest find_highest(const RayFrame& frame, Rays rays) {
-  Highest highest{hn::Zero(Ints{}), hn::Zero(Ints{})};
-  while (true) {
-    leap_lower_bricks(frame, frame.bricks, rays, highest.level);
-    if (hn::AllFalse(Ints{}, rays.active()))
-      return highest;
-    for (int i = 0; i < samples_per_check; ++i) {
-      const IntMask valid = rays.active();
-      const Int level = hn::IfThenElseZero(
-          valid, interpolate(fetch_cell(frame, frame.cells, rays.position, valid)));
-      highest.sample = hn::IfThenElse(hn::Gt(level, highest.level), rays.next, highest.sample);
-      highest.level = hn::Max(level, highest.level);
-      rays.step();
-    }
-  }
-}
-
-HWY_INLINE Int to_rgba(const Light& light, Real opacity) {
-  const auto to_8_bits = [](Real v, float scale) {
-    return hn::NearestInt(hn::Min(hn::Mul(v, real(scale)), real(255)));
-  };
-  constexpr float from_16_bits = 255.0F / 65535;
-  return hn::Or(hn::Or(to_8_bits(light.red, from_16_bits),
-                       hn::ShiftLeft<8>(to_8_bits(light.green, from_16_bits))),
-                hn::Or(hn::ShiftLeft<16>(to_8_bits(light.blue, from_16_bits)),
-                       hn::ShiftLeft<24>(to_8_bits(opacity, 255))));
-}
-
-// Stores a packet, clipped to the picture; x and y are its first pixel.
-HWY_INLINE void store(const RayFrame& frame, int x, int y, Int rgba, Real depth_mm) {
-  alignas(64) std::int32_t colours[lanes];
-  alignas(64) float depths[lanes];
-  hn::Store(rgba, Ints{}, colours);
-  hn::Store(depth_mm, Floats{}, depths);
-  const int columns = std::min(packet_width, frame.width - x);
-  const int rows = std::min(packet_height, frame.height - y);
-  for (int row = 0; row < rows; ++row) {
-    const std::size_t at =
-        static_cast<std::size_t>(y + row) * static_cast<std::size_t>(frame.width) +
-        static_cast<std::size_t>(x);
-    for (int column = 0; column < columns; ++column) {
-      const std::size_t to = at + static_cast<std::size_t>(column);
-      frame.rgba[to] = static_cast<std::uint32_t>(colours[row * packet_width + column]);
-      frame.depth_mm[to] = depths[row * packet_width + column];
-    }
-  }
-}
-
-template <class DrawPacket>
-HWY_INLINE void for_each_packet(const RayFrame& frame, Tile tile, DrawPacket draw_packet) {
-  const int right = std::min(tile.x + tile_size, frame.width);
-  const int bottom = std::min(tile.y + tile_size, frame.height);
-  for (int y = tile.y; y < bottom; y += packet_height)
-    for (int x = tile.x; x < right; x += packet_width) {
-      Rays rays = make_rays(frame, x, y);
-      if (hn::AllFalse(Ints{}, rays.active()))
-        store(frame, x, y, hn::Zero(Ints{}), real(no_depth));
-      else
-        draw_packet(x, y, rays);
-    }
-}
-
 // The packets of a square take turns, so that each uses what its neighbours have loaded into the
 // first-level cache.
 template <bool Shaded, Look How, bool WithFlow>
@@ -450,74 +251,6 @@ void draw_composite(const RayFrame& frame, Tile tile) {
   for (int y = tile.y; y < bottom; y += square_size)
     for (int x = tile.x; x < right; x += square_size)
       draw_square<Shaded, How, WithFlow>(frame, x, y);
-}
-
-// All that flows along each ray: how opaque it is, and the last sample up to which half was not reached.
-struct FlowAlong {
-  Real opacity;
-  Int sample;
-};
-
-HWY_INLINE FlowAlong gather_flow(const RayFrame& frame, Rays rays) {
-  Real transparency = real(1);
-  Int half = hn::Zero(Ints{});
-  while (true) {
-    leap_lower_bricks(frame, frame.flow_bricks, rays, hn::Zero(Ints{}));
-    if (hn::AllFalse(Ints{}, rays.active()))
-      return {hn::Sub(real(1), transparency), half};
-    for (int i = 0; i < samples_per_check; ++i) {
-      const IntMask valid = rays.active();
-      const Int flow = interpolate(fetch_cell(frame, frame.flow_cells, rays.position, valid));
-      const Int entry = hn::IfThenElseZero(valid, table_entry(frame.flow_opacity_and_weight, flow));
-      const Real opacity = hn::Mul(upper_16_bits(entry), real(1.0F / 65535));
-      const RealMask counts = hn::And(hn::Gt(opacity, real(0)), hn::Ge(transparency, real(0.5F)));
-      half = hn::IfThenElse(hn::RebindMask(Ints{}, counts), rays.next, half);
-      transparency = hn::NegMulAdd(transparency, opacity, transparency);
-      rays.step();
-    }
-  }
-}
-
-// Tints by what flows along each ray; where that is most of it, or all, it lies there.
-HWY_INLINE void tint_maximum(const RayFrame& frame, const Rays& rays, Light& light, Int& sample,
-                             RealMask& seen) {
-  const FlowAlong flow = gather_flow(frame, rays);
-  light.red = mix_flow(light.red, flow_wall.red, flow_middle.red, flow.opacity);
-  light.green = mix_flow(light.green, flow_wall.green, flow_middle.green, flow.opacity);
-  light.blue = mix_flow(light.blue, flow_wall.blue, flow_middle.blue, flow.opacity);
-  const RealMask flows = hn::Gt(flow.opacity, real(0));
-  const RealMask mostly = hn::Or(hn::Gt(flow.opacity, real(0.5F)), hn::And(flows, hn::Not(seen)));
-  sample = hn::IfThenElse(hn::RebindMask(Ints{}, mostly), flow.sample, sample);
-  seen = hn::Or(seen, flows);
-}
-
-// As opaque as it is bright.
-template <bool WithFlow> void draw_maximum(const RayFrame& frame, Tile tile) {
-  for_each_packet(frame, tile, [&](int x, int y, Rays& rays) HWY_ATTR {
-    const Highest highest = find_highest(frame, rays);
-    const Int entry = table_entry(frame.opacity_and_red, highest.level);
-    const Int others = table_entry(frame.green_and_blue, highest.level);
-    RealMask seen = hn::Gt(upper_16_bits(entry), real(0));
-    Light light = Light::none();
-    light.red = hn::IfThenElseZero(seen, lower_16_bits(entry));
-    light.green = hn::IfThenElseZero(seen, upper_16_bits(others));
-    light.blue = hn::IfThenElseZero(seen, lower_16_bits(others));
-    if (frame.by_depth) {
-      const Real along_mm =
-          hn::MulAdd(hn::ConvertTo(Floats{}, highest.sample), real(frame.step_mm), rays.first_mm);
-      const Tint tint = tint_at(frame, hn::MulAdd(rays.direction.z, along_mm, real(frame.eye[0])));
-      light.red = hn::Mul(light.red, tint.red);
-      light.green = hn::Mul(light.green, tint.green);
-      light.blue = hn::Mul(light.blue, tint.blue);
-    }
-    Int sample = highest.sample;
-    if constexpr (WithFlow)
-      tint_maximum(frame, rays, light, sample, seen);
-    const Real opacity =
-        hn::Mul(hn::Max(light.red, hn::Max(light.green, light.blue)), real(1.0F / 65535));
-    const Real depth = hn::IfThenElse(seen, rays.depth_mm(frame, sample), real(no_depth));
-    store(frame, x, y, to_rgba(light, opacity), depth);
-  });
 }
 
 const RayKernels* kernels() {
