@@ -161,6 +161,10 @@ void Renderer::Parts::draw_flat_pictures(const ViewState& view, const Layout& pl
   const bool flow = flow_shown(view);
   if (flow && !completed_by_caller)
     flow_sections.fetch(kept_flow, view.b_scan, view.a_scan);
+  const auto draw_vessels = [&](VesselPanel panel, std::uint64_t version, const Rect& rect) {
+    if (version != 0)
+      flat_vessels->draw(panel, rect, height);
+  };
   const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
     if (!panel.shown())
       return;
@@ -168,6 +172,10 @@ void Renderer::Parts::draw_flat_pictures(const ViewState& view, const Layout& pl
     draw_within(parts, rect, height, [&] {
       b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown, rect, height,
                         flow ? &flow_sections : nullptr);
+      if (direction == ScanDirection::fast)
+        draw_vessels(VesselPanel::b_scan, vessels_over.b_scan, rect);
+      else
+        draw_vessels(VesselPanel::crossed, vessels_over.crossed, rect);
     });
   };
   draw_b_scan(places.b_scan, ScanDirection::fast);
@@ -177,34 +185,13 @@ void Renderer::Parts::draw_flat_pictures(const ViewState& view, const Layout& pl
     draw_within(parts, rect, height, [&] {
       en_face_panel.draw(state_texture, shown, rect, height,
                          flow ? std::optional{deepest_flow()} : std::nullopt);
+      draw_vessels(VesselPanel::en_face, vessels_over.en_face, rect);
     });
   }
 }
 
 VesselSections::Sight Renderer::Parts::sight(const ViewState& view) const {
   return {view, volume.texture().geometry(), tissue, volume.uploads()};
-}
-
-hal::Result<> Renderer::Parts::draw_flat_vessels(const ViewState& view, const Layout& places,
-                                                 const EyeFrame& frame, int height) {
-  if (!flat_vessels)
-    return {};
-  const auto draw = [&](VesselPanel panel, FlatPicture picture, const Rect& rect) {
-    return flat_vessels->draw(
-        panel, sight(view),
-        place_in_panel(picture, volume.texture().geometry(), crop_of(view), rect), places.unit,
-        frame.place(rect), height);
-  };
-  // Where nothing was received, nothing is registered.
-  const bool received =
-      states[static_cast<std::size_t>(view.b_scan)] != pipeline::BScanState::missing;
-  if (places.b_scan.shown() && received)
-    HAL_CHECK(draw(VesselPanel::b_scan, FlatPicture::b_scan, places.b_scan.picture));
-  if (places.crossed.shown())
-    HAL_CHECK(draw(VesselPanel::crossed, FlatPicture::crossed, places.crossed.picture));
-  if (places.en_face.shown())
-    HAL_CHECK(draw(VesselPanel::en_face, FlatPicture::from_above, places.en_face.picture));
-  return {};
 }
 
 namespace {
@@ -220,13 +207,47 @@ bool Renderer::Parts::has_flow_in_scope(const DrawnPicture& picture) const {
          both_live(picture);
 }
 
-// The vessels lie where the volume has them: nothing in this picture says so if that is an old one.
-hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Layout& places,
-                                          const EyeFrame& frame, RectList parts) {
-  if (!scope_shown || !places.scope.shown())
+// What vessels are laid over the flat pictures.
+hal::Result<> Renderer::Parts::prepare_flat_vessels(const DrawnPicture& picture,
+                                                    const ViewState& view, const Layout& places) {
+  vessels_over = {};
+  if (!flat_vessels || volume.empty())
     return {};
-  const Rect& place = places.scope.picture;
-  const Rect rect = frame.place(place);
+  const pipeline::VolumeGeometry& g = volume.texture().geometry();
+  const auto prepare = [&](VesselPanel panel, const PicturePlace& place,
+                           std::uint64_t& version) -> hal::Result<> {
+    HAL_CHECK(flat_vessels->prepare(panel, sight(view), place, places.unit));
+    version = flat_vessels->version(panel);
+    return {};
+  };
+  const auto in_panel = [&](FlatPicture of, const Panel& panel) {
+    return place_in_panel(of, g, crop_of(view), panel.picture);
+  };
+  // Where nothing was received, nothing is registered.
+  if (places.b_scan.shown() &&
+      states[static_cast<std::size_t>(view.b_scan)] != pipeline::BScanState::missing)
+    HAL_CHECK(prepare(VesselPanel::b_scan, in_panel(FlatPicture::b_scan, places.b_scan),
+                      vessels_over.b_scan));
+  if (places.crossed.shown())
+    HAL_CHECK(prepare(VesselPanel::crossed, in_panel(FlatPicture::crossed, places.crossed),
+                      vessels_over.crossed));
+  if (places.en_face.shown())
+    HAL_CHECK(prepare(VesselPanel::en_face, in_panel(FlatPicture::from_above, places.en_face),
+                      vessels_over.en_face));
+  // Vessels lie where the volume has them: nothing in the microscope's picture says so if that is
+  // an old one.
+  if (scope_shown && places.scope.shown() && scope_panel.field() && both_live(picture))
+    HAL_CHECK(prepare(VesselPanel::microscope,
+                      place_in_field(g, *scope_panel.field(), places.scope.picture),
+                      vessels_over.scope));
+  return {};
+}
+
+void Renderer::Parts::draw_scope(const DrawnPicture& picture, const Layout& places,
+                                 const EyeFrame& frame, RectList parts) {
+  if (!scope_shown || !places.scope.shown())
+    return;
+  const Rect rect = frame.place(places.scope.picture);
   draw_within(parts, rect, picture.height,
               [&] { scope_panel.draw(rect, picture.height, picture.text.scope_stale); });
   if (has_flow_in_scope(picture))
@@ -234,15 +255,12 @@ hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Lay
       field_flow->draw(en_face_panel.flow(), deepest_flow(), *scope_panel.field(), rect,
                        picture.height);
     });
-  if (!flat_vessels || volume.empty() || !scope_panel.field() || !both_live(picture))
-    return {};
-  return flat_vessels->draw(
-      VesselPanel::microscope, sight(picture.view),
-      place_in_field(volume.texture().geometry(), *scope_panel.field(), place), places.unit, rect,
-      picture.height);
+  if (vessels_over.scope != 0)
+    draw_within(parts, rect, picture.height,
+                [&] { flat_vessels->draw(VesselPanel::microscope, rect, picture.height); });
 }
 
-// What is to be drawn anew: all of what has vessels or is for two eyes, else what is different.
+// What is to be drawn anew: all of what is for two eyes, else what is different.
 RectList Renderer::Parts::find_parts(const DrawnPicture& picture, const Layout& places,
                                      const EyeFrame& frame, const hal::BackBuffer& buffer) {
   damage.begin(picture.width, picture.height);
@@ -270,11 +288,12 @@ RectList Renderer::Parts::find_parts(const DrawnPicture& picture, const Layout& 
   now.flow = flow_shown(picture.view);
   now.deepest_flow = deepest_flow();
   now.flow_in_scope = has_flow_in_scope(picture) ? volume.uploads() : 0;
+  now.vessels = vessels_over;
   picture_changes.compare(now, damage);
   if (!now.view.empty())
     volume.add_changed(StereoEye::centre, now.view, damage);
   const bool two_eyes = picture.view.stereo != StereoMode::off;
-  if (two_eyes || flat_vessels)
+  if (two_eyes)
     damage.add_everything();
   history.add(buffer, damage);
   if (two_eyes) // what was compared was one of them
@@ -320,19 +339,18 @@ hal::Result<> Renderer::Parts::draw_eye(const DrawnPicture& picture, const Layou
     HAL_CHECK(volume.update(eye, view, shown.camera, picture.quality, view_rect));
   }
   fill_canvases(picture, places, shown);
+  HAL_CHECK(prepare_flat_vessels(picture, view, places));
   const RectList parts = find_parts(picture, places, frame, buffer);
   find_uncovered(places, frame, parts);
   if (eye != StereoEye::right) // whose half is clear, too
     clear_parts(picture, parts);
   canvas_renderer.draw(ground, frame, height, uncovered);
-  HAL_CHECK(draw_scope(picture, places, frame, parts));
+  draw_scope(picture, places, frame, parts);
   canvas_renderer.draw(under_volume, frame, height, parts);
   if (has_view)
     draw_within(parts, view_rect, height, [&] { volume.composite(eye, view_rect, height); });
-  if (has_volume) {
+  if (has_volume)
     draw_flat_pictures(view, places, frame, height, parts);
-    HAL_CHECK(draw_flat_vessels(view, places, frame, height));
-  }
   canvas_renderer.draw(overlay, frame, height, parts);
   return {};
 }

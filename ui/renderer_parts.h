@@ -51,6 +51,7 @@ struct Renderer::Parts {
   CanvasRenderer canvas_renderer;
   Typeface typeface;
   std::optional<FlatVessels> flat_vessels{}; // empty until some are shown
+  PictureSources::Vessels vessels_over{};    // the flat pictures
   Canvas ground{};                           // under all pictures
   Canvas under_volume{};                     // which may be an inset
   Canvas overlay{};
@@ -116,10 +117,10 @@ struct Renderer::Parts {
   void draw_flat_pictures(const ViewState& view, const Layout& places, const EyeFrame& frame,
                           int height, RectList parts);
   VesselSections::Sight sight(const ViewState& view) const;
-  hal::Result<> draw_flat_vessels(const ViewState& view, const Layout& places,
-                                  const EyeFrame& frame, int height);
-  hal::Result<> draw_scope(const DrawnPicture& picture, const Layout& places, const EyeFrame& frame,
-                           RectList parts);
+  hal::Result<> prepare_flat_vessels(const DrawnPicture& picture, const ViewState& view,
+                                     const Layout& places);
+  void draw_scope(const DrawnPicture& picture, const Layout& places, const EyeFrame& frame,
+                  RectList parts);
   hal::Result<> draw_eye_alone(const ViewState& view, const Layout& places,
                                const DrawQuality& quality, StereoEye eye);
 };

@@ -28,12 +28,22 @@ State state_of(const LiveTree& tree, hal::Duration age) {
 
 } // namespace
 
+// The picture of a new volume takes long enough by itself; but where each is one of a new volume, no
+// tree waits for another.
+bool LiveTreeDisplay::waits_for_next_picture(const pipeline::Volume* shown) {
+  const auto of = shown != nullptr ? std::optional{shown->metadata.last_line} : std::nullopt;
+  const bool is_new = std::exchange(shown_last_, of) != of;
+  waited_ = is_new && !waited_ && thread_.has_found();
+  return waited_;
+}
+
 bool LiveTreeDisplay::advance(const pipeline::Volume* shown, bool frozen) {
   before_ = nullptr;
-  if (auto found = thread_.take()) {
-    newest_ = std::move(found);
-    status_ = status_of(*newest_);
-  }
+  if (!waits_for_next_picture(shown))
+    if (auto found = thread_.take()) {
+      newest_ = std::move(found);
+      status_ = status_of(*newest_);
+    }
   if (shown != nullptr)
     thread_.offer(*shown);
   if (newest_ == nullptr)

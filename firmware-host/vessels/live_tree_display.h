@@ -17,6 +17,7 @@ namespace octascope::firmware_host {
 
 // The newest tree is drawn, unless it was refused or is older than TracedTreeStatus::removed_after. Of a
 // frozen picture the age is the one that the tree had then; the frozen volume itself is traced, too.
+// A tree that comes together with a new volume is drawn in the picture after that.
 //
 // Bound to the render thread.
 class LiveTreeDisplay {
@@ -44,10 +45,14 @@ public:
   std::optional<hal::Result<std::filesystem::path>> take_kept() { return writing_.take(); }
 
 private:
+  bool waits_for_next_picture(const pipeline::Volume* shown);
+
   hal::Clock& clock_;
   LiveTreeThread thread_;
   std::shared_ptr<const LiveTree> newest_, drawn_, before_;
   std::optional<ui::TracedTreeStatus> status_;
+  std::optional<hal::TimePoint> shown_last_; // the last line of that volume
+  bool waited_ = false;                      // in the last call
   pipeline::BackgroundTask<hal::Result<std::filesystem::path>> writing_;
 };
 

@@ -55,15 +55,19 @@ void PictureChanges::compare(const PictureSources& now, Damage& damage) {
   renew(was.view, now.view, false);
   renew(was.scope, now.scope,
         now.scope_uploads != was.scope_uploads || now.scope_stale != was.scope_stale ||
-            now.flow_in_scope != was.flow_in_scope ||
+            now.vessels.scope != was.vessels.scope || now.flow_in_scope != was.flow_in_scope ||
             (now.flow_in_scope != 0 && now.deepest_flow != was.deepest_flow));
   const bool flow = now.flow != was.flow;
   renew(was.b_scan, now.b_scan,
-        cut || window || flow || now.b_scan_index != was.b_scan_index ||
+        cut || window || flow || now.vessels.b_scan != was.vessels.b_scan ||
+            now.b_scan_index != was.b_scan_index ||
             any_changed(now.b_scan_index - 1, now.b_scan_index + 2));
-  renew(was.crossed, now.crossed, cut || window || flow || now.a_scan_index != was.a_scan_index);
+  renew(was.crossed, now.crossed,
+        cut || window || flow || now.vessels.crossed != was.vessels.crossed ||
+            now.a_scan_index != was.a_scan_index);
   renew(was.en_face, now.en_face,
-        cut || flow || (now.flow && now.deepest_flow != was.deepest_flow));
+        cut || flow || now.vessels.en_face != was.vessels.en_face ||
+            (now.flow && now.deepest_flow != was.deepest_flow));
   const auto shown = [&](std::size_t b, int pixels) {
     return span_of(static_cast<int>(b), static_cast<int>(changed_.size()), now.crop.b, pixels);
   };

@@ -31,6 +31,14 @@ struct PictureSources {
   bool flow = false;               // is shown
   float deepest_flow = 0;          // how deep its hues reach
   std::uint64_t flow_in_scope = 0; // of which volume; 0: none
+  // Versions of what vessels are laid over them; 0: none.
+  struct Vessels {
+    std::uint64_t b_scan = 0;
+    std::uint64_t crossed = 0;
+    std::uint64_t en_face = 0;
+    std::uint64_t scope = 0;
+  };
+  Vessels vessels{};
 };
 
 // Threads: one at a time. Allocates when the number of B-scans grows.

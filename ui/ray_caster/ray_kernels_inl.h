@@ -37,6 +37,10 @@ namespace octascope::ui::HWY_NAMESPACE {
 inline constexpr int square_size = 16; // pixels whose packets are traced alternately
 static_assert(tile_size % square_size == 0 && square_size % packet_height == 0);
 
+HWY_INLINE IntMask no_rays() {
+  return hn::MaskFromVec(hn::Zero(Ints{}));
+}
+
 // A sample whose loads are in progress.
 struct Sample {
   Position position;
@@ -44,17 +48,20 @@ struct Sample {
   IntMask valid;
   Cell cell;
   Int flow_near, flow_far; // the same corners of what flows
+  IntMask flows;           // else nothing does
 };
 
+// `may_flow`: the rays that are in what flows. Others would only fetch what nobody looks at.
 template <Flow Flows>
 HWY_INLINE Sample begin_sample(const RayFrame& frame, const Rays& rays, const Position& position,
-                               Int number) {
+                               Int number, IntMask may_flow) {
   const IntMask valid = hn::Lt(number, rays.end);
   Sample sample{
-      position,         number,          valid, fetch_cell(frame, frame.cells, position, valid),
-      hn::Zero(Ints{}), hn::Zero(Ints{})};
+      position,         number,           valid,   fetch_cell(frame, frame.cells, position, valid),
+      hn::Zero(Ints{}), hn::Zero(Ints{}), may_flow};
   if constexpr (Flows == Flow::here) {
-    const Cell flow = fetch_cell(frame, frame.flow_cells, position, valid);
+    sample.flows = hn::And(valid, may_flow);
+    const Cell flow = fetch_cell(frame, frame.flow_cells, position, sample.flows);
     sample.flow_near = flow.near;
     sample.flow_far = flow.far;
   }
@@ -73,33 +80,43 @@ HWY_INLINE Substance classify(const RayFrame& frame, const Sample& sample) {
     Cell flow = sample.cell;
     flow.near = sample.flow_near;
     flow.far = sample.flow_far;
-    add_flow(hn::IfThenElseZero(sample.valid,
+    add_flow(hn::IfThenElseZero(sample.flows,
                                 table_entry(frame.flow_opacity_and_weight, interpolate(flow))),
              tissue);
   }
   return tissue;
 }
 
-template <bool Shaded, Look How, Flow Flows>
-HWY_INLINE void add_sample(const RayFrame& frame, const Sample& sample, Light& light) {
-  const Substance here = classify<How, Flows>(frame, sample);
+template <bool Shaded, bool HasHue, bool Flows>
+HWY_INLINE void add_substance(const Substance& here, Int number, Light& light) {
   light.half_opaque = hn::IfThenElse(hn::RebindMask(Ints{}, hn::Ge(light.transparency, real(0.5F))),
-                                     sample.number, light.half_opaque);
+                                     number, light.half_opaque);
   const Real weight = hn::Mul(light.transparency, here.opacity);
   light.transparency = hn::Sub(light.transparency, weight);
   if constexpr (Shaded) {
     const Real square = hn::Mul(weight, weight);
     const Real power = hn::Mul(square, square);
     light.powers = hn::Add(light.powers, power);
-    light.numbers = hn::MulAdd(power, hn::ConvertTo(Floats{}, sample.number), light.numbers);
-    if constexpr (Flows == Flow::here)
+    light.numbers = hn::MulAdd(power, hn::ConvertTo(Floats{}, number), light.numbers);
+    if constexpr (Flows)
       light.flow = hn::MulAdd(weight, here.flow, light.flow);
   }
   light.red = hn::MulAdd(weight, here.red, light.red);
-  if constexpr (has_hue(How, Flows)) {
+  if constexpr (HasHue) {
     light.green = hn::MulAdd(weight, here.green, light.green);
     light.blue = hn::MulAdd(weight, here.blue, light.blue);
   }
+}
+
+template <bool Shaded, Look How, Flow Flows>
+HWY_INLINE void add_sample(const RayFrame& frame, const Sample& sample, Light& light) {
+  add_substance<Shaded, has_hue(How, Flows), Flows == Flow::here>(
+      classify<How, Flows>(frame, sample), sample.number, light);
+}
+
+HWY_INLINE void end_opaque(const Light& light, Rays& rays) {
+  const RealMask opaque = hn::Lt(light.transparency, real(opaque_transparency));
+  rays.end = hn::IfThenZeroElse(hn::RebindMask(Ints{}, opaque), rays.end);
 }
 
 // If the packet's first ray is in tissue, most others are too: checking each does not pay.
@@ -133,35 +150,36 @@ HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
   }
 }
 
-// Whether something may flow at any ray's next few samples. `still_before`: up to which sample of each
+// The rays at whose next few samples something may flow. `still_before`: up to which sample of each
 // ray nothing is known to.
-HWY_INLINE bool meets_flow(const RayFrame& frame, const Rays& rays, Int& still_before) {
+HWY_INLINE IntMask meet_flow(const RayFrame& frame, const Rays& rays, Int& still_before) {
   const Int needed = hn::Min(hn::Add(rays.next, whole(samples_per_check)), rays.end);
   // Not of rays that have ended: their positions may lie outside of all bricks.
   const IntMask open = hn::And(rays.active(), hn::Lt(still_before, needed));
   if (hn::AllFalse(Ints{}, open))
-    return false;
+    return open;
   const Int distance =
       hn::And(brick_at(frame, frame.flow_bricks, rays.octant, rays.position, open), whole(0xFF));
   const IntMask empty = hn::And(open, hn::Gt(distance, hn::Zero(Ints{})));
   const Int more = hn::Max(hn::Sub(distance, whole(1)), hn::Zero(Ints{}));
   const Int samples = samples_to_leap(rays.axes, rays.position, more);
   still_before = hn::IfThenElse(empty, hn::Add(rays.next, samples), still_before);
-  return !hn::AllFalse(Ints{}, hn::And(open, hn::Lt(still_before, needed)));
+  return hn::And(open, hn::Lt(still_before, needed));
 }
 
 // Advances by a few samples.
 template <bool Shaded, Look How, Flow Flows>
-HWY_INLINE void take_samples(const RayFrame& frame, Rays& rays, Light& light) {
+HWY_INLINE void take_samples(const RayFrame& frame, IntMask may_flow, Rays& rays, Light& light) {
   // Software pipelining: starts the loads of a sample while the previous one is processed; the
   // processor's out-of-order window is too short to do this by itself.
   Light result = light;
-  Sample sample = begin_sample<Flows>(frame, rays, rays.position, rays.next);
+  Sample sample = begin_sample<Flows>(frame, rays, rays.position, rays.next, may_flow);
   for (int i = 1; i < samples_per_check; ++i) {
     const Position ahead{hn::Add(sample.position.z, rays.axes.z.step),
                          hn::Add(sample.position.a, rays.axes.a.step),
                          hn::Add(sample.position.b, rays.axes.b.step)};
-    const Sample next = begin_sample<Flows>(frame, rays, ahead, hn::Add(sample.number, whole(1)));
+    const Sample next =
+        begin_sample<Flows>(frame, rays, ahead, hn::Add(sample.number, whole(1)), may_flow);
     add_sample<Shaded, How, Flows>(frame, sample, result);
     sample = next;
   }
@@ -169,9 +187,26 @@ HWY_INLINE void take_samples(const RayFrame& frame, Rays& rays, Light& light) {
   rays.position = sample.position;
   rays.next = sample.number;
   rays.step();
-  const RealMask opaque = hn::Lt(result.transparency, real(opaque_transparency));
-  rays.end = hn::IfThenZeroElse(hn::RebindMask(Ints{}, opaque), rays.end);
+  end_opaque(result, rays);
   light = result;
+}
+
+// Advances by as many, of which one stands for all: for tissue between what flows, which is weak
+// then. Of what a ray has left, at least half of them.
+template <Look How>
+HWY_INLINE void take_one_for_all(const RayFrame& frame, Rays& rays, Light& light) {
+  static_assert(samples_per_check == 4);
+  const Position second{hn::Add(rays.position.z, rays.axes.z.step),
+                        hn::Add(rays.position.a, rays.axes.a.step),
+                        hn::Add(rays.position.b, rays.axes.b.step)};
+  const Sample sample =
+      begin_sample<Flow::elsewhere>(frame, rays, second, hn::Add(rays.next, whole(1)), no_rays());
+  Substance here = classify<How, Flow::elsewhere>(frame, sample);
+  for (int twice = 0; twice < 2; ++twice)
+    here.opacity = hn::Mul(here.opacity, hn::Sub(real(2), here.opacity));
+  add_substance<false, has_hue(How, Flow::elsewhere), false>(here, sample.number, light);
+  rays.leap(whole(samples_per_check));
+  end_opaque(light, rays);
 }
 
 // The same, but for empty bricks; false when all rays have ended.
@@ -180,12 +215,17 @@ HWY_INLINE bool advance(const RayFrame& frame, Rays& rays, Int& still_before, Li
   leap_empty_bricks(frame, rays);
   if (hn::AllFalse(Ints{}, rays.active()))
     return false;
-  if constexpr (!WithFlow)
-    take_samples<Shaded, How, Flow::none>(frame, rays, light);
-  else if (meets_flow(frame, rays, still_before))
-    take_samples<Shaded, How, Flow::here>(frame, rays, light);
-  else
-    take_samples<Shaded, How, Flow::elsewhere>(frame, rays, light);
+  if constexpr (!WithFlow) {
+    take_samples<Shaded, How, Flow::none>(frame, no_rays(), rays, light);
+  } else {
+    const IntMask may_flow = meet_flow(frame, rays, still_before);
+    if (!hn::AllFalse(Ints{}, may_flow))
+      take_samples<Shaded, How, Flow::here>(frame, may_flow, rays, light);
+    else if (!Shaded && frame.coarse_between_flow)
+      take_one_for_all<How>(frame, rays, light);
+    else
+      take_samples<Shaded, How, Flow::elsewhere>(frame, no_rays(), rays, light);
+  }
   return true;
 }
 
@@ -215,7 +255,7 @@ void draw_square(const RayFrame& frame, int left, int top) {
   constexpr int packets = across * (square_size / packet_height);
   Rays rays[packets];
   Light light[packets];
-  Int still_before[WithFlow ? packets : 1]; // meets_flow()
+  Int still_before[WithFlow ? packets : 1]; // meet_flow()
   int live[packets];
   int lives = 0;
   for (int i = 0; i < packets; ++i) {

@@ -73,14 +73,16 @@ void RayCastPicture::upload_image(bool all) {
 }
 
 hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
-                                   const VolumePictureKey& key) {
+                                   const DrawQuality& quality, const VolumePictureKey& key) {
   RaySettings settings;
   settings.mode = mode;
   settings.step_mm = scene.step_mm;
   settings.cut_away = scene.cut_away;
   settings.light = scene.light;
-  if (scene.flow != nullptr)
+  if (scene.flow != nullptr) {
     settings.flow_opacity = scene.flow->opacity;
+    settings.coarse_between_flow = quality.resolution < 1;
+  }
   settings.soften = is_grained(scene.step_mm, scene.volume.geometry());
   const DepthMask* vessels = scene.vessels;
   if (vessels == nullptr) {
@@ -123,7 +125,7 @@ hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene
   cast_mode_ = drawn_mode_;
   if (key.width != image_.width || key.height != image_.height)
     HAL_CHECK(resize(key.width, key.height, rect));
-  HAL_CHECK(cast(caster, scene, mode, key));
+  HAL_CHECK(cast(caster, scene, mode, quality, key));
   upload_image(scene.vessels != nullptr);
   note_changes(caster, scene.vessels == nullptr && is_renewal(scene, mode, key));
   drawn_ = key;

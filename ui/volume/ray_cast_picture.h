@@ -38,7 +38,7 @@ private:
   explicit RayCastPicture(gl::PicturePass pass) : pass_{std::move(pass)} {}
   hal::Result<> resize(int width, int height, const Rect& rect);
   hal::Result<> cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
-                     const VolumePictureKey& key);
+                     const DrawQuality& quality, const VolumePictureKey& key);
   bool is_renewal(const VolumeScene& scene, RayMode mode, VolumePictureKey key) const;
   void note_changes(const RayCaster& caster, bool renewed);
   void find_filled();

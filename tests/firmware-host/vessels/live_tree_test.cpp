@@ -176,6 +176,39 @@ TEST_F(LiveTreeDisplayTest, draws_the_newest_tree_and_none_that_is_refused) {
   EXPECT_EQ(display_.drawn(), display_.newest().get());
 }
 
+// The tree is there, but in the picture of a new volume it is not taken yet.
+class LiveTreeBesideVolumes : public LiveTreeDisplayTest {
+protected:
+  void SetUp() override {
+    show(stamped(live_flow()));
+    clock_.advance(1s);
+    const pipeline::Volume next = stamped(live_flow());
+    display_.advance(&next, false); // is traced from now on
+    for ([[maybe_unused]] const char* news : {"started", "a tree", "another"})
+      news_.wait();
+    clock_.advance(1ms);
+    const pipeline::Volume newer = stamped(live_flow());
+    display_.advance(&newer, false);
+    EXPECT_NE(display_.newest()->volume_index, next.metadata.index);
+    traced_ = next.metadata.index;
+    shown_ = newer;
+  }
+  std::uint64_t traced_ = 0;
+  pipeline::Volume shown_;
+};
+
+TEST_F(LiveTreeBesideVolumes, waits_for_the_next_picture) {
+  display_.advance(&shown_, false);
+  EXPECT_EQ(display_.newest()->volume_index, traced_);
+}
+
+TEST_F(LiveTreeBesideVolumes, waits_once_where_each_picture_is_of_a_new_volume) {
+  clock_.advance(1ms);
+  const pipeline::Volume newest = stamped(live_flow());
+  display_.advance(&newest, false);
+  EXPECT_EQ(display_.newest()->volume_index, traced_);
+}
+
 TEST_F(LiveTreeDisplayTest, tells_the_age_and_removes_a_tree_that_is_old) {
   const pipeline::Volume volume = stamped(live_flow());
   show(volume);

@@ -8,6 +8,7 @@
 #include "tests/support/allocation_counter.h"
 #include "tests/ui/support/mixed_volume.h"
 #include "tests/ui/support/renderer_stage.h"
+#include "tests/ui/support/vessels/vessel_along.h"
 #include "ui/gl/objects.h"
 #include "ui/gl/picture_texture.h"
 
@@ -121,6 +122,10 @@ protected:
   ui::DrawQuality quality_{0.6F, 96, ui::RayBackend::processor}; // softened, and magnified
   const ScopePicture scope_{320, 240};
   std::unique_ptr<ui::Renderer> whole_;
+  const pipeline::ClusterArrays along_ =
+      vessel_along({{0.1F, 0.4F, 0.5F}, {0.9F, 0.4F, 0.6F}}, 0.05F);
+  const pipeline::ClusterArrays across_ =
+      vessel_along({{0.4F, 0.1F, 0.5F}, {0.5F, 0.9F, 0.7F}}, 0.04F);
   std::size_t buffers_ = 1;
   std::uint64_t image_ = 1;
   std::array<std::uint64_t, most_buffers> held_{};
@@ -291,6 +296,74 @@ TEST_P(EveryChange, with_flow_gives_the_picture_of_a_full_drawing) {
   compare("a volume without flow");
 }
 
+TEST_P(EveryChange, with_vessels_gives_the_picture_of_a_full_drawing) {
+  buffers_ = GetParam();
+  mixed_ = MixedVolume{true};
+  view_.layout = ui::LayoutKind::quad;
+  show_all();
+  compare("no vessels");
+  const auto show_tree = [&](const pipeline::ClusterArrays& tree, bool registered) {
+    const auto at = registered ? std::optional{pipeline::RigidTransform{}} : std::nullopt;
+    for_both([&](ui::Renderer& renderer) {
+      ASSERT_TRUE(renderer.show_vessels({tree.view(), {0.5, 0.5, 0.5}, at}, clock_));
+    });
+  };
+  for (int round = 0; round < 2; ++round) {
+    for (const ui::VesselsShown shown :
+         {ui::VesselsShown::tree, ui::VesselsShown::off, ui::VesselsShown::both}) {
+      view_.vessels = shown;
+      show_tree(across_, true);
+      compare("a tree");
+      compare("nothing");
+      for (const auto& [from, to] : {BScanRange{0, 3}, {3, 12}, {12, 30}}) {
+        renew(from, to);
+        compare("B-scans");
+      }
+      show_tree(along_, true);
+      compare("another tree");
+      view_.b_scan += 1;
+      compare("another B-scan");
+      view_.a_scan += 9;
+      compare("another A-scan");
+      view_.vessel_opacity = round == 0 ? 0.4F : 1.0F;
+      compare("an opacity");
+      view_.yaw_deg += 15;
+      compare("a turn");
+      for (const ui::Liveness liveness : {ui::Liveness::stale, ui::Liveness::live}) {
+        status_.freshness.liveness = liveness;
+        compare("liveness");
+      }
+      for (const ui::LayoutKind layout : {ui::LayoutKind::b_scan, ui::LayoutKind::microscope,
+                                          ui::LayoutKind::volume, ui::LayoutKind::quad}) {
+        view_.layout = layout;
+        compare("a layout");
+        renew(2, 9);
+        compare("B-scans in it");
+      }
+      for (const Technique technique : {Technique::maximum, Technique::planes, Technique::rays}) {
+        view_.technique = technique;
+        compare("a technique");
+        show_tree(across_, true);
+        compare("a tree in it");
+      }
+      view_.stereo = ui::StereoMode::side_by_side;
+      compare("stereo");
+      view_.stereo = ui::StereoMode::off;
+      renew(4, 14, BScanState::missing);
+      compare("B-scans that are missing");
+      status_.now += seconds{20};
+      compare("an old microscope picture");
+      show_tree(across_, false);
+      compare("a tree without a registration");
+      show_tree({}, true);
+      compare("no tree");
+      show_all();
+      compare("all of it");
+      view_.b_scan = 11;
+    }
+  }
+}
+
 TEST_P(EveryChange, is_shown_whatever_became_of_images) {
   buffers_ = GetParam();
   show_all();
@@ -336,6 +409,11 @@ TEST_F(PartialFrame, draws_only_what_is_different) {
   EXPECT_GT(drawn_share(), 0.02);
   renew(21, 22);
   EXPECT_LT(drawn_share(), 0.5);
+  ASSERT_TRUE(renderer_->show_vessels({across_.view(), {0.5, 0.5, 0.5}, pipeline::RigidTransform{}},
+                                      clock_));
+  EXPECT_GT(drawn_share(), 0.02);
+  status_.time_of_day = "23:58";
+  EXPECT_LT(drawn_share(), 0.05) << "with vessels, too";
 }
 
 TEST_F(PartialFrame, allocates_nothing_once_it_runs) {

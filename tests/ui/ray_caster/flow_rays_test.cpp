@@ -197,6 +197,35 @@ TEST_P(FlowRays, are_veiled_by_what_lies_before) {
   EXPECT_LT(channel(middle(-90), 2), 80);
 }
 
+// One sample for four of the tissue where nothing flows: a little more grain, and nowhere brighter,
+// darker or of another hue. What flows is as it was.
+TEST_P(FlowRays, hardly_differ_where_tissue_between_flow_is_sampled_coarsely) {
+  pipeline::Volume volume = tissue_volume(tissue);
+  add_tubes(volume);
+  show(volume);
+  for (const Place& place : places) {
+    const ui::ViewState view = view_from(place, 0.5F * ui::tissue_beside_flow);
+    ui::RaySettings how = settings(RayMode::composite, view, true);
+    how.flow_opacity = ui::flow_opacity(0.5F);
+    how.soften = true;
+    const ui::RayImage fine = cast(view, how);
+    how.coarse_between_flow = true;
+    const ui::RayImage coarse = cast(view, how);
+    EXPECT_NE(coarse.rgba, fine.rgba) << "it is another way";
+    for (int k = 0; k < 4; ++k) {
+      double sum = 0, square = 0;
+      for (std::size_t i = 0; i < fine.rgba.size(); ++i) {
+        const double off = channel(coarse.rgba[i], k) - channel(fine.rgba[i], k);
+        sum += off;
+        square += off * off;
+      }
+      const auto pixels = static_cast<double>(fine.rgba.size());
+      EXPECT_LE(std::abs(sum / pixels), 0.5) << place.name << ", channel " << k;
+      EXPECT_LE(std::sqrt(square / pixels), 3) << place.name << ", channel " << k;
+    }
+  }
+}
+
 TEST_P(FlowRays, need_flow_to_draw_it) {
   show(tissue_volume(tissue));
   const ui::ViewState view = view_from(places[0], 0.5F);

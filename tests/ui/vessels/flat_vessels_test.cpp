@@ -41,9 +41,9 @@ protected:
     glViewport(0, 0, panel_rect.width, panel_rect.height);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    const auto drawn = vessels_->draw(panel, {view_, geometry_, tissue_, volume_}, place, 1,
-                                      panel_rect, panel_rect.height);
-    EXPECT_TRUE(drawn) << drawn.error().message;
+    const auto made = vessels_->prepare(panel, {view_, geometry_, tissue_, volume_}, place, 1);
+    EXPECT_TRUE(made) << made.error().message;
+    vessels_->draw(panel, panel_rect, panel_rect.height);
     return ui::gl::read_framebuffer(panel_rect.width, panel_rect.height);
   }
   pipeline::Image draw_b_scan() {

@@ -48,26 +48,34 @@ void FlatVessels::show(const PlacedVessels& vessels) {
   sections_.show(vessels);
 }
 
-hal::Result<> FlatVessels::draw(VesselPanel panel, const VesselSections::Sight& sight,
-                                const PicturePlace& place, float unit, const Rect& rect,
-                                int target_height) {
+hal::Result<> FlatVessels::prepare(VesselPanel panel, const VesselSections::Sight& sight,
+                                   const PicturePlace& place, float unit) {
   const FlatPicture picture = picture_of(panel);
   sections_.update(picture, sight);
   KeptPicture& kept = pictures_[static_cast<std::size_t>(panel)];
   const SectionPainter::Style style = style_of(picture, sight, place, unit);
   const Key key{sections_.version(picture), place, style};
-  if (kept.key != key) {
-    kept.key.reset();
-    kept.covered = place_marks(sections_.marks(picture), place, style.line_px, placed_);
-    if (!kept.covered.empty()) {
-      HAL_CHECK(painter_.draw(kept.layer, placed_, style, place.width, place.height));
-      ++drawings_;
-    }
-    kept.key = key;
+  if (kept.key == key)
+    return {};
+  kept.key.reset();
+  ++kept.version;
+  kept.covered = place_marks(sections_.marks(picture), place, style.line_px, placed_);
+  if (!kept.covered.empty()) {
+    HAL_CHECK(painter_.draw(kept.layer, placed_, style, place.width, place.height));
+    ++drawings_;
   }
+  kept.key = key;
+  return {};
+}
+
+std::uint64_t FlatVessels::version(VesselPanel panel) const {
+  return pictures_[static_cast<std::size_t>(panel)].version;
+}
+
+void FlatVessels::draw(VesselPanel panel, const Rect& rect, int target_height) const {
+  const KeptPicture& kept = pictures_[static_cast<std::size_t>(panel)];
   if (!kept.covered.empty())
     painter_.blend(kept.layer, kept.covered, rect, target_height);
-  return {};
 }
 
 bool FlatVessels::left_out() const {

@@ -28,12 +28,16 @@ public:
   // The tree is borrowed until the next show(). Without a registration nothing is drawn.
   void show(const PlacedVessels& vessels);
 
-  // Draws over the panel's picture, which fills `rect` of the bound framebuffer and is laid out as
-  // `place` says. `unit`: Layout::unit. Errors as SectionPainter::draw().
-  hal::Result<> draw(VesselPanel panel, const VesselSections::Sight& sight,
-                     const PicturePlace& place, float unit, const Rect& rect, int target_height);
+  // Makes what is to be laid over the panel's picture, which is laid out as `place` says. `unit`:
+  // Layout::unit. Errors as SectionPainter::draw().
+  hal::Result<> prepare(VesselPanel panel, const VesselSections::Sight& sight,
+                        const PicturePlace& place, float unit);
+  // Counts what prepare() has made anew for the panel; from 1.
+  std::uint64_t version(VesselPanel panel) const;
+  // Draws it over the panel's picture, which fills `rect` of the bound framebuffer.
+  void draw(VesselPanel panel, const Rect& rect, int target_height) const;
 
-  // Whether the thinnest vessels were left out of a picture that the last draw() of it made.
+  // Whether the thinnest vessels were left out of a picture that the last prepare() of it made.
   bool left_out() const;
 
   // The pictures made so far: unchanged ones are not made again.
@@ -52,6 +56,7 @@ private:
     SectionLayer layer{};
     std::optional<Key> key{};
     Rect covered{}; // of the layer, in its pixels
+    std::uint64_t version = 0;
   };
 
   VesselSections sections_;

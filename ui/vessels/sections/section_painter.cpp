@@ -7,6 +7,7 @@
 
 #include "ui/gl/kept_framebuffer.h"
 #include "ui/gl/picture_texture.h"
+#include "ui/gl/scissor.h"
 
 namespace octascope::ui {
 
@@ -113,10 +114,8 @@ void SectionPainter::blend(const SectionLayer& layer, const Rect& covered, const
   const int right = rect.x + end(covered.right(), rect.width, layer.width);
   const int top = rect.y + begin(covered.y, rect.height, layer.height);
   const int bottom = rect.y + end(covered.bottom(), rect.height, layer.height);
-  glScissor(left, target_height - bottom, right - left, bottom - top);
-  glEnable(GL_SCISSOR_TEST);
+  const gl::Scissor clip{{left, top, right - left, bottom - top}, target_height};
   over_.blend(layer.colour, rect, target_height);
-  glDisable(GL_SCISSOR_TEST);
 }
 
 } // namespace octascope::ui
