@@ -69,7 +69,7 @@ void LiveTreeThread::offer(const pipeline::Volume& volume) {
 }
 
 std::shared_ptr<const LiveTree> LiveTreeThread::take() {
-  if (!has_found())
+  if (turn_.load(std::memory_order_acquire) != Turn::finished)
     return nullptr;
   refused_ += tree_->refusal.empty() ? 0U : 1U;
   std::shared_ptr<const LiveTree> found = std::move(tree_);

@@ -49,7 +49,6 @@ public:
   // Copies the volume's flow, about a millisecond for a live volume, if the thread is idle, the volume
   // is another than the last one and has flow, and the last was at least `least_interval` ago.
   void offer(const pipeline::Volume& volume);
-  bool has_found() const { return turn_.load(std::memory_order_acquire) == Turn::finished; }
   // What was found last, once; null if nothing new was.
   std::shared_ptr<const LiveTree> take();
 

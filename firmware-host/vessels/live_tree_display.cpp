@@ -28,18 +28,20 @@ State state_of(const LiveTree& tree, hal::Duration age) {
 
 } // namespace
 
-// The picture of a new volume takes long enough by itself; but where each is one of a new volume, no
-// tree waits for another.
-bool LiveTreeDisplay::waits_for_next_picture(const pipeline::Volume* shown) {
+// A tree makes a picture of its own, which takes a while. In the picture of a new volume that would be
+// late, and just before one it would make that wait: a tree's is the one after it.
+bool LiveTreeDisplay::may_take(const pipeline::Volume* shown) {
+  const hal::TimePoint now = clock_.now();
   const auto of = shown != nullptr ? std::optional{shown->metadata.last_line} : std::nullopt;
   const bool is_new = std::exchange(shown_last_, of) != of;
-  waited_ = is_new && !waited_ && thread_.has_found();
-  return waited_;
+  if (is_new)
+    volume_came_ = now;
+  return std::exchange(was_new_, is_new) || now - volume_came_ >= longest_wait;
 }
 
 bool LiveTreeDisplay::advance(const pipeline::Volume* shown, bool frozen) {
   before_ = nullptr;
-  if (!waits_for_next_picture(shown))
+  if (may_take(shown))
     if (auto found = thread_.take()) {
       newest_ = std::move(found);
       status_ = status_of(*newest_);

@@ -17,7 +17,7 @@ namespace octascope::firmware_host {
 
 // The newest tree is drawn, unless it was refused or is older than TracedTreeStatus::removed_after. Of a
 // frozen picture the age is the one that the tree had then; the frozen volume itself is traced, too.
-// A tree that comes together with a new volume is drawn in the picture after that.
+// A tree is drawn in the picture after that of a new volume, or when none has come for `longest_wait`.
 //
 // Bound to the render thread.
 class LiveTreeDisplay {
@@ -25,6 +25,8 @@ public:
   // As LiveTreeThread.
   LiveTreeDisplay(hal::Clock& clock, pipeline::Wakeup& news, pipeline::ThreadSetup setup = {})
       : clock_{clock}, thread_{clock, news, std::move(setup)} {}
+
+  static constexpr hal::Duration longest_wait = std::chrono::milliseconds{500};
 
   // `shown`: the whole volume of the picture; null while there is none. True: drawn() is another one. The
   // one before it stays in memory until the next call.
@@ -45,14 +47,15 @@ public:
   std::optional<hal::Result<std::filesystem::path>> take_kept() { return writing_.take(); }
 
 private:
-  bool waits_for_next_picture(const pipeline::Volume* shown);
+  bool may_take(const pipeline::Volume* shown);
 
   hal::Clock& clock_;
   LiveTreeThread thread_;
   std::shared_ptr<const LiveTree> newest_, drawn_, before_;
   std::optional<ui::TracedTreeStatus> status_;
   std::optional<hal::TimePoint> shown_last_; // the last line of that volume
-  bool waited_ = false;                      // in the last call
+  bool was_new_ = false;                     // in the last call
+  hal::TimePoint volume_came_{};
   pipeline::BackgroundTask<hal::Result<std::filesystem::path>> writing_;
 };
 

@@ -149,8 +149,10 @@ TEST_F(LiveTreeThreadTest, ends_in_the_middle_of_a_tree) {
 
 class LiveTreeDisplayTest : public LiveTreeTest {
 protected:
-  // Until the volume's tree, or refusal, has come.
+  // Until the volume's tree, or refusal, has come: it is as old as it may have to wait.
   void show(const pipeline::Volume& volume) {
+    display_.advance(&volume, false);
+    clock_.advance(LiveTreeDisplay::longest_wait);
     ASSERT_TRUE(await([&] {
       display_.advance(&volume, false);
       return display_.newest() != nullptr &&
@@ -181,8 +183,11 @@ class LiveTreeBesideVolumes : public LiveTreeDisplayTest {
 protected:
   void SetUp() override {
     show(stamped(live_flow()));
-    clock_.advance(1s);
+    clock_.advance(LiveTreeThread::least_interval - LiveTreeDisplay::longest_wait - 1ms);
     const pipeline::Volume next = stamped(live_flow());
+    display_.advance(&next, false);
+    display_.advance(&next, false); // the picture after it
+    clock_.advance(1ms);
     display_.advance(&next, false); // is traced from now on
     for ([[maybe_unused]] const char* news : {"started", "a tree", "another"})
       news_.wait();
@@ -202,6 +207,20 @@ TEST_F(LiveTreeBesideVolumes, waits_for_the_next_picture) {
   EXPECT_EQ(display_.newest()->volume_index, traced_);
 }
 
+TEST_F(LiveTreeBesideVolumes, that_comes_later_waits_for_the_next_volume) {
+  display_.advance(&shown_, false);
+  clock_.advance(LiveTreeThread::least_interval);
+  display_.advance(&shown_, false); // is traced from now on
+  news_.wait();
+  clock_.advance(1ms);
+  const pipeline::Volume newest = stamped(live_flow());
+  display_.advance(&newest, false);
+  EXPECT_EQ(display_.newest()->volume_index, traced_);
+  clock_.advance(1ms);
+  display_.advance(&newest, false);
+  EXPECT_EQ(display_.newest()->volume_index, shown_.metadata.index);
+}
+
 TEST_F(LiveTreeBesideVolumes, waits_once_where_each_picture_is_of_a_new_volume) {
   clock_.advance(1ms);
   const pipeline::Volume newest = stamped(live_flow());
@@ -212,7 +231,7 @@ TEST_F(LiveTreeBesideVolumes, waits_once_where_each_picture_is_of_a_new_volume) 
 TEST_F(LiveTreeDisplayTest, tells_the_age_and_removes_a_tree_that_is_old) {
   const pipeline::Volume volume = stamped(live_flow());
   show(volume);
-  clock_.advance(ui::TracedTreeStatus::removed_after - 1ms);
+  clock_.advance(ui::TracedTreeStatus::removed_after - LiveTreeDisplay::longest_wait - 1ms);
   EXPECT_FALSE(display_.advance(&volume, false));
   EXPECT_NE(display_.drawn(), nullptr);
   EXPECT_EQ(display_.status()->age, ui::TracedTreeStatus::removed_after - 1ms);
@@ -228,7 +247,8 @@ TEST_F(LiveTreeDisplayTest, keeps_the_tree_of_a_frozen_picture) {
   clock_.advance(LiveTreeThread::least_interval / 2);
   const pipeline::Volume frozen = stamped(live_flow());
   display_.advance(&frozen, true);
-  EXPECT_EQ(display_.status()->age, LiveTreeThread::least_interval / 2);
+  const hal::Duration age = LiveTreeDisplay::longest_wait + LiveTreeThread::least_interval / 2;
+  EXPECT_EQ(display_.status()->age, age);
   clock_.advance(10min);
   ASSERT_TRUE(await([&] {
     display_.advance(&frozen, true);
