@@ -69,9 +69,9 @@ struct RaySettings {
   // Of what flows for certain, over one reference step (ui/transfer/flow_look.h); nothing: flow is not
   // drawn.
   std::optional<float> flow_opacity{};
-  // With flow, for `composite`: of the tissue where nothing flows, one sample in four is taken for all
-  // four. It is a haze then (tissue_beside_flow), so that a picture changes little.
-  bool coarse_between_flow = false;
+  // With flow, for `composite`: of the tissue, one sample in four is taken for all four. It is a haze
+  // then (tissue_beside_flow), so that a picture changes little. Of what flows, all samples are.
+  bool coarse_beside_flow = false;
   // Not empty: since the same picture was drawn into this image, the volume has changed in these
   // B-scans alone (and no vessels were merged, no light is used). Only rays that may meet them are
   // cast.

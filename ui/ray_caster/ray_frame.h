@@ -40,7 +40,7 @@ struct RayFrame {
   const std::uint8_t* flow_cells;
   const std::uint16_t* flow_bricks;
   const std::uint32_t* flow_opacity_and_weight; // FlowTable
-  bool coarse_between_flow;                     // RaySettings::coarse_between_flow
+  bool coarse_beside_flow;                      // RaySettings::coarse_beside_flow
 
   // The transfer function.
   const std::uint32_t* opacity_and_red;

@@ -191,16 +191,47 @@ HWY_INLINE void take_samples(const RayFrame& frame, IntMask may_flow, Rays& rays
   light = result;
 }
 
-// Advances by as many, of which one stands for all: for tissue between what flows, which is weak
-// then. Of what a ray has left, at least half of them.
-template <Look How>
-HWY_INLINE void take_one_for_all(const RayFrame& frame, Rays& rays, Light& light) {
+// The second of the next samples, which stands for the tissue of all of them: it is weak where flow is
+// shown. Of what a ray has left, they are at least half then.
+HWY_INLINE Sample begin_tissue(const RayFrame& frame, const Rays& rays) {
   static_assert(samples_per_check == 4);
   const Position second{hn::Add(rays.position.z, rays.axes.z.step),
                         hn::Add(rays.position.a, rays.axes.a.step),
                         hn::Add(rays.position.b, rays.axes.b.step)};
-  const Sample sample =
-      begin_sample<Flow::elsewhere>(frame, rays, second, hn::Add(rays.next, whole(1)), no_rays());
+  return begin_sample<Flow::elsewhere>(frame, rays, second, hn::Add(rays.next, whole(1)),
+                                       no_rays());
+}
+
+// Advances by as many, with all that flows in such tissue.
+template <Look How>
+HWY_INLINE void take_flow(const RayFrame& frame, IntMask may_flow, Rays& rays, Light& light) {
+  const Sample middle = begin_tissue(frame, rays);
+  Light result = light;
+  Cell cell = fetch_cell(frame, frame.flow_cells, rays.position,
+                         hn::And(may_flow, hn::Lt(rays.next, rays.end)));
+  const Substance tissue = classify<How, Flow::elsewhere>(frame, middle);
+  for (int i = 0; i < samples_per_check; ++i) {
+    const Int number = rays.next;
+    const IntMask valid = hn::Lt(number, rays.end);
+    const Cell here = cell;
+    rays.step();
+    if (i + 1 < samples_per_check)
+      cell = fetch_cell(frame, frame.flow_cells, rays.position,
+                        hn::And(may_flow, hn::Lt(rays.next, rays.end)));
+    Substance both = tissue;
+    both.opacity = hn::IfThenElseZero(hn::RebindMask(Floats{}, valid), both.opacity);
+    add_flow(hn::IfThenElseZero(hn::And(valid, may_flow),
+                                table_entry(frame.flow_opacity_and_weight, interpolate(here))),
+             both);
+    add_substance<false, true, true>(both, number, result);
+  }
+  end_opaque(result, rays);
+  light = result;
+}
+
+// Advances by as many, of tissue alone.
+template <Look How> HWY_INLINE void take_tissue(const RayFrame& frame, Rays& rays, Light& light) {
+  const Sample sample = begin_tissue(frame, rays);
   Substance here = classify<How, Flow::elsewhere>(frame, sample);
   for (int twice = 0; twice < 2; ++twice)
     here.opacity = hn::Mul(here.opacity, hn::Sub(real(2), here.opacity));
@@ -219,12 +250,17 @@ HWY_INLINE bool advance(const RayFrame& frame, Rays& rays, Int& still_before, Li
     take_samples<Shaded, How, Flow::none>(frame, no_rays(), rays, light);
   } else {
     const IntMask may_flow = meet_flow(frame, rays, still_before);
-    if (!hn::AllFalse(Ints{}, may_flow))
+    const bool flows = !hn::AllFalse(Ints{}, may_flow);
+    if (!Shaded && frame.coarse_beside_flow) {
+      if (flows)
+        take_flow<How>(frame, may_flow, rays, light);
+      else
+        take_tissue<How>(frame, rays, light);
+    } else if (flows) {
       take_samples<Shaded, How, Flow::here>(frame, may_flow, rays, light);
-    else if (!Shaded && frame.coarse_between_flow)
-      take_one_for_all<How>(frame, rays, light);
-    else
+    } else {
       take_samples<Shaded, How, Flow::elsewhere>(frame, no_rays(), rays, light);
+    }
   }
   return true;
 }

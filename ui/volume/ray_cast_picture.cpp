@@ -81,7 +81,7 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   settings.light = scene.light;
   if (scene.flow != nullptr) {
     settings.flow_opacity = scene.flow->opacity;
-    settings.coarse_between_flow = quality.resolution < 1;
+    settings.coarse_beside_flow = quality.resolution < 1;
   }
   settings.soften = is_grained(scene.step_mm, scene.volume.geometry());
   const DepthMask* vessels = scene.vessels;

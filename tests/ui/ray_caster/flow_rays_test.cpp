@@ -197,9 +197,9 @@ TEST_P(FlowRays, are_veiled_by_what_lies_before) {
   EXPECT_LT(channel(middle(-90), 2), 80);
 }
 
-// One sample for four of the tissue where nothing flows: a little more grain, and nowhere brighter,
+// One sample for four of the tissue: a little more grain, and nowhere brighter,
 // darker or of another hue. What flows is as it was.
-TEST_P(FlowRays, hardly_differ_where_tissue_between_flow_is_sampled_coarsely) {
+TEST_P(FlowRays, hardly_differ_where_tissue_beside_flow_is_sampled_coarsely) {
   pipeline::Volume volume = tissue_volume(tissue);
   add_tubes(volume);
   show(volume);
@@ -209,7 +209,7 @@ TEST_P(FlowRays, hardly_differ_where_tissue_between_flow_is_sampled_coarsely) {
     how.flow_opacity = ui::flow_opacity(0.5F);
     how.soften = true;
     const ui::RayImage fine = cast(view, how);
-    how.coarse_between_flow = true;
+    how.coarse_beside_flow = true;
     const ui::RayImage coarse = cast(view, how);
     EXPECT_NE(coarse.rgba, fine.rgba) << "it is another way";
     for (int k = 0; k < 4; ++k) {
@@ -221,7 +221,7 @@ TEST_P(FlowRays, hardly_differ_where_tissue_between_flow_is_sampled_coarsely) {
       }
       const auto pixels = static_cast<double>(fine.rgba.size());
       EXPECT_LE(std::abs(sum / pixels), 0.5) << place.name << ", channel " << k;
-      EXPECT_LE(std::sqrt(square / pixels), 3) << place.name << ", channel " << k;
+      EXPECT_LE(std::sqrt(square / pixels), 3.5) << place.name << ", channel " << k;
     }
   }
 }
