@@ -364,6 +364,14 @@ TEST(HudText, a_tree_that_is_followed_says_its_overlap_or_that_it_does_not_match
   EXPECT_EQ(told(hidden).tree.view(), "") << "nobody wants to see them";
 }
 
+TEST(HudText, flow_that_cannot_be_drawn_is_said) {
+  ShownPictures shown;
+  shown.flow.refused = true;
+  const HudText hud = compose_hud_text({}, live_status(), shown);
+  ASSERT_GT(hud.trouble_count, 0U);
+  EXPECT_EQ(hud.troubles[0].words.view(), "flow cannot be drawn");
+}
+
 TEST(HudText, a_tree_that_was_not_registered_for_long_is_marked_with_its_age) {
   using Followed = FollowedTreeStatus;
   Status status = live_status();
