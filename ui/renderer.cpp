@@ -1,6 +1,7 @@
 #include "ui/renderer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "ui/gl/framebuffer.h"
 #include "ui/layout/stereo.h"
@@ -150,6 +151,17 @@ void Renderer::finish() const {
 
 bool Renderer::casts_rays(const DrawQuality& quality) const {
   return parts_->volume.backend(quality) == RayBackend::processor;
+}
+
+void Renderer::prepare_flow(const ViewState& view) {
+  if (auto ready = parts_->prepare_flow(); !ready)
+    parts_->volume.refuse_flow(std::move(ready.error()));
+  else
+    static_cast<void>(parts_->volume.prepare_flow(view.technique));
+}
+
+const std::optional<hal::Error>& Renderer::flow_refusal() const {
+  return parts_->volume.flow_refusal();
 }
 
 void Renderer::expect(const ViewState& view) {

@@ -103,6 +103,12 @@ public:
   bool needs_redraw(const ViewState& view, const Status& status, int width, int height,
                     const DrawQuality& quality = {}) const;
 
+  // Compiles what that view of a volume with flow is drawn with, which show_volume() would do. Where this GL
+  // cannot, what flows is not drawn, and the display says so.
+  void prepare_flow(const ViewState& view);
+  // Why not; empty: it can, as far as was tried.
+  const std::optional<hal::Error>& flow_refusal() const;
+
   // What volumes are going to be seen with: show_volume() computes what that needs. draw() does
   // it, too, for the next one.
   void expect(const ViewState& view);

@@ -90,6 +90,7 @@ float Renderer::Parts::deepest_flow() const {
 
 FlowShown Renderer::Parts::flow_of(const ViewState& view) const {
   FlowShown flow;
+  flow.refused = has_flow && shows_flow(view) && volume.flow_refusal();
   if (!flow_shown(view))
     return flow;
   flow.shown = true;
@@ -203,8 +204,8 @@ bool both_live(const DrawnPicture& picture) {
 } // namespace
 
 bool Renderer::Parts::has_flow_in_scope(const DrawnPicture& picture) const {
-  return flow_shown(picture.view) && field_flow && scope_shown && scope_panel.field() &&
-         both_live(picture);
+  return flow_shown(picture.view) && !en_face_panel.flow_from_above().empty() && scope_shown &&
+         scope_panel.field() && both_live(picture);
 }
 
 // What vessels are laid over the flat pictures.
@@ -407,18 +408,25 @@ bool is_whole(const pipeline::Volume& volume) {
 
 } // namespace
 
-hal::Result<> Renderer::Parts::follow_flow(const pipeline::Volume& shown,
-                                           std::span<const pipeline::BScanRange> changed) {
-  has_flow = false;
-  if (!shown.has_flow())
-    return {};
+hal::Result<> Renderer::Parts::prepare_flow() {
   HAL_CHECK(b_scan_panel.prepare_flow());
   HAL_CHECK(en_face_panel.prepare_flow());
   if (!field_flow) {
     HAL_TRY(auto made, FieldFlow::create());
     field_flow.emplace(std::move(made));
   }
-  has_flow = true;
+  return {};
+}
+
+hal::Result<> Renderer::Parts::follow_flow(const pipeline::Volume& shown,
+                                           std::span<const pipeline::BScanRange> changed) {
+  has_flow = shown.has_flow();
+  if (!has_flow || volume.flow_refusal())
+    return {};
+  if (auto ready = prepare_flow(); !ready) {
+    volume.refuse_flow(std::move(ready.error()));
+    return {};
+  }
   flow_states.assign(shown.flow_states.begin(), shown.flow_states.end());
   // Hues stay while most of it is not there, but for the first ones.
   const auto told = std::ranges::count(flow_states, pipeline::FlowState::told);
@@ -442,7 +450,7 @@ hal::Result<> Renderer::Parts::follow(const pipeline::Volume& shown,
     coloured_depths.follow({depth.from, depth.to});
     volume.colour_depths(coloured_depths.current());
   }
-  en_face_panel.show(shown, tissue, changed, volume.team());
+  en_face_panel.show(shown, tissue, changed, volume.team(), volume.has_flow_computed());
   picture_changes.note_projection(en_face_panel.changed_rows());
   state_texture.upload(shown);
   states.assign(shown.b_scan_states.begin(), shown.b_scan_states.end());

@@ -96,7 +96,11 @@ struct Renderer::Parts {
                        std::span<const pipeline::BScanRange> changed);
   hal::Result<> follow_flow(const pipeline::Volume& shown,
                             std::span<const pipeline::BScanRange> changed);
-  bool flow_shown(const ViewState& view) const { return has_flow && shows_flow(view); }
+  // Of what is beside the volume. ErrorCode::unsupported: this GL cannot compile the shaders.
+  hal::Result<> prepare_flow();
+  bool flow_shown(const ViewState& view) const {
+    return has_flow && !volume.flow_refusal() && shows_flow(view);
+  }
   float deepest_flow() const; // as a share of the volume's depth; 0: nothing flows
   FlowShown flow_of(const ViewState& view) const;
   bool has_flow_in_scope(const DrawnPicture& picture) const;

@@ -65,7 +65,7 @@ public:
     return {.volumes = *volumes_,
             .acquisition = acquisition_.get(),
             .scope = scope_.get(),
-            .record = [this] { return recordings_->toggle(); },
+            .record = [this] { return toggle_recording(); },
             .proof = &supervision_.picture()};
   }
   pipeline::ThreadSetup thread_setup() override {
@@ -91,6 +91,7 @@ private:
   void heed_camera_hotplug();
   void make_calibrated_camera();
   void make_recordings();
+  std::string_view toggle_recording();
   void make_threads();
   void listen_to_scanner();
   RunStatistics account(const RenderLoop& loop) const;
@@ -184,6 +185,8 @@ void LiveSource::make_recordings() {
     warn("octascope run: warning: spacings are assumed, not measured: {}; [depth] of a "
          "calibration gives them\n",
          plan.assumed_spacings.words());
+  if (options_.record_to && tells_flow(options_, configuration_))
+    warn("octascope run: warning: recordings keep no flow, only levels\n");
   recordings_ = std::make_unique<RunRecorder>(
       RecordingSetup{.folder = recording_folder(configuration_),
                      .file = options_.record_to,
@@ -197,6 +200,12 @@ void LiveSource::make_recordings() {
                                .eye = options_.eye,
                                .configuration = configuration_text_}},
       clock_, faults_, news_);
+}
+
+// What they lack must not be missed when it is too late.
+std::string_view LiveSource::toggle_recording() {
+  const std::string_view done = recordings_->toggle();
+  return done == "begun" && volumes_->has_flow() ? "begun, without flow" : done;
 }
 
 void LiveSource::make_threads() {

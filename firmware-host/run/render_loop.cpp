@@ -82,6 +82,7 @@ bool RenderLoop::turn() {
   update_status();
   if (display_ready()) {
     draw_if_changed();
+    report_flow_refusal();
     choose_ray_backend();
   }
   const hal::TimePoint next = late_start_.next_look(turn_began_, parts_.clock.now(), next_refresh(),

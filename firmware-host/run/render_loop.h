@@ -177,6 +177,7 @@ private:
   void look_for_display(const hal::Error& error, hal::TimePoint now);
   hal::Result<> open_display();
   hal::Result<> show_again();
+  void report_flow_refusal();
   void set_first_window(const ui::DisplayWindow& window);
   void show_scope_picture();
   void wait_to_begin();
@@ -200,6 +201,7 @@ private:
   std::optional<ui::ViewState> drawn_view_;
   ui::Liveness drawn_liveness_ = ui::Liveness::waiting;
   ShownVolume volume_{parts_.volumes, setup_.geometry};
+  bool flow_refusal_reported_ = false;
   const hal::ScopeFrame* scope_picture_ = nullptr;    // the newest taken, valid until the next take
   std::optional<hal::TimePoint> undisplayed_control_; // time of the oldest event not shown yet
   std::optional<hal::TimePoint> undisplayed_last_line_; // of a volume not shown yet

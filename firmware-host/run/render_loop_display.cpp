@@ -44,7 +44,18 @@ hal::Result<> RenderLoop::show_again() {
   if (parts_.vessels != nullptr)
     HAL_CHECK(parts_.vessels->show_again(*renderer_));
   renderer_->expect(controller_.state());
+  if (parts_.volumes.has_flow())
+    renderer_->prepare_flow(controller_.state());
   return volume_.show_again(*renderer_);
+}
+
+// Once in the report; the display says it for as long as flow should be shown.
+void RenderLoop::report_flow_refusal() {
+  if (flow_refusal_reported_ || !renderer_ || !renderer_->flow_refusal())
+    return;
+  flow_refusal_reported_ = true;
+  parts_.faults.add(pipeline::Fault::flow_not_shown, renderer_->flow_refusal()->message,
+                    parts_.clock.now());
 }
 
 // Without a monitor a restart would bring none, and it would cost a frozen picture and the view:

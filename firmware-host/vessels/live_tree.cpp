@@ -5,6 +5,7 @@
 
 #include "pipeline/vessels/clusters/cluster_builder.h"
 #include "pipeline/vessels/clusters/cluster_facts.h"
+#include "pipeline/vessels/straight_nodes.h"
 #include "pipeline/vessels/tracing/vessel_tracer.h"
 #include "pipeline/vessels/tree_summary.h"
 
@@ -24,11 +25,16 @@ std::uint64_t vessels_of(const pipeline::VesselTree& tree) {
   return ends;
 }
 
+// Less than the finest voxel. The flat pictures have room for so many segments (ui/vessels/sections/near_segments.h), of which
+// tracing makes one for each radius of length, and then leave out the thinnest.
+constexpr double unseen_mm = 0.003;
+
 void pack(LiveTree& found, const std::stop_token& stop) {
   if (!found.refusal.empty() || found.tree.nodes() == 0)
     return;
-  pipeline::ClusterArrays arrays = pipeline::build_clusters(found.tree, stop);
-  auto facts = pipeline::facts_of(found.tree, arrays.error, "traced in the live volume");
+  const pipeline::VesselTree drawn = pipeline::without_straight_nodes(found.tree, unseen_mm);
+  pipeline::ClusterArrays arrays = pipeline::build_clusters(drawn, stop);
+  auto facts = pipeline::facts_of(drawn, arrays.error, "traced in the live volume");
   found.packed.emplace(std::move(arrays), std::move(facts));
   found.vessels = vessels_of(found.tree);
   found.length_mm = pipeline::summarise(found.tree).length_mm;

@@ -1,5 +1,6 @@
 #include "firmware-host/vessels/vessel_display.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -66,8 +67,8 @@ ui::PlacedVessels VesselDisplay::placed() const {
 
 // What flows says it best, then what somebody said.
 std::optional<pipeline::RigidTransform> VesselDisplay::drawn_place() const {
-  if (followed_ && followed_->volume_from_tree)
-    return followed_->volume_from_tree;
+  if (is_followed() && place_age_ < ui::FollowedTreeStatus::removed_after)
+    return followed_->place.volume_from_tree;
   if (setup_.registration)
     return setup_.registration->volume_from_tree;
   return std::nullopt;
@@ -124,55 +125,61 @@ void VesselDisplay::describe_place() {
     return;
   }
   status_.followed.emplace();
-  if (followed_->volume_from_tree) {
-    status_.followed = {Followed::State::followed, followed_->overlap};
-    status_.residual_mm = followed_->residual_mm;
-  } else if (!followed_->refusal.empty()) {
-    status_.followed = {Followed::State::unmatched, 0};
+  const pipeline::FollowedPlace& place = followed_->place;
+  if (is_followed() && place_age_ < Followed::removed_after) {
+    status_.followed = {Followed::State::followed, place.overlap, place_age_};
+    status_.residual_mm = place.residual_mm;
+    status_.registered = place_age_ < Followed::unregistered_after;
+  } else if (is_followed()) {
+    status_.followed = {Followed::State::removed, 0, place_age_};
+  } else if (!place.refusal.empty()) {
+    status_.followed = {Followed::State::unmatched, 0, {}};
   }
 }
 
-// By the trees that are traced in the volumes, and by what the volumes move.
-void VesselDisplay::follow(ui::Renderer* renderer, const pipeline::Volume* shown) {
+// By the trees that are traced in the volumes, and by what the volumes move. Of a frozen picture the age is the
+// one then.
+void VesselDisplay::follow(ui::Renderer* renderer, const pipeline::Volume* shown, bool frozen) {
+  using State = ui::VesselStatus::State;
   if (!follower_)
     follower_.emplace(*loaded_, drawn_place(), clock_, news_, setup_.threads);
   follower_->offer(live_->newest());
   if (shown != nullptr && shown->has_flow())
     follower_->offer(*shown);
-  if (auto place = follower_->take())
-    take_place(std::move(*place), renderer);
-}
-
-void VesselDisplay::take_place(pipeline::FollowedPlace place, ui::Renderer* renderer) {
-  using State = ui::VesselStatus::State;
   const auto before = drawn_place();
-  const bool was_known = followed_ && followed_->volume_from_tree;
-  const bool was_refused = followed_ && !followed_->refusal.empty();
-  followed_ = std::move(place);
-  if (followed_->volume_from_tree.has_value() != was_known ||
-      (!was_known && followed_->refusal.empty() == was_refused))
-    say_place(was_known);
-  if (status_.state == State::failed)
-    return;
+  if (auto found = follower_->take())
+    take_place(std::move(*found));
+  const hal::TimePoint now = frozen && shown != nullptr ? shown->metadata.last_line : clock_.now();
+  if (is_followed())
+    place_age_ = std::max(now - followed_->registered_in, hal::Duration{});
   status_.state = drawn_place() ? State::shown : State::none;
   if (before != drawn_place() && renderer != nullptr)
     static_cast<void>(show(*renderer)); // that it can be shown, it has proved
 }
 
+void VesselDisplay::take_place(FollowedVessels found) {
+  const bool was_known = is_followed();
+  const bool was_refused = followed_ && !followed_->place.refusal.empty();
+  followed_ = std::move(found);
+  if (is_followed() != was_known || (!was_known && followed_->place.refusal.empty() == was_refused))
+    say_place(was_known);
+}
+
 void VesselDisplay::say_place(bool was_known) {
-  if (!followed_->volume_from_tree) {
-    if (!followed_->refusal.empty())
+  const pipeline::FollowedPlace& place = followed_->place;
+  if (!place.volume_from_tree) {
+    if (!place.refusal.empty())
       say(fmt::format("Vessels {}: {}", was_known ? "no longer match" : "do not match",
-                      followed_->refusal));
+                      place.refusal));
     return;
   }
   std::string found = fmt::format("Vessels registered to what flows: {:.0f} % overlap, residual "
                                   "{:.0f} µm",
-                                  followed_->overlap * 100, followed_->residual_mm * 1e3);
+                                  place.overlap * 100, place.residual_mm * 1e3);
   if (setup_.registration) {
     const ui::PlacedVessels tree = place_vessels(*loaded_, std::nullopt);
     const pipeline::Point off =
-        pipeline::difference(followed_->volume_from_tree->apply(tree.centre_mm),
+        pipeline::difference(place.volume_from_tree->apply(tree.centre_mm),
                              setup_.registration->volume_from_tree.apply(tree.centre_mm));
     found += fmt::format(", {:.2f} mm from where they were registered", pipeline::length(off));
   }
@@ -186,7 +193,7 @@ void VesselDisplay::show_live(ui::Renderer* renderer, ui::ViewActions& actions,
   const bool changed = live_->advance(shown, actions.state().frozen);
   take_kept_tree();
   if (loaded_ && status_.state != State::failed)
-    follow(renderer, shown);
+    follow(renderer, shown, actions.state().frozen);
   if (loader_ || status_.state == State::failed || !live_->status())
     return;
   if (!status_.traced)

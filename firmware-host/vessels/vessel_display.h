@@ -81,8 +81,9 @@ public:
 private:
   void take_loaded(ui::Renderer* renderer, ui::ViewActions& actions);
   void show_live(ui::Renderer* renderer, ui::ViewActions& actions, const pipeline::Volume* shown);
-  void follow(ui::Renderer* renderer, const pipeline::Volume* shown);
-  void take_place(pipeline::FollowedPlace place, ui::Renderer* renderer);
+  void follow(ui::Renderer* renderer, const pipeline::Volume* shown, bool frozen);
+  void take_place(FollowedVessels found);
+  bool is_followed() const { return followed_ && followed_->place.volume_from_tree; }
   void say_place(bool was_known);
   // Where the tree from the file is drawn, empty: nobody knows.
   std::optional<pipeline::RigidTransform> drawn_place() const;
@@ -101,8 +102,9 @@ private:
   std::optional<VesselLoader> loader_;
   std::optional<LoadedVessels> loaded_;
   std::optional<LiveTreeDisplay> live_;
-  std::optional<VesselFollower> follower_; // of the tree from the file, where trees are traced
-  std::optional<pipeline::FollowedPlace> followed_; // what it said last
+  std::optional<VesselFollower> follower_;  // of the tree from the file, where trees are traced
+  std::optional<FollowedVessels> followed_; // what it said last
+  hal::Duration place_age_{};               // of its registration, while it is followed
   RegistrationWriter keeper_{"."};
   pipeline::RigidTransform kept_; // what is being written
   ui::VesselNudge kept_nudge_;    // the nudge included in it

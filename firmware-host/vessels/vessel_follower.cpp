@@ -51,14 +51,14 @@ void VesselFollower::begin_at(const pipeline::RigidTransform& place) {
   outdated_ = turn == Turn::at_work || turn == Turn::finished;
 }
 
-std::optional<pipeline::FollowedPlace> VesselFollower::take() {
+std::optional<FollowedVessels> VesselFollower::take() {
   if (turn_.load(std::memory_order_acquire) != Turn::finished)
     return std::nullopt;
-  std::optional<pipeline::FollowedPlace> place;
+  std::optional<FollowedVessels> found;
   if (!std::exchange(outdated_, false))
-    place = std::move(place_);
+    found = found_;
   turn_.store(Turn::idle, std::memory_order_relaxed);
-  return place;
+  return found;
 }
 
 void VesselFollower::run() {
@@ -79,10 +79,10 @@ void VesselFollower::follow(pipeline::TreeFollowing& following) {
   if (begins_at_)
     following.begin_at(*begins_at_);
   following.add_volume(geometry_, levels_, states_, index_);
-  if (tree_)
-    following.add_tree(tree_->tree, tree_->volume_index);
+  if (tree_ && following.add_tree(tree_->tree, tree_->volume_index))
+    found_.registered_in = tree_->of_volume;
   tree_.reset();
-  place_ = following.place();
+  found_.place = following.place();
   turn_.store(Turn::finished, std::memory_order_release);
   news_.post();
 }

@@ -17,6 +17,13 @@
 
 namespace octascope::firmware_host {
 
+struct FollowedVessels {
+  pipeline::FollowedPlace place;
+  // When the last line of the volume was exposed in whose flow the tree was registered last; while it has a
+  // place.
+  hal::TimePoint registered_in{};
+};
+
 // One job at a time, as LiveTreeThread: nothing is locked.
 class VesselFollower {
 public:
@@ -38,7 +45,7 @@ public:
   // Somebody says that it lies about there: it is looked for anew.
   void begin_at(const pipeline::RigidTransform& place);
   // Where the tree lies now, once for each time that it was looked for.
-  std::optional<pipeline::FollowedPlace> take();
+  std::optional<FollowedVessels> take();
 
   static constexpr hal::Duration least_interval = std::chrono::milliseconds{200};
 
@@ -70,7 +77,7 @@ private:
   std::uint64_t index_ = 0;
   std::shared_ptr<const LiveTree> tree_; // null: none is new
   std::optional<pipeline::RigidTransform> begins_at_;
-  pipeline::FollowedPlace place_;
+  FollowedVessels found_;
 
   pipeline::RoleThread thread_{&wakeup_}; // last: it uses all of the above
 };

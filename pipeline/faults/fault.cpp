@@ -98,6 +98,7 @@ constexpr std::array fault_table{
     FaultFacts{Fault::bounce, Device::control_input, "bounce"},
     FaultFacts{Fault::phase_beyond_turn_around, Device::galvo_trigger, "phase_beyond_turn_around"},
     FaultFacts{Fault::vessels_not_shown, Device::vessels, "not_shown"},
+    FaultFacts{Fault::flow_not_shown, Device::display, "flow_not_shown"},
     FaultFacts{Fault::registration_not_kept, Device::vessels, "registration_not_kept"},
     FaultFacts{Fault::keyboard_not_opened, Device::keyboard, "not_opened"},
     FaultFacts{Fault::clock_jump, Device::host, "clock_jump"},

@@ -78,6 +78,7 @@ enum class Fault : std::uint8_t {
   bounce,
   phase_beyond_turn_around,
   vessels_not_shown,
+  flow_not_shown,
   registration_not_kept,
   keyboard_not_opened,
   clock_jump,

@@ -30,6 +30,7 @@ struct IsoMesh {
                                       // a right-handed (depth, fast, slow)
   std::array<float, 3> extents_mm{};  // of the volume
   bool covers = false;                // some of it may be a cover's (told by IsoLook)
+  std::uint64_t of = 0;               // the volume's number (IsoSurfaceThread)
 
   std::size_t triangles() const { return corners.size() / 3; }
   void clear() {

@@ -18,9 +18,10 @@ constexpr int least_voxels = 8;
 IsoSurfaceThread::IsoSurfaceThread(int first_depth, ThreadSetup setup)
     : first_depth_{first_depth}, setup_{std::move(setup)} {}
 
-void IsoSurfaceThread::show(const Volume& volume, const Cover& cover) {
+void IsoSurfaceThread::show(const Volume& volume, const Cover& cover, std::uint64_t of) {
   maker_.make(volume, first_depth_, shown_pool_[filling_].grid);
   shown_pool_[filling_].cover = cover;
+  shown_pool_[filling_].of = of;
   filling_ = grids_.publish(filling_).recycled;
   ++shown_;
 }
@@ -82,7 +83,7 @@ bool IsoSurfaceThread::make_mesh(std::uint64_t request, bool must_finish) {
   };
   if (grids_.take())
     smooth_ = false;
-  auto& [grid, cover] = shown_pool_[grids_.front()];
+  auto& [grid, cover, of] = shown_pool_[grids_.front()];
   if (!smooth_) {
     // Another level of the same volume needs the smoothing all the same.
     const auto outdated = [&] {
@@ -102,6 +103,7 @@ bool IsoSurfaceThread::make_mesh(std::uint64_t request, bool must_finish) {
     return false;
   cleaner_.drop_small_pieces(least_piece_mm2, mesh);
   look_.tell(grid, cover, mesh);
+  mesh.of = of;
   return true;
 }
 

@@ -28,8 +28,8 @@ public:
   // All of these: the render thread.
 
   // Copies what it needs before it returns; some two milliseconds for a live volume. `cover`: the
-  // volume's, empty where nothing is seen through.
-  void show(const Volume& volume, const Cover& cover = {});
+  // volume's, empty where nothing is seen through. `of`: a number that its meshes have.
+  void show(const Volume& volume, const Cover& cover = {}, std::uint64_t of = 0);
   // Of the volume shown last. Nothing happens when that has been asked for already.
   void request(float level);
   // The newest mesh, if one was finished since the last call; it stays, unchanged, until the next
@@ -51,6 +51,7 @@ private:
   struct Shown {
     IsoGrid grid;
     Cover cover;
+    std::uint64_t of = 0;
   };
 
   const int first_depth_;

@@ -162,7 +162,7 @@ void ViewActions::choose(Action action, const ActionValue& value, int step, hal:
 
 // Where there is nothing but a tree, it is shown or hidden.
 void ViewActions::choose_vessels(double amount, Done done, hal::TimePoint time) {
-  if (flow_there_)
+  if (flow_there_.value_or(false))
     return choose(Action::vessels, row_of(Action::vessels).value,
                   static_cast<int>(std::trunc(amount)), time);
   const bool show = done == Done::turned ? amount > 0 : !shows_tree(state_);
@@ -172,10 +172,15 @@ void ViewActions::choose_vessels(double amount, Done done, hal::TimePoint time) 
 
 // Of vessels, what is there of what was chosen.
 std::string_view ViewActions::words(Action action) const {
-  if (action != Action::vessels || (flow_there_ && vessels_loaded_))
+  if (action != Action::vessels || (flow_there_.value_or(false) && vessels_loaded_))
     return words_of(state_, names_, action);
-  if (!flow_there_)
-    return !vessels_loaded_ ? "none loaded" : shows_tree(state_) ? "shown" : "hidden";
+  if (!flow_there_.value_or(false)) {
+    if (vessels_loaded_)
+      return shows_tree(state_) ? "shown" : "hidden";
+    if (flow_there_)
+      return "no flow, no tree loaded";
+    return shows_tree(state_) ? "shown, but no volume yet" : "hidden, no volume yet";
+  }
   switch (state_.vessels) {
   case VesselsShown::tree: return "tree: none there";
   case VesselsShown::both: return "flow, no tree there";

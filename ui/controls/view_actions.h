@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -59,7 +60,8 @@ public:
   void set_window(float offset_db, float size_db); // also for reset_view
   void set_choices(ChoiceNames names);
   void set_vessels_loaded(bool loaded) { vessels_loaded_ = loaded; }
-  // Whether volumes have flow: without, vessels are shown or hidden and nothing else.
+  // Whether the volume has flow: without, vessels are shown or hidden and nothing else. Not to be called
+  // before the first volume.
   void set_flow_there(bool there) { flow_there_ = there; }
   // They were traced in this very volume: nothing moves them.
   void set_vessels_traced() {
@@ -109,7 +111,7 @@ private:
   std::vector<Action> menu_;
   ChoiceNames names_;
   bool vessels_loaded_ = false;
-  bool flow_there_ = false;
+  std::optional<bool> flow_there_; // empty: no volume yet
   bool vessels_fixed_ = false;
   std::array<std::uint64_t, action_count> counts_{};
 };

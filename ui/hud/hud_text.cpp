@@ -146,6 +146,8 @@ void add_tree_trouble(HudText& hud, const TracedTreeStatus& tree) {
 
 // What must not wait until somebody asks for the figures.
 void compose_troubles(HudText& hud, const Status& status, const FlowShown& flow) {
+  if (flow.refused)
+    add_trouble(hud, Trouble::Sign::failed).words.format("flow cannot be drawn");
   // Where most of it is not there, its absence must not be taken for vessels that do not flow.
   if (const int lacking = flow.left_out + flow.none; flow.shown && lacking > flow.told) {
     const double share = std::floor(100.0 * lacking / (lacking + flow.told));
@@ -301,13 +303,17 @@ void compose_traced(VesselMarks& marks, const TracedTreeStatus& tree) {
 }
 
 // Nothing of a tree that is where it belongs.
-void compose_followed(VesselMarks& marks, const FollowedTreeStatus& tree) {
+void compose_followed(VesselMarks& marks, const FollowedTreeStatus& tree, bool drawn) {
   using State = FollowedTreeStatus::State;
-  marks.tree_old = tree.state == State::unmatched;
+  const bool old = tree.state == State::followed && tree.age >= FollowedTreeStatus::old_after;
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(tree.age).count();
+  marks.tree_old = old || tree.state == State::unmatched || tree.state == State::removed;
   if (tree.state == State::unmatched)
     marks.tree.format("vessels do not match");
   else if (tree.state == State::looking)
     marks.tree.format("vessels not placed yet");
+  else if (old || tree.state == State::removed)
+    marks.tree.format("{} {} s ago", drawn ? "vessels placed" : "no vessels: placed", seconds);
 }
 
 void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels, bool flow) {
@@ -316,7 +322,7 @@ void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& ve
   if (wanted && vessels.traced)
     compose_traced(hud.vessels, *vessels.traced);
   if (wanted && vessels.followed)
-    compose_followed(hud.vessels, *vessels.followed);
+    compose_followed(hud.vessels, *vessels.followed, vessels.state == VesselStatus::State::shown);
   hud.vessels.shown = wanted && vessels.state == VesselStatus::State::shown;
   if (!hud.vessels.shown)
     return;

@@ -81,6 +81,7 @@ struct VesselMarks {
 // What flows, as far as it is shown.
 struct FlowShown {
   bool shown = false;
+  bool refused = false; // it should be, and this GL cannot draw it
   pipeline::FlowState b_scan = pipeline::FlowState::none; // of the one in the panel
   int told = 0;                                           // B-scans, of the volume
   int left_out = 0;                                       // likewise, as they moved

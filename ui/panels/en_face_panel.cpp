@@ -73,7 +73,8 @@ void EnFacePanel::allocate(int a_scans, int b_scans) {
 }
 
 void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue,
-                       std::span<const pipeline::BScanRange> changed, WorkTeam* team) {
+                       std::span<const pipeline::BScanRange> changed, WorkTeam* team,
+                       bool with_flow) {
   const bool other = volume.geometry.a_scans != a_scans_ || volume.geometry.b_scans != b_scans_;
   if (other)
     allocate(volume.geometry.a_scans, volume.geometry.b_scans);
@@ -86,7 +87,11 @@ void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue,
   std::swap(grey_, before_);
   grey_.assign(levels_.begin(), levels_.end());
   stretch_contrast(volume, grey_);
-  show_flow(volume, tissue, team);
+  flow_before_ = flow_;
+  if (with_flow && volume.has_flow())
+    show_flow(volume, tissue, team);
+  else
+    flow_.clear();
   compare_rows();
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glBindTexture(GL_TEXTURE_2D, projection_.name());
@@ -97,11 +102,6 @@ void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue,
 // Where it is new, in all B-scans.
 void EnFacePanel::show_flow(const pipeline::Volume& volume, const TissueMap& tissue,
                             WorkTeam* team) {
-  flow_before_ = flow_;
-  if (!volume.has_flow()) {
-    flow_.clear();
-    return;
-  }
   const bool is_new = flow_.empty();
   flow_.resize(levels_.size());
   project_flow(volume, tissue, flow_, is_new ? std::span<const std::uint8_t>{} : wanted_, team);

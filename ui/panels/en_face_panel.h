@@ -32,11 +32,13 @@ public:
 
   // Projects on the CPU (about a millisecond for 300 × 80 × 512) and uploads the projection.
   // `tissue`: of the same volume, which differs from that of the last show() in those B-scans alone,
-  // in any if there are none. The work is shared among the team.
+  // in any if there are none. The work is shared among the team. `with_flow`: else flow is taken for absent.
   void show(const pipeline::Volume& volume, const TissueMap& tissue,
-            std::span<const pipeline::BScanRange> changed = {}, WorkTeam* team = nullptr);
+            std::span<const pipeline::BScanRange> changed = {}, WorkTeam* team = nullptr,
+            bool with_flow = true);
 
-  // Of the last volume shown: what flows, a texel each A-scan (FlowFromAbove); nothing if it has none.
+  // Of the last volume shown: what flows, a texel each A-scan (FlowFromAbove); nothing if it has none or
+  // was shown without.
   const gl::Texture& flow() const { return flow_projection_; }
   std::span<const FlowFromAbove> flow_from_above() const { return flow_; }
 

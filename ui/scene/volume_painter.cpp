@@ -112,8 +112,8 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
     light_.show(drawn);
   surface_shows_ = techniques_.surface() != nullptr;
   if (surface_shows_)
-    techniques_.surface()->show(volume,
-                                cover_); // whole: what is left of a cover would be in pieces
+    techniques_.surface()->show(volume, cover_, // whole: what is left of a cover would be in pieces
+                                uploads_);
   return {};
 }
 
@@ -220,13 +220,50 @@ bool VolumePainter::needs_flow_texture(const ViewState& view, RayBackend rays) c
 
 hal::Result<> VolumePainter::bring_flow_texture(const pipeline::Volume& volume,
                                                 const TextureParts& parts) {
-  if (flow_uploads_ == uploads_)
-    return flow_texture_.holds(parts) ? hal::Result<>{} : flow_texture_.renew(volume, {}, parts);
+  if (flow_uploads_ == uploads_) {
+    if (flow_texture_.holds(parts))
+      return {};
+    flow_before_ = 0;
+    flow_whole_ = parts.all;
+    return flow_texture_.renew(volume, {}, parts);
+  }
   const bool renewed = flow_uploads_ + 1 == uploads_ && !changed_.empty();
+  const bool whole_before = flow_whole_ && parts.all && flow_texture_.geometry() == volume.geometry;
+  flow_before_ = whole_before ? flow_uploads_ : 0;
+  flow_whole_ = parts.all;
   HAL_CHECK(renewed ? flow_texture_.renew(volume, changed_, parts)
                     : flow_texture_.upload(volume, parts));
   flow_uploads_ = uploads_;
   return {};
+}
+
+hal::Result<> VolumePainter::make_flow_programs(Technique technique, bool by_gl) {
+  if (!flow_cut_face_) {
+    HAL_TRY(auto made, CutFace::create(WithFlow::yes));
+    flow_cut_face_.emplace(std::move(made));
+  }
+  if (by_gl)
+    HAL_CHECK(techniques_.get(technique, WithFlow::yes));
+  return {};
+}
+
+hal::Result<> VolumePainter::prepare_flow(Technique technique) {
+  const auto made = make_flow_programs(technique, !(software_ && ray_mode(technique)));
+  if (!made)
+    refuse_flow(made.error());
+  return made;
+}
+
+void VolumePainter::refuse_flow(hal::Error why) {
+  flow_refusal_ = std::move(why);
+  flow_wanted_ = false;
+}
+
+// To the volume that the mesh is of. False: that is not there any more.
+bool VolumePainter::match_flow(FlowScene& flow) const {
+  const std::uint64_t of = techniques_.surface()->mesh_of();
+  flow.before = of == flow_before_;
+  return of != 0 && (of == flow_uploads_ || flow.before);
 }
 
 FlowScene VolumePainter::flow_scene(float view_opacity) const {
@@ -291,7 +328,7 @@ void VolumePainter::expect(const ViewState& view) {
   expected_.a_scan = view.a_scan;
   see_through_db_ = view.see_through_db;
   light_wanted_ = view.technique == Technique::shaded;
-  flow_wanted_ = shows_flow(view);
+  flow_wanted_ = shows_flow(view) && !flow_refusal_;
   if (view.technique == Technique::surface)
     static_cast<void>(techniques_.get(view.technique)); // that it could not be made, update() says
 }
@@ -363,9 +400,12 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   HAL_TRY(const auto pictures, pictures_of(eye));
   if (quality.rays == RayBackend::processor)
     want_processor();
+  const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
+  if (draws_flow(view))
+    if (auto made = make_flow_programs(view.technique, !processor); !made)
+      refuse_flow(std::move(made.error()));
   update_transfer(view);
   expect(view);
-  const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
   const TextureParts parts = parts_for(view, backend(quality));
   if (!texture_.holds(parts) || (needs_flow_texture(view, backend(quality)) &&
                                  (flow_uploads_ != uploads_ || !flow_texture_.holds(parts))))
@@ -382,7 +422,7 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   scene.cut_away = cut_away(view, camera, texture_.geometry());
   scene.light = light_for(view);
   scene.changed = changed_;
-  const FlowScene flow = flow_scene(view.opacity);
+  FlowScene flow = flow_scene(view.opacity);
   scene.flow = draws_flow(view) ? &flow : nullptr;
   std::optional<CutFace>& cut_face = scene.flow != nullptr ? flow_cut_face_ : cut_face_;
   if (!scene.cut_away.nothing() && !cut_face) {
@@ -398,6 +438,8 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   if (surface) {
     HAL_CHECK(techniques_.get(view.technique));
     scene.mesh = techniques_.surface()->prepare(view);
+    if (scene.flow != nullptr && !match_flow(flow))
+      scene.flow = nullptr;
   }
   pictures->processor_drew = processor;
   const auto vessels =
@@ -423,7 +465,7 @@ void VolumePainter::add_changed(StereoEye eye, const Rect& rect, Damage& damage)
 bool VolumePainter::wants_volume(const ViewState& view) const {
   return !empty() && ((view.technique == Technique::surface && !surface_shows_) ||
                       (view.technique == Technique::shaded && !light_shows_) ||
-                      (shows_flow(view) && has_flow_ && !flow_shows_) ||
+                      (shows_flow(view) && has_flow_ && !flow_shows_ && !flow_refusal_) ||
                       view.see_through_db != shown_see_through_db_);
 }
 

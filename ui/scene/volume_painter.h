@@ -86,7 +86,19 @@ public:
 
   // Whether what flows is drawn for that view: it shows flow, and the shown volume has some. That was
   // computed unless wants_volume().
-  bool draws_flow(const ViewState& view) const { return flow_shows_ && shows_flow(view); }
+  bool draws_flow(const ViewState& view) const {
+    return flow_shows_ && !flow_refusal_ && shows_flow(view);
+  }
+
+  // Whether what flows in the shown volume was computed: it was to be shown then.
+  bool has_flow_computed() const { return flow_shows_; }
+
+  // Compiles what GL draws flow with by that technique. Where it cannot, as update() for another
+  // technique, no flow is drawn any more. ErrorCode::unsupported: it cannot.
+  hal::Result<> prepare_flow(Technique technique);
+  void refuse_flow(hal::Error why);
+  // Empty: flow can be drawn, as far as was tried.
+  const std::optional<hal::Error>& flow_refusal() const { return flow_refusal_; }
 
   // Brings the eye's picture up to date; `camera` must be that eye's, with the rectangle's aspect.
   // ErrorCode::invalid_argument: complete() was not called for it.
@@ -151,7 +163,9 @@ private:
   void prepare_b_scan(const pipeline::Volume& volume, int b_scan);
   bool needs_flow_texture(const ViewState& view, RayBackend rays) const;
   hal::Result<> bring_flow_texture(const pipeline::Volume& volume, const TextureParts& parts);
+  hal::Result<> make_flow_programs(Technique technique, bool by_gl);
   FlowScene flow_scene(float view_opacity) const;
+  bool match_flow(FlowScene& flow) const;
   TextureParts expected_parts() const;
   TextureParts parts_for(const ViewState& view, RayBackend rays) const;
   hal::Result<const VolumeTexture*> drawn_texture();
@@ -196,9 +210,12 @@ private:
   // What flows, if the view shows that.
   VolumeTexture flow_texture_{Voxels::flow}; // of the volume whose upload this was:
   std::uint64_t flow_uploads_ = 0;
+  std::uint64_t flow_before_ = 0; // likewise, of its texture before; 0: not all of it is there
+  bool flow_whole_ = false;       // all of it was uploaded
   pipeline::Occupancy flow_occupancy_;
   bool flow_wanted_ = shows_flow(ViewState{});
-  bool has_flow_ = false; // the volume shown
+  std::optional<hal::Error> flow_refusal_; // why none is drawn
+  bool has_flow_ = false;                  // the volume shown
   bool flow_shows_ = false;
   float see_through_db_ = ViewState{}.see_through_db; // of the last view
   float shown_see_through_db_ = 0;                    // of the volume shown

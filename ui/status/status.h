@@ -53,13 +53,20 @@ struct TracedTreeStatus {
 
 // How a tree from a file is kept over what flows in the live volume (docs/ANGIOGRAPHY.md).
 struct FollowedTreeStatus {
+  // Since it was registered last; in between, only shifts are followed.
+  static constexpr hal::Duration old_after = std::chrono::seconds{3}; // is marked from then on
+  static constexpr hal::Duration unregistered_after = std::chrono::seconds{10};
+  static constexpr hal::Duration removed_after = std::chrono::seconds{30}; // its place is given up
+
   enum class State : std::uint8_t {
     looking, // for its place
     followed,
     unmatched, // it has too little of the vessels that flow
+    removed,   // it was followed, and could not be registered for too long
   };
   State state = State::looking;
-  double overlap = 0; // while followed: of the vessels that flow, those that it has
+  double overlap = 0;  // while followed: of the vessels that flow, those that it has
+  hal::Duration age{}; // while followed, or removed: of the flow that it was registered in last
   bool operator==(const FollowedTreeStatus&) const = default;
 };
 

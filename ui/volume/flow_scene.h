@@ -14,6 +14,7 @@ struct FlowScene {
   const VolumeTexture& texture;         // of Voxels::flow; only what GL draws reads it
   const pipeline::Occupancy& occupancy; // of the counts of flow
   float opacity;                        // of what flows for certain, over one reference step
+  bool before = false;                  // of the volume that the texture had before
 };
 
 } // namespace octascope::ui

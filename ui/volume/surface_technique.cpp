@@ -104,6 +104,7 @@ std::uint64_t SurfaceTechnique::prepare(const ViewState& view) {
   thread_.request(surface_level(view));
   if (const pipeline::IsoMesh* mesh = thread_.take_newest()) {
     upload(*mesh);
+    mesh_of_ = mesh->of;
     ++mesh_;
   }
   return mesh_;

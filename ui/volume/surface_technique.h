@@ -39,7 +39,7 @@ inline constexpr float surface_flow_mm = 0.5F; // how deep below the surface flo
 // and what covers is all of the same volume.
 //
 // Flow, of a scene that has it, is painted on the surface: what flows below it, along the depth, by up to
-// surface_flow_mm. It is that of the scene's volume, which may be newer than the mesh.
+// surface_flow_mm. It has to be that of the mesh's volume: mesh_of().
 //
 // The framebuffer needs a depth attachment of at least 16 bits, which draw() clears; without one,
 // far parts are drawn over near ones.
@@ -53,14 +53,17 @@ public:
                                                                pipeline::ThreadSetup threads = {});
 
   // Copies what it needs before it returns: two milliseconds for a live volume. `cover`: the volume's,
-  // empty where nothing is seen through.
-  void show(const pipeline::Volume& volume, const pipeline::Cover& cover = {}) {
-    thread_.show(volume, cover);
+  // empty where nothing is seen through. `of`: what mesh_of() is to say of its meshes.
+  void show(const pipeline::Volume& volume, const pipeline::Cover& cover = {},
+            std::uint64_t of = 0) {
+    thread_.show(volume, cover, of);
   }
 
   // Requests the view's surface of the newest volume, takes the newest finished mesh and returns
   // its number. draw() does the same and draws that mesh.
   std::uint64_t prepare(const ViewState& view);
+  // What show() was told with the volume of the mesh taken last; 0 before the first.
+  std::uint64_t mesh_of() const { return mesh_of_; }
   // Whether prepare() would take another mesh.
   bool has_newer() const { return thread_.has_newer(); }
   // Waits until draw() will show the view's surface of the newest volume: for commands and tests.
@@ -94,8 +97,9 @@ private:
   gl::Buffer vertices_;
   gl::Buffer indices_;
   std::size_t corners_ = 0;
-  bool covers_ = false;     // the mesh has glass
-  std::uint64_t mesh_ = 0;  // counts the meshes taken
+  bool covers_ = false;    // the mesh has glass
+  std::uint64_t mesh_ = 0; // counts the meshes taken
+  std::uint64_t mesh_of_ = 0;
   glm::vec3 extents_mm_{0}; // of the mesh's volume: fast, depth, slow
 };
 

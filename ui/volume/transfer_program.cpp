@@ -60,7 +60,7 @@ void set_flow(const gl::Program& program, const FlowScene& flow) {
   glUniform1f(program.uniform("u_flow_opacity"), flow.opacity);
   glUniform1i(program.uniform("u_flow"), flow_unit);
   glActiveTexture(GL_TEXTURE0 + flow_unit);
-  glBindTexture(GL_TEXTURE_3D, flow.texture.name());
+  glBindTexture(GL_TEXTURE_3D, flow.before ? flow.texture.before() : flow.texture.name());
   glActiveTexture(GL_TEXTURE0);
 }
 

@@ -51,6 +51,8 @@ public:
 
   bool empty() const { return !textures_[front_]; }
   GLuint name() const { return textures_[front_].name(); }
+  // What name() was before the last upload() or renew().
+  GLuint before() const { return textures_[1 - front_].name(); }
   const pipeline::VolumeGeometry& geometry() const { return geometry_; }
 
 private:

@@ -67,16 +67,16 @@ std::optional<RigidTransform> TreeFollowing::moved_to(const VolumeSpectrum& volu
   return shift * registered_;
 }
 
-void TreeFollowing::add_tree(const VesselTree& live, std::uint64_t volume_index) {
+bool TreeFollowing::add_tree(const VesselTree& live, std::uint64_t volume_index) {
   if (!geometry_)
-    return;
+    return false;
   if (left_alone_ > 0) {
     --left_alone_;
-    return;
+    return false;
   }
   // What moved since a volume that was not seen is not known.
   if (seen_.empty() || volume_index < seen_.front().index)
-    return;
+    return false;
   const Seen& traced_in = nearest(volume_index);
   const RigidTransform start =
       known_ ? moved_to(traced_in.spectrum).value_or(registered_) : registered_;
@@ -85,13 +85,10 @@ void TreeFollowing::add_tree(const VesselTree& live, std::uint64_t volume_index)
       return accept(found, traced_in);
   const double side_mm = std::max(geometry_->a_mm(), geometry_->b_mm());
   const auto found = register_trees(tree_, live, start, first_reach(side_mm));
-  if (found.refusal.empty())
-    accept(found, traced_in);
-  else
-    miss(found.refusal);
+  return found.refusal.empty() ? accept(found, traced_in) : miss(found.refusal);
 }
 
-void TreeFollowing::accept(const TreeRegistration& found, const Seen& traced_in) {
+bool TreeFollowing::accept(const TreeRegistration& found, const Seen& traced_in) {
   registered_ = found.live_from_planned;
   reference_ = traced_in.spectrum;
   known_ = true;
@@ -101,25 +98,25 @@ void TreeFollowing::accept(const TreeRegistration& found, const Seen& traced_in)
             .overlap = found.overlap,
             .refusal = {}};
   place_.volume_from_tree = moved_to(seen_.back().spectrum);
-  if (!place_.volume_from_tree)
-    lose("the volume has moved too far or is of another place");
+  return place_.volume_from_tree || lose("the volume has moved too far or is of another place");
 }
 
-void TreeFollowing::miss(const std::string& refusal) {
+bool TreeFollowing::miss(const std::string& refusal) {
   ++misses_;
   if (known_ && misses_ < most_misses) {
     place_.refusal = refusal;
-    return;
+    return false;
   }
   left_alone_ = trees_between_searches;
-  lose(refusal);
+  return lose(refusal);
 }
 
-void TreeFollowing::lose(std::string refusal) {
+bool TreeFollowing::lose(std::string refusal) {
   known_ = false;
   misses_ = 0;
   place_.volume_from_tree.reset();
   place_.refusal = std::move(refusal);
+  return false;
 }
 
 } // namespace octascope::pipeline

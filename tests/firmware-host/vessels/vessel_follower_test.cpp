@@ -74,30 +74,34 @@ TEST(VesselFollower, says_where_a_tree_lies_once_one_was_traced) {
   VesselFollower follower{loaded, {}, clock, news};
   pipeline::Volume volume = noise(1);
   const auto next_place = [&] {
-    std::optional<pipeline::FollowedPlace> place;
-    while (!(place = follower.take())) {
+    std::optional<FollowedVessels> found;
+    while (!(found = follower.take())) {
       ++volume.metadata.index;
       follower.offer(volume);
       std::this_thread::sleep_for(1ms);
     }
-    return std::move(*place);
+    return std::move(*found);
   };
-  EXPECT_FALSE(next_place().volume_from_tree);
+  EXPECT_FALSE(next_place().place.volume_from_tree);
   live->number = 1;
   live->refusal = "too little";
   follower.offer(live);
-  EXPECT_FALSE(next_place().volume_from_tree) << "a refused tree tells nothing";
+  EXPECT_FALSE(next_place().place.volume_from_tree) << "a refused tree tells nothing";
   live->number = 2;
   live->refusal.clear();
   live->volume_index = volume.metadata.index;
+  live->of_volume = hal::TimePoint{5s};
   follower.offer(live);
-  const pipeline::FollowedPlace place = next_place();
+  const auto [place, registered_in] = next_place();
+  EXPECT_EQ(registered_in, live->of_volume);
   ASSERT_TRUE(place.volume_from_tree) << place.refusal;
   EXPECT_NEAR(place.volume_from_tree->apply({0, 0, 0})[0], 0.3, 0.02);
   EXPECT_GT(place.overlap, 0.9);
+  EXPECT_EQ(next_place().registered_in, registered_in)
+      << "of volumes alone it does not become newer";
   // Noise of another seed has nothing in common with it.
   std::ranges::copy(noise(2).levels, volume.levels.begin());
-  EXPECT_FALSE(next_place().volume_from_tree);
+  EXPECT_FALSE(next_place().place.volume_from_tree);
 }
 
 TEST(VesselFollower, ends_while_it_looks_for_a_tree) {

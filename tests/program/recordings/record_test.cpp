@@ -60,6 +60,13 @@ TEST(Record, keeps_every_volume_from_the_first_on) {
   }
 }
 
+TEST(Record, warns_that_flow_is_not_kept) {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      run_well(small_record(folder, {"--volumes", "1", "--repeats", "2", "--flow", "on"}));
+  EXPECT_THAT(result.err, HasSubstr("recordings keep no flow"));
+}
+
 TEST(Record, says_nothing_of_subject_and_eye_that_nobody_said) {
   const ScratchFolder folder;
   run_well(small_record(folder, {"--volumes", "2"}));

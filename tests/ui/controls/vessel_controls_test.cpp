@@ -92,6 +92,19 @@ TEST_F(Controller, of_flow_and_a_tree_either_or_both_are_shown) {
   EXPECT_EQ(echo(), "tree: none there");
 }
 
+TEST_F(Controller, without_vessels_it_is_said_what_is_lacking) {
+  controller_.handle(press('v'));
+  EXPECT_EQ(echo(), "hidden, no volume yet");
+  controller_.handle(press('v'));
+  EXPECT_EQ(echo(), "shown, but no volume yet");
+  actions().set_flow_there(false);
+  controller_.handle(press('v'));
+  EXPECT_EQ(echo(), "no flow, no tree loaded");
+  actions().set_flow_there(true);
+  choose(Action::vessels);
+  EXPECT_EQ(echo(), "hidden");
+}
+
 TEST_F(Controller, without_flow_vessels_are_shown_or_hidden) {
   actions().set_vessels_loaded(true);
   controller_.handle(press('v'));

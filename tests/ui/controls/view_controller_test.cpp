@@ -129,7 +129,7 @@ TEST_F(Controller, what_is_shown_is_turned_on_and_off) {
   choose(Action::vessels);
   turn(-1);
   EXPECT_EQ(state().vessels, VesselsShown::off);
-  EXPECT_EQ(echo(), "none loaded");
+  EXPECT_EQ(echo(), "hidden, no volume yet");
   actions().set_vessels_loaded(true);
   turn(1);
   EXPECT_EQ(state().vessels, VesselsShown::both);

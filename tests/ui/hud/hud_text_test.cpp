@@ -341,11 +341,11 @@ TEST(HudText, a_tree_that_is_followed_says_its_overlap_or_that_it_does_not_match
   status.vessels.state = VesselStatus::State::shown;
   status.vessels.registered = true;
   status.vessels.residual_mm = 0.0143;
-  status.vessels.followed = FollowedTreeStatus{State::followed, 0.917};
+  status.vessels.followed = FollowedTreeStatus{State::followed, 0.917, {}};
   EXPECT_EQ(told().registration.view(), "residual 14 µm, overlap 91 %");
   EXPECT_EQ(told().tree.view(), "");
   // Where somebody said that it lies, it stays, and is marked.
-  status.vessels.followed = FollowedTreeStatus{State::unmatched, 0};
+  status.vessels.followed = FollowedTreeStatus{State::unmatched, 0, {}};
   EXPECT_TRUE(told().shown);
   EXPECT_EQ(told().tree.view(), "vessels do not match");
   EXPECT_TRUE(told().tree_old);
@@ -362,6 +362,37 @@ TEST(HudText, a_tree_that_is_followed_says_its_overlap_or_that_it_does_not_match
   ViewState hidden;
   hidden.vessels = VesselsShown::off;
   EXPECT_EQ(told(hidden).tree.view(), "") << "nobody wants to see them";
+}
+
+TEST(HudText, flow_that_cannot_be_drawn_is_said) {
+  ShownPictures shown;
+  shown.flow.refused = true;
+  const HudText hud = compose_hud_text({}, live_status(), shown);
+  ASSERT_GT(hud.trouble_count, 0U);
+  EXPECT_EQ(hud.troubles[0].words.view(), "flow cannot be drawn");
+}
+
+TEST(HudText, a_tree_that_was_not_registered_for_long_is_marked_with_its_age) {
+  using Followed = FollowedTreeStatus;
+  Status status = live_status();
+  const auto told = [&] { return compose_hud_text({}, status, {}).vessels; };
+  status.vessels.state = VesselStatus::State::shown;
+  status.vessels.registered = true;
+  status.vessels.residual_mm = 0.0143;
+  status.vessels.followed = Followed{Followed::State::followed, 0.917,
+                                     Followed::old_after - std::chrono::milliseconds{1}};
+  EXPECT_EQ(told().tree.view(), "");
+  status.vessels.followed->age = Followed::old_after;
+  EXPECT_EQ(told().tree.view(), "vessels placed 3 s ago");
+  EXPECT_TRUE(told().tree_old);
+  EXPECT_EQ(told().registration.view(), "residual 14 µm, overlap 91 %");
+  status.vessels.followed = Followed{Followed::State::removed, 0, std::chrono::seconds{32}};
+  EXPECT_EQ(told().tree.view(), "vessels placed 32 s ago") << "by hand, they are";
+  status.vessels.state = VesselStatus::State::none;
+  EXPECT_EQ(told().tree.view(), "no vessels: placed 32 s ago");
+  const HudText hud = compose_hud_text({}, status, {});
+  ASSERT_GT(hud.trouble_count, 0U);
+  EXPECT_EQ(hud.troubles[hud.trouble_count - 1].words.view(), "no vessels: placed 32 s ago");
 }
 
 TEST(HudText, a_tree_that_is_old_is_marked_and_one_that_is_not_drawn_has_its_reason) {

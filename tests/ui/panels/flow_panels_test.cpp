@@ -178,6 +178,15 @@ TEST_F(FlowPanelTest, from_above_the_hue_is_the_depth_below_the_surface) {
   for (int x = 0; x < 12; ++x)
     marked = marked || pixel_at(x, 22) != pixel_at(x, 67);
   EXPECT_TRUE(marked);
+  // While it is hidden nothing is projected.
+  EXPECT_FALSE(panel->flow_from_above().empty());
+  panel->show(volume, tissue, {}, nullptr, false);
+  EXPECT_TRUE(panel->flow_from_above().empty());
+  panel->draw(states, {}, rect, target_height, 0.3F);
+  EXPECT_EQ(pixel_at(62, 67), grey);
+  panel->show(volume, tissue);
+  panel->draw(states, {}, rect, target_height, 0.3F);
+  expect_colour(pixel_at(62, 67), hue(100), 6);
 }
 
 TEST(FlowProjection, is_the_strongest_run_of_depths) {
@@ -310,10 +319,11 @@ protected:
   void SetUp() override { open_renderer(1280, 720); }
   pipeline::Image drawn(const pipeline::Volume& volume, ui::VesselsShown shown,
                         const ui::Status& status = live_status()) {
-    show_scene(volume);
     ui::ViewState view;
     view.vessels = shown;
     view.layout = ui::LayoutKind::microscope;
+    renderer_->expect(view);
+    show_scene(volume);
     return draw(view, status);
   }
   int different(const pipeline::Image& a, const pipeline::Image& b) {

@@ -88,6 +88,21 @@ protected:
   pipeline::Volume shown_;
 };
 
+TEST_F(VolumePainterTest, computes_no_flow_that_is_hidden) {
+  pipeline::Volume volume = tissue_volume(small_geometry);
+  add_tubes(volume);
+  ui::ViewState view;
+  view.vessels = ui::VesselsShown::off;
+  painter_->expect(view);
+  ASSERT_TRUE(show(volume));
+  EXPECT_FALSE(painter_->has_flow_computed());
+  view.vessels = ui::VesselsShown::flow;
+  EXPECT_TRUE(painter_->wants_volume(view));
+  painter_->expect(view);
+  ASSERT_TRUE(show(volume));
+  EXPECT_TRUE(painter_->has_flow_computed());
+}
+
 TEST_F(VolumePainterTest, processor_shader_and_planes_make_the_same_picture) {
   pipeline::Volume volume = tissue_volume(small_geometry);
   for (const bool incomplete : {false, true}) {

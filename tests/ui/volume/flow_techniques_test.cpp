@@ -1,10 +1,14 @@
 // Flow by every way of drawing the volume, against the others; shown and hidden by the painter.
+#include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "tests/ui/support/gl_test.h"
 #include "tests/ui/support/golden.h"
 #include "tests/ui/support/renderer_stage.h"
+#include "tests/ui/support/shader_faults.h"
 #include "tests/ui/support/view_places.h"
 #include "tests/ui/support/volume_stage.h"
 #include "ui/view/plane_box.h"
@@ -148,6 +152,73 @@ TEST_F(ShownFlow, is_there_or_not_by_every_technique_as_the_view_says) {
             << what;
         EXPECT_GT(alone(volume, view, how, renderer.get()).coloured, 100) << what << ", again";
       }
+}
+
+// In what every shader of flow in the volume and the B-scans has.
+constexpr const char* flow_words = "uniform vec2 u_flow_seen";
+
+TEST_F(ShownFlow, that_this_gl_cannot_draw_is_left_out_from_the_start) {
+  const pipeline::Volume volume = with_tubes(small_geometry);
+  const pipeline::Volume plain = tissue_volume(small_geometry);
+  for (const ui::DrawQuality& how : {by_processor, by_shader}) {
+    const ShaderFault fault{flow_words};
+    auto renderer = std::move(*ui::Renderer::create());
+    EXPECT_FALSE(renderer->flow_refusal());
+    renderer->prepare_flow({});
+    ASSERT_TRUE(renderer->flow_refusal()) << "before the first volume";
+    ASSERT_TRUE(renderer->show_volume(volume));
+    EXPECT_EQ(changed(alone(volume, {}, how, renderer.get()).image, alone(plain, {}, how).image,
+                      {0, 0, width_, height_}),
+              0);
+  }
+}
+
+TEST_F(ShownFlow, that_one_technique_cannot_draw_is_left_out) {
+  const pipeline::Volume volume = with_tubes(small_geometry);
+  const pipeline::Volume plain = tissue_volume(small_geometry);
+  ui::ViewState view;
+  auto renderer = std::move(*ui::Renderer::create());
+  renderer->prepare_flow(view);
+  ASSERT_TRUE(renderer->show_volume(volume));
+  EXPECT_GT(alone(volume, view, by_shader, renderer.get()).coloured, 100);
+  const ShaderFault fault{flow_words};
+  view.technique = Technique::planes;
+  const Drawn left = alone(volume, view, by_shader, renderer.get());
+  EXPECT_TRUE(renderer->flow_refusal());
+  EXPECT_EQ(changed(left.image, alone(plain, view, by_shader).image, {0, 0, width_, height_}), 0);
+}
+
+// The mesh comes when it is made, and with it the flow of its volume.
+TEST_F(ShownFlow, on_a_surface_is_of_the_same_volume) {
+  const pipeline::Volume first = with_tubes(small_geometry);
+  pipeline::Volume second = first;
+  const auto depths = static_cast<std::size_t>(small_geometry.depths);
+  constexpr std::size_t deeper = 10;
+  for (std::size_t from = 0; from < second.levels.size(); from += depths)
+    for (std::size_t z = depths; z-- > 0;)
+      second.levels[from + z] = z < deeper ? std::uint8_t{0} : first.levels[from + z - deeper];
+  std::ranges::fill(second.flow, std::uint8_t{1});
+  ui::ViewState view;
+  view.technique = Technique::surface;
+  const pipeline::Image of_first = alone(first, view, by_shader).image;
+  const pipeline::Image of_second = alone(second, view, by_shader).image;
+  const auto different = [&](const pipeline::Image& a, const pipeline::Image& b) {
+    return changed(a, b, {0, 0, width_, height_});
+  };
+  ASSERT_GT(different(of_first, of_second), 1000);
+  auto renderer = std::move(*ui::Renderer::create());
+  ASSERT_TRUE(renderer->show_volume(first));
+  ASSERT_EQ(different(alone(first, view, by_shader, renderer.get()).image, of_first), 0);
+  ASSERT_TRUE(renderer->show_volume(second));
+  for (bool seen = false; !seen;) {
+    ASSERT_TRUE(renderer->draw_volume_alone(view, width_, height_, by_shader));
+    const pipeline::Image now = renderer->read_back(width_, height_);
+    seen = different(now, of_second) == 0;
+    if (!seen) {
+      ASSERT_EQ(different(now, of_first), 0) << "neither the one nor the other";
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds{1});
+  }
 }
 
 class GoldenFlow : public ShownFlow {};
