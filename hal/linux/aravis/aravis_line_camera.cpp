@@ -7,7 +7,12 @@
 
 namespace octascope::hal::linux_backend {
 
+using namespace std::chrono_literals;
+
 namespace {
+
+// Shorter than the time within which a device's thread must make a step.
+constexpr Duration most_closing = 4s;
 
 // What the device's signal is given; both outlive the device.
 struct Lost {
@@ -32,6 +37,8 @@ AravisLineCamera::AravisLineCamera(GenicamCameraOptions options, Clock& clock)
 
 AravisLineCamera::~AravisLineCamera() {
   do_close();
+  if (closing_.joinable())
+    closing_.join();
 }
 
 std::string AravisLineCamera::do_identity() const {
@@ -41,6 +48,7 @@ std::string AravisLineCamera::do_identity() const {
 
 Result<> AravisLineCamera::do_open(const LineCameraConfig& config) {
   HAL_CHECK(check_genicam_request(config));
+  HAL_CHECK(wait_until_closed());
   if (auto opened = open_camera_of(config); !opened) {
     do_close();
     return opened;
@@ -143,28 +151,59 @@ void AravisLineCamera::do_release(int buffer) {
     returns_.post();
 }
 
-void AravisLineCamera::end_stream() {
-  if (server_ && !lost_.load(std::memory_order_acquire)) {
-    AravisAnswer answer{*aravis_};
-    aravis_->camera_stop_acquisition(camera_.get(), answer.out());
-  }
-  server_.reset();
+// False if the camera does not answer.
+bool AravisLineCamera::stop_acquisition() {
+  if (lost_.load(std::memory_order_acquire) || state() == DeviceState::failed)
+    return false;
+  if (!server_)
+    return true;
+  AravisAnswer answer{*aravis_};
+  aravis_->camera_stop_acquisition(camera_.get(), answer.out());
+  return !answer.failed();
 }
 
 void AravisLineCamera::do_stop() {
   if (state() != DeviceState::streaming)
     return;
-  end_stream();
+  stop_acquisition();
+  server_.reset();
   set_state(DeviceState::ready);
 }
 
 void AravisLineCamera::do_close() {
-  end_stream();
-  if (camera_)
+  if (camera_) {
+    const bool answers = stop_acquisition();
     aravis_->signal_handler_disconnect(aravis_->camera_get_device(camera_.get()), watch_);
-  camera_.reset();
+    if (!answers)
+      close_beside();
+  }
+  server_.reset();
   slots_.reset();
+  camera_.reset();
   set_state(DeviceState::absent);
+}
+
+void AravisLineCamera::close_beside() {
+  closing_ = std::thread{[this, camera = std::move(camera_), slots = std::move(slots_),
+                          server = std::move(server_)]() mutable {
+    server.reset();
+    slots.reset();
+    camera.reset();
+    closed_.post();
+  }};
+}
+
+Result<> AravisLineCamera::wait_until_closed() {
+  if (!closing_.joinable())
+    return {};
+  const TimePoint began = clock_.now();
+  const bool closed = clock_.wait_until(closed_, began + most_closing);
+  if (closed)
+    closing_.join();
+  if (closed && clock_.now() - began < most_closing / 2) // opening may take as long
+    return {};
+  return fail(ErrorCode::absent,
+              "{}: the camera that went is being closed; it is looked for at the next try", name_);
 }
 
 std::unique_ptr<LineCamera> make_genicam_camera(GenicamCameraOptions options, Clock& clock) {

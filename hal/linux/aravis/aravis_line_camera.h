@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "hal/linux/aravis/aravis_library.h"
 #include "hal/linux/aravis/camera_features.h"
@@ -35,7 +36,9 @@ private:
   Result<> open_camera_of(const LineCameraConfig& config);
   Result<> start_stream();
   void watch();
-  void end_stream();
+  bool stop_acquisition();
+  void close_beside();
+  Result<> wait_until_closed();
   LineFrame handed_out(int slot) const;
   tl::unexpected<Error> gone();
 
@@ -53,6 +56,10 @@ private:
   gulong watch_ = 0; // the handler of that news
   std::unique_ptr<FrameSlots> slots_;
   std::unique_ptr<FrameServer> server_; // while streaming
+
+  // A camera that went is closed beside the camera thread: Aravis waits seconds for its answers.
+  std::thread closing_;
+  Semaphore closed_;
 
   mutable std::mutex identity_mutex_; // never taken while streaming
   std::string identity_;              // of the last open
