@@ -28,8 +28,8 @@ public:
   }
   void trigger() override { fake_.trigger(frames); }
   int frames_per_sweep() const override { return frames; }
-  // The fake camera sees that it shall stream after up to 100 ms.
-  hal::Duration sweep_duration() const override { return 200ms; }
+  // The fake camera sees that it shall stream after up to 100 ms; the rest is for a busy machine.
+  hal::Duration sweep_duration() const override { return 300ms; }
   hal::Duration stamp_jitter() const override { return 150ms; }
   bool can_unplug() const override { return true; }
   void unplug() override { fake_.unplug(); }

@@ -95,7 +95,7 @@ TEST_F(GenicamCamera, two_hundred_opens_and_closes_leave_nothing_behind) {
   const auto camera = make({});
   int files = 0;
   int tasks = 0;
-  long memory = 0;
+  [[maybe_unused]] long memory = 0;
   for (int i = 0; i < 200; ++i) {
     ASSERT_TRUE(camera->open(small_config()));
     if (i % 4 == 0) {
@@ -112,7 +112,9 @@ TEST_F(GenicamCamera, two_hundred_opens_and_closes_leave_nothing_behind) {
   }
   EXPECT_EQ(open_files(), files);
   EXPECT_EQ(threads(), tasks);
+#ifndef OCTASCOPE_SANITIZED // which keeps what was freed, and looks for leaks itself
   EXPECT_LT(resident_kib(), memory + 4096);
+#endif
 }
 
 TEST_F(GenicamCamera, one_that_is_not_there_is_absent_and_leaves_nothing_behind) {
