@@ -78,7 +78,7 @@ bool RenderLoop::turn() {
   take_volume();
   take_scope_picture();
   if (parts_.vessels != nullptr)
-    parts_.vessels->advance(renderer_.get(), controller_.actions());
+    parts_.vessels->advance(renderer_.get(), controller_.actions(), volume_.whole());
   update_status();
   if (display_ready()) {
     draw_if_changed();
@@ -101,13 +101,15 @@ bool RenderLoop::casts_rays() const {
 bool RenderLoop::draws_parts() const {
   const ui::ViewState& view = controller_.state();
   return volume_.rolls() && casts_rays() && view.technique != ui::Technique::shaded &&
-         (parts_.vessels == nullptr || !view.vessels_visible);
+         (parts_.vessels == nullptr || !ui::shows_tree(view));
 }
 
 ui::FrameBudget RenderLoop::frame_budget() const {
-  return ui::frame_budget(
-      parts_.display.refresh_period(),
-      {.software = software_, .rolling = volume_.rolls(), .in_parts = draws_parts()});
+  return ui::frame_budget(parts_.display.refresh_period(),
+                          {.software = software_,
+                           .rolling = volume_.rolls(),
+                           .in_parts = draws_parts(),
+                           .waits_for_refresh = next_refresh().has_value()});
 }
 
 // The frame that first says that the picture is STALE or FROZEN is drawn no finer than those before
@@ -239,6 +241,7 @@ void RenderLoop::note_taken(const pipeline::Volume& newest, hal::TimePoint begin
     if (const auto window = ui::suggest_window(newest))
       set_first_window(*window);
   }
+  controller_.actions().set_flow_there(newest.has_flow());
   volume_undisplayed_ = true;
   undisplayed_last_line_ = newest.metadata.last_line;
   status_writer_.show(newest);
@@ -348,7 +351,7 @@ void RenderLoop::draw_if_changed() {
   const auto vessels = renderer_->vessel_report();
   governor_.note(parts_.clock.now() - begin - vessels.cost, renderer_->drew_volume());
   if (parts_.vessels != nullptr)
-    parts_.vessels->note(vessels, frame_budget().moving);
+    parts_.vessels->note(vessels, std::max(frame_budget().moving, frame_budget().resting));
   drawn_view_ = view;
   drawn_liveness_ = status().freshness.liveness;
   if (picture_wanted_) // before the flip: afterwards the frame buffer is another one

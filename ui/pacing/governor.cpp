@@ -58,10 +58,10 @@ std::optional<float> visible_reduction(const DrawQuality& quality) {
 FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how) {
   if (!how.software)
     return {refresh * 8 / 10, refresh * (how.rolling ? 8 : 18) / 10};
-  const hal::Duration moving = refresh * 18 / 10;
+  const hal::Duration moving = refresh * (how.waits_for_refresh ? 18 : 12) / 10;
   if (how.in_parts)
     return {moving, refresh * 7 / 10};
-  return {moving, how.rolling ? moving : refresh * 15 / 10};
+  return {moving, refresh * (how.rolling ? 18 : 15) / 10};
 }
 
 double Governor::Median::value() const {

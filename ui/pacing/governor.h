@@ -35,15 +35,18 @@ struct FrameBudget {
 };
 
 struct DrawnHow {
-  bool software = false; // by the processor
-  bool rolling = false;  // B-scans come all the time
-  bool in_parts = false; // of a view at rest only what changed
+  bool software = false;          // by the processor
+  bool rolling = false;           // B-scans come all the time
+  bool in_parts = false;          // of a view at rest only what changed
+  bool waits_for_refresh = false; // the output shows an image at the refresh after it is ready
 };
 
 // With a GPU every refresh of a moving view gets a frame, and a volume that comes while the view rests
-// may take two. Where the processor draws, a frame takes two, with a new volume one and a half: copying it
-// takes the rest, and where volumes come faster than that, a third of their period, so that each can be shown. Of what rolls, each
-// refresh shows what has come where only that is drawn anew; copying it takes its time, too.
+// may take two. Where the processor draws, a frame of a moving view takes two refreshes of an output that
+// waits for them: what takes a little more than one would gain nothing by being coarser. On others it takes
+// 1.2, some 45 frames/s of 60. One with a new volume takes one and a half, since copying the volume takes the
+// rest. Of what rolls, each refresh shows what has come where only that is drawn anew; copying it takes its
+// time, too.
 FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how);
 
 // Threads: one at a time. Allocates nothing.

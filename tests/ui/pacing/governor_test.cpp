@@ -81,12 +81,13 @@ TEST(QualityLadder, goes_down_in_steps_that_are_neither_steep_nor_useless) {
   }
 }
 
-TEST(FrameBudget, leaves_the_processor_every_second_refresh_but_for_what_is_drawn_in_parts) {
+TEST(FrameBudget, gives_the_processor_more_than_a_refresh_but_for_what_is_drawn_in_parts) {
   const auto budget_of = [](const ui::DrawnHow& how) { return ui::frame_budget(10ms, how); };
   EXPECT_EQ(budget_of({}).moving, 8ms);
   EXPECT_EQ(budget_of({}).resting, 18ms);
   EXPECT_EQ(budget_of({.rolling = true}).resting, 8ms);
-  EXPECT_EQ(budget_of({.software = true}).moving, 18ms);
+  EXPECT_EQ(budget_of({.software = true}).moving, 12ms);
+  EXPECT_EQ(budget_of({.software = true, .waits_for_refresh = true}).moving, 18ms);
   EXPECT_EQ(budget_of({.software = true}).resting, 15ms);
   EXPECT_EQ(budget_of({.software = true, .rolling = true}).resting, 18ms);
   EXPECT_EQ(budget_of({.software = true, .rolling = true, .in_parts = true}).resting, 7ms);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/volume/flow_scale.h"
 #include "pipeline/volume/level_scale.h"
 
 namespace octascope::tests {
@@ -58,13 +59,82 @@ double level_at(const PointMm& p) {
   return std::max(4.0, 33 - 24 * (below - 0.17));
 }
 
+// 0 to 1; the walls are a ramp of 20 µm.
+double flow_at(const PointMm& p) {
+  constexpr std::array<std::array<double, 4>, 8> vessels{{{0.5, 0.25, 0.25, 0.07},
+                                                          {1.5, -0.12, 0.33, 0.1},
+                                                          {2.6, -0.4, 0.22, 0.05},
+                                                          {0.2, 0.6, 0.5, 0.02},
+                                                          {0.9, 0.5, 0.45, 0.03},
+                                                          {1.9, -0.55, 0.55, 0.02},
+                                                          {2.9, -0.7, 0.6, 0.03},
+                                                          {1.2, 0.35, 0.15, 0.02}}};
+  double flow = 0;
+  for (const auto& [start, drift, depth, radius] : vessels)
+    flow = std::max(flow, (radius - vessel_distance(p, start, drift, depth)) / 0.02 + 0.5);
+  return std::min(flow, 1.0);
+}
+
 } // namespace
+
+pipeline::Volume perfused_volume(const pipeline::VolumeGeometry& g) {
+  pipeline::Volume volume = tissue_volume(g);
+  volume.add_flow();
+  auto voxel = volume.flow.begin();
+  for (int b = 0; b < g.b_scans; ++b)
+    for (int a = 0; a < g.a_scans; ++a)
+      for (int z = 0; z < g.depths; ++z, ++voxel) {
+        const PointMm p{(a + 0.5) * g.a_spacing_um * 1e-3, (b + 0.5) * g.b_spacing_um * 1e-3,
+                        (z + 0.5) * g.depth_spacing_um * 1e-3};
+        const double noise =
+            0.2 * uniform_noise(static_cast<std::uint32_t>(z), static_cast<std::uint32_t>(a),
+                                static_cast<std::uint32_t>(b));
+        if (p.z > surface_mm(p.a, p.b))
+          *voxel = pipeline::quantise_flow(static_cast<float>(std::max(noise, flow_at(p))));
+      }
+  std::ranges::fill(volume.flow_states, pipeline::FlowState::told);
+  return volume;
+}
 
 pipeline::Volume uniform_volume(const pipeline::VolumeGeometry& geometry, std::uint8_t count) {
   pipeline::Volume volume{geometry};
   std::fill(volume.levels.begin(), volume.levels.end(), count);
   std::fill(volume.b_scan_states.begin(), volume.b_scan_states.end(), pipeline::BScanState::good);
   return volume;
+}
+
+void add_tubes(pipeline::Volume& volume, float phase) {
+  volume.add_flow();
+  const pipeline::VolumeGeometry& g = volume.geometry;
+  const auto share = [](int i, int n) {
+    return (static_cast<float>(i) + 0.5F) / static_cast<float>(n);
+  };
+  const auto wall = static_cast<float>(2 * g.a_mm() / g.a_scans);
+  const auto a_mm = static_cast<float>(g.a_mm());
+  const auto b_mm = static_cast<float>(g.b_mm());
+  const auto depth_mm = static_cast<float>(g.depth_mm());
+  const float radius = 0.04F * a_mm;
+  for (int b = 0; b < g.b_scans; ++b) {
+    const float along = share(b, g.b_scans);
+    const auto flow = volume.b_scan_flow(b);
+    volume.flow_states[static_cast<std::size_t>(b)] = pipeline::FlowState::told;
+    for (int a = 0; a < g.a_scans; ++a)
+      for (int z = 0; z < g.depths; ++z) {
+        const float x = share(a, g.a_scans);
+        const float y = share(z, g.depths);
+        const auto away = [&](float dx, float dy) { return std::hypot(dx * a_mm, dy * depth_mm); };
+        const float first = away(x - 0.3F - 0.15F * std::sin(6 * along + phase), y - 0.35F);
+        const float second = away(x - 0.7F, y - 0.5F - 0.15F * std::cos(5 * along + phase));
+        const float across =
+            std::hypot((along - 0.5F - 0.1F * std::sin(phase)) * b_mm, (y - 0.45F) * depth_mm);
+        const float inside = radius - std::min({first, second, across});
+        flow[static_cast<std::size_t>(a * g.depths + z)] =
+            pipeline::quantise_flow(0.5F + inside / wall);
+      }
+  }
+  const int left_out = g.b_scans / 4;
+  std::ranges::fill(volume.b_scan_flow(left_out), pipeline::flow_untold);
+  volume.flow_states[static_cast<std::size_t>(left_out)] = pipeline::FlowState::left_out;
 }
 
 ui::LevelShares level_shares(const pipeline::Volume& volume) {

@@ -18,6 +18,14 @@ pipeline::Volume ball_volume(int n, double radius_mm);
 // machine.
 pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& geometry);
 
+// The same, perfused: its vessels and finer ones below them flow, the rest of the tissue is static, and
+// nothing is told above it.
+pipeline::Volume perfused_volume(const pipeline::VolumeGeometry& geometry);
+
+// Adds what flows: three tubes through the volume, of which `phase` says how they bend, with walls of
+// two voxels, static tissue around them, and one B-scan that is left out.
+void add_tubes(pipeline::Volume& volume, float phase = 0);
+
 // How often its levels occur.
 ui::LevelShares level_shares(const pipeline::Volume& volume);
 
