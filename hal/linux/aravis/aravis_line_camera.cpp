@@ -7,38 +7,54 @@
 
 namespace octascope::hal::linux_backend {
 
-using namespace std::chrono_literals;
-
 namespace {
 
-// Shorter than the time within which a device's thread must make a step.
-constexpr Duration most_closing = 4s;
-
-// What the device's signal is given; both outlive the device.
-struct Lost {
-  std::atomic<bool>& lost;
-  Semaphore& news;
-};
-
 void on_lost(ArvDevice* /*device*/, void* data) {
-  const auto* told = static_cast<Lost*>(data);
-  told->lost.store(true, std::memory_order_release);
-  told->news.post();
+  auto* camera = static_cast<OpenCamera*>(data);
+  camera->lost.store(true, std::memory_order_release);
+  camera->news.post();
 }
 
-void forget_lost(void* data, GClosure* /*closure*/) {
-  delete static_cast<Lost*>(data);
+bool same(const LineCameraConfig& a, const LineCameraConfig& b) {
+  return a.format == b.format && a.line_rate_hz == b.line_rate_hz && a.buffers == b.buffers;
+}
+
+// This and the next wait for the camera's answers.
+Result<std::unique_ptr<OpenCamera>> open_genicam(const AravisLibrary& aravis,
+                                                 const GenicamCameraOptions& options,
+                                                 const LineCameraConfig& config) {
+  auto open = std::make_unique<OpenCamera>(aravis);
+  HAL_TRY(open->camera, open_camera(open->aravis, options.address));
+  ArvCamera* const camera = open->camera.get();
+  aravis.signal_connect_data(aravis.camera_get_device(camera), "control-lost",
+                             reinterpret_cast<GCallback>(&on_lost), open.get(), nullptr,
+                             GConnectFlags{}); // the device ends before what it is given
+  HAL_TRY(open->stream, set_features(open->aravis, camera, options, config));
+  open->slots = std::make_unique<FrameSlots>(
+      config.buffers, std::max(open->stream.payload_bytes, config.format.frame_bytes()));
+  return open;
+}
+
+void end_stream(OpenCamera& open) {
+  if (!open.server)
+    return;
+  if (!open.lost.load(std::memory_order_acquire)) {
+    AravisAnswer answer{open.aravis};
+    open.aravis.camera_stop_acquisition(open.camera.get(), answer.out());
+  }
+  open.server.reset();
 }
 
 } // namespace
 
 AravisLineCamera::AravisLineCamera(GenicamCameraOptions options, Clock& clock)
-    : options_{std::move(options)}, name_{to_text(options_.address)}, clock_{clock} {}
+    : options_{std::move(options)}, name_{to_text(options_.address)}, clock_{clock}, errands_{
+                                                                                         clock} {}
 
 AravisLineCamera::~AravisLineCamera() {
   do_close();
-  if (closing_.joinable())
-    closing_.join();
+  if (opening_)
+    errands_.start([opening = std::move(opening_)]() mutable { opening.reset(); });
 }
 
 std::string AravisLineCamera::do_identity() const {
@@ -48,45 +64,53 @@ std::string AravisLineCamera::do_identity() const {
 
 Result<> AravisLineCamera::do_open(const LineCameraConfig& config) {
   HAL_CHECK(check_genicam_request(config));
-  HAL_CHECK(wait_until_closed());
-  if (auto opened = open_camera_of(config); !opened) {
-    do_close();
-    return opened;
-  }
-  set_state(DeviceState::ready);
-  return {};
-}
-
-Result<> AravisLineCamera::open_camera_of(const LineCameraConfig& config) {
   if (!aravis_) {
     HAL_TRY(auto loaded, AravisLibrary::load());
     aravis_ = loaded;
   }
-  HAL_TRY(auto camera, open_camera(*aravis_, options_.address));
-  camera_ = std::move(camera);
-  lost_.store(false, std::memory_order_release);
-  watch();
-  HAL_TRY(const auto stream, set_features(*aravis_, camera_.get(), options_, config));
-  stream_ = stream;
-  config_ = config;
-  slots_ = std::make_unique<FrameSlots>(
-      config.buffers, std::max(stream.payload_bytes, config.format.frame_bytes()));
-  const std::string identity = identity_of(*aravis_, camera_.get());
+  const bool asked_before = opening_ && same(opening_->config, config);
+  if (!asked_before)
+    begin_opening(config);
+  auto opened = finish_opening();
+  if (asked_before && !opened &&
+      !opening_) { // what it answered may be old; else it is what is known
+    begin_opening(config);
+    if (const auto now = finish_opening(); now || !opening_)
+      opened = now;
+  }
+  if (opened)
+    set_state(DeviceState::ready);
+  return opened;
+}
+
+void AravisLineCamera::begin_opening(const LineCameraConfig& config) {
+  opening_ = std::make_shared<Opening>();
+  opening_->config = config;
+  errands_.start([opening = opening_, aravis = *aravis_, options = options_] {
+    opening->camera = open_genicam(aravis, options, opening->config);
+    if (opening->camera)
+      opening->identity = identity_of(aravis, (*opening->camera)->camera.get());
+  });
+}
+
+Result<> AravisLineCamera::finish_opening() {
+  if (!errands_.wait())
+    return fail(ErrorCode::absent,
+                "{}: the camera has not answered for a second; check cable, power, the camera's "
+                "address and the service's drop-in (docs/DEVICES.md); it is asked further",
+                name_);
+  const auto opening = std::move(opening_);
+  HAL_TRY(open_, std::move(opening->camera));
+  config_ = opening->config;
   const std::lock_guard lock{identity_mutex_};
-  identity_ = identity;
+  identity_ = opening->identity;
   return {};
 }
 
-void AravisLineCamera::watch() {
-  watch_ = aravis_->signal_connect_data(aravis_->camera_get_device(camera_.get()), "control-lost",
-                                        reinterpret_cast<GCallback>(&on_lost),
-                                        new Lost{lost_, news_}, &forget_lost, GConnectFlags{});
-}
-
 Result<> AravisLineCamera::do_start() {
-  auto started = lost_.load(std::memory_order_acquire) ? Result<>{gone()} : start_stream();
+  auto started = lost() ? Result<>{gone()} : start_stream();
   if (!started) {
-    server_.reset();
+    open_->server.reset();
     if (started.error().code == ErrorCode::disconnected)
       set_state(DeviceState::failed);
     return started;
@@ -96,17 +120,16 @@ Result<> AravisLineCamera::do_start() {
 }
 
 Result<> AravisLineCamera::start_stream() {
-  news_.take_all();
-  HAL_TRY(auto server, FrameServer::start(*aravis_,
-                                          {.camera = camera_.get(),
-                                           .name = name_,
-                                           .stream = stream_,
-                                           .format = config_.format,
-                                           .packet_resend = options_.packet_resend},
-                                          *slots_, clock_, news_, returns_));
-  server_ = std::move(server);
-  AravisAnswer answer{*aravis_};
-  aravis_->camera_start_acquisition(camera_.get(), answer.out());
+  open_->news.take_all();
+  HAL_TRY(open_->server, FrameServer::start(open_->aravis,
+                                            {.camera = open_->camera.get(),
+                                             .name = name_,
+                                             .stream = open_->stream,
+                                             .format = config_.format,
+                                             .packet_resend = options_.packet_resend},
+                                            *open_->slots, clock_, open_->news, open_->returns));
+  AravisAnswer answer{open_->aravis};
+  open_->aravis.camera_start_acquisition(open_->camera.get(), answer.out());
   if (answer.failed())
     return answer.error(name_, "starting", ErrorCode::disconnected);
   return {};
@@ -115,23 +138,23 @@ Result<> AravisLineCamera::start_stream() {
 Result<std::optional<LineFrame>> AravisLineCamera::do_wait_frame(Duration timeout) {
   const TimePoint deadline = deadline_after(clock_.now(), timeout);
   while (true) {
-    if (const auto slot = slots_->fetch())
+    if (const auto slot = open_->slots->fetch())
       return handed_out(*slot);
-    if (lost_.load(std::memory_order_acquire))
+    if (lost())
       return gone();
     if (clock_.now() >= deadline)
       return std::nullopt;
-    clock_.wait_until(news_, deadline);
+    clock_.wait_until(open_->news, deadline);
   }
 }
 
 LineFrame AravisLineCamera::handed_out(int slot) const {
-  const ServedFrame& served = slots_->frame(slot);
+  const ServedFrame& served = open_->slots->frame(slot);
   const Duration to_last =
       from_seconds((config_.format.lines_per_frame - 1) / config_.line_rate_hz);
   const Duration whole = from_seconds(config_.format.lines_per_frame / config_.line_rate_hz);
   return {.buffer = slot,
-          .bytes = slots_->bytes(slot).first(served.bytes),
+          .bytes = open_->slots->bytes(slot).first(served.bytes),
           .sequence = served.sequence,
           .first_line = served.end - whole,
           .last_line = served.end - whole + to_last,
@@ -147,63 +170,31 @@ tl::unexpected<Error> AravisLineCamera::gone() {
 }
 
 void AravisLineCamera::do_release(int buffer) {
-  if (slots_ && slots_->give_back(buffer))
-    returns_.post();
-}
-
-// False if the camera does not answer.
-bool AravisLineCamera::stop_acquisition() {
-  if (lost_.load(std::memory_order_acquire) || state() == DeviceState::failed)
-    return false;
-  if (!server_)
-    return true;
-  AravisAnswer answer{*aravis_};
-  aravis_->camera_stop_acquisition(camera_.get(), answer.out());
-  return !answer.failed();
+  if (open_ && open_->slots && open_->slots->give_back(buffer))
+    open_->returns.post();
 }
 
 void AravisLineCamera::do_stop() {
   if (state() != DeviceState::streaming)
     return;
-  stop_acquisition();
-  server_.reset();
-  set_state(DeviceState::ready);
+  open_->server->end_service();
+  errands_.start([open = open_.get()] { end_stream(*open); });
+  set_state(errands_.wait() ? DeviceState::ready : DeviceState::failed);
 }
 
 void AravisLineCamera::do_close() {
-  if (camera_) {
-    const bool answers = stop_acquisition();
-    aravis_->signal_handler_disconnect(aravis_->camera_get_device(camera_.get()), watch_);
-    if (!answers)
-      close_beside();
+  if (open_) {
+    const bool answers = state() != DeviceState::failed && !lost();
+    if (open_->server)
+      open_->server->end_service();
+    errands_.start([open = std::move(open_)]() mutable {
+      end_stream(*open);
+      open.reset();
+    });
+    if (answers)
+      errands_.wait();
   }
-  server_.reset();
-  slots_.reset();
-  camera_.reset();
   set_state(DeviceState::absent);
-}
-
-void AravisLineCamera::close_beside() {
-  closing_ = std::thread{[this, camera = std::move(camera_), slots = std::move(slots_),
-                          server = std::move(server_)]() mutable {
-    server.reset();
-    slots.reset();
-    camera.reset();
-    closed_.post();
-  }};
-}
-
-Result<> AravisLineCamera::wait_until_closed() {
-  if (!closing_.joinable())
-    return {};
-  const TimePoint began = clock_.now();
-  const bool closed = clock_.wait_until(closed_, began + most_closing);
-  if (closed)
-    closing_.join();
-  if (closed && clock_.now() - began < most_closing / 2) // opening may take as long
-    return {};
-  return fail(ErrorCode::absent,
-              "{}: the camera that went is being closed; it is looked for at the next try", name_);
 }
 
 std::unique_ptr<LineCamera> make_genicam_camera(GenicamCameraOptions options, Clock& clock) {

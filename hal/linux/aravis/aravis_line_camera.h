@@ -6,9 +6,9 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include "hal/linux/aravis/aravis_library.h"
+#include "hal/linux/aravis/camera_errands.h"
 #include "hal/linux/aravis/camera_features.h"
 #include "hal/linux/aravis/frame_server.h"
 #include "hal/linux/aravis/frame_slots.h"
@@ -16,6 +16,27 @@
 #include "hal/semaphore.h"
 
 namespace octascope::hal::linux_backend {
+
+// All that a camera has from open to close. It is made and ended by errands.
+struct OpenCamera {
+  explicit OpenCamera(const AravisLibrary& library) : aravis{library} {}
+
+  AravisLibrary aravis;
+  std::atomic<bool> lost{false}; // the device said so, on a thread of its own
+  Semaphore news;                // of frames, and of that
+  Semaphore returns;             // of slots, by any thread
+  Reference<ArvCamera> camera;
+  CameraStream stream;
+  std::unique_ptr<FrameSlots> slots;
+  std::unique_ptr<FrameServer> server; // while streaming
+};
+
+// A camera that is being opened; filled by an errand.
+struct Opening {
+  LineCameraConfig config;
+  std::string identity;
+  Result<std::unique_ptr<OpenCamera>> camera = nullptr;
+};
 
 class AravisLineCamera final : public LineCamera {
 public:
@@ -33,13 +54,11 @@ private:
   void do_close() override;
   std::string do_identity() const override;
 
-  Result<> open_camera_of(const LineCameraConfig& config);
+  void begin_opening(const LineCameraConfig& config);
+  Result<> finish_opening();
   Result<> start_stream();
-  void watch();
-  bool stop_acquisition();
-  void close_beside();
-  Result<> wait_until_closed();
   LineFrame handed_out(int slot) const;
+  bool lost() const { return open_->lost.load(std::memory_order_acquire); }
   tl::unexpected<Error> gone();
 
   const GenicamCameraOptions options_;
@@ -48,18 +67,9 @@ private:
 
   std::optional<AravisLibrary> aravis_;
   LineCameraConfig config_;
-  CameraStream stream_;
-  std::atomic<bool> lost_{false}; // the device said so, on a thread of its own
-  Semaphore news_;                // of frames, and of that
-  Semaphore returns_;             // of slots, by any thread
-  Reference<ArvCamera> camera_;
-  gulong watch_ = 0; // the handler of that news
-  std::unique_ptr<FrameSlots> slots_;
-  std::unique_ptr<FrameServer> server_; // while streaming
-
-  // A camera that went is closed beside the camera thread: Aravis waits seconds for its answers.
-  std::thread closing_;
-  Semaphore closed_;
+  std::unique_ptr<OpenCamera> open_; // not while absent
+  std::shared_ptr<Opening> opening_; // asked for by an open() that did not wait for its end
+  CameraErrands errands_;
 
   mutable std::mutex identity_mutex_; // never taken while streaming
   std::string identity_;              // of the last open

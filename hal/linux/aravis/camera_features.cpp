@@ -17,11 +17,13 @@ public:
   Settings(const AravisLibrary& aravis, ArvCamera* camera, std::string name)
       : aravis_{aravis}, camera_{camera}, name_{std::move(name)}, answer_{aravis} {}
 
-  Result<> set_pixel_format(const LineFormat& wanted) {
+  Result<Packing> set_pixel_format(const LineFormat& wanted) {
     HAL_TRY(const auto offered, offered_formats(aravis_, camera_, name_));
     HAL_TRY(const auto chosen, choose_genicam_format(offered, wanted));
-    aravis_.camera_set_pixel_format_from_string(camera_, chosen.c_str(), answer_.out());
-    return done("setting the pixel format");
+    const std::string name{chosen.name};
+    aravis_.camera_set_pixel_format_from_string(camera_, name.c_str(), answer_.out());
+    HAL_CHECK(done("setting the pixel format"));
+    return chosen.packing;
   }
 
   Result<> set_size(const LineFormat& wanted) {
@@ -76,18 +78,21 @@ public:
     return {};
   }
 
-  Result<CameraStream> stream(const LineFormat& wanted) {
+  Result<CameraStream> stream(const LineFormat& wanted, Packing packing) {
     aravis_.camera_set_acquisition_mode(camera_, ARV_ACQUISITION_MODE_CONTINUOUS, answer_.out());
     HAL_CHECK(done("setting the acquisition mode"));
     CameraStream stream;
+    stream.packing = packing;
     stream.pixel_format = aravis_.camera_get_pixel_format(camera_, answer_.out());
     HAL_CHECK(done("reading the pixel format"));
     stream.payload_bytes = aravis_.camera_get_payload(camera_, answer_.out());
     HAL_CHECK(done("reading the payload size"));
-    if (stream.payload_bytes < wanted.frame_bytes() ||
-        stream.payload_bytes > 2 * wanted.frame_bytes() + 65536)
+    const std::size_t samples = wanted.frame_bytes() / bytes_per_sample(wanted.sample_type);
+    const std::size_t expected =
+        packing == Packing::none ? wanted.frame_bytes() : packed_bytes(packing, samples);
+    if (stream.payload_bytes < expected || stream.payload_bytes > 2 * expected + 65536)
       return fail(ErrorCode::unsupported, "{}: a frame has {} bytes, expected {}", name_,
-                  stream.payload_bytes, wanted.frame_bytes());
+                  stream.payload_bytes, expected);
     return stream;
   }
 
@@ -171,7 +176,7 @@ Result<CameraStream> set_features(const AravisLibrary& aravis, ArvCamera* camera
                                   const GenicamCameraOptions& options,
                                   const LineCameraConfig& config) {
   Settings settings{aravis, camera, to_text(options.address)};
-  HAL_CHECK(settings.set_pixel_format(config.format));
+  HAL_TRY(const Packing packing, settings.set_pixel_format(config.format));
   HAL_CHECK(settings.set_size(config.format));
   HAL_CHECK(settings.set_line_rate(config.line_rate_hz));
   if (options.exposure_us) {
@@ -183,7 +188,7 @@ Result<CameraStream> set_features(const AravisLibrary& aravis, ArvCamera* camera
   if (!options.trigger.empty()) {
     HAL_CHECK(settings.set_trigger(options.trigger));
   }
-  return settings.stream(config.format);
+  return settings.stream(config.format, packing);
 }
 
 } // namespace octascope::hal::linux_backend

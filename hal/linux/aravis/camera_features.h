@@ -7,6 +7,7 @@
 #include "hal/line_camera.h"
 #include "hal/linux/aravis/aravis_library.h"
 #include "hal/linux/aravis/genicam_camera.h"
+#include "hal/linux/aravis/packed_samples.h"
 #include "hal/result.h"
 
 namespace octascope::hal::linux_backend {
@@ -14,6 +15,7 @@ namespace octascope::hal::linux_backend {
 // What a camera delivers after it was set.
 struct CameraStream {
   ArvPixelFormat pixel_format{};
+  Packing packing{};
   std::size_t payload_bytes = 0; // of a frame, with what the camera appends
 };
 

@@ -52,11 +52,16 @@ FrameServer::FrameServer(const AravisLibrary& aravis, const Setup& setup, FrameS
   ::pthread_setname_np(returning_.native_handle(), "octa-genicam-in");
 }
 
-FrameServer::~FrameServer() {
-  over_ = true;
+void FrameServer::end_service() {
+  if (over_.exchange(true))
+    return;
   returns_.post();
   returning_.join();
   fetching_.join();
+}
+
+FrameServer::~FrameServer() {
+  end_service();
   stream_.reset(); // nothing is written into the slots any more
   slots_.reset();
 }
@@ -104,6 +109,8 @@ void FrameServer::serve(int slot, ArvBuffer* buffer, TimePoint now) {
   frame.end =
       leader_lost ? now : camera_clock_.end_of_frame(aravis_.buffer_get_timestamp(buffer), now);
   frame.integrity = judge(buffer, frame.bytes);
+  if (frame.integrity == FrameIntegrity::good)
+    unpack(expected_.packing, slots_.bytes(slot), format_.frame_bytes() / sizeof(std::uint16_t));
   slots_.serve(slot, frame);
   news_.post();
 }

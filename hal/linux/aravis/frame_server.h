@@ -1,6 +1,6 @@
 // Serves a camera's stream on threads of its own, so that nobody else meets Aravis's locks and
-// allocations: one waits for frames and hands them to the slots, one gives idle slots back to the
-// stream. They and Aravis's own inherit the priority of the thread that called start().
+// allocations: one waits for frames, unpacks them and hands them to the slots, one gives idle slots
+// back to the stream. They and Aravis's own inherit the priority of the thread that called start().
 #pragma once
 
 #include <atomic>
@@ -34,7 +34,11 @@ public:
                                                     FrameSlots& slots, Clock& clock,
                                                     Semaphore& news, Semaphore& returns);
 
-  // Ends stream and threads; all slots that are not lent are idle then.
+  // Ends what hands frames on, so that clock and semaphores are not used any more. Quick, whatever
+  // the camera does.
+  void end_service();
+
+  // Ends all and the stream, too; all slots that are not lent are idle then.
   ~FrameServer();
 
 private:

@@ -2,14 +2,18 @@
 // camera by its name; nothing else on a bus or a network is opened. USB3 Vision has not been tried
 // with a camera yet.
 //
-// A frame is an image of samples_per_line × lines_per_frame pixels, of unpacked Mono formats.
+// A frame is an image of samples_per_line × lines_per_frame pixels. Packed samples are unpacked on a
+// thread of the camera's own.
 //
 // Faults, in addition to those of hal::LineCamera:
 // - Aravis is not installed, or was not when octascope was built: open() is refused with
 //   ErrorCode::unsupported and the remedy.
 // - Packets are lost and not sent again in time: FrameIntegrity::corrupted. What was not received
-//   of the frame is left from an older one.
+//   of the frame is left from an older one, and it is not unpacked.
 // - A GigE camera that goes is noticed by its heartbeat, some seconds later.
+// - Aravis waits seconds for a camera that does not answer; nobody waits for Aravis longer than a
+//   second: open() says ErrorCode::absent, and the next open() has what was found meanwhile; stop()
+//   leaves `failed`; what is left after close() and at the end ends by itself.
 #pragma once
 
 #include <memory>

@@ -12,22 +12,22 @@ namespace octascope::hal::linux_backend {
 
 namespace {
 
-// Samples of `bits` bits, right-justified, little-endian, without gaps. Where `bits` is the whole
-// type, a camera may use fewer, also left-justified.
-struct PixelName {
-  std::string_view name;
-  SampleType type;
-  int bits;
-};
-
 constexpr std::array known{
-    PixelName{"Mono8", SampleType::u8, 8},    PixelName{"Mono10", SampleType::u16, 10},
-    PixelName{"Mono12", SampleType::u16, 12}, PixelName{"Mono14", SampleType::u16, 14},
-    PixelName{"Mono16", SampleType::u16, 16},
+    GenicamFormat{"Mono8", SampleType::u8, 8, Packing::none},
+    GenicamFormat{"Mono10p", SampleType::u16, 10, Packing::mono10p},
+    GenicamFormat{"Mono10Packed", SampleType::u16, 10, Packing::mono10_packed},
+    GenicamFormat{"Mono10", SampleType::u16, 10, Packing::none},
+    GenicamFormat{"Mono12p", SampleType::u16, 12, Packing::mono12p},
+    GenicamFormat{"Mono12Packed", SampleType::u16, 12, Packing::mono12_packed},
+    GenicamFormat{"Mono12", SampleType::u16, 12, Packing::none},
+    GenicamFormat{"Mono14", SampleType::u16, 14, Packing::none},
+    GenicamFormat{"Mono16", SampleType::u16, 16, Packing::none},
 };
 
-bool fits(const PixelName& format, const LineFormat& wanted) {
+bool fits(const GenicamFormat& format, const LineFormat& wanted) {
   if (format.type != wanted.sample_type)
+    return false;
+  if (format.packing != Packing::none && wanted.samples_per_line % packed_group != 0)
     return false;
   const int whole = format.type == SampleType::u8 ? 8 : 16;
   return format.bits == whole ||
@@ -61,24 +61,27 @@ Result<> check_genicam_request(const LineCameraConfig& config) {
   return {};
 }
 
-std::vector<std::string_view> genicam_formats_for(const LineFormat& wanted) {
-  std::vector<std::string_view> names;
-  for (const PixelName& format : known)
+std::vector<GenicamFormat> genicam_formats_for(const LineFormat& wanted) {
+  std::vector<GenicamFormat> formats;
+  for (const GenicamFormat& format : known)
     if (fits(format, wanted))
-      names.push_back(format.name);
-  return names;
+      formats.push_back(format);
+  return formats;
 }
 
-Result<std::string> choose_genicam_format(std::span<const std::string> offered,
-                                          const LineFormat& wanted) {
+Result<GenicamFormat> choose_genicam_format(std::span<const std::string> offered,
+                                            const LineFormat& wanted) {
   const auto serving = genicam_formats_for(wanted);
-  for (const std::string_view name : serving)
-    if (std::ranges::find(offered, name) != offered.end())
-      return std::string{name};
+  std::vector<std::string_view> names;
+  for (const GenicamFormat& format : serving) {
+    if (std::ranges::find(offered, format.name) != offered.end())
+      return format;
+    names.push_back(format.name);
+  }
   return fail(ErrorCode::unsupported,
               "the camera offers {}, expected {} for {} bits; set [devices] significant_bits to "
               "what it has",
-              fmt::join(offered, ", "), fmt::join(serving, " or "), wanted.significant_bits);
+              fmt::join(offered, ", "), fmt::join(names, " or "), wanted.significant_bits);
 }
 
 } // namespace octascope::hal::linux_backend

@@ -1,11 +1,10 @@
 #include "tests/hal/aravis/fake_camera.h"
 
 #include <chrono>
+#include <cstring>
+#include <utility>
 
 #include <arv.h>
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace octascope::tests {
 
@@ -21,18 +20,17 @@ ArvFakeCamera* registers_of(void* camera) {
   return arv_gv_fake_camera_get_fake_camera(static_cast<ArvGvFakeCamera*>(camera));
 }
 
+void fill(ArvBuffer* buffer, void* frame, guint32 /*exposure_us*/, guint32 /*gain*/,
+          ArvPixelFormat /*format*/) {
+  const auto& bytes = *static_cast<const std::vector<std::byte>*>(frame);
+  // Its size is not set before it is full.
+  void* const into = const_cast<void*>(arv_buffer_get_data(buffer, nullptr));
+  std::memcpy(into, bytes.data(), bytes.size());
+}
+
 } // namespace
 
-// Tests run beside each other, in processes of their own.
-struct FakeCamera::Port {
-  Port() : file{::open("/tmp/octascope-fake-camera.lock", O_CREAT | O_RDWR | O_CLOEXEC, 0666)} {
-    ::flock(file, LOCK_EX);
-  }
-  ~Port() { ::close(file); }
-  int file;
-};
-
-FakeCamera::FakeCamera(double lost) : lost_{lost}, port_{std::make_unique<Port>()} {
+FakeCamera::FakeCamera(FakeCameraTraits traits) : traits_{std::move(traits)} {
   plug_in();
 }
 
@@ -46,10 +44,26 @@ bool FakeCamera::runs() const {
 }
 
 void FakeCamera::plug_in() {
-  camera_ = g_object_new(arv_gv_fake_camera_get_type(), "interface-name", address, "serial-number",
-                         "OCT1", "gvsp-lost-ratio", lost_, nullptr);
+  camera_ =
+      g_object_new(arv_gv_fake_camera_get_type(), "interface-name", address, "serial-number",
+                   "OCT1", "gvsp-lost-ratio", traits_.lost, "genicam-filename",
+                   traits_.description.empty() ? nullptr : traits_.description.c_str(), nullptr);
   // As soon as it can after a trigger.
   arv_fake_camera_write_register(registers_of(camera_), frame_period_us, 1000);
+}
+
+std::string FakeCamera::usual_description() {
+  ArvFakeCamera* const camera = arv_fake_camera_new("OCT1");
+  std::size_t size = 0;
+  const char* const text = arv_fake_camera_get_genicam_xml(camera, &size);
+  std::string description{text, size};
+  g_object_unref(camera);
+  return description;
+}
+
+void FakeCamera::send_bytes(std::vector<std::byte> frame) {
+  frame_ = std::move(frame);
+  arv_fake_camera_set_fill_pattern(registers_of(camera_), &fill, &frame_);
 }
 
 void FakeCamera::trigger(int frames) {

@@ -3,19 +3,33 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
+#include <cstddef>
 #include <string>
 #include <thread>
+#include <vector>
+
+#include "tests/support/program/loopback_port.h"
 
 namespace octascope::tests {
+
+struct FakeCameraTraits {
+  double lost = 0;              // the share of its packets that it leaves out
+  std::string description = {}; // an XML file, where it is not Aravis's own
+};
 
 class FakeCamera {
 public:
   static constexpr const char* address = "127.0.0.1";
 
-  // `lost`: the share of its packets that it leaves out. Waits while another test has the port.
-  explicit FakeCamera(double lost = 0);
+  // Waits while another test has the port.
+  explicit FakeCamera(FakeCameraTraits traits = {});
   ~FakeCamera();
+
+  // The description that Aravis has for it.
+  static std::string usual_description();
+
+  // What it sends from now on, instead of a ramp: these bytes, as many as its frames have.
+  void send_bytes(std::vector<std::byte> frame);
 
   // Whether the loopback has it.
   bool runs() const;
@@ -27,12 +41,12 @@ public:
   void replug();
 
 private:
-  struct Port; // of the machine
   void plug_in();
   void send(int frames);
 
-  const double lost_;
-  std::unique_ptr<Port> port_;
+  const FakeCameraTraits traits_;
+  const LoopbackPort port_;
+  std::vector<std::byte> frame_;
   void* camera_ = nullptr; // ArvGvFakeCamera
   std::thread sending_;
   std::atomic<bool> over_{false};

@@ -1,7 +1,9 @@
 // What goes wrong with a GenICam camera, and what is refused; against Aravis's own on the loopback.
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -10,7 +12,9 @@
 #include "hal/linux/aravis/genicam_camera.h"
 #include "hal/linux/monotonic_clock.h"
 #include "tests/hal/aravis/fake_camera.h"
+#include "tests/hal/aravis/packed_by_definition.h"
 #include "tests/support/fails_with.h"
+#include "tests/support/files/scratch_folder.h"
 
 namespace octascope::tests {
 namespace {
@@ -62,30 +66,47 @@ protected:
     return hal::linux_backend::make_genicam_camera(options, clock_);
   }
 
+  // What libraries keep for ever, they have after that.
+  int threads_without_camera() {
+    {
+      const FakeCamera fake;
+      EXPECT_TRUE(make({})->open(small_config()));
+    }
+    return threads();
+  }
+
+  void wait_for_threads(int expected) {
+    for (int i = 0; i < 600 && threads() > expected; ++i)
+      clock_.sleep_for(100ms);
+    EXPECT_EQ(threads(), expected);
+  }
+
   hal::linux_backend::MonotonicClock clock_;
 };
 
 TEST_F(GenicamCamera, frames_with_lost_packets_are_told_as_corrupted_and_the_stream_goes_on) {
   for (const bool resend : {true, false}) {
-    FakeCamera fake{0.05};
+    FakeCamera fake{{.lost = 0.05}};
     const auto camera = make({.trigger = "Software", .packet_resend = resend});
     ASSERT_TRUE(camera->open(small_config()));
     ASSERT_TRUE(camera->start());
     fake.trigger(100);
-    int good = 0;
+    int good_since = 0; // the first that is not
     int corrupted = 0;
     std::uint64_t last = 0;
-    while (const auto frame = *camera->wait_frame(1s)) {
-      (frame->integrity == FrameIntegrity::good ? good : corrupted) += 1;
-      EXPECT_NE(frame->integrity, FrameIntegrity::wrong_size);
-      EXPECT_EQ(frame->bytes.size(), small_config().format.frame_bytes());
-      EXPECT_TRUE(last == 0 || frame->sequence > last);
-      last = frame->sequence;
-      camera->release(frame->buffer);
+    while (corrupted == 0 || good_since < 3) {
+      const auto frame = camera->wait_frame(20s);
+      ASSERT_TRUE(frame && *frame) << good_since << " good after " << corrupted << " broken ones";
+      if ((*frame)->integrity == FrameIntegrity::corrupted)
+        ++corrupted;
+      else if (corrupted > 0)
+        ++good_since;
+      EXPECT_NE((*frame)->integrity, FrameIntegrity::wrong_size);
+      EXPECT_EQ((*frame)->bytes.size(), small_config().format.frame_bytes());
+      EXPECT_TRUE(last == 0 || (*frame)->sequence > last);
+      last = (*frame)->sequence;
+      camera->release((*frame)->buffer);
     }
-    EXPECT_GT(good, 0);
-    EXPECT_GT(corrupted, 0);
-    EXPECT_GE(last + 1, static_cast<std::uint64_t>(good + corrupted));
     EXPECT_EQ(camera->state(), hal::DeviceState::streaming);
   }
 }
@@ -100,7 +121,7 @@ TEST_F(GenicamCamera, two_hundred_opens_and_closes_leave_nothing_behind) {
     ASSERT_TRUE(camera->open(small_config()));
     if (i % 4 == 0) {
       ASSERT_TRUE(camera->start());
-      const auto frame = camera->wait_frame(1s);
+      const auto frame = camera->wait_frame(20s);
       ASSERT_TRUE(frame && *frame) << "it runs free, at the rate that it has";
     }
     camera->close();
@@ -118,12 +139,16 @@ TEST_F(GenicamCamera, two_hundred_opens_and_closes_leave_nothing_behind) {
 }
 
 TEST_F(GenicamCamera, one_that_is_not_there_is_absent_and_leaves_nothing_behind) {
-  const auto camera = make({});
-  EXPECT_THAT(camera->open(small_config()), FailsWith(ErrorCode::absent));
+  const int idle = threads_without_camera();
   const int files = open_files();
-  EXPECT_THAT(camera->open(small_config()), FailsWith(ErrorCode::absent));
+  for (int i = 0; i < 3; ++i) { // Aravis asks for longer than open() waits
+    const auto camera = make({});
+    EXPECT_THAT(camera->open(small_config()), FailsWith(ErrorCode::absent));
+    EXPECT_THAT(camera->open(small_config()), FailsWith(ErrorCode::absent));
+    EXPECT_EQ(camera->state(), hal::DeviceState::absent);
+  }
+  wait_for_threads(idle);
   EXPECT_EQ(open_files(), files);
-  EXPECT_EQ(camera->state(), hal::DeviceState::absent);
 }
 
 TEST_F(GenicamCamera, its_features_are_set_and_what_it_cannot_is_refused_with_the_range) {
@@ -161,7 +186,7 @@ TEST_F(GenicamCamera, samples_of_8_bits_come_as_they_are) {
   ASSERT_TRUE(camera->open(config));
   ASSERT_TRUE(camera->start());
   fake.trigger(1);
-  const auto frame = camera->wait_frame(5s);
+  const auto frame = camera->wait_frame(20s);
   ASSERT_TRUE(frame && *frame);
   const auto bytes = (*frame)->bytes;
   ASSERT_EQ(bytes.size(), config.format.frame_bytes());
@@ -170,6 +195,59 @@ TEST_F(GenicamCamera, samples_of_8_bits_come_as_they_are) {
   for (std::size_t i = 0; i + 1 < 256; ++i)
     moved += bytes[256 + i] == bytes[i + 1] ? 1 : 0;
   EXPECT_GT(moved, 250);
+}
+
+// Aravis's camera with one pixel format more.
+std::string description_with(const char* format, unsigned number) {
+  std::string text = FakeCamera::usual_description();
+  const std::string before = "<EnumEntry Name=\"Mono8\"";
+  text.insert(text.find(before), "<EnumEntry Name=\"" + std::string{format} +
+                                     "\" NameSpace=\"Standard\"><Value>" + std::to_string(number) +
+                                     "</Value></EnumEntry>\n");
+  return text;
+}
+
+TEST_F(GenicamCamera, packed_samples_come_unpacked) {
+  using hal::linux_backend::Packing;
+  const ScratchFolder folder;
+  FakeCamera fake{
+      {.description = folder.write("camera.xml", description_with("Mono12p", 0x010C0047))}};
+  std::vector<int> samples(256 * 64);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i] = static_cast<int>(i * 7 % 4096);
+  fake.send_bytes(pack_by_definition(Packing::mono12p, samples));
+  const auto camera = make({.trigger = "Software"});
+  ASSERT_TRUE(camera->open(small_config()));
+  ASSERT_TRUE(camera->start());
+  fake.trigger(2);
+  for (int i = 0; i < 2; ++i) { // the second is not disturbed by the first
+    const auto frame = camera->wait_frame(20s);
+    ASSERT_TRUE(frame && *frame);
+    EXPECT_EQ((*frame)->integrity, FrameIntegrity::good);
+    ASSERT_EQ((*frame)->bytes.size(), samples.size() * 2);
+    std::vector<std::uint16_t> received(samples.size());
+    std::memcpy(received.data(), (*frame)->bytes.data(), (*frame)->bytes.size());
+    EXPECT_THAT(received, testing::ElementsAreArray(samples));
+    camera->release((*frame)->buffer);
+  }
+}
+
+// Aravis waits 3 s for each answer, and asks twice or thrice.
+TEST_F(GenicamCamera, ends_soon_after_it_went_and_what_is_left_ends_by_itself) {
+  const int idle = threads_without_camera();
+  FakeCamera fake;
+  auto camera = make({.trigger = "Software"});
+  ASSERT_TRUE(camera->open(small_config()));
+  ASSERT_TRUE(camera->start());
+  fake.unplug();
+  const hal::TimePoint began = clock_.now();
+  camera->stop();
+  EXPECT_EQ(camera->state(), hal::DeviceState::failed);
+  camera->close();
+  EXPECT_EQ(camera->state(), hal::DeviceState::absent);
+  camera.reset();
+  EXPECT_LT(clock_.now() - began, 2500ms) << "a second, and a machine may stand still for another";
+  wait_for_threads(idle);
 }
 
 TEST_F(GenicamCamera, tells_what_it_is_and_offers) {

@@ -1,5 +1,6 @@
 // Names of cameras and of pixel formats.
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -51,14 +52,28 @@ hal::LineFormat format(hal::SampleType type, int bits, int shift = 0) {
   return {.sample_type = type, .significant_bits = bits, .right_shift = shift};
 }
 
-TEST(GenicamPixels, a_format_that_says_its_bits_comes_first) {
+std::vector<std::string_view> names_for(const hal::LineFormat& wanted) {
+  std::vector<std::string_view> names;
+  for (const auto& format : hal::linux_backend::genicam_formats_for(wanted))
+    names.push_back(format.name);
+  return names;
+}
+
+TEST(GenicamPixels, a_packed_format_comes_first_then_one_that_says_its_bits) {
   using hal::SampleType;
-  using hal::linux_backend::genicam_formats_for;
-  EXPECT_THAT(genicam_formats_for(format(SampleType::u8, 8)), ElementsAre("Mono8"));
-  EXPECT_THAT(genicam_formats_for(format(SampleType::u16, 10)), ElementsAre("Mono10", "Mono16"));
-  EXPECT_THAT(genicam_formats_for(format(SampleType::u16, 12)), ElementsAre("Mono12", "Mono16"));
-  EXPECT_THAT(genicam_formats_for(format(SampleType::u16, 16)), ElementsAre("Mono16"));
-  EXPECT_THAT(genicam_formats_for(format(SampleType::u16, 12, 4)), ElementsAre("Mono16"));
+  EXPECT_THAT(names_for(format(SampleType::u8, 8)), ElementsAre("Mono8"));
+  EXPECT_THAT(names_for(format(SampleType::u16, 10)),
+              ElementsAre("Mono10p", "Mono10Packed", "Mono10", "Mono16"));
+  EXPECT_THAT(names_for(format(SampleType::u16, 12)),
+              ElementsAre("Mono12p", "Mono12Packed", "Mono12", "Mono16"));
+  EXPECT_THAT(names_for(format(SampleType::u16, 16)), ElementsAre("Mono16"));
+  EXPECT_THAT(names_for(format(SampleType::u16, 12, 4)), ElementsAre("Mono16"));
+}
+
+TEST(GenicamPixels, lines_that_do_not_begin_at_a_byte_are_not_packed) {
+  hal::LineFormat odd = format(hal::SampleType::u16, 12);
+  odd.samples_per_line = 1022;
+  EXPECT_THAT(names_for(odd), ElementsAre("Mono12", "Mono16"));
 }
 
 TEST(GenicamPixels, what_is_not_offered_is_told) {
@@ -66,7 +81,7 @@ TEST(GenicamPixels, what_is_not_offered_is_told) {
   const std::vector<std::string> offered{"BayerRG8", "Mono16", "Mono12"};
   const auto chosen = choose_genicam_format(offered, format(hal::SampleType::u16, 12));
   ASSERT_TRUE(chosen.has_value());
-  EXPECT_EQ(*chosen, "Mono12");
+  EXPECT_EQ(chosen->name, "Mono12");
   const auto refused = choose_genicam_format(offered, format(hal::SampleType::u8, 8));
   ASSERT_FALSE(refused.has_value());
   EXPECT_EQ(refused.error().code, hal::ErrorCode::unsupported);

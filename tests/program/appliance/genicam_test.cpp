@@ -5,13 +5,11 @@
 #include <string>
 #include <thread>
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include "tests/program/program_support.h"
+#include "tests/support/program/loopback_port.h"
 
 namespace octascope::tests {
 namespace {
@@ -31,7 +29,6 @@ protected:
     if (devices.out.find("built without Aravis") != std::string::npos)
       GTEST_SKIP() << "octascope was built without Aravis; install libaravis-dev";
   }
-  ~GenicamRun() override { ::close(port_); }
 
   // It runs free, 25 frames a second: a volume takes 0.4 s.
   std::string configuration() const {
@@ -78,12 +75,7 @@ line_camera = "gigevision:127.0.0.1"
   const ScratchFolder folder_;
 
 private:
-  // The camera has one port of the machine; tests run beside each other.
-  const int port_ = [] {
-    const int file = ::open("/tmp/octascope-fake-camera.lock", O_CREAT | O_RDWR | O_CLOEXEC, 0666);
-    ::flock(file, LOCK_EX);
-    return file;
-  }();
+  const LoopbackPort port_;
   std::unique_ptr<ProgramRun> camera_;
 };
 
