@@ -72,7 +72,6 @@ bool find_all(void* library, AravisLibrary& aravis) {
          find(library, "g_object_unref", aravis.object_unref) &&
          find(library, "g_object_set", aravis.object_set) &&
          find(library, "g_signal_connect_data", aravis.signal_connect_data) &&
-         find(library, "g_signal_handler_disconnect", aravis.signal_handler_disconnect) &&
          find(library, "g_error_free", aravis.error_free) && find(library, "g_free", aravis.free);
 }
 

@@ -69,7 +69,6 @@ struct AravisLibrary {
   decltype(&g_object_unref) object_unref = nullptr;
   decltype(&g_object_set) object_set = nullptr;
   decltype(&g_signal_connect_data) signal_connect_data = nullptr;
-  decltype(&g_signal_handler_disconnect) signal_handler_disconnect = nullptr;
   decltype(&g_error_free) error_free = nullptr;
   decltype(&g_free) free = nullptr;
 };
