@@ -44,6 +44,7 @@ set(device "aravis(_camera)?\\." "hal(_[a-z]+)?\\." "sim\\." "twins\\." "v4l2(_c
 # every fault at once, ends by a signal, a replay, and what is refused.
 set(sanitized
   "aravis_camera\\."
+  "program_genicam\\.GenicamRun\\.shows"
   "coronary_tree\\."
   "firmware_host\\.(LiveTreeLoop|ReplayLoop|Staleness|VesselLoaderTest)\\."
   "firmware_host\\.Techniques/LostDisplay\\..*/surface"
