@@ -29,6 +29,13 @@ if(OCTASCOPE_DISPLAY)
   pkg_check_modules(sdl2 REQUIRED IMPORTED_TARGET sdl2) # linked by tests; loaded by the program
   add_library(octascope_sdl2_headers INTERFACE)
   target_include_directories(octascope_sdl2_headers SYSTEM INTERFACE ${sdl2_INCLUDE_DIRS})
+  pkg_check_modules(aravis IMPORTED_TARGET aravis-0.8>=0.8.20) # linked by tests; loaded by the program
+  if(aravis_FOUND)
+    add_library(octascope_aravis_headers INTERFACE)
+    target_include_directories(octascope_aravis_headers SYSTEM INTERFACE ${aravis_INCLUDE_DIRS})
+  else()
+    message(STATUS "Aravis not found: GenICam cameras are left out (libaravis-dev, libusb-1.0-0-dev)")
+  endif()
   pkg_check_modules(udev REQUIRED IMPORTED_TARGET libudev)
   pkg_check_modules(drm REQUIRED IMPORTED_TARGET libdrm)
   pkg_check_modules(gbm REQUIRED IMPORTED_TARGET gbm)

@@ -49,6 +49,9 @@ install(FILES ${manual}/octascope.bash DESTINATION usr/share/bash-completion/com
 file(GLOB documents CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/*.md ${CMAKE_SOURCE_DIR}/docs/*.png)
 install(FILES ${documents} DESTINATION ${OCTASCOPE_DOC}/docs)
 
+# What lets the service reach a GigE Vision or USB3 Vision camera; nothing of it is in force.
+install(DIRECTORY ${OCTASCOPE_DEPLOY}/drop-ins DESTINATION ${OCTASCOPE_DOC})
+
 # NOTICE, and in full the licences of what is compiled into the program itself.
 install(FILES README.md NOTICE ${OCTASCOPE_DEPLOY}/example.toml ${OCTASCOPE_DEPLOY}/debian/copyright
         DESTINATION ${OCTASCOPE_DOC})
@@ -88,6 +91,8 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl-mesa0, libgl1-mesa-dri, libcamera-ipa, 
 systemd (>= 252), udev, kmod, init-system-helpers (>= 1.54~), passwd")
 # For --display window, which an appliance on the console does without.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS libsdl2-2.0-0)
+# For USB3 Vision and GigE Vision cameras, which few have.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS libaravis-0.8-0)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
     ${OCTASCOPE_DEPLOY}/debian/postinst ${OCTASCOPE_DEPLOY}/debian/prerm

@@ -26,6 +26,8 @@ set(clock
   "program\\.(NoFault|Scripts/ShownFaults|Window)\\.")
 
 set(slow
+  "aravis_camera\\.GenicamCamera\\.(ends_soon|frames_with_lost|one_that_is_not_there|two_hundred)"
+  "aravis_camera\\.Genicam/LineCameraLoansContract\\.(a_disconnect|another_thread)"
   "vessel_following\\."
   "bidirectional\\."
   "coronary_tree\\."
@@ -36,11 +38,13 @@ set(slow
   "ui\\.(Isas/RayCasterIsa|LegendPicture|StereoPicture|Techniques/|VolumePainterTest)"
   "ui\\.(VolumeTechniquesTest|Vessel(Agreement|FlightTest|Merging|Methods|OverlayTest|Splatter))\\.")
 
-set(device "hal(_[a-z]+)?\\." "sim\\." "twins\\." "v4l2(_camera)?\\." "window_display\\.")
+set(device "aravis(_camera)?\\." "hal(_[a-z]+)?\\." "sim\\." "twins\\." "v4l2(_camera)?\\." "window_display\\.")
 
 # Sanitizers run what is quick; of what is slow, threads that nothing quick has; and of the built program
 # every fault at once, ends by a signal, a replay, and what is refused.
 set(sanitized
+  "aravis_camera\\."
+  "program_genicam\\.GenicamRun\\.shows"
   "coronary_tree\\."
   "firmware_host\\.(LiveTreeLoop|ReplayLoop|Staleness|VesselLoaderTest)\\."
   "firmware_host\\.Techniques/LostDisplay\\..*/surface"
@@ -64,7 +68,7 @@ endfunction()
 foreach(test IN LISTS test_${program}_TESTS)
   octascope_fits(is_slow "${test}" ${slow})
   octascope_fits(is_sanitized "${test}" ${sanitized})
-  if(program STREQUAL "program")
+  if(program MATCHES "^program")
     set(labels program)
   elseif(is_slow)
     set(labels slow)

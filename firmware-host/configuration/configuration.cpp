@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "firmware-host/configuration/control_device_file.h"
+#include "hal/linux/aravis/genicam_address.h"
 
 namespace octascope::firmware_host {
 
@@ -86,7 +87,9 @@ std::string read_device(ConfigTable& table, const char* key, std::string_view fa
 
 void read_devices(ConfigTable table, DeviceConfig& config) {
   config.line_camera = read_device(table, "line_camera", config.line_camera,
-                                   {"auto", "sim", "v4l2"}, OtherWords::allowed);
+                                   {"auto", "sim", "v4l2", "usb3vision"}, OtherWords::allowed);
+  if (const auto genicam = hal::linux_backend::parse_genicam_address(config.line_camera); !genicam)
+    table.complain("line_camera: {}", genicam.error().message);
   config.galvo_trigger = read_device(table, "galvo_trigger", config.galvo_trigger,
                                      {"auto", "sim", "gpio"}, OtherWords::refused);
   config.control_input = read_device(table, "control_input", config.control_input,
@@ -107,6 +110,8 @@ void read_devices(ConfigTable table, DeviceConfig& config) {
     config.gain = table.integer("gain", 0, {-1000000, 1000000});
   if (table.has("camera_input"))
     config.camera_input = table.integer("camera_input", 0, {0, 255});
+  config.camera_trigger = table.text("camera_trigger", config.camera_trigger);
+  config.packet_resend = table.boolean("packet_resend", config.packet_resend);
   if (table.has("significant_bits"))
     config.significant_bits = table.integer("significant_bits", 12, {8, 16});
   config.right_shift = table.integer("right_shift", config.right_shift, {0, 8});

@@ -17,8 +17,10 @@ struct DeviceConfig {
   static constexpr std::string_view twin = "sim";
   static constexpr std::string_view nothing = "none";
 
-  std::string line_camera{automatic};   // auto, sim, v4l2 (waited for), or a node: "/dev/video0"
-  std::string galvo_trigger{automatic}; // auto, sim, gpio (waited for)
+  // auto, sim, v4l2 (waited for), a node: "/dev/video0", or a GenICam camera, which is waited for,
+  // too: "usb3vision", "usb3vision:NAME", "gigevision:ADDRESS" (hal/linux/aravis).
+  std::string line_camera{automatic};
+  std::string galvo_trigger{automatic};           // auto, sim, gpio (waited for)
   std::string trigger_line = "octascope-trigger"; // a line's name, or "gpiochip0:17"
   std::string sync_line;                          // likewise; empty: none
   hal::Duration pulse_width = std::chrono::microseconds{50};
@@ -37,6 +39,9 @@ struct DeviceConfig {
   std::optional<double> exposure_us; // of the line camera; empty: unchanged
   std::optional<int> gain;           // likewise, in the camera's own steps
   std::optional<int> camera_input;   // for a frame grabber with several connectors
+  std::string camera_trigger;        // of a GenICam camera: the source that starts a frame; empty:
+                                     // as the camera has it
+  bool packet_resend = true;         // of a GigE Vision camera: ask for lost packets again
 
   // How the camera packs its samples; empty: by its pixel format.
   std::optional<int> significant_bits;

@@ -24,6 +24,8 @@ DeviceChoice line_camera(const DeviceFinding& found, const RunOptions& options,
     return {device, "recording", "spectra from a file were asked for"};
   if (options.simulate || wanted == DeviceConfig::twin)
     return {device, "sim", std::string{twin_asked_for}};
+  if (genicam_address(wanted))
+    return {device, "aravis", fmt::format("{}: {}", asked_for(wanted), found.what)};
   if (wanted != DeviceConfig::automatic)
     return {device, "v4l2", asked_for(wanted)};
   return {device, found.usable ? "v4l2" : "sim", found.what};
@@ -87,19 +89,37 @@ DeviceChoice display(const DetectedDevices& detected, DisplayChoice wanted) {
   return {device, "offscreen", "no window system, and " + detected.console_display.what};
 }
 
+// A camera on the machine's own loopback: its twin's trigger serves, as no scanner is pulsed for it.
+bool simulates_genicam(std::string_view wanted) {
+  const auto address = genicam_address(wanted);
+  return address && address->simulated();
+}
+
 } // namespace
+
+std::optional<hal::linux_backend::GenicamAddress> genicam_address(std::string_view wanted) {
+  return hal::linux_backend::parse_genicam_address(wanted).value_or(std::nullopt);
+}
+
+bool is_camera_backend(std::string_view backend) {
+  return backend == "v4l2" || backend == "aravis";
+}
 
 DeviceChoices choose_devices(const DetectedDevices& detected, const RunOptions& options,
                              const DeviceConfig& config) {
   DeviceChoices choices;
   choices.line_camera = line_camera(detected.line_camera, options, config.line_camera);
-  const bool real_camera = choices.line_camera.backend == "v4l2";
+  const bool real_camera =
+      is_camera_backend(choices.line_camera.backend) && !simulates_genicam(config.line_camera);
   choices.galvo_trigger =
       galvo_trigger(detected.galvo_trigger, real_camera, options, config.galvo_trigger);
   choices.control_input =
       control_input(detected.control_input, real_camera, options, config.control_input);
   choices.scope_camera =
       scope_camera(detected.scope_camera, real_camera, options, config.scope_camera);
+  if (choices.line_camera.backend == "aravis" && !real_camera)
+    choices.scope_camera = {Device::scope_camera, "none",
+                            "beside a camera on the loopback there is no microscope picture"};
   choices.display = display(detected, options.display);
   return choices;
 }

@@ -2,6 +2,7 @@
 // its twin. `run` follows it, `devices` prints it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "firmware-host/configuration/device_config.h"
 #include "firmware-host/configuration/run_options.h"
 #include "firmware-host/devices/detected_devices.h"
+#include "hal/linux/aravis/genicam_address.h"
 #include "pipeline/faults/fault.h"
 
 namespace octascope::firmware_host {
@@ -36,6 +38,12 @@ struct DeviceChoices {
 // real line, a simulated one by its twin; a pedal works with either.
 DeviceChoices choose_devices(const DetectedDevices& detected, const RunOptions& options,
                              const DeviceConfig& config = {});
+
+// Whether a line camera's backend is none of sim's.
+bool is_camera_backend(std::string_view backend);
+
+// The GenICam camera that [devices] line_camera names, if it names one.
+std::optional<hal::linux_backend::GenicamAddress> genicam_address(std::string_view wanted);
 
 // Whether the line camera's twin serves only because no real one was found: one plugged in later is
 // then used.

@@ -31,7 +31,7 @@ Devices::Devices(std::unique_ptr<RealDevices> real, const DeviceChoices& choices
 
 hal::Result<> Devices::make_others(const DeviceChoices& choices, const RunOptions& options,
                                    const Configuration& configuration, hal::Clock& clock) {
-  HAL_CHECK(choices.line_camera.backend == "v4l2"
+  HAL_CHECK(is_camera_backend(choices.line_camera.backend)
                 ? make_real_spectra(choices, options, configuration, clock)
                 : make_simulated_spectra(options, configuration, clock));
   if (choices.control_input.backend == "hid")
@@ -89,11 +89,17 @@ hal::Result<> Devices::make_real_spectra(const DeviceChoices& choices, const Run
   format_ = real_->line_format();
   source_ = is_calibrated(options, configuration) ? "line camera" : "line camera, not calibrated";
   line_camera_ = real_->make_line_camera();
-  if (choices.galvo_trigger.backend != "gpio")
+  if (choices.galvo_trigger.backend == "gpio") {
+    galvo_trigger_ = real_->make_galvo_trigger();
+  } else if (line_camera_->simulated()) { // it runs free: the pulses only say where volumes begin
+    twins_.link = std::make_unique<sim::GalvoLink>(plan_.sweep_duration());
+    twins_.galvo_trigger =
+        std::make_unique<sim::SimGalvoTrigger>(*twins_.link, clock, twins_.faults.get());
+  } else {
     return hal::fail(hal::ErrorCode::invalid_argument,
                      "[devices] galvo_trigger is \"sim\" beside a real line camera: nothing would "
                      "trigger the scanner; expected \"auto\" or \"gpio\"");
-  galvo_trigger_ = real_->make_galvo_trigger();
+  }
   if (choices.scope_camera.backend == "libcamera") {
     HAL_TRY(auto scope, real_->make_scope_camera());
     scope_camera_ = std::move(scope);

@@ -10,6 +10,8 @@
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/configuration/control_device_file.h"
 #include "firmware-host/devices/hardware_survey.h"
+#include "hal/linux/aravis/genicam_camera.h"
+#include "hal/linux/aravis/genicam_pixels.h"
 #include "hal/linux/gpio/gpio_lookup.h"
 #include "hal/linux/hid/survey/hid_survey.h"
 #include "hal/linux/kms/drm/card_survey.h"
@@ -95,21 +97,31 @@ DetectedDevices RealDevices::find_for(const RunOptions& options) {
   return detected;
 }
 
-DeviceFinding RealDevices::find_line_camera() {
-  std::string reason;
+std::vector<hal::LineFormat> RealDevices::formats_to_try() const {
   std::vector<int> depths{depths_bits.begin(), depths_bits.end()};
   if (config_.significant_bits)
     depths = {*config_.significant_bits};
+  std::vector<hal::LineFormat> formats;
   for (const int bits : depths) {
     hal::LineFormat wanted = format_;
     wanted.significant_bits = bits;
     wanted.sample_type = bits <= 8 ? hal::SampleType::u8 : hal::SampleType::u16;
+    formats.push_back(wanted);
+  }
+  return formats;
+}
+
+DeviceFinding RealDevices::find_line_camera() {
+  if (const auto genicam = genicam_address(config_.line_camera))
+    return find_genicam(*genicam);
+  std::string reason;
+  for (const hal::LineFormat& wanted : formats_to_try()) {
     std::vector<backend::LineCameraCandidate> candidates = backend::line_camera_candidates(wanted);
     if (const std::string node = configured_node(config_); !node.empty())
       std::erase_if(candidates, [&](const auto& found) { return found.identity.node != node; });
     const auto picked = backend::pick_line_camera(candidates, "", wanted);
     if (!picked) {
-      if (bits == format_.significant_bits)
+      if (wanted.significant_bits == format_.significant_bits)
         reason = picked.error().message;
       continue;
     }
@@ -121,6 +133,22 @@ DeviceFinding RealDevices::find_line_camera() {
                               found->identity.camera, found->identity.driver, found->formats)};
   }
   return {false, reason};
+}
+
+DeviceFinding RealDevices::find_genicam(const backend::GenicamAddress& address) {
+  const auto found = backend::find_genicam_camera(address);
+  if (!found)
+    return {false, found.error().message};
+  const std::vector<hal::LineFormat> formats = formats_to_try();
+  const auto fitting = std::ranges::find_if(formats, [&](const hal::LineFormat& wanted) {
+    return backend::choose_genicam_format(found->pixel_formats, wanted).has_value();
+  });
+  if (fitting == formats.end())
+    return {false,
+            backend::choose_genicam_format(found->pixel_formats, formats.front()).error().message};
+  format_ = *fitting;
+  return {true, fmt::format("{} is the camera \"{}\" and offers {}", to_text(address),
+                            found->camera, fmt::join(found->pixel_formats, ", "))};
 }
 
 DeviceFinding RealDevices::find_galvo_trigger() const {
@@ -195,6 +223,13 @@ DeviceFinding RealDevices::find_console_display() const {
 }
 
 std::unique_ptr<hal::LineCamera> RealDevices::make_line_camera() {
+  if (const auto address = genicam_address(config_.line_camera))
+    return backend::make_genicam_camera({.address = *address,
+                                         .exposure_us = config_.exposure_us,
+                                         .gain = config_.gain,
+                                         .trigger = config_.camera_trigger,
+                                         .packet_resend = config_.packet_resend},
+                                        clock_);
   backend::V4l2CameraOptions options;
   options.node = configured_node(config_);
   options.input = config_.camera_input;

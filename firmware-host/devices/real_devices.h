@@ -66,6 +66,8 @@ public:
   void make_trigger_safe() noexcept;
 
 private:
+  DeviceFinding find_genicam(const hal::linux_backend::GenicamAddress& address);
+  std::vector<hal::LineFormat> formats_to_try() const;
   DeviceFinding find_galvo_trigger() const;
   DeviceFinding find_control_input() const;
   DeviceFinding find_scope_camera();

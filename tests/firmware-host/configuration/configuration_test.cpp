@@ -99,6 +99,8 @@ right_shift = 2
 exposure_us = 4.5
 gain = -3
 camera_input = 1
+camera_trigger = "Line1"
+packet_resend = false
 galvo_trigger = "gpio"
 trigger_line = "gpiochip1:7"
 sync_line = "scanner-ready"
@@ -117,6 +119,8 @@ seat = false
   EXPECT_EQ(d.exposure_us, 4.5);
   EXPECT_EQ(d.gain, -3);
   EXPECT_EQ(d.camera_input, 1);
+  EXPECT_EQ(d.camera_trigger, "Line1");
+  EXPECT_FALSE(d.packet_resend);
   EXPECT_EQ(d.galvo_trigger, "gpio");
   EXPECT_EQ(d.trigger_line, "gpiochip1:7");
   EXPECT_EQ(d.sync_line, "scanner-ready");
@@ -284,6 +288,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"transfer_named_as_another",
                 "[[transfer]]\nname = \"smooth\"\npoints = [[0, 0], [1, 1]]\n",
                 "\"smooth\" is there already"},
+        Refused{"gige_vision_without_address", "[devices]\nline_camera = \"gigevision:Camera-7\"\n",
+                "no IPv4 address"},
         Refused{"no_such_trigger", "[devices]\ngalvo_trigger = \"usb\"\n",
                 "galvo_trigger is \"usb\", expected one of: auto, sim, gpio"},
         Refused{"no_such_scope_camera", "[devices]\nscope_camera = \"\"\n", "scope_camera is"},

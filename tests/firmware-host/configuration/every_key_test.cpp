@@ -117,6 +117,8 @@ std::vector<KeyCase> key_cases() {
       {"devices exposure_us", "[devices]\nexposure_us = 4\n"},
       {"devices gain", "[devices]\ngain = 12\n"},
       {"devices camera_input", "[devices]\ncamera_input = 1\n"},
+      {"devices camera_trigger", "[devices]\ncamera_trigger = \"Line1\"\n"},
+      {"devices packet_resend", "[devices]\npacket_resend = false\n"},
       {"devices galvo_trigger", "[devices]\ngalvo_trigger = \"gpio\"\n"},
       {"devices trigger_line", "[devices]\ntrigger_line = \"gpiochip0:17\"\n"},
       {"devices sync_line", "[devices]\nsync_line = \"gpiochip0:18\"\n"},

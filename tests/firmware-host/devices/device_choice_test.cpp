@@ -95,6 +95,25 @@ TEST(DeviceChoice, a_device_that_the_configuration_names_is_waited_for) {
   EXPECT_EQ(choices.scope_camera.backend, "libcamera");
 }
 
+TEST(DeviceChoice, a_genicam_camera_is_taken_where_it_is_named_and_nowhere_else) {
+  DeviceConfig config;
+  for (const char* name : {"usb3vision", "usb3vision:0123", "gigevision:192.168.1.20"}) {
+    config.line_camera = name;
+    const DeviceChoices choices = choose_devices(everything(), {}, config);
+    EXPECT_THAT(backends(choices), ElementsAre("aravis", "gpio", "hid", "libcamera", "kms"))
+        << name;
+    EXPECT_NE(choices.line_camera.reason.find(name), std::string::npos);
+  }
+}
+
+TEST(DeviceChoice, no_scanner_is_pulsed_for_a_camera_on_the_loopback) {
+  DeviceConfig config;
+  config.line_camera = "gigevision:127.0.0.1";
+  const DeviceChoices choices = choose_devices(everything(), {}, config);
+  EXPECT_THAT(backends(choices), ElementsAre("aravis", "sim", "hid", "none", "kms"));
+  EXPECT_EQ(choose_devices(everything(), simulate(), config).line_camera.backend, "sim");
+}
+
 TEST(DeviceChoice, a_camera_may_come_where_its_twin_serves_for_want_of_it_alone) {
   const DetectedDevices nothing;
   const auto may_come = [](const DetectedDevices& found, const RunOptions& options,

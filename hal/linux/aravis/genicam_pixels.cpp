@@ -1,0 +1,87 @@
+#include "hal/linux/aravis/genicam_pixels.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace octascope::hal::linux_backend {
+
+namespace {
+
+constexpr std::array known{
+    GenicamFormat{"Mono8", SampleType::u8, 8, Packing::none},
+    GenicamFormat{"Mono10p", SampleType::u16, 10, Packing::mono10p},
+    GenicamFormat{"Mono10Packed", SampleType::u16, 10, Packing::mono10_packed},
+    GenicamFormat{"Mono10", SampleType::u16, 10, Packing::none},
+    GenicamFormat{"Mono12p", SampleType::u16, 12, Packing::mono12p},
+    GenicamFormat{"Mono12Packed", SampleType::u16, 12, Packing::mono12_packed},
+    GenicamFormat{"Mono12", SampleType::u16, 12, Packing::none},
+    GenicamFormat{"Mono14", SampleType::u16, 14, Packing::none},
+    GenicamFormat{"Mono16", SampleType::u16, 16, Packing::none},
+};
+
+bool fits(const GenicamFormat& format, const LineFormat& wanted) {
+  if (format.type != wanted.sample_type)
+    return false;
+  if (format.packing != Packing::none && wanted.samples_per_line % packed_group != 0)
+    return false;
+  const int whole = format.type == SampleType::u8 ? 8 : 16;
+  return format.bits == whole ||
+         (wanted.right_shift == 0 && format.bits == wanted.significant_bits);
+}
+
+Result<> refuse(std::string why) {
+  return fail(ErrorCode::invalid_argument, "line camera: " + std::move(why));
+}
+
+} // namespace
+
+Result<> check_genicam_request(const LineCameraConfig& config) {
+  const LineFormat& format = config.format;
+  if (format.samples_per_line < 1 || format.lines_per_frame < 1)
+    return refuse(fmt::format("{} lines of {} samples, expected at least one of each",
+                              format.lines_per_frame, format.samples_per_line));
+  const auto pixels = static_cast<std::int64_t>(format.samples_per_line) * format.lines_per_frame;
+  if (pixels > std::numeric_limits<std::int32_t>::max() / 2)
+    return refuse(fmt::format("a frame of {} samples, expected less than 2 GB", pixels));
+  const int most = format.sample_type == SampleType::u8 ? 8 : 16;
+  if (format.sample_type == SampleType::f32 || format.significant_bits < 1 ||
+      format.right_shift < 0 || format.significant_bits + format.right_shift > most)
+    return refuse(fmt::format("{} bits shifted by {} in {}, expected at most {} together",
+                              format.significant_bits, format.right_shift,
+                              to_string(format.sample_type), most));
+  if (!(config.line_rate_hz >= 1 && config.line_rate_hz <= 1e9))
+    return refuse(fmt::format("line_rate_hz is {}, expected 1 to 1e9", config.line_rate_hz));
+  if (config.buffers < 1 || config.buffers > 4096)
+    return refuse(fmt::format("buffers is {}, expected 1 to 4096", config.buffers));
+  return {};
+}
+
+std::vector<GenicamFormat> genicam_formats_for(const LineFormat& wanted) {
+  std::vector<GenicamFormat> formats;
+  for (const GenicamFormat& format : known)
+    if (fits(format, wanted))
+      formats.push_back(format);
+  return formats;
+}
+
+Result<GenicamFormat> choose_genicam_format(std::span<const std::string> offered,
+                                            const LineFormat& wanted) {
+  const auto serving = genicam_formats_for(wanted);
+  std::vector<std::string_view> names;
+  for (const GenicamFormat& format : serving) {
+    if (std::ranges::find(offered, format.name) != offered.end())
+      return format;
+    names.push_back(format.name);
+  }
+  return fail(ErrorCode::unsupported,
+              "the camera offers {}, expected {} for {} bits; set [devices] significant_bits to "
+              "what it has",
+              fmt::join(offered, ", "), fmt::join(names, " or "), wanted.significant_bits);
+}
+
+} // namespace octascope::hal::linux_backend

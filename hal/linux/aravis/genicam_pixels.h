@@ -1,0 +1,34 @@
+// Which of GenICam's pixel formats deliver a line camera's spectra. Names: the EMVA's Pixel Format
+// Naming Convention, 2.x. Pure.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/line_camera.h"
+#include "hal/linux/aravis/packed_samples.h"
+#include "hal/result.h"
+
+namespace octascope::hal::linux_backend {
+
+// ErrorCode::invalid_argument for what no camera can deliver.
+Result<> check_genicam_request(const LineCameraConfig& config);
+
+struct GenicamFormat {
+  std::string_view name;
+  SampleType type;
+  int bits; // right-justified; where that is the whole type, a camera may use fewer
+  Packing packing;
+};
+
+// Those that give this memory layout, best first: packed ones, as the wire is what limits a camera's
+// line rate, then those that say their bits, then the whole type.
+std::vector<GenicamFormat> genicam_formats_for(const LineFormat& wanted);
+
+// The first of those that the camera offers. ErrorCode::unsupported, with found and expected: none.
+Result<GenicamFormat> choose_genicam_format(std::span<const std::string> offered,
+                                            const LineFormat& wanted);
+
+} // namespace octascope::hal::linux_backend

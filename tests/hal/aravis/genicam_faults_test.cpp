@@ -1,0 +1,274 @@
+// What goes wrong with a GenICam camera, and what is refused; against Aravis's own on the loopback.
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include "hal/linux/aravis/aravis_library.h"
+#include "hal/linux/aravis/genicam_camera.h"
+#include "hal/linux/monotonic_clock.h"
+#include "tests/hal/aravis/fake_camera.h"
+#include "tests/hal/aravis/packed_by_definition.h"
+#include "tests/support/fails_with.h"
+#include "tests/support/files/scratch_folder.h"
+
+namespace octascope::tests {
+namespace {
+
+using namespace std::chrono_literals;
+using hal::ErrorCode;
+using hal::FrameIntegrity;
+using hal::linux_backend::AravisLibrary;
+using hal::linux_backend::GenicamAddress;
+using hal::linux_backend::GenicamCameraOptions;
+using testing::HasSubstr;
+
+hal::LineCameraConfig small_config() {
+  return {.format = {.samples_per_line = 256,
+                     .lines_per_frame = 64,
+                     .sample_type = hal::SampleType::u16,
+                     .significant_bits = 12,
+                     .right_shift = 0},
+          .line_rate_hz = 64e3,
+          .buffers = 16};
+}
+
+int open_files() {
+  int count = 0;
+  for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator{"/proc/self/fd"})
+    ++count;
+  return count;
+}
+
+int threads() {
+  int count = 0;
+  for ([[maybe_unused]] const auto& task : std::filesystem::directory_iterator{"/proc/self/task"})
+    ++count;
+  return count;
+}
+
+long resident_kib() {
+  std::ifstream statm{"/proc/self/statm"};
+  long size = 0;
+  long resident = 0;
+  statm >> size >> resident;
+  return resident * ::sysconf(_SC_PAGESIZE) / 1024;
+}
+
+class GenicamCamera : public testing::Test {
+protected:
+  std::unique_ptr<hal::LineCamera> make(GenicamCameraOptions options) {
+    options.address = {GenicamAddress::Bus::gige_vision, FakeCamera::address};
+    return hal::linux_backend::make_genicam_camera(options, clock_);
+  }
+
+  // What libraries keep for ever, they have after that.
+  int threads_without_camera() {
+    {
+      const FakeCamera fake;
+      EXPECT_TRUE(make({})->open(small_config()));
+    }
+    return threads();
+  }
+
+  void wait_for_threads(int expected) {
+    for (int i = 0; i < 600 && threads() > expected; ++i)
+      clock_.sleep_for(100ms);
+    EXPECT_EQ(threads(), expected);
+  }
+
+  hal::linux_backend::MonotonicClock clock_;
+};
+
+TEST_F(GenicamCamera, frames_with_lost_packets_are_told_as_corrupted_and_the_stream_goes_on) {
+  for (const bool resend : {true, false}) {
+    FakeCamera fake{{.lost = 0.05}};
+    const auto camera = make({.trigger = "Software", .packet_resend = resend});
+    ASSERT_TRUE(camera->open(small_config()));
+    ASSERT_TRUE(camera->start());
+    fake.trigger(100);
+    int good_since = 0; // the first that is not
+    int corrupted = 0;
+    std::uint64_t last = 0;
+    while (corrupted == 0 || good_since < 3) {
+      const auto frame = camera->wait_frame(20s);
+      ASSERT_TRUE(frame && *frame) << good_since << " good after " << corrupted << " broken ones";
+      if ((*frame)->integrity == FrameIntegrity::corrupted)
+        ++corrupted;
+      else if (corrupted > 0)
+        ++good_since;
+      EXPECT_NE((*frame)->integrity, FrameIntegrity::wrong_size);
+      EXPECT_EQ((*frame)->bytes.size(), small_config().format.frame_bytes());
+      EXPECT_TRUE(last == 0 || (*frame)->sequence > last);
+      last = (*frame)->sequence;
+      camera->release((*frame)->buffer);
+    }
+    EXPECT_EQ(camera->state(), hal::DeviceState::streaming);
+  }
+}
+
+TEST_F(GenicamCamera, two_hundred_opens_and_closes_leave_nothing_behind) {
+  const FakeCamera fake;
+  const auto camera = make({});
+  int files = 0;
+  int tasks = 0;
+  [[maybe_unused]] long memory = 0;
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_TRUE(camera->open(small_config()));
+    if (i % 4 == 0) {
+      ASSERT_TRUE(camera->start());
+      const auto frame = camera->wait_frame(20s);
+      ASSERT_TRUE(frame && *frame) << "it runs free, at the rate that it has";
+    }
+    camera->close();
+    if (i == 40) { // what libraries keep for ever, they have by now
+      files = open_files();
+      tasks = threads();
+      memory = resident_kib();
+    }
+  }
+  EXPECT_EQ(open_files(), files);
+  EXPECT_EQ(threads(), tasks);
+#ifndef OCTASCOPE_SANITIZED // which keeps what was freed, and looks for leaks itself
+  EXPECT_LT(resident_kib(), memory + 4096);
+#endif
+}
+
+TEST_F(GenicamCamera, one_that_is_not_there_is_absent_and_leaves_nothing_behind) {
+  const int idle = threads_without_camera();
+  FakeCamera fake;
+  fake.unplug(); // and no other test has one now
+  const int files = open_files();
+  for (int i = 0; i < 3; ++i) { // Aravis asks for longer than open() waits
+    const auto camera = make({});
+    EXPECT_THAT(camera->open(small_config()), FailsWith(ErrorCode::absent));
+    EXPECT_THAT(camera->open(small_config()), FailsWith(ErrorCode::absent));
+    EXPECT_EQ(camera->state(), hal::DeviceState::absent);
+  }
+  wait_for_threads(idle);
+  EXPECT_EQ(open_files(), files);
+}
+
+TEST_F(GenicamCamera, its_features_are_set_and_what_it_cannot_is_refused_with_the_range) {
+  const FakeCamera fake;
+  const auto refused = [&](GenicamCameraOptions options, const char* why) {
+    const auto opened = make(std::move(options))->open(small_config());
+    ASSERT_FALSE(opened.has_value()) << why;
+    EXPECT_THAT(opened.error().message, HasSubstr(why));
+  };
+  refused({.exposure_us = 1}, "exposure_us is 1, expected 10 to");
+  refused({.gain = 99}, "gain is 99, expected 0 to 10");
+  refused({.trigger = "Line77"}, "setting the trigger to \"Line77\"");
+  const auto camera = make({.exposure_us = 20, .gain = 2, .trigger = "Software"});
+  const auto opened = camera->open(small_config());
+  EXPECT_TRUE(opened.has_value()) << (opened ? "" : opened.error().message);
+}
+
+TEST_F(GenicamCamera, a_frame_that_it_cannot_give_is_refused) {
+  const FakeCamera fake;
+  const auto camera = make({});
+  hal::LineCameraConfig wide = small_config();
+  wide.format.samples_per_line = 4096;
+  const auto opened = camera->open(wide);
+  ASSERT_FALSE(opened.has_value());
+  EXPECT_EQ(opened.error().code, ErrorCode::invalid_argument);
+  EXPECT_THAT(opened.error().message, HasSubstr("samples_per_line is 4096, expected 1 to 2048"));
+}
+
+TEST_F(GenicamCamera, samples_of_8_bits_come_as_they_are) {
+  FakeCamera fake;
+  const auto camera = make({.trigger = "Software"});
+  hal::LineCameraConfig config = small_config();
+  config.format.sample_type = hal::SampleType::u8;
+  config.format.significant_bits = 8;
+  ASSERT_TRUE(camera->open(config));
+  ASSERT_TRUE(camera->start());
+  fake.trigger(1);
+  const auto frame = camera->wait_frame(20s);
+  ASSERT_TRUE(frame && *frame);
+  const auto bytes = (*frame)->bytes;
+  ASSERT_EQ(bytes.size(), config.format.frame_bytes());
+  // Its picture is a diagonal ramp: a line is the line above, moved by one.
+  int moved = 0;
+  for (std::size_t i = 0; i + 1 < 256; ++i)
+    moved += bytes[256 + i] == bytes[i + 1] ? 1 : 0;
+  EXPECT_GT(moved, 250);
+}
+
+// Aravis's camera with one pixel format more.
+std::string description_with(const char* format, unsigned number) {
+  std::string text = FakeCamera::usual_description();
+  const std::string before = "<EnumEntry Name=\"Mono8\"";
+  text.insert(text.find(before), "<EnumEntry Name=\"" + std::string{format} +
+                                     "\" NameSpace=\"Standard\"><Value>" + std::to_string(number) +
+                                     "</Value></EnumEntry>\n");
+  return text;
+}
+
+TEST_F(GenicamCamera, packed_samples_come_unpacked) {
+  using hal::linux_backend::Packing;
+  const ScratchFolder folder;
+  FakeCamera fake{
+      {.description = folder.write("camera.xml", description_with("Mono12p", 0x010C0047))}};
+  std::vector<int> samples(256 * 64);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i] = static_cast<int>(i * 7 % 4096);
+  fake.send_bytes(pack_by_definition(Packing::mono12p, samples));
+  const auto camera = make({.trigger = "Software"});
+  ASSERT_TRUE(camera->open(small_config()));
+  ASSERT_TRUE(camera->start());
+  fake.trigger(2);
+  for (int i = 0; i < 2; ++i) { // the second is not disturbed by the first
+    const auto frame = camera->wait_frame(20s);
+    ASSERT_TRUE(frame && *frame);
+    EXPECT_EQ((*frame)->integrity, FrameIntegrity::good);
+    ASSERT_EQ((*frame)->bytes.size(), samples.size() * 2);
+    std::vector<std::uint16_t> received(samples.size());
+    std::memcpy(received.data(), (*frame)->bytes.data(), (*frame)->bytes.size());
+    EXPECT_THAT(received, testing::ElementsAreArray(samples));
+    camera->release((*frame)->buffer);
+  }
+}
+
+// Aravis waits 3 s for each answer, and asks twice or thrice.
+TEST_F(GenicamCamera, ends_soon_after_it_went_and_what_is_left_ends_by_itself) {
+  const int idle = threads_without_camera();
+  FakeCamera fake;
+  auto camera = make({.trigger = "Software"});
+  ASSERT_TRUE(camera->open(small_config()));
+  ASSERT_TRUE(camera->start());
+  fake.unplug();
+  const hal::TimePoint began = clock_.now();
+  camera->stop();
+  EXPECT_EQ(camera->state(), hal::DeviceState::failed);
+  camera->close();
+  EXPECT_EQ(camera->state(), hal::DeviceState::absent);
+  camera.reset();
+  EXPECT_LT(clock_.now() - began, 2500ms) << "a second, and a machine may stand still for another";
+  wait_for_threads(idle);
+}
+
+TEST_F(GenicamCamera, tells_what_it_is_and_offers) {
+  const FakeCamera fake;
+  const auto found = hal::linux_backend::find_genicam_camera(
+      {GenicamAddress::Bus::gige_vision, FakeCamera::address});
+  ASSERT_TRUE(found.has_value()) << found.error().message;
+  EXPECT_EQ(found->camera, "Aravis Fake OCT1");
+  EXPECT_THAT(found->pixel_formats, testing::Contains("Mono16"));
+}
+
+TEST(AravisLibrary, one_that_is_missing_or_another_is_refused_with_the_remedy) {
+  for (const char* file : {"libaravis-none.so.0", "libm.so.6"}) {
+    const auto loaded = AravisLibrary::load(file);
+    ASSERT_FALSE(loaded.has_value());
+    EXPECT_EQ(loaded.error().code, ErrorCode::unsupported);
+    EXPECT_THAT(loaded.error().message, HasSubstr("apt install libaravis-0.8-0"));
+  }
+}
+
+} // namespace
+} // namespace octascope::tests

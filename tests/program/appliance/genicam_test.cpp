@@ -1,0 +1,116 @@
+// A GenICam camera through the whole program: Aravis's own GigE Vision camera, on the loopback.
+#include <csignal>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/program/program_support.h"
+#include "tests/support/program/loopback_port.h"
+
+namespace octascope::tests {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+constexpr const char* fake_camera = "arv-fake-gv-camera-0.8";
+
+class GenicamRun : public testing::Test {
+protected:
+  void SetUp() override {
+    if (!program_exists(fake_camera))
+      GTEST_SKIP() << "no " << fake_camera << "; install aravis-tools";
+    plug_in();
+    const ProgramResult devices = run_octascope({"devices", "--config", configuration()});
+    if (devices.out.find("built without Aravis") != std::string::npos)
+      GTEST_SKIP() << "octascope was built without Aravis; install libaravis-dev";
+  }
+
+  // It runs free, 25 frames a second: a volume takes 0.4 s.
+  std::string configuration() const {
+    return folder_.write("genicam.toml", R"([scan]
+samples = 256
+a_scans = 24
+fly_back_lines = 6
+b_scans = 10
+line_rate_hz = 750
+depth_spacing_um = 28
+a_spacing_um = 250
+b_spacing_um = 300
+[pipeline]
+workers = 2
+[devices]
+line_camera = "gigevision:127.0.0.1"
+)");
+  }
+
+  void plug_in() {
+    camera_ = std::make_unique<ProgramRun>(
+        std::vector<std::string>{fake_camera, "-i", "127.0.0.1", "-s", "OCT1"});
+    std::this_thread::sleep_for(500ms);
+    ASSERT_TRUE(camera_->running());
+  }
+  void pull_out() { camera_.reset(); }
+
+  std::vector<std::string> command(const char* seconds) const {
+    return {"run",
+            "--config",
+            configuration(),
+            "--display",
+            "offscreen",
+            "--size",
+            "960x540",
+            "--duration",
+            seconds,
+            "--snapshot",
+            folder_ / "picture.png",
+            "--report",
+            folder_ / "report.json"};
+  }
+
+  const ScratchFolder folder_;
+
+private:
+  const LoopbackPort port_;
+  std::unique_ptr<ProgramRun> camera_;
+};
+
+TEST_F(GenicamRun, shows_what_the_camera_sees_and_says_that_it_is_simulated) {
+  run_well(command("8"));
+  const json report = read_report(folder_ / "report.json");
+  EXPECT_EQ(report["devices"]["line_camera"], "aravis");
+  EXPECT_EQ(report["devices"]["galvo_trigger"], "sim") << "no scanner is pulsed for a program";
+  EXPECT_EQ(report["devices"]["scope_camera"], "none");
+  EXPECT_TRUE(report["simulated"].get<bool>());
+  EXPECT_EQ(report["calibration"]["line_camera"], "Aravis Fake OCT1");
+  EXPECT_GT(report["volumes"]["displayed"].get<int>(), 2) << report.dump(2);
+  const pipeline::Image picture = read_snapshot(folder_ / "picture.png");
+  const int black = count_colour(picture, layout_of(picture).view, {0, 0, 0}, 40);
+  const ui::Rect view = layout_of(picture).view;
+  EXPECT_LT(black, 0.9 * view.width * view.height) << "the volume is in the view";
+}
+
+TEST_F(GenicamRun, goes_on_without_a_camera_that_goes_and_has_it_again_when_it_is_back) {
+  ProgramRun run{octascope_command(command("40"))};
+  ASSERT_TRUE(run.wait_for_thread("octa-genicam", 30s));
+  std::this_thread::sleep_for(3s);
+  pull_out();
+  std::this_thread::sleep_for(10s);
+  plug_in();
+  const ProgramResult result = run.wait(120s);
+  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  const json report = read_report(folder_ / "report.json");
+  // Its silence or its heartbeat, whichever is noticed first.
+  EXPECT_FALSE(find_fault(report, "line_camera", "silent").is_null() &&
+               find_fault(report, "line_camera", "disconnected").is_null())
+      << report.dump(2);
+  EXPECT_TRUE(find_fault(report, "line_camera", "stuck_thread").is_null()) << report.dump(2);
+  EXPECT_GT(report["volumes"]["displayed"].get<int>(), 20) << "7 before, and again for 10 s";
+}
+
+} // namespace
+} // namespace octascope::tests
