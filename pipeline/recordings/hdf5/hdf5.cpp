@@ -1,4 +1,4 @@
-#include "pipeline/recordings/hdf5.h"
+#include "pipeline/recordings/hdf5/hdf5.h"
 
 namespace octascope::pipeline {
 
