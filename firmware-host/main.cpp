@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
   int exit_status = host::exit_done;
   host::add_run_command(program, exit_status);
   host::add_record_command(program, exit_status);
+  host::add_capture_command(program, exit_status);
   host::add_devices_command(program, exit_status);
   host::add_doctor_command(program, exit_status);
   host::add_status_command(program, exit_status);

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <system_error>
 #include <utility>
 
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 
 #include "firmware-host/outputs/dated_file.h"
+#include "firmware-host/outputs/local_time.h"
 #include "pipeline/files/atomic_file.h"
 
 namespace octascope::firmware_host {
@@ -27,12 +27,6 @@ std::size_t places_for(const pipeline::VolumeGeometry& geometry) {
 }
 
 constexpr hal::Duration patience_with_disk = 10s;
-
-std::string now_in_iso_8601() {
-  const std::tm local = fmt::localtime(std::time(nullptr));
-  const std::string offset = fmt::format("{:%z}", local); // +0100
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
-}
 
 } // namespace
 

@@ -31,15 +31,16 @@ Reconstruction::make(const Devices& devices, const Configuration& configuration,
   const std::size_t workers = configuration.workers > 0
                                   ? configuration.workers
                                   : std::max(1U, std::thread::hardware_concurrency());
-  return std::unique_ptr<Reconstruction>(
-      new Reconstruction{std::move(made), average, workers, configuration.worker_cores});
+  return std::unique_ptr<Reconstruction>(new Reconstruction{
+      std::move(made), std::move(calibration), average, workers, configuration.worker_cores});
 }
 
 Reconstruction::Reconstruction(pipeline::Reconstructor reconstructor,
+                               pipeline::Calibration calibration,
                                const pipeline::NeighbourAverage& average, std::size_t workers,
                                const std::vector<int>& cores)
-    : reconstructor_{std::move(reconstructor)}, average_{average},
-      worker_cores_{workers, cores, hal::linux_backend::allowed_cores()} {
+    : reconstructor_{std::move(reconstructor)}, calibration_{std::move(calibration)},
+      average_{average}, worker_cores_{workers, cores, hal::linux_backend::allowed_cores()} {
   for (std::size_t worker = 0; worker < workers; ++worker)
     workspaces_.push_back(reconstructor_.make_workspace());
 }
@@ -54,9 +55,8 @@ pipeline::VolumeThreadSetup Reconstruction::volume_thread_setup(const pipeline::
       .workers = workspaces_.size(),
       .reconstruct =
           [this](std::size_t worker, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
-            const auto running = backgrounds_ ? backgrounds_->of(frame) : std::span<const float>{};
             return reconstructor_
-                .reconstruct_b_scan(workspaces_[worker], frame.bytes, levels, running)
+                .reconstruct_b_scan(workspaces_[worker], frame.bytes, levels, background_of(frame))
                 .saturated_lines;
           },
       .observe =
