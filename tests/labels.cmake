@@ -26,9 +26,10 @@ set(clock
   "program\\.(NoFault|Scripts/ShownFaults|Window)\\.")
 
 set(slow
+  "vessel_following\\."
   "bidirectional\\."
   "coronary_tree\\."
-  "firmware_host\\.(BenchReconstruct|EveryKey|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."
+  "firmware_host\\.(BenchReconstruct|EveryKey|LiveTreeLoop|Proof|ReplayLoop|Staleness|UpperBorderOf|VesselLoaderTest)\\."
   "firmware_host\\.(Phantoms|Scenes|Techniques)/"
   "pipeline\\.(all/InputTypes|ScanLagEstimator|ReconstructorRealData)\\."
   "ui\\.(Allocation|EverySize|GoldenLayout|GoldenPicture|HudInAllLayouts|HudInAllSizes|HudPicture)\\."
@@ -41,7 +42,7 @@ set(device "hal(_[a-z]+)?\\." "sim\\." "twins\\." "v4l2(_camera)?\\." "window_di
 # every fault at once, ends by a signal, a replay, and what is refused.
 set(sanitized
   "coronary_tree\\."
-  "firmware_host\\.(ReplayLoop|Staleness|VesselLoaderTest)\\."
+  "firmware_host\\.(LiveTreeLoop|ReplayLoop|Staleness|VesselLoaderTest)\\."
   "firmware_host\\.Techniques/LostDisplay\\..*/surface"
   "program\\.(All/RefusedReplay|Everything|LedgerAfterASignal|ReplayProgram|Run|Signals/RunEnds)\\."
   "ui\\.Vessel(Methods|OverlayTest|Splatter)\\."

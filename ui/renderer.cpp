@@ -52,10 +52,10 @@ hal::Result<> Renderer::show_volume(const pipeline::Volume& volume) {
   if (parts_->shown_geometry != volume.geometry) {
     parts_->crop = {};
     parts_->coloured_depths = {};
+    parts_->flow_depths = {};
   }
   parts_->shown_geometry = volume.geometry;
-  parts_->follow(volume, {});
-  return {};
+  return parts_->follow(volume, {});
 }
 
 hal::Result<> Renderer::renew_volume(const pipeline::Volume& volume,
@@ -66,8 +66,7 @@ hal::Result<> Renderer::renew_volume(const pipeline::Volume& volume,
     return show_volume(volume);
   parts_->note(changed, volume.geometry.b_scans);
   HAL_CHECK(parts_->volume.renew(volume, changed));
-  parts_->follow(volume, changed);
-  return {};
+  return parts_->follow(volume, changed);
 }
 
 hal::Result<> Renderer::show_scope_picture(const hal::ScopeFrame& frame,
@@ -162,6 +161,9 @@ hal::Result<> Renderer::complete(const pipeline::Volume& volume, const ViewState
   parts_->volume.expect(fitted);
   if (parts_->volume.wants_volume(fitted))
     HAL_CHECK(show_volume(volume));
+  parts_->completed_by_caller = true;
+  if (parts_->flow_shown(fitted))
+    parts_->flow_sections.fetch(volume, fitted.b_scan, fitted.a_scan);
   return parts_->volume.complete(volume, fitted, quality);
 }
 

@@ -54,7 +54,7 @@ ViewState Renderer::Parts::fitted(const ViewState& view) const {
 
 // Colours of depths say nothing without their scale, and some are those of vessels: grey instead.
 ViewState Renderer::Parts::without_confusion(const ViewState& view, const Layout& places) const {
-  const bool beside_vessels = volume.vessels() != nullptr && view.vessels_visible;
+  const bool beside_vessels = volume.vessels() != nullptr && shows_tree(view);
   ViewState plain = view;
   if (volume.depth_colours(view) && (beside_vessels || !has_room_for_depth_scale(places)))
     plain.colour_map = 0;
@@ -72,6 +72,7 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
     scene.crop = crop_of(view);
     scene.depth_colours = volume.depth_colours(view);
     scene.levels = levels ? &*levels : nullptr;
+    scene.shown.flow = flow_of(view);
   }
   scene.shown.vessels_left_out = flat_vessels && flat_vessels->left_out();
   scene.shown.scope = scope_shown;
@@ -80,6 +81,23 @@ HudScene Renderer::Parts::scene(const ViewState& view) const {
     scene.scan_field = scope_panel.field();
   }
   return scene;
+}
+
+float Renderer::Parts::deepest_flow() const {
+  return static_cast<float>(flow_depths.deepest_mm() / shown_geometry.depth_mm());
+}
+
+FlowShown Renderer::Parts::flow_of(const ViewState& view) const {
+  FlowShown flow;
+  if (!flow_shown(view))
+    return flow;
+  flow.shown = true;
+  flow.b_scan = flow_states[static_cast<std::size_t>(view.b_scan)];
+  flow.told = static_cast<int>(std::ranges::count(flow_states, pipeline::FlowState::told));
+  flow.left_out = static_cast<int>(std::ranges::count(flow_states, pipeline::FlowState::left_out));
+  flow.in_scope = scope_shown && scope_panel.field().has_value();
+  flow.deepest_mm = flow_depths.deepest_mm();
+  return flow;
 }
 
 DrawnPicture Renderer::Parts::picture_of(const ViewState& view, const Status& status, int width,
@@ -136,20 +154,26 @@ void Renderer::Parts::fill_canvases(const DrawnPicture& picture, const Layout& p
 void Renderer::Parts::draw_flat_pictures(const ViewState& view, const Layout& places,
                                          const EyeFrame& frame, int height, RectList parts) {
   const Crop shown = crop_of(view);
+  const bool flow = flow_shown(view);
+  if (flow && !completed_by_caller)
+    flow_sections.fetch(kept_flow, view.b_scan, view.a_scan);
   const auto draw_b_scan = [&](const Panel& panel, ScanDirection direction) {
     if (!panel.shown())
       return;
     const Rect rect = frame.place(panel.picture);
     draw_within(parts, rect, height, [&] {
-      b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown, rect, height);
+      b_scan_panel.draw(volume.texture(), state_texture, direction, view, shown, rect, height,
+                        flow ? &flow_sections : nullptr);
     });
   };
   draw_b_scan(places.b_scan, ScanDirection::fast);
   draw_b_scan(places.crossed, ScanDirection::slow);
   if (places.en_face.shown()) {
     const Rect rect = frame.place(places.en_face.picture);
-    draw_within(parts, rect, height,
-                [&] { en_face_panel.draw(state_texture, shown, rect, height); });
+    draw_within(parts, rect, height, [&] {
+      en_face_panel.draw(state_texture, shown, rect, height,
+                         flow ? std::optional{deepest_flow()} : std::nullopt);
+    });
   }
 }
 
@@ -179,6 +203,19 @@ hal::Result<> Renderer::Parts::draw_flat_vessels(const ViewState& view, const La
   return {};
 }
 
+namespace {
+
+bool both_live(const DrawnPicture& picture) {
+  return picture.text.liveness == Liveness::live && !picture.text.scope_stale;
+}
+
+} // namespace
+
+bool Renderer::Parts::has_flow_in_scope(const DrawnPicture& picture) const {
+  return flow_shown(picture.view) && field_flow && scope_shown && scope_panel.field() &&
+         both_live(picture);
+}
+
 // The vessels lie where the volume has them: nothing in this picture says so if that is an old one.
 hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Layout& places,
                                           const EyeFrame& frame, RectList parts) {
@@ -188,8 +225,12 @@ hal::Result<> Renderer::Parts::draw_scope(const DrawnPicture& picture, const Lay
   const Rect rect = frame.place(place);
   draw_within(parts, rect, picture.height,
               [&] { scope_panel.draw(rect, picture.height, picture.text.scope_stale); });
-  const bool both_live = picture.text.liveness == Liveness::live && !picture.text.scope_stale;
-  if (!flat_vessels || volume.empty() || !scope_panel.field() || !both_live)
+  if (has_flow_in_scope(picture))
+    draw_within(parts, around(*scope_panel.field(), rect), picture.height, [&] {
+      field_flow->draw(en_face_panel.flow(), deepest_flow(), *scope_panel.field(), rect,
+                       picture.height);
+    });
+  if (!flat_vessels || volume.empty() || !scope_panel.field() || !both_live(picture))
     return {};
   return flat_vessels->draw(
       VesselPanel::microscope, sight(picture.view),
@@ -222,6 +263,9 @@ RectList Renderer::Parts::find_parts(const DrawnPicture& picture, const Layout& 
   now.a_scan_index = picture.view.a_scan;
   now.scope_uploads = scope_uploads;
   now.scope_stale = picture.text.scope_stale;
+  now.flow = flow_shown(picture.view);
+  now.deepest_flow = deepest_flow();
+  now.flow_in_scope = has_flow_in_scope(picture) ? volume.uploads() : 0;
   picture_changes.compare(now, damage);
   if (!now.view.empty())
     volume.add_changed(StereoEye::centre, now.view, damage);
@@ -332,12 +376,43 @@ void Renderer::Parts::note(std::span<const pipeline::BScanRange> changed, int b_
     picture_changes.note(range, b_scans);
 }
 
+namespace {
+
+bool is_whole(const pipeline::Volume& volume) {
+  return std::ranges::find(volume.b_scan_states, pipeline::BScanState::seam) ==
+         volume.b_scan_states.end();
+}
+
+} // namespace
+
+hal::Result<> Renderer::Parts::follow_flow(const pipeline::Volume& shown,
+                                           std::span<const pipeline::BScanRange> changed) {
+  has_flow = false;
+  if (!shown.has_flow())
+    return {};
+  HAL_CHECK(b_scan_panel.prepare_flow());
+  HAL_CHECK(en_face_panel.prepare_flow());
+  if (!field_flow) {
+    HAL_TRY(auto made, FieldFlow::create());
+    field_flow.emplace(std::move(made));
+  }
+  has_flow = true;
+  if (is_whole(shown))
+    flow_depths.follow(en_face_panel.flow_from_above(), shown.geometry.depth_mm());
+  flow_states.assign(shown.flow_states.begin(), shown.flow_states.end());
+  flow_sections.note(changed);
+  if (!completed_by_caller) {
+    kept_flow.geometry = shown.geometry;
+    kept_flow.flow = shown.flow;
+  }
+  return {};
+}
+
 // The flat pictures keep their cut, and the colours of depths theirs, until a volume is whole.
-void Renderer::Parts::follow(const pipeline::Volume& shown,
-                             std::span<const pipeline::BScanRange> changed) {
+hal::Result<> Renderer::Parts::follow(const pipeline::Volume& shown,
+                                      std::span<const pipeline::BScanRange> changed) {
   tissue.update(volume.occupancy(), shown.b_scan_states);
-  if (std::ranges::find(shown.b_scan_states, pipeline::BScanState::seam) ==
-      shown.b_scan_states.end()) {
+  if (is_whole(shown)) {
     crop.follow(tissue.extents());
     const Section depth = crop.current().depth;
     coloured_depths.follow({depth.from, depth.to});
@@ -347,6 +422,7 @@ void Renderer::Parts::follow(const pipeline::Volume& shown,
   picture_changes.note_projection(en_face_panel.changed_rows());
   state_texture.upload(shown);
   states.assign(shown.b_scan_states.begin(), shown.b_scan_states.end());
+  return follow_flow(shown, changed);
 }
 
 } // namespace octascope::ui

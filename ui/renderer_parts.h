@@ -15,6 +15,8 @@
 #include "ui/layout/stereo.h"
 #include "ui/panels/b_scan_panel.h"
 #include "ui/panels/en_face_panel.h"
+#include "ui/panels/field_flow.h"
+#include "ui/panels/flow_sections.h"
 #include "ui/panels/scope_panel.h"
 #include "ui/renderer.h"
 #include "ui/scene/volume_painter.h"
@@ -72,6 +74,15 @@ struct Renderer::Parts {
   PictureChanges picture_changes{};
   Damage damage{};
   DamageHistory history{};
+  // Of a volume with flow.
+  bool has_flow = false;
+  FlowSections flow_sections{};
+  FlowDepths flow_depths{};
+  std::optional<FieldFlow> field_flow{}; // empty until there is some
+  std::vector<pipeline::FlowState> flow_states{};
+  bool completed_by_caller = false; // else:
+  pipeline::Volume kept_flow{};     // of which the sections are made
+
   std::vector<Rect> uncovered{}; // what is to be drawn and not covered by pictures
 
   ViewState fitted(const ViewState& view) const;
@@ -80,7 +91,14 @@ struct Renderer::Parts {
   DrawnPicture picture_of(const ViewState& view, const Status& status, int width, int height,
                           const DrawQuality& quality) const;
   void note(std::span<const pipeline::BScanRange> changed, int b_scans);
-  void follow(const pipeline::Volume& shown, std::span<const pipeline::BScanRange> changed);
+  hal::Result<> follow(const pipeline::Volume& shown,
+                       std::span<const pipeline::BScanRange> changed);
+  hal::Result<> follow_flow(const pipeline::Volume& shown,
+                            std::span<const pipeline::BScanRange> changed);
+  bool flow_shown(const ViewState& view) const { return has_flow && shows_flow(view); }
+  float deepest_flow() const; // as a share of the volume's depth; 0: nothing flows
+  FlowShown flow_of(const ViewState& view) const;
+  bool has_flow_in_scope(const DrawnPicture& picture) const;
   hal::Duration spent_on_vessels() const;
   Crop crop_of(const ViewState& view) const {
     return view.zoom_to_tissue ? crop.current() : Crop{};

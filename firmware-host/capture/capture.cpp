@@ -69,7 +69,7 @@ hal::Result<> Capture::prepare() {
   HAL_CHECK(check_raw_file(options_.file));
   HAL_TRY(const auto chosen, choose_configuration(options_.run, service_folders().state));
   HAL_CHECK(make_devices(chosen.configuration));
-  HAL_TRY(reconstruction_, Reconstruction::make(*devices_, chosen.configuration, cache_));
+  HAL_TRY(reconstruction_, Reconstruction::make(*devices_, chosen.configuration, false, cache_));
   facts_ = raw_facts(*devices_, *reconstruction_, options_.run,
                      chosen.used ? configuration_text(*chosen.used) : std::string{});
   make_threads(chosen.configuration);

@@ -63,6 +63,7 @@ void read_worker_cores(ConfigTable table, Configuration& configuration) {
 void read_pipeline(ConfigTable table, Configuration& configuration) {
   configuration.workers = static_cast<std::size_t>(table.integer("workers", 0, {0, 256}));
   read_worker_cores(table, configuration);
+  configuration.flow = table.boolean("flow", configuration.flow);
   const auto weights = table.numbers("neighbour_weights");
   if (weights.empty())
     return;
@@ -293,6 +294,10 @@ pipeline::ScanPlan plan_of(const RunOptions& options, const Configuration& confi
   pipeline::ScanPlan plan = configuration.plan.value_or(nothing_said);
   override_plan(options, configuration, plan);
   return plan;
+}
+
+bool tells_flow(const RunOptions& options, const Configuration& configuration) {
+  return options.flow.value_or(configuration.flow);
 }
 
 hal::Result<ui::ControlProfile> load_controls(const Configuration& configuration) {

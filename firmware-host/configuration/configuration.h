@@ -38,6 +38,7 @@ struct Configuration {
                                                 // cores
   pipeline::NeighbourWeights neighbour_weights; // weights of neighbouring B-scans in each B-scan's
                                                 // picture
+  bool flow = false;                            // repeats are compared, and volumes say what flows
   // [devices]
   DeviceConfig devices;
   // [display]
@@ -86,6 +87,9 @@ void override_plan(const RunOptions& options, const Configuration& configuration
 
 // The scan plan from configuration and command line.
 pipeline::ScanPlan plan_of(const RunOptions& options, const Configuration& configuration);
+
+// Whether volumes shall say what flows.
+bool tells_flow(const RunOptions& options, const Configuration& configuration);
 
 // The control profile that the configuration names, else the default one.
 hal::Result<ui::ControlProfile> load_controls(const Configuration& configuration);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "pipeline/acquisition/repeat_comparison.h"
 #include "pipeline/calibration/calibration.h"
 #include "sim/devices/control_script.h"
 #include "sim/faults/fault_script.h"
@@ -65,6 +66,8 @@ std::vector<std::string> named_file_complaints(const std::filesystem::path& file
   complaints.take(samples);
   if (samples)
     check_calibrations(configuration, *samples, complaints);
+  if (samples && tells_flow(options, configuration))
+    complaints.take(pipeline::RepeatComparison::check(plan_of(options, configuration)));
   complaints.take(load_controls(configuration));
   if (configuration.faults)
     complaints.take(sim::FaultScript::load(*configuration.faults));

@@ -53,7 +53,8 @@ struct RunOptions {
   std::optional<std::filesystem::path> raw_to;       // likewise, their raw spectra
   std::string subject;                               // of recordings; empty: not given
   pipeline::Eye eye = pipeline::Eye::not_said;       // likewise
-  std::optional<int> repeats;                        // likewise
+  std::optional<int> repeats;                        // overrides the plan
+  std::optional<bool> flow;                          // overrides [pipeline] flow
 };
 
 } // namespace octascope::firmware_host

@@ -19,6 +19,8 @@ public:
   PictureWriter(std::filesystem::path folder, hal::Clock& clock, pipeline::FaultLog& faults)
       : folder_(std::move(folder)), clock_(clock), faults_(faults) {}
 
+  const std::filesystem::path& folder() const { return folder_; }
+
   // Returns at once. False if the last picture is still being written: this one is dropped, and a
   // fault is recorded.
   bool keep(pipeline::Image picture);

@@ -13,7 +13,7 @@
 namespace octascope::firmware_host {
 
 hal::Result<std::unique_ptr<Reconstruction>>
-Reconstruction::make(const Devices& devices, const Configuration& configuration,
+Reconstruction::make(const Devices& devices, const Configuration& configuration, bool flow,
                      ReconstructionCache& cache) {
   pipeline::Calibration calibration = devices.calibration();
   const pipeline::ScanPlan& plan = devices.plan();
@@ -31,8 +31,31 @@ Reconstruction::make(const Devices& devices, const Configuration& configuration,
   const std::size_t workers = configuration.workers > 0
                                   ? configuration.workers
                                   : std::max(1U, std::thread::hardware_concurrency());
-  return std::unique_ptr<Reconstruction>(new Reconstruction{
-      std::move(made), std::move(calibration), average, workers, configuration.worker_cores});
+  std::unique_ptr<Reconstruction> reconstruction{new Reconstruction{
+      std::move(made), std::move(calibration), average, workers, configuration.worker_cores}};
+  if (flow) {
+    HAL_TRY(auto comparison,
+            pipeline::RepeatComparison::create(
+                plan, workers,
+                [made = reconstruction.get()](std::size_t worker, const hal::LineFrame& frame,
+                                              const pipeline::SweepBins& out) {
+                  return made->convert(worker, frame, out);
+                }));
+    reconstruction->comparison_ = std::move(comparison);
+  }
+  return reconstruction;
+}
+
+int Reconstruction::convert(std::size_t worker, const hal::LineFrame& frame,
+                            const pipeline::SweepBins& out) {
+  const int saturated = reconstructor_
+                            .reconstruct_b_scan_both(workspaces_[worker], frame.bytes, out.bins,
+                                                     out.levels, background_of(frame))
+                            .saturated_lines;
+  const auto by_line = reconstructor_.saturated_lines(workspaces_[worker]);
+  for (std::size_t line = 0; saturated > 0 && line < out.saturated.size(); ++line)
+    out.saturated[line] |= by_line[line];
+  return saturated;
 }
 
 Reconstruction::Reconstruction(pipeline::Reconstructor reconstructor,
@@ -66,7 +89,8 @@ pipeline::VolumeThreadSetup Reconstruction::volume_thread_setup(const pipeline::
           },
       .observe_volume = {},
       .average = average_,
-      .most_volumes = {}};
+      .most_volumes = {},
+      .comparison = std::exchange(comparison_, std::nullopt)};
 }
 
 } // namespace octascope::firmware_host

@@ -13,6 +13,7 @@
 #include "firmware-host/supervision/thread_roles.h"
 #include "hal/result.h"
 #include "pipeline/acquisition/neighbour_average.h"
+#include "pipeline/acquisition/repeat_comparison.h"
 #include "pipeline/acquisition/volume_thread.h"
 #include "pipeline/reconstruction/background.h"
 #include "pipeline/reconstruction/reconstructor.h"
@@ -23,12 +24,14 @@ namespace octascope::firmware_host {
 class Reconstruction {
 public:
   // Measures what the cache does not hold, which takes some tenths of a second, and stores it. The
-  // devices' cameras and plan must exist.
-  static hal::Result<std::unique_ptr<Reconstruction>>
-  make(const Devices& devices, const Configuration& configuration, ReconstructionCache& cache);
+  // devices' cameras and plan must exist. `flow`: repeats are compared, which the plan must allow
+  // for.
+  static hal::Result<std::unique_ptr<Reconstruction>> make(const Devices& devices,
+                                                           const Configuration& configuration,
+                                                           bool flow, ReconstructionCache& cache);
 
-  // The parts of the volumes' thread's setup that concern reconstruction. `camera_buffers`: frames
-  // that may be in flight.
+  // The parts of the volumes' thread's setup that concern reconstruction, once. `camera_buffers`:
+  // frames that may be in flight.
   pipeline::VolumeThreadSetup volume_thread_setup(const pipeline::ScanPlan& plan,
                                                   int camera_buffers);
 
@@ -46,11 +49,14 @@ private:
                  const pipeline::NeighbourAverage& average, std::size_t workers,
                  const std::vector<int>& cores);
 
+  int convert(std::size_t worker, const hal::LineFrame& frame, const pipeline::SweepBins& out);
+
   pipeline::Reconstructor reconstructor_;
   pipeline::Calibration calibration_;
   pipeline::NeighbourAverage average_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
   std::optional<pipeline::FrameBackgrounds> backgrounds_;      // running ones
+  std::optional<pipeline::RepeatComparison> comparison_;       // until somebody has it
   WorkerCores worker_cores_;
 };
 

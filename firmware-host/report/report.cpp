@@ -38,6 +38,34 @@ Json rays_to_json(const RunReport& report) {
           {"shader_ms", rounded(hal::to_ms(report.rays->shader))}};
 }
 
+// Null where nobody asked.
+Json flow_to_json(const RunReport& report) {
+  if (!report.flow)
+    return {};
+  const FlowSummary& flow = *report.flow;
+  return {{"angiograms", flow.angiograms},
+          {"angiograms_per_s", rounded(static_cast<double>(flow.angiograms) / report.duration_s)},
+          {"b_scans",
+           {{"told", flow.told},
+            {"left_out", flow.left_out},
+            {"none", flow.none},
+            {"no_time", flow.no_time}}},
+          {"ms", to_json(flow.tell)}};
+}
+
+// Null where the volumes come without flow.
+Json trees_to_json(const RunReport& report) {
+  if (!report.trees)
+    return {};
+  const auto& [traced, refused, took] = *report.trees;
+  return {{"traced", traced},
+          {"refused", refused},
+          {"seconds",
+           {{"p50", rounded(took.p50_ms * 1e-3)},
+            {"p95", rounded(took.p95_ms * 1e-3)},
+            {"max", rounded(took.max_ms * 1e-3)}}}};
+}
+
 Json stages_to_json(const RunReport& report) {
   Json json = {{"histogram_ms", StageSummary::most_ms}};
   for (std::size_t i = 0; i < stage_count; ++i) {
@@ -143,6 +171,7 @@ std::string to_json(const RunReport& r) {
         {"unfinished", volumes.unfinished}}},
       {"lost", lost_to_json(r.counters)},
       {"saturated_lines", volumes.saturated_lines},
+      {"flow", flow_to_json(r)},
       {"rates", to_json(r.counters.rates)},
       {"stage_ms",
        {{"reconstruct", to_json(r.reconstruct)},
@@ -155,6 +184,7 @@ std::string to_json(const RunReport& r) {
       {"latency_stages", stages_to_json(r)},
       {"control_ms", to_json(r.control)},
       {"rays", rays_to_json(r)},
+      {"vessel_trees", trees_to_json(r)},
       {"first_picture_s", r.first_picture_s ? Json(rounded(*r.first_picture_s)) : Json()},
       {"frames", {{"drawn", r.counters.frames_drawn}, {"missed", r.counters.frames_missed}}},
       {"quality", to_json(r.quality)},
@@ -178,12 +208,23 @@ std::string to_text(const RunReport& r) {
       c.volumes.lost_volumes, c.latency.p50_ms, c.latency.p95_ms);
   if (const std::string quality = to_text(r.quality); !quality.empty())
     text += fmt::format("the volume was drawn at {}\n", quality);
+  if (r.flow)
+    text += fmt::format(
+        "flow: {} angiograms ({:.2f}/s); of their B-scans {} told, {} left out that "
+        "moved too far, {} without (no time for {}); {:.1f} ms each median, "
+        "{:.1f} ms p95\n",
+        r.flow->angiograms, static_cast<double>(r.flow->angiograms) / r.duration_s, r.flow->told,
+        r.flow->left_out, r.flow->none, r.flow->no_time, r.flow->tell.p50_ms, r.flow->tell.p95_ms);
   if (r.plan.bidirectional)
     text +=
         fmt::format("bidirectional: phase offset {:.2f} A-scans, {}\n", r.scan_lag.in_use_a_scans,
                     !r.scan_lag.automatic ? "as configured"
                     : r.scan_lag.used > 0 ? "found in the picture"
                                           : "as configured: the picture shows no better one");
+  if (r.trees)
+    text += fmt::format("vessel trees: {} traced, {} refused; {:.2f} s median, {:.2f} s p95\n",
+                        r.trees->traced, r.trees->refused, r.trees->took.p50_ms * 1e-3,
+                        r.trees->took.p95_ms * 1e-3);
   return text + to_text(r.faults);
 }
 

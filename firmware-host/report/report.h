@@ -43,6 +43,22 @@ struct StageSummary {
   std::array<std::uint64_t, most_ms.size() + 1> histogram{};
 };
 
+// Of volumes that say what flows (docs/ANGIOGRAPHY.md).
+struct FlowSummary {
+  std::uint64_t angiograms = 0; // published volumes, all B-scans of which were compared
+  // B-scans of published volumes: told; moved too far between sweeps; neither.
+  std::uint64_t told = 0, left_out = 0, none = 0;
+  std::uint64_t no_time = 0;      // B-scans without flow since workers were behind
+  pipeline::DurationSummary tell; // a worker's time for one B-scan, its reconstruction apart
+};
+
+// Trees that were traced in the volumes' flow.
+struct TracedTreesSummary {
+  std::uint64_t traced = 0;
+  std::uint64_t refused = 0; // not among the traced
+  pipeline::DurationSummary took;
+};
+
 struct RunReport {
   bool simulated = false;
   std::string source;                // what the spectra were
@@ -63,9 +79,11 @@ struct RunReport {
   pipeline::DurationSummary reconstruct, assemble, publish, upload, draw, control;
   pipeline::DurationSummary line_latency;       // of every line that was shown
   std::array<StageSummary, stage_count> stages; // of the latency
+  std::optional<FlowSummary> flow;              // empty: nobody asked
   QualitySummary quality;                       // of the shown frames
   std::optional<ui::RayTrial> rays;
-  std::optional<double> first_picture_s; // since the process began
+  std::optional<TracedTreesSummary> trees; // empty: the volumes come without flow
+  std::optional<double> first_picture_s;   // since the process began
   ShownPicture picture;
   ui::ViewState view;                                    // at the end of the run
   std::array<std::uint64_t, ui::action_count> actions{}; // times each was performed

@@ -63,7 +63,9 @@ public:
     devices_ = std::make_unique<Devices>(std::move(real), choices, clock_);
     HAL_CHECK(source_->prepare(*devices_, choices));
     // Not before: reading a tree would disturb what the source measures.
-    HAL_TRY(auto vessels, make_vessel_display(options_, source_->whose(), clock_, faults_, news_));
+    HAL_TRY(auto vessels,
+            make_vessel_display(options_, tells_flow(options_, configuration_), source_->whose(),
+                                clock_, faults_, news_, source_->thread_setup()));
     vessels_ = std::move(vessels);
     controls_ = std::make_unique<pipeline::ControlThread>(devices_->control_input(), clock_,
                                                           faults_, news_);
@@ -101,6 +103,7 @@ private:
   void make_render_loop(ui::ControlProfile profile);
   void show_until_done(StopSignal& stop_signal);
   bool done() const;
+  bool keep(pipeline::Image picture);
   void follow_controls();
   void update_status();
   void describe_devices();
@@ -153,8 +156,7 @@ void AssembledAppliance::make_render_loop(ui::ControlProfile profile) {
           .controls = *controls_,
           .faults = faults_,
           .news = news_,
-          .keep_picture =
-              [this](pipeline::Image picture) { return pictures_.keep(std::move(picture)); },
+          .keep_picture = [this](pipeline::Image picture) { return keep(std::move(picture)); },
           .record = std::move(source.record),
           .simulated_control =
               controls == nullptr
@@ -165,6 +167,13 @@ void AssembledAppliance::make_render_loop(ui::ControlProfile profile) {
           .proof = source.proof,
           .trace = trace_.get()},
       std::move(setup));
+}
+
+// With the tree that was traced in it.
+bool AssembledAppliance::keep(pipeline::Image picture) {
+  if (vessels_)
+    vessels_->keep_tree(pictures_.folder());
+  return pictures_.keep(std::move(picture));
 }
 
 void AssembledAppliance::show_until_done(StopSignal& stop_signal) {

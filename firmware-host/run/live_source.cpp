@@ -122,7 +122,8 @@ hal::Result<> LiveSource::prepare(Devices& devices, DeviceChoices choices) {
   supervision_.crash_report().set_last_act(
       [](void* made) { static_cast<Devices*>(made)->make_trigger_safe(); }, devices_);
   supervision_.starting("measuring the reconstruction");
-  HAL_TRY(auto reconstruction, Reconstruction::make(devices, configuration_, cache_));
+  HAL_TRY(auto reconstruction, Reconstruction::make(devices, configuration_,
+                                                    tells_flow(options_, configuration_), cache_));
   reconstruction_ = std::move(reconstruction);
   make_recordings();
   make_threads();

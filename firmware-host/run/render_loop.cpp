@@ -78,7 +78,7 @@ bool RenderLoop::turn() {
   take_volume();
   take_scope_picture();
   if (parts_.vessels != nullptr)
-    parts_.vessels->advance(renderer_.get(), controller_.actions());
+    parts_.vessels->advance(renderer_.get(), controller_.actions(), volume_.whole());
   update_status();
   if (display_ready()) {
     draw_if_changed();
@@ -101,7 +101,7 @@ bool RenderLoop::casts_rays() const {
 bool RenderLoop::draws_parts() const {
   const ui::ViewState& view = controller_.state();
   return volume_.rolls() && casts_rays() && view.technique != ui::Technique::shaded &&
-         (parts_.vessels == nullptr || !view.vessels_visible);
+         (parts_.vessels == nullptr || !ui::shows_tree(view));
 }
 
 ui::FrameBudget RenderLoop::frame_budget() const {
@@ -241,6 +241,7 @@ void RenderLoop::note_taken(const pipeline::Volume& newest, hal::TimePoint begin
     if (const auto window = ui::suggest_window(newest))
       set_first_window(*window);
   }
+  controller_.actions().set_flow_there(newest.has_flow());
   volume_undisplayed_ = true;
   undisplayed_last_line_ = newest.metadata.last_line;
   status_writer_.show(newest);

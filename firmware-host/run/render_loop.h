@@ -142,6 +142,11 @@ public:
   // Replaces the profile when another pedal or knob leads.
   void change_controls(ui::ControlProfile profile);
 
+  // Of the trees traced in the volumes; empty where none are.
+  std::optional<LiveTreeThread::Counters> traced_trees() const {
+    return parts_.vessels != nullptr ? parts_.vessels->traced() : std::nullopt;
+  }
+
   // Of all lines that were shown so far.
   pipeline::DurationSummary line_latency() const { return volume_.line_latency(); }
 

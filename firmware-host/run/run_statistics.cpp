@@ -42,6 +42,15 @@ void add_volumes(RunReport& report, const pipeline::VolumeThread& volumes) {
   report.reconstruct = volumes.statistics().reconstruct.summary();
   report.assemble = volumes.statistics().assemble.summary();
   report.publish = volumes.statistics().publish.summary();
+  if (!volumes.has_flow())
+    return;
+  const pipeline::FlowStatistics& flow = volumes.statistics().flow;
+  report.flow = FlowSummary{.angiograms = flow.volumes.load(),
+                            .told = flow.told.load(),
+                            .left_out = flow.left_out.load(),
+                            .none = flow.none.load(),
+                            .no_time = flow.no_time.load(),
+                            .tell = flow.tell.summary()};
 }
 
 void add_frames(RunReport& report, const FrameStatistics& frames) {
@@ -92,6 +101,8 @@ RunReport report_on(const RunStatistics& run, const RunTimes& times,
   const FrameStatistics& frames = run.loop.statistics();
   add_frames(report, frames);
   report.line_latency = run.loop.line_latency();
+  if (const auto trees = run.loop.traced_trees())
+    report.trees = {trees->traced, trees->refused, trees->took};
   add_picture(report, run.loop.status());
   report.started = times.started;
   report.duration_s = hal::to_seconds(times.ended - times.started);

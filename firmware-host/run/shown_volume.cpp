@@ -7,7 +7,7 @@ namespace octascope::firmware_host {
 ShownVolume::ShownVolume(pipeline::VolumeFeed& volumes, const pipeline::VolumeGeometry& geometry)
     : volumes_{volumes}, line_latency_{geometry.b_scans} {
   if (volumes.lends())
-    rolling_volume_.emplace(geometry);
+    rolling_volume_.emplace(geometry, volumes.has_flow());
 }
 
 // What is frozen is whole, and so is what an iso-surface is made of.

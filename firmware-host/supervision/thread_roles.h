@@ -33,8 +33,8 @@ private:
 };
 
 // Called first by each of the pipeline's and the display's threads. Camera and volume threads take
-// precedence over the workers, the workers over everything else; the iso-surface comes last. If the
-// system refuses, that is one record in `faults`, and the appliance goes on. `watch` notices hung
+// precedence over the workers, the workers over everything else; the iso-surface and the vessel
+// tree come last. If the system refuses, that is one record in `faults`, and the appliance goes on. `watch` notices hung
 // threads; null: nobody does. All three references outlive the threads.
 pipeline::ThreadSetup make_thread_setup(hal::Clock& clock, pipeline::FaultLog& faults,
                                         WorkerCores& cores, ThreadWatch* watch = nullptr);

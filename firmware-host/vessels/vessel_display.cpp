@@ -8,6 +8,7 @@
 #include "firmware-host/configuration/run_options.h"
 #include "firmware-host/vessels/vessel_patient_check.h"
 #include "firmware-host/vessels/vessel_place.h"
+#include "pipeline/vessels/vectors.h"
 
 namespace octascope::firmware_host {
 
@@ -23,8 +24,9 @@ const std::string nothing_to_say;
 } // namespace
 
 hal::Result<std::unique_ptr<VesselDisplay>>
-make_vessel_display(const RunOptions& options, pipeline::PatientEye operated, hal::Clock& clock,
-                    pipeline::FaultLog& faults, pipeline::Wakeup& news) {
+make_vessel_display(const RunOptions& options, bool live, pipeline::PatientEye operated,
+                    hal::Clock& clock, pipeline::FaultLog& faults, pipeline::Wakeup& news,
+                    const pipeline::ThreadSetup& threads) {
   VesselDisplaySetup setup;
   if (options.registration) {
     HAL_TRY(auto loaded, pipeline::Registration::load(*options.registration));
@@ -32,21 +34,43 @@ make_vessel_display(const RunOptions& options, pipeline::PatientEye operated, ha
     setup.registration = std::move(loaded);
   }
   setup.operated = std::move(operated);
-  if (!options.vessels)
+  if (!options.vessels && !live)
     return std::unique_ptr<VesselDisplay>{};
-  setup.file = *options.vessels;
+  setup.file = options.vessels.value_or(std::filesystem::path{});
+  setup.live = live;
+  setup.threads = threads;
   setup.registration_file = options.registration;
   return std::make_unique<VesselDisplay>(std::move(setup), clock, faults, news);
 }
 
 VesselDisplay::VesselDisplay(VesselDisplaySetup setup, hal::Clock& clock,
                              pipeline::FaultLog& faults, pipeline::Wakeup& news)
-    : setup_{std::move(setup)}, clock_{clock}, faults_{faults}, loader_{setup_.file, news} {}
+    : setup_{std::move(setup)}, clock_{clock}, faults_{faults}, news_{news} {
+  if (!setup_.file.empty())
+    loader_.emplace(setup_.file, news);
+  if (setup_.live)
+    live_.emplace(clock, news, setup_.threads);
+}
 
+// A traced tree is in the volume's frame.
 ui::PlacedVessels VesselDisplay::placed() const {
-  if (!setup_.registration)
-    return place_vessels(*loaded_, std::nullopt);
-  return place_vessels(*loaded_, setup_.registration->volume_from_tree);
+  if (!loaded_)
+    return live_ && live_->drawn() != nullptr
+               ? place_vessels(*live_->drawn()->packed, pipeline::RigidTransform{})
+               : ui::PlacedVessels{};
+  const auto place = drawn_place();
+  if (live_ && !place)
+    return {};
+  return place_vessels(*loaded_, place);
+}
+
+// What flows says it best, then what somebody said.
+std::optional<pipeline::RigidTransform> VesselDisplay::drawn_place() const {
+  if (followed_ && followed_->volume_from_tree)
+    return followed_->volume_from_tree;
+  if (setup_.registration)
+    return setup_.registration->volume_from_tree;
+  return std::nullopt;
 }
 
 hal::Result<> VesselDisplay::show(ui::Renderer& renderer) const {
@@ -54,7 +78,7 @@ hal::Result<> VesselDisplay::show(ui::Renderer& renderer) const {
 }
 
 hal::Result<> VesselDisplay::show_again(ui::Renderer& renderer) {
-  return loaded_ ? show(renderer) : hal::Result<>{};
+  return status_.state == ui::VesselStatus::State::shown ? show(renderer) : hal::Result<>{};
 }
 
 // What is registered to this eye by hand is this eye's.
@@ -73,22 +97,135 @@ const std::string& VesselDisplay::notice(hal::TimePoint now) const {
   return now < notice_until_ ? notice_ : nothing_to_say;
 }
 
-void VesselDisplay::advance(ui::Renderer* renderer, ui::ViewActions& actions) {
-  take_loaded(renderer, actions);
+void VesselDisplay::advance(ui::Renderer* renderer, ui::ViewActions& actions,
+                            const pipeline::Volume* shown) {
+  if (loader_)
+    take_loaded(renderer, actions);
+  if (live_)
+    show_live(renderer, actions, shown);
   take_written(renderer, actions);
   if (status_.state == ui::VesselStatus::State::loading)
-    status_.progress = loader_.progress();
-  status_.registered = setup_.registration.has_value();
+    status_.progress = loader_->progress();
+  describe_place();
+}
+
+void VesselDisplay::describe_place() {
+  using Followed = ui::FollowedTreeStatus;
+  status_.registered = drawn_place().has_value() || status_.traced;
   status_.residual_mm = std::nullopt;
   if (setup_.registration)
     status_.residual_mm = setup_.registration->provenance.residual_mm;
+  if (!follower_)
+    return;
+  status_.followed.emplace();
+  if (!followed_)
+    return;
+  if (followed_->volume_from_tree) {
+    status_.followed = {Followed::State::followed, followed_->overlap};
+    status_.residual_mm = followed_->residual_mm;
+  } else if (!followed_->refusal.empty()) {
+    status_.followed = {Followed::State::unmatched, 0};
+  }
+}
+
+// By the trees that are traced in the volumes, and by what the volumes move.
+void VesselDisplay::follow(ui::Renderer* renderer, const pipeline::Volume* shown) {
+  if (!follower_)
+    follower_.emplace(*loaded_, drawn_place(), clock_, news_, setup_.threads);
+  follower_->offer(live_->newest());
+  if (shown != nullptr && shown->has_flow())
+    follower_->offer(*shown);
+  if (auto place = follower_->take())
+    take_place(std::move(*place), renderer);
+}
+
+void VesselDisplay::take_place(pipeline::FollowedPlace place, ui::Renderer* renderer) {
+  using State = ui::VesselStatus::State;
+  const auto before = drawn_place();
+  const bool was_known = followed_ && followed_->volume_from_tree;
+  const bool was_refused = followed_ && !followed_->refusal.empty();
+  followed_ = std::move(place);
+  if (followed_->volume_from_tree.has_value() != was_known ||
+      (!was_known && followed_->refusal.empty() == was_refused))
+    say_place(was_known);
+  if (status_.state == State::failed)
+    return;
+  status_.state = drawn_place() ? State::shown : State::none;
+  if (before != drawn_place() && renderer != nullptr)
+    static_cast<void>(show(*renderer)); // that it can be shown, it has proved
+}
+
+void VesselDisplay::say_place(bool was_known) {
+  if (!followed_->volume_from_tree) {
+    if (!followed_->refusal.empty())
+      say(fmt::format("Vessels {}: {}", was_known ? "no longer match" : "do not match",
+                      followed_->refusal));
+    return;
+  }
+  std::string found = fmt::format("Vessels registered to what flows: {:.0f} % overlap, residual "
+                                  "{:.0f} µm",
+                                  followed_->overlap * 100, followed_->residual_mm * 1e3);
+  if (setup_.registration) {
+    const ui::PlacedVessels tree = place_vessels(*loaded_, std::nullopt);
+    const pipeline::Point off =
+        pipeline::difference(followed_->volume_from_tree->apply(tree.centre_mm),
+                             setup_.registration->volume_from_tree.apply(tree.centre_mm));
+    found += fmt::format(", {:.2f} mm from where they were registered", pipeline::length(off));
+  }
+  say(std::move(found));
+}
+
+// Beside a tree from a file, which is drawn in its stead, it only serves to tell where that one lies.
+void VesselDisplay::show_live(ui::Renderer* renderer, ui::ViewActions& actions,
+                              const pipeline::Volume* shown) {
+  using State = ui::VesselStatus::State;
+  const bool changed = live_->advance(shown, actions.state().frozen);
+  take_kept_tree();
+  if (loaded_ && status_.state != State::failed)
+    follow(renderer, shown);
+  if (loader_ || status_.state == State::failed || !live_->status())
+    return;
+  if (!status_.traced)
+    actions.set_vessels_traced();
+  status_.traced = live_->status();
+  if (!changed)
+    return;
+  const auto drawn = renderer != nullptr ? show(*renderer) : hal::Result<>{};
+  status_.state = live_->drawn() != nullptr ? State::shown : State::none;
+  if (drawn)
+    return;
+  status_.state = State::failed;
+  status_.traced.reset();
+  faults_.add(pipeline::Fault::vessels_not_shown, drawn.error().message, clock_.now());
+  say(fmt::format("No vessels: {}", drawn.error().message));
+}
+
+void VesselDisplay::keep_tree(const std::filesystem::path& folder) {
+  if (live_ && !loader_)
+    live_->keep(folder);
+}
+
+void VesselDisplay::take_kept_tree() {
+  const auto kept = live_->take_kept();
+  if (!kept)
+    return;
+  if (*kept) {
+    say(fmt::format("Vessel tree kept in {}", (*kept)->filename().string()));
+    return;
+  }
+  faults_.add(pipeline::Fault::picture_not_kept, kept->error().message, clock_.now());
+  say(fmt::format("Vessel tree not kept: {}", kept->error().message));
+}
+
+std::optional<LiveTreeThread::Counters> VesselDisplay::traced() const {
+  return live_ ? std::optional{live_->counters()} : std::nullopt;
 }
 
 void VesselDisplay::take_loaded(ui::Renderer* renderer, ui::ViewActions& actions) {
   using State = ui::VesselStatus::State;
-  auto result = loader_.take();
+  auto result = loader_->take();
   if (!result) {
-    if (status_.state == State::none)
+    if (status_.state == State::none && !loaded_)
       status_.state = State::loading;
     return;
   }
@@ -101,7 +238,7 @@ void VesselDisplay::take_loaded(ui::Renderer* renderer, ui::ViewActions& actions
   } else {
     shown = tl::make_unexpected(result->error());
   }
-  status_.state = shown ? State::shown : State::failed;
+  status_.state = !shown ? State::failed : live_ && !drawn_place() ? State::none : State::shown;
   actions.set_vessels_loaded(shown.has_value());
   if (shown && setup_.registration && setup_.registration->whose.said() && !setup_.operated.said())
     say(fmt::format("Vessels of {}", in_words(setup_.registration->whose)));
@@ -130,13 +267,16 @@ void VesselDisplay::take_written(ui::Renderer* renderer, ui::ViewActions& action
   setup_.registration_file = **written;
   setup_.registration = pipeline::Registration{kept_, whose_vessels(), {}};
   actions.forget_nudge();
+  if (follower_)
+    follower_->begin_at(kept_);
+  followed_.reset();
   if (renderer != nullptr)
     static_cast<void>(show(*renderer)); // that it can be shown, it has proved
 }
 
 void VesselDisplay::keep_registration(const pipeline::VolumeGeometry& geometry,
                                       ui::ViewActions& actions) {
-  if (!loaded_)
+  if (!loaded_ || status_.state != ui::VesselStatus::State::shown)
     return;
   const ui::VesselNudge nudge = actions.state().vessel_nudge;
   const pipeline::RigidTransform place = volume_from_tree(placed(), nudge, geometry);

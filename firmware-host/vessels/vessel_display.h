@@ -1,4 +1,4 @@
-// The vessel tree of the running display: loads it, places it in the volume, limits its detail to
+// The vessel tree of the running display: loads it, or has it traced in the live flow, places it in the volume, limits its detail to
 // what the frame rate allows, moves it with the knob and saves its registration.
 #pragma once
 
@@ -8,6 +8,8 @@
 #include <string>
 
 #include "firmware-host/outputs/registration_writer.h"
+#include "firmware-host/vessels/live_tree_display.h"
+#include "firmware-host/vessels/vessel_follower.h"
 #include "firmware-host/vessels/vessel_loader.h"
 #include "hal/clock.h"
 #include "pipeline/faults/fault_log.h"
@@ -21,22 +23,26 @@
 namespace octascope::firmware_host {
 
 struct VesselDisplaySetup {
-  std::filesystem::path file;
+  std::filesystem::path file; // empty: none
   std::optional<std::filesystem::path> registration_file;
   std::optional<pipeline::Registration> registration; // none: the tree is not registered
   pipeline::PatientEye operated;                      // the eye in the picture
+  bool live = false; // trees are traced in the volumes; drawn where there is no file
+  pipeline::ThreadSetup threads{};
 };
 
 class VesselDisplay;
 struct RunOptions;
 
-// The tree that the options name, loaded beside the display; null if they name none. An Error if a
+// The tree that the options name, loaded beside the display, or trees traced in the flow that the volumes
+// come with (`live`); null without either. An Error if a
 // named registration cannot be used, since a tree in the wrong place would mislead.
 // ErrorCode::invalid_argument if the registration names another subject or eye than `operated`.
 // Everything borrowed must outlive it.
 hal::Result<std::unique_ptr<VesselDisplay>>
-make_vessel_display(const RunOptions& options, pipeline::PatientEye operated, hal::Clock& clock,
-                    pipeline::FaultLog& faults, pipeline::Wakeup& news);
+make_vessel_display(const RunOptions& options, bool live, pipeline::PatientEye operated,
+                    hal::Clock& clock, pipeline::FaultLog& faults, pipeline::Wakeup& news,
+                    const pipeline::ThreadSetup& threads);
 
 // Bound to the render thread. Everything borrowed must outlive it.
 class VesselDisplay {
@@ -44,14 +50,20 @@ public:
   VesselDisplay(VesselDisplaySetup setup, hal::Clock& clock, pipeline::FaultLog& faults,
                 pipeline::Wakeup& news);
 
-  // Takes what was loaded or written meanwhile; `renderer` is null while the display is gone.
-  void advance(ui::Renderer* renderer, ui::ViewActions& actions);
+  // Takes what was loaded, traced or written meanwhile; `renderer` is null while the display is gone,
+  // `shown` until there is a whole volume.
+  void advance(ui::Renderer* renderer, ui::ViewActions& actions, const pipeline::Volume* shown);
 
   // Shows the tree again with a new renderer.
   hal::Result<> show_again(ui::Renderer& renderer);
 
   // Saves the tree's place including the view's nudge; reports when it is written.
   void keep_registration(const pipeline::VolumeGeometry& geometry, ui::ViewActions& actions);
+
+  // Writes the traced tree that is drawn, if one is, into `folder`; says when it is written.
+  void keep_tree(const std::filesystem::path& folder);
+  // Of the trees traced; empty where none are.
+  std::optional<LiveTreeThread::Counters> traced() const;
 
   // The level of detail for the frame that begins now; `moved`: the view differs from the last
   // frame's.
@@ -68,6 +80,14 @@ public:
 
 private:
   void take_loaded(ui::Renderer* renderer, ui::ViewActions& actions);
+  void show_live(ui::Renderer* renderer, ui::ViewActions& actions, const pipeline::Volume* shown);
+  void follow(ui::Renderer* renderer, const pipeline::Volume* shown);
+  void take_place(pipeline::FollowedPlace place, ui::Renderer* renderer);
+  void say_place(bool was_known);
+  // Where the tree from the file is drawn, empty: nobody knows.
+  std::optional<pipeline::RigidTransform> drawn_place() const;
+  void describe_place();
+  void take_kept_tree();
   void take_written(ui::Renderer* renderer, ui::ViewActions& actions);
   void say(std::string notice);
   hal::Result<> show(ui::Renderer& renderer) const;
@@ -77,8 +97,12 @@ private:
   VesselDisplaySetup setup_;
   hal::Clock& clock_;
   pipeline::FaultLog& faults_;
-  VesselLoader loader_;
+  pipeline::Wakeup& news_;
+  std::optional<VesselLoader> loader_;
   std::optional<LoadedVessels> loaded_;
+  std::optional<LiveTreeDisplay> live_;
+  std::optional<VesselFollower> follower_; // of the tree from the file, where trees are traced
+  std::optional<pipeline::FollowedPlace> followed_; // what it said last
   RegistrationWriter keeper_{"."};
   pipeline::RigidTransform kept_; // what is being written
   ui::VesselNudge kept_nudge_;    // the nudge included in it

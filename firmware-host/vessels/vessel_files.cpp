@@ -6,6 +6,7 @@
 #include "pipeline/vessels/clusters/cluster_builder.h"
 #include "pipeline/vessels/clusters/cluster_file.h"
 #include "pipeline/vessels/files/swc_writer.h"
+#include "pipeline/vessels/files/vtp_writer.h"
 
 namespace octascope::firmware_host {
 
@@ -13,6 +14,8 @@ hal::Result<> write_tree(const std::filesystem::path& file, const pipeline::Vess
                          std::string provenance, const std::function<void(double)>& progress) {
   if (pipeline::file_ending(file) == ".swc")
     return pipeline::write_swc(file, tree, pipeline::LengthUnit::um, progress);
+  if (pipeline::file_ending(file) == ".vtp")
+    return pipeline::write_vtp(file, tree);
   const pipeline::ClusterArrays arrays = pipeline::build_clusters(tree);
   return pipeline::write_cluster_file(
       file, arrays.view(), pipeline::facts_of(tree, arrays.error, std::move(provenance)));

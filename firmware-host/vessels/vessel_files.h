@@ -10,9 +10,10 @@
 
 namespace octascope::firmware_host {
 
-// ".swc" in whatever letters: SWC in micrometres; else our own format. The file appears complete or
-// not at all. `provenance`, for people, says where the tree came from; only our format keeps it. Errors as
-// write_swc() and write_cluster_file().
+// ".swc" in whatever letters: SWC in micrometres; ".vtp": VTK's, in millimetres, without orders and
+// branches; else our own format. The file appears complete or not at all. `provenance`, for people, says
+// where the tree came from; only our format keeps it. Errors as write_swc(), write_vtp() and
+// write_cluster_file().
 hal::Result<> write_tree(const std::filesystem::path& file, const pipeline::VesselTree& tree,
                          std::string provenance, const std::function<void(double)>& progress = {});
 

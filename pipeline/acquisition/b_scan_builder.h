@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "hal/line_camera.h"
+#include "pipeline/acquisition/repeat_comparison.h"
 #include "pipeline/scan/downsampled_sweep.h"
 #include "pipeline/scan/scan_plan.h"
 #include "pipeline/scan/sweep_alignment.h"
@@ -21,7 +23,7 @@ using ReconstructSweep = std::function<int(std::size_t worker, const hal::LineFr
                                            std::span<std::uint8_t> levels)>;
 
 // One worker converts all repeats of a B-scan in turn, so that they are aligned and in its cache
-// when their levels are averaged. Any other comparison of repeats belongs here too.
+// when their levels are averaged and, on request, their bins compared (repeat_comparison.h).
 //
 // Levels (decibels) are averaged, as for neighbouring B-scans. Averaging powers would estimate the
 // power better, but the mean level of speckle would rise with the number of repeats (by up to
@@ -32,13 +34,24 @@ using ReconstructSweep = std::function<int(std::size_t worker, const hal::LineFr
 // nothing.
 class BScanBuilder {
 public:
-  BScanBuilder(const ScanPlan& plan, std::size_t workers, ReconstructSweep reconstruct);
+  // `comparison`: of the same plan; empty: nobody asks what flows. Where it is there, it is what
+  // converts sweeps, not `reconstruct`.
+  BScanBuilder(const ScanPlan& plan, std::size_t workers, ReconstructSweep reconstruct,
+               std::optional<RepeatComparison> comparison = std::nullopt);
 
   // `frames`: one for each repeat, in order; a negative buffer marks a missing one. At least one is
   // present. `sketch` may be null. `levels` [a][z]. Returns the number of saturated lines.
   int build(std::size_t worker, int b_scan, std::span<const hal::LineFrame> frames,
             const SweepAlignment& alignment, DownsampledSweep* sketch,
             std::span<std::uint8_t> levels);
+
+  bool compares() const { return comparison_.has_value(); }
+  bool is_whole(std::size_t worker) const { return comparison_->is_whole(worker); }
+  // What flows in the B-scan that this worker built last, `flow` in counts, [a][z]. Where it
+  // compares.
+  FlowState tell_flow(std::size_t worker, std::span<std::uint8_t> flow) noexcept {
+    return comparison_->tell(worker, flow);
+  }
 
 private:
   struct Buffers {
@@ -52,6 +65,7 @@ private:
 
   ScanPlan plan_;
   ReconstructSweep reconstruct_;
+  std::optional<RepeatComparison> comparison_;
   std::vector<Buffers> buffers_; // by worker
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pipeline/volume/flow_scale.h"
+
 namespace octascope::pipeline {
 
 namespace {
@@ -12,10 +14,12 @@ BScanProgress progress_of(const VolumeInMaking& making, int b) {
 
 } // namespace
 
-RollingVolume::RollingVolume(const VolumeGeometry& geometry)
+RollingVolume::RollingVolume(const VolumeGeometry& geometry, bool with_flow)
     : volume_{geometry}, numbers_(volume_.b_scan_states.size()),
       changed_(volume_.b_scan_states.size()) {
   volume_.occupancy = Occupancy{geometry, blank_depth_bins};
+  if (with_flow)
+    volume_.add_flow();
   volume_.work.resize(volume_.b_scan_states.size());
   changes_.reserve(volume_.b_scan_states.size());
 }
@@ -24,6 +28,10 @@ void RollingVolume::copy(int b, const Volume& from, std::uint64_t number) {
   const auto at = static_cast<std::size_t>(b);
   std::ranges::copy(from.b_scan(b), volume_.b_scan(b).begin());
   volume_.occupancy.copy(b, from.occupancy);
+  if (volume_.has_flow()) {
+    std::ranges::copy(from.b_scan_flow(b), volume_.b_scan_flow(b).begin());
+    volume_.flow_states[at] = from.flow_states[at];
+  }
   state(b) = from.b_scan_states[at];
   volume_.work[at].first_line = from.work[at].first_line;
   volume_.work[at].last_line = from.work[at].last_line;
@@ -35,6 +43,10 @@ void RollingVolume::blank(int b, BScanState as, std::uint64_t number) {
   const auto at = static_cast<std::size_t>(b);
   std::ranges::fill(volume_.b_scan(b), std::uint8_t{0});
   volume_.occupancy.update(b, volume_.b_scan(b));
+  if (volume_.has_flow()) {
+    std::ranges::fill(volume_.b_scan_flow(b), flow_untold);
+    volume_.flow_states[at] = FlowState::none;
+  }
   state(b) = as;
   volume_.work[at] = {};
   numbers_[at] = number;

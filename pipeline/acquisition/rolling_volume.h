@@ -21,7 +21,8 @@ namespace octascope::pipeline {
 // Threads: one at a time. Allocates on construction only.
 class RollingVolume {
 public:
-  explicit RollingVolume(const VolumeGeometry& geometry);
+  // `with_flow`: volumes have flow, which is taken with the rest of each B-scan.
+  explicit RollingVolume(const VolumeGeometry& geometry, bool with_flow = false);
 
   // From now on all of it is of that volume, which must be a pipeline's of the same geometry and
   // newer than what was taken before. Copies what is not there yet.

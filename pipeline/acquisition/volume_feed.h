@@ -26,7 +26,7 @@ struct VolumeCounters {
 
 enum class BScanProgress : std::uint8_t {
   awaited,
-  finished, // its levels, occupancy, state and times of exposure stay as they are
+  finished, // its levels, occupancy, flow, states and times of exposure stay as they are
   overdue   // it did not come when it should have; it may still become `finished`
 };
 
@@ -54,6 +54,8 @@ public:
   void give_back() { do_give_back(); }
   // Whether any volume is ever lent.
   bool lends() const { return do_lends(); }
+  // Whether its volumes say what flows.
+  bool has_flow() const { return do_has_flow(); }
 
   // Any thread.
   VolumeCounters counters() const { return do_counters(); }
@@ -64,6 +66,7 @@ private:
   virtual std::optional<VolumeInMaking> do_borrow_after(std::uint64_t) { return std::nullopt; }
   virtual void do_give_back() {}
   virtual bool do_lends() const { return false; }
+  virtual bool do_has_flow() const { return false; }
   virtual VolumeCounters do_counters() const = 0;
 };
 

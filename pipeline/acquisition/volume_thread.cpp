@@ -7,6 +7,7 @@
 
 #include "pipeline/threads/heartbeat.h"
 #include "pipeline/threads/hot_path.h"
+#include "pipeline/volume/flow_scale.h"
 
 namespace octascope::pipeline {
 
@@ -30,8 +31,10 @@ std::string complaint_about(FrameVerdict verdict, std::uint64_t sequence) {
   return fmt::format("frame {} was exposed outside every sweep", sequence);
 }
 
-std::vector<Volume> make_pool(const VolumeGeometry& geometry, std::size_t size) {
+std::vector<Volume> make_pool(const VolumeGeometry& geometry, std::size_t size, bool with_flow) {
   Volume volume{geometry};
+  if (with_flow)
+    volume.add_flow();
   volume.occupancy = Occupancy{geometry, blank_depth_bins};
   volume.work.resize(volume.b_scan_states.size());
   return std::vector<Volume>(size, volume);
@@ -44,9 +47,10 @@ VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
                            FaultLog& faults, Wakeup& arrived, Wakeup& news)
     : setup_(std::move(setup)), trigger_(trigger), acquisition_(acquisition), camera_(camera),
       clock_(clock), faults_(faults), arrived_(arrived), news_(news),
-      volumes_(make_pool(setup_.plan.geometry(), VolumeScheduler::pool_size)),
+      volumes_(make_pool(setup_.plan.geometry(), VolumeScheduler::pool_size,
+                         setup_.comparison.has_value())),
       scheduler_(setup_.plan, setup_.most_volumes),
-      builder_(setup_.plan, setup_.workers, setup_.reconstruct),
+      builder_(setup_.plan, setup_.workers, setup_.reconstruct, std::move(setup_.comparison)),
       scan_lag_(setup_.plan, clock, faults) {
   for (Workplace& workplace : workplaces_) {
     workplace.sweeps.resize(static_cast<std::size_t>(setup_.plan.b_scans));
@@ -167,6 +171,7 @@ void VolumeThread::begin_volume(std::uint32_t buffer, hal::TimePoint pulsed) {
   workplace.saturated_lines.store(0, std::memory_order_relaxed);
   Volume& volume = volumes_[buffer];
   std::fill(volume.b_scan_states.begin(), volume.b_scan_states.end(), BScanState::missing);
+  std::ranges::fill(volume.flow_states, FlowState::none);
   std::ranges::fill(volume.work, BScanWork{});
   workplace.assembler->begin(volume);
   volume.metadata = {};
@@ -261,6 +266,8 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   if (setup_.observe_converted)
     show_converted(worker, workplace, b);
   release(sweeps);
+  if (builder_.compares())
+    tell_flow(worker, volumes_[buffer], b);
   workplace.assembler->built(b);
   workplace.saturated_lines.fetch_add(saturated, std::memory_order_relaxed);
   BScanWork& work = volumes_[buffer].work[b_scan]; // the times of exposure may be read by now
@@ -269,6 +276,41 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   work.worker = static_cast<std::uint32_t>(worker);
   scheduler_.b_scan_made(buffer);
   arrived_.post();
+}
+
+// Workers that cannot keep up lose lines at last; before that they go without flow.
+bool VolumeThread::is_behind(const BScanWork& work, hal::TimePoint now) const {
+  return now - work.last_line > setup_.plan.sweep_duration() / 8;
+}
+
+// Before the B-scan is said to be built, so that whoever sees it sees its flow.
+void VolumeThread::tell_flow(std::size_t worker, Volume& volume, int b_scan) {
+  const hal::TimePoint begin = clock_.now();
+  if (builder_.is_whole(worker) &&
+      is_behind(volume.work[static_cast<std::size_t>(b_scan)], begin)) {
+    std::ranges::fill(volume.b_scan_flow(b_scan), flow_untold); // its state is FlowState::none
+    statistics_.flow.no_time.fetch_add(1, std::memory_order_relaxed);
+    return;
+  }
+  volume.flow_states[static_cast<std::size_t>(b_scan)] =
+      builder_.tell_flow(worker, volume.b_scan_flow(b_scan));
+  statistics_.flow.tell.add(clock_.now() - begin);
+}
+
+// Of B-scans that nobody built there is none, and counts what is told of the others.
+void VolumeThread::finish_flow(Volume& volume) {
+  for (int b = 0; b < volume.geometry.b_scans; ++b)
+    if (volume.b_scan_states[static_cast<std::size_t>(b)] == BScanState::missing)
+      std::ranges::fill(volume.b_scan_flow(b), flow_untold);
+  const auto count = [&](FlowState state) {
+    return static_cast<std::uint64_t>(std::ranges::count(volume.flow_states, state));
+  };
+  const std::uint64_t none = count(FlowState::none);
+  FlowStatistics& flow = statistics_.flow;
+  flow.volumes.fetch_add(none == 0 ? 1 : 0, std::memory_order_relaxed);
+  flow.told.fetch_add(count(FlowState::told), std::memory_order_relaxed);
+  flow.left_out.fetch_add(count(FlowState::left_out), std::memory_order_relaxed);
+  flow.none.fetch_add(none, std::memory_order_relaxed);
 }
 
 void VolumeThread::finish_due_volumes(hal::TimePoint looked_until) {
@@ -306,6 +348,8 @@ void VolumeThread::publish(std::uint32_t buffer, const FinishedVolume& finished)
     scan_lag_.finished();
   const hal::TimePoint begin = clock_.now();
   workplace.assembler->finish();
+  if (volume.has_flow())
+    finish_flow(volume);
   fill_ledger(volume, workplace, finished);
   const hal::TimePoint assembled = clock_.now();
   volume.metadata.assemble = assembled - begin;

@@ -18,6 +18,7 @@
 #include "pipeline/acquisition/acquisition.h"
 #include "pipeline/acquisition/b_scan_builder.h"
 #include "pipeline/acquisition/neighbour_average.h"
+#include "pipeline/acquisition/repeat_comparison.h"
 #include "pipeline/acquisition/volume_assembler.h"
 #include "pipeline/acquisition/volume_feed.h"
 #include "pipeline/acquisition/volume_scheduler.h"
@@ -67,12 +68,26 @@ struct VolumeThreadSetup {
   ObserveConverted observe_converted = {};
   NeighbourAverage average;
   std::optional<std::uint64_t> most_volumes; // stop triggering after this many
+  // Of the same plan and workers; empty: volumes have no flow. Where it is there, `reconstruct` is
+  // not called.
+  std::optional<RepeatComparison> comparison = std::nullopt;
+};
+
+// Any thread may read it. Zero without a comparison.
+struct FlowStatistics {
+  DurationStatistics tell;                // a worker's time for the flow of one B-scan
+  std::atomic<std::uint64_t> volumes{0};  // published, all B-scans of which were compared
+  std::atomic<std::uint64_t> told{0};     // B-scans of published volumes
+  std::atomic<std::uint64_t> left_out{0}; // likewise: moved too far between sweeps
+  std::atomic<std::uint64_t> none{0};     // likewise: not received whole, or no time for it
+  std::atomic<std::uint64_t> no_time{0};  // B-scans for which there was none
 };
 
 struct PipelineStatistics {
   DurationStatistics reconstruct; // summed over all workers for one volume
   DurationStatistics assemble;
   DurationStatistics publish;
+  FlowStatistics flow;
 };
 
 class VolumeThread final : public VolumeFeed {
@@ -111,6 +126,7 @@ private:
   std::optional<VolumeInMaking> do_borrow_after(std::uint64_t after) override;
   void do_give_back() override { loan_.give_back(); }
   bool do_lends() const override { return true; }
+  bool do_has_flow() const override { return builder_.compares(); }
   VolumeCounters do_counters() const override { return scheduler_.counters(); }
 
   void run();
@@ -126,9 +142,12 @@ private:
   void release(Sweeps& sweeps);
   static void note_exposure(BScanWork& work, const Sweeps& sweeps);
   void reconstruct(std::size_t worker, std::uint32_t job);
+  void tell_flow(std::size_t worker, Volume& volume, int b_scan);
+  bool is_behind(const BScanWork& work, hal::TimePoint now) const;
   void finish_due_volumes(hal::TimePoint looked_until);
   void lose(std::uint32_t buffer);
   void publish(std::uint32_t buffer, const FinishedVolume& finished);
+  void finish_flow(Volume& volume);
   void fill_ledger(Volume& volume, const Workplace& workplace, const FinishedVolume& finished);
 
   VolumeThreadSetup setup_;

@@ -100,6 +100,8 @@ void BScanFlow::sum_line(std::span<const std::complex<float>> bins, int a,
     const bool is_there = from >= 0 && from < setup_.a_scans;
     const int begin = repeat.shift.first(depths);
     const int end = repeat.shift.last(depths);
+    if (is_there && from + 1 < setup_.a_scans)
+      fetch_line(bins.data() + size(m) * voxels_ + size(from + 1) * size(depths), depths);
     if (is_there)
       repeat.shift.apply(bins.data() + size(m) * voxels_ + size(from) * size(depths), begin, end,
                          repeat.real.data(), repeat.imaginary.data(), scratch_.data());

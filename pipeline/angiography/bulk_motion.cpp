@@ -15,6 +15,8 @@ constexpr int compared_a_scans = 20;
 constexpr int fewest_depths = 48;
 // Sums of products that have nothing in common scatter by less than this about their mean.
 constexpr float least_contrast = 2.5F;
+// The squared modulus of the coherence at the best lag, at which no other A-scan is tried.
+constexpr float enough_coherence = 0.8F;
 constexpr float tiny = 1e-30F;
 
 float squared(float real, float imaginary) {
@@ -68,9 +70,14 @@ BulkMotionEstimator::Peak BulkMotionEstimator::axial_peak(const std::complex<flo
                                                           const std::complex<float>* second,
                                                           int lateral) noexcept {
   Correlation sum{};
+  float most = 0; // of a lag at which both were alike
   for (int a = step_ / 2; a < a_scans_; a += step_) {
     if (a + lateral < 0 || a + lateral >= a_scans_)
       continue;
+    if (a + lateral + step_ < a_scans_ && a + step_ < a_scans_) {
+      fetch_line(first + static_cast<std::ptrdiff_t>(a + step_) * depths_, depths_);
+      fetch_line(second + static_cast<std::ptrdiff_t>(a + lateral + step_) * depths_, depths_);
+    }
     split(first + static_cast<std::ptrdiff_t>(a) * depths_, first_.data());
     split(second + static_cast<std::ptrdiff_t>(a + lateral) * depths_, second_.data());
     Correlation real{};
@@ -78,6 +85,7 @@ BulkMotionEstimator::Peak BulkMotionEstimator::axial_peak(const std::complex<flo
     correlate_lags(first_.data(), second_.data(), depths_, real, imaginary);
     const float amplitudes = std::sqrt(sum_of_squares(first_.data(), 2 * depths_) *
                                        sum_of_squares(second_.data(), 2 * depths_));
+    most += amplitudes;
     for (std::size_t s = 0; s < sum.size(); ++s)
       sum[s] += squared(real[s], imaginary[s]) / (amplitudes + tiny);
   }
@@ -105,8 +113,11 @@ BulkMotionEstimator::Peak BulkMotionEstimator::axial_peak(const std::complex<flo
     const float here = std::log(peak.height);
     const float after = std::log(std::max(above(top + 1), least));
     const float curvature = before - 2 * here + after;
+    float between = 0;
     if (curvature < 0)
-      peak.axial_bins += std::clamp(0.5F * (before - after) / curvature, -0.5F, 0.5F);
+      between = std::clamp(0.5F * (before - after) / curvature, -0.5F, 0.5F);
+    peak.axial_bins += between;
+    peak.coherence = std::exp(here - 0.25F * (before - after) * between) / (most + tiny);
   }
   return peak;
 }
@@ -116,6 +127,8 @@ BulkMotion BulkMotionEstimator::estimate(const std::complex<float>* first,
   if (depths_ < fewest_depths)
     return {};
   Peak best = axial_peak(first, second, 0);
+  // So alike that an A-scan further there is nothing to gain.
+  const bool found_here = best.coherence > enough_coherence && best.contrast >= 2 * least_contrast;
   int lateral = 0;
   const auto try_lateral = [&](int l) {
     const Peak peak = axial_peak(first, second, l);
@@ -126,10 +139,10 @@ BulkMotion BulkMotionEstimator::estimate(const std::complex<float>* first,
     return true;
   };
   // Neighbours first: mostly the sample has not moved by as much as an A-scan.
-  if (try_lateral(-1) || best.contrast < 2 * least_contrast)
+  if (!found_here && (try_lateral(-1) || best.contrast < 2 * least_contrast))
     for (int l = -2; l >= -most_lateral_a_scans; --l)
       try_lateral(l);
-  if (try_lateral(1) || best.contrast < 2 * least_contrast)
+  if (!found_here && (try_lateral(1) || best.contrast < 2 * least_contrast))
     for (int l = 2; l <= most_lateral_a_scans; ++l)
       try_lateral(l);
   BulkMotion motion;

@@ -55,6 +55,7 @@ private:
     float axial_bins = 0;
     float height = 0; // above the floor
     float contrast = 0;
+    float coherence = 0; // squared modulus: 1 where both are alike
   };
 
   // Over A-scans that both sweeps have. Sums of complex products by lag, one A-scan after another.

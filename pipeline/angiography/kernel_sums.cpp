@@ -197,6 +197,12 @@ float sum_of_squares(const float* values, int count) noexcept {
   return total(sums);
 }
 
+void fetch_line(const std::complex<float>* line, int depths) noexcept {
+  constexpr int cache_line = 64 / sizeof(std::complex<float>);
+  for (int z = 0; z < depths; z += cache_line)
+    __builtin_prefetch(line + z);
+}
+
 void add_complex_pair(const Parts& first, const Parts& second, int begin, int end,
                       const PairSums& sums, float* scratch) noexcept {
   const int count = end - begin;

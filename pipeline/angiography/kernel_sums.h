@@ -28,6 +28,10 @@ void correlate_lags(const float* first, const float* second, int depths,
 
 float sum_of_squares(const float* values, int count) noexcept;
 
+// Asks for a line that is needed soon: bins come from memory, and what processors fetch ahead by
+// themselves ends with a page, as a line may do.
+void fetch_line(const std::complex<float>* line, int depths) noexcept;
+
 // What the kernel sums of each pair of repeats.
 struct PairSums {
   float* like;  // complex bins: real part of Y1·conj(Y2); intensities: I1·I2

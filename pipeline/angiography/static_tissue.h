@@ -86,7 +86,8 @@ private:
   bool incoherent_ = false;
   std::vector<float> noise_;
   std::vector<float> blocks_;
-  std::vector<float> values_; // to take quantiles of
+  std::vector<float> values_;      // to take quantiles of
+  std::vector<std::int32_t> keys_; // likewise
   // Of one A-scan, while it is classified: decorrelation without noise; that of
   // vessels, and its maximum above each depth.
   std::vector<float> excess_;

@@ -313,6 +313,10 @@ bool ConfigTable::has_text(std::string_view key) const {
   return has(key) && node_->table->get(key)->is_string();
 }
 
+bool ConfigTable::has_boolean(std::string_view key) const {
+  return has(key) && node_->table->get(key)->is_boolean();
+}
+
 ConfigTable ConfigTable::table(std::string_view key) {
   const toml::node* found = node_->find(key);
   const toml::table* child = found == nullptr ? nullptr : found->as_table();

@@ -49,7 +49,8 @@ public:
   bool has(std::string_view key) const;
   // Present, and an integer? For keys that accept numbers as well as names.
   bool has_integer(std::string_view key) const;
-  bool has_text(std::string_view key) const; // likewise
+  bool has_text(std::string_view key) const;    // likewise
+  bool has_boolean(std::string_view key) const; // likewise
   // An empty table if the key is absent.
   ConfigTable table(std::string_view key);
   // Entries of an array of tables ([[key]]); empty if the key is absent.

@@ -10,6 +10,7 @@
 
 #include "pipeline/reconstruction/fftw_path.h"
 #include "pipeline/reconstruction/fused/fused_path.h"
+#include "pipeline/reconstruction/line_kernels.h"
 
 namespace octascope::pipeline {
 
@@ -109,6 +110,8 @@ struct Reconstructor::Plan {
   template <class Count>
   const float* background_of(Workspace::Buffers& buffers, const Count* counts, int lines,
                              std::span<const float> running) const noexcept;
+  void set_background(const FusedPath& path, Workspace::Buffers& buffers,
+                      const float* background) const noexcept;
   template <class Count, class Level>
   int run(const std::optional<FusedPath>& path, Workspace::Buffers& buffers, int lines,
           std::span<const std::byte> frame, Level* levels,
@@ -117,6 +120,9 @@ struct Reconstructor::Plan {
   int dispatch(const std::optional<FusedPath>& path, Workspace::Buffers& buffers, int lines,
                std::span<const std::byte> frame, Level* levels,
                std::span<const float> running) const noexcept;
+  int fused_bins_and_levels(Workspace::Buffers& buffers, std::span<const std::byte> frame,
+                            std::complex<float>* bins, std::uint8_t* levels,
+                            std::span<const float> running) const noexcept;
   template <class Level>
   BScanOutcome b_scan(Workspace::Buffers& buffers, std::span<const std::byte> frame,
                       std::span<Level> levels, std::span<const float> running) const noexcept;
@@ -160,6 +166,13 @@ const float* Reconstructor::Plan::background_of(Workspace::Buffers& buffers, con
   return buffers.background.data();
 }
 
+// One that was recorded is set for good.
+void Reconstructor::Plan::set_background(const FusedPath& path, Workspace::Buffers& buffers,
+                                         const float* background) const noexcept {
+  if (background_mode == BackgroundMode::mean || background_mode == BackgroundMode::running)
+    path.set_background(background, *buffers.fused);
+}
+
 template <class Count, class Level>
 int Reconstructor::Plan::run(const std::optional<FusedPath>& path, Workspace::Buffers& buffers,
                              int lines, std::span<const std::byte> frame, Level* levels,
@@ -168,8 +181,7 @@ int Reconstructor::Plan::run(const std::optional<FusedPath>& path, Workspace::Bu
   const float* background = background_of(buffers, counts, lines, running);
   if constexpr (!std::is_same_v<Count, float>) {
     if (path) {
-      if (background_mode == BackgroundMode::mean || background_mode == BackgroundMode::running)
-        path->set_background(background, *buffers.fused);
+      set_background(*path, buffers, background);
       return path->reconstruct(frame.data(), lines, format.full_scale(), *buffers.fused, levels,
                                buffers.saturated.data());
     }
@@ -202,6 +214,21 @@ BScanOutcome Reconstructor::Plan::b_scan(Workspace::Buffers& buffers,
     if (saturated > 0 && limit_saturated_lines)
       limit_lines(buffers.saturated, levels.data(), static_cast<std::size_t>(depths));
   return {saturated};
+}
+
+int Reconstructor::Plan::fused_bins_and_levels(Workspace::Buffers& buffers,
+                                               std::span<const std::byte> frame,
+                                               std::complex<float>* bins, std::uint8_t* levels,
+                                               std::span<const float> running) const noexcept {
+  const auto background = [&]<class Count>(const Count* counts) {
+    return background_of(buffers, counts, a_scans, running);
+  };
+  set_background(*fused, buffers,
+                 format.type == hal::SampleType::u8
+                     ? background(reinterpret_cast<const std::uint8_t*>(frame.data()))
+                     : background(reinterpret_cast<const std::uint16_t*>(frame.data())));
+  return fused->reconstruct_both(frame.data(), a_scans, format.full_scale(), *buffers.fused, bins,
+                                 levels, buffers.saturated.data());
 }
 
 PathTimes Reconstructor::Plan::measure_paths() const {
@@ -319,6 +346,31 @@ BScanOutcome Reconstructor::reconstruct_b_scan_bins(Workspace& workspace,
                                                     std::span<std::complex<float>> bins,
                                                     std::span<const float> running) const noexcept {
   return plan_->b_scan(*workspace.buffers_, frame, bins, running);
+}
+
+BScanOutcome Reconstructor::reconstruct_b_scan_both(Workspace& workspace,
+                                                    std::span<const std::byte> frame,
+                                                    std::span<std::complex<float>> bins,
+                                                    std::span<std::uint8_t> levels,
+                                                    std::span<const float> running) const noexcept {
+  const auto depths = static_cast<std::size_t>(plan_->depths);
+  BScanOutcome outcome;
+  if (plan_->fused) {
+    outcome.saturated_lines = plan_->fused_bins_and_levels(*workspace.buffers_, frame, bins.data(),
+                                                           levels.data(), running);
+  } else {
+    outcome = plan_->b_scan(*workspace.buffers_, frame, bins, running);
+    for (std::size_t at = 0; at < this->levels(); at += depths)
+      levels_u8(reinterpret_cast<const float*>(&bins[at]), plan_->depths, &levels[at]);
+  }
+  if (outcome.saturated_lines > 0 && plan_->limit_saturated_lines)
+    limit_lines(workspace.buffers_->saturated, levels.data(), depths);
+  return outcome;
+}
+
+std::span<const std::uint8_t>
+Reconstructor::saturated_lines(const Workspace& workspace) const noexcept {
+  return workspace.buffers_->saturated;
 }
 
 } // namespace octascope::pipeline

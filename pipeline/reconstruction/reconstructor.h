@@ -91,7 +91,7 @@ public:
   // after them are not read. `levels` has levels() values [a][z], depth fastest.
   // `running`: with BackgroundMode::running, the result of RunningBackground::add() for this
   // B-scan; ignored otherwise. Without it this B-scan's mean is taken, as with mode "mean".
-  // None of the three allocates, locks or logs.
+  // None of them allocates, locks or logs.
   BScanOutcome reconstruct_b_scan(Workspace& workspace, std::span<const std::byte> frame,
                                   std::span<std::uint8_t> levels,
                                   std::span<const float> running = {}) const noexcept;
@@ -104,6 +104,14 @@ public:
   BScanOutcome reconstruct_b_scan_bins(Workspace& workspace, std::span<const std::byte> frame,
                                        std::span<std::complex<float>> bins,
                                        std::span<const float> running = {}) const noexcept;
+  // Both with one transform: the levels of reconstruct_b_scan(), to the bit, and the bins that they
+  // are of.
+  BScanOutcome reconstruct_b_scan_both(Workspace& workspace, std::span<const std::byte> frame,
+                                       std::span<std::complex<float>> bins,
+                                       std::span<std::uint8_t> levels,
+                                       std::span<const float> running = {}) const noexcept;
+  // Of the B-scan reconstructed last in that workspace, by line: whether it was saturated, 0 or 1.
+  std::span<const std::uint8_t> saturated_lines(const Workspace& workspace) const noexcept;
 
 private:
   struct Plan;

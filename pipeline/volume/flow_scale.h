@@ -4,8 +4,6 @@
 // beside what is static, so that interpolation never makes a vessel of it.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -16,11 +14,14 @@ inline constexpr std::uint8_t flow_static = 1;
 inline constexpr std::uint8_t flow_full = 255;
 
 // `flow`: 0 to 1, NaN where it cannot be told.
+// Plain enough to be vectorised.
 inline std::uint8_t quantise_flow(float flow) {
-  if (std::isnan(flow))
-    return flow_untold;
-  return static_cast<std::uint8_t>(
-      1 + static_cast<int>(std::lround(std::clamp(flow, 0.0F, 1.0F) * 254.0F)));
+  const bool told = flow == flow;
+  float clamped = told ? flow : 0.0F;
+  clamped = clamped < 0.0F ? 0.0F : clamped;
+  clamped = clamped > 1.0F ? 1.0F : clamped;
+  const int count = flow_static + static_cast<int>(clamped * 254.0F + 0.5F);
+  return static_cast<std::uint8_t>(told ? count : flow_untold);
 }
 
 inline float flow_of(std::uint8_t count) {

@@ -26,7 +26,7 @@ constexpr bool has_levels(BScanState state) {
 }
 
 enum class FlowState : std::uint8_t {
-  none,     // not received whole, or the seam: its flow is flow_untold
+  none,     // not received whole, no time for it, or the seam: its flow is flow_untold
   told,     // as far as its voxels could be told
   left_out, // it moved too far between its sweeps: its flow is flow_untold
 };

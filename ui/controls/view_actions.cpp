@@ -76,7 +76,7 @@ void ViewActions::show_window(float offset_db, float size_db, hal::TimePoint tim
 
 void ViewActions::turn(Action action, double detents) {
   const Number* number = number_of(action);
-  if (number == nullptr)
+  if (number == nullptr || (vessels_fixed_ && number->nudge != nullptr))
     return;
   double change = detents * static_cast<double>(number->range.detent);
   if (number->index != nullptr) {
@@ -106,11 +106,19 @@ void ViewActions::drive(Action action, double amount, hal::TimePoint time) {
   tell(driven, "", time);
 }
 
+bool ViewActions::moves_vessels(Action action) const {
+  const Number* number = number_of(action);
+  return (number != nullptr && number->nudge != nullptr) || action == Action::keep_registration ||
+         action == Action::reset_registration;
+}
+
 // The parallax of a picture that is not in stereo cannot be seen, nor what becomes of vessels that
 // are not shown.
 bool ViewActions::can_be_selected(Action action) const {
   const ActionRow& row = row_of(action);
-  if (row.has(trait::needs_vessels) && !(vessels_loaded_ && state_.vessels_visible))
+  if (row.has(trait::needs_vessels) && !(vessels_loaded_ && shows_tree(state_)))
+    return false;
+  if (vessels_fixed_ && moves_vessels(action))
     return false;
   return !row.has(trait::needs_stereo) || state_.stereo != StereoMode::off;
 }
@@ -126,7 +134,7 @@ void ViewActions::select_next(int step, hal::TimePoint time) {
     while (!can_be_selected(menu_[static_cast<std::size_t>(place)]) && ++tried < count);
   }
   state_.selected = menu_[static_cast<std::size_t>(place)];
-  tell(state_.selected, words_of(state_, names_, state_.selected), time);
+  tell(state_.selected, words(state_.selected), time);
   state_.echo.chosen = true;
 }
 
@@ -137,10 +145,7 @@ void ViewActions::toggle(Action action, const Flag& value, double amount, Done d
   flag = done == Done::turned ? amount > 0 : !flag;
   if (action == Action::freeze && flag != before)
     state_.frozen_since = flag ? time : hal::TimePoint{};
-  if (action == Action::vessels && !vessels_loaded_)
-    tell(action, "none loaded", time);
-  else
-    tell(action, words_of(state_, names_, action), time);
+  tell(action, words(action), time);
 }
 
 void ViewActions::choose(Action action, const ActionValue& value, int step, hal::TimePoint time) {
@@ -152,7 +157,30 @@ void ViewActions::choose(Action action, const ActionValue& value, int step, hal:
     int& index = state_.*named->index;
     index = wrapped(index + step, static_cast<int>((names_.*named->names).size()));
   }
-  tell(action, words_of(state_, names_, action), time);
+  tell(action, words(action), time);
+}
+
+// Where there is nothing but a tree, it is shown or hidden.
+void ViewActions::choose_vessels(double amount, Done done, hal::TimePoint time) {
+  if (flow_there_)
+    return choose(Action::vessels, row_of(Action::vessels).value,
+                  static_cast<int>(std::trunc(amount)), time);
+  const bool show = done == Done::turned ? amount > 0 : !shows_tree(state_);
+  state_.vessels = show ? VesselsShown::both : VesselsShown::off;
+  tell(Action::vessels, words(Action::vessels), time);
+}
+
+// Of vessels, what is there of what was chosen.
+std::string_view ViewActions::words(Action action) const {
+  if (action != Action::vessels || (flow_there_ && vessels_loaded_))
+    return words_of(state_, names_, action);
+  if (!flow_there_)
+    return !vessels_loaded_ ? "none loaded" : shows_tree(state_) ? "shown" : "hidden";
+  switch (state_.vessels) {
+  case VesselsShown::tree: return "tree: none there";
+  case VesselsShown::both: return "flow, no tree there";
+  default: return words_of(state_, names_, action);
+  }
 }
 
 // A frozen picture stays frozen: looking at it afresh must not let it run away. How the glasses
@@ -176,7 +204,7 @@ ControlRequests ViewActions::move_vessels_for_good(Action action, double amount,
     return {};
   }
   if (!state_.vessel_nudge.any() || (done == Done::turned && amount <= 0)) {
-    tell(action, words_of(state_, names_, action), time);
+    tell(action, words(action), time);
     return {};
   }
   if (action == Action::keep_registration)
@@ -211,6 +239,7 @@ ControlRequests ViewActions::perform(Action action, double amount, Done done, ha
   case Action::record: return {.record = true};
   case Action::keep_registration:
   case Action::reset_registration: return move_vessels_for_good(action, amount, done, time);
+  case Action::vessels: choose_vessels(amount, done, time); return {};
   case Action::reset_view:
     reset_view();
     tell(action, "restored", time);

@@ -59,6 +59,13 @@ public:
   void set_window(float offset_db, float size_db); // also for reset_view
   void set_choices(ChoiceNames names);
   void set_vessels_loaded(bool loaded) { vessels_loaded_ = loaded; }
+  // Whether volumes have flow: without, vessels are shown or hidden and nothing else.
+  void set_flow_there(bool there) { flow_there_ = there; }
+  // They were traced in this very volume: nothing moves them.
+  void set_vessels_traced() {
+    vessels_loaded_ = vessels_fixed_ = true;
+    forget_nudge();
+  }
 
   // The vessels' current placement was saved as their registration: the nudge restarts from zero.
   void forget_nudge();
@@ -85,8 +92,11 @@ private:
   void select_next(int step, hal::TimePoint time);
   void toggle(Action action, const Flag& value, double amount, Done done, hal::TimePoint time);
   void choose(Action action, const ActionValue& value, int step, hal::TimePoint time);
+  void choose_vessels(double amount, Done done, hal::TimePoint time);
+  std::string_view words(Action action) const;
   void reset_view();
   bool can_be_selected(Action action) const;
+  bool moves_vessels(Action action) const;
   ControlRequests move_vessels_for_good(Action action, double amount, Done done,
                                         hal::TimePoint time);
   ControlRequests adjust(double amount, Done done, hal::TimePoint time);
@@ -99,6 +109,8 @@ private:
   std::vector<Action> menu_;
   ChoiceNames names_;
   bool vessels_loaded_ = false;
+  bool flow_there_ = false;
+  bool vessels_fixed_ = false;
   std::array<std::uint64_t, action_count> counts_{};
 };
 

@@ -54,12 +54,16 @@ void PictureChanges::compare(const PictureSources& now, Damage& damage) {
       now.window_offset_db != was.window_offset_db || now.window_size_db != was.window_size_db;
   renew(was.view, now.view, false);
   renew(was.scope, now.scope,
-        now.scope_uploads != was.scope_uploads || now.scope_stale != was.scope_stale);
+        now.scope_uploads != was.scope_uploads || now.scope_stale != was.scope_stale ||
+            now.flow_in_scope != was.flow_in_scope ||
+            (now.flow_in_scope != 0 && now.deepest_flow != was.deepest_flow));
+  const bool flow = now.flow != was.flow;
   renew(was.b_scan, now.b_scan,
-        cut || window || now.b_scan_index != was.b_scan_index ||
+        cut || window || flow || now.b_scan_index != was.b_scan_index ||
             any_changed(now.b_scan_index - 1, now.b_scan_index + 2));
-  renew(was.crossed, now.crossed, cut || window || now.a_scan_index != was.a_scan_index);
-  renew(was.en_face, now.en_face, cut);
+  renew(was.crossed, now.crossed, cut || window || flow || now.a_scan_index != was.a_scan_index);
+  renew(was.en_face, now.en_face,
+        cut || flow || (now.flow && now.deepest_flow != was.deepest_flow));
   const auto shown = [&](std::size_t b, int pixels) {
     return span_of(static_cast<int>(b), static_cast<int>(changed_.size()), now.crop.b, pixels);
   };

@@ -28,6 +28,9 @@ struct PictureSources {
   int a_scan_index = 0;
   std::uint64_t scope_uploads = 0;
   bool scope_stale = false;
+  bool flow = false;               // is shown
+  float deepest_flow = 0;          // how deep its hues reach
+  std::uint64_t flow_in_scope = 0; // of which volume; 0: none
 };
 
 // Threads: one at a time. Allocates when the number of B-scans grows.

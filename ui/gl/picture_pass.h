@@ -19,6 +19,7 @@ public:
 
   // Makes the program current, so that its uniforms can be set before fill() draws.
   void use() const { program_.use(); }
+  const Program& program() const { return program_; }
   GLint uniform(const char* name) const { return program_.uniform(name); }
   void fill(const Rect& rect, int target_height) const;
 

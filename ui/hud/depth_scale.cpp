@@ -5,17 +5,13 @@
 
 namespace octascope::ui {
 
-namespace {
-
-Colour colour_at(float place) {
+Colour depth_hue(float place) {
   const std::array<float, 3> tint = depth_tint(place);
   const auto bits = [](float v) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(v, 0.0F, 1.0F)));
   };
   return {bits(tint[0]), bits(tint[1]), bits(tint[2])};
 }
-
-} // namespace
 
 bool has_room_for_depth_scale(const Layout& layout) {
   const float u = layout.unit;
@@ -40,7 +36,7 @@ void draw_depth_scale(Canvas& canvas, const Layout& layout, const HudScene& scen
   for (int i = 0; i < pieces; ++i) {
     const float from = static_cast<float>(i) / pieces;
     const float to = static_cast<float>(i + 1) / pieces;
-    canvas.bar({left, y_of(from)}, {left + width, y_of(to)}, colour_at((from + to) / 2));
+    canvas.bar({left, y_of(from)}, {left + width, y_of(to)}, depth_hue((from + to) / 2));
   }
   const double depth_mm = scene.shown.geometry.depth_mm();
   const double first_mm = depth_mm * static_cast<double>(scene.depth_colours->from);

@@ -86,6 +86,7 @@ void draw_view_scale(Canvas& canvas, const Layout& layout, const HudScene& scene
 // Which colour is which depth, if the volume is coloured by depth: a bar at the view's left border,
 // between its upper and lower quarter, with ticks in µm or mm. Depths count from the volume's first, as
 // those of the B-scans' rulers. Not in a view too small for its numbers.
+Colour depth_hue(float place); // 0 to 1
 bool has_room_for_depth_scale(const Layout& layout);
 void draw_depth_scale(Canvas& canvas, const Layout& layout, const HudScene& scene);
 

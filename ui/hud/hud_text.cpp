@@ -135,8 +135,22 @@ void compose_badges_without_room(HudText& hud) {
       add_trouble(hud, Trouble::Sign::lost).words.format("{}", hud.badges[i].text.view());
 }
 
+// In every picture, also where there is no room for the marks beside the volume.
+void add_tree_trouble(HudText& hud, const TracedTreeStatus& tree) {
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(tree.age).count();
+  if (tree.state != TracedTreeStatus::State::shown)
+    add_trouble(hud, Trouble::Sign::absent).words.format("no vessel tree");
+  else if (hud.vessels.tree_old)
+    add_trouble(hud, Trouble::Sign::lost).words.format("tree {} s old", seconds);
+}
+
 // What must not wait until somebody asks for the figures.
-void compose_troubles(HudText& hud, const Status& status) {
+void compose_troubles(HudText& hud, const Status& status, const FlowShown& flow) {
+  // Where most of it is not there, its absence must not be taken for vessels that do not flow.
+  if (flow.shown && flow.left_out > flow.told)
+    add_trouble(hud, Trouble::Sign::lost)
+        .words.format("no flow: {:.0f} % moved",
+                      std::floor(100.0 * flow.left_out / (flow.left_out + flow.told)));
   if (hud.vessels.shown && !status.vessels.registered)
     add_trouble(hud, Trouble::Sign::lost).words.format("vessels not registered");
   if (status.replay)
@@ -162,6 +176,10 @@ void compose_troubles(HudText& hud, const Status& status) {
   if (status.vessels.state == VesselStatus::State::loading)
     add_trouble(hud, Trouble::Sign::loading)
         .words.format("vessels {:.0f} %", std::floor(status.vessels.progress * 100));
+  if (status.vessels.traced && !hud.vessels.tree.view().empty())
+    add_tree_trouble(hud, *status.vessels.traced);
+  if (status.vessels.followed && !hud.vessels.tree.view().empty())
+    add_trouble(hud, Trouble::Sign::lost).words.format("{}", hud.vessels.tree.view());
   if (status.vessels.state == VesselStatus::State::failed)
     add_trouble(hud, Trouble::Sign::failed).words.format("no vessels");
 }
@@ -215,8 +233,9 @@ void format_losses(StatusCell& cell, const Losses& losses) {
   cell.value.format("{} / {} / {}", losses.lines, losses.b_scans, losses.volumes);
 }
 
-void compose_figures(HudText& hud, const ViewState& view, const Status& status) {
-  auto& [volumes, lines, frames, latency, lost, window] = hud.figures;
+void compose_figures(HudText& hud, const ViewState& view, const Status& status,
+                     const FlowShown& flow_shown) {
+  auto& [volumes, lines, frames, latency, lost, window, flow] = hud.figures;
   volumes.label = "Vol./s shown";
   // Over their last seconds one more may have been shown than came.
   volumes.value.format("{:.1f} of {:.1f}",
@@ -240,6 +259,10 @@ void compose_figures(HudText& hud, const ViewState& view, const Status& status) 
   window.label = "Window";
   window.value.format("{:.0f} to {:.0f} dB", view.window_offset_db,
                       view.window_offset_db + view.window_size_db);
+  if (!flow_shown.shown)
+    return;
+  flow.label = "Flow told / moved";
+  flow.value.format("{} / {}", flow_shown.told, flow_shown.left_out);
 }
 
 // A nudge by hand leaves the residual of the points behind.
@@ -248,19 +271,53 @@ void compose_registration(FixedText<40>& text, const ViewState& view, const Vess
     text.format("adjusted by hand");
   else if (!vessels.residual_mm)
     text.format("residual unknown");
+  else if (vessels.followed && vessels.followed->state == FollowedTreeStatus::State::followed)
+    text.format("residual {:.0f} µm, overlap {:.0f} %", *vessels.residual_mm * 1000,
+                std::floor(vessels.followed->overlap * 100));
   else if (*vessels.residual_mm < 0.9995)
     text.format("residual {:.0f} µm", *vessels.residual_mm * 1000);
   else
     text.format("residual {:.4g} mm", *vessels.residual_mm);
 }
 
-void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels) {
-  hud.vessels.shown = vessels.state == VesselStatus::State::shown && view.vessels_visible &&
-                      view.vessel_opacity > 0;
+// In whole seconds: a tree comes about once a second, and no frame is drawn for its age alone more often.
+void compose_traced(VesselMarks& marks, const TracedTreeStatus& tree) {
+  using State = TracedTreeStatus::State;
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(tree.age).count();
+  marks.tree_old = tree.age >= TracedTreeStatus::old_after;
+  if (tree.state == State::refused)
+    marks.tree.format("no tree: {}", tree.refusal);
+  else if (tree.state == State::removed)
+    marks.tree.format("no tree: the last is {} s old", seconds);
+  else if (seconds == 0)
+    marks.tree.format("tree < 1 s old, {} vessels, {:.1f} mm", tree.vessels, tree.length_mm);
+  else
+    marks.tree.format("tree {} s old, {} vessels, {:.1f} mm", seconds, tree.vessels,
+                      tree.length_mm);
+}
+
+// Nothing of a tree that is where it belongs.
+void compose_followed(VesselMarks& marks, const FollowedTreeStatus& tree) {
+  using State = FollowedTreeStatus::State;
+  marks.tree_old = tree.state == State::unmatched;
+  if (tree.state == State::unmatched)
+    marks.tree.format("vessels do not match");
+  else if (tree.state == State::looking)
+    marks.tree.format("vessels not placed yet");
+}
+
+void compose_vessels(HudText& hud, const ViewState& view, const VesselStatus& vessels, bool flow) {
+  const bool wanted = shows_tree(view) && view.vessel_opacity > 0;
+  hud.vessels.flow = flow;
+  if (wanted && vessels.traced)
+    compose_traced(hud.vessels, *vessels.traced);
+  if (wanted && vessels.followed)
+    compose_followed(hud.vessels, *vessels.followed);
+  hud.vessels.shown = wanted && vessels.state == VesselStatus::State::shown;
   if (!hud.vessels.shown)
     return;
   hud.vessels.registered = vessels.registered;
-  if (vessels.registered)
+  if (vessels.registered && !vessels.traced)
     compose_registration(hud.vessels.registration, view, vessels);
   hud.vessels.colouring = view.vessel_colouring;
   // SWC leaves their types to any program: they are the heart's where all three are there.
@@ -298,6 +355,20 @@ std::string_view word_for(pipeline::BScanState state) {
   return "";
 }
 
+void say_flow(HudText& hud, const ViewState& view, const ShownPictures& shown) {
+  const FlowShown& flow = shown.flow;
+  if (!flow.shown)
+    return;
+  if (has_levels(shown.b_scan) && flow.b_scan != pipeline::FlowState::told)
+    hud.b_scan.note.format("{} of {}, {}", view.b_scan + 1, shown.geometry.b_scans,
+                           flow.b_scan == pipeline::FlowState::left_out ? "moved: no flow"
+                                                                        : "no flow");
+  if (flow.deepest_mm > 0)
+    hud.en_face.deepest.format("{:g} mm", flow.deepest_mm);
+  if (flow.in_scope && hud.liveness == Liveness::live)
+    hud.scope.deepest = hud.en_face.deepest;
+}
+
 void compose_captions(HudText& hud, const ViewState& view, const Status& status,
                       const ShownPictures& shown) {
   hud.volume.title.format("Volume");
@@ -316,6 +387,7 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
       hud.b_scan.note_tone = Tone::warning;
     }
     hud.en_face.note.format("below the surface");
+    say_flow(hud, view, shown);
   }
   if (!shown.scope || !shown.scope_time) {
     hud.scope.note.format("no picture");
@@ -326,6 +398,7 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
   if (hud.scope_stale) {
     hud.scope.note.format("stale {:.0f} s", std::floor(hal::to_seconds(age)));
     hud.scope.note_tone = Tone::warning;
+    hud.scope.deepest = {};
   }
 }
 
@@ -334,11 +407,11 @@ void compose_captions(HudText& hud, const ViewState& view, const Status& status,
 HudText compose_hud_text(const ViewState& view, const Status& status, const ShownPictures& shown) {
   HudText hud;
   hud.liveness = status.freshness.liveness;
-  compose_vessels(hud, view, status.vessels);
+  compose_vessels(hud, view, status.vessels, shown.flow.shown);
   compose_badges(hud, view, status, shown);
   hud.devices = status.devices;
   hud.device_count = std::min(status.device_count, Status::most_devices);
-  compose_troubles(hud, status);
+  compose_troubles(hud, status, shown.flow);
   compose_bar(hud, status);
   hud.figures_shown = view.figures != FiguresShown::none;
   if (view.figures == FiguresShown::timing && status.timing != nullptr) {
@@ -346,7 +419,7 @@ HudText compose_hud_text(const ViewState& view, const Status& status, const Show
     hud.timed_volume = status.timing->newest;
   }
   if (hud.figures_shown) // else nothing is drawn anew for them
-    compose_figures(hud, view, status);
+    compose_figures(hud, view, status, shown.flow);
   compose_reduction(hud, status, shown);
   hud.ends = ends_of(status.orientation.on_eye, status.eye);
   if (!hud.ends.said())

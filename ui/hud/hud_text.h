@@ -58,20 +58,34 @@ struct Trouble {
 
 struct Caption {
   FixedText<32> title;
-  FixedText<64> note; // at the other end of the line
+  FixedText<64> note;    // at the other end of the line
+  FixedText<16> deepest; // a bar of the hues of depths, and what the last one means; empty: none
   Tone note_tone = Tone::quiet;
   bool operator==(const Caption&) const = default;
 };
 
 // The legend of the vessel colours, how the vessels were registered, and the segment counts.
 struct VesselMarks {
-  bool shown = false;
+  bool flow = false;  // is shown
+  bool shown = false; // the tree is
   bool registered = false;
   FixedText<40> registration; // how good it is; empty: there is none
   VesselColouring colouring = VesselColouring::branch;
   std::array<bool, pipeline::vessel_branch_count> branches{}; // that are named
   std::optional<SegmentCounts> account;                       // if requested
+  FixedText<96> tree;    // traced in the live flow: its age; or why there is none
+  bool tree_old = false; // is to be marked
   bool operator==(const VesselMarks&) const = default;
+};
+
+// What flows, as far as it is shown.
+struct FlowShown {
+  bool shown = false;
+  pipeline::FlowState b_scan = pipeline::FlowState::none; // of the one in the panel
+  int told = 0;                                           // B-scans, of the volume
+  int left_out = 0;                                       // likewise
+  double deepest_mm = 0; // below the surface: the last hue; 0: nothing flows
+  bool in_scope = false; // in the microscope's picture, too
 };
 
 // What the renderer shows.
@@ -82,12 +96,13 @@ struct ShownPictures {
   bool scope = false;
   std::optional<hal::TimePoint> scope_time;
   bool vessels_left_out = false; // the thinnest, of a flat picture
+  FlowShown flow;
 };
 
 struct HudText {
   // One per kind, and two of kind incomplete.
   static constexpr std::size_t most_badges = 10;
-  static constexpr std::size_t most_troubles = Status::most_devices + 6;
+  static constexpr std::size_t most_troubles = Status::most_devices + 7;
 
   // Lines, frames and volumes per second: dropped in this order if the strip is too narrow.
   static constexpr std::array<std::size_t, 3> dispensable_figures{1, 2, 0};
@@ -103,7 +118,7 @@ struct HudText {
   // finely it is drawn, what the volumes are. A notice takes the place of the last two.
   std::array<FixedText<96>, 4> facts;
   FixedText<160> notice;
-  std::array<StatusCell, 6> figures; // unused if the label is empty
+  std::array<StatusCell, 7> figures; // unused if the label is empty
   bool figures_shown = false;
   const Timing* timing = nullptr; // null: no diagram; owned by the host, see Status
   std::uint64_t timed_volume = 0; // its newest: another one, another diagram

@@ -14,12 +14,55 @@ Colour colour_of(Tone tone) {
   return tone == Tone::warning ? palette::warning : palette::quiet_text;
 }
 
+// What hue is how deep, at the line's right end, as long as there is room. Returns the width that it
+// takes.
+float draw_hues(Canvas& canvas, const Rect& room, std::string_view deepest, float unit) {
+  const float letters = canvas.text_height(TextStyle::label);
+  const auto width_of = [&](std::string_view words) {
+    return canvas.text_width(TextStyle::label, words);
+  };
+  const float begin = width_of("0") + 6 * unit;
+  const float end = width_of(" deep");
+  const float needed = width_of(deepest) + 6 * unit;
+  const float most = static_cast<float>(room.width) - 2 * unit;
+  const bool in_full = needed + begin + end + 56 * unit <= most;
+  const float hues = (in_full ? 56 : 36) * unit;
+  const float width = needed + hues + (in_full ? begin + end : 0);
+  if (width > most)
+    return 0;
+  float x = static_cast<float>(room.right()) - 2 * unit - width;
+  const float middle = static_cast<float>(room.y) + static_cast<float>(room.height) / 2;
+  const auto write = [&](std::string_view words) {
+    canvas.text({x, middle - letters / 2}, TextStyle::label, palette::quiet_text, words);
+    x += width_of(words);
+  };
+  if (in_full) {
+    write("0");
+    x += 6 * unit;
+  }
+  constexpr int pieces = 28;
+  for (int i = 0; i < pieces; ++i, x += hues / pieces)
+    canvas.bar({x, middle - 4 * unit}, {x + hues / pieces, middle + 4 * unit},
+               depth_hue((static_cast<float>(i) + 0.5F) / pieces));
+  x += 6 * unit;
+  write(deepest);
+  if (in_full)
+    write(" deep");
+  return width;
+}
+
 // Where both have no room, a warning wins over the title and the title over a quiet note.
-void draw_caption(Canvas& canvas, const Rect& room, const Caption& caption, float unit) {
+void draw_caption(Canvas& canvas, Rect room, const Caption& caption, float unit) {
   if (room.empty())
     return;
   const float title = canvas.text_width(TextStyle::label, caption.title.view());
   const float note = canvas.text_width(TextStyle::label, caption.note.view());
+  if (!caption.deepest.view().empty()) {
+    const auto beside_title = static_cast<int>(title + 12 * unit);
+    const Rect there{room.x + beside_title, room.y, room.width - beside_title, room.height};
+    const float hues = draw_hues(canvas, there, caption.deepest.view(), unit);
+    room.width -= static_cast<int>(hues + (hues > 0 ? 12 * unit : 0));
+  }
   const bool both = title + note + 16 * unit <= static_cast<float>(room.width);
   const auto y = [&](TextStyle style) {
     return static_cast<float>(room.y) +

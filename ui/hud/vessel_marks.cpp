@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "ui/hud/hud.h"
+#include "ui/transfer/flow_look.h"
 #include "ui/view/segment_counts.h"
 #include "ui/view/vessel_look.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr float row_height = 29; // at unit 1
 constexpr float swatch = 16;
+constexpr float flow_swatch = 40;
 
 Colour to_colour(const VesselColour& colour) {
   const auto bits = [](float v) { return static_cast<std::uint8_t>(v * 255 + 0.5F); };
@@ -21,12 +23,13 @@ Colour to_colour(const VesselColour& colour) {
 
 // What stands there, row by row.
 struct MarkRow {
-  FixedText<40> words;
+  FixedText<96> words;
+  bool warning = false;
   Colour colour{};
-  bool swatch = false;
+  float swatch = 0; // its width, at unit 1; 0: none
 };
 struct MarkRows {
-  std::array<MarkRow, 10> rows;
+  std::array<MarkRow, 12> rows;
   std::size_t count = 0;
   MarkRow& add() { return rows[count++]; }
 };
@@ -35,7 +38,7 @@ void add_colour(MarkRows& rows, const VesselColour& colour, std::string_view wor
   MarkRow& row = rows.add();
   row.words.format("{}", words);
   row.colour = to_colour(colour);
-  row.swatch = true;
+  row.swatch = swatch;
 }
 
 void add_colours(MarkRows& rows, const VesselMarks& marks) {
@@ -56,6 +59,26 @@ void add_colours(MarkRows& rows, const VesselMarks& marks) {
     add_colour(rows, drawn_by_gl, "drawn by GL");
     add_colour(rows, drawn_by_processor, "drawn by the processor");
     return;
+  }
+}
+
+void add_flow(MarkRows& rows) {
+  MarkRow& row = rows.add();
+  row.words.format("static to flowing");
+  row.swatch = flow_swatch;
+}
+
+// From a tissue's grey on.
+void draw_flow_colours(Canvas& canvas, glm::vec2 left_middle, float unit) {
+  constexpr int pieces = 20;
+  const float piece = flow_swatch * unit / pieces;
+  for (int i = 0; i < pieces; ++i) {
+    const float share = (static_cast<float>(i) + 0.5F) / pieces;
+    const TransferTable::Colour colour = with_flow({0.45F, 0.45F, 0.45F}, share);
+    const float x = left_middle.x + static_cast<float>(i) * piece;
+    canvas.bar({x, left_middle.y - swatch / 2 * unit},
+               {x + piece, left_middle.y + swatch / 2 * unit},
+               to_colour({colour.red, colour.green, colour.blue}));
   }
 }
 
@@ -82,23 +105,34 @@ void draw_unregistered(Canvas& canvas, const Layout& layout) {
 } // namespace
 
 void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& marks) {
-  if (!marks.shown || layout.view.empty())
+  const bool traced = !marks.tree.view().empty();
+  if ((!marks.shown && !marks.flow && !traced) || layout.view.empty())
     return;
   if (!layout.view_frame.empty()) {
-    if (!marks.registered)
+    if (marks.shown && !marks.registered)
       draw_unregistered(canvas, layout);
     return;
   }
   MarkRows rows;
-  add_colours(rows, marks);
+  if (marks.flow)
+    add_flow(rows);
+  if (marks.shown)
+    add_colours(rows, marks);
   if (!marks.registration.view().empty())
-    rows.add().words = marks.registration;
+    rows.add().words.format("{}", marks.registration.view());
+  if (traced) {
+    MarkRow& row = rows.add();
+    row.words.format("{}", marks.tree.view());
+    row.warning = marks.tree_old;
+  }
   if (marks.account)
     add_account(rows, *marks.account);
   if (rows.count == 0)
     return;
   const float u = layout.unit;
-  const float text_left = (swatch + 8) * u;
+  const auto text_left = [u](const MarkRow& row) {
+    return row.swatch > 0 ? (row.swatch + 8) * u : 0;
+  };
   const float padding = 8 * u;
   const float scale = 44 * u; // under all of it
   // Column by column in the view's lower quarter.
@@ -114,7 +148,7 @@ void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& 
     float width = 0;
     for (std::size_t i = begin; i < end; ++i)
       width = std::max(width, canvas.text_width(TextStyle::label, rows.rows[i].words.view()) +
-                                  (rows.rows[i].swatch ? text_left : 0));
+                                  text_left(rows.rows[i]));
     const Rect plate{static_cast<int>(left), static_cast<int>(top),
                      static_cast<int>(width + 2 * padding), static_cast<int>(height)};
     canvas.plate(plate, palette::plate, 4 * u);
@@ -122,11 +156,13 @@ void draw_vessel_marks(Canvas& canvas, const Layout& layout, const VesselMarks& 
     for (std::size_t i = begin; i < end; ++i) {
       const MarkRow& row = rows.rows[i];
       const float x = left + padding;
-      if (row.swatch)
+      if (row.swatch > swatch)
+        draw_flow_colours(canvas, {x, middle}, u);
+      else if (row.swatch > 0)
         canvas.dot({x + swatch * u / 2, middle}, swatch * u / 2, row.colour);
-      canvas.text(
-          {x + (row.swatch ? text_left : 0), middle - canvas.text_height(TextStyle::label) / 2},
-          TextStyle::label, palette::text, row.words.view());
+      canvas.text({x + text_left(row), middle - canvas.text_height(TextStyle::label) / 2},
+                  TextStyle::label, row.warning ? palette::warning : palette::text,
+                  row.words.view());
       middle += row_height * u;
     }
     left += static_cast<float>(plate.width) + 4 * u;

@@ -3,10 +3,14 @@
 // B-scans, the first at the left.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "hal/result.h"
 #include "ui/gl/picture_pass.h"
 #include "ui/layout/crop.h"
 #include "ui/layout/layout.h"
+#include "ui/panels/flow_sections.h"
 #include "ui/panels/state_texture.h"
 #include "ui/view/view_state.h"
 #include "ui/volume/volume_texture.h"
@@ -20,10 +24,17 @@ class BScanPanel {
 public:
   static hal::Result<BScanPanel> create();
 
+  // What draw() needs to show flow; does nothing if it is there. ErrorCode::unsupported: this GL cannot
+  // compile the shaders.
+  hal::Result<> prepare_flow();
+
   // Fills `rect` of the bound framebuffer with what the crop leaves. Missing B-scans are hatched;
-  // saturated ones are marked at the upper border where others are beside them.
+  // saturated ones are marked at the upper border where others are beside them. `flow`: of the same
+  // volume, and fetched for this view, shown over it, B-scans of which it could not be told marked at
+  // the lower border; null: not shown.
   void draw(const VolumeTexture& volume, const StateTexture& states, ScanDirection direction,
-            const ViewState& view, const Crop& crop, const Rect& rect, int target_height) const;
+            const ViewState& view, const Crop& crop, const Rect& rect, int target_height,
+            const FlowSections* flow = nullptr) const;
 
 private:
   // A shader and where it takes what from.
@@ -31,16 +42,20 @@ private:
     explicit Pass(gl::PicturePass made);
     gl::PicturePass pass;
     GLint levels, window, corner, across, down;
+    GLint states, hatch, mark_height, mark, seam; // −1 where nothing is marked
+    GLint flow, untold_height;                    // −1 where no flow is shown
   };
-  BScanPanel(gl::PicturePass pass, gl::PicturePass plain);
-  void set_marks(const StateTexture& states, ScanDirection direction, const Rect& rect,
-                 int target_height) const;
+  struct Passes {
+    Pass marking;
+    Pass plain; // where every B-scan is good
+  };
+  explicit BScanPanel(Passes passes);
+  static hal::Result<Passes> make(bool flow);
+  static void set_marks(const Pass& pass, const StateTexture& states, ScanDirection direction,
+                        const Rect& rect, int target_height);
 
-  Pass marking_;
-  Pass plain_; // where every B-scan is good
-  struct {
-    GLint states, hatch, mark_height, mark, seam;
-  } marks_;
+  Passes passes_;
+  std::optional<Passes> with_flow_; // empty until there is some
 };
 
 } // namespace octascope::ui

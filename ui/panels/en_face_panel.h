@@ -1,8 +1,10 @@
 // The en-face panel: the slab of the volume that a surgeon looks for (ui/panels/projection.h), with
-// automatic contrast; fast axis to the right, B-scans downwards, the first at the top.
+// automatic contrast; fast axis to the right, B-scans downwards, the first at the top. Over it, dimmed,
+// what flows, coloured by its depth below the surface.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "ui/gl/picture_pass.h"
 #include "ui/layout/crop.h"
 #include "ui/layout/layout.h"
+#include "ui/panels/flow_projection.h"
 #include "ui/panels/state_texture.h"
 #include "ui/panels/tissue_map.h"
 
@@ -23,42 +26,62 @@ class EnFacePanel {
 public:
   static hal::Result<EnFacePanel> create();
 
+  // What show() and draw() need of volumes with flow; does nothing if it is there.
+  // ErrorCode::unsupported: this GL cannot compile the shaders.
+  hal::Result<> prepare_flow();
+
   // Projects on the CPU (about a millisecond for 300 × 80 × 512) and uploads the projection.
   // `tissue`: of the same volume, which differs from that of the last show() in those B-scans alone,
   // in any if there are none. The work is shared among the team.
   void show(const pipeline::Volume& volume, const TissueMap& tissue,
             std::span<const pipeline::BScanRange> changed = {}, WorkTeam* team = nullptr);
 
+  // Of the last volume shown: what flows, a texel each A-scan (FlowFromAbove); nothing if it has none.
+  const gl::Texture& flow() const { return flow_projection_; }
+  std::span<const FlowFromAbove> flow_from_above() const { return flow_; }
+
   // Of the last show(): 1 for each B-scan of which it changed the projection.
   std::span<const std::uint8_t> changed_rows() const { return changed_; }
 
   // Fills `rect` of the bound framebuffer with what the crop leaves; missing B-scans are hatched, saturated ones marked at
-  // the right border.
-  void draw(const StateTexture& states, const Crop& crop, const Rect& rect,
-            int target_height) const;
+  // the right border. `deepest_flow`: the share of the volume's depth to which the hues of what flows
+  // reach, and those of which that could not be told are marked at the left border; empty: no flow.
+  void draw(const StateTexture& states, const Crop& crop, const Rect& rect, int target_height,
+            std::optional<float> deepest_flow = {}) const;
 
 private:
-  explicit EnFacePanel(gl::PicturePass pass, gl::PicturePass plain);
-  void draw_plain(const Crop& crop, const Rect& rect, int target_height) const;
+  // A shader and where it takes what from; −1 where it takes none.
+  struct Pass {
+    explicit Pass(gl::PicturePass made);
+    gl::PicturePass pass;
+    GLint projection, states, corner, extent, hatch, mark_width, mark, seam, flow, dimmed,
+        tint_place;
+  };
+  struct Passes {
+    Pass marking;
+    Pass plain; // where every B-scan is good
+  };
+  explicit EnFacePanel(Passes passes);
+  static hal::Result<Passes> make(bool flow);
+  static void set_marks(const Pass& pass, const StateTexture& states, const Rect& rect,
+                        int target_height);
   void allocate(int a_scans, int b_scans);
+  void show_flow(const pipeline::Volume& volume, const TissueMap& tissue, WorkTeam* team);
   void compare_rows();
 
-  gl::PicturePass pass_;
-  gl::PicturePass plain_; // where every B-scan is good
+  Passes passes_;
+  std::optional<Passes> with_flow_; // empty until there is some
   gl::Texture projection_;
+  gl::Texture flow_projection_;
   std::vector<std::uint8_t> levels_; // projected
   std::vector<std::uint8_t> wanted_; // by B-scan: whether it has to be projected anew
   std::vector<std::uint8_t> grey_;   // the same with its contrast
   std::vector<std::uint8_t> before_; // of the show() before the last
   std::vector<std::uint8_t> changed_;
+  std::vector<FlowFromAbove> flow_; // empty where the volume has none
+  std::vector<FlowFromAbove> flow_before_;
   int a_scans_ = 0;
   int b_scans_ = 0;
-  struct {
-    GLint projection, states, corner, extent, hatch, mark_width, mark, seam;
-  } uniforms_;
-  struct {
-    GLint projection, corner, extent;
-  } plain_uniforms_;
 };
 
 } // namespace octascope::ui

@@ -1,5 +1,10 @@
-// The states of a volume's B-scans as a texture of one texel each, for shaders that mark them.
+// The states of a volume's B-scans as a texture of one texel each, for shaders that mark them: 0
+// missing, 1 good, 2 saturated, 3 the seam, and 16 more if there is flow in the volume, but of this
+// B-scan it could not be told.
 #pragma once
+
+#include <cstdint>
+#include <vector>
 
 #include "pipeline/volume/volume.h"
 #include "ui/gl/objects.h"
@@ -15,7 +20,7 @@ public:
 
 private:
   gl::Texture texture_;
-  int b_scans_ = 0;
+  std::vector<std::uint8_t> states_;
   bool all_good_ = false;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -36,6 +37,32 @@ struct Losses {
   bool operator==(const Losses&) const = default;
 };
 
+// A tree traced in the flow of the live volume (docs/ANGIOGRAPHY.md).
+struct TracedTreeStatus {
+  static constexpr hal::Duration old_after = std::chrono::seconds{3};      // is marked from then on
+  static constexpr hal::Duration removed_after = std::chrono::seconds{10}; // is not drawn any more
+
+  enum class State : std::uint8_t { shown, refused, removed };
+  State state = State::refused;
+  hal::Duration age{}; // of the flow that it was traced in
+  std::uint64_t vessels = 0;
+  double length_mm = 0; // of all together
+  std::string refusal;  // a few words; empty unless refused
+  bool operator==(const TracedTreeStatus&) const = default;
+};
+
+// How a tree from a file is kept over what flows in the live volume (docs/ANGIOGRAPHY.md).
+struct FollowedTreeStatus {
+  enum class State : std::uint8_t {
+    looking, // for its place
+    followed,
+    unmatched, // it has too little of the vessels that flow
+  };
+  State state = State::looking;
+  double overlap = 0; // while followed: of the vessels that flow, those that it has
+  bool operator==(const FollowedTreeStatus&) const = default;
+};
+
 // The vessel tree shown in the volume.
 struct VesselStatus {
   enum class State : std::uint8_t { none, loading, shown, failed };
@@ -45,6 +72,8 @@ struct VesselStatus {
   std::optional<double> residual_mm; // of the registration; empty: it is not from points
   std::array<bool, pipeline::vessel_branch_count> branches{}; // the branches that it has
   SegmentCounts account;                                      // of the last frame that drew it
+  std::optional<TracedTreeStatus> traced; // empty: the tree is from a file, or there is none yet
+  std::optional<FollowedTreeStatus> followed; // empty: its place is not looked for
   bool operator==(const VesselStatus&) const = default;
 };
 

@@ -164,8 +164,8 @@ constexpr std::array<ActionRow, action_count> table{{
     {Action::mark_2_depth, "mark_2_depth", "Mark 2, depth", continuous, keys(key('9')),
      index_along<&Geometry::depths>(&ViewState::mark_2_depth, 1), "mark_2_depth", home},
 
-    {Action::vessels, "vessels", "Vessels", toggle, keys(key('v')),
-     Flag{&ViewState::vessels_visible, "shown", "hidden"}, "vessels", drawn | home | kept},
+    {Action::vessels, "vessels", "Vessels", choice, keys(key('v')),
+     one_of<&ViewState::vessels>(vessels_shown_values), "vessels", drawn | home | kept},
     {Action::vessel_opacity, "vessel_opacity", "Vessel opacity", continuous, keys(key('a')),
      Number{.number = &ViewState::vessel_opacity, .range = {0, 1, 0.05F}, .words = percent},
      "vessel_opacity", drawn | kept | needs_vessels},

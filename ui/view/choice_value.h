@@ -31,6 +31,9 @@ inline constexpr std::array cut_values{ChoiceValue{"off", "off"},
 inline constexpr std::array figures_values{ChoiceValue{"hidden", "hidden"},
                                            ChoiceValue{"strip", "shown"},
                                            ChoiceValue{"timing", "with timing"}};
+inline constexpr std::array vessels_shown_values{
+    ChoiceValue{"off", "hidden"}, ChoiceValue{"flow", "flow"}, ChoiceValue{"tree", "tree"},
+    ChoiceValue{"both", "flow and tree"}};
 inline constexpr std::array vessel_colouring_values{ChoiceValue{"branch", "main branches"},
                                                     ChoiceValue{"order", "orders"},
                                                     ChoiceValue{"diagnostic", "who drew them"}};

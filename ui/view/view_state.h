@@ -33,6 +33,9 @@ enum class CutShape : std::uint8_t {
   corner, // at `b_scan` and `a_scan`: the corner between them is left out
 };
 
+// Which vessels are shown, of those there are: what flows, found in the signal, and the tree.
+enum class VesselsShown : std::uint8_t { off, flow, tree, both };
+
 // What is shown of the machine itself.
 enum class FiguresShown : std::uint8_t {
   none,
@@ -74,8 +77,8 @@ struct ViewState {
   bool rolling = false;          // each B-scan is shown as it comes; else whole volumes
   LayoutKind layout = LayoutKind::volume;
   StereoMode stereo = StereoMode::off;
-  float parallax_deg = 3;      // between the two eyes, seen from the centre of the volume
-  bool vessels_visible = true; // the vessel tree, if one is loaded
+  float parallax_deg = 3; // between the two eyes, seen from the centre of the volume
+  VesselsShown vessels = VesselsShown::both;
   float vessel_opacity = 1;
   VesselColouring vessel_colouring = VesselColouring::branch;
   VesselNudge vessel_nudge;    // relative to the registration
@@ -99,6 +102,15 @@ struct ViewState {
 
   bool operator==(const ViewState&) const = default;
 };
+
+// Of a volume that has it.
+inline bool shows_flow(const ViewState& view) {
+  return view.vessels == VesselsShown::flow || view.vessels == VesselsShown::both;
+}
+// Of a tree that is loaded.
+inline bool shows_tree(const ViewState& view) {
+  return view.vessels == VesselsShown::tree || view.vessels == VesselsShown::both;
+}
 
 // Whether the volume's picture is the same for both: same eye position, window, technique, layout,
 // vessels and so on (trait::drawn in action_table.h).

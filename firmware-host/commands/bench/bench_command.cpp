@@ -1,6 +1,8 @@
 #include "firmware-host/commands/bench/bench_command.h"
 
 #include "firmware-host/commands/bench/flow/bench_flow.h"
+#include "firmware-host/commands/bench/live_probe.h"
+#include "firmware-host/commands/bench/registration/bench_registration_command.h"
 
 namespace octascope::firmware_host {
 
@@ -11,7 +13,8 @@ CLI::App& add_bench_command(CLI::App& program, int& exit_status) {
   add_bench_reconstruct_command(*bench, exit_status);
   add_bench_display_command(*bench, exit_status);
   add_bench_chain_command(*bench, exit_status);
-  add_bench_flow_command(*bench, exit_status);
+  add_bench_flow_command(*bench, exit_status, probe_flow);
+  add_bench_registration_command(*bench, exit_status);
   return *bench;
 }
 

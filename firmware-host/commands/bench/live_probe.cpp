@@ -1,5 +1,6 @@
 #include "firmware-host/commands/bench/live_probe.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -8,6 +9,8 @@
 #include <fmt/format.h>
 
 #include "firmware-host/commands/bench/self_run.h"
+#include "pipeline/scan/scan_plan.h"
+#include "sim/spectra/tissue_motion.h"
 
 namespace octascope::firmware_host {
 
@@ -53,6 +56,40 @@ hal::Result<LiveFigures> probe_live(int width, int height, double seconds) {
                      number_in(resting, "/latency_ms/p95"),
                      quality_in(resting),
                      number_in(turning, "/lost/volumes") + number_in(resting, "/lost/volumes")};
+}
+
+// A loop of one volume is made before the run begins, and nothing is computed besides.
+hal::Result<LiveFlowFigures> probe_flow(int repeats) {
+  const double line_rate_hz = repeats < pipeline::ScanPlan::most_repeats ? 215e3 : 860e3;
+  HAL_TRY(const BenchFolder folder, BenchFolder::make());
+  std::ofstream configuration{folder.file("flow.toml")};
+  configuration << fmt::format("[scan]\nline_rate_hz = {}\nrepeats = {}\n[pipeline]\nflow = true\n"
+                               "[sim]\nphantom = \"perfused\"\nloop_volumes = 1\n"
+                               "axial_motion = [",
+                               line_rate_hz, repeats);
+  for (const sim::MotionTone& tone : bench_motion().axial)
+    configuration << fmt::format("[{}, {}],", tone.amplitude_um, tone.frequency_hz);
+  configuration << "]\n";
+  configuration.close();
+  HAL_TRY(const auto report,
+          report_of({"run", "--sim", "--config", folder.file("flow.toml").string(), "--display",
+                     "offscreen", "--size", "1280x720", "--duration", "10"},
+                    folder.file("report.json")));
+  const auto number = [&](const char* pointer) { return number_in(report, pointer); };
+  const double planned = number("/volumes/planned") - number("/volumes/unfinished");
+  const double told = number("/flow/b_scans/told");
+  const double left_out = number("/flow/b_scans/left_out");
+  const double b_scans = told + left_out + number("/flow/b_scans/none");
+  const double planned_per_s = number("/scan/planned_volumes_per_s");
+  return LiveFlowFigures{.line_rate_hz = line_rate_hz,
+                         .planned_per_s = planned_per_s,
+                         .angiograms_per_s =
+                             number("/flow/angiograms") / std::max(planned, 1.0) * planned_per_s,
+                         .compared_share = (told + left_out) / std::max(b_scans, 1.0),
+                         .lost_lines = number("/lost/lines"),
+                         .left_out_share = left_out / std::max(b_scans, 1.0),
+                         .b_scan_ms_p50 = number("/flow/ms/p50"),
+                         .b_scan_ms_p95 = number("/flow/ms/p95")};
 }
 
 } // namespace octascope::firmware_host

@@ -1,7 +1,8 @@
-// Runs the whole program on its twins for a few seconds while a knob turns continuously, and reads
-// its report.
+// Runs the whole program on its twins for a few seconds, while a knob turns continuously or tells
+// flow, and reads its report.
 #pragma once
 
+#include "firmware-host/commands/bench/flow/bench_flow.h"
 #include "firmware-host/ledger/shown_quality.h"
 #include "hal/result.h"
 
@@ -23,5 +24,9 @@ struct LiveFigures {
 
 // Takes about twice `seconds`.
 hal::Result<LiveFigures> probe_live(int width, int height, double seconds);
+
+// Ten seconds of perfused tissue that moves, at 1280×720; at 215 kHz, with 4 repeats at 860 kHz, so
+// that there are as many volumes a second as without repeats at 215 kHz.
+hal::Result<LiveFlowFigures> probe_flow(int repeats);
 
 } // namespace octascope::firmware_host

@@ -28,7 +28,8 @@ hal::Result<pipeline::VolumeCounters> run_undisplayed(const Configuration& confi
   Devices devices{std::move(real), choices, clock};
   HAL_CHECK(devices.make_others(choices, options, configuration, clock));
   ReconstructionCache cache;
-  HAL_TRY(auto reconstruction, Reconstruction::make(devices, configuration, cache));
+  HAL_TRY(auto reconstruction,
+          Reconstruction::make(devices, configuration, configuration.flow, cache));
   const hal::LineCameraConfig camera = devices.camera_config();
   pipeline::Acquisition acquisition{devices.line_camera(), camera, clock, faults, arrived};
   pipeline::VolumeThreadSetup setup =

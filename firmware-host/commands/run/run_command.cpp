@@ -27,7 +27,7 @@ namespace {
 // As text, the way CLI11 collects it.
 struct RunArguments {
   std::string spectra, shape, calibration, faults, controls, phantom, record_to, raw_to, subject,
-      eye, trace;
+      eye, trace, flow;
   SpectraTypeArguments type;
   bool simulate = false;
   bool bidirectional = false;
@@ -72,6 +72,8 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
   o.eye = pipeline::eye_named(a.eye).value_or(pipeline::Eye::not_said);
   if (a.repeats > 0)
     o.repeats = a.repeats;
+  if (!a.flow.empty())
+    o.flow = a.flow == "on";
   if (!a.spectra.empty()) {
     HAL_TRY(const auto recording, recording_options(a.spectra, a.shape, a.type));
     o.recording = recording;
@@ -126,6 +128,11 @@ void add_options(CLI::App& command, RunArguments& a) {
                    "between the two; else whole volumes");
   command.add_option("--repeats", a.repeats, "Sweeps of each B-scan, averaged (1 to 4)")
       ->check(within(1, pipeline::ScanPlan::most_repeats));
+  command
+      .add_option("--flow", a.flow,
+                  "Compare the repeats of each B-scan, say what flows, and show it as a tree of "
+                  "vessels (without --vessels); needs 2 or more, in one direction")
+      ->check(CLI::IsMember({"on", "off"}));
   command.add_option("--faults", a.faults, "Faults that the simulated devices suffer")
       ->type_name("FILE.toml");
   command.add_option("--controls", a.controls, "What the simulated pedal and knob do")
@@ -144,6 +151,7 @@ void add_run_command(CLI::App& program, int& exit_status) {
       program.add_subcommand("run", "Run the appliance: acquire, reconstruct, show");
   command->footer("Examples:\n"
                   "  octascope run --sim --duration 20\n"
+                  "  octascope run --sim --phantom perfused --repeats 2 --flow on\n"
                   "  octascope run --spectra s.raw --shape 100,100,1024 --calibration c.toml "
                   "--display offscreen --volumes 5 --snapshot t.png --report t.json\n"
                   "Keys in a window:\n" +

@@ -54,16 +54,17 @@ hal::Result<> run(const VesselsConvertCommandLine& line) {
 } // namespace
 
 void add_vessels_convert_command(CLI::App& vessels, int& exit_status) {
-  CLI::App* command =
-      vessels.add_subcommand("convert", "SWC or VTP to our own format, or that to SWC");
+  CLI::App* command = vessels.add_subcommand(
+      "convert", "A tree from one kind of file to another: SWC, VTP, our own");
   auto line = std::make_shared<VesselsConvertCommandLine>();
   command->add_option("file", line->file, "Vessel tree; its kind is told by its content")
       ->required()
       ->type_name("FILE");
   command
-      ->add_option("--out", line->out, "File to write: .vessels for our own format, .swc for SWC")
+      ->add_option("--out", line->out,
+                   "File to write: .vessels for our own format, .swc for SWC, .vtp for VTK")
       ->required()
-      ->type_name("FILE.swc|.vessels");
+      ->type_name("FILE.swc|.vtp|.vessels");
   add_tree_options(*command, line->tree);
   command->footer("The file appears complete or not at all. Our own format is eight times smaller, "
                   "is drawn without\nreading it first, and rounds places and radii: `vessels info` "

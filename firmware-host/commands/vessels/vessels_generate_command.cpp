@@ -159,9 +159,10 @@ void add_vessels_generate_command(CLI::App& vessels, int& exit_status) {
       ->check(within(std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max()))
       ->type_name("S");
   command
-      ->add_option("--out", line->out, "File to write: .vessels for our own format, .swc for SWC")
+      ->add_option("--out", line->out,
+                   "File to write: .vessels for our own format, .swc for SWC, .vtp for VTK")
       ->required()
-      ->type_name("FILE.swc|.vessels");
+      ->type_name("FILE.swc|.vtp|.vessels");
   command->add_option("--threads", line->threads, "One a core if not given; changes only the time")
       ->check(within(1, 1024))
       ->type_name("N");

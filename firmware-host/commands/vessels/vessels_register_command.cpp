@@ -1,4 +1,4 @@
-// octascope vessels register: pairs of points to where a tree lies in a volume.
+// octascope vessels register: where a tree lies in a volume, from pairs of points or from a live tree.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,7 @@
 
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/vessels/vessels.h"
+#include "firmware-host/commands/vessels/vessels_register.h"
 #include "firmware-host/terminal/terminal.h"
 #include "firmware-host/version/version.h"
 #include "pipeline/files/text_curve.h"
@@ -28,15 +30,6 @@ namespace {
 
 using pipeline::PointPair;
 using pipeline::PointRegistration;
-
-struct VesselsRegisterCommandLine {
-  std::filesystem::path points;
-  std::filesystem::path out;
-  std::string author;
-  std::string subject, eye;
-  bool accept_misfit = false;
-  bool json = false;
-};
 
 struct PairsOfFile {
   std::vector<PointPair> pairs;
@@ -63,22 +56,13 @@ hal::Result<PairsOfFile> read_pairs(const std::filesystem::path& file) {
 pipeline::Registration registration_of(const VesselsRegisterCommandLine& line,
                                        const PointRegistration& found,
                                        const std::optional<std::string>& misfit) {
-  pipeline::Registration registration;
-  registration.volume_from_tree = found.volume_from_tree;
-  registration.whose = {.subject = line.subject,
-                        .eye = pipeline::eye_named(line.eye).value_or(pipeline::Eye::not_said)};
-  registration.provenance = {
-      .program = fmt::format("octascope {}", version()),
-      .author = line.author,
-      .created = fmt::format(
-          "{:%Y-%m-%dT%H:%M:%SZ}",
-          fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now()))),
-      .method = fmt::format("least squares of point pairs (Horn 1987){}{}",
-                            misfit ? "; misfit accepted: " : "", misfit.value_or("")),
-      .source = line.points.filename().string(),
-      .points = static_cast<int>(found.residuals_mm.size()),
-      .residual_mm = found.rms_mm};
-  return registration;
+  pipeline::RegistrationProvenance provenance;
+  provenance.method = fmt::format("least squares of point pairs (Horn 1987){}{}",
+                                  misfit ? "; misfit accepted: " : "", misfit.value_or(""));
+  provenance.source = line.points.filename().string();
+  provenance.points = static_cast<int>(found.residuals_mm.size());
+  provenance.residual_mm = found.rms_mm;
+  return registration_for(line, found.volume_from_tree, std::move(provenance));
 }
 
 std::string to_text(const PointRegistration& found, const PairsOfFile& read) {
@@ -121,7 +105,7 @@ std::string to_json(const PointRegistration& found, const VesselsRegisterCommand
   return json.dump(2);
 }
 
-int run(const VesselsRegisterCommandLine& line) {
+int run_points(const VesselsRegisterCommandLine& line) {
   const auto complain = [](std::string_view message) {
     warn("octascope vessels register: {}\n", message);
     return exit_failed;
@@ -150,18 +134,57 @@ int run(const VesselsRegisterCommandLine& line) {
 
 } // namespace
 
+pipeline::Registration registration_for(const VesselsRegisterCommandLine& line,
+                                        const pipeline::RigidTransform& volume_from_tree,
+                                        pipeline::RegistrationProvenance provenance) {
+  provenance.program = fmt::format("octascope {}", version());
+  provenance.author = line.author;
+  provenance.created = fmt::format(
+      "{:%Y-%m-%dT%H:%M:%SZ}",
+      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+  return {.volume_from_tree = volume_from_tree,
+          .whose = {.subject = line.subject,
+                    .eye = pipeline::eye_named(line.eye).value_or(pipeline::Eye::not_said)},
+          .provenance = std::move(provenance)};
+}
+
 void add_vessels_register_command(CLI::App& vessels, int& exit_status) {
   CLI::App* command = vessels.add_subcommand(
-      "register", "Pairs of points to a registration: where a tree lies in an OCT volume");
+      "register",
+      "Where a tree lies in an OCT volume, from pairs of points or from the vessels seen "
+      "there");
   auto line = std::make_shared<VesselsRegisterCommandLine>();
+  CLI::Option* points =
+      command
+          ->add_option(
+              "--points", line->points,
+              "Pairs of points, one a line: x y z in the tree, x y z in the volume, in mm, "
+              "with commas, semicolons, blanks or tabs between them; # begins a comment. In "
+              "the volume x runs along A-scans, y along B-scans, z along the depth, from the "
+              "outer corner of the first voxel")
+          ->type_name("FILE.csv");
+  CLI::Option* tree =
+      command
+          ->add_option(
+              "--tree", line->tree,
+              "Instead of points: the tree to be registered, to the one of --to; turned by "
+              "20 degrees and shifted by a third of the field at most")
+          ->type_name("FILE.swc|.vtp|.vessels")
+          ->excludes(points);
+  CLI::Option* to =
+      command
+          ->add_option("--to", line->to,
+                       "The tree that is seen, in the volume's frame, as vessels trace "
+                       "writes it")
+          ->type_name("FILE.swc|.vtp|.vessels")
+          ->needs(tree);
+  tree->needs(to);
   command
-      ->add_option("--points", line->points,
-                   "Pairs of points, one a line: x y z in the tree, x y z in the volume, in mm, "
-                   "with commas, semicolons, blanks or tabs between them; # begins a comment. In "
-                   "the volume x runs along A-scans, y along B-scans, z along the depth, from the "
-                   "outer corner of the first voxel")
-      ->required()
-      ->type_name("FILE.csv");
+      ->add_option("--start", line->start,
+                   "With --tree: about where it lies; else in the volume's frame, as one traced "
+                   "before")
+      ->type_name("FILE.toml")
+      ->needs(tree);
   command->add_option("--out", line->out, "Registration to write")
       ->required()
       ->type_name("FILE.toml");
@@ -172,14 +195,24 @@ void add_vessels_register_command(CLI::App& vessels, int& exit_status) {
                    "Whose vessels they are: they are then drawn in no other one's picture")
       ->type_name("ID");
   command->add_option("--eye", line->eye, "Of which eye")->check(CLI::IsMember({"left", "right"}));
-  command->add_flag("--accept-misfit", line->accept_misfit,
-                    "Write what no turn and shift explains, too: another scale (by more than 5 %), "
-                    "a mirrored side, a residual of more than half of the spread");
+  command
+      ->add_flag("--accept-misfit", line->accept_misfit,
+                 "Write what no turn and shift explains, too: another scale (by more than 5 %), "
+                 "a mirrored side, a residual of more than half of the spread")
+      ->needs(points);
   command->add_flag("--json", line->json, "The result as one JSON object");
   command->footer("At least three pairs that do not lie on a line; with four, each is also "
                   "compared with where the others put it.\n"
-                  "Example: octascope vessels register --points pairs.csv --out registration.toml");
-  command->callback([line, &exit_status] { exit_status = run(*line); });
+                  "Trees have at least 65 % of the vessels that are seen in common, or are refused "
+                  "(docs/VESSELS.md).\n"
+                  "Example: octascope vessels register --points pairs.csv --out registration.toml\n"
+                  "         octascope vessels register --tree planned.swc --to live.swc --out "
+                  "registration.toml");
+  command->callback([line, points, tree, &exit_status] {
+    if (points->empty() && tree->empty())
+      throw CLI::RequiredError("--points, or --tree and --to");
+    exit_status = tree->empty() ? run_points(*line) : register_trees(*line);
+  });
 }
 
 } // namespace octascope::firmware_host

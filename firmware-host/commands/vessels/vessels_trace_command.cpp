@@ -135,9 +135,10 @@ void add_vessels_trace_command(CLI::App& vessels, int& exit_status) {
   command
       ->add_option(
           "--out", line->out,
-          "Tree to write, in the volume's frame: .swc for SWC, .vessels for our own format")
+          "Tree to write, in the volume's frame: .swc for SWC, .vtp for VTK, .vessels for our own "
+          "format")
       ->required()
-      ->type_name("FILE.swc|.vessels");
+      ->type_name("FILE.swc|.vtp|.vessels");
   command->add_flag("--json", line->json, "The result as one JSON object");
   command->footer("Nothing is written where the tree explains too little of what flows "
                   "(docs/VESSELS.md).\n"

@@ -28,7 +28,7 @@ bool same_lens(const std::optional<Objective>& a, const std::optional<Objective>
 
 auto scheduling_of(const Configuration& c) {
   return std::tie(c.workers, c.worker_cores, c.neighbour_weights.before, c.neighbour_weights.here,
-                  c.neighbour_weights.after);
+                  c.neighbour_weights.after, c.flow);
 }
 
 // What of the controls is opened once; their profile is changed as they are used.

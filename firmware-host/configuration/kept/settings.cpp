@@ -53,6 +53,14 @@ void read_choice(ConfigTable& table, std::string_view key, const ui::Choice& cho
   table.complain("{} is \"{}\", expected one of: {}", key, name, known);
 }
 
+// Vessels were either shown or not before there was flow: files of then still say so.
+bool read_old_vessels(ConfigTable& table, const ActionRow& row, ViewState& view) {
+  if (row.action != ui::Action::vessels || !table.has_boolean(row.key))
+    return false;
+  view.vessels = table.boolean(row.key, true) ? ui::VesselsShown::both : ui::VesselsShown::off;
+  return true;
+}
+
 // Leaves the view's where the key is not there, or names what there is no more.
 void read(ConfigTable& table, const ActionRow& row, const ui::ChoiceNames& names, ViewState& view) {
   std::visit(ui::Overloaded{
@@ -65,7 +73,10 @@ void read(ConfigTable& table, const ActionRow& row, const ui::ChoiceNames& names
                                                           static_cast<double>(range.highest)})));
                  },
                  [&](const ui::Flag& v) { view.*v.flag = table.boolean(row.key, view.*v.flag); },
-                 [&](const ui::Choice& v) { read_choice(table, row.key, v, view); },
+                 [&](const ui::Choice& v) {
+                   if (!read_old_vessels(table, row, view))
+                     read_choice(table, row.key, v, view);
+                 },
                  [&](const ui::NamedChoice& v) {
                    const std::vector<std::string>& all = names.*v.names;
                    const auto found = std::ranges::find(all, table.text(row.key, ""));

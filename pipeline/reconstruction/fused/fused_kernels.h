@@ -38,6 +38,8 @@ struct FusedKernels {
   void (*finish_u8)(const FusedTables& tables, float* work, std::uint8_t* levels);
   void (*finish_db)(const FusedTables& tables, float* work, float* levels_db);
   void (*finish_bins)(const FusedTables& tables, float* work, std::complex<float>* bins);
+  void (*finish_both)(const FusedTables& tables, float* work, std::complex<float>* bins,
+                      std::uint8_t* levels);
 };
 
 // N complex numbers, and the rows of powers or, two of each, of complex bins.

@@ -270,6 +270,30 @@ void finish_bins(const FusedTables& tables, float* work, std::complex<float>* bi
                     bins + row);
 }
 
+// Levels of the rows of bins, as finish() has them of powers.
+void finish_both(const FusedTables& tables, float* work, std::complex<float>* bins,
+                 std::uint8_t* levels) {
+  finish_bins(tables, work, bins);
+  const Floats floats;
+  const int half = tables.samples / 2;
+  const int row_size = tables.last_radix() / 2 * lanes;
+  const float* re = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
+  const float* im = re + half;
+  float* power = work; // which is no longer needed
+  for (int x = 0; x < half; x += lanes) {
+    const Real a = hn::Load(floats, re + x);
+    const Real b = hn::Load(floats, im + x);
+    hn::Store(hn::MulAdd(a, a, hn::Mul(b, b)), floats, power + x);
+  }
+  if (ordered_blocks > 0 && tables.blocks == ordered_blocks)
+    return make_ordered_levels(power, row_size, levels);
+  auto* rows = reinterpret_cast<std::uint8_t*>(power + half);
+  make_levels(power, half, rows);
+  for (int row = 0; row < tables.blocks / tables.last_radix(); row += 8)
+    unscramble_rows(rows + row * row_size, row_size, row_offsets<std::uint8_t>(tables),
+                    levels + row);
+}
+
 template <RawKind Kind, int Pairs> constexpr FusedKernels::FirstPasses first_passes() {
   // Permutations by bytes cannot reach beyond their part.
   constexpr bool one_window = Pairs > 1 && !window_shape.byte_indices;
@@ -290,7 +314,8 @@ const FusedKernels* kernels() {
                                    all_first_passes<RawKind::u16_shifted>()},
                                   &finish<std::uint8_t>,
                                   &finish<float>,
-                                  &finish_bins};
+                                  &finish_bins,
+                                  &finish_both};
   return &table;
 }
 

@@ -68,10 +68,11 @@ void FusedPath::set_background(const float* background, Buffers& buffers) const 
   tables_.resample_background(background, raw_offset(kind_), buffers.background.data());
 }
 
-template <class Level>
-int FusedPath::reconstruct(const std::byte* counts, int lines, std::uint32_t full_scale,
-                           Buffers& buffers, Level* levels,
-                           std::uint8_t* saturated) const noexcept {
+// finish(position of the line's first level): of the line whose first pass is in the buffers.
+template <class Finish>
+int FusedPath::each_line(const std::byte* counts, int lines, std::uint32_t full_scale,
+                         Buffers& buffers, std::uint8_t* saturated,
+                         const Finish& finish) const noexcept {
   const auto samples = static_cast<std::size_t>(tables_.samples);
   const std::size_t line_bytes = samples * (kind_ == RawKind::u8 ? 1 : 2);
   int saturated_lines = 0;
@@ -83,15 +84,31 @@ int FusedPath::reconstruct(const std::byte* counts, int lines, std::uint32_t ful
                                      buffers.background.data(), buffers.work.data());
     saturated[a] = reached ? 1 : 0;
     saturated_lines += saturated[a];
-    Level* profile = levels + static_cast<std::size_t>(a) * (samples / 2);
-    if constexpr (std::is_same_v<Level, std::complex<float>>)
-      kernels_->finish_bins(tables_, buffers.work.data(), profile);
-    else if constexpr (std::is_same_v<Level, float>)
-      kernels_->finish_db(tables_, buffers.work.data(), profile);
-    else
-      kernels_->finish_u8(tables_, buffers.work.data(), profile);
+    finish(static_cast<std::size_t>(a) * (samples / 2));
   }
   return saturated_lines;
+}
+
+template <class Level>
+int FusedPath::reconstruct(const std::byte* counts, int lines, std::uint32_t full_scale,
+                           Buffers& buffers, Level* levels,
+                           std::uint8_t* saturated) const noexcept {
+  return each_line(counts, lines, full_scale, buffers, saturated, [&](std::size_t at) {
+    if constexpr (std::is_same_v<Level, std::complex<float>>)
+      kernels_->finish_bins(tables_, buffers.work.data(), levels + at);
+    else if constexpr (std::is_same_v<Level, float>)
+      kernels_->finish_db(tables_, buffers.work.data(), levels + at);
+    else
+      kernels_->finish_u8(tables_, buffers.work.data(), levels + at);
+  });
+}
+
+int FusedPath::reconstruct_both(const std::byte* counts, int lines, std::uint32_t full_scale,
+                                Buffers& buffers, std::complex<float>* bins, std::uint8_t* levels,
+                                std::uint8_t* saturated) const noexcept {
+  return each_line(counts, lines, full_scale, buffers, saturated, [&](std::size_t at) {
+    kernels_->finish_both(tables_, buffers.work.data(), bins + at, levels + at);
+  });
 }
 
 template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&, std::uint8_t*,

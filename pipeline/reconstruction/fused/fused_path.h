@@ -39,8 +39,16 @@ public:
   template <class Level>
   int reconstruct(const std::byte* counts, int lines, std::uint32_t full_scale, Buffers& buffers,
                   Level* levels, std::uint8_t* saturated) const noexcept;
+  // Bins, and the levels that the function above gives, to the bit.
+  int reconstruct_both(const std::byte* counts, int lines, std::uint32_t full_scale,
+                       Buffers& buffers, std::complex<float>* bins, std::uint8_t* levels,
+                       std::uint8_t* saturated) const noexcept;
 
 private:
+  template <class Finish>
+  int each_line(const std::byte* counts, int lines, std::uint32_t full_scale, Buffers& buffers,
+                std::uint8_t* saturated, const Finish& finish) const noexcept;
+
   FusedPath(FusedTables tables, const FusedKernels& kernels, RawKind kind);
 
   FusedTables tables_;

@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "pipeline/files/atomic_file.h"
 #include "pipeline/vessels/files/decimal.h"
 #include "pipeline/vessels/files/swc_comments.h"
 #include "pipeline/vessels/files/swc_reader.h"
+#include "pipeline/vessels/files/tree_writing.h"
 
 namespace octascope::pipeline {
 
 namespace fs = std::filesystem;
-using hal::ErrorCode;
 
 namespace {
 
@@ -23,36 +21,6 @@ constexpr std::size_t nodes_in_piece = 128; // an orders line stays short enough
 constexpr std::size_t longest_id = 10;
 constexpr std::size_t longest_row = 4 * longest_decimal + 3 * longest_id + 8;
 constexpr std::size_t flush_bytes = std::size_t{1} << 20;
-
-bool is_length(float value) {
-  return std::fabs(value) <= largest_vessel_length_mm; // false for NaN
-}
-
-hal::Result<> check(const fs::path& file, const VesselTree& tree) {
-  const auto refuse = [&](std::string_view found, std::string_view expected) {
-    return hal::fail(ErrorCode::invalid_argument, "{}: cannot be written: found {}, expected {}",
-                     file.string(), found, expected);
-  };
-  const std::size_t nodes = tree.nodes();
-  if (nodes == 0 || nodes > largest_swc_id)
-    return refuse(fmt::format("{} nodes", nodes), fmt::format("1 to {}", largest_swc_id));
-  if (tree.radii_mm.size() != nodes || tree.parents.size() != nodes ||
-      tree.orders.size() != nodes || tree.branches.size() != nodes)
-    return refuse("properties of different lengths", fmt::format("{} of each", nodes));
-  for (std::size_t i = 0; i < nodes; ++i) {
-    if (tree.parents[i] != no_parent && tree.parents[i] >= i)
-      return refuse(fmt::format("node {} with the parent {}", i, tree.parents[i]),
-                    "parents in front of their children");
-    if (!std::ranges::all_of(tree.positions_mm[i], is_length) || !is_length(tree.radii_mm[i]) ||
-        tree.radii_mm[i] < 0)
-      return refuse(fmt::format("node {} with a place or radius that is no length", i),
-                    "finite numbers, radii of 0 or more");
-    if (tree.orders[i] > highest_vessel_order)
-      return refuse(fmt::format("node {} of order {}", i, tree.orders[i]),
-                    fmt::format("0 to {}", highest_vessel_order));
-  }
-  return {};
-}
 
 std::uint32_t type_of(VesselBranch branch) {
   return branch == VesselBranch::unknown
@@ -119,9 +87,9 @@ private:
 } // namespace
 
 hal::Result<> write_swc(const fs::path& file, const VesselTree& tree, LengthUnit unit,
-                        const std::function<void(double)>& progress) {
-  HAL_CHECK(check(file, tree));
-  HAL_TRY(auto out, AtomicFile::create(file));
+                        const std::function<void(double)>& progress, Readers readers) {
+  HAL_CHECK(check_tree_to_write(file, tree, largest_swc_id));
+  HAL_TRY(auto out, AtomicFile::create(file, readers));
   SwcText swc{tree, unit};
   std::uint64_t written = 0;
   for (std::size_t first = 0; first < tree.nodes(); first += nodes_in_piece) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "hal/result.h"
+#include "pipeline/files/atomic_file.h"
 #include "pipeline/vessels/files/tree_reading.h"
 
 namespace octascope::pipeline {
@@ -18,6 +19,7 @@ namespace octascope::pipeline {
 // finite or too large, no node. `progress` as in TreeReadOptions.
 hal::Result<> write_swc(const std::filesystem::path& file, const VesselTree& tree,
                         LengthUnit unit = LengthUnit::um,
-                        const std::function<void(double)>& progress = {});
+                        const std::function<void(double)>& progress = {},
+                        Readers readers = Readers::as_the_umask_allows);
 
 } // namespace octascope::pipeline

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "pipeline/vessels/stoppable.h"
-#include "pipeline/vessels/tracing/vectors.h"
+#include "pipeline/vessels/vectors.h"
 
 namespace octascope::pipeline {
 

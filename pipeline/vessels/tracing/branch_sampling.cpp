@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/vessels/tracing/vectors.h"
+#include "pipeline/vessels/vectors.h"
 
 namespace octascope::pipeline {
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/volume/flow_scale.h"
+
 namespace octascope::pipeline {
 
 using hal::ErrorCode;
@@ -61,6 +63,9 @@ constexpr float rounding = 0.01F;
 constexpr float least_flow = -rounding;
 constexpr float most_flow = 1 + rounding;
 
+hal::Result<> check_values(std::span<const std::uint8_t>) {
+  return {};
+}
 hal::Result<> check_values(std::span<const float> flow) {
   float lowest = 0;
   float highest = 0;
@@ -103,6 +108,16 @@ public:
     ++lines_;
     return wrong == 0;
   }
+  bool add(std::span<const std::uint8_t> line) {
+    constexpr float unit = 1.0F / (flow_full - flow_static);
+    for (std::size_t z = 0; z < line.size(); ++z) {
+      sums_[z] +=
+          static_cast<float>(std::max<std::uint8_t>(line[z], flow_static) - flow_static) * unit;
+      told_[z] += line[z] != flow_untold ? 1.0F : 0.0F;
+    }
+    ++lines_;
+    return true;
+  }
 
   void write(std::span<float> to) const {
     for (std::size_t i = 0; i < to.size(); ++i) {
@@ -126,7 +141,8 @@ private:
 };
 
 // False if a value is no flow.
-bool average(FlowGrid& grid, const VolumeGeometry& g, std::span<const float> flow,
+template <class Value>
+bool average(FlowGrid& grid, const VolumeGeometry& g, std::span<const Value> flow,
              const std::array<int, 3>& together) {
   const auto depths = static_cast<std::size_t>(g.depths);
   LineSums sums{depths, together[2]};
@@ -237,9 +253,8 @@ void smooth(FlowGrid& grid) {
   }
 }
 
-} // namespace
-
-hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& g, std::span<const float> flow) {
+template <class Value>
+hal::Result<FlowGrid> make_grid(const VolumeGeometry& g, std::span<const Value> flow) {
   HAL_CHECK(check_shape(g));
   const std::array<double, 3> spacing{g.a_spacing_um, g.b_spacing_um, g.depth_spacing_um};
   const std::array<int, 3> counts{g.a_scans, g.b_scans, g.depths};
@@ -261,6 +276,17 @@ hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& g, std::span<const fl
   bridge_b_scans(grid);
   smooth(grid);
   return grid;
+}
+
+} // namespace
+
+hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& geometry, std::span<const float> flow) {
+  return make_grid(geometry, flow);
+}
+
+hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& geometry,
+                                     std::span<const std::uint8_t> counts) {
+  return make_grid(geometry, counts);
 }
 
 } // namespace octascope::pipeline

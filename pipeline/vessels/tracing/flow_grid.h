@@ -47,5 +47,8 @@ inline constexpr double most_flow_of_a_b_scan = 0.5;
 // spacings that are not positive, or another number of values; unsupported: more cells than 32 bits
 // number; bad_data: values that are no flow.
 hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& geometry, std::span<const float> flow);
+// Of a live volume's counts (flow_scale.h), which are always flow.
+hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& geometry,
+                                     std::span<const std::uint8_t> counts);
 
 } // namespace octascope::pipeline

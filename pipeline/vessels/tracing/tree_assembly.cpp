@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "pipeline/vessels/tracing/vectors.h"
+#include "pipeline/vessels/vectors.h"
 #include "pipeline/vessels/vessel_orders.h"
 
 namespace octascope::pipeline {

@@ -39,11 +39,7 @@ std::string refusal_of(const TracedVessels& traced, const FlowGrid& grid, std::s
   return {};
 }
 
-} // namespace
-
-hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
-                                         std::span<const float> flow, const std::stop_token& stop) {
-  HAL_TRY(const FlowGrid grid, make_flow_grid(geometry, flow));
+TracedVessels trace(const FlowGrid& grid, const std::stop_token& stop) {
   const FlowingVoxels voxels{grid, {}, stop};
   TracedVessels traced;
   traced.contrast = 1 - voxels.background_share(grid);
@@ -65,6 +61,21 @@ hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
   if (traced.refusal.empty())
     traced.tree = assemble_tree(lines, grid);
   return traced;
+}
+
+} // namespace
+
+hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
+                                         std::span<const float> flow, const std::stop_token& stop) {
+  HAL_TRY(const FlowGrid grid, make_flow_grid(geometry, flow));
+  return trace(grid, stop);
+}
+
+hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
+                                         std::span<const std::uint8_t> counts,
+                                         const std::stop_token& stop) {
+  HAL_TRY(const FlowGrid grid, make_flow_grid(geometry, counts));
+  return trace(grid, stop);
 }
 
 } // namespace octascope::pipeline

@@ -7,6 +7,7 @@
 // flowing voxel. Allocates, and takes a good part of a second: not for threads that others wait for.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -37,6 +38,10 @@ struct TracedVessels {
 // make_flow_grid(); once `stop` is requested it leaves soon, with a result of no use.
 hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
                                          std::span<const float> flow,
+                                         const std::stop_token& stop = {});
+// The same of a live volume's counts (flow_scale.h).
+hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
+                                         std::span<const std::uint8_t> counts,
                                          const std::stop_token& stop = {});
 
 } // namespace octascope::pipeline

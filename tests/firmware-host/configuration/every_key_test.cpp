@@ -110,6 +110,7 @@ std::vector<KeyCase> key_cases() {
       {"pipeline workers", "[pipeline]\nworkers = 3\n"},
       {"pipeline worker_cores", "[pipeline]\nworker_cores = [0]\n"},
       {"pipeline neighbour_weights", "[pipeline]\nneighbour_weights = [0, 1, 0]\n"},
+      {"pipeline flow", "[scan]\nrepeats = 2\n[pipeline]\nflow = true\n", "[scan]\nrepeats = 2\n"},
       {"devices line_camera", "[devices]\nline_camera = \"sim\"\n"},
       {"devices significant_bits", "[devices]\nsignificant_bits = 10\n"},
       {"devices right_shift", "[devices]\nright_shift = 4\n"},
@@ -222,8 +223,8 @@ protected:
     return std::tuple{plan_of({}, c),
                       std::tuple{c.depth_spacing_said, c.calibration,
                                  c.objective ? c.objective->name : std::string{}},
-                      std::tuple{c.workers, c.worker_cores, c.neighbour_weights.here, c.devices,
-                                 display.width, display.height, display.fullscreen},
+                      std::tuple{c.workers, c.worker_cores, c.neighbour_weights.here, c.flow,
+                                 c.devices, display.width, display.height, display.fullscreen},
                       std::tuple{c.metrics, c.recording_folder},
                       std::tuple{c.phantom, c.loop_volumes, c.galvo_lag_us, c.tissue_motion,
                                  c.faults, c.controls}};

@@ -30,7 +30,7 @@ ui::ViewState another_view(const ConfiguredView& configured) {
   v.stereo = ui::StereoMode::top_bottom;
   v.parallax_deg = -2.5F;
   v.box_visible = !v.box_visible;
-  v.vessels_visible = !v.vessels_visible;
+  v.vessels = ui::VesselsShown::tree;
   v.vessel_opacity = 0.4F;
   v.vessel_colouring = ui::VesselColouring::order;
   return v;
@@ -68,6 +68,14 @@ TEST_F(Settings, come_back_as_they_were_and_nothing_else_does) {
   const auto read = tests::must(this->read());
   EXPECT_EQ(read.view, set);
   EXPECT_TRUE(read.window);
+}
+
+TEST_F(Settings, of_before_there_was_flow_say_whether_vessels_are_shown) {
+  folder_.write("settings.toml", "[settings]\nvessels = false\n[configured]\nvessels = true\n");
+  EXPECT_EQ(tests::must(read()).view.vessels, ui::VesselsShown::off);
+  configured_.view.vessels = ui::VesselsShown::off;
+  folder_.write("settings.toml", "[settings]\nvessels = true\n[configured]\nvessels = false\n");
+  EXPECT_EQ(tests::must(read()).view.vessels, ui::VesselsShown::both);
 }
 
 TEST_F(Settings, that_nobody_changed_are_not_in_the_file) {

@@ -52,6 +52,7 @@ RunReport example() {
   r.counters.rates.volumes_per_s = 7.1;
   r.counters.rates.shown_volumes_per_s = 6.25;
   r.counters.rates.frames_per_s = 30;
+  r.trees = {{.traced = 5, .refused = 2, .took = {.count = 7, .p50_ms = 612.3, .p95_ms = 801}}};
   r.quality = {.frames = 12, .resolution = {{0.7, 0.25}}, .steps = {{256, 80}}};
   r.counters.latency = {.count = 3, .p50_ms = 12.34567, .p95_ms = 20, .p99_ms = 20.5, .max_ms = 21};
   r.counters.frames_drawn = 45;
@@ -62,6 +63,12 @@ RunReport example() {
                .missing_b_scans = 2,
                .saturated_lines = 6,
                .another_camera = true};
+  r.flow = FlowSummary{.angiograms = 8,
+                       .told = 600,
+                       .left_out = 20,
+                       .none = 4,
+                       .no_time = 3,
+                       .tell = {700, 1, 1.25, 1.5, 2}};
   r.view.yaw_deg = -12.5F;
   r.view.technique = ui::Technique::shaded;
   r.view.layout = ui::LayoutKind::b_scan;
@@ -109,6 +116,11 @@ TEST(Report, says_every_figure_under_its_key) {
                                 {"skipped", 2},
                                 {"lost", 1},
                                 {"unfinished", 3}}));
+  const json& flow = j["flow"];
+  EXPECT_EQ(flow["angiograms"], 8);
+  EXPECT_NEAR(flow["angiograms_per_s"].get<double>(), 8 / j["duration_s"].get<double>(), 0.001);
+  EXPECT_EQ(flow["b_scans"], (json{{"told", 600}, {"left_out", 20}, {"none", 4}, {"no_time", 3}}));
+  EXPECT_EQ(flow["ms"], (json{{"p50", 1.0}, {"p95", 1.25}, {"p99", 1.5}, {"max", 2.0}}));
   EXPECT_EQ(j["lost"], (json{{"lines", 600}, {"b_scans", 2}, {"volumes", 1}}));
   EXPECT_EQ(j["rates"], (json{{"lines_per_s", 215000.123},
                               {"volumes_per_s", 7.1},
@@ -120,6 +132,9 @@ TEST(Report, says_every_figure_under_its_key) {
   EXPECT_EQ(j["latency_ms"], (json{{"p50", 12.346}, {"p95", 20.0}, {"p99", 20.5}, {"max", 21.0}}));
   EXPECT_EQ(j["frames"], (json{{"drawn", 45}, {"missed", 3}}));
   EXPECT_EQ(j["hot_path"], (json{{"allocations", 4}}));
+  EXPECT_EQ(j["vessel_trees"], (json{{"traced", 5},
+                                     {"refused", 2},
+                                     {"seconds", {{"p50", 0.612}, {"p95", 0.801}, {"max", 0.0}}}}));
   EXPECT_EQ(j["picture"], (json{{"liveness", "stale"},
                                 {"age_ms", 345.678},
                                 {"notice", "Too much light: lines are saturated"},
@@ -188,6 +203,7 @@ TEST(Report, speaks_to_people_too) {
   const std::string text = to_text(example());
   EXPECT_THAT(text, testing::HasSubstr("7 volumes displayed of 10 acquired"));
   EXPECT_THAT(text, testing::HasSubstr("lost: 600 lines, 2 B-scans, 1 volumes"));
+  EXPECT_THAT(text, testing::HasSubstr("trees: 5 traced, 2 refused; 0.61 s median, 0.80 s p95"));
   EXPECT_THAT(text, testing::HasSubstr("drawn at resolution 0.70 (worst 0.25), steps 256 (80)"));
   EXPECT_THAT(text, testing::HasSubstr("phase offset 5.43 A-scans, found in the picture"));
   EXPECT_THAT(text, testing::HasSubstr("fault: line_camera disconnected ×2: it went away"));

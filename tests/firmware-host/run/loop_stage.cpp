@@ -209,6 +209,7 @@ void LoopStage::open(firmware_host::RenderLoopSetup setup, pipeline::VolumeFeed&
                                      .keep_picture = [](const pipeline::Image&) { return true; },
                                      .simulated_control = {},
                                      .threads = {},
+                                     .vessels = vessels_.get(),
                                      .proof = &proof_},
       std::move(setup));
   const auto opened = loop_->open();

@@ -168,6 +168,7 @@ protected:
   std::unique_ptr<pipeline::VolumeThread> volumes_;
   std::unique_ptr<pipeline::ControlThread> control_thread_;
   std::unique_ptr<pipeline::ScopeThread> scope_thread_;
+  std::unique_ptr<firmware_host::VesselDisplay> vessels_; // null: none
   std::unique_ptr<firmware_host::RenderLoop> loop_;
   hal::Duration longest_turn_ = std::chrono::milliseconds{40};
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/acquisition/rolling_volume.h"
+#include "pipeline/volume/flow_scale.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/files/fresh_seed.h"
 
@@ -193,6 +194,42 @@ TEST_F(RollingVolumeTest, goes_on_with_another_volume_only_from_a_whole_one) {
   expect_honest(rolling);
   rolling.follow(first.lent(), nowhere);
   expect_honest(rolling);
+}
+
+// What flows is of the same volume as the levels; nothing does at the seam and where nothing came.
+TEST_F(RollingVolumeTest, flow_goes_with_its_b_scan) {
+  RollingVolume flowing{geometry, true};
+  for (Making* const making : {&first, &second}) {
+    making->volume.add_flow();
+    for (int b = 0; b < count; ++b) {
+      making->volume.flow_states[static_cast<std::size_t>(b)] =
+          b % 2 == 0 ? FlowState::left_out : FlowState::told;
+      std::ranges::fill(making->volume.b_scan_flow(b),
+                        b % 2 == 0 ? flow_untold : static_cast<std::uint8_t>(making->number));
+    }
+  }
+  flowing.take(first.published());
+  for (const int b : {0, 1, 2, 4})
+    second.finish(b);
+  second.miss(3);
+  flowing.follow(second.lent(), nowhere);
+  ASSERT_EQ(flowing.seam()->b_scan, 5);
+  const Volume& shown = flowing.volume();
+  const auto expect_flow = [&](int b, FlowState state, int flow) {
+    EXPECT_EQ(shown.flow_states[static_cast<std::size_t>(b)], state) << b;
+    EXPECT_TRUE(std::ranges::all_of(shown.b_scan_flow(b), [=](int at) { return at == flow; })) << b;
+  };
+  expect_flow(0, FlowState::left_out, flow_untold);
+  expect_flow(1, FlowState::told, 8);
+  expect_flow(2, FlowState::left_out, flow_untold);
+  expect_flow(3, FlowState::none, flow_untold); // missing
+  expect_flow(4, FlowState::left_out, flow_untold);
+  expect_flow(5, FlowState::none, flow_untold); // the seam
+  expect_flow(6, FlowState::left_out, flow_untold);
+  expect_flow(7, FlowState::told, 7);
+  flowing.take(second.finish_all().published());
+  EXPECT_EQ(shown.flow, second.volume.flow);
+  EXPECT_EQ(shown.flow_states, second.volume.flow_states);
 }
 
 // Volumes that come whole or with gaps, some of which nobody sees; follow() and take() as they fall.

@@ -38,6 +38,12 @@ void expect_agreement(const Reconstructor& reconstructor, const std::vector<Coun
   std::vector<std::complex<float>> bins(reconstructor.levels());
   reconstructor.reconstruct_b_scan_bins(workspace, std::as_bytes(std::span{raw}), bins);
   ASSERT_EQ(reference.size(), counts.size());
+  std::vector<std::uint8_t> counts_of_bins(reconstructor.levels());
+  auto same_bins = bins;
+  reconstructor.reconstruct_b_scan_both(workspace, std::as_bytes(std::span{raw}), same_bins,
+                                        counts_of_bins);
+  EXPECT_EQ(same_bins, bins);
+  EXPECT_EQ(counts_of_bins, counts);
   const bool fused = reconstructor.path() == ReconstructionPath::fused;
   const double fixed_point_floor = fused ? 2e-4 : 0; // of the root mean square: weights are Q14
   double power = 0;

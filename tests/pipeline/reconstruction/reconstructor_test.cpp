@@ -252,6 +252,18 @@ TEST(Reconstructor, saturated_lines_are_no_brighter_than_their_neighbours) {
     }
     EXPECT_EQ(limited[0], good[depths]) << "light at zero delay";
 
+    // Levels that come with their bins are the same picture.
+    std::vector<std::uint8_t> with_bins(made.levels());
+    EXPECT_EQ(
+        made.reconstruct_b_scan_both(workspace, std::as_bytes(std::span{frame}), bins, with_bins)
+            .saturated_lines,
+        3);
+    const auto by_line = made.saturated_lines(workspace);
+    EXPECT_EQ((std::vector<int>{by_line.begin(), by_line.end()}),
+              (std::vector{1, 0, 0, 1, 1, 0, 0}));
+    EXPECT_GT(std::norm(bins.front()), 1e4F);
+    EXPECT_EQ(with_bins, limited);
+
     std::ranges::fill(frame, std::uint16_t{4095});
     EXPECT_EQ(of().second, lines);
     EXPECT_GT(of().first.front(), limited[0]) << "no neighbour: shown as it is";

@@ -19,6 +19,7 @@
 #include "pipeline/vessels/tracing/vessel_tracer.h"
 #include "pipeline/vessels/tree_comparison.h"
 #include "pipeline/vessels/tree_summary.h"
+#include "pipeline/volume/flow_scale.h"
 #include "tests/support/fails_with.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/vessels/flow_scene.h"
@@ -172,6 +173,27 @@ INSTANTIATE_TEST_SUITE_P(Scenes, VesselTracer,
                                          Scene{"winding", winding, 40}, Scene{"pairs", pairs, 20},
                                          Scene{"pairs", pairs, 40}));
 
+// A live volume's counts are flow to 1/254, and what could not be told stays so.
+TEST(VesselTracerTree, is_the_same_of_a_live_volumes_counts) {
+  std::vector<std::uint8_t> counts;
+  std::vector<float> flow = flow_of(forks(50), field, flaws);
+  for (float& value : flow) {
+    counts.push_back(quantise_flow(value));
+    value = pipeline::flow_of(counts.back());
+  }
+  const auto of_counts = trace_vessels(field, counts);
+  const auto of_flow = trace_vessels(field, flow);
+  ASSERT_TRUE(of_counts && of_flow);
+  ASSERT_EQ(of_counts->refusal, "");
+  EXPECT_NEAR(of_counts->quality, of_flow->quality, 1e-4);
+  EXPECT_EQ(of_counts->tree.parents, of_flow->tree.parents);
+  ASSERT_EQ(of_counts->tree.nodes(), of_flow->tree.nodes());
+  for (std::size_t node = 0; node < of_flow->tree.nodes(); ++node)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(of_counts->tree.positions_mm[node][axis], of_flow->tree.positions_mm[node][axis],
+                  1e-4);
+}
+
 TEST(VesselTracerTree, joins_branches_at_forks) {
   const VesselTree truth = forks(50);
   const auto traced = trace_vessels(field, flow_of(truth, field));
@@ -295,10 +317,10 @@ TEST(VesselTracerTree, is_refused_of_what_is_no_flow) {
               FailsWith(hal::ErrorCode::bad_data, "found values from 0 to 60, expected flow"));
   EXPECT_THAT(trace_vessels(small, std::vector<float>(7)),
               FailsWith(hal::ErrorCode::invalid_argument, "found 7 values of flow"));
-  EXPECT_THAT(trace_vessels(oct_geometry(0, 10, 2), {}),
+  EXPECT_THAT(trace_vessels(oct_geometry(0, 10, 2), std::vector<float>{}),
               FailsWith(hal::ErrorCode::invalid_argument, "expected at least one of each"));
   EXPECT_THAT(
-      trace_vessels(oct_geometry(1, 40'000, 40'000), {}),
+      trace_vessels(oct_geometry(1, 40'000, 40'000), std::vector<float>{}),
       FailsWith(hal::ErrorCode::unsupported, "expected at most 4294967280: cut the volume"));
   VolumeGeometry flat = small;
   flat.a_spacing_um = 0;

@@ -106,7 +106,7 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   expect_all(view, json::parse(R"({
     "window_offset_db": 6, "window_size_db": 58, "yaw_deg": 41, "tilt_deg": 38, "distance": 3,
     "parallax_deg": 3.5, "technique": "shaded", "layout": "quad", "stereo": "side_by_side",
-    "cut": "b_scan", "see_through_db": 14, "frozen": true, "rolling": true, "vessels": false, "box": false, "legend": true,
+    "cut": "b_scan", "see_through_db": 14, "frozen": true, "rolling": true, "vessels": "off", "box": false, "legend": true,
     "figures": "strip", "selected": "figures", "zoom_to_tissue": false, "calliper": false, "vessel_colours": "order", "vessel_shift_mm": [0, 0, 0]
   })"));
   EXPECT_EQ(view["b_scan"], small_b_scans / 2 + 2);

@@ -29,8 +29,15 @@ TEST(BenchFlow, flow_in_spectra_agrees_with_the_truth) {
     const json& by_radius = one.at("detected_share_by_radius_um");
     ASSERT_EQ(by_radius.size(), 6);
     EXPECT_GT(by_radius.at("30-45"), by_radius.at("0-7"));
-    if (!complex)
+    if (!complex) {
+      EXPECT_TRUE(one.at("live").is_null());
       continue;
+    }
+    const json& live = one.at("live");
+    EXPECT_EQ(live.at("line_rate_hz"), four ? 860e3 : 215e3);
+    EXPECT_GT(live.at("compared_share"), 0) << "all of them where the machine is quick enough";
+    EXPECT_LE(one["angiograms_per_s"], live.at("planned_per_s"));
+    EXPECT_TRUE(one.at("lost_lines").is_number()) << "how many depends on the machine";
     EXPECT_GE(one.at("detected_share"), 0.8);
     EXPECT_GE(one.at("tree").at("found_share"), 0.9);
     EXPECT_LE(one["tree"].at("invented_share"), 0.05);
@@ -49,6 +56,7 @@ TEST(BenchFlow, text_has_a_line_a_case_and_says_what_was_refused) {
   EXPECT_NE(out.find("\n      3  complex"), std::string::npos) << out;
   EXPECT_NE(out.find("\n      3  intensity"), std::string::npos) << out;
   EXPECT_NE(out.find("refused: "), std::string::npos) << out;
+  EXPECT_NE(out.find("\n      3     215 kHz"), std::string::npos) << out;
 }
 
 } // namespace

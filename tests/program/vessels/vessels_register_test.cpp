@@ -1,5 +1,6 @@
 // octascope vessels register as a user runs it.
 #include <algorithm>
+#include <filesystem>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -77,6 +78,35 @@ TEST(VesselsRegister, refuses_what_no_turn_and_shift_explains_unless_it_is_accep
   EXPECT_THAT(loaded->provenance.method,
               HasSubstr("misfit accepted: the tree's points spread 1000"));
   EXPECT_GT(loaded->provenance.residual_mm.value_or(0), 1000);
+}
+
+TEST(VesselsRegister, registers_a_tree_to_the_one_that_is_seen_or_writes_nothing) {
+  const ScratchFolder folder;
+  const std::string seen = folder / "seen.swc";
+  run_well({"vessels", "generate", "--phantom", "perfused", "--out", seen, "--registration",
+            folder / "true.toml"});
+  // The tree that is seen is in the phantom's frame here, and the planned one is the same.
+  const json found = json::parse(run_well({"vessels", "register", "--tree", seen, "--to", seen,
+                                           "--out", folder / "out.toml", "--author", "Z", "--json"})
+                                     .out);
+  EXPECT_GT(found["overlap"], 0.97);
+  EXPECT_LT(found["residual_mm"], 0.005);
+  const auto loaded = pipeline::Registration::load(folder / "out.toml");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->provenance.author, "Z");
+  EXPECT_EQ(loaded->provenance.source, "seen.swc to seen.swc");
+  for (const double shift : loaded->volume_from_tree.shift_mm)
+    EXPECT_NEAR(shift, 0, 0.005);
+  // From 1.5 mm beside, it is found no more.
+  const ProgramResult refused =
+      run_octascope({"vessels", "register", "--tree", seen, "--to", seen, "--start",
+                     folder / "true.toml", "--out", folder / "no.toml"});
+  EXPECT_EQ(refused.exit_status, 1);
+  EXPECT_THAT(refused.err, HasSubstr("not registered to"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "no.toml"));
+  EXPECT_EQ(run_octascope({"vessels", "register", "--tree", seen, "--out", folder / "no.toml"})
+                .exit_status,
+            2);
 }
 
 TEST(VesselsRegister, refuses_bad_points_and_writes_nothing) {

@@ -214,6 +214,21 @@ TEST_F(Controller, vessels_are_steered_by_the_knob_where_they_are_shown) {
   EXPECT_EQ(state().selected, Action::vessels) << "hidden vessels are not steered";
 }
 
+TEST_F(Controller, vessels_traced_in_the_volume_cannot_be_moved) {
+  controller_.handle(press('i'));
+  EXPECT_TRUE(state().vessel_nudge.any());
+  actions().set_vessels_traced();
+  EXPECT_FALSE(state().vessel_nudge.any()) << "what was left";
+  for (const char key : {'i', 'j', 'k', 'u', 'y', 'z'})
+    controller_.handle(press(static_cast<std::uint16_t>(key)));
+  EXPECT_FALSE(state().vessel_nudge.any());
+  choose(Action::vessel_opacity);
+  tread({2});
+  EXPECT_EQ(state().selected, Action::vessel_colours);
+  tread({2});
+  EXPECT_EQ(state().selected, Action::vessel_account) << "past what moves them";
+}
+
 TEST_F(Controller, the_vessels_place_is_kept_or_undone_by_a_turn_to_the_right) {
   EXPECT_FALSE(controller_.handle(press('m')).keep_registration);
   EXPECT_EQ(echo(), "none loaded");
@@ -268,11 +283,11 @@ TEST_F(Controller, long_presses_do_what_is_chosen_keep_a_picture_and_find_the_wi
 TEST_F(Controller, what_is_shown_is_turned_on_and_off) {
   choose(Action::vessels);
   turn(-1);
-  EXPECT_FALSE(state().vessels_visible);
+  EXPECT_EQ(state().vessels, VesselsShown::off);
   EXPECT_EQ(echo(), "none loaded");
   actions().set_vessels_loaded(true);
   turn(1);
-  EXPECT_TRUE(state().vessels_visible);
+  EXPECT_EQ(state().vessels, VesselsShown::both);
   EXPECT_EQ(echo(), "shown");
   choose(Action::box);
   turn(-1);
@@ -283,6 +298,38 @@ TEST_F(Controller, what_is_shown_is_turned_on_and_off) {
   EXPECT_TRUE(state().legend_visible);
   EXPECT_FALSE(state().legend_of_keys);
   EXPECT_FALSE(state().frozen);
+}
+
+TEST_F(Controller, of_flow_and_a_tree_either_or_both_are_shown) {
+  actions().set_vessels_loaded(true);
+  actions().set_flow_there(true);
+  std::vector<std::pair<VesselsShown, std::string>> seen;
+  for (int i = 0; i < 4; ++i) {
+    controller_.handle(press('v'));
+    seen.emplace_back(state().vessels, echo());
+  }
+  EXPECT_EQ(seen, (std::vector<std::pair<VesselsShown, std::string>>{
+                      {VesselsShown::off, "hidden"},
+                      {VesselsShown::flow, "flow"},
+                      {VesselsShown::tree, "tree"},
+                      {VesselsShown::both, "flow and tree"}}));
+  choose(Action::vessels);
+  turn(-1);
+  EXPECT_EQ(state().vessels, VesselsShown::tree);
+  actions().set_vessels_loaded(false);
+  turn(1);
+  EXPECT_EQ(echo(), "flow, no tree there");
+  turn(-1);
+  EXPECT_EQ(echo(), "tree: none there");
+}
+
+TEST_F(Controller, without_flow_vessels_are_shown_or_hidden) {
+  actions().set_vessels_loaded(true);
+  controller_.handle(press('v'));
+  EXPECT_EQ(state().vessels, VesselsShown::off);
+  controller_.handle(press('v'));
+  EXPECT_EQ(state().vessels, VesselsShown::both) << "flow, too, where some comes later";
+  EXPECT_EQ(echo(), "shown");
 }
 
 // Both at once are no chord: one foot that touches two switches does nothing unforeseen.
@@ -431,7 +478,7 @@ TEST_F(Controller, each_key_of_a_choice_goes_on_and_with_shift_back) {
   there_and_back('l', &ViewState::layout);
   there_and_back('d', &ViewState::stereo);
   controller_.handle(press('v'));
-  EXPECT_FALSE(state().vessels_visible);
+  EXPECT_EQ(state().vessels, VesselsShown::off);
   controller_.handle(press(Key::f1));
   EXPECT_TRUE(state().legend_visible);
   EXPECT_TRUE(state().legend_of_keys);

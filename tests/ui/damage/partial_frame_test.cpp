@@ -246,6 +246,51 @@ TEST_P(EveryChange, gives_the_picture_of_a_full_drawing) {
   }
 }
 
+TEST_P(EveryChange, with_flow_gives_the_picture_of_a_full_drawing) {
+  buffers_ = GetParam();
+  mixed_ = MixedVolume{true};
+  show_all();
+  compare("a volume with flow");
+  for (int round = 0; round < 2; ++round) {
+    for (const ui::VesselsShown shown : {ui::VesselsShown::off, ui::VesselsShown::flow}) {
+      view_.vessels = shown;
+      compare("flow, or none");
+      for (const auto& [from, to] : {BScanRange{0, 3}, {3, 7}, {7, 17}, {17, 30}}) {
+        renew(from, to);
+        compare("B-scans");
+      }
+      view_.b_scan = 5; // could not be told
+      compare("another B-scan");
+      view_.a_scan += 9;
+      compare("another A-scan");
+      for (const ui::Liveness liveness : {ui::Liveness::stale, ui::Liveness::live}) {
+        status_.freshness.liveness = liveness;
+        compare("liveness");
+      }
+      for (const ui::LayoutKind layout :
+           {ui::LayoutKind::b_scan, ui::LayoutKind::microscope, ui::LayoutKind::volume}) {
+        view_.layout = layout;
+        compare("a layout");
+        renew(2, 9);
+        compare("B-scans in it");
+      }
+      renew(4, 12, BScanState::missing);
+      compare("B-scans that are missing");
+      status_.now += seconds{20};
+      compare("an old microscope picture");
+      show_all();
+      compare("all of it");
+      view_.b_scan = 11;
+    }
+    mixed_.become(round == 0 ? mixed_.newer() : mixed_.older());
+    show_all();
+    compare("a whole volume");
+  }
+  mixed_ = MixedVolume{};
+  show_all();
+  compare("a volume without flow");
+}
+
 TEST_P(EveryChange, is_shown_whatever_became_of_images) {
   buffers_ = GetParam();
   show_all();
@@ -294,6 +339,7 @@ TEST_F(PartialFrame, draws_only_what_is_different) {
 }
 
 TEST_F(PartialFrame, allocates_nothing_once_it_runs) {
+  mixed_ = MixedVolume{true};
   show_all();
   bind(0);
   std::uint64_t before = 0;
@@ -304,6 +350,7 @@ TEST_F(PartialFrame, allocates_nothing_once_it_runs) {
     view_.yaw_deg = static_cast<float>(10 * i);
     view_.b_scan = i;
     view_.a_scan = 2 * i;
+    view_.vessels = i % 3 == 0 ? ui::VesselsShown::off : ui::VesselsShown::both;
     ASSERT_TRUE(renderer_->complete(mixed_.volume(), view_, quality_));
     ASSERT_TRUE(renderer_->draw(view_, status_, width_, height_, quality_, {image_, image_ - 1}));
     ++image_;

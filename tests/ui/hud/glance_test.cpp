@@ -154,6 +154,7 @@ struct State {
   std::string name;
   ViewState view;
   Status status;
+  FlowShown flow{};
 };
 
 std::vector<State> glance_states(const Legend& pedal, const Legend& keys) {
@@ -206,6 +207,28 @@ std::vector<State> glance_states(const Legend& pedal, const Legend& keys) {
   ViewState vessels;
   vessels.vessel_account = true;
   all.push_back({"vessels", vessels, eye});
+  const FlowShown flow{.shown = true,
+                       .b_scan = pipeline::FlowState::left_out,
+                       .told = 33,
+                       .left_out = 47,
+                       .deepest_mm = 1.2,
+                       .in_scope = true};
+  all.push_back({"flow", strip, live, flow});
+  all.push_back({"flow and vessels", vessels, eye, flow});
+  Status traced = live;
+  traced.vessels.state = VesselStatus::State::shown;
+  traced.vessels.registered = true;
+  traced.vessels.traced = TracedTreeStatus{.state = TracedTreeStatus::State::shown,
+                                           .age = std::chrono::seconds{9},
+                                           .vessels = 1234,
+                                           .length_mm = 987.6,
+                                           .refusal = {}};
+  all.push_back({"traced", view, traced});
+  traced.vessels.state = VesselStatus::State::none;
+  traced.vessels.traced->state = TracedTreeStatus::State::refused;
+  traced.vessels.traced->refusal =
+      "what flows stands out by 40 % from what does not, expected 70 %";
+  all.push_back({"refused", view, traced});
   Status scale = live;
   scale.configuration = ConfigurationState::built_in;
   scale.another_camera = true;
@@ -231,6 +254,7 @@ void draw(Drawn& drawn, const Fonts& fonts, const State& state, int width, int h
   scene.shown.geometry = small_geometry;
   scene.shown.geometry.refractive_index = 1.38;
   scene.shown.scope_time = state.status.now;
+  scene.shown.flow = state.flow;
   scene.shown.b_scan =
       state.status.missing_b_scans > 0 ? pipeline::BScanState::missing : pipeline::BScanState::good;
   scene.extents_mm = box_extents_mm(small_geometry);

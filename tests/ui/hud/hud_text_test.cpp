@@ -250,10 +250,45 @@ TEST(HudText, vessels_say_whether_they_are_where_they_seem_to_be) {
   EXPECT_EQ(troubles_of(status), Words{"vessels not registered"});
   EXPECT_EQ(badges_of(status), std::vector<std::string>{"VESSELS NOT REGISTERED"});
   ViewState hidden;
-  hidden.vessels_visible = false;
+  hidden.vessels = VesselsShown::off;
   EXPECT_EQ(compose_hud_text(hidden, status, {}).badge_count, 0U);
   status.vessels.registered = true;
   EXPECT_EQ(badges_of(status), std::vector<std::string>{});
+}
+
+TEST(HudText, flow_that_could_not_be_told_is_said) {
+  const Status status = live_status();
+  ShownPictures shown;
+  shown.volume = true;
+  shown.geometry = {512, 300, 80, 3.5, 10, 37.5};
+  shown.b_scan = pipeline::BScanState::good;
+  shown.scope = true;
+  shown.scope_time = status.now;
+  ViewState view;
+  view.figures = FiguresShown::strip;
+  EXPECT_EQ(compose_hud_text(view, status, shown).en_face.deepest.view(), "");
+  EXPECT_FALSE(compose_hud_text(view, status, shown).vessels.flow);
+  shown.flow = {.shown = true,
+                .b_scan = pipeline::FlowState::told,
+                .told = 60,
+                .left_out = 20,
+                .deepest_mm = 0.5,
+                .in_scope = true};
+  const HudText told = compose_hud_text(view, status, shown);
+  EXPECT_EQ(told.en_face.deepest.view(), "0.5 mm");
+  EXPECT_EQ(told.scope.deepest.view(), "0.5 mm");
+  EXPECT_EQ(told.b_scan.note.view(), "41 of 80");
+  EXPECT_EQ(told.figures.back().value.view(), "60 / 20");
+  EXPECT_EQ(told.trouble_count, 0U);
+  EXPECT_TRUE(told.vessels.flow);
+  EXPECT_FALSE(told.vessels.shown);
+  shown.flow.b_scan = pipeline::FlowState::left_out;
+  EXPECT_EQ(compose_hud_text(view, status, shown).b_scan.note.view(), "41 of 80, moved: no flow");
+  shown.flow.b_scan = pipeline::FlowState::none;
+  EXPECT_EQ(compose_hud_text(view, status, shown).b_scan.note.view(), "41 of 80, no flow");
+  shown.flow.left_out = 70;
+  shown.flow.told = 10;
+  EXPECT_EQ(compose_hud_text(view, status, shown).troubles[0].words.view(), "no flow: 87 % moved");
 }
 
 TEST(HudText, branches_are_named_in_the_hearts_arteries_only) {
@@ -292,6 +327,79 @@ TEST(HudText, vessels_say_how_well_they_were_registered) {
   EXPECT_EQ(told(), "residual unknown");
 }
 
+TEST(HudText, a_tree_that_is_followed_says_its_overlap_or_that_it_does_not_match) {
+  using State = FollowedTreeStatus::State;
+  Status status = live_status();
+  const auto told = [&](const ViewState& view = {}) {
+    return compose_hud_text(view, status, {}).vessels;
+  };
+  status.vessels.state = VesselStatus::State::shown;
+  status.vessels.registered = true;
+  status.vessels.residual_mm = 0.0143;
+  status.vessels.followed = FollowedTreeStatus{State::followed, 0.917};
+  EXPECT_EQ(told().registration.view(), "residual 14 µm, overlap 91 %");
+  EXPECT_EQ(told().tree.view(), "");
+  // Where somebody said that it lies, it stays, and is marked.
+  status.vessels.followed = FollowedTreeStatus{State::unmatched, 0};
+  EXPECT_TRUE(told().shown);
+  EXPECT_EQ(told().tree.view(), "vessels do not match");
+  EXPECT_TRUE(told().tree_old);
+  // Nowhere else: it is not drawn.
+  status.vessels.state = VesselStatus::State::none;
+  EXPECT_FALSE(told().shown);
+  EXPECT_EQ(told().tree.view(), "vessels do not match");
+  const HudText hud = compose_hud_text({}, status, {});
+  ASSERT_GT(hud.trouble_count, 0U);
+  EXPECT_EQ(hud.troubles[hud.trouble_count - 1].words.view(), "vessels do not match");
+  status.vessels.followed = FollowedTreeStatus{};
+  EXPECT_EQ(told().tree.view(), "vessels not placed yet");
+  EXPECT_FALSE(told().tree_old);
+  ViewState hidden;
+  hidden.vessels = VesselsShown::off;
+  EXPECT_EQ(told(hidden).tree.view(), "") << "nobody wants to see them";
+}
+
+TEST(HudText, a_tree_that_is_old_is_marked_and_one_that_is_not_drawn_has_its_reason) {
+  using State = TracedTreeStatus::State;
+  using Words = std::vector<std::string>;
+  Status status = live_status();
+  const auto told = [&](const ViewState& view = {}) {
+    return compose_hud_text(view, status, {}).vessels;
+  };
+  EXPECT_EQ(told().tree.view(), "");
+  status.vessels.state = VesselStatus::State::shown;
+  status.vessels.registered = true;
+  status.vessels.traced = TracedTreeStatus{.state = State::shown,
+                                           .age = std::chrono::milliseconds{999},
+                                           .vessels = 12,
+                                           .length_mm = 8.34,
+                                           .refusal = {}};
+  EXPECT_EQ(told().tree.view(), "tree < 1 s old, 12 vessels, 8.3 mm");
+  EXPECT_EQ(told().registration.view(), "") << "it was traced where it is";
+  EXPECT_FALSE(told().tree_old);
+  EXPECT_EQ(troubles_of(status), Words{});
+  status.vessels.traced->age = TracedTreeStatus::old_after - std::chrono::milliseconds{1};
+  EXPECT_EQ(told().tree.view(), "tree 2 s old, 12 vessels, 8.3 mm");
+  EXPECT_FALSE(told().tree_old);
+  status.vessels.traced->age = TracedTreeStatus::old_after;
+  EXPECT_TRUE(told().tree_old);
+  EXPECT_EQ(troubles_of(status), Words{"tree 3 s old"});
+  ViewState hidden;
+  hidden.vessels = VesselsShown::off;
+  EXPECT_EQ(told(hidden).tree.view(), "");
+
+  status.vessels.state = VesselStatus::State::none;
+  status.vessels.traced->state = State::removed;
+  status.vessels.traced->age = std::chrono::seconds{75};
+  EXPECT_EQ(told().tree.view(), "no tree: the last is 75 s old");
+  EXPECT_FALSE(told().shown);
+  EXPECT_EQ(troubles_of(status), Words{"no vessel tree"});
+  status.vessels.traced->state = State::refused;
+  status.vessels.traced->refusal = "no vessel was found";
+  EXPECT_EQ(told().tree.view(), "no tree: no vessel was found");
+  EXPECT_EQ(troubles_of(status), Words{"no vessel tree"});
+}
+
 TEST(HudText, merged_vessels_and_their_account_are_told) {
   Status status = live_status();
   status.vessels.state = VesselStatus::State::shown;
@@ -318,7 +426,7 @@ TEST(HudText, vessels_that_a_flat_picture_leaves_out_are_told) {
   status.vessels.account.merged = 3;
   EXPECT_EQ(compose_hud_text(view, status, shown).facts[2].view(),
             "thinnest vessels merged or left out");
-  view.vessels_visible = false;
+  view.vessels = VesselsShown::flow;
   EXPECT_EQ(compose_hud_text(view, status, shown).facts[2].view(), "");
 }
 

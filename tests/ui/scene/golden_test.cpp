@@ -1,5 +1,6 @@
 // Golden pictures: the whole display against pictures kept in tests/golden, in a typeface of blocks
 // (tests/ui/support/block_typeface.h).
+#include "pipeline/volume/flow_scale.h"
 #include "tests/ui/support/block_typeface.h"
 #include "tests/ui/support/golden.h"
 #include "tests/ui/support/renderer_stage.h"
@@ -28,6 +29,15 @@ TEST_F(GoldenPicture, live_tissue_at_1280x720) {
 TEST_F(GoldenPicture, live_tissue_at_640x360) {
   const auto volume = tissue_volume(full_geometry);
   expect_golden(draw(&volume, {}, live_status(), 640, 360), "live_640x360");
+}
+
+TEST_F(GoldenPicture, what_flows) {
+  auto volume = perfused_volume(full_geometry);
+  for (int b = 20; b < 24; ++b) {
+    std::ranges::fill(volume.b_scan_flow(b), pipeline::flow_untold);
+    volume.flow_states[static_cast<std::size_t>(b)] = pipeline::FlowState::left_out;
+  }
+  expect_golden(draw(&volume, {}, live_status(), 1280, 720), "flow_1280x720");
 }
 
 TEST_F(GoldenPicture, incomplete_and_stale) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/volume/flow_scale.h"
 #include "pipeline/volume/occupancy.h"
 #include "tests/ui/support/synthetic_volume.h"
 
@@ -13,7 +14,9 @@ namespace octascope::tests {
 
 class MixedVolume {
 public:
-  MixedVolume() {
+  explicit MixedVolume(bool with_flow = false) {
+    if (with_flow)
+      add_flow();
     for (pipeline::Volume* volume : {&older_, &newer_}) {
       volume->occupancy = pipeline::Occupancy{volume->geometry, pipeline::blank_depth_bins};
       volume->occupancy.update(*volume);
@@ -30,16 +33,41 @@ public:
   // Takes these of the newer one; says what has changed, the seam included.
   pipeline::BScanRange renew(int from, int to,
                              pipeline::BScanState state = pipeline::BScanState::good) {
-    for (int b = from; b < to; ++b)
+    for (int b = from; b < to; ++b) {
       copy(newer_.b_scan(b), b, state);
+      if (newer_.has_flow())
+        copy_flow(newer_.b_scan_flow(b), b, newer_.flow_states[static_cast<std::size_t>(b)]);
+    }
     const bool seam = to < mixed_.geometry.b_scans;
-    if (seam)
-      copy(std::vector<std::uint8_t>(mixed_.geometry.b_scan_voxels()), to,
-           pipeline::BScanState::seam);
+    if (seam) {
+      const std::vector<std::uint8_t> blank(mixed_.geometry.b_scan_voxels());
+      copy(blank, to, pipeline::BScanState::seam);
+      if (mixed_.has_flow())
+        copy_flow(blank, to, pipeline::FlowState::none);
+    }
     return {from, seam ? to + 1 : to};
   }
 
 private:
+  // Of the newer one, two could not be told.
+  void add_flow() {
+    const pipeline::Volume perfused = perfused_volume(small_geometry);
+    for (pipeline::Volume* volume : {&older_, &newer_}) {
+      volume->flow = perfused.flow;
+      volume->flow_states = perfused.flow_states;
+    }
+    std::ranges::rotate(newer_.flow, newer_.flow.begin() + 4L * newer_.geometry.depths);
+    for (const int b : {5, 13}) {
+      std::ranges::fill(newer_.b_scan_flow(b), pipeline::flow_untold);
+      newer_.flow_states[static_cast<std::size_t>(b)] = pipeline::FlowState::left_out;
+    }
+  }
+
+  void copy_flow(std::span<const std::uint8_t> flow, int b, pipeline::FlowState state) {
+    std::ranges::copy(flow, mixed_.b_scan_flow(b).begin());
+    mixed_.flow_states[static_cast<std::size_t>(b)] = state;
+  }
+
   void copy(std::span<const std::uint8_t> levels, int b, pipeline::BScanState state) {
     std::ranges::copy(levels, mixed_.b_scan(b).begin());
     mixed_.b_scan_states[static_cast<std::size_t>(b)] = state;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "pipeline/volume/flow_scale.h"
 #include "pipeline/volume/level_scale.h"
 
 namespace octascope::tests {
@@ -58,7 +59,42 @@ double level_at(const PointMm& p) {
   return std::max(4.0, 33 - 24 * (below - 0.17));
 }
 
+// 0 to 1; the walls are a ramp of 20 µm.
+double flow_at(const PointMm& p) {
+  constexpr std::array<std::array<double, 4>, 8> vessels{{{0.5, 0.25, 0.25, 0.07},
+                                                          {1.5, -0.12, 0.33, 0.1},
+                                                          {2.6, -0.4, 0.22, 0.05},
+                                                          {0.2, 0.6, 0.5, 0.02},
+                                                          {0.9, 0.5, 0.45, 0.03},
+                                                          {1.9, -0.55, 0.55, 0.02},
+                                                          {2.9, -0.7, 0.6, 0.03},
+                                                          {1.2, 0.35, 0.15, 0.02}}};
+  double flow = 0;
+  for (const auto& [start, drift, depth, radius] : vessels)
+    flow = std::max(flow, (radius - vessel_distance(p, start, drift, depth)) / 0.02 + 0.5);
+  return std::min(flow, 1.0);
+}
+
 } // namespace
+
+pipeline::Volume perfused_volume(const pipeline::VolumeGeometry& g) {
+  pipeline::Volume volume = tissue_volume(g);
+  volume.add_flow();
+  auto voxel = volume.flow.begin();
+  for (int b = 0; b < g.b_scans; ++b)
+    for (int a = 0; a < g.a_scans; ++a)
+      for (int z = 0; z < g.depths; ++z, ++voxel) {
+        const PointMm p{(a + 0.5) * g.a_spacing_um * 1e-3, (b + 0.5) * g.b_spacing_um * 1e-3,
+                        (z + 0.5) * g.depth_spacing_um * 1e-3};
+        const double noise =
+            0.2 * uniform_noise(static_cast<std::uint32_t>(z), static_cast<std::uint32_t>(a),
+                                static_cast<std::uint32_t>(b));
+        if (p.z > surface_mm(p.a, p.b))
+          *voxel = pipeline::quantise_flow(static_cast<float>(std::max(noise, flow_at(p))));
+      }
+  std::ranges::fill(volume.flow_states, pipeline::FlowState::told);
+  return volume;
+}
 
 pipeline::Volume uniform_volume(const pipeline::VolumeGeometry& geometry, std::uint8_t count) {
   pipeline::Volume volume{geometry};

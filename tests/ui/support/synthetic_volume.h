@@ -18,6 +18,10 @@ pipeline::Volume ball_volume(int n, double radius_mm);
 // machine.
 pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& geometry);
 
+// The same, perfused: its vessels and finer ones below them flow, the rest of the tissue is static, and
+// nothing is told above it.
+pipeline::Volume perfused_volume(const pipeline::VolumeGeometry& geometry);
+
 // How often its levels occur.
 ui::LevelShares level_shares(const pipeline::Volume& volume);
 

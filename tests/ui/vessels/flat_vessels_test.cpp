@@ -308,7 +308,7 @@ protected:
   // Pixels that the vessels change in B-scan, crossed one, en face and microscope.
   std::array<int, 4> changes() {
     ui::ViewState hidden = view_;
-    hidden.vessels_visible = false;
+    hidden.vessels = ui::VesselsShown::off;
     const pipeline::Image with = draw(view_, status_);
     const pipeline::Image without = draw(hidden, status_);
     const ui::Layout at = places();
@@ -377,7 +377,7 @@ TEST_F(VesselsInPanels, are_not_drawn_over_a_live_microscope_picture_from_an_old
 TEST_F(VesselsInPanels, lie_in_both_eyes_pictures) {
   view_.stereo = ui::StereoMode::side_by_side;
   ui::ViewState hidden = view_;
-  hidden.vessels_visible = false;
+  hidden.vessels = ui::VesselsShown::off;
   const pipeline::Image with = draw(view_, status_);
   const pipeline::Image without = draw(hidden, status_);
   const ui::Rect b_scan = places().b_scan.picture;

@@ -267,9 +267,9 @@ TEST_F(VesselOverlayTest, where_there_is_no_vessel_the_picture_is_the_volumes) {
     ASSERT_TRUE(painter_->show_vessels({}, clock_));
     const auto alone = draw(view, way.backend);
     ASSERT_TRUE(painter_->show_vessels(placed(tree, g, 0.4), clock_));
-    view.vessels_visible = false;
+    view.vessels = ui::VesselsShown::off;
     EXPECT_EQ(draw(view, way.backend), alone) << way.name << ": hidden";
-    view.vessels_visible = true;
+    view.vessels = ui::VesselsShown::both;
     view.vessel_opacity = 0;
     EXPECT_EQ(draw(view, way.backend), alone) << way.name << ": with no opacity";
     for (const float opacity : {1.0F, 0.4F}) {

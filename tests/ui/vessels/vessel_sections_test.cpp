@@ -282,9 +282,9 @@ TEST_F(VesselSectionsTest, are_none_without_a_registration_or_far_away_or_hidden
   sections_.show({tree.view(), {}, elsewhere});
   EXPECT_EQ(count(), 0) << "registered to another place";
   show(tree);
-  view_.vessels_visible = false;
+  view_.vessels = ui::VesselsShown::off;
   EXPECT_EQ(count(), 0) << "hidden";
-  view_.vessels_visible = true;
+  view_.vessels = ui::VesselsShown::both;
   view_.vessel_opacity = 0;
   EXPECT_EQ(count(), 0) << "without opacity";
   view_.vessel_opacity = 1;

@@ -35,7 +35,7 @@ void VesselOverlay::show(const PlacedVessels& vessels) {
 }
 
 bool VesselOverlay::shows(const ViewState& view) const {
-  return view.vessels_visible && view.vessel_opacity > 0 && !vessels_.tree.clusters.empty();
+  return shows_tree(view) && view.vessel_opacity > 0 && !vessels_.tree.clusters.empty();
 }
 
 hal::Result<std::optional<DepthMask>> VesselOverlay::update(const Request& request) {

@@ -57,7 +57,7 @@ VesselColour colour_of(const NearSegment& segment, VesselColouring colouring) {
 }
 
 bool draws(const ViewState& view) {
-  return view.vessels_visible && view.vessel_opacity > 0;
+  return shows_tree(view) && view.vessel_opacity > 0;
 }
 
 // Only what lies nearer to the plane than that is left of it. False if nothing is.

@@ -140,7 +140,17 @@ sim::TissueMotion bench_motion() {
   return {.axial = {{10, 20}}, .lateral = {}};
 }
 
-hal::Result<FlowBenchReport> bench_flow(const FlowBenchOptions& options,
+hal::Result<pipeline::TracedVessels> trace_bench_scene(int repeats) {
+  HAL_TRY(const auto phantom, sim::suggested_loop("perfused"));
+  HAL_TRY(const auto sweeps,
+          sim::simulate_repeats(scene_config(phantom, repeats, pipeline::ScanPlan{}.b_scans)));
+  HAL_TRY(const auto reconstructor, make_reconstructor(sweeps));
+  FlowMeasurement measurement{sweeps, reconstructor};
+  HAL_CHECK(measurement.run());
+  return pipeline::trace_vessels(sweeps.plan().geometry(), measurement.results().front().flow);
+}
+
+hal::Result<FlowBenchReport> bench_flow(const FlowBenchOptions& options, const FlowProbe& probe,
                                         const std::function<void(const std::string&)>& progress) {
   HAL_TRY(const auto phantom, sim::suggested_loop("perfused"));
   FlowBenchReport report;
@@ -161,8 +171,16 @@ hal::Result<FlowBenchReport> bench_flow(const FlowBenchOptions& options,
                               .method = methods[i],
                               .left_out_b_scans = result.left_out_b_scans,
                               .flow = std::move(result.tally).figures(),
-                              .tree = std::move(tree)});
+                              .tree = std::move(tree),
+                              .live = {}});
     }
+  }
+  // Their memory is given back by now.
+  for (FlowBenchCase& what : report.cases) {
+    if (what.method != FlowMethod::complex_bins)
+      continue;
+    progress(fmt::format("{} repeats: live", what.repeats));
+    HAL_TRY(what.live, probe(what.repeats));
   }
   return report;
 }

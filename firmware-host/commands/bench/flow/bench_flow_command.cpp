@@ -1,5 +1,6 @@
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ struct BenchFlowArguments {
   int b_scans = FlowBenchOptions{}.b_scans;
 };
 
-int run(const BenchFlowArguments& arguments) {
+int run(const BenchFlowArguments& arguments, const FlowProbe& probe) {
   FlowBenchOptions options;
   options.b_scans = arguments.b_scans;
   if (arguments.repeats > 0)
@@ -32,7 +33,7 @@ int run(const BenchFlowArguments& arguments) {
     if (terminal)
       show_progress(words);
   };
-  const auto report = bench_flow(options, progress);
+  const auto report = bench_flow(options, probe, progress);
   progress("");
   if (!report)
     return complain("bench flow", report.error());
@@ -43,7 +44,7 @@ int run(const BenchFlowArguments& arguments) {
 
 } // namespace
 
-void add_bench_flow_command(CLI::App& bench, int& exit_status) {
+void add_bench_flow_command(CLI::App& bench, int& exit_status, FlowProbe probe) {
   auto arguments = std::make_shared<BenchFlowArguments>();
   CLI::App* command = bench.add_subcommand(
       "flow", "How well flow and vessels found in simulated spectra agree with "
@@ -58,10 +59,12 @@ void add_bench_flow_command(CLI::App& bench, int& exit_status) {
                    fmt::format("The middle ones of the phantom's ({} if not given: all)",
                                arguments->b_scans))
       ->check(within(1, arguments->b_scans));
-  command->footer("Figures of the flow volume and of the tree traced in it, not of a running "
-                  "display.\n"
+  command->footer("Figures of the flow volume and of the tree traced in it, and of a run of ten "
+                  "seconds on\nthe simulated devices: at 215 kHz, with 4 repeats at 860 kHz.\n"
                   "Example: octascope bench flow --repeats 2 --json");
-  command->callback([arguments, &exit_status] { exit_status = run(*arguments); });
+  command->callback([arguments, probe = std::move(probe), &exit_status] {
+    exit_status = run(*arguments, probe);
+  });
 }
 
 } // namespace octascope::firmware_host

@@ -60,23 +60,43 @@ Json centreline_error(const TreeFigures& tree) {
           {"p95_along_b_scans", rounded_figure(b_scans.p95_um)}};
 }
 
+// Null of the method that no run uses.
+void add_live(Json& json, const std::optional<LiveFlowFigures>& live) {
+  const auto figure = [&](double LiveFlowFigures::*value) {
+    return live ? Json(rounded_figure((*live).*value)) : Json();
+  };
+  json["angiograms_per_s"] = figure(&LiveFlowFigures::angiograms_per_s);
+  json["lost_lines"] = figure(&LiveFlowFigures::lost_lines);
+  json["live"] = nullptr;
+  if (live)
+    json["live"] = {{"line_rate_hz", live->line_rate_hz},
+                    {"planned_per_s", figure(&LiveFlowFigures::planned_per_s)},
+                    {"compared_share", figure(&LiveFlowFigures::compared_share)},
+                    {"left_out_share", figure(&LiveFlowFigures::left_out_share)},
+                    {"b_scan_ms",
+                     {{"p50", figure(&LiveFlowFigures::b_scan_ms_p50)},
+                      {"p95", figure(&LiveFlowFigures::b_scan_ms_p95)}}}};
+}
+
 Json json_of(const FlowBenchCase& what) {
   Json by_radius = Json::object();
   for (std::size_t bin = 0; bin < radius_bins; ++bin)
     by_radius[radius_name(bin)] = what.flow.flowing_by_radius[bin] > 0
                                       ? Json(rounded_figure(what.flow.detected_by_radius[bin]))
                                       : Json();
-  return {{"repeats", what.repeats},
-          {"method", name_of(what.method)},
-          {"voxels", what.flow.voxels},
-          {"told_share", rounded_figure(what.flow.told_share)},
-          {"auc", rounded_figure(what.flow.auc)},
-          {"false_positive_share", rounded_figure(what.flow.false_positive_share)},
-          {"detected_share", rounded_figure(what.flow.detected_share)},
-          {"detected_share_by_radius_um", std::move(by_radius)},
-          {"left_out_b_scans", what.left_out_b_scans},
-          {"centreline_error_um", centreline_error(what.tree)},
-          {"tree", json_of(what.tree)}};
+  Json json{{"repeats", what.repeats},
+            {"method", name_of(what.method)},
+            {"voxels", what.flow.voxels},
+            {"told_share", rounded_figure(what.flow.told_share)},
+            {"auc", rounded_figure(what.flow.auc)},
+            {"false_positive_share", rounded_figure(what.flow.false_positive_share)},
+            {"detected_share", rounded_figure(what.flow.detected_share)},
+            {"detected_share_by_radius_um", std::move(by_radius)},
+            {"left_out_b_scans", what.left_out_b_scans},
+            {"centreline_error_um", centreline_error(what.tree)},
+            {"tree", json_of(what.tree)}};
+  add_live(json, what.live);
+  return json;
 }
 
 std::string tree_text(const TreeFigures& tree) {
@@ -129,6 +149,20 @@ std::string to_text(const FlowBenchReport& report) {
     if (what.left_out_b_scans > 0)
       fmt::format_to(end, "         {} B-scans left out: moved too far\n", what.left_out_b_scans);
   }
+  text +=
+      "\nLive, with a display: volumes with flow in all B-scans, and planned; B-scans that there "
+      "was\n"
+      "time to compare, and of them left out; a worker's time for one, median and p95.\n\n"
+      "repeats   line rate  angiograms/s  planned   lost lines  compared  left out     ms    p95\n";
+  for (const FlowBenchCase& what : report.cases)
+    if (what.live)
+      fmt::format_to(end,
+                     "{:>7} {:>7.0f} kHz {:>13.2f} {:>8.2f} {:>12.0f} {:>7.1f} % {:>7.1f} % "
+                     "{:>6.2f} {:>6.2f}\n",
+                     what.repeats, what.live->line_rate_hz * 1e-3, what.live->angiograms_per_s,
+                     what.live->planned_per_s, what.live->lost_lines,
+                     100 * what.live->compared_share, 100 * what.live->left_out_share,
+                     what.live->b_scan_ms_p50, what.live->b_scan_ms_p95);
   return text;
 }
 

@@ -1,0 +1,112 @@
+#include "firmware-host/vessels/live_tree.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pipeline/vessels/clusters/cluster_builder.h"
+#include "pipeline/vessels/clusters/cluster_facts.h"
+#include "pipeline/vessels/tracing/vessel_tracer.h"
+#include "pipeline/vessels/tree_summary.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+// Each branch point joins three vessels or more, and makes one of them two or more.
+std::uint64_t vessels_of(const pipeline::VesselTree& tree) {
+  std::vector<std::uint8_t> children(tree.nodes());
+  for (const std::uint32_t parent : tree.parents)
+    if (parent != pipeline::no_parent)
+      children[parent] = static_cast<std::uint8_t>(std::min(children[parent] + 1, 2));
+  std::uint64_t ends = 0; // of vessels, away from their root
+  for (std::size_t i = 0; i < tree.nodes(); ++i)
+    ends += tree.parents[i] != pipeline::no_parent && children[i] != 1 ? 1U : 0U;
+  return ends;
+}
+
+void pack(LiveTree& found, const std::stop_token& stop) {
+  if (!found.refusal.empty() || found.tree.nodes() == 0)
+    return;
+  pipeline::ClusterArrays arrays = pipeline::build_clusters(found.tree, stop);
+  auto facts = pipeline::facts_of(found.tree, arrays.error, "traced in the live volume");
+  found.packed.emplace(std::move(arrays), std::move(facts));
+  found.vessels = vessels_of(found.tree);
+  found.length_mm = pipeline::summarise(found.tree).length_mm;
+}
+
+} // namespace
+
+LiveTreeThread::LiveTreeThread(hal::Clock& clock, pipeline::Wakeup& news,
+                               pipeline::ThreadSetup setup)
+    : clock_{clock}, news_{news}, setup_{std::move(setup)} {}
+
+LiveTreeThread::~LiveTreeThread() {
+  stop_.request_stop();
+}
+
+void LiveTreeThread::offer(const pipeline::Volume& volume) {
+  if (!volume.has_flow() || turn_.load(std::memory_order_acquire) != Turn::idle)
+    return;
+  if (!thread_.started()) {
+    geometry_ = volume.geometry;
+    turn_.store(Turn::starting, std::memory_order_relaxed);
+    thread_.start({"tree"}, setup_, [this] { run(); });
+    return;
+  }
+  const hal::TimePoint now = clock_.now();
+  if (offered_ && (volume.metadata.index == offered_index_ || now - *offered_ < least_interval))
+    return;
+  offered_ = now;
+  offered_index_ = volume.metadata.index;
+  geometry_ = volume.geometry;
+  flow_.assign(volume.flow.begin(), volume.flow.end());
+  tree_ = std::make_shared<LiveTree>();
+  tree_->of_volume = volume.metadata.last_line;
+  tree_->volume_index = volume.metadata.index;
+  tree_->number = ++count_;
+  turn_.store(Turn::at_work, std::memory_order_release);
+  wakeup_.post();
+}
+
+std::shared_ptr<const LiveTree> LiveTreeThread::take() {
+  if (turn_.load(std::memory_order_acquire) != Turn::finished)
+    return nullptr;
+  refused_ += tree_->refusal.empty() ? 0U : 1U;
+  std::shared_ptr<const LiveTree> found = std::move(tree_);
+  turn_.store(Turn::idle, std::memory_order_relaxed);
+  return found;
+}
+
+LiveTreeThread::Counters LiveTreeThread::counters() const {
+  const pipeline::DurationSummary took = took_.summary();
+  return {took.count - std::min(refused_, took.count), refused_, took};
+}
+
+void LiveTreeThread::run() {
+  flow_.resize(geometry_.voxels());
+  turn_.store(Turn::idle, std::memory_order_release);
+  news_.post();
+  while (!thread_.stopping()) {
+    wakeup_.wait();
+    if (!thread_.stopping() && turn_.load(std::memory_order_acquire) == Turn::at_work)
+      trace();
+  }
+}
+
+void LiveTreeThread::trace() {
+  const hal::TimePoint begin = clock_.now();
+  auto traced = pipeline::trace_vessels(geometry_, flow_, stop_.get_token());
+  if (traced) {
+    tree_->tree = std::move(traced->tree);
+    tree_->quality = traced->quality;
+    tree_->refusal = std::move(traced->refusal);
+  } else {
+    tree_->refusal = traced.error().message;
+  }
+  pack(*tree_, stop_.get_token());
+  took_.add(clock_.now() - begin);
+  turn_.store(Turn::finished, std::memory_order_release);
+  news_.post();
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,228 @@
+// Trees traced beside the display: what is traced, what is drawn of it, and for how long.
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <thread>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "firmware-host/vessels/live_tree_display.h"
+#include "hal/linux/monotonic_clock.h"
+#include "pipeline/vessels/files/swc_reader.h"
+#include "pipeline/vessels/tracing/vessel_tracer.h"
+#include "sim/clock/virtual_clock.h"
+#include "tests/support/files/scratch_folder.h"
+#include "tests/support/must.h"
+#include "tests/support/vessels/live_flow.h"
+
+namespace octascope::firmware_host {
+namespace {
+
+using namespace std::chrono_literals;
+using State = ui::TracedTreeStatus::State;
+using tests::live_flow;
+using tests::moved_flow;
+
+class LiveTreeTest : public testing::Test {
+protected:
+  // The volume's last line was exposed now.
+  pipeline::Volume stamped(pipeline::Volume volume) {
+    volume.metadata.index = ++volumes_;
+    volume.metadata.last_line = clock_.now();
+    return volume;
+  }
+  // Calls `step`, which moves no clock, until it has done what it should.
+  static bool await(const std::function<bool()>& step) {
+    for (int i = 0; i < 10'000; ++i) {
+      if (step())
+        return true;
+      std::this_thread::sleep_for(1ms);
+    }
+    return false;
+  }
+
+  sim::VirtualClock clock_;
+  pipeline::Wakeup news_;
+  std::uint64_t volumes_ = 0;
+};
+
+class LiveTreeThreadTest : public LiveTreeTest {
+protected:
+  // What becomes of the volume.
+  std::shared_ptr<const LiveTree> traced(const pipeline::Volume& volume) {
+    std::shared_ptr<const LiveTree> found;
+    EXPECT_TRUE(await([&] {
+      thread_.offer(volume);
+      found = thread_.take();
+      return found != nullptr;
+    }));
+    return found;
+  }
+
+  LiveTreeThread thread_{clock_, news_};
+};
+
+TEST_F(LiveTreeThreadTest, traces_what_flows_in_the_volume) {
+  const pipeline::Volume volume = stamped(live_flow());
+  const hal::TimePoint exposed = clock_.now();
+  const auto found = traced(volume);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->refusal, "");
+  EXPECT_EQ(found->number, 1U);
+  EXPECT_EQ(found->of_volume, exposed);
+  EXPECT_EQ(found->volume_index, volume.metadata.index);
+  const auto alone = pipeline::trace_vessels(volume.geometry, volume.flow);
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(found->tree.positions_mm, alone->tree.positions_mm);
+  EXPECT_EQ(found->quality, alone->quality);
+  EXPECT_EQ(found->packed.value().clusters().segments,
+            found->tree.nodes() - static_cast<std::size_t>(std::ranges::count(
+                                      found->tree.parents, pipeline::no_parent)));
+  EXPECT_EQ(found->vessels, 3U);
+  EXPECT_NEAR(found->length_mm, 5.2, 0.4);
+  EXPECT_EQ(thread_.counters().traced, 1U);
+  EXPECT_EQ(thread_.counters().refused, 0U);
+  EXPECT_EQ(thread_.counters().took.count, 1U);
+}
+
+TEST_F(LiveTreeThreadTest, says_why_there_is_none) {
+  const auto found = traced(stamped(moved_flow()));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->refusal, "40 of 40 B-scans flow as a whole: motion, not vessels");
+  EXPECT_EQ(found->tree.nodes(), 0U);
+  EXPECT_FALSE(found->packed);
+  EXPECT_EQ(thread_.counters().traced, 0U);
+  EXPECT_EQ(thread_.counters().refused, 1U);
+}
+
+TEST_F(LiveTreeThreadTest, leaves_volumes_without_flow_and_those_that_it_had) {
+  const pipeline::Volume without = stamped(pipeline::Volume{live_flow().geometry});
+  for (int i = 0; i < 20; ++i) {
+    thread_.offer(without);
+    std::this_thread::sleep_for(1ms);
+  }
+  const pipeline::Volume volume = stamped(live_flow());
+  ASSERT_EQ(traced(volume)->number, 1U);
+  clock_.advance(1s);
+  thread_.offer(volume);
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(thread_.take(), nullptr) << "it had this one";
+  EXPECT_EQ(traced(stamped(live_flow()))->number, 2U);
+}
+
+TEST_F(LiveTreeThreadTest, traces_no_more_often_than_its_interval) {
+  ASSERT_TRUE(traced(stamped(live_flow())));
+  clock_.advance(LiveTreeThread::least_interval - 1ms);
+  thread_.offer(stamped(live_flow()));
+  std::this_thread::sleep_for(50ms);
+  EXPECT_EQ(thread_.take(), nullptr);
+  clock_.advance(1ms);
+  EXPECT_TRUE(traced(stamped(live_flow())));
+}
+
+// The render thread goes on to the next volume at once, and its memory is filled anew.
+TEST_F(LiveTreeThreadTest, has_a_copy_of_what_it_works_on) {
+  pipeline::Volume volume = stamped(live_flow());
+  const auto alone = pipeline::trace_vessels(volume.geometry, volume.flow);
+  ASSERT_TRUE(await([&] {
+    thread_.offer(volume);
+    return thread_.is_at_work();
+  }));
+  std::ranges::fill(volume.flow, pipeline::flow_untold);
+  std::shared_ptr<const LiveTree> found;
+  ASSERT_TRUE(await([&] { return (found = thread_.take()) != nullptr; }));
+  EXPECT_EQ(found->tree.positions_mm, alone->tree.positions_mm);
+}
+
+TEST_F(LiveTreeThreadTest, ends_in_the_middle_of_a_tree) {
+  const hal::linux_backend::MonotonicClock clock;
+  auto thread = std::make_unique<LiveTreeThread>(clock_, news_);
+  const pipeline::Volume volume = stamped(live_flow());
+  ASSERT_TRUE(await([&] {
+    thread->offer(volume);
+    return thread->is_at_work();
+  }));
+  thread.reset(); // under the sanitizers: nothing is left behind
+}
+
+class LiveTreeDisplayTest : public LiveTreeTest {
+protected:
+  // Until the volume's tree, or refusal, has come.
+  void show(const pipeline::Volume& volume) {
+    ASSERT_TRUE(await([&] {
+      display_.advance(&volume, false);
+      return display_.newest() != nullptr &&
+             display_.newest()->volume_index == volume.metadata.index;
+    }));
+  }
+
+  LiveTreeDisplay display_{clock_, news_};
+};
+
+TEST_F(LiveTreeDisplayTest, draws_the_newest_tree_and_none_that_is_refused) {
+  show(stamped(live_flow()));
+  ASSERT_NE(display_.drawn(), nullptr);
+  EXPECT_EQ(display_.status()->state, State::shown);
+  EXPECT_EQ(display_.status()->vessels, 3U);
+  clock_.advance(1s);
+  show(stamped(moved_flow()));
+  EXPECT_EQ(display_.drawn(), nullptr);
+  EXPECT_EQ(display_.status()->state, State::refused);
+  EXPECT_EQ(display_.status()->refusal, "40 of 40 B-scans flow as a whole");
+  clock_.advance(1s);
+  show(stamped(live_flow()));
+  EXPECT_EQ(display_.drawn(), display_.newest().get());
+}
+
+TEST_F(LiveTreeDisplayTest, tells_the_age_and_removes_a_tree_that_is_old) {
+  const pipeline::Volume volume = stamped(live_flow());
+  show(volume);
+  clock_.advance(ui::TracedTreeStatus::removed_after - 1ms);
+  EXPECT_FALSE(display_.advance(&volume, false));
+  EXPECT_NE(display_.drawn(), nullptr);
+  EXPECT_EQ(display_.status()->age, ui::TracedTreeStatus::removed_after - 1ms);
+  clock_.advance(1ms);
+  EXPECT_TRUE(display_.advance(&volume, false)) << "another picture";
+  EXPECT_EQ(display_.drawn(), nullptr);
+  EXPECT_EQ(display_.status()->state, State::removed);
+}
+
+// As old as when the picture stood still, and then the frozen volume's own.
+TEST_F(LiveTreeDisplayTest, keeps_the_tree_of_a_frozen_picture) {
+  show(stamped(live_flow()));
+  clock_.advance(LiveTreeThread::least_interval / 2);
+  const pipeline::Volume frozen = stamped(live_flow());
+  display_.advance(&frozen, true);
+  EXPECT_EQ(display_.status()->age, LiveTreeThread::least_interval / 2);
+  clock_.advance(10min);
+  ASSERT_TRUE(await([&] {
+    display_.advance(&frozen, true);
+    return display_.newest()->volume_index == frozen.metadata.index;
+  }));
+  EXPECT_EQ(display_.status()->age, 0s);
+  EXPECT_EQ(display_.drawn(), display_.newest().get());
+  display_.advance(&frozen, false);
+  EXPECT_EQ(display_.drawn(), nullptr) << "live again, it is ten minutes old";
+}
+
+TEST_F(LiveTreeDisplayTest, keeps_the_drawn_tree_in_a_file_for_its_owner) {
+  const tests::ScratchFolder folder;
+  display_.keep(folder / ".");
+  EXPECT_FALSE(display_.take_kept()) << "none is drawn";
+  show(stamped(live_flow()));
+  display_.keep(folder / ".");
+  std::optional<hal::Result<std::filesystem::path>> kept;
+  ASSERT_TRUE(await([&] { return (kept = display_.take_kept()).has_value(); }));
+  const std::filesystem::path file = tests::must(std::move(*kept));
+  pipeline::TreeReadOptions options;
+  options.forest = true;
+  const auto read = tests::must(pipeline::read_swc(file, options));
+  EXPECT_EQ(read.tree.positions_mm, display_.drawn()->tree.positions_mm);
+  EXPECT_EQ(std::filesystem::status(file).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+}
+
+} // namespace
+} // namespace octascope::firmware_host

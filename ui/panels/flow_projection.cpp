@@ -1,0 +1,128 @@
+#include "ui/panels/flow_projection.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+#include "ui/transfer/flow_look.h"
+
+namespace octascope::ui {
+
+namespace {
+
+constexpr int block = 16; // depths of which the highest is found by vectors alone
+
+std::uint8_t highest_of(const std::uint8_t* counts) {
+  std::uint8_t highest = 0;
+  for (int i = 0; i < block; ++i)
+    highest = std::max(highest, counts[i]);
+  return highest;
+}
+
+struct Run {
+  int sum = 0;
+  int from = 0;
+};
+
+// Of the runs that begin from there to before there.
+void find_strongest(const std::uint8_t* counts, int from, int to, Run& strongest) {
+  int sum = 0;
+  for (int i = 0; i < flow_run; ++i)
+    sum += counts[from + i];
+  for (int at = from;; ++at) {
+    if (sum > strongest.sum)
+      strongest = {sum, at};
+    if (at + 1 >= to)
+      return;
+    sum += counts[at + flow_run] - counts[at];
+  }
+}
+
+// Nearly all blocks have too little to be looked at once more: a run has at most the mean of the
+// highest in its block and in the next one.
+Run strongest_run(const std::uint8_t* counts, int from, int depths) {
+  Run strongest;
+  int at = from;
+  std::uint8_t here = at + block <= depths ? highest_of(counts + at) : std::uint8_t{255};
+  for (; at + 2 * block <= depths; at += block) {
+    const std::uint8_t next = highest_of(counts + at + block);
+    if (flow_run * std::max(here, next) > strongest.sum)
+      find_strongest(counts, at, at + block, strongest);
+    here = next;
+  }
+  if (at + flow_run <= depths)
+    find_strongest(counts, at, depths - flow_run + 1, strongest);
+  return strongest;
+}
+
+FlowFromAbove flow_of(const std::uint8_t* counts, int surface, int depths) {
+  const Run run = strongest_run(counts, surface, depths);
+  const int strength = (run.sum + flow_run / 2) / flow_run;
+  const int below = run.from + flow_run / 2 - surface;
+  return {static_cast<std::uint8_t>(strength),
+          static_cast<std::uint8_t>((strength * below + depths / 2) / depths)};
+}
+
+constexpr std::size_t depth_bins = 256;
+
+// What flows, by its depth as a share of the volume's.
+std::array<int, depth_bins> depths_of(std::span<const FlowFromAbove> flow) {
+  std::array<int, depth_bins> found{};
+  for (const FlowFromAbove& each : flow)
+    if (each.strength >= first_seen_flow)
+      ++found[each.strength_by_depth * (depth_bins - 1) / each.strength];
+  return found;
+}
+
+double next_step_mm(double step_mm) {
+  const double power = std::pow(10.0, std::floor(std::log10(step_mm * 1.01)));
+  const double digit = step_mm / power;
+  return power * (digit < 1.5 ? 2 : digit < 3 ? 5 : 10);
+}
+
+} // namespace
+
+void FlowDepths::follow(std::span<const FlowFromAbove> flow, double volume_depth_mm) {
+  constexpr double least_mm = 0.1;
+  constexpr double most_below = 0.05; // of what flows, and of so little that it may shrink:
+  constexpr double hardly_any = 0.01;
+  const auto found = depths_of(flow);
+  const double all = std::accumulate(found.begin(), found.end(), 0);
+  if (all == 0)
+    return;
+  const auto share_below = [&](double mm) {
+    const auto from = static_cast<std::size_t>(
+        std::min(mm / volume_depth_mm * static_cast<double>(depth_bins - 1), 255.0));
+    return std::accumulate(found.begin() + static_cast<std::ptrdiff_t>(from), found.end(), 0) / all;
+  };
+  double needed = least_mm;
+  const double most = deepest_mm_ > 0 ? hardly_any : most_below;
+  while (needed < volume_depth_mm && share_below(needed) > most)
+    needed = next_step_mm(needed);
+  if (needed < deepest_mm_ || deepest_mm_ == 0) {
+    deepest_mm_ = needed;
+    return;
+  }
+  while (deepest_mm_ < volume_depth_mm && share_below(deepest_mm_) > most_below)
+    deepest_mm_ = next_step_mm(deepest_mm_);
+}
+
+void project_flow(const pipeline::Volume& volume, const TissueMap& tissue,
+                  std::span<FlowFromAbove> out, std::span<const std::uint8_t> wanted,
+                  WorkTeam* team) {
+  const pipeline::VolumeGeometry& geometry = volume.geometry;
+  const auto a_scans = static_cast<std::size_t>(geometry.a_scans);
+  run_pieces(team, static_cast<std::uint32_t>(geometry.b_scans), [&](std::uint32_t piece) {
+    if (!wanted.empty() && wanted[piece] == 0)
+      return;
+    const int b = static_cast<int>(piece);
+    const std::uint8_t* counts = volume.b_scan_flow(b).data();
+    std::size_t i = piece * a_scans;
+    for (int a = 0; a < geometry.a_scans; ++a, counts += geometry.depths)
+      out[i++] = flow_of(counts, tissue.begin_of(b, a).depth, geometry.depths);
+  });
+}
+
+} // namespace octascope::ui
