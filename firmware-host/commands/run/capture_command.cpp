@@ -5,11 +5,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "firmware-host/capture/capture.h"
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/numbers.h"
 #include "firmware-host/commands/spectra_type.h"
-#include "firmware-host/capture/capture.h"
 #include "firmware-host/run/stop_signal.h"
 
 namespace octascope::firmware_host {

@@ -283,10 +283,9 @@ TEST_F(Recording, refuses_facts_that_cannot_be) {
   EXPECT_THAT(with("format_version", 2), HasSubstr("found 2, this program reads 1"));
   EXPECT_THAT(with("depths", 0), HasSubstr("depths: found 0"));
   EXPECT_THAT(with("a_scans", 70'000), HasSubstr("a_scans: found 70000, expected 1 to 65536"));
-  EXPECT_THAT(
-      with("b_scans", 6),
-      HasSubstr("/levels: found [1, 5, 7, 12] of whole numbers, expected [rows, 6, 7, 12] "
-                "of whole numbers"));
+  EXPECT_THAT(with("b_scans", 6),
+              HasSubstr("/levels: found [1, 5, 7, 12] of whole numbers, expected [rows, 6, 7, 12] "
+                        "of whole numbers"));
   EXPECT_THAT(with("level_step_db", 1), HasSubstr("level_step_db: found 1, expected 0.5"));
   EXPECT_EQ(with("finished", 1), "");
 }
