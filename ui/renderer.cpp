@@ -87,9 +87,10 @@ hal::Result<> Renderer::show_vessels(const PlacedVessels& vessels, const hal::Cl
     HAL_TRY(auto made, FlatVessels::create());
     parts_->flat_vessels.emplace(std::move(made));
   }
+  HAL_CHECK(parts_->volume.show_vessels(vessels, clock));
   parts_->flat_vessels->show(vessels);
   ++parts_->vessel_uploads;
-  return parts_->volume.show_vessels(vessels, clock);
+  return {};
 }
 
 Renderer::VesselReport Renderer::vessel_report() const {

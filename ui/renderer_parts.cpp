@@ -56,7 +56,8 @@ ViewState Renderer::Parts::fitted(const ViewState& view) const {
 ViewState Renderer::Parts::without_confusion(const ViewState& view, const Layout& places) const {
   const bool beside_vessels = volume.vessels() != nullptr && shows_tree(view);
   ViewState plain = view;
-  if (volume.depth_colours(view) && (beside_vessels || !has_room_for_depth_scale(places)))
+  if (volume.depth_colours(view) &&
+      (beside_vessels || volume.draws_flow(view) || !has_room_for_depth_scale(places)))
     plain.colour_map = 0;
   return plain;
 }
@@ -95,6 +96,9 @@ FlowShown Renderer::Parts::flow_of(const ViewState& view) const {
   flow.b_scan = flow_states[static_cast<std::size_t>(view.b_scan)];
   flow.told = static_cast<int>(std::ranges::count(flow_states, pipeline::FlowState::told));
   flow.left_out = static_cast<int>(std::ranges::count(flow_states, pipeline::FlowState::left_out));
+  for (std::size_t b = 0; b < flow_states.size(); ++b)
+    if (flow_states[b] == pipeline::FlowState::none && has_levels(states[b]))
+      ++flow.none;
   flow.in_scope = scope_shown && scope_panel.field().has_value();
   flow.deepest_mm = flow_depths.deepest_mm();
   return flow;
@@ -397,9 +401,11 @@ hal::Result<> Renderer::Parts::follow_flow(const pipeline::Volume& shown,
     field_flow.emplace(std::move(made));
   }
   has_flow = true;
-  if (is_whole(shown))
-    flow_depths.follow(en_face_panel.flow_from_above(), shown.geometry.depth_mm());
   flow_states.assign(shown.flow_states.begin(), shown.flow_states.end());
+  // Hues stay while most of it is not there, but for the first ones.
+  const auto told = std::ranges::count(flow_states, pipeline::FlowState::told);
+  if (flow_depths.deepest_mm() == 0 || (is_whole(shown) && 2 * told > std::ssize(flow_states)))
+    flow_depths.follow(en_face_panel.flow_from_above(), shown.geometry.depth_mm());
   flow_sections.note(changed);
   if (!completed_by_caller) {
     kept_flow.geometry = shown.geometry;

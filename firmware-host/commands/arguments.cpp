@@ -73,7 +73,8 @@ void add_show_options(CLI::App& command, ShowArguments& a) {
           ->type_name("FILE");
   command
       .add_option("--registration", a.registration,
-                  "Where it lies in the volume; else in its middle, marked as not registered")
+                  "Where it lies in the volume; else in its middle, marked as not registered, or, "
+                  "with --flow, where what flows says")
       ->type_name("FILE.toml")
       ->needs(vessels);
   command.add_option("--snapshot", a.snapshot, "Write the last picture here")

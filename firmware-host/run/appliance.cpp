@@ -64,8 +64,8 @@ public:
     HAL_CHECK(source_->prepare(*devices_, choices));
     // Not before: reading a tree would disturb what the source measures.
     HAL_TRY(auto vessels,
-            make_vessel_display(options_, tells_flow(options_, configuration_), source_->whose(),
-                                clock_, faults_, news_, source_->thread_setup()));
+            make_vessel_display(options_, !options_.replay && tells_flow(options_, configuration_),
+                                source_->whose(), clock_, faults_, news_, source_->thread_setup()));
     vessels_ = std::move(vessels);
     controls_ = std::make_unique<pipeline::ControlThread>(devices_->control_input(), clock_,
                                                           faults_, news_);

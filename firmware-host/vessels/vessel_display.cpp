@@ -117,9 +117,13 @@ void VesselDisplay::describe_place() {
     status_.residual_mm = setup_.registration->provenance.residual_mm;
   if (!follower_)
     return;
-  status_.followed.emplace();
-  if (!followed_)
+  status_.followed.reset();
+  if (!followed_) {
+    if (!setup_.registration) // else it is drawn where somebody put it
+      status_.followed.emplace();
     return;
+  }
+  status_.followed.emplace();
   if (followed_->volume_from_tree) {
     status_.followed = {Followed::State::followed, followed_->overlap};
     status_.residual_mm = followed_->residual_mm;

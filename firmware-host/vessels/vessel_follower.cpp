@@ -22,7 +22,9 @@ void VesselFollower::offer(const pipeline::Volume& volume) {
     return;
   }
   const hal::TimePoint now = clock_.now();
-  if (offered_ && (volume.metadata.index == index_ || now - *offered_ < least_interval))
+  // In a frozen volume, too, a tree may be traced, or its place be kept.
+  const bool nothing_new = volume.metadata.index == index_ && !waiting_ && !begin_at_;
+  if (offered_ && (nothing_new || now - *offered_ < least_interval))
     return;
   offered_ = now;
   index_ = volume.metadata.index;

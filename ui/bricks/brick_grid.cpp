@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "pipeline/threads/cpu_clones.h"
+#include "ui/transfer/flow_look.h"
 
 namespace octascope::ui {
 
@@ -47,24 +48,43 @@ void BrickGrid::merge_b_scans(const pipeline::Occupancy& occupancy, int row) {
   }
 }
 
-void BrickGrid::update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
-                       Visibility visibility, WorkTeam* team, std::span<const std::uint8_t> stale) {
+// `is_occupied` is asked for each brick once its highest and lowest are there, and may change them.
+template <class Occupied>
+void BrickGrid::update_rows(const pipeline::Occupancy& occupancy, WorkTeam* team,
+                            std::span<const std::uint8_t> stale, Occupied is_occupied) {
   resize(occupancy.bricks());
   const std::size_t slab = counts_.per_b_scan();
   run_pieces(team, static_cast<std::uint32_t>(counts_.b), [&](std::uint32_t row) {
     if (!stale.empty() && stale[row] == 0)
       return;
     merge_b_scans(occupancy, static_cast<int>(row));
-    for (std::size_t i = row * slab; i < (row + 1) * slab; ++i) {
-      if (visibility == Visibility::everything)
-        highest_[i] = 255;
-      const int lowest = visibility == Visibility::range ? lowest_[i] : 0;
-      const bool empty = visibility != Visibility::everything && levels.empty(lowest, highest_[i]);
-      occupied_[i] = empty ? 0 : 1;
-    }
+    for (std::size_t i = row * slab; i < (row + 1) * slab; ++i)
+      occupied_[i] = is_occupied(i) ? 1 : 0;
   });
   const auto occupied = std::ranges::count(occupied_, std::uint8_t{1});
   occupied_share_ = static_cast<double>(occupied) / static_cast<double>(occupied_.size());
+}
+
+void BrickGrid::update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
+                       Visibility visibility, WorkTeam* team, std::span<const std::uint8_t> stale,
+                       const BrickGrid* also) {
+  update_rows(occupancy, team, stale, [&](std::size_t i) {
+    if (visibility == Visibility::everything) {
+      highest_[i] = 255;
+      return true;
+    }
+    const int lowest = visibility == Visibility::range ? lowest_[i] : 0;
+    return !levels.empty(lowest, highest_[i]) || (also != nullptr && also->occupied_[i] != 0);
+  });
+}
+
+void BrickGrid::update_flow(const pipeline::Occupancy& flow, bool all, WorkTeam* team,
+                            std::span<const std::uint8_t> stale) {
+  update_rows(flow, team, stale, [&](std::size_t i) {
+    if (all)
+      highest_[i] = 255;
+    return highest_[i] >= first_seen_flow;
+  });
 }
 
 } // namespace octascope::ui

@@ -22,10 +22,15 @@ enum class Visibility : std::uint8_t {
 class BrickGrid {
 public:
   // Shared among the team. `stale`: not 0 for rows along the slow axis to update, the others stay as
-  // they are; empty: all.
+  // they are; empty: all. What is occupied in `also`, of the same counts and rows, is here, too.
   void update(const pipeline::Occupancy& occupancy, const VisibleLevels& levels,
               Visibility visibility, WorkTeam* team = nullptr,
-              std::span<const std::uint8_t> stale = {});
+              std::span<const std::uint8_t> stale = {}, const BrickGrid* also = nullptr);
+
+  // Occupied are bricks in which something is seen to flow (ui/transfer/flow_look.h), or all. `flow`:
+  // of counts of flow instead of levels.
+  void update_flow(const pipeline::Occupancy& flow, bool all, WorkTeam* team = nullptr,
+                   std::span<const std::uint8_t> stale = {});
 
   const pipeline::BrickCounts& counts() const { return counts_; }
   std::span<const std::uint8_t> occupied() const { return occupied_; } // 0: empty; 1
@@ -34,6 +39,9 @@ public:
 
 private:
   void resize(const pipeline::BrickCounts& counts);
+  template <class Occupied>
+  void update_rows(const pipeline::Occupancy& occupancy, WorkTeam* team,
+                   std::span<const std::uint8_t> stale, Occupied is_occupied);
   void merge_b_scans(const pipeline::Occupancy& occupancy, int row);
 
   pipeline::BrickCounts counts_;

@@ -147,10 +147,14 @@ void add_tree_trouble(HudText& hud, const TracedTreeStatus& tree) {
 // What must not wait until somebody asks for the figures.
 void compose_troubles(HudText& hud, const Status& status, const FlowShown& flow) {
   // Where most of it is not there, its absence must not be taken for vessels that do not flow.
-  if (flow.shown && flow.left_out > flow.told)
-    add_trouble(hud, Trouble::Sign::lost)
-        .words.format("no flow: {:.0f} % moved",
-                      std::floor(100.0 * flow.left_out / (flow.left_out + flow.told)));
+  if (const int lacking = flow.left_out + flow.none; flow.shown && lacking > flow.told) {
+    const double share = std::floor(100.0 * lacking / (lacking + flow.told));
+    Trouble& trouble = add_trouble(hud, Trouble::Sign::lost);
+    if (flow.none == 0)
+      trouble.words.format("no flow: {:.0f} % moved", share);
+    else
+      trouble.words.format("no flow in {:.0f} %", share);
+  }
   if (hud.vessels.shown && !status.vessels.registered)
     add_trouble(hud, Trouble::Sign::lost).words.format("vessels not registered");
   if (status.replay)
@@ -359,7 +363,8 @@ void say_flow(HudText& hud, const ViewState& view, const ShownPictures& shown) {
   const FlowShown& flow = shown.flow;
   if (!flow.shown)
     return;
-  if (has_levels(shown.b_scan) && flow.b_scan != pipeline::FlowState::told)
+  // What is wrong with a B-scan is graver.
+  if (shown.b_scan == pipeline::BScanState::good && flow.b_scan != pipeline::FlowState::told)
     hud.b_scan.note.format("{} of {}, {}", view.b_scan + 1, shown.geometry.b_scans,
                            flow.b_scan == pipeline::FlowState::left_out ? "moved: no flow"
                                                                         : "no flow");

@@ -83,9 +83,10 @@ struct FlowShown {
   bool shown = false;
   pipeline::FlowState b_scan = pipeline::FlowState::none; // of the one in the panel
   int told = 0;                                           // B-scans, of the volume
-  int left_out = 0;                                       // likewise
+  int left_out = 0;                                       // likewise, as they moved
   double deepest_mm = 0; // below the surface: the last hue; 0: nothing flows
   bool in_scope = false; // in the microscope's picture, too
+  int none = 0;          // B-scans that came, and of which nothing was asked or a sweep was missing
 };
 
 // What the renderer shows.

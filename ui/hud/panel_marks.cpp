@@ -22,7 +22,7 @@ float draw_hues(Canvas& canvas, const Rect& room, std::string_view deepest, floa
     return canvas.text_width(TextStyle::label, words);
   };
   const float begin = width_of("0") + 6 * unit;
-  const float end = width_of(" deep");
+  const float end = 6 * unit + width_of("deep");
   const float needed = width_of(deepest) + 6 * unit;
   const float most = static_cast<float>(room.width) - 2 * unit;
   const bool in_full = needed + begin + end + 56 * unit <= most;
@@ -46,8 +46,10 @@ float draw_hues(Canvas& canvas, const Rect& room, std::string_view deepest, floa
                depth_hue((static_cast<float>(i) + 0.5F) / pieces));
   x += 6 * unit;
   write(deepest);
-  if (in_full)
-    write(" deep");
+  if (in_full) {
+    x += 6 * unit;
+    write("deep");
+  }
   return width;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 
 #include "ui/transfer/flow_look.h"
 
@@ -21,9 +22,10 @@ std::uint8_t highest_of(const std::uint8_t* counts) {
   return highest;
 }
 
+// Of what is too little to be seen nothing is found.
 struct Run {
-  int sum = 0;
-  int from = 0;
+  int sum = flow_run * (first_seen_flow - 1);
+  std::optional<int> from;
 };
 
 // Of the runs that begin from there to before there.
@@ -59,8 +61,10 @@ Run strongest_run(const std::uint8_t* counts, int from, int depths) {
 
 FlowFromAbove flow_of(const std::uint8_t* counts, int surface, int depths) {
   const Run run = strongest_run(counts, surface, depths);
+  if (!run.from)
+    return {};
   const int strength = (run.sum + flow_run / 2) / flow_run;
-  const int below = run.from + flow_run / 2 - surface;
+  const int below = *run.from + flow_run / 2 - surface;
   return {static_cast<std::uint8_t>(strength),
           static_cast<std::uint8_t>((strength * below + depths / 2) / depths)};
 }
@@ -71,7 +75,7 @@ constexpr std::size_t depth_bins = 256;
 std::array<int, depth_bins> depths_of(std::span<const FlowFromAbove> flow) {
   std::array<int, depth_bins> found{};
   for (const FlowFromAbove& each : flow)
-    if (each.strength >= first_seen_flow)
+    if (each.strength > 0)
       ++found[each.strength_by_depth * (depth_bins - 1) / each.strength];
   return found;
 }

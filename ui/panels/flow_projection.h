@@ -13,7 +13,9 @@ namespace octascope::ui {
 // Of an A-scan. The depth is multiplied by the strength, so that what is interpolated between two
 // A-scans has the depth of the one that flows.
 struct FlowFromAbove {
-  std::uint8_t strength = 0; // a count of flow_scale.h: the highest mean of `flow_run` depths
+  // A count of flow_scale.h: the highest mean of `flow_run` depths; 0 where that is not seen
+  // (ui/transfer/flow_look.h).
+  std::uint8_t strength = 0;
   std::uint8_t strength_by_depth =
       0; // times their depth below the surface, as a share of the volume's
 

@@ -111,8 +111,21 @@ RayCaster::RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team)
   slabs_.reserve(most_slabs);
 }
 
+void RayCaster::copy_b_scans(const pipeline::Volume& volume, const pipeline::BScanRange& range,
+                             const std::function<void(int)>& prepare, const FlowVoxels* flow) {
+  const std::size_t size = volume.geometry.b_scan_voxels();
+  team_->run(static_cast<std::uint32_t>(range.to - range.from), [&](std::uint32_t i) {
+    const int b = range.from + static_cast<int>(i);
+    if (prepare)
+      prepare(b);
+    cells_->update(b, volume.b_scan(b));
+    if (flow != nullptr)
+      flow_cells_.update(b, flow->counts.subspan(static_cast<std::size_t>(b) * size, size));
+  });
+}
+
 hal::Result<> RayCaster::show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
-                              const std::function<void(int)>& prepare) {
+                              const std::function<void(int)>& prepare, const FlowVoxels* flow) {
   const pipeline::VolumeGeometry& g = volume.geometry;
   if (!CellVolume::fits(g) || volume.levels.size() != g.voxels())
     return hal::fail(hal::ErrorCode::unsupported,
@@ -127,32 +140,30 @@ hal::Result<> RayCaster::show(const pipeline::Volume& volume, const pipeline::Oc
                                  occupancy.geometry().b_scans, g.depths, g.a_scans, g.b_scans));
   if (!cells_ || cells_->geometry() != g)
     cells_.emplace(g);
+  if (flow != nullptr && flow_cells_.geometry() != g)
+    flow_cells_ = CellVolume{g};
+  has_flow_ = flow != nullptr;
   occupancy_ = occupancy;
-  team_->run(static_cast<std::uint32_t>(g.b_scans), [&](std::uint32_t b_scan) {
-    const int b = static_cast<int>(b_scan);
-    if (prepare)
-      prepare(b);
-    cells_->update(b, volume.b_scan(b));
-  });
+  copy_b_scans(volume, {0, g.b_scans}, prepare, flow);
+  if (flow != nullptr)
+    flow_occupancy_ = *flow->occupancy;
   bricks_current_ = false;
   return {};
 }
 
 hal::Result<> RayCaster::renew(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
                                std::span<const pipeline::BScanRange> changed,
-                               const std::function<void(int)>& prepare) {
+                               const std::function<void(int)>& prepare, const FlowVoxels* flow) {
   const pipeline::VolumeGeometry& g = volume.geometry;
-  if (!cells_ || cells_->geometry() != g || occupancy.geometry() != g)
-    return show(volume, occupancy, prepare);
+  if (!cells_ || cells_->geometry() != g || occupancy.geometry() != g ||
+      has_flow_ != (flow != nullptr))
+    return show(volume, occupancy, prepare, flow);
   for (const pipeline::BScanRange& range : changed) {
     for (int b = range.from; b < range.to; ++b)
       occupancy_.copy(b, occupancy);
-    team_->run(static_cast<std::uint32_t>(range.to - range.from), [&](std::uint32_t i) {
-      const int b = range.from + static_cast<int>(i);
-      if (prepare)
-        prepare(b);
-      cells_->update(b, volume.b_scan(b));
-    });
+    copy_b_scans(volume, range, prepare, flow);
+    for (int b = range.from; flow != nullptr && b < range.to; ++b)
+      flow_occupancy_.copy(b, *flow->occupancy);
     make_stale(range);
   }
   return {};
@@ -176,23 +187,48 @@ void RayCaster::set_transfer(const TransferTable& transfer) {
   table_current_ = false;
 }
 
-void RayCaster::prepare(float steps, Visibility visibility) {
+void RayCaster::prepare_tables(const RaySettings& settings) {
+  const float steps = settings.step_mm / reference_step_mm(box_extents_mm(geometry()) / 2.0F);
   if (!table_current_ || steps != steps_) {
     make_step_table(*transfer_, steps, *steps_table_);
     steps_ = steps;
     bricks_current_ = bricks_current_ && table_current_; // the same levels are empty at any step
     table_current_ = true;
   }
-  const bool all = !bricks_current_ || visibility != visibility_;
-  if (all || any_stale_) {
-    bricks_.update(occupancy_, steps_table_->visible, visibility, team_.get(),
-                   all ? std::span<const std::uint8_t>{} : stale_);
-    std::ranges::fill(stale_, std::uint8_t{0});
-    any_stale_ = false;
-    distances_.forget();
-    visibility_ = visibility;
-    bricks_current_ = true;
+  if (!settings.flow_opacity ||
+      (flow_table_ && flow_opacity_ == *settings.flow_opacity && flow_steps_ == steps))
+    return;
+  if (!flow_table_)
+    flow_table_ = std::make_unique<FlowTable>();
+  make_flow_table(*settings.flow_opacity, steps, *flow_table_);
+  flow_opacity_ = *settings.flow_opacity;
+  flow_steps_ = steps;
+}
+
+void RayCaster::prepare(const RaySettings& settings) {
+  prepare_tables(settings);
+  const Visibility visibility = !settings.leap_empty                ? Visibility::everything
+                                : settings.mode == RayMode::maximum ? Visibility::maximum
+                                                                    : Visibility::range;
+  const bool with_flow = settings.flow_opacity.has_value();
+  const bool all = !bricks_current_ || visibility != visibility_ || with_flow != bricks_with_flow_;
+  if (!all && !any_stale_)
+    return;
+  const auto stale = all ? std::span<const std::uint8_t>{} : stale_;
+  if (with_flow) {
+    flow_bricks_.update_flow(flow_occupancy_, !settings.leap_empty, team_.get(), stale);
+    flow_distances_.forget();
   }
+  // The maximum of flow is looked for on its own.
+  const bool join = with_flow && visibility == Visibility::range;
+  bricks_.update(occupancy_, steps_table_->visible, visibility, team_.get(), stale,
+                 join ? &flow_bricks_ : nullptr);
+  distances_.forget();
+  std::ranges::fill(stale_, std::uint8_t{0});
+  any_stale_ = false;
+  visibility_ = visibility;
+  bricks_with_flow_ = with_flow;
+  bricks_current_ = true;
 }
 
 RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
@@ -212,6 +248,11 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   f.is_cut = rays.is_cut;
   f.cut[0] = rays.cut.x;
   f.cut[1] = rays.cut.y;
+  if (settings.flow_opacity) {
+    f.flow_cells = flow_cells_.data();
+    f.flow_bricks = flow_distances_.data();
+    f.flow_opacity_and_weight = flow_table_->opacity_and_weight.data();
+  }
   f.opacity_and_red = steps_table_->opacity_and_red.data();
   f.green_and_blue = steps_table_->green_and_blue.data();
   if (const auto& ramp = steps_table_->ramp) {
@@ -252,7 +293,8 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   return f;
 }
 
-hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings, RayImage& image) {
+hal::Result<> RayCaster::check(const Camera& camera, const RaySettings& settings,
+                               const RayImage& image) const {
   // Positions have 16 bits after the point: more samples than these would drift.
   constexpr float most_samples = 16384;
   const float diagonal = cells_ ? glm::length(box_extents_mm(geometry())) : 0;
@@ -271,19 +313,31 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
         fmt::format("ray caster: found vessels of {}x{} pixels, expected as many as of "
                     "the volume's picture, {}x{}",
                     settings.stops->width, settings.stops->height, image.width, image.height));
-  prepare(settings.step_mm / reference_step_mm(box_extents_mm(geometry()) / 2.0F),
-          !settings.leap_empty                ? Visibility::everything
-          : settings.mode == RayMode::maximum ? Visibility::maximum
-                                              : Visibility::range);
+  if (settings.flow_opacity && !has_flow_)
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "ray caster: flow is to be drawn, expected it to be shown with the volume");
+  return {};
+}
 
+RayKernels::Draw RayCaster::kernel(const RaySettings& settings) const {
   const auto look = static_cast<std::size_t>(transfer_->depths    ? Look::by_depth
                                              : steps_table_->ramp ? Look::ramp
                                              : steps_table_->grey ? Look::grey
                                                                   : Look::coloured);
-  const RayKernels::Draw kernel = settings.mode == RayMode::maximum  ? kernels_->maximum
-                                  : settings.mode == RayMode::shaded ? kernels_->shaded[look]
-                                                                     : kernels_->composite[look];
-  distances_.measure(bricks_, octants_of_rays(geometry(), camera), team_.get());
+  const RayKernels::Modes& modes = settings.flow_opacity ? kernels_->with_flow : kernels_->plain;
+  return settings.mode == RayMode::maximum  ? modes.maximum
+         : settings.mode == RayMode::shaded ? modes.shaded[look]
+                                            : modes.composite[look];
+}
+
+hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings, RayImage& image) {
+  HAL_CHECK(check(camera, settings, image));
+  prepare(settings);
+  const RayKernels::Draw draw_tile = kernel(settings);
+  const unsigned octants = octants_of_rays(geometry(), camera);
+  if (settings.flow_opacity)
+    flow_distances_.measure(flow_bricks_, octants, team_.get());
+  distances_.measure(bricks_, octants, team_.get());
   const RayFrame rays = frame(camera, settings, image);
   image.draw_into(rectangle_of_box(camera, image));
   find_slabs(camera, settings, image);
@@ -294,7 +348,7 @@ hal::Result<> RayCaster::draw(const Camera& camera, const RaySettings& settings,
     const Tile at{image.drawn.x + index % across * tile_size,
                   image.drawn.y + index / across * tile_size};
     if (may_have_changed({at.x, at.y, tile_size, tile_size}))
-      kernel(rays, at);
+      draw_tile(rays, at);
   });
   if (settings.soften)
     soften(settings, image);

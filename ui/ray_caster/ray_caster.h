@@ -52,6 +52,12 @@ struct RayImage {
   void draw_into(const Rect& rect);             // clears what was drawn outside of `rect`
 };
 
+// What flows in a volume, in the order of its levels, and the occupancy of that. Borrowed.
+struct FlowVoxels {
+  std::span<const std::uint8_t> counts; // pipeline/volume/flow_scale.h
+  const pipeline::Occupancy* occupancy = nullptr;
+};
+
 struct RaySettings {
   RayMode mode = RayMode::composite;
   float step_mm = 0;      // along each ray
@@ -60,6 +66,9 @@ struct RaySettings {
   const DepthImage* stops = nullptr;  // of the image's size: where vessels end the rays
   const LightVolume* light = nullptr; // of `shaded`, prepared; null: nothing is lit
   bool soften = false;                // ui/dither/soften.h
+  // Of what flows for certain, over one reference step (ui/transfer/flow_look.h); nothing: flow is not
+  // drawn.
+  std::optional<float> flow_opacity{};
   // Not empty: since the same picture was drawn into this image, the volume has changed in these
   // B-scans alone (and no vessels were merged, no light is used). Only rays that may meet them are
   // cast.
@@ -76,21 +85,24 @@ public:
 
   // Copies both. ErrorCode::unsupported: too large for 32-bit offsets. ErrorCode::invalid_argument:
   // the occupancy has another geometry. On errors the previous volume stays.
-  // `prepare` is called with each B-scan before it is copied, by one of the threads.
+  // `prepare` is called with each B-scan before it is copied, by one of the threads; it may fill that
+  // B-scan's part of the flow's occupancy, too. `flow`: null without.
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
-                     const std::function<void(int)>& prepare = {});
+                     const std::function<void(int)>& prepare = {},
+                     const FlowVoxels* flow = nullptr);
 
   // The same where they differ from those shown last in these B-scans alone.
   hal::Result<> renew(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
                       std::span<const pipeline::BScanRange> changed,
-                      const std::function<void(int)>& prepare = {});
+                      const std::function<void(int)>& prepare = {},
+                      const FlowVoxels* flow = nullptr);
 
   // Takes effect with the next draw(). Setting an equal table again costs only the comparison.
   void set_transfer(const TransferTable& transfer);
 
   // The camera must be that of ui/view/camera.h for the volume's extents.
   // ErrorCode::invalid_argument: there is no volume, the image has no pixels, the step is not a
-  // positive share of the box, or the stops are of another size.
+  // positive share of the box, the stops are of another size, or flow is to be drawn and was not shown.
   hal::Result<> draw(const Camera& camera, const RaySettings& settings, RayImage& image);
 
   // Whether the last draw() may have changed pixels of its image there: false only of a renewal.
@@ -106,8 +118,14 @@ public:
 
 private:
   RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team);
+  void copy_b_scans(const pipeline::Volume& volume, const pipeline::BScanRange& range,
+                    const std::function<void(int)>& prepare, const FlowVoxels* flow);
   void make_stale(const pipeline::BScanRange& b_scans);
-  void prepare(float steps, Visibility visibility);
+  hal::Result<> check(const Camera& camera, const RaySettings& settings,
+                      const RayImage& image) const;
+  void prepare(const RaySettings& settings);
+  void prepare_tables(const RaySettings& settings);
+  RayKernels::Draw kernel(const RaySettings& settings) const;
   void find_slabs(const Camera& camera, const RaySettings& settings, RayImage& image);
   Rect rectangle_of_box(const Camera& camera, const RayImage& image) const;
   void soften(const RaySettings& settings, RayImage& image);
@@ -121,9 +139,19 @@ private:
   std::unique_ptr<StepTable> steps_table_;
   BrickGrid bricks_;
   DistancesAhead distances_;
+  // What flows. The cells stay allocated while volumes without are shown.
+  CellVolume flow_cells_;
+  pipeline::Occupancy flow_occupancy_;
+  bool has_flow_ = false;
+  std::unique_ptr<FlowTable> flow_table_; // made when flow is first drawn, for:
+  float flow_opacity_ = 0;
+  float flow_steps_ = 0;
+  BrickGrid flow_bricks_;
+  DistancesAhead flow_distances_;
   // The inputs of the current table and bricks.
   float steps_ = 0;
   Visibility visibility_ = Visibility::range;
+  bool bricks_with_flow_ = false;
   bool table_current_ = false;
   bool bricks_current_ = false;     // but for the rows that are stale
   std::vector<std::uint8_t> stale_; // by row of bricks

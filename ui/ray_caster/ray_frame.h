@@ -36,6 +36,11 @@ struct RayFrame {
   bool is_cut;
   float cut[2]; // RayGeometry::cut
 
+  // What flows, in the layout of `cells` and `bricks`. Only kernels of flow read it.
+  const std::uint8_t* flow_cells;
+  const std::uint16_t* flow_bricks;
+  const std::uint32_t* flow_opacity_and_weight; // FlowTable
+
   // The transfer function.
   const std::uint32_t* opacity_and_red;
   const std::uint32_t* green_and_blue;

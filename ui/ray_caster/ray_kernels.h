@@ -25,9 +25,13 @@ inline constexpr int look_count = 4;
 struct RayKernels {
   using Draw = void (*)(const RayFrame& frame, Tile tile);
   const char* isa;
-  Draw composite[look_count]; // by Look
-  Draw shaded[look_count];
-  Draw maximum;
+  struct Modes {
+    Draw composite[look_count]; // by Look
+    Draw shaded[look_count];
+    Draw maximum;
+  };
+  Modes plain;
+  Modes with_flow;
 };
 
 // The widest set that this processor has, or the one named `isa`; nullptr if it is not available.

@@ -65,8 +65,10 @@ HWY_INLINE LightTexel light_texel(const RayFrame& frame, const RealVector& cells
 }
 
 // By which what a ray shows, of that brightness (0…1), is weakened, if most of it lies at `sample` (a
-// fraction between two).
-HWY_INLINE Real light_on(const RayFrame& frame, const Rays& rays, Real sample, Real brightness) {
+// fraction between two). `unlit`: the share of it that shines by itself, as vessels do, about whose form
+// tissue's slopes say nothing.
+HWY_INLINE Real light_on(const RayFrame& frame, const Rays& rays, Real sample, Real brightness,
+                         Real unlit) {
   const Real along_mm = hn::MulAdd(sample, real(frame.step_mm), rays.first_mm);
   const Real deep = hn::Mul(hn::Sub(hn::Mul(along_mm, rays.cosine), real(frame.cue_near_mm)),
                             real(frame.cue_per_mm));
@@ -102,7 +104,8 @@ HWY_INLINE Real light_on(const RayFrame& frame, const Rays& rays, Real sample, R
       hn::Mul(hn::Sub(brightness, real(gleam_from)), real(1 / (gleam_to - gleam_from)));
   const Real above = hn::Min(hn::Max(bright, real(0)), real(1));
   const Real gleam = hn::Mul(hn::Mul(above, above), hn::NegMulAdd(above, real(2), real(3)));
-  return hn::Mul(hn::MulAdd(gleam, hn::Sub(real(1), shade), shade), fade);
+  const Real own = hn::Max(gleam, unlit);
+  return hn::Mul(hn::MulAdd(own, hn::Sub(real(1), shade), shade), fade);
 }
 
 // NOLINTNEXTLINE(google-readability-namespace-comments)

@@ -161,6 +161,42 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
   return rays;
 }
 
+inline constexpr int samples_per_check = 4; // between two checks for empty bricks
+
+// Stores a packet, clipped to the picture; x and y are its first pixel.
+HWY_INLINE void store(const RayFrame& frame, int x, int y, Int rgba, Real depth_mm) {
+  alignas(64) std::int32_t colours[lanes];
+  alignas(64) float depths[lanes];
+  hn::Store(rgba, Ints{}, colours);
+  hn::Store(depth_mm, Floats{}, depths);
+  const int columns = std::min(packet_width, frame.width - x);
+  const int rows = std::min(packet_height, frame.height - y);
+  for (int row = 0; row < rows; ++row) {
+    const std::size_t at =
+        static_cast<std::size_t>(y + row) * static_cast<std::size_t>(frame.width) +
+        static_cast<std::size_t>(x);
+    for (int column = 0; column < columns; ++column) {
+      const std::size_t to = at + static_cast<std::size_t>(column);
+      frame.rgba[to] = static_cast<std::uint32_t>(colours[row * packet_width + column]);
+      frame.depth_mm[to] = depths[row * packet_width + column];
+    }
+  }
+}
+
+template <class DrawPacket>
+HWY_INLINE void for_each_packet(const RayFrame& frame, Tile tile, DrawPacket draw_packet) {
+  const int right = std::min(tile.x + tile_size, frame.width);
+  const int bottom = std::min(tile.y + tile_size, frame.height);
+  for (int y = tile.y; y < bottom; y += packet_height)
+    for (int x = tile.x; x < right; x += packet_width) {
+      Rays rays = make_rays(frame, x, y);
+      if (hn::AllFalse(Ints{}, rays.active()))
+        store(frame, x, y, hn::Zero(Ints{}), real(no_depth));
+      else
+        draw_packet(x, y, rays);
+    }
+}
+
 // NOLINTNEXTLINE(google-readability-namespace-comments)
 } // namespace octascope::ui::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -98,13 +98,14 @@ struct Cell {
   hn::Vec<UnsignedWords> to_far, to_second, below;
 };
 
-// Lanes that are not `valid` read the first cell.
-HWY_INLINE Cell fetch_cell(const RayFrame& frame, const Position& p, IntMask valid) {
+// Lanes that are not `valid` read the first cell. `cells`: those of the levels or of what flows.
+HWY_INLINE Cell fetch_cell(const RayFrame& frame, const std::uint8_t* cells, const Position& p,
+                           IntMask valid) {
   const Int offset = hn::Add(hn::Add(hn::Mul(hn::ShiftRight<16>(p.b), whole(frame.row_bytes)),
                                      hn::Mul(hn::ShiftRight<16>(p.a), whole(frame.column_bytes))),
                              hn::And(hn::ShiftRight<15>(p.z), whole(-2)));
   const Int at = hn::IfThenElseZero(valid, offset);
-  return {gather(frame.cells, at), gather(frame.cells + frame.row_bytes, at), upper_byte_twice(p.b),
+  return {gather(cells, at), gather(cells + frame.row_bytes, at), upper_byte_twice(p.b),
           fraction_twice(p.a), hn::ShiftRight<1>(fraction_twice(p.z))};
 }
 
@@ -164,14 +165,15 @@ inline constexpr int brick_z_shift = 16 + pipeline::brick_depth_shift;
 inline constexpr int brick_a_shift = 16 + pipeline::brick_a_shift;
 inline constexpr int brick_b_shift = 16 + pipeline::brick_b_shift;
 
-// DistancesAhead's number for the brick that contains p; `octant` is the offset of the octant's
+// DistancesAhead's number (of the levels' bricks or the flow's) for the brick that contains p; `octant` is the offset of the octant's
 // bricks. Distance in bits 0–7, highest level in bits 8–15.
-HWY_INLINE Int brick_at(const RayFrame& frame, Int octant, const Position& p, IntMask valid) {
+HWY_INLINE Int brick_at(const RayFrame& frame, const std::uint16_t* bricks, Int octant,
+                        const Position& p, IntMask valid) {
   const Int index =
       hn::Add(hn::Add(hn::Mul(hn::ShiftRight<brick_b_shift>(p.b), whole(frame.brick_slab)),
                       hn::Mul(hn::ShiftRight<brick_a_shift>(p.a), whole(frame.brick_row))),
               hn::Add(hn::ShiftRight<brick_z_shift>(p.z), octant));
-  return gather(frame.bricks, hn::ShiftLeft<1>(hn::IfThenElseZero(valid, index)));
+  return gather(bricks, hn::ShiftLeft<1>(hn::IfThenElseZero(valid, index)));
 }
 
 // Samples to the first one outside; at least one. The rounding leaves a margin of a hundredth of a

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "ui/transfer/flow_look.h"
+
 namespace octascope::ui {
 
 namespace {
@@ -76,6 +78,20 @@ void make_step_table(const TransferTable& transfer, float steps, StepTable& tabl
     table.grey = table.grey && colour.red == colour.green && colour.red == colour.blue;
   }
   find_visible_levels(transfer, table.visible);
+}
+
+void make_flow_table(float opacity, float steps, FlowTable& table) {
+  constexpr auto last = static_cast<float>(TransferTable::entries - 1);
+  float last_weight = -1;
+  std::uint32_t alpha = 0;
+  for (std::size_t i = 0; i < TransferTable::entries; ++i) {
+    const float weight = flow_weight(static_cast<float>(i) / last);
+    if (weight != last_weight) { // whole stretches are the same
+      last_weight = weight;
+      alpha = weight > 0 ? to_16_bits(opacity_over(weight * opacity, steps)) : 0;
+    }
+    table.opacity_and_weight[i] = (alpha << 16U) | to_16_bits(weight);
+  }
 }
 
 } // namespace octascope::ui

@@ -28,6 +28,15 @@ struct StepTable {
   std::optional<Ramp> ramp;
 };
 
+// What is seen of flow (ui/transfer/flow_look.h), by its count in the same parts.
+struct FlowTable {
+  // Opacity of one step in the upper 16 bits, the weight in the lower ones; 65535 is 1.
+  std::array<std::uint32_t, TransferTable::entries> opacity_and_weight{};
+};
+
+// `opacity`: over one reference step, of what flows for certain.
+void make_flow_table(float opacity, float steps, FlowTable& table);
+
 // Opacity over `steps` reference steps: 1 − (1 − opacity)^steps.
 void make_step_table(const TransferTable& transfer, float steps, StepTable& table);
 

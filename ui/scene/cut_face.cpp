@@ -9,16 +9,17 @@
 
 namespace octascope::ui {
 
-hal::Result<CutFace> CutFace::create() {
+hal::Result<CutFace> CutFace::create(WithFlow flow) {
   HAL_TRY(auto program,
-          TransferProgram::create({"cut face", shaders::cut_face_vert, shaders::cut_face_frag}));
+          TransferProgram::create(
+              {"cut face", shaders::cut_face_vert, shaders::cut_face_frag, {}, flow}));
   return CutFace{std::move(program)};
 }
 
 void CutFace::composite(const VolumeTexture& volume, const TransferTexture& transfer,
-                        const Camera& camera, const CutAway& away, const Rect& rect,
-                        int target_height) const {
-  const gl::Program& program = program_.use(transfer);
+                        const FlowScene* flow, const Camera& camera, const CutAway& away,
+                        const Rect& rect, int target_height) const {
+  const gl::Program& program = program_.use(transfer, flow);
   const glm::vec3 extents = box_extents_mm(volume.geometry());
   glUniformMatrix4fv(program.uniform("u_view_projection"), 1, GL_FALSE,
                      glm::value_ptr(camera.view_projection));

@@ -13,12 +13,14 @@ namespace octascope::ui {
 // Threads: as gl/objects.h. Allocates when it is made, never afterwards.
 class CutFace {
 public:
-  static hal::Result<CutFace> create();
+  static hal::Result<CutFace> create(WithFlow flow);
 
   // Blends them over the volume's picture in `rect` of the bound framebuffer; all that a cut leaves
-  // lies behind it. In the levels as they came: nothing is drawn weaker here.
-  void composite(const VolumeTexture& volume, const TransferTexture& transfer, const Camera& camera,
-                 const CutAway& away, const Rect& rect, int target_height) const;
+  // lies behind it. In the levels as they came: nothing is drawn weaker here. `flow`: null if it was
+  // made without.
+  void composite(const VolumeTexture& volume, const TransferTexture& transfer,
+                 const FlowScene* flow, const Camera& camera, const CutAway& away, const Rect& rect,
+                 int target_height) const;
 
 private:
   void draw_face(const gl::Program& program, const CutAway& away, int across) const;

@@ -7,6 +7,7 @@
 #include "pipeline/volume/level_scale.h"
 #include "pipeline/volume/volume_geometry.h"
 #include "ui/gl/context_info.h"
+#include "ui/transfer/flow_look.h"
 
 namespace octascope::ui {
 
@@ -99,7 +100,13 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
   changed_.clear();
   changed_.reserve(volume.b_scan_states.size());
   const pipeline::Volume& drawn = see_through(volume);
+  has_flow_ = volume.has_flow();
+  flow_shows_ = has_flow_ && flow_wanted_;
+  if (flow_shows_ && flow_occupancy_.geometry() != volume.geometry)
+    flow_occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
   copy_for_rays(volume);
+  if (flow_shows_ && !completed_by_caller_)
+    HAL_CHECK(bring_flow_texture(volume, {}));
   light_shows_ = light_wanted_;
   if (light_shows_)
     light_.show(drawn);
@@ -112,7 +119,8 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
 
 // What was never shown as a whole, or is seen through in another way, has nothing to be renewed.
 bool VolumePainter::must_show_all(const pipeline::Volume& volume) const {
-  return empty() || volume.geometry != texture_.geometry() || light_wanted_ != light_shows_ ||
+  return empty() || volume.geometry != texture_.geometry() || volume.has_flow() != has_flow_ ||
+         (has_flow_ && flow_wanted_ != flow_shows_) || light_wanted_ != light_shows_ ||
          see_through_db_ != shown_see_through_db_ || (caster_ && !caster_shows_);
 }
 
@@ -144,6 +152,8 @@ hal::Result<> VolumePainter::renew(const pipeline::Volume& volume,
   ++uploads_;
   changed_.assign(changed.begin(), changed.end());
   HAL_CHECK(renew_for_rays(volume, changed));
+  if (flow_shows_ && !completed_by_caller_)
+    HAL_CHECK(bring_flow_texture(volume, {}));
   if (light_shows_)
     light_.show(weakened_shows_ ? weakened_ : volume);
   surface_shows_ = false;
@@ -172,29 +182,55 @@ void VolumePainter::weaken(const pipeline::Volume& volume, int b_scan) {
                 weakened_.b_scan(b_scan));
 }
 
-// A B-scan is drawn weaker by the thread that copies it, which then has it in its cache.
+// By the thread that copies the B-scan, which then has it in its cache.
+void VolumePainter::prepare_b_scan(const pipeline::Volume& volume, int b_scan) {
+  if (weakened_shows_)
+    weaken(volume, b_scan);
+  if (flow_shows_)
+    flow_occupancy_.update(b_scan, volume.b_scan_flow(b_scan));
+}
+
 void VolumePainter::copy_for_rays(const pipeline::Volume& volume) {
-  const auto show = [&] {
-    return weakened_shows_
-               ? caster_->show(weakened_, occupancy_, [this, &volume](int b) { weaken(volume, b); })
-               : caster_->show(volume, occupancy_);
-  };
-  caster_shows_ = caster_ && show();
-  if (!caster_shows_ && weakened_shows_)
-    for (int b = 0; b < volume.geometry.b_scans; ++b)
-      weaken(volume, b);
+  const pipeline::BScanRange all{0, volume.geometry.b_scans};
+  const FlowVoxels flow{volume.flow, &flow_occupancy_};
+  const auto prepare = [this, &volume](int b) { prepare_b_scan(volume, b); };
+  caster_shows_ = caster_ && caster_->show(weakened_shows_ ? weakened_ : volume, occupancy_,
+                                           prepare, flow_shows_ ? &flow : nullptr);
+  for (int b = all.from; !caster_shows_ && b < all.to; ++b)
+    prepare_b_scan(volume, b);
 }
 
 hal::Result<> VolumePainter::renew_for_rays(const pipeline::Volume& volume,
                                             std::span<const pipeline::BScanRange> changed) {
+  const FlowVoxels flow{volume.flow, &flow_occupancy_};
+  const auto prepare = [this, &volume](int b) { prepare_b_scan(volume, b); };
   if (caster_shows_)
-    return weakened_shows_ ? caster_->renew(weakened_, occupancy_, changed,
-                                            [this, &volume](int b) { weaken(volume, b); })
-                           : caster_->renew(volume, occupancy_, changed);
+    return caster_->renew(weakened_shows_ ? weakened_ : volume, occupancy_, changed, prepare,
+                          flow_shows_ ? &flow : nullptr);
   for (const pipeline::BScanRange& range : changed)
-    for (int b = range.from; weakened_shows_ && b < range.to; ++b)
-      weaken(volume, b);
+    for (int b = range.from; b < range.to; ++b)
+      prepare_b_scan(volume, b);
   return {};
+}
+
+// The processor casts rays through its own copy; GL draws all else, a cut's faces included.
+bool VolumePainter::needs_flow_texture(const ViewState& view, RayBackend rays) const {
+  return draws_flow(view) && (parts_for(view, rays).all || view.cut != CutShape::none);
+}
+
+hal::Result<> VolumePainter::bring_flow_texture(const pipeline::Volume& volume,
+                                                const TextureParts& parts) {
+  if (flow_uploads_ == uploads_)
+    return flow_texture_.holds(parts) ? hal::Result<>{} : flow_texture_.renew(volume, {}, parts);
+  const bool renewed = flow_uploads_ + 1 == uploads_ && !changed_.empty();
+  HAL_CHECK(renewed ? flow_texture_.renew(volume, changed_, parts)
+                    : flow_texture_.upload(volume, parts));
+  flow_uploads_ = uploads_;
+  return {};
+}
+
+FlowScene VolumePainter::flow_scene(float view_opacity) const {
+  return {flow_texture_, flow_occupancy_, flow_opacity(view_opacity)};
 }
 
 // Of two sections the flat pictures and a cut's faces are made; all else the processor draws from its own copy.
@@ -212,8 +248,12 @@ hal::Result<> VolumePainter::complete(const pipeline::Volume& volume, const View
                                       const DrawQuality& quality) {
   completed_by_caller_ = true;
   expected_ = parts_for(view, backend(quality));
-  return empty() || texture_.holds(expected_) ? hal::Result<>{}
-                                              : texture_.renew(volume, {}, expected_);
+  if (empty())
+    return {};
+  if (!texture_.holds(expected_))
+    HAL_CHECK(texture_.renew(volume, {}, expected_));
+  return needs_flow_texture(view, backend(quality)) ? bring_flow_texture(volume, expected_)
+                                                    : hal::Result<>{};
 }
 
 hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
@@ -229,7 +269,9 @@ hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
 }
 
 void VolumePainter::update_transfer(const ViewState& of) {
-  const ViewState view = stretched(of);
+  ViewState view = stretched(of);
+  if (draws_flow(of))
+    view.opacity *= tissue_beside_flow;
   const TransferSource source{view.window_offset_db, view.window_size_db,
                               view.opacity,          view.transfer,
                               view.colour_map,       depth_colours(view).value_or(DepthColours{})};
@@ -249,6 +291,7 @@ void VolumePainter::expect(const ViewState& view) {
   expected_.a_scan = view.a_scan;
   see_through_db_ = view.see_through_db;
   light_wanted_ = view.technique == Technique::shaded;
+  flow_wanted_ = shows_flow(view);
   if (view.technique == Technique::surface)
     static_cast<void>(techniques_.get(view.technique)); // that it could not be made, update() says
 }
@@ -323,7 +366,9 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   update_transfer(view);
   expect(view);
   const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
-  if (!texture_.holds(parts_for(view, backend(quality))))
+  const TextureParts parts = parts_for(view, backend(quality));
+  if (!texture_.holds(parts) || (needs_flow_texture(view, backend(quality)) &&
+                                 (flow_uploads_ != uploads_ || !flow_texture_.holds(parts))))
     return hal::fail(hal::ErrorCode::invalid_argument,
                      "volume display: found parts of a volume, expected complete() for this view");
   const VolumeTexture* drawn = &texture_; // the processor's rays need only its shape
@@ -337,15 +382,19 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   scene.cut_away = cut_away(view, camera, texture_.geometry());
   scene.light = light_for(view);
   scene.changed = changed_;
-  if (!scene.cut_away.nothing() && !cut_face_) {
-    HAL_TRY(auto made, CutFace::create());
-    cut_face_.emplace(std::move(made));
+  const FlowScene flow = flow_scene(view.opacity);
+  scene.flow = draws_flow(view) ? &flow : nullptr;
+  std::optional<CutFace>& cut_face = scene.flow != nullptr ? flow_cut_face_ : cut_face_;
+  if (!scene.cut_away.nothing() && !cut_face) {
+    HAL_TRY(auto made, CutFace::create(scene.flow != nullptr ? WithFlow::yes : WithFlow::no));
+    cut_face.emplace(std::move(made));
   }
   // A cut's face is drawn by composite(), of what is there then.
   pictures->all_changed = processor != pictures->processor_drew || !scene.cut_away.nothing() ||
                           !pictures->cut_away.nothing();
   pictures->camera = camera;
   pictures->cut_away = scene.cut_away;
+  pictures->flow = scene.flow != nullptr;
   if (surface) {
     HAL_CHECK(techniques_.get(view.technique));
     scene.mesh = techniques_.surface()->prepare(view);
@@ -374,6 +423,7 @@ void VolumePainter::add_changed(StereoEye eye, const Rect& rect, Damage& damage)
 bool VolumePainter::wants_volume(const ViewState& view) const {
   return !empty() && ((view.technique == Technique::surface && !surface_shows_) ||
                       (view.technique == Technique::shaded && !light_shows_) ||
+                      (shows_flow(view) && has_flow_ && !flow_shows_) ||
                       view.see_through_db != shown_see_through_db_);
 }
 
@@ -414,9 +464,12 @@ void VolumePainter::composite(StereoEye eye, const Rect& rect, int target_height
     pictures->by_processor->composite(rect, target_height);
   else
     pictures->by_gl.composite(rect, target_height);
-  if (!pictures->cut_away.nothing())
-    cut_face_->composite(texture_, transfer_texture_, pictures->camera, pictures->cut_away, rect,
-                         target_height);
+  if (pictures->cut_away.nothing())
+    return;
+  const FlowScene flow = flow_scene(0); // a face is opaque anyway
+  const CutFace& face = pictures->flow ? *flow_cut_face_ : *cut_face_;
+  face.composite(texture_, transfer_texture_, pictures->flow ? &flow : nullptr, pictures->camera,
+                 pictures->cut_away, rect, target_height);
 }
 
 } // namespace octascope::ui

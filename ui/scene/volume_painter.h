@@ -84,6 +84,10 @@ public:
   hal::Result<> complete(const pipeline::Volume& volume, const ViewState& view,
                          const DrawQuality& quality);
 
+  // Whether what flows is drawn for that view: it shows flow, and the shown volume has some. That was
+  // computed unless wants_volume().
+  bool draws_flow(const ViewState& view) const { return flow_shows_ && shows_flow(view); }
+
   // Brings the eye's picture up to date; `camera` must be that eye's, with the rectangle's aspect.
   // ErrorCode::invalid_argument: complete() was not called for it.
   hal::Result<> update(StereoEye eye, const ViewState& view, const Camera& camera,
@@ -131,6 +135,7 @@ private:
     bool processor_drew = false; // in the last update()
     Camera camera{};             // of the last update()
     CutAway cut_away{};
+    bool flow = false;
     bool all_changed = true; // by the last update()
   };
 
@@ -143,6 +148,10 @@ private:
   void copy_for_rays(const pipeline::Volume& volume);
   hal::Result<> renew_for_rays(const pipeline::Volume& volume,
                                std::span<const pipeline::BScanRange> changed);
+  void prepare_b_scan(const pipeline::Volume& volume, int b_scan);
+  bool needs_flow_texture(const ViewState& view, RayBackend rays) const;
+  hal::Result<> bring_flow_texture(const pipeline::Volume& volume, const TextureParts& parts);
+  FlowScene flow_scene(float view_opacity) const;
   TextureParts expected_parts() const;
   TextureParts parts_for(const ViewState& view, RayBackend rays) const;
   hal::Result<const VolumeTexture*> drawn_texture();
@@ -184,6 +193,13 @@ private:
   VolumeTexture weakened_texture_; // made when GL first draws it
   std::uint64_t weakened_uploads_ = 0;
   bool weakened_shows_ = false;
+  // What flows, if the view shows that.
+  VolumeTexture flow_texture_{Voxels::flow}; // of the volume whose upload this was:
+  std::uint64_t flow_uploads_ = 0;
+  pipeline::Occupancy flow_occupancy_;
+  bool flow_wanted_ = shows_flow(ViewState{});
+  bool has_flow_ = false; // the volume shown
+  bool flow_shows_ = false;
   float see_through_db_ = ViewState{}.see_through_db; // of the last view
   float shown_see_through_db_ = 0;                    // of the volume shown
   std::unique_ptr<TransferTable> transfer_;
@@ -192,6 +208,7 @@ private:
   DepthColours depths_;
   VolumeTechniques techniques_;
   std::optional<CutFace> cut_face_;      // empty until a view is cut
+  std::optional<CutFace> flow_cut_face_; // likewise with flow
   std::optional<VesselOverlay> vessels_; // empty until some are shown
   std::optional<RayCaster> caster_;      // empty until requested
   bool caster_wanted_ = false;

@@ -12,5 +12,11 @@ void main() {
   vec4 substance = look_up(textureLod(u_levels, v_texture, 0.0).r);
   float brightness = max(substance.r, max(substance.g, substance.b));
   float alpha = substance.a > 0.0 ? min(brightness / opaque_from, 1.0) : 0.0;
-  o_colour = vec4(substance.rgb * tint_at(v_texture.x) * alpha, alpha);
+  vec3 colour = substance.rgb * tint_at(v_texture.x);
+#ifdef WITH_FLOW
+  float weight = flow_weight(flow_at(v_texture));
+  colour = with_flow(colour, weight);
+  alpha = max(alpha, weight);
+#endif
+  o_colour = vec4(colour * alpha, alpha);
 }

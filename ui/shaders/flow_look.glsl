@@ -1,4 +1,6 @@
 // How flow looks: ui/transfer/flow_look.h.
+precision highp float;
+
 uniform vec2 u_flow_seen; // from where on, and from where on in full
 uniform vec3 u_flow_wall;
 uniform vec3 u_flow_middle;

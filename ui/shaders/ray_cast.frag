@@ -81,6 +81,10 @@ float level_at(vec3 position) {
   return textureLod(u_levels, position * u_to_texture_scale + u_to_texture_offset, 0.0).r;
 }
 
+#ifdef WITH_FLOW
+float flow_in(vec3 position) { return flow_at(position * u_to_texture_scale + u_to_texture_offset); }
+#endif
+
 vec3 tint_in(vec3 position) {
   return tint_at(position.x * u_to_texture_scale.x + u_to_texture_offset.x);
 }
@@ -121,8 +125,9 @@ uniform float u_cue_near_mm;
 uniform float u_cue_per_mm;
 uniform float u_depth_cue;
 
-// By which what a ray shows, of that brightness, is weakened, if most of it lies at a sample.
-float light_on(Ray ray, float number, float brightness) {
+// By which what a ray shows, of that brightness, is weakened, if most of it lies at a sample and that
+// share of it shines by itself.
+float light_on(Ray ray, float number, float brightness, float unlit) {
   float depth = (ray.first_mm + number * u_step_mm) * ray.cosine;
   float fade = 1.0 - u_depth_cue * clamp((depth - u_cue_near_mm) * u_cue_per_mm, 0.0, 1.0);
   if (!u_lit)
@@ -138,13 +143,28 @@ float light_on(Ray ray, float number, float brightness) {
   float strength = squared / (squared + u_weak_slope * u_weak_slope);
   float open = clamp(u_open_light - texel.a, u_least_open, 1.0);
   float shade = mix(u_level_light, lit, strength) * open;
-  return mix(shade, 1.0, smoothstep(u_gleam.x, u_gleam.y, brightness)) * fade;
+  return mix(shade, 1.0, max(smoothstep(u_gleam.x, u_gleam.y, brightness), unlit)) * fade;
 }
 #endif
 
 #ifdef RAY_MAXIMUM
 // What two samples of the same level may differ by, a sixteenth of a level.
 const float level_margin = 1.0 / 4080.0;
+
+#ifdef WITH_FLOW
+// How opaque all is that flows along the ray, and where half of that was reached.
+float gather_flow(Ray ray, out int half_at) {
+  float transparency = 1.0;
+  half_at = 0;
+  for (int next = 0; next < ray.end; ++next) {
+    float weight = flow_weight(flow_in(position_of(ray, next)));
+    float opacity = opacity_over(weight * u_flow_opacity, u_steps);
+    half_at = opacity > 0.0 && transparency >= 0.5 ? next : half_at;
+    transparency -= transparency * opacity;
+  }
+  return 1.0 - transparency;
+}
+#endif
 
 // The highest level along the ray, as opaque as it is bright.
 void trace(Ray ray) {
@@ -166,9 +186,22 @@ void trace(Ray ray) {
     }
   }
   vec4 substance = look_up(highest);
+#ifdef WITH_FLOW
+  if (substance.a <= 0.0)
+    substance.rgb = vec3(0.0);
+  substance.rgb *= tint_in(position_of(ray, highest_at));
+  int flow_half_at = 0;
+  float weight = gather_flow(ray, flow_half_at);
+  if (substance.a <= 0.0 && weight <= 0.0)
+    return;
+  if (weight > 0.5 || substance.a <= 0.0)
+    highest_at = flow_half_at;
+  substance.rgb = with_flow(substance.rgb, weight);
+#else
   if (substance.a <= 0.0)
     return;
   substance.rgb *= tint_in(position_of(ray, highest_at));
+#endif
   o_colour = vec4(substance.rgb, max(substance.r, max(substance.g, substance.b)));
   o_depth = depth_of(ray, highest_at);
 }
@@ -181,6 +214,7 @@ void trace(Ray ray) {
   // Where most of the light comes from; of two layers, the stronger has it.
   float powers = 0.0;
   float numbers = 0.0;
+  float flow = 0.0; // the share of the opacity that flows
 #endif
   int next = 0;
   while (next < ray.end && transparency >= u_opaque_transparency) {
@@ -194,6 +228,11 @@ void trace(Ray ray) {
          next < stop && transparency >= u_opaque_transparency; ++next) {
       position = position_of(ray, next);
       vec4 substance = look_up(level_at(position));
+#ifdef WITH_FLOW
+      substance.rgb *= tint_in(position);
+      float flow_here = flow_in(position);
+      substance = add_flow(substance, flow_here);
+#endif
       half_opaque = transparency >= 0.5 ? next : half_opaque;
       float weight = transparency * opacity_over(substance.a, u_steps);
       transparency -= weight;
@@ -201,8 +240,15 @@ void trace(Ray ray) {
       float power = weight * weight * weight * weight;
       powers += power;
       numbers += power * float(next);
+#ifdef WITH_FLOW
+      flow += weight * flow_weight(flow_here);
 #endif
+#endif
+#ifdef WITH_FLOW
+      light += weight * substance.rgb;
+#else
       light += weight * substance.rgb * tint_in(position);
+#endif
     }
   }
   if (transparency < 0.5)
@@ -210,7 +256,8 @@ void trace(Ray ray) {
 #ifdef RAY_SHADED
   float strongest = max(light.r, max(light.g, light.b));
   float brightness = min(strongest / max(1.0 - transparency, 1e-6), 1.0);
-  light *= light_on(ray, numbers / max(powers, u_least_power), brightness);
+  light *= light_on(ray, numbers / max(powers, u_least_power), brightness,
+                    flow / max(1.0 - transparency, 1e-6));
 #endif
   // What an ended ray would have met counts as of the same colour.
   if (transparency < u_opaque_transparency) {

@@ -18,12 +18,15 @@ void main() {
   float moved = u_dither * (dither(gl_FragCoord.xy) - 0.5);
   vec3 position = v_texture + v_step * moved;
   vec4 substance = look_up(textureLod(u_levels, position, 0.0).r);
+  substance.rgb *= tint_at(position.x);
+#ifdef WITH_FLOW
+  substance = add_flow(substance, flow_at(position));
+#endif
   substance.a *= step(u_first_depth, position.x);
   bvec4 cut = bvec4(greaterThan(position.yz, u_cut_away.xy), lessThan(position.yz, u_cut_away.zw));
   substance.a *= all(cut) ? 0.0 : 1.0;
   if (v_depth.x + v_depth.y * moved >= stop_mm())
     substance.a = 0.0;
-  substance.rgb *= tint_at(position.x);
   float alpha = opacity_over(substance.a, u_steps * length(v_ray));
   o_colour = vec4(substance.rgb * alpha, alpha);
 }

@@ -1,6 +1,6 @@
 // What every way of drawing the volume begins with: how a level looks. Before this stand the
 // #defines of TransferProgram and, where it
-// colours by depth, depth_tint.glsl.
+// colours by depth, depth_tint.glsl, where it shows flow, flow_look.glsl.
 precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -35,6 +35,19 @@ vec4 look_up(float level) {
 vec3 tint_at(float depth) { return depth_tint(depth); }
 #else
 vec3 tint_at(float depth) { return vec3(1.0); }
+#endif
+
+#ifdef WITH_FLOW
+uniform sampler3D u_flow;
+uniform float u_flow_opacity;
+
+float flow_at(vec3 place) { return textureLod(u_flow, place, 0.0).r; }
+
+// What flows in tissue.
+vec4 add_flow(vec4 tissue, float flow) {
+  float weight = flow_weight(flow);
+  return vec4(with_flow(tissue.rgb, weight), max(tissue.a, weight * u_flow_opacity));
+}
 #endif
 
 // Of so many reference steps; exactly 0 for nothing, which exp2 and log2 do not promise.

@@ -8,7 +8,8 @@
 //   colour  = mix(tissue, flow_colour(weight), weight)
 //   opacity = max(tissue's, weight · flow_opacity(view's))
 //
-// So what flows is seen in dim tissue, too, and is veiled by what lies before it. A vessel's wall, where
+// So what flows is seen in dim tissue, too, and is veiled by what lies before it. The maximum along a ray
+// has no before: all that flows along it adds up to the opacity that is its weight. A vessel's wall, where
 // the weight falls, is deep red, and its middle a warm orange, which is lighter and yellower: who is blind
 // to red or green sees it, too.
 #pragma once
@@ -21,11 +22,11 @@
 namespace octascope::ui {
 
 // Of a count of 255.
-inline constexpr float flow_seen_from = 0.35F;
-inline constexpr float flow_seen_full = 0.65F;
+inline constexpr float flow_seen_from = 0.5F; // where the classification calls it flowing
+inline constexpr float flow_seen_full = 0.8F;
 
 // Voxels with fewer counts show nothing, nor does what is interpolated between them alone.
-inline constexpr std::uint8_t first_seen_flow = 90;
+inline constexpr std::uint8_t first_seen_flow = 128;
 static_assert((first_seen_flow - 1) / 255.0F < flow_seen_from);
 
 inline constexpr TransferTable::Colour flow_wall{0.50F, 0.05F, 0.04F};
@@ -57,5 +58,9 @@ constexpr TransferTable::Colour with_flow(const TransferTable::Colour& tissue, f
 constexpr float flow_opacity(float view_opacity) {
   return view_opacity;
 }
+
+// While flow is drawn, tissue is only that share as opaque as the view says, so that vessels below its
+// surface are seen. They are as opaque as the view says.
+inline constexpr float tissue_beside_flow = 0.15F;
 
 } // namespace octascope::ui

@@ -19,6 +19,7 @@ VolumePictureKey volume_picture_key(const VolumeScene& scene, const DrawQuality&
           scene.vessels != nullptr ? scene.vessels->version : 0,
           scene.vessels != nullptr ? scene.vessels->opacity : 1,
           scene.cut_away,
+          scene.flow != nullptr,
           scene.step_mm,
           picture_pixels(quality, rect.width),
           picture_pixels(quality, rect.height)};

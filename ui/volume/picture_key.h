@@ -23,6 +23,7 @@ struct VolumePictureKey {
   std::uint64_t vessels = 0; // version of their picture; 0: none
   float vessel_opacity = 1;
   CutAway cut_away{};
+  bool flow = false; // its opacity follows from the view's
   float step_mm = 0;
   int width = 0;
   int height = 0;

@@ -4,8 +4,8 @@
 
 namespace octascope::ui {
 
-hal::Result<PlaneStack> PlaneStack::create() {
-  HAL_TRY(auto stack, PolygonStack::create());
+hal::Result<PlaneStack> PlaneStack::create(WithFlow flow) {
+  HAL_TRY(auto stack, PolygonStack::create(flow));
   return PlaneStack{std::move(stack)};
 }
 

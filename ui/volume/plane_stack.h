@@ -11,7 +11,7 @@ namespace octascope::ui {
 // Threads: as gl/objects.h. Allocates when it is made, never afterwards.
 class PlaneStack : public VolumeTechnique {
 public:
-  static hal::Result<PlaneStack> create();
+  static hal::Result<PlaneStack> create(WithFlow flow = WithFlow::no);
 
 private:
   explicit PlaneStack(PolygonStack stack) : stack_{std::move(stack)} {}

@@ -18,9 +18,9 @@ float first_depth_share(int depths) {
 
 } // namespace
 
-hal::Result<PolygonStack> PolygonStack::create() {
+hal::Result<PolygonStack> PolygonStack::create(WithFlow flow) {
   HAL_TRY(auto program,
-          TransferProgram::create({"stack", shaders::stack_vert, shaders::stack_frag}));
+          TransferProgram::create({"stack", shaders::stack_vert, shaders::stack_frag, {}, flow}));
   return PolygonStack{std::move(program)};
 }
 
@@ -48,7 +48,7 @@ void PolygonStack::add(const PlanePolygon& polygon) {
 
 void PolygonStack::draw(const VolumeScene& scene, const Spacing& spacing) {
   const glm::vec3 extents = box_extents_mm(scene.volume.geometry());
-  const gl::Program& program = program_.use(scene.transfer);
+  const gl::Program& program = program_.use(scene.transfer, scene.flow);
   glUniformMatrix4fv(program.uniform("u_view_projection"), 1, GL_FALSE,
                      glm::value_ptr(scene.camera.view_projection));
   glUniform3fv(program.uniform("u_eye"), 1, glm::value_ptr(scene.camera.eye));

@@ -19,7 +19,7 @@ class PolygonStack {
 public:
   static constexpr int most_polygons = 2048;
 
-  static hal::Result<PolygonStack> create();
+  static hal::Result<PolygonStack> create(WithFlow flow);
 
   void clear() { used_ = 0; }
   void add(const PlanePolygon& polygon); // behind the previous ones; ignored if there are too many

@@ -79,6 +79,8 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   settings.step_mm = scene.step_mm;
   settings.cut_away = scene.cut_away;
   settings.light = scene.light;
+  if (scene.flow != nullptr)
+    settings.flow_opacity = scene.flow->opacity;
   settings.soften = is_grained(scene.step_mm, scene.volume.geometry());
   const DepthMask* vessels = scene.vessels;
   if (vessels == nullptr) {

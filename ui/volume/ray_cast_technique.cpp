@@ -17,9 +17,9 @@ namespace {
 constexpr GLint brick_unit = 2;
 constexpr GLint light_unit = 5;
 
-VolumeShader shader_of(RayMode mode) {
-  const auto ray_cast = [](std::string_view name, std::string_view defines) {
-    return VolumeShader{name, shaders::picture_vert, shaders::ray_cast_frag, defines};
+VolumeShader shader_of(RayMode mode, WithFlow flow) {
+  const auto ray_cast = [flow](std::string_view name, std::string_view defines) {
+    return VolumeShader{name, shaders::picture_vert, shaders::ray_cast_frag, defines, flow};
   };
   switch (mode) {
   case RayMode::composite: break;
@@ -38,8 +38,8 @@ void set(const gl::Program& program, const char* name, float value) {
 
 } // namespace
 
-hal::Result<RayCastTechnique> RayCastTechnique::create(RayMode mode) {
-  HAL_TRY(auto program, TransferProgram::create(shader_of(mode)));
+hal::Result<RayCastTechnique> RayCastTechnique::create(RayMode mode, WithFlow flow) {
+  HAL_TRY(auto program, TransferProgram::create(shader_of(mode, flow)));
   return RayCastTechnique{mode, std::move(program)};
 }
 
@@ -50,8 +50,12 @@ void RayCastTechnique::prepare_bricks(const VolumeScene& scene) {
   const BrickSource source{scene.upload, scene.transfer.version()};
   if (brick_source_ == source)
     return;
+  const bool maximum = mode_ == RayMode::maximum; // that of flow is looked for on its own
+  if (scene.flow != nullptr && !maximum)
+    flow_bricks_.update_flow(scene.flow->occupancy, false);
   bricks_.update(*scene.occupancy, scene.transfer.visible(),
-                 mode_ == RayMode::maximum ? Visibility::maximum : Visibility::range);
+                 maximum ? Visibility::maximum : Visibility::range, nullptr, {},
+                 scene.flow != nullptr && !maximum ? &flow_bricks_ : nullptr);
   distances_.measure(bricks_);
   const pipeline::BrickCounts& n = bricks_.counts();
   glActiveTexture(GL_TEXTURE0 + brick_unit);
@@ -153,7 +157,7 @@ void RayCastTechnique::do_draw(const VolumeScene& scene) {
   const bool leap = scene.occupancy != nullptr;
   if (leap)
     prepare_bricks(scene);
-  const gl::Program& program = program_.use(scene.transfer);
+  const gl::Program& program = program_.use(scene.transfer, scene.flow);
   set_rays(program, scene);
   set_depth_mask(program, scene.vessels, scene.camera);
   if (mode_ == RayMode::shaded)

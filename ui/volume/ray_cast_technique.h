@@ -20,7 +20,7 @@ namespace octascope::ui {
 // Threads: as gl/objects.h. draw() allocates when the volume's geometry changes.
 class RayCastTechnique : public VolumeTechnique {
 public:
-  static hal::Result<RayCastTechnique> create(RayMode mode);
+  static hal::Result<RayCastTechnique> create(RayMode mode, WithFlow flow = WithFlow::no);
 
 private:
   RayCastTechnique(RayMode mode, TransferProgram program);
@@ -36,6 +36,7 @@ private:
   TransferProgram program_;
   gl::VertexArray vertex_array_; // empty: vertices are computed from their index
   BrickGrid bricks_;
+  BrickGrid flow_bricks_;
   DistancesAround distances_;
   gl::Texture brick_texture_;
   pipeline::BrickCounts brick_counts_;

@@ -4,8 +4,8 @@
 
 namespace octascope::ui {
 
-hal::Result<SliceStack> SliceStack::create() {
-  HAL_TRY(auto stack, PolygonStack::create());
+hal::Result<SliceStack> SliceStack::create(WithFlow flow) {
+  HAL_TRY(auto stack, PolygonStack::create(flow));
   return SliceStack{std::move(stack)};
 }
 

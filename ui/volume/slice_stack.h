@@ -14,7 +14,7 @@ namespace octascope::ui {
 // Threads: as gl/objects.h. Allocates when it is made, never afterwards.
 class SliceStack : public VolumeTechnique {
 public:
-  static hal::Result<SliceStack> create();
+  static hal::Result<SliceStack> create(WithFlow flow = WithFlow::no);
 
 private:
   explicit SliceStack(PolygonStack stack) : stack_{std::move(stack)} {}

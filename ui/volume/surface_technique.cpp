@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "embedded_shaders.h"
@@ -26,6 +27,12 @@ constexpr float metal_to = 1.13F;
 // By so many decibels of seeing through, the opacity of what covers is halved, face on.
 constexpr float glass_halved_db = 4.8F;
 
+hal::Result<gl::Program> build_surface(std::string_view flow) {
+  return gl::Program::build("surface", shaders::surface_vert,
+                            fmt::format("{}{}{}{}", flow, shaders::depth_tint_glsl,
+                                        shaders::stops_glsl, shaders::surface_frag));
+}
+
 const void* offset(std::size_t bytes) {
   return reinterpret_cast<const void*>(bytes);
 }
@@ -37,32 +44,38 @@ float surface_level(const ViewState& view) {
   return pipeline::level_count(view.window_offset_db + place * view.window_size_db);
 }
 
+SurfaceTechnique::Drawn::Drawn(gl::Program of)
+    : program{std::move(of)}, view_projection{program.uniform("u_view_projection")},
+      eye{program.uniform("u_eye")}, forward{program.uniform("u_forward")},
+      extents{program.uniform("u_extents")}, colour{program.uniform("u_colour")},
+      metal{program.uniform("u_metal")}, ambient{program.uniform("u_ambient")},
+      cue{program.uniform("u_cue")}, cue_loss{program.uniform("u_cue_loss")},
+      cut_away{program.uniform("u_cut_away")}, glass{program.uniform("u_glass")} {}
+
+hal::Result<> SurfaceTechnique::prepare_flow() {
+  constexpr int samples = 32;
+  if (with_flow_)
+    return {};
+  HAL_TRY(auto program,
+          build_surface(fmt::format("#define WITH_FLOW\n#define FLOW_SAMPLES {}\nprecision highp "
+                                    "sampler3D;\n{}",
+                                    samples, shaders::flow_look_glsl)));
+  with_flow_.emplace(std::move(program));
+  return {};
+}
+
 hal::Result<std::unique_ptr<SurfaceTechnique>>
 SurfaceTechnique::create(TransferSet transfers, pipeline::ThreadSetup threads) {
-  HAL_TRY(auto program,
-          gl::Program::build("surface", shaders::surface_vert,
-                             fmt::format("{}{}{}", shaders::depth_tint_glsl, shaders::stops_glsl,
-                                         shaders::surface_frag)));
+  HAL_TRY(auto program, build_surface({}));
   return std::unique_ptr<SurfaceTechnique>{
       new SurfaceTechnique{std::move(program), std::move(transfers), std::move(threads)}};
 }
 
 SurfaceTechnique::SurfaceTechnique(gl::Program program, TransferSet transfers,
                                    pipeline::ThreadSetup threads)
-    : thread_{pipeline::blank_depth_bins, std::move(threads)},
-      transfers_{std::move(transfers)}, program_{std::move(program)},
-      vertex_array_{gl::VertexArray::make()}, vertices_{gl::Buffer::make()},
-      indices_{gl::Buffer::make()}, uniforms_{program_.uniform("u_view_projection"),
-                                              program_.uniform("u_eye"),
-                                              program_.uniform("u_forward"),
-                                              program_.uniform("u_extents"),
-                                              program_.uniform("u_colour"),
-                                              program_.uniform("u_metal"),
-                                              program_.uniform("u_ambient"),
-                                              program_.uniform("u_cue"),
-                                              program_.uniform("u_cue_loss"),
-                                              program_.uniform("u_cut_away"),
-                                              program_.uniform("u_glass")} {
+    : thread_{pipeline::blank_depth_bins, std::move(threads)}, transfers_{std::move(transfers)},
+      plain_{std::move(program)}, vertex_array_{gl::VertexArray::make()},
+      vertices_{gl::Buffer::make()}, indices_{gl::Buffer::make()} {
   using pipeline::IsoVertex;
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.name());
@@ -111,7 +124,7 @@ void SurfaceTechnique::upload(const pipeline::IsoMesh& mesh) {
   extents_mm_ = {mesh.extents_mm[1], mesh.extents_mm[0], mesh.extents_mm[2]};
 }
 
-void SurfaceTechnique::set_uniforms(const VolumeScene& scene) const {
+void SurfaceTechnique::set_uniforms(const Drawn& drawn, const VolumeScene& scene) const {
   const Camera& camera = scene.camera;
   const ColourMap& colours = transfers_.colours(scene.view);
   const auto set_colour = [](GLint uniform, const TransferTable::Colour& colour) {
@@ -120,29 +133,28 @@ void SurfaceTechnique::set_uniforms(const VolumeScene& scene) const {
   const float middle = camera.depth_of(glm::vec3{0});
   const float reach = glm::dot(glm::abs(camera.forward), extents_mm_ / 2.0F);
   const float near = std::max(middle - reach, camera.near_mm);
-  glUniformMatrix4fv(uniforms_.view_projection, 1, GL_FALSE,
-                     glm::value_ptr(camera.view_projection));
-  glUniform3fv(uniforms_.eye, 1, glm::value_ptr(camera.eye));
-  glUniform3fv(uniforms_.forward, 1, glm::value_ptr(camera.forward));
-  glUniform3fv(uniforms_.extents, 1, glm::value_ptr(extents_mm_));
-  set_colour(uniforms_.colour, colours.at(surface_tissue));
-  set_colour(uniforms_.metal, colours.at(surface_metal));
-  glUniform1i(program_.uniform("u_by_depth"), scene.transfer.depths() ? 1 : 0);
+  glUniformMatrix4fv(drawn.view_projection, 1, GL_FALSE, glm::value_ptr(camera.view_projection));
+  glUniform3fv(drawn.eye, 1, glm::value_ptr(camera.eye));
+  glUniform3fv(drawn.forward, 1, glm::value_ptr(camera.forward));
+  glUniform3fv(drawn.extents, 1, glm::value_ptr(extents_mm_));
+  set_colour(drawn.colour, colours.at(surface_tissue));
+  set_colour(drawn.metal, colours.at(surface_metal));
+  glUniform1i(drawn.program.uniform("u_by_depth"), scene.transfer.depths() ? 1 : 0);
   if (scene.transfer.depths())
-    set_depth_tint(program_, *scene.transfer.depths());
-  glUniform1f(uniforms_.ambient, surface_ambient);
-  glUniform2f(uniforms_.cue, near, 1 / (middle + reach - near));
-  glUniform1f(uniforms_.cue_loss, depth_cue);
+    set_depth_tint(drawn.program, *scene.transfer.depths());
+  glUniform1f(drawn.ambient, surface_ambient);
+  glUniform2f(drawn.cue, near, 1 / (middle + reach - near));
+  glUniform1f(drawn.cue_loss, depth_cue);
   const CutAway& away = scene.cut_away;
-  glUniform4f(uniforms_.cut_away, away.from.x, away.from.y, away.to.x, away.to.y);
+  glUniform4f(drawn.cut_away, away.from.x, away.from.y, away.to.x, away.to.y);
   const WindowRamp window = window_ramp(scene.view);
-  glUniform2f(program_.uniform("u_window"), window.scale, window.offset);
-  glUniform2f(program_.uniform("u_metallic"), metal_from, metal_to);
-  glUniform1f(program_.uniform("u_halvings"), scene.view.see_through_db / glass_halved_db);
+  glUniform2f(drawn.program.uniform("u_window"), window.scale, window.offset);
+  glUniform2f(drawn.program.uniform("u_metallic"), metal_from, metal_to);
+  glUniform1f(drawn.program.uniform("u_halvings"), scene.view.see_through_db / glass_halved_db);
 }
 
-void SurfaceTechnique::draw_mesh(bool glass) const {
-  glUniform1i(uniforms_.glass, glass ? 1 : 0);
+void SurfaceTechnique::draw_mesh(const Drawn& drawn, bool glass) const {
+  glUniform1i(drawn.glass, glass ? 1 : 0);
   glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(corners_), GL_UNSIGNED_INT, nullptr);
 }
 
@@ -150,23 +162,28 @@ void SurfaceTechnique::do_draw(const VolumeScene& scene) {
   prepare(scene.view);
   if (corners_ == 0)
     return;
-  program_.use();
-  set_uniforms(scene);
-  set_depth_mask(program_, scene.vessels, scene.camera);
+  const Drawn& drawn = scene.flow != nullptr ? *with_flow_ : plain_;
+  drawn.program.use();
+  set_uniforms(drawn, scene);
+  if (scene.flow != nullptr) {
+    set_flow(drawn.program, *scene.flow);
+    glUniform1f(drawn.program.uniform("u_flow_reach"), surface_flow_mm / extents_mm_.y);
+  }
+  set_depth_mask(drawn.program, scene.vessels, scene.camera);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glClearDepthf(1);
   glClear(GL_DEPTH_BUFFER_BIT);
   glBindVertexArray(vertex_array_.name());
-  draw_mesh(false);
+  draw_mesh(drawn, false);
   if (covers_ && scene.view.see_through_db > 0) { // over the rest, and no depth of its own
     constexpr GLenum colour = GL_COLOR_ATTACHMENT0;
     glDrawBuffers(1, &colour);
     glDepthMask(GL_FALSE);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    draw_mesh(true);
+    draw_mesh(drawn, true);
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "hal/result.h"
 #include "pipeline/surface/iso_surface_thread.h"
@@ -26,6 +27,8 @@ inline constexpr float surface_ambient = 0.35F; // of the lamp at the eye's ligh
 inline constexpr float surface_tissue = 0.53F;
 inline constexpr float surface_metal = 1;
 
+inline constexpr float surface_flow_mm = 0.5F; // how deep below the surface flow is painted on it
+
 // A separate thread makes the mesh (pipeline/surface/iso_surface_thread.h). Until a new mesh is
 // finished, for a new volume or a changed window, the last one is drawn; before the first, nothing.
 // A picture depends on the number that prepare() returns, and must be redrawn once has_newer() is
@@ -34,6 +37,9 @@ inline constexpr float surface_metal = 1;
 // What covers other tissue (pipeline/volume/cover.h) is glass, the clearer the more the view sees through
 // and the surer it is that it covers. Nothing of a scene's volume is looked at: where the mesh is, how bright
 // and what covers is all of the same volume.
+//
+// Flow, of a scene that has it, is painted on the surface: what flows below it, along the depth, by up to
+// surface_flow_mm. It is that of the scene's volume, which may be newer than the mesh.
 //
 // The framebuffer needs a depth attachment of at least 16 bits, which draw() clears; without one,
 // far parts are drawn over near ones.
@@ -60,20 +66,30 @@ public:
   // Waits until draw() will show the view's surface of the newest volume: for commands and tests.
   void finish(const ViewState& view);
 
+  // To be called before scenes with flow are drawn. ErrorCode::unsupported: as create().
+  hal::Result<> prepare_flow();
+
   // Of the mesh taken last.
   std::size_t triangles() const { return corners_ / 3; }
 
 private:
+  struct Drawn {
+    explicit Drawn(gl::Program of);
+    gl::Program program;
+    GLint view_projection, eye, forward, extents, colour, metal, ambient, cue, cue_loss, cut_away,
+        glass;
+  };
   SurfaceTechnique(gl::Program program, TransferSet transfers, pipeline::ThreadSetup threads);
   void do_draw(const VolumeScene& scene) override;
   bool do_writes_depth() const override { return true; }
   void upload(const pipeline::IsoMesh& mesh);
-  void set_uniforms(const VolumeScene& scene) const;
-  void draw_mesh(bool glass) const;
+  void set_uniforms(const Drawn& drawn, const VolumeScene& scene) const;
+  void draw_mesh(const Drawn& drawn, bool glass) const;
 
   pipeline::IsoSurfaceThread thread_;
   TransferSet transfers_;
-  gl::Program program_;
+  Drawn plain_;
+  std::optional<Drawn> with_flow_;
   gl::VertexArray vertex_array_;
   gl::Buffer vertices_;
   gl::Buffer indices_;
@@ -81,10 +97,6 @@ private:
   bool covers_ = false;     // the mesh has glass
   std::uint64_t mesh_ = 0;  // counts the meshes taken
   glm::vec3 extents_mm_{0}; // of the mesh's volume: fast, depth, slow
-  struct {
-    GLint view_projection, eye, forward, extents, colour, metal, ambient, cue, cue_loss, cut_away,
-        glass;
-  } uniforms_;
 };
 
 } // namespace octascope::ui

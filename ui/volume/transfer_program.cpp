@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "ui/dither/dither_mask.h"
+#include "ui/transfer/flow_uniforms.h"
 
 namespace octascope::ui {
 
@@ -13,15 +14,18 @@ namespace {
 
 constexpr std::string_view as_window = "#define TRANSFER_IS_WINDOW\n";
 constexpr std::string_view as_table = "";
+constexpr std::string_view with_flow = "#define WITH_FLOW\n";
 constexpr std::string_view as_depth = "#define TRANSFER_BY_DEPTH\n";
 
 hal::Result<gl::Program> build(const VolumeShader& shader, std::string_view variant) {
-  const std::string fragment = fmt::format(
-      "#define TRANSFER_ROW_BITS {}\n#define TRANSFER_LAST {}\n"
-      "#define DITHER_SIZE {}\n{}{}{}{}{}{}",
-      TransferTexture::row_bits, TransferTable::entries - 1, dither_size, variant, shader.defines,
-      variant == as_depth ? shaders::depth_tint_glsl : std::string_view{}, shaders::transfer_glsl,
-      shaders::stops_glsl, shader.fragment);
+  const std::string fragment =
+      fmt::format("#define TRANSFER_ROW_BITS {}\n#define TRANSFER_LAST {}\n"
+                  "#define DITHER_SIZE {}\n{}{}{}{}{}{}{}{}",
+                  TransferTexture::row_bits, TransferTable::entries - 1, dither_size, variant,
+                  shader.defines, shader.flow == WithFlow::yes ? with_flow : std::string_view{},
+                  shader.flow == WithFlow::yes ? shaders::flow_look_glsl : std::string_view{},
+                  variant == as_depth ? shaders::depth_tint_glsl : std::string_view{},
+                  shaders::transfer_glsl, shaders::stops_glsl, shader.fragment);
   return gl::Program::build(shader.name, shader.vertex, fragment);
 }
 
@@ -50,6 +54,16 @@ void set_depth_tint(const gl::Program& program, const DepthColours& depths) {
   glUniform2f(program.uniform("u_tint_place"), scale, -depths.from * scale);
 }
 
+void set_flow(const gl::Program& program, const FlowScene& flow) {
+  constexpr GLint flow_unit = 6;
+  set_flow_look(program);
+  glUniform1f(program.uniform("u_flow_opacity"), flow.opacity);
+  glUniform1i(program.uniform("u_flow"), flow_unit);
+  glActiveTexture(GL_TEXTURE0 + flow_unit);
+  glBindTexture(GL_TEXTURE_3D, flow.texture.name());
+  glActiveTexture(GL_TEXTURE0);
+}
+
 hal::Result<TransferProgram> TransferProgram::create(const VolumeShader& shader) {
   HAL_TRY(auto window, build(shader, as_window));
   HAL_TRY(auto table, build(shader, as_table));
@@ -62,7 +76,8 @@ const gl::Program& TransferProgram::variant(const TransferTexture& transfer) con
   return transfer.depths() ? by_depth_ : transfer.window() ? window_ : table_;
 }
 
-const gl::Program& TransferProgram::use(const TransferTexture& transfer) const {
+const gl::Program& TransferProgram::use(const TransferTexture& transfer,
+                                        const FlowScene* flow) const {
   const gl::Program& program = variant(transfer);
   constexpr GLint dither_unit = 4;
   program.use();
@@ -72,6 +87,8 @@ const gl::Program& TransferProgram::use(const TransferTexture& transfer) const {
   glBindTexture(GL_TEXTURE_2D, dither_.name());
   if (transfer.depths())
     set_depth_tint(program, *transfer.depths());
+  if (flow != nullptr)
+    set_flow(program, *flow);
   if (const auto& window = transfer.window()) {
     glUniform3f(program.uniform("u_window"), window->ramp.scale, window->ramp.offset,
                 window->opacity);

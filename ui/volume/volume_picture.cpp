@@ -139,7 +139,9 @@ hal::Result<> VolumePicture::update(VolumeTechniques& techniques, const VolumeSc
   if (drawn_ == key)
     return {};
   drawn_.reset();
-  HAL_TRY(const auto technique, techniques.get(scene.view.technique));
+  HAL_TRY(
+      const auto technique,
+      techniques.get(scene.view.technique, scene.flow != nullptr ? WithFlow::yes : WithFlow::no));
   const gl::KeptFramebuffer kept;
   if (key.width != width_ || key.height != height_)
     HAL_CHECK(resize(key.width, key.height));

@@ -11,6 +11,7 @@
 #include "ui/view/camera.h"
 #include "ui/view/cut.h"
 #include "ui/view/view_state.h"
+#include "ui/volume/flow_scene.h"
 #include "ui/volume/volume_texture.h"
 
 namespace octascope::ui {
@@ -28,6 +29,7 @@ struct VolumeScene {
   const DepthMask* vessels = nullptr;             // null: no vessel ends a ray
   CutAway cut_away{};
   const LightVolume* light = nullptr; // of `shaded`; null: nothing is lit
+  const FlowScene* flow = nullptr;    // null: nothing of it is drawn
   // In what B-scans the volume differs from that of the upload before; empty: in any.
   std::span<const pipeline::BScanRange> changed{};
 };
@@ -41,7 +43,7 @@ public:
   // and produces premultiplied colour and opacity. Lengths are physical, opacity is corrected for
   // the step, samples are trilinear, and the transfer function is the scene's. Nothing is drawn
   // behind the nearest vessel of a pixel; with vessels, the viewport must begin in the
-  // framebuffer's corner.
+  // framebuffer's corner. The scene must have flow if the technique was made for it, and none if not.
   void draw(const VolumeScene& scene) { do_draw(scene); }
 
   // Whether draw() also writes the distance in mm along the view at which half is hidden, or

@@ -18,26 +18,31 @@ template <class Kind> Made owned(hal::Result<Kind> made) {
   return std::make_unique<Kind>(std::move(*made));
 }
 
-Made make(Technique technique, const TransferSet& transfers, const pipeline::ThreadSetup& threads) {
+Made make(Technique technique, WithFlow flow, const TransferSet& transfers,
+          const pipeline::ThreadSetup& threads) {
   switch (technique) {
-  case Technique::slices: return owned(SliceStack::create());
-  case Technique::planes: return owned(PlaneStack::create());
+  case Technique::slices: return owned(SliceStack::create(flow));
+  case Technique::planes: return owned(PlaneStack::create(flow));
   case Technique::rays: break;
-  case Technique::shaded: return owned(RayCastTechnique::create(RayMode::shaded));
-  case Technique::maximum: return owned(RayCastTechnique::create(RayMode::maximum));
+  case Technique::shaded: return owned(RayCastTechnique::create(RayMode::shaded, flow));
+  case Technique::maximum: return owned(RayCastTechnique::create(RayMode::maximum, flow));
   case Technique::surface: return SurfaceTechnique::create(transfers, threads);
   }
-  return owned(RayCastTechnique::create(RayMode::composite));
+  return owned(RayCastTechnique::create(RayMode::composite, flow));
 }
 
 } // namespace
 
-hal::Result<VolumeTechnique*> VolumeTechniques::get(Technique technique) {
-  std::unique_ptr<VolumeTechnique>& kept = made_[static_cast<std::size_t>(technique)];
+hal::Result<VolumeTechnique*> VolumeTechniques::get(Technique technique, WithFlow flow) {
+  const bool alone = flow == WithFlow::yes && technique != Technique::surface;
+  std::unique_ptr<VolumeTechnique>& kept =
+      (alone ? made_with_flow_ : made_)[static_cast<std::size_t>(technique)];
   if (!kept) {
-    HAL_TRY(auto made, make(technique, transfers_, threads_));
+    HAL_TRY(auto made, make(technique, flow, transfers_, threads_));
     kept = std::move(made);
   }
+  if (technique == Technique::surface && flow == WithFlow::yes)
+    HAL_CHECK(surface()->prepare_flow());
   return kept.get();
 }
 

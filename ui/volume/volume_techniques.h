@@ -20,15 +20,18 @@ public:
   explicit VolumeTechniques(TransferSet transfers, pipeline::ThreadSetup threads = {})
       : transfers_{std::move(transfers)}, threads_{std::move(threads)} {}
 
-  // Owned by this object. ErrorCode::unsupported: this GL cannot compile the technique's shaders.
-  hal::Result<VolumeTechnique*> get(Technique technique);
+  // Owned by this object, one for scenes without flow and one for those with it; the surface is one for
+  // both. ErrorCode::unsupported: this GL cannot compile the technique's shaders.
+  hal::Result<VolumeTechnique*> get(Technique technique, WithFlow flow = WithFlow::no);
   // The technique of Technique::surface, which has meshes of its own; null before its first get().
   SurfaceTechnique* surface() const;
 
 private:
   TransferSet transfers_;
   pipeline::ThreadSetup threads_;
-  std::array<std::unique_ptr<VolumeTechnique>, all_techniques.size()> made_;
+  using Made = std::array<std::unique_ptr<VolumeTechnique>, all_techniques.size()>;
+  Made made_;
+  Made made_with_flow_; // without the surface
 };
 
 } // namespace octascope::ui

@@ -4,21 +4,21 @@
 
 namespace octascope::ui {
 
-namespace {
-
-hal::Result<> check(const pipeline::Volume& volume) {
-  const pipeline::VolumeGeometry& g = volume.geometry;
-  if (g.depths < 1 || g.a_scans < 1 || g.b_scans < 1 || volume.levels.size() != g.voxels() ||
-      volume.b_scan_states.size() != static_cast<std::size_t>(g.b_scans))
-    return hal::fail(hal::ErrorCode::bad_data,
-                     "volume display: found {} levels and {} B-scan states, expected those of {} "
-                     "depths x {} A-scans x {} B-scans",
-                     volume.levels.size(), volume.b_scan_states.size(), g.depths, g.a_scans,
-                     g.b_scans);
-  return VolumeTexture::check_size(g);
+std::span<const std::uint8_t> VolumeTexture::voxels(const pipeline::Volume& volume) const {
+  return of_ == Voxels::flow ? volume.flow : volume.levels;
 }
 
-} // namespace
+hal::Result<> VolumeTexture::check(const pipeline::Volume& volume) const {
+  const pipeline::VolumeGeometry& g = volume.geometry;
+  if (g.depths < 1 || g.a_scans < 1 || g.b_scans < 1 || voxels(volume).size() != g.voxels() ||
+      volume.b_scan_states.size() != static_cast<std::size_t>(g.b_scans))
+    return hal::fail(hal::ErrorCode::bad_data,
+                     "volume display: found {} {} and {} B-scan states, expected those of {} "
+                     "depths x {} A-scans x {} B-scans",
+                     voxels(volume).size(), of_ == Voxels::flow ? "voxels of flow" : "levels",
+                     volume.b_scan_states.size(), g.depths, g.a_scans, g.b_scans);
+  return check_size(g);
+}
 
 hal::Result<> VolumeTexture::check_size(const pipeline::VolumeGeometry& geometry) {
   GLint largest = 0;
@@ -54,7 +54,7 @@ void VolumeTexture::allocate(const pipeline::VolumeGeometry& geometry) {
 hal::Result<> VolumeTexture::write(const pipeline::Volume& volume,
                                    const pipeline::BScanRange& range) {
   const std::size_t size = geometry_.b_scan_voxels();
-  HAL_TRY(const void* const pixels, uploader_.stage(std::span{volume.levels}.subspan(
+  HAL_TRY(const void* const pixels, uploader_.stage(voxels(volume).subspan(
                                         static_cast<std::size_t>(range.from) * size,
                                         static_cast<std::size_t>(range.to - range.from) * size)));
   glBindTexture(GL_TEXTURE_3D, textures_[1 - front_].name());
@@ -74,7 +74,10 @@ hal::Result<> VolumeTexture::write_a_scans(const pipeline::Volume& volume,
   auto to = a_scans_.begin();
   for (int b = 0; b < geometry_.b_scans; ++b)
     to = std::ranges::copy(
-             volume.b_scan(b).subspan(static_cast<std::size_t>(a_scans.from) * depths, size), to)
+             voxels(volume).subspan(static_cast<std::size_t>(b) * geometry_.b_scan_voxels() +
+                                        static_cast<std::size_t>(a_scans.from) * depths,
+                                    size),
+             to)
              .out;
   HAL_TRY(const void* const pixels, uploader_.stage(a_scans_));
   glBindTexture(GL_TEXTURE_3D, textures_[1 - front_].name());

@@ -1,4 +1,4 @@
-// The shown volume as a 3D texture.
+// The shown volume as a 3D texture, or what flows in it.
 #pragma once
 
 #include <array>
@@ -21,6 +21,9 @@ struct TextureParts {
   int a_scan = 0;
 };
 
+// What a texture has of a volume.
+enum class Voxels : std::uint8_t { levels, flow };
+
 // R8 texels in the volume's own order: s is depth, t the fast axis, r the slow axis; sample i of n
 // lies at (i + 0.5) / n. Alternates between two textures, so that it never writes one that the GPU
 // may still read.
@@ -28,11 +31,13 @@ struct TextureParts {
 // Threads: as gl/objects.h. Allocates only when the geometry changes.
 class VolumeTexture {
 public:
+  explicit VolumeTexture(Voxels of = Voxels::levels) : of_{of} {}
+
   // Whether the GL that is current here has textures for it. ErrorCode::unsupported: it has not.
   static hal::Result<> check_size(const pipeline::VolumeGeometry& geometry);
 
-  // Copies the levels of those parts before it returns. Errors: check_size()'s;
-  // ErrorCode::bad_data: fewer voxels than the geometry says; a driver's that has no memory. Of the
+  // Copies the voxels of those parts before it returns. Errors: check_size()'s;
+  // ErrorCode::bad_data: fewer of them than the geometry says; a driver's that has no memory. Of the
   // same geometry the previous volume stays.
   hal::Result<> upload(const pipeline::Volume& volume, const TextureParts& parts = {});
 
@@ -49,6 +54,8 @@ public:
   const pipeline::VolumeGeometry& geometry() const { return geometry_; }
 
 private:
+  std::span<const std::uint8_t> voxels(const pipeline::Volume& volume) const;
+  hal::Result<> check(const pipeline::Volume& volume) const;
   void allocate(const pipeline::VolumeGeometry& geometry);
   hal::Result<> write(const pipeline::Volume& volume, const pipeline::BScanRange& range);
   hal::Result<> write_lacking(const pipeline::Volume& volume, const pipeline::BScanRange& range);
@@ -58,6 +65,7 @@ private:
   pipeline::BScanRange b_scans_of(const TextureParts& parts) const;
   bool lacks_none(std::size_t texture, const pipeline::BScanRange& b_scans) const;
 
+  Voxels of_;
   std::array<gl::Texture, 2> textures_;
   gl::PixelUploader uploader_;
   pipeline::VolumeGeometry geometry_;

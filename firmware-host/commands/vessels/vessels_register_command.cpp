@@ -204,7 +204,7 @@ void add_vessels_register_command(CLI::App& vessels, int& exit_status) {
   command->footer("At least three pairs that do not lie on a line; with four, each is also "
                   "compared with where the others put it.\n"
                   "Trees have at least 65 % of the vessels that are seen in common, or are refused "
-                  "(docs/VESSELS.md).\n"
+                  "(docs/ANGIOGRAPHY.md).\n"
                   "Example: octascope vessels register --points pairs.csv --out registration.toml\n"
                   "         octascope vessels register --tree planned.swc --to live.swc --out "
                   "registration.toml");

@@ -14,6 +14,7 @@
 #include "firmware-host/commands/numbers.h"
 #include "firmware-host/commands/spectra_type.h"
 #include "firmware-host/commands/tree_options.h"
+#include "firmware-host/commands/volume/flow_file.h"
 #include "firmware-host/commands/volume/render.h"
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/run/volume_source.h"
@@ -30,7 +31,7 @@ namespace {
 
 // As text, the way CLI11 collects it; what is not given stays as RenderOptions and ViewState begin.
 struct RenderArguments {
-  std::string configuration, volume, spectra, shape, calibration, phantom;
+  std::string configuration, volume, flow, spectra, shape, calibration, phantom;
   SpectraTypeArguments type;
   std::string technique, size, window, transfer, colours, vessels, registration;
   std::string stereo = "off", drawn_by = "auto", out;
@@ -202,7 +203,9 @@ hal::Result<> render(const RenderArguments& arguments) {
   HAL_TRY(const auto request, request_of(arguments));
   // Said before the work, not after it.
   HAL_CHECK(pipeline::AtomicFile::create(arguments.out));
-  HAL_TRY(const auto loaded, load_volume(request));
+  HAL_TRY(auto loaded, load_volume(request));
+  if (!arguments.flow.empty())
+    HAL_CHECK(read_flow_beside(arguments.flow, loaded.volume));
   for (const std::string& remark : loaded.remarks)
     warn("octascope render: {}\n", remark);
   HAL_TRY(const auto vessels, vessels_of(arguments, loaded.whose));
@@ -232,6 +235,12 @@ void add_volume_options(CLI::App& command, RenderArguments& a) {
                          "Which volume of a recording, counted from 0 (0 if not given)")
              ->check(within(0, 1000000000))
              ->needs(volume);
+  command
+      .add_option("--flow", a.flow,
+                  "What flows in it, drawn in colour: NRRD of the same shape, from 0 (static) to 1 "
+                  "(flowing), as reconstruct --flow writes it")
+      ->type_name("FILE.nrrd")
+      ->needs(volume);
   CLI::Option* spectra =
       command
           .add_option("--spectra", a.spectra,
@@ -359,6 +368,8 @@ void add_render_command(CLI::App& program, int& exit_status) {
   command->footer("Examples:\n"
                   "  octascope render --volume volume.nrrd --technique shaded --size 1920x1080 \\\n"
                   "    --yaw 30 --tilt 40 --distance 2.5 --window 8,36 --out volume.png\n"
+                  "  octascope render --volume volume.nrrd --flow flow.nrrd --opacity 0.1 \\\n"
+                  "    --out flow.png\n"
                   "  octascope render --volume eye.h5 --at 12 --out eye.png\n"
                   "  octascope render --phantom anterior_eye --technique maximum --out eye.png\n"
                   "  octascope render --spectra spectra.raw --shape 100,100,1024 \\\n"

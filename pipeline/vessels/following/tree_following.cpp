@@ -8,7 +8,8 @@ namespace octascope::pipeline {
 
 namespace {
 
-constexpr std::size_t most_seen = 8; // a tree takes less time to trace than as many volumes
+// A tree takes less time to trace than as many volumes that are 200 ms apart, on a busy machine, too.
+constexpr std::size_t most_seen = 16;
 
 std::uint64_t apart(std::uint64_t a, std::uint64_t b) {
   return a < b ? b - a : a - b;
@@ -50,10 +51,9 @@ void TreeFollowing::add_volume(const VolumeGeometry& geometry, std::span<const s
     seen_.pop_front();
 }
 
-const TreeFollowing::Seen* TreeFollowing::nearest(std::uint64_t index) const {
-  const auto found = std::ranges::min_element(
-      seen_, {}, [&](const Seen& seen) { return apart(seen.index, index); });
-  return found == seen_.end() ? nullptr : &*found;
+const TreeFollowing::Seen& TreeFollowing::nearest(std::uint64_t index) const {
+  return *std::ranges::min_element(seen_, {},
+                                   [&](const Seen& seen) { return apart(seen.index, index); });
 }
 
 std::optional<RigidTransform> TreeFollowing::moved_to(const VolumeSpectrum& volume) {
@@ -74,10 +74,12 @@ void TreeFollowing::add_tree(const VesselTree& live, std::uint64_t volume_index)
     --left_alone_;
     return;
   }
-  const Seen* const traced_in = nearest(volume_index);
-  RigidTransform start = registered_;
-  if (known_ && traced_in != nullptr)
-    start = moved_to(traced_in->spectrum).value_or(registered_);
+  // What moved since a volume that was not seen is not known.
+  if (seen_.empty() || volume_index < seen_.front().index)
+    return;
+  const Seen& traced_in = nearest(volume_index);
+  const RigidTransform start =
+      known_ ? moved_to(traced_in.spectrum).value_or(registered_) : registered_;
   if (known_)
     if (const auto found = register_trees(tree_, live, start, next_reach); found.refusal.empty())
       return accept(found, traced_in);
@@ -89,19 +91,15 @@ void TreeFollowing::add_tree(const VesselTree& live, std::uint64_t volume_index)
     miss(found.refusal);
 }
 
-void TreeFollowing::accept(const TreeRegistration& found, const Seen* traced_in) {
+void TreeFollowing::accept(const TreeRegistration& found, const Seen& traced_in) {
   registered_ = found.live_from_planned;
-  reference_.reset();
-  if (traced_in != nullptr)
-    reference_ = traced_in->spectrum;
+  reference_ = traced_in.spectrum;
   known_ = true;
   misses_ = 0;
   place_ = {.volume_from_tree = registered_,
             .residual_mm = found.residual_mm,
             .overlap = found.overlap,
             .refusal = {}};
-  if (seen_.empty())
-    return;
   place_.volume_from_tree = moved_to(seen_.back().spectrum);
   if (!place_.volume_from_tree)
     lose("the volume has moved too far or is of another place");

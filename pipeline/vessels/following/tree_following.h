@@ -42,7 +42,8 @@ public:
   // In their order, `index` as in VolumeMetadata; of those that are left out nothing is known.
   void add_volume(const VolumeGeometry& geometry, std::span<const std::uint8_t> levels,
                   std::span<const BScanState> states, std::uint64_t index);
-  // Traced in the volume of that index, or in one close to it, that was added before.
+  // Traced in the volume of that index, or in one between two that were added. One that is older than all
+  // that are remembered is left out: what moved since is not known.
   void add_tree(const VesselTree& live, std::uint64_t volume_index);
 
   const FollowedPlace& place() const { return place_; }
@@ -53,10 +54,10 @@ private:
     VolumeSpectrum spectrum;
   };
 
-  const Seen* nearest(std::uint64_t index) const;
+  const Seen& nearest(std::uint64_t index) const; // of some that were seen
   // Of what lay at `registered_` when the reference was seen.
   std::optional<RigidTransform> moved_to(const VolumeSpectrum& volume);
-  void accept(const TreeRegistration& found, const Seen* traced_in);
+  void accept(const TreeRegistration& found, const Seen& traced_in);
   void miss(const std::string& refusal);
   void lose(std::string refusal);
 

@@ -193,6 +193,8 @@ TreeRegistration register_trees(const VesselTree& planned, const VesselTree& liv
                                "{:.0f} mm",
                                trees.planned_mm(), least_common_mm));
   const std::vector<Place> places = trees.find(reach);
+  if (places.empty()) // they only cross, or fit ever better up to the reach's end
+    return refused("no place within reach fits: they are others, or farther away");
   TreeRegistration made = trees.compare(places.front());
   if (places.size() > 1)
     made.lead = places[0].score - places[1].score;

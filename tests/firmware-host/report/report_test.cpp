@@ -165,7 +165,7 @@ TEST(Report, says_every_figure_under_its_key) {
                              {"stereo", "top_bottom"},
                              {"frozen", false},
                              {"rolling", false},
-                             {"vessels", true},
+                             {"vessels", "both"},
                              {"vessel_opacity", 1.0},
                              {"vessel_colours", "branch"},
                              {"vessel_shift_mm", {0.0, 0.0, 0.0}},

@@ -87,7 +87,7 @@ TEST(VesselsGenerate, goes_by_the_ending_in_whatever_letters) {
   run_well({"vessels", "convert", swc, "--forest", "--out", folder / "heart"});
   EXPECT_EQ(json::parse(run_well({"vessels", "info", folder / "heart", "--json"}).out)["kind"],
             "vessels");
-  for (const char* name : {"x.npy", "x.vtp", "x.SWC.gz"})
+  for (const char* name : {"x.npy", "x.vtk", "x.SWC.gz"})
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"vessels", "generate", "--segments", "1000"},
           {"vessels", "generate", "--phantom", "cap"},

@@ -1,99 +1,9 @@
 #include <cmath>
 
-#include <gtest/gtest.h>
-
-#include "ui/controls/built_in_profiles.h"
-#include "ui/controls/view_controller.h"
+#include "tests/ui/controls/controller_stage.h"
 
 namespace octascope::ui {
 namespace {
-
-using hal::ControlEvent;
-using hal::ControlKind;
-using hal::DisplayEvent;
-using hal::DisplayEventKind;
-using hal::Key;
-using std::chrono::milliseconds;
-using std::chrono::seconds;
-
-constexpr hal::TimePoint now{seconds{50}};
-constexpr Geometry geometry{512, 300, 80};
-
-DisplayEvent press(std::uint16_t key, bool shift = false, bool repeated = false) {
-  return {DisplayEventKind::key_pressed, key, repeated, shift, now};
-}
-DisplayEvent press(Key key) {
-  return press(static_cast<std::uint16_t>(key));
-}
-
-ControlProfile profile_of(std::string_view name) {
-  auto profile = built_in_profile(name);
-  EXPECT_TRUE(profile) << profile.error().message;
-  return std::move(*profile);
-}
-
-ControlProfile parsed(std::string_view text) {
-  auto profile = ControlProfile::parse(text, "test.toml");
-  EXPECT_TRUE(profile) << profile.error().message;
-  return std::move(*profile);
-}
-
-// The default profile: three switches and a knob.
-class Controller : public testing::Test {
-protected:
-  const ViewState first_;
-  ViewController controller_{first_, geometry, profile_of(default_profile)};
-  hal::TimePoint now_ = now;
-
-  const ViewState& state() const { return controller_.state(); }
-  ViewActions& actions() { return controller_.actions(); }
-  std::uint64_t count(Action action) const {
-    return controller_.actions().counts()[index_of(action)];
-  }
-
-  ControlRequests move(std::uint8_t index, int value) {
-    return controller_.handle(ControlEvent{now_, ControlKind::pedal_switch, index, value});
-  }
-  ControlRequests turn(int detents) {
-    return controller_.handle(ControlEvent{now_, ControlKind::knob, 0, detents});
-  }
-  ControlRequests wait(hal::Duration time) {
-    now_ += time;
-    return controller_.advance(now_);
-  }
-  // Down together, and up after so long; then at rest for long.
-  ControlRequests tread(std::initializer_list<std::uint8_t> switches,
-                        hal::Duration held = milliseconds{150}) {
-    ControlRequests requests;
-    for (const std::uint8_t index : switches)
-      requests.add(move(index, 1));
-    requests.add(wait(held));
-    for (const std::uint8_t index : switches)
-      requests.add(move(index, 0));
-    requests.add(wait(seconds{1}));
-    return requests;
-  }
-  void turn_while_held(std::initializer_list<std::uint8_t> switches, int detents) {
-    for (const std::uint8_t index : switches)
-      move(index, 1);
-    wait(seconds{1});
-    turn(detents);
-    wait(seconds{1});
-    for (const std::uint8_t index : switches)
-      move(index, 0);
-    wait(seconds{1});
-  }
-  // As a foot and a hand do it, whatever the knob turned before.
-  void choose(Action action) {
-    move(0, 1);
-    for (std::size_t i = 0; i < action_count && state().selected != action; ++i)
-      turn(1);
-    move(0, 0);
-    wait(seconds{1});
-    ASSERT_EQ(state().selected, action);
-  }
-  std::string_view echo() const { return state().echo.words.view(); }
-};
 
 TEST_F(Controller, keys_steer_each_parameter_both_ways) {
   const auto moved = [&](auto up, auto down, auto member, float detent) {
@@ -187,71 +97,6 @@ TEST_F(Controller, pedal_chooses_what_the_knob_turns_and_the_display_echoes_it) 
   EXPECT_EQ(count(Action::b_scan), 1U);
 }
 
-TEST_F(Controller, vessels_are_steered_by_the_knob_where_they_are_shown) {
-  actions().set_vessels_loaded(true);
-  choose(Action::stereo);
-  tread({2});
-  EXPECT_EQ(state().selected, Action::vessel_opacity) << "past the parallax";
-  turn(-6);
-  EXPECT_FLOAT_EQ(state().vessel_opacity, 0.7F);
-  tread({2});
-  turn(1);
-  EXPECT_EQ(state().vessel_colouring, VesselColouring::order);
-  EXPECT_EQ(echo(), "orders");
-  tread({2});
-  turn(5);
-  EXPECT_NEAR(state().vessel_nudge.shift_mm[0], 0.1F, 1e-6);
-  for (int i = 0; i < 5; ++i)
-    tread({2});
-  EXPECT_EQ(state().selected, Action::vessel_turn_z);
-  turn(-4);
-  EXPECT_FLOAT_EQ(state().vessel_nudge.turn_deg[2], -2);
-  controller_.handle(press(Key::home));
-  EXPECT_TRUE(state().vessel_nudge.any()) << "where vessels lie is no matter of the view";
-  EXPECT_FLOAT_EQ(state().vessel_opacity, 0.7F);
-  controller_.handle(press('v'));
-  tread({2});
-  EXPECT_EQ(state().selected, Action::vessels) << "hidden vessels are not steered";
-}
-
-TEST_F(Controller, vessels_traced_in_the_volume_cannot_be_moved) {
-  controller_.handle(press('i'));
-  EXPECT_TRUE(state().vessel_nudge.any());
-  actions().set_vessels_traced();
-  EXPECT_FALSE(state().vessel_nudge.any()) << "what was left";
-  for (const char key : {'i', 'j', 'k', 'u', 'y', 'z'})
-    controller_.handle(press(static_cast<std::uint16_t>(key)));
-  EXPECT_FALSE(state().vessel_nudge.any());
-  choose(Action::vessel_opacity);
-  tread({2});
-  EXPECT_EQ(state().selected, Action::vessel_colours);
-  tread({2});
-  EXPECT_EQ(state().selected, Action::vessel_account) << "past what moves them";
-}
-
-TEST_F(Controller, the_vessels_place_is_kept_or_undone_by_a_turn_to_the_right) {
-  EXPECT_FALSE(controller_.handle(press('m')).keep_registration);
-  EXPECT_EQ(echo(), "none loaded");
-  actions().set_vessels_loaded(true);
-  EXPECT_FALSE(controller_.handle(press('m')).keep_registration);
-  EXPECT_EQ(echo(), "not moved");
-  const VesselNudge none;
-  choose(Action::keep_registration);
-  controller_.handle(press('k', true));
-  const VesselNudge moved = state().vessel_nudge;
-  EXPECT_NE(moved, none);
-  EXPECT_FALSE(turn(-1).keep_registration);
-  EXPECT_EQ(echo(), "turn right to do it");
-  EXPECT_TRUE(turn(1).keep_registration);
-  EXPECT_EQ(state().vessel_nudge, moved) << "until the host has kept it";
-  actions().forget_nudge();
-  EXPECT_FALSE(turn(1).keep_registration) << "once is enough";
-  controller_.handle(press('u'));
-  controller_.handle(press('g'));
-  EXPECT_EQ(state().vessel_nudge, none);
-  EXPECT_EQ(echo(), "as it was registered");
-}
-
 TEST_F(Controller, parallax_can_be_chosen_in_stereo) {
   controller_.handle(press('d'));
   EXPECT_EQ(state().stereo, StereoMode::side_by_side);
@@ -298,38 +143,6 @@ TEST_F(Controller, what_is_shown_is_turned_on_and_off) {
   EXPECT_TRUE(state().legend_visible);
   EXPECT_FALSE(state().legend_of_keys);
   EXPECT_FALSE(state().frozen);
-}
-
-TEST_F(Controller, of_flow_and_a_tree_either_or_both_are_shown) {
-  actions().set_vessels_loaded(true);
-  actions().set_flow_there(true);
-  std::vector<std::pair<VesselsShown, std::string>> seen;
-  for (int i = 0; i < 4; ++i) {
-    controller_.handle(press('v'));
-    seen.emplace_back(state().vessels, echo());
-  }
-  EXPECT_EQ(seen, (std::vector<std::pair<VesselsShown, std::string>>{
-                      {VesselsShown::off, "hidden"},
-                      {VesselsShown::flow, "flow"},
-                      {VesselsShown::tree, "tree"},
-                      {VesselsShown::both, "flow and tree"}}));
-  choose(Action::vessels);
-  turn(-1);
-  EXPECT_EQ(state().vessels, VesselsShown::tree);
-  actions().set_vessels_loaded(false);
-  turn(1);
-  EXPECT_EQ(echo(), "flow, no tree there");
-  turn(-1);
-  EXPECT_EQ(echo(), "tree: none there");
-}
-
-TEST_F(Controller, without_flow_vessels_are_shown_or_hidden) {
-  actions().set_vessels_loaded(true);
-  controller_.handle(press('v'));
-  EXPECT_EQ(state().vessels, VesselsShown::off);
-  controller_.handle(press('v'));
-  EXPECT_EQ(state().vessels, VesselsShown::both) << "flow, too, where some comes later";
-  EXPECT_EQ(echo(), "shown");
 }
 
 // Both at once are no chord: one foot that touches two switches does nothing unforeseen.

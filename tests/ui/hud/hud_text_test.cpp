@@ -289,6 +289,11 @@ TEST(HudText, flow_that_could_not_be_told_is_said) {
   shown.flow.left_out = 70;
   shown.flow.told = 10;
   EXPECT_EQ(compose_hud_text(view, status, shown).troubles[0].words.view(), "no flow: 87 % moved");
+  shown.flow.none = 70; // workers that were behind
+  shown.flow.left_out = 0;
+  EXPECT_EQ(compose_hud_text(view, status, shown).troubles[0].words.view(), "no flow in 87 %");
+  shown.b_scan = pipeline::BScanState::saturated;
+  EXPECT_EQ(compose_hud_text(view, status, shown).b_scan.note.view(), "B-scan 41 of 80: saturated");
 }
 
 TEST(HudText, branches_are_named_in_the_hearts_arteries_only) {

@@ -12,6 +12,7 @@
 #include "pipeline/volume/volume_geometry.h"
 #include "tests/support/allocation_counter.h"
 #include "tests/support/fails_with.h"
+#include "tests/ui/support/instruction_sets.h"
 #include "tests/ui/support/reference_rays.h"
 #include "tests/ui/support/synthetic_volume.h"
 #include "tests/ui/support/view_places.h"
@@ -78,15 +79,7 @@ constexpr int rows = height;
 
 class RayCasterIsa : public testing::TestWithParam<std::string> {};
 
-std::vector<std::string> isas() {
-  std::vector<std::string> names;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-    if (ui::ray_kernels(hwy::TargetName(target)) != nullptr)
-      names.emplace_back(hwy::TargetName(target));
-  return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Isas, RayCasterIsa, testing::ValuesIn(isas()),
+INSTANTIATE_TEST_SUITE_P(Isas, RayCasterIsa, testing::ValuesIn(instruction_sets()),
                          [](const auto& each) { return each.param; });
 
 // Rounding may move a sample across a face of the box, or the half of an opacity across a sample:

@@ -1,4 +1,5 @@
 // B-scans renewed one after the other give the picture that the whole volume does.
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include "tests/ui/support/renderer_stage.h"
 #include "ui/canvas/palette.h"
 #include "ui/layout/layout.h"
+#include "ui/view/choice_value.h"
 
 namespace octascope::tests {
 namespace {
@@ -50,12 +52,23 @@ struct Way {
   Technique technique;
   ui::DrawQuality quality;
   float see_through_db;
+  bool flow = false;
+
+  // Also in the test's name.
+  friend void PrintTo(const Way& way, std::ostream* out) {
+    *out << ui::technique_values[static_cast<std::size_t>(way.technique)].name << ", "
+         << way.quality.resolution << ", " << way.quality.steps << " steps, "
+         << (way.quality.rays == ui::RayBackend::shader ? "shader" : "processor") << ", "
+         << way.see_through_db << " dB" << (way.flow ? ", flow" : "");
+  }
 };
 
 class RenewedPicture : public RenewalTest, public testing::WithParamInterface<Way> {};
 
 TEST_P(RenewedPicture, is_that_of_the_whole_volume) {
-  const auto& [technique, quality, see_through_db] = GetParam();
+  const auto& [technique, quality, see_through_db, flow] = GetParam();
+  if (flow)
+    mixed_.add_flow();
   ui::ViewState view;
   view.technique = technique;
   view.see_through_db = see_through_db;
@@ -88,7 +101,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Way{Technique::rays, {1, 256, processor}, 12},
                     Way{Technique::maximum, {1, 256, processor}, 0},
                     Way{Technique::shaded, {1, 256, processor}, 0},
-                    Way{Technique::planes, {0.5F, 96}, 0}, Way{Technique::slices, {0.5F, 96}, 0}));
+                    Way{Technique::planes, {0.5F, 96}, 0}, Way{Technique::slices, {0.5F, 96}, 0},
+                    Way{Technique::rays, {1, 256, processor}, 0, true},
+                    Way{Technique::rays, {0.6F, 192, processor}, 12, true},
+                    Way{Technique::maximum, {1, 256, processor}, 0, true},
+                    Way{Technique::shaded, {1, 256, processor}, 0, true},
+                    Way{Technique::rays, {0.5F, 96, shader}, 0, true},
+                    Way{Technique::planes, {0.5F, 96}, 0, true}));
 
 TEST_F(RenewalTest, the_seam_is_a_line_of_its_own_colour_where_it_is_said_to_be) {
   ui::ViewState view;

@@ -16,7 +16,7 @@ class MixedVolume {
 public:
   explicit MixedVolume(bool with_flow = false) {
     if (with_flow)
-      add_flow();
+      perfuse();
     for (pipeline::Volume* volume : {&older_, &newer_}) {
       volume->occupancy = pipeline::Occupancy{volume->geometry, pipeline::blank_depth_bins};
       volume->occupancy.update(*volume);
@@ -27,6 +27,13 @@ public:
   const pipeline::Volume& older() const { return older_; }
   const pipeline::Volume& newer() const { return newer_; }
   const pipeline::Volume& volume() const { return mixed_; }
+
+  // Tubes in both.
+  void add_flow() {
+    add_tubes(older_);
+    add_tubes(newer_, 1);
+    mixed_ = older_;
+  }
 
   void become(const pipeline::Volume& whole) { mixed_ = whole; }
 
@@ -50,7 +57,7 @@ public:
 
 private:
   // Of the newer one, two could not be told.
-  void add_flow() {
+  void perfuse() {
     const pipeline::Volume perfused = perfused_volume(small_geometry);
     for (pipeline::Volume* volume : {&older_, &newer_}) {
       volume->flow = perfused.flow;

@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <glm/geometric.hpp>
 
 #include "pipeline/volume/level_scale.h"
 #include "ui/dither/dither_mask.h"
 #include "ui/ray_caster/ray_geometry.h"
+#include "ui/transfer/flow_look.h"
 
 namespace octascope::tests {
 
@@ -28,15 +30,16 @@ public:
                        const Vector& lamp, double near, double shift) const;
 
 private:
-  double voxel(int z, int a, int b) const {
+  double voxel(std::span<const std::uint8_t> of, int z, int a, int b) const {
     z = std::clamp(z, 0, g_.depths - 1);
     a = std::clamp(a, 0, g_.a_scans - 1);
     b = std::clamp(b, 0, g_.b_scans - 1);
-    return volume_.b_scan(b)[static_cast<std::size_t>(a) * static_cast<std::size_t>(g_.depths) +
-                             static_cast<std::size_t>(z)];
+    return of[static_cast<std::size_t>(b) * g_.b_scan_voxels() +
+              static_cast<std::size_t>(a) * static_cast<std::size_t>(g_.depths) +
+              static_cast<std::size_t>(z)];
   }
   // In millimetres around the centre, moved into the box that is shown.
-  double level(Vector p) const {
+  double sample(std::span<const std::uint8_t> of, Vector p) const {
     const Vector half = extents_ / 2.0;
     p.x = std::clamp(p.x, -half.x, half.x);
     p.y = std::clamp(p.y, -half.y, top());
@@ -53,7 +56,7 @@ private:
       const int da = corner >> 1 & 1;
       const int db = corner >> 2;
       sum += (dz != 0 ? fz : 1 - fz) * (da != 0 ? fa : 1 - fa) * (db != 0 ? fb : 1 - fb) *
-             voxel(static_cast<int>(std::floor(z)) + dz, static_cast<int>(std::floor(a)) + da,
+             voxel(of, static_cast<int>(std::floor(z)) + dz, static_cast<int>(std::floor(a)) + da,
                    static_cast<int>(std::floor(b)) + db);
     }
     return sum;
@@ -65,6 +68,11 @@ private:
     return std::clamp((db - static_cast<double>(window_.window_offset_db)) /
                           static_cast<double>(window_.window_size_db),
                       0.0, 1.0);
+  }
+  // As ui/transfer/flow_look.h has it.
+  double flow_weight(const Vector& p) const;
+  double opacity_over(double opacity, double steps) const {
+    return 1 - std::pow(std::max(1 - opacity, 1e-5), steps);
   }
   std::array<double, 4> texel(const Vector& p) const;
   double light(const Vector& p, const Vector& ray, const Vector& lamp) const;
@@ -128,6 +136,25 @@ double Reference::light(const Vector& p, const Vector& ray, const Vector& lamp) 
   return (level + strength * (lit - level)) * open;
 }
 
+double Reference::flow_weight(const Vector& p) const {
+  const auto from = static_cast<double>(ui::flow_seen_from);
+  const auto to = static_cast<double>(ui::flow_seen_full);
+  const double share = std::clamp((sample(volume_.flow, p) / 255 - from) / (to - from), 0.0, 1.0);
+  return share * share * (3 - 2 * share);
+}
+
+std::array<double, 3> with_flow(const std::array<double, 3>& tissue, double weight) {
+  const std::array wall{ui::flow_wall.red, ui::flow_wall.green, ui::flow_wall.blue};
+  const std::array middle{ui::flow_middle.red, ui::flow_middle.green, ui::flow_middle.blue};
+  std::array<double, 3> mixed{};
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    const double flow =
+        std::lerp(static_cast<double>(wall[i]), static_cast<double>(middle[i]), weight);
+    mixed[i] = std::lerp(tissue[i], flow, weight);
+  }
+  return mixed;
+}
+
 ReferencePixel Reference::trace(const Vector& eye, const Vector& forward, const Vector& ray,
                                 const Vector& lamp, double near, double shift) const {
   const double cosine = glm::dot(ray, forward);
@@ -147,28 +174,39 @@ ReferencePixel Reference::trace(const Vector& eye, const Vector& forward, const 
   const double centre = -glm::dot(eye, forward);
   const double nearest = std::max(centre - reach, near);
 
-  ReferencePixel pixel{0, 0, std::numeric_limits<double>::infinity()};
+  ReferencePixel pixel{0, 0, std::numeric_limits<double>::infinity(), 0, 0};
   double transparency = 1;
   double highest = -1;
+  double half_of_flow = 0;
+  double flowing = 0; // share of the opacity
   double powers = 0;
   double places = 0;
   for (double k = std::ceil(from / step - shift); (k + shift) * step < to; ++k) {
     const double t = (k + shift) * step;
     const Vector p = eye + t * ray;
-    const double level_here = level(p);
+    const double level_here = sample(volume_.levels, p);
     const double g = grey(level_here);
+    const double flow = settings_.flow_opacity ? flow_weight(p) : 0;
+    const double flow_opacity = flow * static_cast<double>(settings_.flow_opacity.value_or(0));
     if (settings_.mode == ui::RayMode::maximum) {
       if (level_here > highest && g > 0)
-        pixel = {255 * g, 255 * g, t * cosine};
+        pixel = {255 * g, 255 * g, t * cosine, 255 * g, 255 * g};
       highest = std::max(highest, level_here);
+      if (flow > 0 && transparency >= 0.5)
+        half_of_flow = t * cosine;
+      transparency *= flow > 0 ? 1 - opacity_over(flow_opacity, steps) : 1;
       continue;
     }
     const double alpha =
-        1 - std::pow(std::max(1 - g * static_cast<double>(window_.opacity), 1e-5), steps);
+        opacity_over(std::max(g * static_cast<double>(window_.opacity), flow_opacity), steps);
+    const auto colour = with_flow({g, g, g}, flow);
     const double weight = transparency * alpha;
+    flowing += weight * flow;
     powers += std::pow(weight, 4);
     places += std::pow(weight, 4) * t;
-    pixel.grey += 255 * weight * g;
+    pixel.grey += 255 * weight * colour[0];
+    pixel.green += 255 * weight * colour[1];
+    pixel.blue += 255 * weight * colour[2];
     const double after = transparency * (1 - alpha);
     if (transparency >= 0.5 && after < 0.5)
       pixel.depth_mm = t * cosine;
@@ -178,13 +216,28 @@ ReferencePixel Reference::trace(const Vector& eye, const Vector& forward, const 
     const double t = places / powers;
     const double depth = (t * cosine - nearest) / (centre + reach - nearest);
     const double shade = light(eye + t * ray, ray, lamp);
-    const double brightness = pixel.grey / 255 / (1 - transparency);
+    const double brightness =
+        std::max({pixel.grey, pixel.green, pixel.blue}) / 255 / (1 - transparency);
     const double above = std::clamp((brightness - static_cast<double>(ui::gleam_from)) /
                                         static_cast<double>(ui::gleam_to - ui::gleam_from),
                                     0.0, 1.0);
-    const double gleam = settings_.light != nullptr ? above * above * (3 - 2 * above) : 0;
-    pixel.grey *= (shade + gleam * (1 - shade)) *
-                  (1 - static_cast<double>(ui::depth_cue) * std::clamp(depth, 0.0, 1.0));
+    const double shines = std::max(above * above * (3 - 2 * above), flowing / (1 - transparency));
+    const double gleam = settings_.light != nullptr ? shines : 0;
+    const double lit = (shade + gleam * (1 - shade)) *
+                       (1 - static_cast<double>(ui::depth_cue) * std::clamp(depth, 0.0, 1.0));
+    pixel.grey *= lit;
+    pixel.green *= lit;
+    pixel.blue *= lit;
+  }
+  if (settings_.mode == ui::RayMode::maximum && transparency < 1) {
+    if (transparency < 0.5 || pixel.opacity == 0)
+      pixel.depth_mm = half_of_flow;
+    const auto tinted =
+        with_flow({pixel.grey / 255, pixel.green / 255, pixel.blue / 255}, 1 - transparency);
+    pixel.grey = 255 * tinted[0];
+    pixel.green = 255 * tinted[1];
+    pixel.blue = 255 * tinted[2];
+    pixel.opacity = std::max({pixel.grey, pixel.green, pixel.blue});
   }
   if (settings_.mode != ui::RayMode::maximum)
     pixel.opacity = 255 * (1 - transparency);

@@ -12,9 +12,11 @@
 namespace octascope::tests {
 
 struct ReferencePixel {
-  double grey = 0; // premultiplied, 0…255
+  double grey = 0; // premultiplied, 0…255; with flow, red
   double opacity = 0;
   double depth_mm = 0; // infinity where less than half is hidden
+  double green = 0;
+  double blue = 0;
 };
 
 // Rows from the top.

@@ -103,6 +103,40 @@ pipeline::Volume uniform_volume(const pipeline::VolumeGeometry& geometry, std::u
   return volume;
 }
 
+void add_tubes(pipeline::Volume& volume, float phase) {
+  volume.add_flow();
+  const pipeline::VolumeGeometry& g = volume.geometry;
+  const auto share = [](int i, int n) {
+    return (static_cast<float>(i) + 0.5F) / static_cast<float>(n);
+  };
+  const auto wall = static_cast<float>(2 * g.a_mm() / g.a_scans);
+  const auto a_mm = static_cast<float>(g.a_mm());
+  const auto b_mm = static_cast<float>(g.b_mm());
+  const auto depth_mm = static_cast<float>(g.depth_mm());
+  const float radius = 0.04F * a_mm;
+  for (int b = 0; b < g.b_scans; ++b) {
+    const float along = share(b, g.b_scans);
+    const auto flow = volume.b_scan_flow(b);
+    volume.flow_states[static_cast<std::size_t>(b)] = pipeline::FlowState::told;
+    for (int a = 0; a < g.a_scans; ++a)
+      for (int z = 0; z < g.depths; ++z) {
+        const float x = share(a, g.a_scans);
+        const float y = share(z, g.depths);
+        const auto away = [&](float dx, float dy) { return std::hypot(dx * a_mm, dy * depth_mm); };
+        const float first = away(x - 0.3F - 0.15F * std::sin(6 * along + phase), y - 0.35F);
+        const float second = away(x - 0.7F, y - 0.5F - 0.15F * std::cos(5 * along + phase));
+        const float across =
+            std::hypot((along - 0.5F - 0.1F * std::sin(phase)) * b_mm, (y - 0.45F) * depth_mm);
+        const float inside = radius - std::min({first, second, across});
+        flow[static_cast<std::size_t>(a * g.depths + z)] =
+            pipeline::quantise_flow(0.5F + inside / wall);
+      }
+  }
+  const int left_out = g.b_scans / 4;
+  std::ranges::fill(volume.b_scan_flow(left_out), pipeline::flow_untold);
+  volume.flow_states[static_cast<std::size_t>(left_out)] = pipeline::FlowState::left_out;
+}
+
 ui::LevelShares level_shares(const pipeline::Volume& volume) {
   ui::LevelShares shares{};
   for (const std::uint8_t level : volume.levels)

@@ -22,6 +22,10 @@ pipeline::Volume tissue_volume(const pipeline::VolumeGeometry& geometry);
 // nothing is told above it.
 pipeline::Volume perfused_volume(const pipeline::VolumeGeometry& geometry);
 
+// Adds what flows: three tubes through the volume, of which `phase` says how they bend, with walls of
+// two voxels, static tissue around them, and one B-scan that is left out.
+void add_tubes(pipeline::Volume& volume, float phase = 0);
+
 // How often its levels occur.
 ui::LevelShares level_shares(const pipeline::Volume& volume);
 

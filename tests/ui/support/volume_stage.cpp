@@ -8,6 +8,7 @@
 
 #include "pipeline/volume/volume_geometry.h"
 #include "ui/dither/soften.h"
+#include "ui/transfer/flow_look.h"
 
 namespace octascope::tests {
 
@@ -56,7 +57,14 @@ void VolumeStage::show(const pipeline::Volume& volume) {
   occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
   occupancy_.update(volume);
   EXPECT_TRUE(texture_.upload(volume));
-  EXPECT_TRUE(caster_.show(volume, occupancy_));
+  const ui::FlowVoxels flow{volume.flow, &flow_occupancy_};
+  if (volume.has_flow()) {
+    flow_occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
+    for (int b = 0; b < volume.geometry.b_scans; ++b)
+      flow_occupancy_.update(b, volume.b_scan_flow(b));
+    EXPECT_TRUE(flow_texture_.upload(volume));
+  }
+  EXPECT_TRUE(caster_.show(volume, occupancy_, {}, volume.has_flow() ? &flow : nullptr));
   light_.show(volume);
   ++uploads_;
 }
@@ -83,6 +91,8 @@ StagePicture VolumeStage::draw(const ui::ViewState& view, const ui::TransferTabl
                         view,      settings.step_mm, settings.leap_empty ? &occupancy_ : nullptr,
                         uploads_++};
   scene.light = light_for(view);
+  const ui::FlowScene flow{flow_texture_, flow_occupancy_, ui::flow_opacity(view.opacity)};
+  scene.flow = settings.flow ? &flow : nullptr;
   const auto updated =
       picture_.update(techniques_, scene, {}, {0, 0, settings.width, settings.height});
   EXPECT_TRUE(updated) << updated.error().message;
@@ -140,6 +150,8 @@ StagePicture VolumeStage::cast(const ui::ViewState& view, const ui::TransferTabl
   ui::RaySettings cast_settings{mode, settings.step_mm, settings.leap_empty};
   cast_settings.soften = ui::is_grained(settings.step_mm, caster_.geometry()); // as what GL draws
   cast_settings.light = light_for(view);
+  if (settings.flow)
+    cast_settings.flow_opacity = ui::flow_opacity(view.opacity);
   const auto drawn = caster_.draw(camera(view, settings), cast_settings, image);
   EXPECT_TRUE(drawn) << drawn.error().message;
   StagePicture picture{settings.width, settings.height, {}, image.depth_mm};

@@ -40,6 +40,7 @@ struct StageSettings {
   float step_mm = 0.01F;
   bool leap_empty = true;
   bool as_table = false; // a window is looked up instead of computed
+  bool flow = false;     // of a volume that has it
 };
 
 // Needs a current context.
@@ -63,6 +64,8 @@ private:
   ui::Camera camera(const ui::ViewState& view, const StageSettings& settings) const;
 
   ui::VolumeTexture texture_;
+  ui::VolumeTexture flow_texture_{ui::Voxels::flow};
+  pipeline::Occupancy flow_occupancy_;
   pipeline::Occupancy occupancy_;
   ui::TransferTexture transfer_;
   std::unique_ptr<ui::TransferTable> table_;

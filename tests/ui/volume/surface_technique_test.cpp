@@ -66,7 +66,7 @@ protected:
     transfer_.reset();
     colour_ = {};
     depth_ = {};
-    texture_ = {};
+    texture_ = ui::VolumeTexture{};
     framebuffer_ = {};
   }
 

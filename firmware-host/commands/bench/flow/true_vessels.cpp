@@ -5,20 +5,13 @@
 #include <cstddef>
 #include <utility>
 
+#include "pipeline/vessels/tree_node.h"
+
 namespace octascope::firmware_host {
 
 namespace {
 
 using Place = std::array<double, 3>;
-
-void add_node(pipeline::VesselTree& tree, const Place& at, float radius_mm, std::uint32_t parent) {
-  tree.positions_mm.push_back(
-      {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
-  tree.radii_mm.push_back(radius_mm);
-  tree.parents.push_back(parent);
-  tree.orders.push_back(0);
-  tree.branches.push_back(pipeline::VesselBranch::unknown);
-}
 
 } // namespace
 

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "pipeline/vessels/tree_node.h"
 #include "pipeline/vessels/vectors.h"
 
 namespace octascope::firmware_host {
 
 namespace {
 
+using pipeline::add_node;
 using pipeline::no_parent;
 using pipeline::Point;
 using pipeline::VesselTree;
@@ -17,16 +19,6 @@ using pipeline::VesselTree;
 Point place_of(const VesselTree& tree, std::size_t node) {
   const auto& at = tree.positions_mm[node];
   return {double{at[0]}, double{at[1]}, double{at[2]}};
-}
-
-std::uint32_t add_node(VesselTree& tree, const Point& at, float radius_mm, std::uint32_t parent) {
-  tree.positions_mm.push_back(
-      {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
-  tree.radii_mm.push_back(radius_mm);
-  tree.parents.push_back(parent);
-  tree.orders.push_back(0);
-  tree.branches.push_back(pipeline::VesselBranch::unknown);
-  return static_cast<std::uint32_t>(tree.nodes() - 1);
 }
 
 // How far each node is off: an autoregression along the vessel, of the standard deviation wanted.

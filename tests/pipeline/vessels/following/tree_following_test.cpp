@@ -153,6 +153,19 @@ TEST_F(TreeFollowingTest, loses_a_tree_with_a_volume_of_another_place) {
   EXPECT_THAT(following.place().refusal, HasSubstr("of another place"));
 }
 
+TEST_F(TreeFollowingTest, leaves_out_a_tree_of_a_volume_that_it_has_not_seen) {
+  const VesselTree tree = bed();
+  TreeFollowing following{tree, {}};
+  following.add_tree(tree, index_);
+  EXPECT_FALSE(following.place().volume_from_tree);
+  index_ = 5;
+  see(following, 1, {});
+  following.add_tree(tree, index_ - 1); // what has moved since?
+  EXPECT_FALSE(following.place().volume_from_tree);
+  following.add_tree(tree, index_);
+  EXPECT_LT(off_mm(following, {}), 0.01);
+}
+
 TEST_F(TreeFollowingTest, begins_where_it_is_told) {
   const VesselTree tree = bed();
   RigidTransform far;

@@ -9,6 +9,7 @@
 
 #include "pipeline/vessels/following/tree_registration.h"
 #include "pipeline/vessels/following/tree_samples.h"
+#include "pipeline/vessels/tree_node.h"
 #include "pipeline/vessels/vectors.h"
 #include "tests/support/files/fresh_seed.h"
 
@@ -17,14 +18,9 @@ namespace {
 
 using testing::HasSubstr;
 
+// All of them are as wide.
 std::uint32_t add_node(VesselTree& tree, const Point& at, std::uint32_t parent) {
-  tree.positions_mm.push_back(
-      {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
-  tree.radii_mm.push_back(0.02F);
-  tree.parents.push_back(parent);
-  tree.orders.push_back(0);
-  tree.branches.push_back(VesselBranch::unknown);
-  return static_cast<std::uint32_t>(tree.nodes() - 1);
+  return add_node(tree, at, 0.02F, parent);
 }
 
 class TreeRegistrationTest : public testing::Test {
@@ -91,6 +87,26 @@ double off_mm(const RigidTransform& found, const RigidTransform& truth, const Po
   return length(difference(found.apply(at), truth.apply(at)));
 }
 
+// Straight vessels side by side.
+VesselTree grating(const Point& along, const Point& beside) {
+  VesselTree tree;
+  for (int vessel = 0; vessel < 8; ++vessel) {
+    std::uint32_t node = no_parent;
+    for (int i = 0; i <= 40; ++i)
+      node = add_node(
+          tree, sum({0.5, 0.5, 0.5}, sum(scaled(along, 0.05 * i), scaled(beside, 0.25 * vessel))),
+          node);
+  }
+  return tree;
+}
+
+TEST_F(TreeRegistrationTest, refuses_vessels_that_only_cross_the_known_ones) {
+  const VesselTree planned = grating({1, 0, 0}, {0, 1, 0});
+  const VesselTree live = grating({0, 1, 0}, {1, 0, 0});
+  for (const PoseReach& reach : {next_reach, first_reach(3)})
+    EXPECT_NE(register_trees(planned, live, {}, reach).refusal, "");
+}
+
 TEST_F(TreeRegistrationTest, finds_a_tree_where_it_moved) {
   for (int i = 0; i < 3; ++i) {
     const VesselTree planned = bed();
@@ -122,13 +138,14 @@ TEST_F(TreeRegistrationTest, refuses_another_tree_and_its_mirror_image) {
 TEST_F(TreeRegistrationTest, starts_where_it_is_told) {
   const VesselTree planned = bed();
   const RigidTransform far = turned_about(middle, {0, 0, 2}, {40, -20, 7});
-  const RigidTransform truth = motion() * far;
+  const RigidTransform truth = far * motion();
   const VesselTree live = seen(planned, truth);
   EXPECT_THAT(register_trees(planned, live, {}, reach).refusal, HasSubstr("within reach"));
   const TreeRegistration made = register_trees(planned, live, far, reach);
   ASSERT_EQ(made.refusal, "");
   EXPECT_LT(off_mm(made.live_from_planned, truth, middle), 0.03);
-  const RigidTransform nearby = turned_about(middle, {0.03, -0.02, 0.02}, {0.05, 0.05, -0.05});
+  const RigidTransform nearby =
+      turned_about(truth.apply(middle), {0.03, -0.02, 0.02}, {0.05, 0.05, -0.05});
   const TreeRegistration again =
       register_trees(planned, live, nearby * made.live_from_planned, next_reach);
   ASSERT_EQ(again.refusal, "");
