@@ -150,7 +150,7 @@ VolumeShift VolumeMotion::shift(const VolumeSpectrum& from, const VolumeSpectrum
   const auto value = [&](std::size_t axis, int off) {
     std::array<int, 3> place = at;
     place[axis] = (place[axis] + off + cells_[axis]) % cells_[axis];
-    return cells[(place[1] * a_cells + place[0]) * z_cells + place[2]];
+    return cells[(place[1] * cells_[0] + place[0]) * cells_[2] + place[2]];
   };
   const std::array<double, 3> spacing_mm{geometry_.a_spacing_um * 1e-3,
                                          geometry_.b_spacing_um * 1e-3,
