@@ -263,6 +263,8 @@ void LiveSource::describe(HostStatus& host, hal::TimePoint now) {
   calibrated_camera_->look(devices_->line_camera(), now);
   host.another_camera = calibrated_camera_->verdict() == CameraVerdict::another;
   host.recording = recordings_->status(now);
+  if (raw_)
+    add_raw(host.recording, raw_->status(), now);
 }
 
 void LiveSource::advance(const RenderLoop& loop) {

@@ -1,11 +1,13 @@
 #include "firmware-host/run/raw_recording.h"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "firmware-host/outputs/local_time.h"
+#include "firmware-host/outputs/run_recorder.h"
 #include "firmware-host/version/version.h"
 #include "pipeline/files/atomic_file.h"
 
@@ -45,6 +47,19 @@ void offer_frames(pipeline::VolumeThreadSetup& setup, const Reconstruction& reco
                     .scan_lag_a_scans = placed.scan_lag_a_scans},
                    frame.bytes, reconstruction.background_of(frame));
   };
+}
+
+void add_raw(ui::RecordingStatus& status, const pipeline::RawRecorderStatus& raw,
+             hal::TimePoint now) {
+  if (!raw.on)
+    return;
+  const hal::Duration lasted = now - raw.since;
+  status.on = true;
+  status.lasted = std::max(status.lasted, lasted);
+  status.not_kept += raw.not_kept;
+  const auto room = time_left(lasted, raw.kept, raw.room);
+  if (room && (!status.room || *room < *status.room))
+    status.room = room;
 }
 
 hal::Result<> check_raw_file(const std::filesystem::path& file) {

@@ -9,6 +9,7 @@
 #include "hal/result.h"
 #include "pipeline/acquisition/volume_thread.h"
 #include "pipeline/recordings/raw/raw_recorder.h"
+#include "ui/status/status.h"
 
 namespace octascope::firmware_host {
 
@@ -19,6 +20,10 @@ pipeline::RawFacts raw_facts(const Devices& devices, const Reconstruction& recon
 // Has the workers offer each frame that they have converted. All three outlive the volumes' thread.
 void offer_frames(pipeline::VolumeThreadSetup& setup, const Reconstruction& reconstruction,
                   pipeline::RawRecorder& recorder);
+
+// For the screen, which says of both recordings that one is on, and what was not kept.
+void add_raw(ui::RecordingStatus& status, const pipeline::RawRecorderStatus& raw,
+             hal::TimePoint now);
 
 // Before the run: that the file is not there and can be made; leaves nothing behind.
 hal::Result<> check_raw_file(const std::filesystem::path& file);

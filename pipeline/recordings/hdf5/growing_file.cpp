@@ -75,6 +75,13 @@ bool append_chunk(hid_t dataset, std::span<const hsize_t> size, std::span<const 
 GrowingFile::GrowingFile(std::filesystem::path path, int descriptor)
     : path_(std::move(path)), descriptor_(descriptor) {}
 
+// After a failure HDF5 would write of places that the file does not reach to, and nobody could read
+// it any more: it is never closed, and stays as it was flushed last.
+GrowingFile::~GrowingFile() {
+  if (broken_)
+    file_.leave_open();
+}
+
 hal::Result<std::unique_ptr<GrowingFile>>
 GrowingFile::create(const std::filesystem::path& path, const std::function<bool(hid_t)>& fill,
                     std::size_t aligned_bytes) {
@@ -153,6 +160,10 @@ Hdf5Handle GrowingFile::open_once_more() const {
 
 // Attributes cannot change while readers may look on: the file is closed and opened once more.
 hal::Result<> GrowingFile::finish(const std::function<bool(hid_t)>& mark) {
+  if (broken_)
+    return hal::fail(hal::ErrorCode::system,
+                     "{}: was not finished, as it could not be written: what was flushed is there",
+                     path_.string());
   if (file_.close() < 0)
     return failed("cannot be closed");
   const Hdf5Handle again = open_once_more();

@@ -42,6 +42,9 @@ public:
   static hal::Result<std::unique_ptr<GrowingFile>> create(const std::filesystem::path& path,
                                                           const std::function<bool(hid_t)>& fill,
                                                           std::size_t aligned_bytes = 0);
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+  ~GrowingFile();
 
   const std::filesystem::path& path() const { return path_; }
   bool broken() const { return broken_; } // after any failure
@@ -53,7 +56,8 @@ public:
   // there under its name.
   hal::Result<> sync();
 
-  // After its datasets are closed: closes it, has it marked as finished, and syncs.
+  // After its datasets are closed: closes it, has it marked as finished, and syncs. After a failure
+  // the file is left as it was flushed last, and the Error says so.
   hal::Result<> finish(const std::function<bool(hid_t)>& mark);
 
 private:

@@ -33,8 +33,9 @@ double bytes_of(std::span<const hsize_t> sizes, std::size_t element_bytes) {
 }
 
 // Of a dataset that holds something: all of it, and one chunk.
-hal::Result<> check_claims(hid_t file, hid_t dataset, const char* name,
-                           std::span<const hsize_t> sizes, std::size_t element_bytes) {
+hal::Result<> check_claims(hid_t dataset, const char* name, std::span<const hsize_t> sizes,
+                           std::size_t element_bytes) {
+  const Hdf5Handle file{H5Iget_file_id(dataset), H5Fclose};
   hsize_t file_bytes = 0;
   if (H5Fget_filesize(file, &file_bytes) < 0)
     return hal::fail(hal::ErrorCode::bad_data, "its size cannot be found: " + hdf5_reason());
@@ -110,11 +111,11 @@ hal::Result<> check_members(hid_t dataset, const char* name, hid_t expected) {
   return {};
 }
 
-hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t type_class,
+hal::Result<Hdf5Handle> open_dataset(hid_t where, const char* name, H5T_class_t type_class,
                                      std::span<const hsize_t> expected, hsize_t& rows) {
   const Hdf5Handle access{H5Pcreate(H5P_DATASET_ACCESS), H5Pclose};
   H5Pset_chunk_cache(access, 0, 0, 0);
-  Hdf5Handle dataset{H5Dopen2(file, name, access), H5Dclose};
+  Hdf5Handle dataset{H5Dopen2(where, name, access), H5Dclose};
   if (!dataset.valid())
     return hal::fail(
         hal::ErrorCode::bad_data,
@@ -135,7 +136,7 @@ hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t t
                      "the file is damaged, or another program changed it",
                      name, sizes, name_of(H5Tget_class(type)), expected.size() > 1 ? ", " : "",
                      fmt::join(expected.subspan(1), ", "), name_of(type_class));
-  HAL_CHECK(check_claims(file, dataset, name, sizes, H5Tget_size(type)));
+  HAL_CHECK(check_claims(dataset, name, sizes, H5Tget_size(type)));
   rows = found[0];
   return dataset;
 }

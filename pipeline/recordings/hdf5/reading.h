@@ -19,9 +19,9 @@ hal::Result<> check_file(const std::filesystem::path& path);
 // Also one that is being written or was never finished.
 hal::Result<Hdf5Handle> open_hdf5(const std::filesystem::path& path);
 
-// A dataset of the class whose dimensions but the first are `expected` (whose own first does not
-// count), and that claims no more than its file can hold; the first is put into `rows`.
-hal::Result<Hdf5Handle> open_dataset(hid_t file, const char* name, H5T_class_t type_class,
+// A dataset of a file, or of a group in it: of the class, with dimensions that are `expected` but for
+// the first, which is put into `rows`, and claiming no more than its file can hold.
+hal::Result<Hdf5Handle> open_dataset(hid_t where, const char* name, H5T_class_t type_class,
                                      std::span<const hsize_t> expected, hsize_t& rows);
 
 // Whether a dataset of records has every number of `expected`, by name.

@@ -31,8 +31,13 @@ struct RawReader::File {
 
 namespace {
 
-// More than a day has at 1000 frames a second; a file that claims more is not given memory.
-constexpr hsize_t most_frames = 100'000'000;
+// As frames lie unpacked, a file has no more than it has room for, whatever it claims: so that what
+// is read of it takes little more memory than it has bytes.
+hsize_t most_frames_of(const std::filesystem::path& file, const hal::LineFormat& format) {
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
+  return unknown ? 0 : bytes / format.frame_bytes();
+}
 
 hal::Result<std::vector<RawFrame>> read_entries(hid_t frames, hsize_t count) {
   std::vector<RawFrame> entries(count);
@@ -156,11 +161,8 @@ hal::Result<std::unique_ptr<RawReader::File>> RawReader::load(const std::filesys
                                               layout::backgrounds_size(format, 0), counts[2]));
   }
   HAL_CHECK(check_storage(opened->spectra, format));
-  // Of one that broke off, the last frame may lack its entry.
-  const hsize_t count = std::ranges::min(counts);
-  if (count > most_frames)
-    return hal::fail(hal::ErrorCode::bad_data, "found {} frames, expected at most {}", count,
-                     most_frames);
+  // Of one that broke off, the last frames may lack their entries, or these their frames.
+  const hsize_t count = std::min(std::ranges::min(counts), most_frames_of(path, format));
   HAL_TRY(const auto entries, read_entries(frames, count));
   opened->rows.resize(count);
   std::iota(opened->rows.begin(), opened->rows.end(), std::size_t{0});

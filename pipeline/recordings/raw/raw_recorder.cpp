@@ -22,7 +22,7 @@ constexpr hal::Duration between_syncs = 2s;
 constexpr std::uintmax_t room_left_alone = std::uintmax_t{256} << 20;
 
 constexpr std::size_t fewest_slots = 4;
-constexpr std::size_t most_slots = 4096;
+constexpr std::size_t most_slots = 1024;
 
 std::size_t slots_for(const RawFacts& facts) {
   return std::clamp(RawRecorder::most_memory / facts.format.frame_bytes(), fewest_slots,
@@ -59,7 +59,7 @@ hal::Result<> RawRecorder::start(const ThreadSetup& setup) {
       slots_[i].background.resize(static_cast<std::size_t>(facts_.format.samples_per_line));
     free_->push(static_cast<std::uint32_t>(i));
   }
-  flushed_ = clock_.now();
+  began_ = flushed_ = clock_.now();
   taking_.store(true, std::memory_order_release);
   thread_.start({"raw"}, setup, [this] { run(); });
   sync_thread_.start({"raw-sync"}, setup, [this] { sync(); });
@@ -76,6 +76,7 @@ void RawRecorder::stop(const std::string& camera) {
   if (!finished && !failure())
     give_up(fault_of_writing(finished.error(), Fault::recording_not_finished), finished.error());
   writer_.reset();
+  taking_.store(false, std::memory_order_release);
 }
 
 void RawRecorder::offer(std::size_t worker, const RawFrame& entry, std::span<const std::byte> frame,
@@ -98,9 +99,13 @@ void RawRecorder::offer(std::size_t worker, const RawFrame& entry, std::span<con
 }
 
 RawRecorderStatus RawRecorder::status() const {
-  return {.offered = offered_.load(std::memory_order_relaxed),
+  const std::int64_t room = room_.load(std::memory_order_relaxed);
+  return {.on = taking_.load(std::memory_order_acquire),
+          .since = began_,
+          .offered = offered_.load(std::memory_order_relaxed),
           .kept = kept_.load(std::memory_order_relaxed),
-          .not_kept = not_kept_.load(std::memory_order_relaxed)};
+          .not_kept = not_kept_.load(std::memory_order_relaxed),
+          .room = room < 0 ? std::nullopt : std::optional{static_cast<std::uint64_t>(room)}};
 }
 
 std::optional<hal::Error> RawRecorder::failure() const {
@@ -168,7 +173,12 @@ void RawRecorder::flush() {
 bool RawRecorder::has_room() {
   std::error_code error;
   const auto room = std::filesystem::space(folder_, error);
-  if (error || room.available >= room_left_alone + facts_.format.frame_bytes())
+  if (error)
+    return true;
+  const std::uintmax_t left = room.available - std::min(room.available, room_left_alone);
+  room_.store(static_cast<std::int64_t>(left / facts_.format.frame_bytes()),
+              std::memory_order_relaxed);
+  if (left >= facts_.format.frame_bytes())
     return true;
   give_up(Fault::recording_disk_full,
           {hal::ErrorCode::system,

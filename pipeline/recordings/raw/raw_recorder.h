@@ -22,9 +22,12 @@ namespace octascope::pipeline {
 
 // Every frame that was offered is kept or counted as not kept, once the recorder has stopped.
 struct RawRecorderStatus {
+  bool on = false;        // it takes frames
+  hal::TimePoint since{}; // meaningful while on
   std::uint64_t offered = 0;
   std::uint64_t kept = 0;
-  std::uint64_t not_kept = 0; // the disk was too slow, or the recording had ended by itself
+  std::uint64_t not_kept = 0;        // the disk was too slow, or the recording had ended by itself
+  std::optional<std::uint64_t> room; // frames until its disk is full; empty: not known yet
 };
 
 // The workers offer each frame that they have converted and never wait: it is copied into a free
@@ -88,6 +91,7 @@ private:
   std::atomic<std::uint64_t> offered_{0};
   std::atomic<std::uint64_t> kept_{0};
   std::atomic<std::uint64_t> not_kept_{0};
+  std::atomic<std::int64_t> room_{-1}; // frames; -1: not known yet
   Wakeup wakeup_;
   Wakeup sync_wakeup_;
 
@@ -95,6 +99,7 @@ private:
   std::optional<hal::Error> failure_;
 
   std::optional<RawWriter> writer_; // the writing thread's, but for its sync()
+  hal::TimePoint began_;            // before the threads
   hal::TimePoint flushed_;
   RoleThread thread_{&wakeup_};
   RoleThread sync_thread_{&sync_wakeup_};

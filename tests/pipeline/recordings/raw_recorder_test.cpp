@@ -50,7 +50,7 @@ protected:
 TEST_F(RawRecorderTest, keeps_what_two_workers_offer) {
   const auto raw = recorder();
   ASSERT_TRUE(raw->start({}));
-  constexpr std::uint64_t each = 600;
+  constexpr std::uint64_t each = 500;
   std::vector<std::thread> threads;
   for (std::size_t worker = 0; worker < workers; ++worker)
     threads.emplace_back([&, worker] {

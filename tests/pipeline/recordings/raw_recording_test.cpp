@@ -1,4 +1,5 @@
 // Recordings of raw spectra: what was written is read, where it lies; what is damaged is refused.
+#include <array>
 #include <cstring>
 #include <random>
 
@@ -66,7 +67,7 @@ TEST_F(RawRecordingTest, says_what_it_was_told) {
 TEST_F(RawRecordingTest, hands_out_frames_where_they_lie_in_the_order_of_the_scan) {
   {
     auto writer = tests::must(RawWriter::create(file, small_raw_facts()));
-    for (const std::uint64_t n : {7, 1, 0, 3, 2, 5, 4, 6, 9, 8, 11, 10}) // as workers come
+    for (const unsigned n : {7U, 1U, 0U, 3U, 2U, 5U, 4U, 6U, 9U, 8U, 11U, 10U}) // as workers come
       tests::append_small_raw(writer, n);
     ASSERT_TRUE(writer.finish({}));
   }
@@ -108,7 +109,7 @@ TEST_F(RawRecordingTest, of_a_writer_that_went_away_has_what_was_flushed) {
 TEST_F(RawRecordingTest, a_volume_that_lacks_a_sweep_is_told_as_that) {
   {
     auto writer = tests::must(RawWriter::create(file, small_raw_facts()));
-    for (const std::uint64_t n : {0, 1, 2, 4, 5})
+    for (const unsigned n : {0U, 1U, 2U, 4U, 5U})
       tests::append_small_raw(writer, n);
     ASSERT_TRUE(writer.finish({}));
   }
@@ -171,6 +172,33 @@ TEST_F(RawRecordingTest, refuses_or_bears_any_number_in_its_attributes) {
         static_cast<void>(reader->spectra(0, sweeps, RawLines::all));
     }
   EXPECT_GT(refused, 30);
+}
+
+// As long as the file's size bears it out: HDF5 gives no room to rows that nobody wrote.
+TEST_F(RawRecordingTest, that_claims_frames_which_it_cannot_hold_is_given_no_memory_for_them) {
+  tests::write_small_raw(file, sweeps);
+  const auto claim = [&](hsize_t frames) {
+    const hal::LineFormat format = small_raw_facts().format;
+    const Hdf5Handle opened{H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
+    const auto extend = [&](const char* name, const auto& size) {
+      const Hdf5Handle dataset{H5Dopen2(opened, name, H5P_DEFAULT), H5Dclose};
+      ASSERT_GE(H5Dset_extent(dataset, size.data()), 0) << name;
+    };
+    extend(raw_layout::spectra, raw_layout::spectra_size(format, frames));
+    extend(raw_layout::frames, std::array{frames});
+    extend(raw_layout::backgrounds, raw_layout::backgrounds_size(format, frames));
+  };
+  claim(100'000);
+  const std::uintmax_t bytes = std::filesystem::file_size(file);
+  ASSERT_LT(bytes, 1'000'000U);
+  {
+    const auto reader = open();
+    EXPECT_LE(reader.frames().size(), bytes / small_raw_facts().format.frame_bytes());
+    EXPECT_THAT(reader.spectra(0, reader.frames().size(), RawLines::all).error().message,
+                HasSubstr("is not there"));
+  }
+  claim(hsize_t{1} << 40);
+  EXPECT_THAT(refusal(), HasSubstr("expected what a file of"));
 }
 
 // Chunks that another program made.

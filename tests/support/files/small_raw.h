@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <stdexcept>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "pipeline/recordings/raw/raw_writer.h"
 
@@ -69,16 +68,19 @@ inline void append_small_raw(pipeline::RawWriter& writer, std::uint64_t n) {
   const std::vector<std::uint16_t> samples = small_raw_samples(n);
   const auto appended =
       writer.append(small_raw_frame(n), std::as_bytes(std::span{samples}), small_raw_background(n));
-  ASSERT_TRUE(appended) << appended.error().message;
+  if (!appended)
+    throw std::runtime_error{appended.error().message};
 }
 
 inline void write_small_raw(const std::filesystem::path& file, std::uint64_t frames) {
   auto writer = pipeline::RawWriter::create(file, small_raw_facts());
-  ASSERT_TRUE(writer) << writer.error().message;
+  if (!writer)
+    throw std::runtime_error{writer.error().message};
   for (std::uint64_t n = 0; n < frames; ++n)
     append_small_raw(*writer, n);
   const auto finished = writer->finish({.not_kept = 2, .camera = "a camera"});
-  ASSERT_TRUE(finished) << finished.error().message;
+  if (!finished)
+    throw std::runtime_error{finished.error().message};
 }
 
 } // namespace octascope::tests
