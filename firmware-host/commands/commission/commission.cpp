@@ -88,7 +88,7 @@ hal::Result<Turn> take_step(const Step& step, Bench& bench) {
     if (ends_all(record.error()))
       return tl::make_unexpected(record.error());
     say("  FAILED: {}\n", record.error().message);
-    HAL_TRY(answer, bench.dialogue.ask_word("Again?", {"repeat", "skip", "quit"}));
+    HAL_TRY(answer, bench.dialogue.ask_word("Again?", {"quit", "repeat", "skip"}));
   }
   if (answer == "skip")
     HAL_CHECK(session.skip(step.key));

@@ -159,11 +159,10 @@ hal::Result<StepRecord> check_target(Bench& bench) {
                        "target"));
   HAL_TRY(const double side_mm, bench.dialogue.ask_number("Side of the target's square, in mm?",
                                                           pipeline::target_side_mm, 0.01, 1000));
-  HAL_TRY(const auto file, capture_volume(bench, "target", phantom));
+  HAL_TRY(const auto file, capture_volume(bench, "target", phantom)); // with its calibration
   const auto volume = bench.session.free_file("target", ".nrrd");
   ReconstructOptions options;
   options.spectra = file;
-  options.calibration = bench.session.file("calibration");
   options.volume = volume;
   options.display_counts = true;
   HAL_CHECK(reconstruct_volume(options));
