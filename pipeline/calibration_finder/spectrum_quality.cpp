@@ -20,6 +20,13 @@ std::vector<double> mean_of(std::span<const double> lines, std::size_t samples) 
   return mean;
 }
 
+constexpr double least_light = 1e-6; // of full scale
+
+// Twice: what once leaves of a source's own curvature is some per cent of its light.
+std::vector<double> fringes_of(std::span<const double> line) {
+  return remove_slow_part(remove_slow_part(line));
+}
+
 double level_of_darkest_hundredth(std::vector<double> values) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 100);
   std::ranges::nth_element(values, at);
@@ -36,14 +43,14 @@ SpectrumQuality judge_spectra(std::span<const double> lines, std::size_t samples
   quality.dark_counts = level_of_darkest_hundredth(mean);
 
   std::vector<double> light = mean; // without fringes, above the dark level
-  const std::vector<double> fringes = remove_slow_part(mean);
+  const std::vector<double> fringes = fringes_of(mean);
   for (std::size_t p = 0; p < samples; ++p)
     light[p] -= fringes[p] + quality.dark_counts;
   const double bright = *std::ranges::max_element(light) / 2;
   double carried = 0;
   double pixels = 0;
   for (const double value : light)
-    if (bright > 0 && value >= bright) {
+    if (bright > least_light * full_scale && value >= bright) {
       carried += value;
       ++pixels;
     }
@@ -55,7 +62,7 @@ SpectrumQuality judge_spectra(std::span<const double> lines, std::size_t samples
       quality.saturated_share += 1 / count;
     if (!(carried > 0))
       continue; // no light
-    const std::vector<double> fast = remove_slow_part(line);
+    const std::vector<double> fast = fringes_of(line);
     double squares = 0;
     for (std::size_t p = 0; p < samples; ++p)
       if (light[p] >= bright)

@@ -14,7 +14,7 @@ struct SpectrumQuality {
 };
 
 // `lines` is [line][sample] in counts after the right shift, at least one line. The contrast is the
-// mean over the lines, each √2·rms of what remove_slow_part() (fringe.h) leaves of it over the mean
+// mean over the lines, each √2·rms of what remove_slow_part() (fringe.h), twice, leaves of it over the mean
 // light above the dark level, both where the light is at least half of the brightest.
 SpectrumQuality judge_spectra(std::span<const double> lines, std::size_t samples,
                               double full_scale);

@@ -84,7 +84,7 @@ private:
 };
 
 hal::Result<> TargetPicture::find_threshold() {
-  constexpr float least_contrast_db = 6;
+  constexpr float least_contrast_db = 10;
   std::vector<float> sorted(levels_.begin(), levels_.end());
   std::ranges::sort(sorted);
   const float dark = sorted[sorted.size() / 20];

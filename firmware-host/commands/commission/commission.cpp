@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <string_view>
 #include <vector>
 
@@ -61,6 +62,15 @@ void tell(const StepRecord& record) {
 
 enum class Turn { next, quit };
 
+// Captures block the signals that end them, for good; at a question Ctrl+C ends the program.
+hal::Result<StepRecord> run_step(const Step& step, Bench& bench) {
+  sigset_t before;
+  pthread_sigmask(SIG_BLOCK, nullptr, &before);
+  auto record = step.run(bench);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  return record;
+}
+
 // What the answers do not reach is no fault of the step: it ends the whole.
 bool ends_all(const hal::Error& error) {
   return error.code == hal::ErrorCode::disconnected;
@@ -77,7 +87,7 @@ hal::Result<Turn> take_step(const Step& step, Bench& bench) {
   HAL_TRY(auto answer, before ? bench.dialogue.ask_word("Keep it?", {"keep", "repeat", "quit"})
                               : bench.dialogue.ask_word("Do it?", {"do", "skip", "quit"}));
   while (answer == "do" || answer == "repeat") {
-    const auto record = step.run(bench);
+    const auto record = run_step(step, bench);
     if (record) {
       tell(*record);
       HAL_CHECK(session.keep(step.key, *record));

@@ -1,3 +1,4 @@
+#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -34,6 +35,7 @@ void add_commission_command(CLI::App& app, int& exit_status) {
       "  yes '' | octascope commission --sim --out try-it");
   command->callback([arguments, &exit_status] {
     const auto done = commission({arguments->folder, arguments->simulate}, std::cin);
+    std::fflush(stdout); // what was asked, before why it ended
     exit_status = done ? exit_done : complain("commission", done.error());
   });
 }

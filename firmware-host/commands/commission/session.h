@@ -25,7 +25,7 @@ struct StepRecord {
   std::vector<std::string> pictures; // PNG files in the folder
 };
 
-// The text of a value, for StepRecord::found and the configuration. Bound to one thread.
+// Bound to one thread.
 class Session {
 public:
   // Opens the folder, or makes it. ErrorCode::bad_data: something else's folder, or a damaged

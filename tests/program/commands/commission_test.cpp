@@ -18,6 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::AllOf;
 using testing::Contains;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -51,13 +52,27 @@ std::string outcome(const nlohmann::json& state, const std::string& step) {
   return state.at("steps").value(step, nlohmann::json::object()).value("outcome", "");
 }
 
-// Of a mirror at that depth, which nobody calibrated with.
-pipeline::AxialPsf point_spread(const std::filesystem::path& calibration, double depth_bin) {
+// What is true of the twin.
+pipeline::Calibration true_calibration(const sim::Spectrometer& spectrometer) {
+  auto calibration = pipeline::Calibration::identity(spectrometer.samples());
+  calibration.positions = spectrometer.true_k_positions();
+  calibration.dispersion_rad = spectrometer.true_dispersion_rad();
+  return calibration;
+}
+
+// Mirrors at depths that nobody calibrated with: as narrow as with the true curves, and where they
+// are. Beyond half of the depth range the interpolation alone makes them a little broader than 2.5.
+void expect_narrow_mirrors(const pipeline::Calibration& found) {
   const auto spectrometer = must(sim::Spectrometer::make({}));
-  const std::vector<sim::Reflector> mirror{{depth_bin, 400, 1}};
-  const auto line = spectrometer.mean_counts(mirror);
-  return pipeline::measure_axial_psf(pipeline::remove_slow_part(line),
-                                     must(pipeline::Calibration::load(calibration, 1024)));
+  for (const double depth_bin : {60.0, 180.0, 240.0, 330.0}) {
+    const std::vector<sim::Reflector> mirror{{depth_bin, 400, 1}};
+    const auto line = pipeline::remove_slow_part(spectrometer.mean_counts(mirror));
+    const auto spread = pipeline::measure_axial_psf(line, found);
+    const auto best = pipeline::measure_axial_psf(line, true_calibration(spectrometer));
+    EXPECT_LE(spread.fwhm_bins, depth_bin > 256 ? 2.55 : 2.5) << depth_bin;
+    EXPECT_LE(spread.fwhm_bins, 1.02 * best.fwhm_bins) << depth_bin;
+    EXPECT_NEAR(spread.peak_bin, depth_bin, 0.5) << depth_bin;
+  }
 }
 
 TEST(Commission, leads_from_nothing_to_a_calibrated_picture) {
@@ -73,14 +88,10 @@ TEST(Commission, leads_from_nothing_to_a_calibrated_picture) {
   EXPECT_NEAR(state.at("values").at("a_spacing_um").get<double>(), 25, 0.5);
   EXPECT_NEAR(state.at("values").at("b_spacing_um").get<double>(), 50, 1.5);
 
-  for (const double depth_bin : {60.0, 180.0, 330.0}) {
-    const auto spread = point_spread(folder / "f" / "calibration.toml", depth_bin);
-    EXPECT_LE(spread.fwhm_bins, 2.5) << depth_bin;
-    EXPECT_NEAR(spread.peak_bin, depth_bin, 1) << depth_bin;
-  }
-  EXPECT_NEAR(
-      must(pipeline::Calibration::load(folder / "f" / "calibration.toml", 1024)).depth_spacing_um,
-      3.5, 0.02);
+  const auto calibration =
+      must(pipeline::Calibration::load(folder / "f" / "calibration.toml", 1024));
+  expect_narrow_mirrors(calibration);
+  EXPECT_NEAR(calibration.depth_spacing_um, 3.5, 0.02);
 
   run_well({"run", "--config", folder / "f" / "octascope.toml", "--display", "offscreen", "--size",
             "640x360", "--volumes", "2", "--snapshot", folder / "p.png", "--report",
@@ -146,7 +157,7 @@ TEST(Commission, asks_again_after_a_wrong_answer_but_not_for_ever) {
                     HasSubstr("found \"nan\", expected a number from 1 to")));
   EXPECT_EQ(state_in(folder).at("values").at("b_scans"), 60);
 
-  const ProgramResult never = commission(folder, "keep\na\nb\nc\nd\ne\nf\ng\n");
+  const ProgramResult never = commission(folder, "keep\na\nb\nc\ne\nf\ng\n");
   EXPECT_EQ(never.exit_status, 2) << never.describe();
   EXPECT_THAT(never.err, HasSubstr("5 answers in a row did not do"));
 }
@@ -166,7 +177,7 @@ TEST(Commission, leaves_a_configuration_that_somebody_edited) {
   EXPECT_EQ(result.exit_status, 0) << result.describe();
   EXPECT_THAT(result.out, HasSubstr("octascope.toml was changed by hand and is left as it is"));
   EXPECT_THAT(text_of(file), HasSubstr("# mine"));
-  EXPECT_THAT(listing(folder / "f"), Contains("octascope-2.toml"));
+  EXPECT_THAT(listing(folder / "f"), Contains(EndsWith("/octascope-2.toml")));
 }
 
 TEST(Commission, says_so_when_the_folder_is_of_no_use) {
@@ -191,12 +202,12 @@ TEST(Commission, says_so_when_the_folder_is_of_no_use) {
   refuse(folder / "f", "was begun without --sim", 2);
 }
 
-// As on a full disk: files may grow to 4 KiB and no further.
+// As on a full disk: files may grow to 16 KiB and no further, SIGXFSZ (25) is ignored.
 TEST(Commission, loses_nothing_where_the_disk_is_full) {
   const ScratchFolder folder;
   const ProgramResult result =
       commission(folder, std::string{small_scan} + skipped + skipped + "\n\nquit\n",
-                 "trap '' XFSZ; ulimit -f 8; ");
+                 "trap '' 25; ulimit -f 32; ");
   EXPECT_EQ(result.exit_status, 1) << result.describe();
   EXPECT_EQ(result.signal, 0) << result.describe();
   EXPECT_THAT(result.out, HasSubstr("FAILED: "));
