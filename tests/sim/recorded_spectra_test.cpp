@@ -53,12 +53,12 @@ TEST(RecordedSpectra, plays_one_volume_after_the_other) {
   SpectraRecording apart = recording();
   const auto samples = std::exchange(apart.samples, {});
   const std::size_t sweep = samples.size() / 2;
-  for (const std::size_t n : {0, 1, 1, 0}) // the second volume has its sweeps changed
+  for (const unsigned n : {0U, 1U, 1U, 0U}) // the second volume has its sweeps changed
     apart.sweeps.push_back(samples.subspan(n * sweep, sweep));
   const auto made = RecordedSpectra::make(apart);
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_EQ((*made)->sweeps(), 2);
-  for (const std::uint64_t volume : {0, 2, 4}) {
+  for (const unsigned volume : {0U, 2U, 4U}) {
     EXPECT_EQ(first_samples((*made)->frame(volume, 1))[0], 100);
     EXPECT_EQ(first_samples((*made)->frame(volume + 1, 1))[0], 0);
   }

@@ -5,6 +5,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "pipeline/recordings/hdf5/hdf5.h"
 #include "pipeline/recordings/raw/raw_layout.h"
@@ -12,6 +14,7 @@
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/files/size_limit.h"
 #include "tests/support/files/small_raw.h"
 #include "tests/support/must.h"
 
@@ -104,6 +107,34 @@ TEST_F(RawRecordingTest, of_a_writer_that_went_away_has_what_was_flushed) {
   EXPECT_FALSE(reader.end().finished);
   EXPECT_EQ(reader.frames().size(), sweeps);
   EXPECT_EQ(tests::must(reader.spectra(0, sweeps, RawLines::kept)).find_fault(5), std::nullopt);
+}
+
+TEST_F(RawRecordingTest, whose_disk_refused_to_be_written_has_what_was_flushed) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    bool failed = false;
+    {
+      auto writer = RawWriter::create(file, small_raw_facts());
+      for (std::uint64_t n = 0; n < 200 && !failed; ++n) {
+        const auto samples = small_raw_samples(n);
+        failed = !writer->append(small_raw_frame(n), std::as_bytes(std::span{samples}),
+                                 tests::small_raw_background(n));
+        if (n + 1 == sweeps && writer->flush())
+          tests::limit_file_sizes(std::filesystem::file_size(file));
+      }
+      failed = failed && !writer->finish({});
+    }
+    ::_exit(failed ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_EQ(status, 0);
+  const auto reader = open();
+  EXPECT_FALSE(reader.end().finished);
+  ASSERT_GE(reader.frames().size(), sweeps);
+  const auto spectra = tests::must(reader.spectra(0, sweeps, RawLines::all));
+  for (int b = 0; b < spectra.shape().b_scans; ++b)
+    EXPECT_EQ(spectra.find_fault(b), std::nullopt);
 }
 
 TEST_F(RawRecordingTest, a_volume_that_lacks_a_sweep_is_told_as_that) {

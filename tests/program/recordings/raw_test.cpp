@@ -1,4 +1,5 @@
 // Raw spectra of the appliance: captured, recorded beside the levels, and turned into levels again.
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -8,9 +9,11 @@
 #include <unistd.h>
 
 #include "pipeline/files/nrrd.h"
+#include "pipeline/files/text_curve.h"
 #include "pipeline/recordings/raw/raw_reader.h"
 #include "pipeline/recordings/recording_reader.h"
 #include "tests/program/program_support.h"
+#include "tests/support/files/test_data.h"
 
 namespace octascope::tests {
 namespace {
@@ -294,6 +297,39 @@ TEST(Capture, ends_after_so_many_lines) {
   run_well(capture_of_known(folder, "lines.h5", {"--lines", "150"}));
   const auto raw = must_open<pipeline::RawReader>(folder / "lines.h5");
   EXPECT_EQ(raw.frames().size(), 3U); // of 64 lines
+}
+
+// The real mirrors as a camera of 12 bits has them; a mean serves as well as lines.
+TEST(Capture, of_mirrors_is_what_calibrate_takes) {
+  OCTASCOPE_REQUIRE_TEST_DATA("sd-oct-tissue/mirror1_f32_1024.raw");
+  const ScratchFolder folder;
+  const auto captured = [&](const std::string& name, std::vector<std::string> more) {
+    const auto curve = pipeline::read_float_curve(
+        test_data_folder() / "sd-oct-tissue" / (name + "_f32_1024.raw"), 1024);
+    EXPECT_TRUE(curve);
+    std::vector<std::uint16_t> counts;
+    for (int line = 0; curve && line < 64; ++line)
+      for (const float value : *curve)
+        counts.push_back(static_cast<std::uint16_t>(std::lround(value * 1000)));
+    const std::string file = folder / (name + ".raw");
+    std::ofstream{file, std::ios::binary}.write(reinterpret_cast<const char*>(counts.data()),
+                                                static_cast<std::streamsize>(2 * counts.size()));
+    more.insert(more.begin(),
+                {"capture", "--spectra", file, "--shape", "2,32,1024", "--config",
+                 write_small_configuration(folder).string(), "--out", folder / (name + ".h5")});
+    run_well(more);
+    return (folder / (name + ".h5")).string();
+  };
+  const ProgramResult found =
+      run_well({"calibrate", "--mirror", captured("mirror1", {"--lines", "100"}), "--mirror",
+                captured("mirror2", {"--lines", "100", "--average"}), "--out",
+                folder / "found.toml", "--json"});
+  const auto verdict = nlohmann::json::parse(found.out, nullptr, false);
+  ASSERT_TRUE(verdict.is_object() && verdict["mirrors"].size() == 2) << found.describe();
+  for (const auto& mirror : verdict["mirrors"]) {
+    EXPECT_GT(mirror["fwhm_before_bins"].get<double>(), 7) << mirror;
+    EXPECT_LE(mirror["fwhm_after_bins"].get<double>(), 2.5) << mirror;
+  }
 }
 
 TEST(Capture, writes_over_nothing_and_needs_a_camera) {
