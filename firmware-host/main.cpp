@@ -4,6 +4,7 @@
 #include "firmware-host/commands/bench/bench_command.h"
 #include "firmware-host/commands/calibrate/calibrate.h"
 #include "firmware-host/commands/command.h"
+#include "firmware-host/commands/commission/commission.h"
 #include "firmware-host/commands/devices/status.h"
 #include "firmware-host/commands/option_guard.h"
 #include "firmware-host/commands/recordings/export.h"
@@ -49,6 +50,8 @@ int main(int argc, char** argv) {
   int exit_status = host::exit_done;
   host::add_run_command(program, exit_status);
   host::add_record_command(program, exit_status);
+  host::add_capture_command(program, exit_status);
+  host::add_commission_command(program, exit_status);
   host::add_devices_command(program, exit_status);
   host::add_doctor_command(program, exit_status);
   host::add_status_command(program, exit_status);

@@ -12,6 +12,7 @@ inline constexpr int exit_wrong_use = 2;
 
 void add_run_command(CLI::App& program, int& exit_status);
 void add_record_command(CLI::App& program, int& exit_status);
+void add_capture_command(CLI::App& program, int& exit_status);
 void add_replay_command(CLI::App& program, int& exit_status);
 void add_devices_command(CLI::App& program, int& exit_status);
 void add_doctor_command(CLI::App& program, int& exit_status);

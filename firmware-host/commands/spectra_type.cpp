@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "firmware-host/commands/numbers.h"
+#include "pipeline/recordings/raw/raw_reader.h"
 
 namespace octascope::firmware_host {
 
@@ -74,6 +75,45 @@ hal::Result<pipeline::SpectrumFormat> camera_format(int samples,
                      "--dtype is f32, expected u8, u10, u12, u14 or u16, which cameras give; "
                      "octascope reconstruct takes f32, and render --volume draws what it writes");
   return spectrum_format(samples, type, arguments.shift);
+}
+
+namespace {
+
+hal::Result<RecordingOptions> raw_recording_options(const std::string& spectra,
+                                                    const std::string& shape) {
+  HAL_TRY(const auto reader, pipeline::RawReader::open(spectra));
+  const pipeline::RawFacts& facts = reader.facts();
+  if (facts.averaged_lines > 0)
+    return hal::fail(ErrorCode::invalid_argument,
+                     "{}: found the mean of {} lines, expected a volume of spectra; octascope "
+                     "calibrate takes it",
+                     spectra, facts.averaged_lines);
+  RecordingOptions options{spectra,
+                           {facts.plan.sweeps(), facts.kept_lines(), facts.format.samples_per_line},
+                           pipeline::SpectrumFormat{facts.format}};
+  if (shape.empty())
+    return options;
+  HAL_TRY(const auto given, pipeline::SpectraShape::parse(shape));
+  if (given != options.shape)
+    return hal::fail(ErrorCode::invalid_argument,
+                     "--shape is {}, expected none, or {},{},{}, as {} says", shape,
+                     options.shape.b_scans, options.shape.a_scans, options.shape.samples, spectra);
+  return options;
+}
+
+} // namespace
+
+hal::Result<RecordingOptions> recording_options(const std::string& spectra,
+                                                const std::string& shape,
+                                                const SpectraTypeArguments& type) {
+  if (pipeline::is_raw_recording(spectra))
+    return raw_recording_options(spectra, shape);
+  if (shape.empty())
+    return hal::fail(ErrorCode::invalid_argument,
+                     "--spectra needs --shape B,A,N: B-scans, A-scans, samples");
+  HAL_TRY(const auto parsed, pipeline::SpectraShape::parse(shape));
+  HAL_TRY(const auto format, camera_format(parsed.samples, type));
+  return RecordingOptions{spectra, parsed, format};
 }
 
 } // namespace octascope::firmware_host

@@ -1,4 +1,4 @@
-// --dtype and --shift: what a sample of raw spectra is.
+// --spectra, --shape, --dtype and --shift: raw spectra, and what a sample of them is.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 
 #include <CLI/App.hpp>
 
+#include "firmware-host/configuration/run_options.h"
 #include "hal/result.h"
 #include "pipeline/reconstruction/spectrum_format.h"
 
@@ -34,5 +35,11 @@ hal::Result<pipeline::SpectrumFormat> spectrum_format(int samples, const Spectra
 // The same for what plays spectra as a camera does, which counts: f32 is refused.
 hal::Result<pipeline::SpectrumFormat> camera_format(int samples,
                                                     const SpectraTypeArguments& arguments);
+
+// --spectra with its --shape and type, or a recording of raw spectra, which says them itself: a shape
+// that was given as well must agree. For what plays spectra as a camera does.
+hal::Result<RecordingOptions> recording_options(const std::string& spectra,
+                                                const std::string& shape,
+                                                const SpectraTypeArguments& type);
 
 } // namespace octascope::firmware_host

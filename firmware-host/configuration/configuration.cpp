@@ -4,7 +4,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <fstream>
 #include <initializer_list>
+#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -255,6 +257,12 @@ std::optional<std::filesystem::path> configuration_file(const RunOptions& option
   if (!std::filesystem::exists(machine_configuration, error))
     return std::nullopt;
   return machine_configuration;
+}
+
+std::string configuration_text(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream{file, std::ios::binary}.rdbuf();
+  return text.str();
 }
 
 hal::Result<Configuration> load_configuration(const std::filesystem::path& file) {

@@ -74,6 +74,8 @@ std::optional<std::filesystem::path> configuration_file(const RunOptions& option
 
 // Paths in the file are relative to it.
 hal::Result<Configuration> load_configuration(const std::filesystem::path& file);
+// The file's text, to be kept with what was made with it; empty where it cannot be read.
+std::string configuration_text(const std::filesystem::path& file);
 hal::Result<Configuration> read_configuration(const pipeline::ConfigDocument& document);
 
 // Loads that file; without one, the defaults.

@@ -50,6 +50,7 @@ struct RunOptions {
   bool bidirectional = false;                        // overrides the plan
   bool rolling = false;                              // likewise, [display] rolling and the settings
   std::optional<std::filesystem::path> record_to;    // all volumes, from the first on
+  std::optional<std::filesystem::path> raw_to;       // likewise, their raw spectra
   std::string subject;                               // of recordings; empty: not given
   pipeline::Eye eye = pipeline::Eye::not_said;       // likewise
   std::optional<int> repeats;                        // overrides the plan

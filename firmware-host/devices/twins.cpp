@@ -1,8 +1,11 @@
 #include "firmware-host/devices/twins.h"
 
 #include <algorithm>
+#include <memory>
+#include <vector>
 
 #include "pipeline/reconstruction/spectra_file.h"
+#include "pipeline/recordings/raw/raw_reader.h"
 #include "sim/devices/control_script.h"
 #include "sim/faults/fault_script.h"
 #include "sim/phantoms/phantom.h"
@@ -68,8 +71,60 @@ hal::Result<> check_counts(const pipeline::SpectraFile& file,
   return {};
 }
 
+// Beyond that, what is played waits for the disk.
+constexpr std::size_t most_played_bytes = std::size_t{1} << 30;
+
+// The first whole volumes of a recording, as they were scanned, with its own calibration unless
+// another one is given.
+hal::Result<> play_raw_recording(const RunOptions& options, const Configuration& configuration,
+                                 Twins& twins) {
+  const std::filesystem::path& path = options.recording->file;
+  if (options.bidirectional || options.repeats)
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "{} says how it was scanned, expected neither --bidirectional nor --repeats",
+                     path.string());
+  HAL_TRY(const auto reader, pipeline::RawReader::open(path));
+  const pipeline::RawFacts& facts = reader.facts();
+  HAL_TRY(const auto first, reader.first_whole_volume());
+  const auto sweeps = static_cast<std::size_t>(facts.plan.sweeps());
+  const std::size_t most = most_played_bytes / (facts.format.frame_bytes() * sweeps);
+  const auto played = std::make_shared<std::vector<pipeline::SpectraFile>>();
+  std::vector<std::span<const std::byte>> frames;
+  for (const pipeline::RawVolume& volume : reader.volumes()) {
+    if (!volume.whole || played->size() >= std::max<std::size_t>(most, 1))
+      continue;
+    HAL_TRY(auto file, reader.spectra(volume.first, volume.count, pipeline::RawLines::all));
+    for (int sweep = 0; sweep < facts.plan.sweeps(); ++sweep) {
+      if (const auto fault = file.find_fault(sweep))
+        return hal::fail(hal::ErrorCode::bad_data, *fault);
+      frames.push_back(file.b_scan(sweep));
+    }
+    played->push_back(std::move(file));
+  }
+  twins.calibration = facts.calibration;
+  if (const auto given = calibration_file(options, configuration)) {
+    HAL_TRY(twins.calibration, pipeline::Calibration::load(*given, facts.format.samples_per_line));
+  }
+  twins.plan = facts.plan;
+  twins.plan.scan_lag_a_scans = reader.frames()[first.first].scan_lag_a_scans;
+  HAL_TRY(twins.spectra,
+          sim::RecordedSpectra::make({.samples = {},
+                                      .sweeps = std::move(frames),
+                                      .type = facts.format.sample_type,
+                                      .b_scans = facts.plan.sweeps(),
+                                      .a_scans = facts.format.lines_per_frame,
+                                      .samples_per_line = facts.format.samples_per_line,
+                                      .significant_bits = facts.format.significant_bits,
+                                      .right_shift = facts.format.right_shift,
+                                      .name = path.filename().string(),
+                                      .keep_alive = played}));
+  return {};
+}
+
 hal::Result<> play_recording(const RunOptions& options, const Configuration& configuration,
                              Twins& twins) {
+  if (pipeline::is_raw_recording(options.recording->file))
+    return play_raw_recording(options, configuration, twins);
   const RecordingOptions& recording = *options.recording;
   auto file = pipeline::SpectraFile::open(recording.file, recording.shape, recording.format.type);
   if (!file)

@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-#include <fmt/format.h>
+#include <fmt/chrono.h>
 
 namespace octascope::firmware_host {
 
@@ -14,6 +14,12 @@ std::string local_date_and_time(std::int64_t wall_clock_ns) {
     return "time not said";
   return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02}", local.tm_year + 1900, local.tm_mon + 1,
                      local.tm_mday, local.tm_hour, local.tm_min, local.tm_sec);
+}
+
+std::string now_in_iso_8601() {
+  const std::tm local = fmt::localtime(std::time(nullptr));
+  const std::string offset = fmt::format("{:%z}", local); // +0100
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
 }
 
 std::string local_time_of_day() {

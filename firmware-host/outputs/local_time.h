@@ -10,6 +10,9 @@ namespace octascope::firmware_host {
 // negative times, and years of more than four digits.
 std::string local_date_and_time(std::int64_t wall_clock_ns);
 
+// "2026-11-22T12:10:03+01:00" of now.
+std::string now_in_iso_8601();
+
 // "14:05" of now, local time.
 std::string local_time_of_day();
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <system_error>
 #include <utility>
 
-#include <fmt/chrono.h>
+#include <fmt/format.h>
 
 #include "firmware-host/outputs/dated_file.h"
+#include "firmware-host/outputs/local_time.h"
 #include "pipeline/files/atomic_file.h"
 
 namespace octascope::firmware_host {
@@ -27,12 +27,6 @@ std::size_t places_for(const pipeline::VolumeGeometry& geometry) {
 }
 
 constexpr hal::Duration patience_with_disk = 10s;
-
-std::string now_in_iso_8601() {
-  const std::tm local = fmt::localtime(std::time(nullptr));
-  const std::string offset = fmt::format("{:%z}", local); // +0100
-  return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
-}
 
 } // namespace
 
@@ -129,6 +123,16 @@ hal::Result<> RunRecorder::outcome() const {
   return {};
 }
 
+std::optional<hal::Duration> time_left(hal::Duration lasted, std::uint64_t kept,
+                                       std::optional<std::uint64_t> room) {
+  if (kept == 0 || !room)
+    return std::nullopt;
+  constexpr double longest = 1e18; // of nanoseconds, 30 years
+  const double each = static_cast<double>(lasted.count()) / static_cast<double>(kept);
+  return hal::Duration{
+      static_cast<std::int64_t>(std::min(each * static_cast<double>(*room), longest))};
+}
+
 ui::RecordingStatus RunRecorder::status(hal::TimePoint now) const {
   const pipeline::RecorderStatus recorder = recorder_.status();
   ui::RecordingStatus status;
@@ -137,10 +141,7 @@ ui::RecordingStatus RunRecorder::status(hal::TimePoint now) const {
     return status;
   status.lasted = now - recorder.since;
   status.not_kept = recorder.not_kept;
-  // As fast as it has been written so far.
-  if (recorder.kept > 0 && recorder.room)
-    status.room = status.lasted / static_cast<std::int64_t>(recorder.kept) *
-                  static_cast<std::int64_t>(std::min<std::uint64_t>(*recorder.room, 1'000'000));
+  status.room = time_left(status.lasted, recorder.kept, recorder.room);
   return status;
 }
 

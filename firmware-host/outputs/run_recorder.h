@@ -32,6 +32,10 @@ struct KeptRecording {
   bool is_there() const { return !failure || failure->code != hal::ErrorCode::absent; }
 };
 
+// Of a recording that has lasted so long: until its disk is full, as fast as it was written so far.
+std::optional<hal::Duration> time_left(hal::Duration lasted, std::uint64_t kept,
+                                       std::optional<std::uint64_t> room);
+
 // Bound to the render thread; the recorder documents its own threads.
 class RunRecorder {
 public:

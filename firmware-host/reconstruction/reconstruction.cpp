@@ -31,8 +31,8 @@ Reconstruction::make(const Devices& devices, const Configuration& configuration,
   const std::size_t workers = configuration.workers > 0
                                   ? configuration.workers
                                   : std::max(1U, std::thread::hardware_concurrency());
-  std::unique_ptr<Reconstruction> reconstruction{
-      new Reconstruction{std::move(made), average, workers, configuration.worker_cores}};
+  std::unique_ptr<Reconstruction> reconstruction{new Reconstruction{
+      std::move(made), std::move(calibration), average, workers, configuration.worker_cores}};
   if (flow) {
     HAL_TRY(auto comparison,
             pipeline::RepeatComparison::create(
@@ -48,11 +48,10 @@ Reconstruction::make(const Devices& devices, const Configuration& configuration,
 
 int Reconstruction::convert(std::size_t worker, const hal::LineFrame& frame,
                             const pipeline::SweepBins& out) {
-  const auto running = backgrounds_ ? backgrounds_->of(frame) : std::span<const float>{};
-  const int saturated =
-      reconstructor_
-          .reconstruct_b_scan_both(workspaces_[worker], frame.bytes, out.bins, out.levels, running)
-          .saturated_lines;
+  const int saturated = reconstructor_
+                            .reconstruct_b_scan_both(workspaces_[worker], frame.bytes, out.bins,
+                                                     out.levels, background_of(frame))
+                            .saturated_lines;
   const auto by_line = reconstructor_.saturated_lines(workspaces_[worker]);
   for (std::size_t line = 0; saturated > 0 && line < out.saturated.size(); ++line)
     out.saturated[line] |= by_line[line];
@@ -60,10 +59,11 @@ int Reconstruction::convert(std::size_t worker, const hal::LineFrame& frame,
 }
 
 Reconstruction::Reconstruction(pipeline::Reconstructor reconstructor,
+                               pipeline::Calibration calibration,
                                const pipeline::NeighbourAverage& average, std::size_t workers,
                                const std::vector<int>& cores)
-    : reconstructor_{std::move(reconstructor)}, average_{average},
-      worker_cores_{workers, cores, hal::linux_backend::allowed_cores()} {
+    : reconstructor_{std::move(reconstructor)}, calibration_{std::move(calibration)},
+      average_{average}, worker_cores_{workers, cores, hal::linux_backend::allowed_cores()} {
   for (std::size_t worker = 0; worker < workers; ++worker)
     workspaces_.push_back(reconstructor_.make_workspace());
 }
@@ -78,9 +78,8 @@ pipeline::VolumeThreadSetup Reconstruction::volume_thread_setup(const pipeline::
       .workers = workspaces_.size(),
       .reconstruct =
           [this](std::size_t worker, const hal::LineFrame& frame, std::span<std::uint8_t> levels) {
-            const auto running = backgrounds_ ? backgrounds_->of(frame) : std::span<const float>{};
             return reconstructor_
-                .reconstruct_b_scan(workspaces_[worker], frame.bytes, levels, running)
+                .reconstruct_b_scan(workspaces_[worker], frame.bytes, levels, background_of(frame))
                 .saturated_lines;
           },
       .observe =

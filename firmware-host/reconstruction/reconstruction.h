@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "firmware-host/configuration/configuration.h"
@@ -35,16 +36,23 @@ public:
                                                   int camera_buffers);
 
   const pipeline::Reconstructor& reconstructor() const { return reconstructor_; }
+  const pipeline::Calibration& calibration() const { return calibration_; } // in use
+  // A worker that has the frame: its running background, or nothing.
+  std::span<const float> background_of(const hal::LineFrame& frame) const {
+    return backgrounds_ ? backgrounds_->of(frame) : std::span<const float>{};
+  }
   WorkerCores& worker_cores() { return worker_cores_; }
   const WorkerCores& worker_cores() const { return worker_cores_; }
 
 private:
-  Reconstruction(pipeline::Reconstructor reconstructor, const pipeline::NeighbourAverage& average,
-                 std::size_t workers, const std::vector<int>& cores);
+  Reconstruction(pipeline::Reconstructor reconstructor, pipeline::Calibration calibration,
+                 const pipeline::NeighbourAverage& average, std::size_t workers,
+                 const std::vector<int>& cores);
 
   int convert(std::size_t worker, const hal::LineFrame& frame, const pipeline::SweepBins& out);
 
   pipeline::Reconstructor reconstructor_;
+  pipeline::Calibration calibration_;
   pipeline::NeighbourAverage average_;
   std::vector<pipeline::Reconstructor::Workspace> workspaces_; // one a worker
   std::optional<pipeline::FrameBackgrounds> backgrounds_;      // running ones

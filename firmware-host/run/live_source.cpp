@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -14,6 +12,7 @@
 #include "firmware-host/run/camera_hotplug.h"
 #include "firmware-host/run/opening_picture.h"
 #include "firmware-host/run/process_start.h"
+#include "firmware-host/run/raw_recording.h"
 #include "firmware-host/run/run_source.h"
 #include "firmware-host/supervision/supervision.h"
 #include "firmware-host/supervision/thread_roles.h"
@@ -32,12 +31,6 @@ namespace {
 // Of a machine that starts, or of a device that sends udev events for ever.
 constexpr hal::Duration longest_wait_for_udev = 5s;
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file, std::ios::binary}.rdbuf();
-  return text.str();
-}
-
 std::filesystem::path recording_folder(const Configuration& configuration) {
   const auto state = service_folders().state;
   return configuration.recording_folder.value_or(state ? *state / "recordings" : ".");
@@ -53,7 +46,7 @@ public:
                                           .metrics = chosen.configuration.metrics,
                                           .journal = stderr_is_journal()},
                                          crash_report, context.clock, context.faults),
-        configuration_text_(chosen.used ? text_of(*chosen.used) : std::string{}) {}
+        configuration_text_(chosen.used ? configuration_text(*chosen.used) : std::string{}) {}
 
   // The trigger goes, and crashes are reported on.
   ~LiveSource() override { supervision_.crash_report().set_last_act(nullptr, nullptr); }
@@ -83,7 +76,10 @@ public:
   void ending() override { supervision_.stop(); }
   void stop() override;
   hal::Result<> report(const RenderLoop& loop, const RunTimes& times) const override;
-  hal::Result<> outcome() const override { return recordings_->outcome(); }
+  hal::Result<> outcome() const override {
+    HAL_CHECK(recordings_->outcome());
+    return raw_ ? raw_outcome(*raw_) : hal::Result<>{};
+  }
 
 private:
   bool wait_for_udev();
@@ -102,8 +98,9 @@ private:
   Devices* devices_ = nullptr;
   std::unique_ptr<CalibratedCamera> calibrated_camera_;
   std::unique_ptr<Reconstruction> reconstruction_;
-  pipeline::Wakeup arrived_;                // B-scans, for the fixed-rate thread
-  std::unique_ptr<RunRecorder> recordings_; // outlives the volumes' thread
+  pipeline::Wakeup arrived_;                   // B-scans, for the fixed-rate thread
+  std::unique_ptr<RunRecorder> recordings_;    // outlives the volumes' thread
+  std::unique_ptr<pipeline::RawRecorder> raw_; // likewise; null: not asked for
   std::unique_ptr<pipeline::Acquisition> acquisition_;
   std::unique_ptr<pipeline::VolumeThread> volumes_;
   std::unique_ptr<pipeline::ScopeThread> scope_;
@@ -131,6 +128,8 @@ hal::Result<> LiveSource::prepare(Devices& devices, DeviceChoices choices) {
   reconstruction_ = std::move(reconstruction);
   make_recordings();
   make_threads();
+  if (options_.raw_to)
+    HAL_CHECK(check_raw_file(*options_.raw_to));
   return recordings_->check();
 }
 
@@ -217,6 +216,12 @@ void LiveSource::make_threads() {
   setup.trigger = {.pulse_width = configuration_.devices.pulse_width};
   setup.observe_volume = [this](const pipeline::Volume& volume) { recordings_->offer(volume); };
   setup.most_volumes = options_.volumes;
+  if (options_.raw_to) {
+    raw_ = std::make_unique<pipeline::RawRecorder>(
+        *options_.raw_to, raw_facts(*devices_, *reconstruction_, options_, configuration_text_),
+        setup.workers, 0, clock_, faults_);
+    offer_frames(setup, *reconstruction_, *raw_);
+  }
   volumes_ = std::make_unique<pipeline::VolumeThread>(std::move(setup), devices_->galvo_trigger(),
                                                       *acquisition_, devices_->line_camera(),
                                                       clock_, faults_, arrived_, news_);
@@ -243,6 +248,8 @@ hal::Result<> LiveSource::start() {
   supervision_.start(process_start(clock_));
   const pipeline::ThreadSetup setup = thread_setup();
   HAL_CHECK(recordings_->start(setup));
+  if (raw_)
+    HAL_CHECK(raw_->start(setup));
   HAL_CHECK(acquisition_->start(setup));
   volumes_->start(setup);
   if (scope_)
@@ -254,6 +261,8 @@ hal::Result<> LiveSource::start() {
 void LiveSource::stop() {
   volumes_->stop();
   recordings_->stop();
+  if (raw_)
+    raw_->stop(devices_->line_camera().identity());
   acquisition_->stop();
   if (scope_)
     scope_->stop();
@@ -263,6 +272,8 @@ void LiveSource::describe(HostStatus& host, hal::TimePoint now) {
   calibrated_camera_->look(devices_->line_camera(), now);
   host.another_camera = calibrated_camera_->verdict() == CameraVerdict::another;
   host.recording = recordings_->status(now);
+  if (raw_)
+    add_raw(host.recording, raw_->status(), now);
 }
 
 void LiveSource::advance(const RenderLoop& loop) {
@@ -302,6 +313,8 @@ hal::Result<> LiveSource::report(const RenderLoop& loop, const RunTimes& times) 
     if (recording.is_there() && recording.kept > 0)
       say("recording: {}, {} volumes{}\n", recording.file.string(), recording.kept,
           recording.not_kept > 0 ? fmt::format(", {} not kept", recording.not_kept) : "");
+  if (raw_ && raw_->status().kept > 0 && !raw_->failure())
+    say("raw spectra: {}\n", raw_summary(*raw_));
   return {};
 }
 

@@ -21,7 +21,8 @@ constexpr std::array roles{
     Role{"camera", 42},        Role{"volumes", 41},      Role{"controls", 40},
     Role{"worker", 30},        Role{"scope", 0},         Role{"phase", 0},
     Role{"rays", 0},           Role{"surface", 0, true}, Role{"tree", 0, true},
-    Role{"follower", 0, true}, Role{"recorder", 0},
+    Role{"follower", 0, true}, Role{"recorder", 0},      Role{"raw", 0},
+    Role{"raw-sync", 0},
 };
 
 Role role_of(std::string_view name) {

@@ -177,7 +177,8 @@ void VolumeThread::begin_volume(std::uint32_t buffer, hal::TimePoint pulsed) {
   volume.metadata = {};
   volume.metadata.pulsed = pulsed;
   volume.metadata.scan_lag_a_scans = workplace.alignment.scan_lag_a_scans();
-  loan_.open(buffer, scheduler_.number_of(buffer));
+  workplace.number = scheduler_.number_of(buffer);
+  loan_.open(buffer, workplace.number);
 }
 
 void VolumeThread::place(const hal::LineFrame& frame) {
@@ -226,6 +227,19 @@ void VolumeThread::release(Sweeps& sweeps) {
   }
 }
 
+void VolumeThread::show_converted(std::size_t worker, const Workplace& workplace,
+                                  int b_scan) const {
+  const Sweeps& sweeps = workplace.sweeps[static_cast<std::size_t>(b_scan)];
+  for (std::size_t repeat = 0; repeat < sweeps.size(); ++repeat)
+    if (sweeps[repeat].buffer >= 0)
+      setup_.observe_converted(worker,
+                               {.frame = sweeps[repeat],
+                                .volume = workplace.number,
+                                .b_scan = b_scan,
+                                .repeat = static_cast<int>(repeat),
+                                .scan_lag_a_scans = workplace.alignment.scan_lag_a_scans()});
+}
+
 void VolumeThread::note_exposure(BScanWork& work, const Sweeps& sweeps) {
   work.first_line = hal::TimePoint::max();
   for (const hal::LineFrame& frame : sweeps)
@@ -249,6 +263,8 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
       worker, b, std::span{sweeps}.first(static_cast<std::size_t>(setup_.plan.repeats)),
       workplace.alignment, workplace.sketch, workplace.assembler->own_levels(b));
   volumes_[buffer].b_scan_states[b_scan] = saturated > 0 ? BScanState::saturated : BScanState::good;
+  if (setup_.observe_converted)
+    show_converted(worker, workplace, b);
   release(sweeps);
   if (builder_.compares())
     tell_flow(worker, volumes_[buffer], b);

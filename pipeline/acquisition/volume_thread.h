@@ -45,6 +45,19 @@ using ObserveFrame = std::function<void(const hal::LineFrame& frame)>;
 // taken it. Must not throw, allocate or wait. May be empty.
 using ObserveVolume = std::function<void(const Volume& volume)>;
 
+// A frame and its place in a volume.
+struct PlacedFrame {
+  const hal::LineFrame& frame;
+  std::uint64_t volume = 0; // what will be its VolumeMetadata::index
+  int b_scan = 0;
+  int repeat = 0;
+  double scan_lag_a_scans = 0; // with which its volume is placed
+};
+
+// Called by a worker for each frame that it has converted, before the frame goes back to the camera.
+// Must not throw, allocate or wait. May be empty.
+using ObserveConverted = std::function<void(std::size_t worker, const PlacedFrame& placed)>;
+
 struct VolumeThreadSetup {
   ScanPlan plan;
   hal::GalvoTriggerConfig trigger;
@@ -52,6 +65,7 @@ struct VolumeThreadSetup {
   ReconstructSweep reconstruct;
   ObserveFrame observe = {};
   ObserveVolume observe_volume = {};
+  ObserveConverted observe_converted = {};
   NeighbourAverage average;
   std::optional<std::uint64_t> most_volumes; // stop triggering after this many
   // Of the same plan and workers; empty: volumes have no flow. Where it is there, `reconstruct` is
@@ -104,6 +118,7 @@ private:
     std::unique_ptr<VolumeAssembler> assembler;
     std::vector<Sweeps> sweeps; // by B-scan
     std::atomic<int> saturated_lines{0};
+    std::uint64_t number = 0; // of the volume
   };
 
   const Volume* do_take_newest() override;
@@ -123,6 +138,7 @@ private:
   void note_last(VolumeMetadata& metadata, const hal::LineFrame& frame) const;
   void refuse(const hal::LineFrame& frame, FrameVerdict verdict);
   void submit(std::span<const BScanJob> jobs);
+  void show_converted(std::size_t worker, const Workplace& workplace, int b_scan) const;
   void release(Sweeps& sweeps);
   static void note_exposure(BScanWork& work, const Sweeps& sweeps);
   void reconstruct(std::size_t worker, std::uint32_t job);

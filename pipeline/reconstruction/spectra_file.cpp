@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include "hal/number_text.h"
 
@@ -76,9 +78,47 @@ hal::Result<SpectraFile> SpectraFile::open(const fs::path& file, const SpectraSh
   return SpectraFile{file, shape, type, std::move(mapped)};
 }
 
+hal::Result<SpectraFile> SpectraFile::open(const fs::path& file, Sweeps sweeps) {
+  const SpectraShape shape{static_cast<int>(std::min<std::size_t>(sweeps.places.size(), INT_MAX)),
+                           sweeps.kept_lines, sweeps.samples};
+  HAL_CHECK(check(shape));
+  HAL_TRY(const auto input, InputFile::open(file, "raw spectra", UINT64_MAX));
+  HAL_TRY(auto mapped, input.map());
+  SpectraFile opened{file, shape, sweeps.type, std::move(mapped)};
+  const std::uint64_t bytes = opened.line_bytes() * static_cast<std::size_t>(sweeps.lines);
+  const std::uint64_t file_bytes = opened.mapped_.bytes().size();
+  for (const SweepPlace& place : sweeps.places)
+    if (place.offset > file_bytes || bytes > file_bytes - place.offset ||
+        place.offset % bytes_per_sample(sweeps.type) != 0)
+      return hal::fail(
+          ErrorCode::bad_data,
+          "{}: found a sweep of {} bytes at byte {} of {}, expected it within the file, "
+          "at a multiple of {}: the file was truncated, or is damaged",
+          file.string(), bytes, place.offset, file_bytes, bytes_per_sample(sweeps.type));
+  opened.lines_ = sweeps.lines;
+  opened.places_ = std::move(sweeps.places);
+  return opened;
+}
+
 std::span<const std::byte> SpectraFile::b_scan(int b) const {
-  const std::size_t size = mapped_.bytes().size() / static_cast<std::size_t>(shape_.b_scans);
-  return mapped_.bytes().subspan(size * static_cast<std::size_t>(b), size);
+  const std::size_t size = line_bytes() * static_cast<std::size_t>(shape_.a_scans);
+  const auto n = static_cast<std::size_t>(b);
+  return mapped_.bytes().subspan(places_.empty() ? size * n : places_[n].offset, size);
+}
+
+std::optional<std::string> SpectraFile::find_fault(int b) const {
+  if (places_.empty())
+    return find_non_finite(b);
+  const SweepPlace& place = places_[static_cast<std::size_t>(b)];
+  const auto whole =
+      mapped_.bytes().subspan(place.offset, line_bytes() * static_cast<std::size_t>(lines_));
+  const auto found = static_cast<std::uint32_t>(
+      ::crc32_z(0, reinterpret_cast<const Bytef*>(whole.data()), whole.size()));
+  if (found != place.crc32)
+    return fmt::format("{}: sweep {}, at byte {}, is damaged: found the checksum {:08x}, expected "
+                       "{:08x}; take another copy of the file",
+                       file_.string(), b, place.offset, found, place.crc32);
+  return find_non_finite(b);
 }
 
 std::optional<std::string> SpectraFile::find_non_finite(int b) const {

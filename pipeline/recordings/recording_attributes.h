@@ -2,7 +2,7 @@
 #pragma once
 
 #include "hal/result.h"
-#include "pipeline/recordings/hdf5.h"
+#include "pipeline/recordings/hdf5/hdf5.h"
 #include "pipeline/recordings/recording.h"
 
 namespace octascope::pipeline {

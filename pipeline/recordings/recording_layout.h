@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "pipeline/recordings/hdf5.h"
+#include "pipeline/recordings/hdf5/hdf5.h"
 #include "pipeline/recordings/recording.h"
 
 namespace octascope::pipeline::recording_layout {

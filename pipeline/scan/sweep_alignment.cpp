@@ -19,6 +19,13 @@ void blend(const std::uint8_t* here, const std::uint8_t* next, std::uint16_t nex
         static_cast<std::uint16_t>(here_weight * here[z] + next_weight * next[z] + 128) >> 8);
 }
 
+void blend(const float* here, const float* next, std::uint16_t next_weight, std::size_t count,
+           float* __restrict result) {
+  const float share = static_cast<float>(next_weight) / 256;
+  for (std::size_t z = 0; z < count; ++z)
+    result[z] = here[z] + share * (next[z] - here[z]);
+}
+
 } // namespace
 
 SweepAlignment::SweepAlignment(const ScanPlan& plan, double scan_lag_a_scans)
@@ -48,6 +55,17 @@ int SweepAlignment::repeated_a_scans() const {
 
 void SweepAlignment::apply(std::span<const std::uint8_t> lines, bool backwards,
                            std::span<std::uint8_t> a_scans) const noexcept {
+  place(lines, backwards, a_scans);
+}
+
+void SweepAlignment::apply(std::span<const float> lines, bool backwards,
+                           std::span<float> a_scans) const noexcept {
+  place(lines, backwards, a_scans);
+}
+
+template <class Level>
+void SweepAlignment::place(std::span<const Level> lines, bool backwards,
+                           std::span<Level> a_scans) const noexcept {
   assert(lines.size() >= static_cast<std::size_t>(lines_) * depths_);
   assert(a_scans.size() >= static_cast<std::size_t>(a_scans_) * depths_);
   const Shift shift = backwards ? backward_ : forward_;
@@ -56,8 +74,8 @@ void SweepAlignment::apply(std::span<const std::uint8_t> lines, bool backwards,
   };
   for (int j = 0; j < a_scans_; ++j) {
     const auto a = static_cast<std::size_t>(backwards ? a_scans_ - 1 - j : j);
-    std::uint8_t* result = a_scans.data() + a * depths_;
-    const std::uint8_t* here = line_at(shift.line + j);
+    Level* result = a_scans.data() + a * depths_;
+    const Level* here = line_at(shift.line + j);
     if (shift.next_weight == 0)
       std::copy_n(here, depths_, result);
     else

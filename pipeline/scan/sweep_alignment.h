@@ -28,6 +28,8 @@ public:
   // of the tissue. Kept lines outside the sweep repeat its outermost line. Allocates nothing.
   void apply(std::span<const std::uint8_t> lines, bool backwards,
              std::span<std::uint8_t> a_scans) const noexcept;
+  // The same of levels in decibels.
+  void apply(std::span<const float> lines, bool backwards, std::span<float> a_scans) const noexcept;
 
   // Where the kept lines of a sweep begin, in lines; usually fractional.
   double first_line(bool backwards) const {
@@ -48,6 +50,8 @@ private:
     int next_weight = 0;
   };
   static Shift shift_by(double lines);
+  template <class Level>
+  void place(std::span<const Level> lines, bool backwards, std::span<Level> a_scans) const noexcept;
 
   std::size_t depths_ = 0;
   int lines_ = 0;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "sim/phantoms/phantom_anterior_eye.h"
+#include "sim/phantoms/phantom_bench.h"
 #include "sim/phantoms/phantom_cap.h"
 #include "sim/phantoms/phantom_nail_fold.h"
 #include "sim/phantoms/phantom_perfused.h"
@@ -19,9 +20,12 @@ hal::Result<std::unique_ptr<Phantom>> make_phantom(std::string_view name, std::u
     return std::make_unique<PlasticCap>(seed);
   if (name == phantom_names[3])
     return std::make_unique<PerfusedTissue>(seed);
+  for (std::size_t i = 0; i < bench_phantom_names.size(); ++i)
+    if (name == bench_phantom_names[i])
+      return std::make_unique<BenchPhantom>(static_cast<BenchSubject>(i));
   return hal::fail(hal::ErrorCode::invalid_argument,
-                   "phantom: there is none named \"{}\", expected one of {}", name,
-                   fmt::join(phantom_names, ", "));
+                   "phantom: there is none named \"{}\", expected one of {}, {}", name,
+                   fmt::join(phantom_names, ", "), fmt::join(bench_phantom_names, ", "));
 }
 
 } // namespace octascope::sim

@@ -65,6 +65,9 @@ public:
 
 inline constexpr std::array<std::string_view, 4> phantom_names = {"anterior_eye", "nail_fold",
                                                                   "cap", "perfused"};
+// What is looked at while an instrument is set up (phantom_bench.h).
+inline constexpr std::array<std::string_view, 4> bench_phantom_names = {"dark", "mirror_near",
+                                                                        "mirror_far", "target"};
 
 // ErrorCode::invalid_argument: no such phantom. The same seed gives the same phantom.
 hal::Result<std::unique_ptr<Phantom>> make_phantom(std::string_view name, std::uint64_t seed);

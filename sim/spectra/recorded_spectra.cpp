@@ -20,7 +20,21 @@ hal::Result<> check_count(const SpectraRecording& recording, const char* what, i
                    what, found, lowest, highest);
 }
 
-hal::Result<> check_size(const SpectraRecording& r) {
+hal::Result<> check_sweeps(const SpectraRecording& r, int fly_back_lines) {
+  const std::size_t bytes = static_cast<std::size_t>(r.a_scans) *
+                            static_cast<std::size_t>(r.samples_per_line) * bytes_per_sample(r.type);
+  const bool fit = std::ranges::all_of(r.sweeps, [&](const auto& s) { return s.size() == bytes; });
+  if (fit && fly_back_lines == 0 && r.sweeps.size() % static_cast<std::size_t>(r.b_scans) == 0)
+    return {};
+  return hal::fail(ErrorCode::invalid_argument,
+                   "{}: found {} sweeps, expected whole volumes of {} sweeps of {} bytes, and no "
+                   "fly-back added to them",
+                   r.name, r.sweeps.size(), r.b_scans, bytes);
+}
+
+hal::Result<> check_size(const SpectraRecording& r, int fly_back_lines) {
+  if (!r.sweeps.empty())
+    return check_sweeps(r, fly_back_lines);
   const std::uint64_t expected = static_cast<std::uint64_t>(r.b_scans) *
                                  static_cast<std::uint64_t>(r.a_scans) *
                                  static_cast<std::uint64_t>(r.samples_per_line);
@@ -45,7 +59,7 @@ hal::Result<std::unique_ptr<RecordedSpectra>> RecordedSpectra::make(SpectraRecor
           .and_then([&] { return check_count(r, "significant_bits", r.significant_bits, 1, 16); })
           .and_then([&] { return check_count(r, "right_shift", r.right_shift, 0, 15); })
           .and_then([&] { return check_count(r, "fly_back_lines", fly_back_lines, 0, most); })
-          .and_then([&] { return check_size(r); }));
+          .and_then([&] { return check_size(r, fly_back_lines); }));
   return std::unique_ptr<RecordedSpectra>{
       new RecordedSpectra{std::move(recording), fly_back_lines}};
 }
@@ -56,10 +70,16 @@ RecordedSpectra::RecordedSpectra(SpectraRecording recording, int fly_back_lines)
                                                     recording_.a_scans + fly_back_lines,
                                                 .sample_type = recording_.type,
                                                 .significant_bits = recording_.significant_bits,
-                                                .right_shift = recording_.right_shift},
-      frame_samples_(recording_.samples) {
+                                                .right_shift = recording_.right_shift} {
   if (fly_back_lines > 0)
     add_fly_back(fly_back_lines);
+  if (recording_.sweeps.empty())
+    split(fly_back_lines > 0 ? with_fly_back_ : recording_.samples);
+}
+
+void RecordedSpectra::split(std::span<const std::byte> frames) {
+  for (; !frames.empty(); frames = frames.subspan(format_.frame_bytes()))
+    recording_.sweeps.push_back(frames.first(format_.frame_bytes()));
 }
 
 void RecordedSpectra::add_fly_back(int fly_back_lines) {
@@ -76,16 +96,19 @@ void RecordedSpectra::add_fly_back(int fly_back_lines) {
       out = std::copy_n(rest.begin() + static_cast<std::ptrdiff_t>(a * line), line, out);
     }
   }
-  frame_samples_ = with_fly_back_;
 }
 
-std::span<const std::byte> RecordedSpectra::frame(std::uint64_t, int b_scan) const {
-  const std::size_t frame_bytes = format_.frame_bytes();
-  return frame_samples_.subspan(static_cast<std::size_t>(b_scan) * frame_bytes, frame_bytes);
+std::span<const std::byte> RecordedSpectra::frame(std::uint64_t volume, int b_scan) const {
+  const auto b_scans = static_cast<std::size_t>(recording_.b_scans);
+  const std::size_t volumes = recording_.sweeps.size() / b_scans;
+  return recording_.sweeps[volume % volumes * b_scans + static_cast<std::size_t>(b_scan)];
 }
 
 std::string RecordedSpectra::description() const {
-  return fmt::format("recording {}, one volume of {} B-scans, looped", recording_.name,
+  const std::size_t volumes =
+      recording_.sweeps.size() / static_cast<std::size_t>(recording_.b_scans);
+  return fmt::format("recording {}, {} of {} B-scans, looped", recording_.name,
+                     volumes == 1 ? "one volume" : fmt::format("{} volumes", volumes),
                      recording_.b_scans);
 }
 

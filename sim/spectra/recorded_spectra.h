@@ -17,6 +17,9 @@ namespace octascope::sim {
 // `keep_alive` owns the memory of `samples`.
 struct SpectraRecording {
   std::span<const std::byte> samples;
+  // Instead of `samples`: sweeps that lie apart, each of a_scans lines, of one volume or several
+  // after each other.
+  std::vector<std::span<const std::byte>> sweeps = {};
   hal::SampleType type = hal::SampleType::u16; // u8 or u16
   int b_scans = 0;
   int a_scans = 0;
@@ -44,11 +47,11 @@ public:
 private:
   RecordedSpectra(SpectraRecording recording, int fly_back_lines);
   void add_fly_back(int fly_back_lines);
+  void split(std::span<const std::byte> frames);
 
-  SpectraRecording recording_;
+  SpectraRecording recording_; // its `sweeps` are the frames that are played
   hal::LineFormat format_;
-  std::vector<std::byte> with_fly_back_;     // empty if there is none
-  std::span<const std::byte> frame_samples_; // all frames, contiguous
+  std::vector<std::byte> with_fly_back_; // empty if there is none
 };
 
 } // namespace octascope::sim

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -44,6 +46,25 @@ TEST(RecordedSpectra, plays_the_recording_where_it_lies_for_ever) {
   EXPECT_EQ(spectra.frame(7, 0).data(), original.samples.data());
   EXPECT_EQ(first_samples(spectra.frame(1'000'000, 1)), (std::vector{100, 110, 120, 130}));
   EXPECT_THAT(spectra.description(), HasSubstr("recording mirror.raw"));
+}
+
+// As those of a recording that keeps them apart.
+TEST(RecordedSpectra, plays_one_volume_after_the_other) {
+  SpectraRecording apart = recording();
+  const auto samples = std::exchange(apart.samples, {});
+  const std::size_t sweep = samples.size() / 2;
+  for (const unsigned n : {0U, 1U, 1U, 0U}) // the second volume has its sweeps changed
+    apart.sweeps.push_back(samples.subspan(n * sweep, sweep));
+  const auto made = RecordedSpectra::make(apart);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ((*made)->sweeps(), 2);
+  for (const unsigned volume : {0U, 2U, 4U}) {
+    EXPECT_EQ(first_samples((*made)->frame(volume, 1))[0], 100);
+    EXPECT_EQ(first_samples((*made)->frame(volume + 1, 1))[0], 0);
+  }
+  EXPECT_THAT((*made)->description(), HasSubstr("2 volumes of 2 B-scans"));
+  apart.sweeps.pop_back();
+  EXPECT_THAT(RecordedSpectra::make(apart).error().message, HasSubstr("found 3 sweeps"));
 }
 
 TEST(RecordedSpectra, keeps_what_it_plays_alive) {

@@ -101,7 +101,7 @@ enum class ConfigurationState : std::uint8_t {
 struct RecordingStatus {
   bool on = false;
   hal::Duration lasted{};
-  std::uint64_t not_kept = 0;          // volumes dropped because the disk was too slow
+  std::uint64_t not_kept = 0;          // volumes and raw frames: the disk was too slow
   std::optional<hal::Duration> room{}; // until the disk is full; empty: not known yet
   bool operator==(const RecordingStatus&) const = default;
 };

@@ -220,7 +220,7 @@ hal::Result<> CalibrationRun::use_lamp() {
 }
 
 hal::Result<> CalibrationRun::use_base() {
-  HAL_TRY(auto base, Calibration::load(*options_.base, options_.tissue_shape.samples));
+  HAL_TRY(auto base, Calibration::load(*options_.base, samples_));
   samples_ = base.samples;
   found_.calibration = std::move(base);
   found_.spacing_known = true;
@@ -233,16 +233,15 @@ hal::Result<> CalibrationRun::use_base() {
 
 // Three B-scans, at a quarter, the half and three quarters.
 hal::Result<> CalibrationRun::read_tissue() {
-  const auto type = spectrum_type(*options_.tissue, options_.tissue_type);
   HAL_TRY(const auto spectra,
-          pipeline::SpectraFile::open(*options_.tissue, options_.tissue_shape, type));
+          open_tissue(*options_.tissue, {options_.tissue_shape, options_.tissue_type}));
   for (const int quarter : {1, 2, 3}) {
-    const int b = options_.tissue_shape.b_scans * quarter / 4;
-    if (const auto fault = spectra.find_non_finite(b))
+    const int b = spectra.shape().b_scans * quarter / 4;
+    if (const auto fault = spectra.find_fault(b))
       return hal::fail(ErrorCode::bad_data, *fault);
-    tissue_b_scans_.push_back(to_numbers(spectra.b_scan(b), type));
+    tissue_b_scans_.push_back(to_numbers(spectra.b_scan(b), spectra.type()));
   }
-  samples_ = options_.tissue_shape.samples;
+  samples_ = spectra.shape().samples;
   if (options_.samples && *options_.samples != samples_)
     return hal::fail(ErrorCode::invalid_argument,
                      "--samples is {}, --shape has {} samples, expected the same",

@@ -33,7 +33,7 @@ struct CalibrateOptions {
   std::optional<std::filesystem::path> lamp;
   std::vector<double> lines_nm;
   std::optional<std::filesystem::path> tissue;
-  pipeline::SpectraShape tissue_shape;
+  std::optional<pipeline::SpectraShape> tissue_shape; // empty: the file says it
   std::optional<std::filesystem::path> base;  // calibration whose k curve is used for the tissue
   std::optional<int> samples;                 // empty: each file is one line
   std::optional<hal::SampleType> type;        // empty: from the file's name, else u16

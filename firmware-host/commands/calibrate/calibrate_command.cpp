@@ -56,7 +56,7 @@ int run(CalibrateCommandLine& line) {
   if (!lines)
     return complain(lines.error());
   line.options.lines_nm = *lines;
-  if (line.options.tissue) {
+  if (!line.shape.empty()) {
     const auto shape = pipeline::SpectraShape::parse(line.shape);
     if (!shape)
       return complain(shape.error());
@@ -78,8 +78,9 @@ void add_mirror_options(CLI::App& command, CalibrateOptions& options) {
   command
       .add_option(
           "--mirror", options.mirrors,
-          "Spectrum of a mirror; twice, at unequal depths (any order). Raw samples, or a .txt "
-          "or .csv with one number a line, as for all spectra here")
+          "Spectrum of a mirror; twice, at unequal depths (any order). Raw samples, a recording "
+          "of them (octascope capture), or a .txt or .csv with one number a line, as for all "
+          "spectra here")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command
@@ -132,11 +133,11 @@ void add_other_options(CLI::App& command, CalibrateCommandLine& line) {
                       "Raw spectra of tissue: with mirrors they tell the sample's side, else the "
                       "dispersion is found from their sharpness")
           ->type_name("FILE");
-  auto* shape =
-      command.add_option("--shape", line.shape, "Of the tissue: B-scans, A-scans, samples")
-          ->type_name("B,A,N");
-  tissue->needs(shape);
-  shape->needs(tissue);
+  command
+      .add_option("--shape", line.shape,
+                  "Of the tissue: B-scans, A-scans, samples; a recording says it itself")
+      ->needs(tissue)
+      ->type_name("B,A,N");
   command.add_option("--calibration", options.base, "Calibration whose k curve the tissue uses")
       ->type_name("FILE.toml");
   command
@@ -195,11 +196,13 @@ void add_calibrate_command(CLI::App& app, int& exit_status) {
   auto line = std::make_shared<CalibrateCommandLine>();
   add_mirror_options(*command, line->options);
   add_other_options(*command, *line);
-  command->footer("Examples:\n"
-                  "  octascope calibrate --mirror near.raw --mirror far.raw --dark dark.raw \\\n"
-                  "    --distance-um 500 --out spectrometer.toml --picture verdict.png\n"
-                  "  octascope calibrate --lamp argon.raw --lines 810.37,826.45,840.82,852.14 \\\n"
-                  "    --tissue finger.raw --shape 100,100,1024 --out spectrometer.toml");
+  command->footer(
+      "Examples:\n"
+      "  octascope calibrate --mirror near.raw --mirror far.raw --dark dark.raw \\\n"
+      "    --distance-um 500 --out spectrometer.toml --picture verdict.png\n"
+      "  octascope calibrate --mirror near.h5 --mirror far.h5 --dark dark.h5 --out s.toml\n"
+      "  octascope calibrate --lamp argon.raw --lines 810.37,826.45,840.82,852.14 \\\n"
+      "    --tissue finger.raw --shape 100,100,1024 --out spectrometer.toml");
   command->callback([line, &exit_status] { exit_status = run(*line); });
 }
 

@@ -11,6 +11,7 @@
 #include "pipeline/calibration/calibration.h"
 #include "pipeline/files/file_name.h"
 #include "pipeline/files/text_curve.h"
+#include "pipeline/recordings/raw/raw_reader.h"
 
 namespace octascope::firmware_host {
 
@@ -18,6 +19,8 @@ namespace {
 
 using hal::ErrorCode;
 using hal::SampleType;
+
+constexpr std::size_t most_lines = 65536; // that a mean is taken over: more tell nothing new
 
 template <class Sample> std::vector<double> numbers_of(std::span<const std::byte> bytes) {
   std::vector<double> values(bytes.size() / sizeof(Sample));
@@ -46,7 +49,7 @@ hal::Result<pipeline::SpectraShape> shape_of(const std::filesystem::path& file,
       values < static_cast<std::uintmax_t>(pipeline::fewest_samples) ? pipeline::fewest_samples
                                                                      : static_cast<int>(values));
   const std::uintmax_t lines = std::clamp<std::uintmax_t>(
-      values / static_cast<std::uintmax_t>(std::max(samples, 1)), 1, 65536);
+      values / static_cast<std::uintmax_t>(std::max(samples, 1)), 1, most_lines);
   return pipeline::SpectraShape{1, static_cast<int>(lines), samples};
 }
 
@@ -89,10 +92,10 @@ hal::Result<> check_saturation(const std::string& place, std::span<const double>
 // Numbers as text, whole lines of a spectrum.
 hal::Result<std::vector<double>> read_text(const std::filesystem::path& file,
                                            std::optional<int> samples) {
-  constexpr std::size_t most_lines = 256;
-  auto values =
-      pipeline::read_text_numbers(file, samples ? most_lines * static_cast<std::size_t>(*samples)
-                                                : static_cast<std::size_t>(pipeline::most_samples));
+  constexpr std::size_t most_text_lines = 256;
+  auto values = pipeline::read_text_numbers(
+      file, samples ? most_text_lines * static_cast<std::size_t>(*samples)
+                    : static_cast<std::size_t>(pipeline::most_samples));
   if (!values)
     return values;
   const std::size_t n = samples ? static_cast<std::size_t>(*samples) : values->size();
@@ -114,7 +117,7 @@ hal::Result<Recording> read_raw(const std::filesystem::path& file, const Spectru
                                 SampleType type) {
   HAL_TRY(const auto shape, shape_of(file, input, type));
   HAL_TRY(const auto spectra, pipeline::SpectraFile::open(file, shape, type));
-  if (const auto fault = spectra.find_non_finite(0))
+  if (const auto fault = spectra.find_fault(0))
     return hal::fail(ErrorCode::bad_data, *fault);
   return Recording{to_numbers(spectra.b_scan(0), type), static_cast<std::size_t>(shape.samples)};
 }
@@ -127,6 +130,71 @@ hal::Result<Recording> read_recording(const std::filesystem::path& file, const S
   const std::size_t samples =
       input.samples ? static_cast<std::size_t>(*input.samples) : values.size();
   return Recording{std::move(values), samples};
+}
+
+// The mean of lines that come in pieces.
+class MeanOfLines {
+public:
+  MeanOfLines(const std::filesystem::path& file, std::size_t samples,
+              std::optional<double> full_scale, bool refuse_saturated)
+      : file_(file.string()), full_scale_(full_scale), refuse_saturated_(refuse_saturated),
+        sum_(samples) {}
+
+  hal::Result<> add(std::span<const double> lines) {
+    for (; !lines.empty(); lines = lines.subspan(sum_.size()), ++lines_) {
+      const std::span line = lines.first(sum_.size());
+      if (refuse_saturated_)
+        HAL_CHECK(check_saturation(fmt::format("{}: line {}", file_, lines_), line, full_scale_));
+      for (std::size_t p = 0; p < sum_.size(); ++p)
+        sum_[p] += line[p];
+    }
+    return {};
+  }
+  std::vector<double> mean() const {
+    std::vector<double> mean = sum_;
+    for (double& value : mean)
+      value /= static_cast<double>(lines_);
+    return mean;
+  }
+
+private:
+  std::string file_;
+  std::optional<double> full_scale_;
+  bool refuse_saturated_;
+  std::vector<double> sum_;
+  std::size_t lines_ = 0;
+};
+
+// The kept lines of a recording of raw spectra, of whole volumes or not.
+hal::Result<std::vector<double>> read_recorded_spectrum(const std::filesystem::path& file,
+                                                        const SpectrumInput& input,
+                                                        bool refuse_saturated) {
+  HAL_TRY(const auto reader, pipeline::RawReader::open(file));
+  const hal::LineFormat& format = reader.facts().format;
+  if (reader.frames().empty())
+    return hal::fail(ErrorCode::bad_data, "{}: found no lines in it, expected some", file.string());
+  if (input.samples && *input.samples != format.samples_per_line)
+    return hal::fail(ErrorCode::invalid_argument,
+                     "--samples is {}, expected none, or {}, as {} says", *input.samples,
+                     format.samples_per_line, file.string());
+  const auto kept = static_cast<std::size_t>(reader.facts().kept_lines());
+  const std::size_t frames = std::clamp<std::size_t>(most_lines / kept, 1, reader.frames().size());
+  HAL_TRY(const auto spectra, reader.spectra(0, frames, pipeline::RawLines::kept));
+  const bool counts = format.sample_type != SampleType::f32;
+  const pipeline::SpectrumFormat spectrum{format};
+  MeanOfLines mean{file, static_cast<std::size_t>(format.samples_per_line),
+                   counts ? std::optional{static_cast<double>(spectrum.full_scale())}
+                          : std::nullopt,
+                   refuse_saturated};
+  for (int b = 0; b < spectra.shape().b_scans; ++b) {
+    if (const auto fault = spectra.find_fault(b))
+      return hal::fail(ErrorCode::bad_data, *fault);
+    std::vector<double> lines = to_numbers(spectra.b_scan(b), format.sample_type);
+    for (double& value : lines)
+      value = counts ? std::floor(std::ldexp(value, -format.right_shift)) : value;
+    HAL_CHECK(mean.add(lines));
+  }
+  return mean.mean();
 }
 
 } // namespace
@@ -147,6 +215,26 @@ SampleType spectrum_type(const std::filesystem::path& file, std::optional<Sample
   return SampleType::u16;
 }
 
+hal::Result<pipeline::SpectraFile> open_tissue(const std::filesystem::path& file,
+                                               const TissueInput& input) {
+  if (!pipeline::is_raw_recording(file)) {
+    if (!input.shape)
+      return hal::fail(ErrorCode::invalid_argument,
+                       "--tissue needs --shape B,A,N: B-scans, A-scans, samples");
+    return pipeline::SpectraFile::open(file, *input.shape, spectrum_type(file, input.type));
+  }
+  HAL_TRY(const auto reader, pipeline::RawReader::open(file));
+  HAL_TRY(const auto volume, reader.first_whole_volume());
+  HAL_TRY(auto spectra, reader.spectra(volume.first, volume.count, pipeline::RawLines::kept));
+  if (input.shape && *input.shape != spectra.shape())
+    return hal::fail(ErrorCode::invalid_argument,
+                     "--shape is another one than {} says: expected "
+                     "none, or {},{},{}",
+                     file.string(), spectra.shape().b_scans, spectra.shape().a_scans,
+                     spectra.shape().samples);
+  return spectra;
+}
+
 std::vector<double> to_numbers(std::span<const std::byte> bytes, SampleType type) {
   switch (type) {
   case SampleType::u8: return numbers_of<std::uint8_t>(bytes);
@@ -158,26 +246,18 @@ std::vector<double> to_numbers(std::span<const std::byte> bytes, SampleType type
 
 hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file,
                                                const SpectrumInput& input, bool refuse_saturated) {
+  if (pipeline::is_raw_recording(file))
+    return read_recorded_spectrum(file, input, refuse_saturated);
   const SampleType type = spectrum_type(file, input.type);
   HAL_TRY(const auto recording, read_recording(file, input, type));
-  const std::size_t n = recording.samples;
-  const std::size_t lines = recording.values.size() / n;
   std::optional<double> full_scale;
   if (type != SampleType::f32 && (!is_text(file) || input.significant_bits))
     full_scale =
         std::ldexp(1.0, input.significant_bits.value_or(type == SampleType::u8 ? 8 : 16)) - 1;
 
-  std::vector<double> mean(n);
-  for (std::size_t a = 0; a < lines; ++a) {
-    const std::span line = std::span{recording.values}.subspan(a * n, n);
-    const std::string place = fmt::format("{}: line {}", file.string(), a);
-    if (const auto checked = check_saturation(place, line, full_scale);
-        refuse_saturated && !checked)
-      return tl::make_unexpected(checked.error());
-    for (std::size_t p = 0; p < n; ++p)
-      mean[p] += line[p] / static_cast<double>(lines);
-  }
-  return mean;
+  MeanOfLines mean{file, recording.samples, full_scale, refuse_saturated};
+  HAL_CHECK(mean.add(recording.values));
+  return mean.mean();
 }
 
 } // namespace octascope::firmware_host

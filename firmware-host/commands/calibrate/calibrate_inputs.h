@@ -25,11 +25,20 @@ hal::SampleType spectrum_type(const std::filesystem::path& file,
 // Whether the file is text, one number a line (text_curve.h), whatever its type: .txt, .csv.
 bool is_text(const std::filesystem::path& file);
 
-// The mean of the lines of a file, raw or text. ErrorCode::bad_data, with line and sample: a value
+// The mean of the lines of a file, raw, text, or a recording of raw spectra, which says itself what
+// its samples are. ErrorCode::bad_data, with line and sample: a value
 // is not finite or, with `refuse_saturated`, at full scale or flat at its maximum in several
 // places.
 hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file,
                                                const SpectrumInput& input, bool refuse_saturated);
+
+// Tissue: of a recording of raw spectra, which says its shape itself, the first whole volume.
+struct TissueInput {
+  std::optional<pipeline::SpectraShape> shape;
+  std::optional<hal::SampleType> type;
+};
+hal::Result<pipeline::SpectraFile> open_tissue(const std::filesystem::path& file,
+                                               const TissueInput& input);
 
 // Raw little-endian samples as numbers.
 std::vector<double> to_numbers(std::span<const std::byte> bytes, hal::SampleType type);

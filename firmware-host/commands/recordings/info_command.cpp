@@ -11,10 +11,12 @@
 #include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/recordings/info.h"
+#include "firmware-host/commands/recordings/raw_info.h"
 #include "firmware-host/commands/recordings/recording_summary.h"
 #include "firmware-host/commands/size_text.h"
 #include "firmware-host/terminal/terminal.h"
 #include "hal/plain_text.h"
+#include "pipeline/recordings/raw/raw_reader.h"
 #include "pipeline/recordings/recording_reader.h"
 #include "pipeline/volume/level_scale.h"
 
@@ -25,12 +27,6 @@ namespace {
 using nlohmann::ordered_json;
 using pipeline::RecordingFacts;
 using pipeline::VolumeGeometry;
-
-struct InfoCommandLine {
-  std::string file;
-  bool json = false;
-  bool configuration = false;
-};
 
 struct RecordingReport {
   std::string name;
@@ -173,6 +169,8 @@ void print_text(const RecordingReport& report) {
 }
 
 int run(const InfoCommandLine& line) {
+  if (pipeline::says_raw_spectra(line.file))
+    return print_raw_info(line);
   const auto report = report_on(line.file);
   if (!report)
     return complain("info", report.error());
@@ -190,7 +188,9 @@ int run(const InfoCommandLine& line) {
 void add_info_command(CLI::App& program, int& exit_status) {
   auto line = std::make_shared<InfoCommandLine>();
   CLI::App* command = program.add_subcommand("info", "What a recording holds, and what it lacks");
-  command->add_option("file", line->file, "Recording, also one that is being written")
+  command
+      ->add_option("file", line->file,
+                   "Recording of volumes or of raw spectra, also one that is being written")
       ->required()
       ->type_name("FILE.h5");
   CLI::Option* json = command->add_flag("--json", line->json, "One JSON object");

@@ -26,8 +26,8 @@ namespace {
 
 // As text, the way CLI11 collects it.
 struct RunArguments {
-  std::string spectra, shape, calibration, faults, controls, phantom, record_to, subject, eye,
-      trace, flow;
+  std::string spectra, shape, calibration, faults, controls, phantom, record_to, raw_to, subject,
+      eye, trace, flow;
   SpectraTypeArguments type;
   bool simulate = false;
   bool bidirectional = false;
@@ -51,15 +51,6 @@ std::string key_help() {
   return lines;
 }
 
-hal::Result<RecordingOptions> recording_of(const RunArguments& a) {
-  if (a.shape.empty())
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     "--spectra needs --shape B,A,N: B-scans, A-scans, samples");
-  HAL_TRY(const auto shape, pipeline::SpectraShape::parse(a.shape));
-  HAL_TRY(const auto format, camera_format(shape.samples, a.type));
-  return RecordingOptions{a.spectra, shape, format};
-}
-
 hal::Result<RunOptions> options_of(const RunArguments& a) {
   RunOptions o;
   HAL_CHECK(read_show_options(a.show, o));
@@ -73,6 +64,10 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
   o.bidirectional = a.bidirectional;
   o.rolling = a.rolling;
   o.record_to = path_of(a.record_to);
+  o.raw_to = path_of(a.raw_to);
+  if (o.record_to && o.raw_to && o.record_to->lexically_normal() == o.raw_to->lexically_normal())
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "--out and --raw are both {}, expected two files", a.raw_to);
   o.subject = a.subject;
   o.eye = pipeline::eye_named(a.eye).value_or(pipeline::Eye::not_said);
   if (a.repeats > 0)
@@ -80,7 +75,7 @@ hal::Result<RunOptions> options_of(const RunArguments& a) {
   if (!a.flow.empty())
     o.flow = a.flow == "on";
   if (!a.spectra.empty()) {
-    HAL_TRY(const auto recording, recording_of(a));
+    HAL_TRY(const auto recording, recording_options(a.spectra, a.shape, a.type));
     o.recording = recording;
   } else if (!a.shape.empty()) {
     return hal::fail(hal::ErrorCode::invalid_argument, "--shape needs --spectra FILE");
@@ -117,7 +112,8 @@ void add_options(CLI::App& command, RunArguments& a) {
   CLI::Option* spectra =
       command
           .add_option("--spectra", a.spectra,
-                      "Play raw spectra (little-endian, [B][A][N]) instead of a phantom")
+                      "Play raw spectra (little-endian, [B][A][N], or a recording of them, HDF5) "
+                      "instead of a phantom")
           ->type_name("FILE");
   command.add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024")
       ->type_name("B,A,N");
@@ -166,19 +162,28 @@ void add_run_command(CLI::App& program, int& exit_status) {
 
 void add_record_command(CLI::App& program, int& exit_status) {
   auto arguments = std::make_shared<RunArguments>();
-  CLI::App* command =
-      program.add_subcommand("record", "Run the appliance and keep its volumes (HDF5)");
+  CLI::App* command = program.add_subcommand(
+      "record", "Run the appliance and keep its volumes, or raw spectra (HDF5)");
   command->footer("Example:\n"
                   "  octascope record --out eye.h5 --sim --duration 20 --eye left\n"
-                  "Status 1 where the file holds no volume, is gone, or the recording ended before "
+                  "  octascope record --out eye.h5 --raw eye-raw.h5 --duration 20\n"
+                  "Status 1 where a file holds nothing, is gone, or the recording ended before "
                   "the run.\n"
                   "In a run that is under way, r or the pedal's recording begins and ends one.\n"
                   "octascope info, export and replay take it from there.");
   command->add_option("--out", arguments->record_to, "The recording: a file that is not there yet")
-      ->required()
+      ->type_name("FILE.h5");
+  command
+      ->add_option("--raw", arguments->raw_to,
+                   "The raw spectra, beside --out or instead: likewise (440 MB/s at 215 kHz)")
       ->type_name("FILE.h5");
   add_options(*command, *arguments);
-  command->callback([arguments, &exit_status] { exit_status = run("record", *arguments); });
+  command->callback([arguments, &exit_status] {
+    exit_status = arguments->record_to.empty() && arguments->raw_to.empty()
+                      ? complain("record", {hal::ErrorCode::invalid_argument,
+                                            "expected --out FILE.h5, --raw FILE.h5 or both"})
+                      : run("record", *arguments);
+  });
 }
 
 } // namespace octascope::firmware_host

@@ -14,13 +14,14 @@
 #include <unistd.h>
 
 #include "firmware-host/commands/level_picture.h"
-#include "firmware-host/commands/spectra_type.h"
 #include "firmware-host/commands/volume/flow_volumes.h"
+#include "firmware-host/commands/volume/reconstruct_input.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
 #include "firmware-host/terminal/terminal.h"
 #include "pipeline/acquisition/b_scan_builder.h"
 #include "pipeline/files/nrrd.h"
 #include "pipeline/reconstruction/reconstructor.h"
+#include "pipeline/scan/sweep_alignment.h"
 #include "pipeline/volume/level_scale.h"
 
 namespace octascope::firmware_host {
@@ -50,13 +51,16 @@ void average_sweeps(const std::vector<std::vector<std::uint8_t>>& sweeps,
 // The workers take one B-scan, with its repeats, after the other; the first error ends the work.
 class VolumeReconstruction {
 public:
-  VolumeReconstruction(const ReconstructOptions& options, const pipeline::SpectrumFormat& format,
-                       const pipeline::SpectraFile& spectra,
+  VolumeReconstruction(const ReconstructOptions& options, const ReconstructInput& input,
                        const pipeline::Reconstructor& reconstructor,
                        const pipeline::NrrdWriter& writer, FlowVolumes* flow)
-      : options_(options), format_(format), spectra_(spectra), reconstructor_(reconstructor),
-        writer_(writer), flow_(flow), b_scans_(spectra.shape().b_scans / options.repeats),
-        running_background_(reconstructor.make_running_background(spectra.shape().b_scans)) {}
+      : options_(options), input_(input), spectra_(input.spectra), reconstructor_(reconstructor),
+        writer_(writer), flow_(flow), b_scans_(input.b_scans()) {
+    if (input.backgrounds.empty())
+      running_background_ = reconstructor.make_running_background(spectra_.shape().b_scans);
+    if (input.plan)
+      alignment_ = pipeline::SweepAlignment{*input.plan, input.plan->scan_lag_a_scans};
+  }
 
   hal::Result<> run(unsigned threads);
 
@@ -68,16 +72,18 @@ private:
   void work();
   void look_ahead();
   int take_next(std::vector<std::vector<float>>& running);
+  std::span<const float> recorded_background(int sweep) const;
   hal::Result<> check_counts(int sweep) const;
   template <class Level> hal::Result<> reconstruct_all();
   template <class Level>
   void reconstruct_sweep(pipeline::Reconstructor::Workspace& workspace, int sweep,
-                         const std::vector<float>& running, std::vector<Level>& levels);
+                         const std::vector<float>& running, std::vector<Level>& lines,
+                         std::vector<Level>& a_scans);
   template <class Level> void keep_for_picture(const std::vector<Level>& levels);
   void show_progress();
 
   const ReconstructOptions& options_;
-  const pipeline::SpectrumFormat& format_;
+  const ReconstructInput& input_;
   const pipeline::SpectraFile& spectra_;
   const pipeline::Reconstructor& reconstructor_;
   const pipeline::NrrdWriter& writer_;
@@ -86,6 +92,7 @@ private:
   std::mutex taking_;       // B-scans are taken in order, and so is their running background
   int next_ = 0;
   std::optional<pipeline::RunningBackground> running_background_;
+  pipeline::SweepAlignment alignment_; // of a recording
   std::atomic<int> done_{0};
   std::atomic<int> saturated_lines_{0};
   std::vector<float> picture_levels_; // written by the one worker that has the B-scan
@@ -134,18 +141,26 @@ int VolumeReconstruction::take_next(std::vector<std::vector<float>>& running) {
   const std::scoped_lock lock{taking_};
   if (next_ == b_scans_)
     return next_;
-  for (std::size_t m = 0; running_background_ && m < running.size(); ++m) {
-    const auto mean =
-        running_background_->add(spectra_.b_scan(next_ * options_.repeats + static_cast<int>(m)));
+  for (std::size_t m = 0; m < running.size(); ++m) {
+    const int sweep = next_ * input_.repeats + static_cast<int>(m);
+    const auto mean = running_background_ ? running_background_->add(spectra_.b_scan(sweep))
+                                          : recorded_background(sweep);
     running[m].assign(mean.begin(), mean.end());
   }
   return next_++;
 }
 
+std::span<const float> VolumeReconstruction::recorded_background(int sweep) const {
+  const auto samples = static_cast<std::size_t>(input_.format.samples);
+  return input_.backgrounds.empty() ? std::span<const float>{}
+                                    : std::span{input_.backgrounds}.subspan(
+                                          samples * static_cast<std::size_t>(sweep), samples);
+}
+
 hal::Result<> VolumeReconstruction::check_counts(int sweep) const {
-  if (const auto fault = spectra_.find_non_finite(sweep))
+  if (const auto fault = spectra_.find_fault(sweep))
     return hal::fail(ErrorCode::bad_data, *fault);
-  if (const auto fault = spectra_.find_above_full_scale(sweep, format_))
+  if (const auto fault = spectra_.find_above_full_scale(sweep, input_.format))
     return hal::fail(ErrorCode::bad_data, *fault + "; another --dtype or --shift");
   return {};
 }
@@ -153,7 +168,10 @@ hal::Result<> VolumeReconstruction::check_counts(int sweep) const {
 template <class Level>
 void VolumeReconstruction::reconstruct_sweep(pipeline::Reconstructor::Workspace& workspace,
                                              int sweep, const std::vector<float>& running,
-                                             std::vector<Level>& levels) {
+                                             std::vector<Level>& lines,
+                                             std::vector<Level>& a_scans) {
+  const bool bidirectional = input_.plan && input_.plan->bidirectional;
+  std::vector<Level>& levels = bidirectional ? lines : a_scans;
   pipeline::BScanOutcome outcome;
   if constexpr (std::is_same_v<Level, float>)
     outcome =
@@ -161,13 +179,18 @@ void VolumeReconstruction::reconstruct_sweep(pipeline::Reconstructor::Workspace&
   else
     outcome = reconstructor_.reconstruct_b_scan(workspace, spectra_.b_scan(sweep), levels, running);
   saturated_lines_.fetch_add(outcome.saturated_lines);
+  if (bidirectional)
+    alignment_.apply(std::span<const Level>{lines}, input_.plan->runs_backwards(sweep),
+                     std::span{a_scans});
 }
 
 template <class Level> hal::Result<> VolumeReconstruction::reconstruct_all() {
   auto workspace = reconstructor_.make_workspace();
-  const auto repeats = static_cast<std::size_t>(options_.repeats);
-  std::vector<std::vector<Level>> sweeps(repeats, std::vector<Level>(reconstructor_.levels()));
-  std::vector<Level> average(repeats > 1 ? reconstructor_.levels() : 0);
+  const auto repeats = static_cast<std::size_t>(input_.repeats);
+  const std::size_t size = input_.geometry().b_scan_voxels();
+  std::vector<std::vector<Level>> sweeps(repeats, std::vector<Level>(size));
+  std::vector<Level> average(repeats > 1 ? size : 0);
+  std::vector<Level> lines(reconstructor_.levels());
   std::vector<std::vector<float>> running(repeats);
   std::optional<FlowVolumes::Worker> flow;
   if (flow_ != nullptr) {
@@ -175,9 +198,9 @@ template <class Level> hal::Result<> VolumeReconstruction::reconstruct_all() {
   }
   for (int b = take_next(running); b < b_scans_; b = take_next(running)) {
     for (std::size_t m = 0; m < repeats; ++m) {
-      const int sweep = b * options_.repeats + static_cast<int>(m);
+      const int sweep = b * input_.repeats + static_cast<int>(m);
       HAL_CHECK(check_counts(sweep));
-      reconstruct_sweep(workspace, sweep, running[m], sweeps[m]);
+      reconstruct_sweep(workspace, sweep, running[m], lines, sweeps[m]);
       if (flow)
         reconstructor_.reconstruct_b_scan_bins(workspace, spectra_.b_scan(sweep), flow->bins(m),
                                                running[m]);
@@ -218,73 +241,87 @@ void VolumeReconstruction::show_progress() {
     firmware_host::show_progress("");
 }
 
-unsigned worker_count(const ReconstructOptions& options) {
+unsigned worker_count(const ReconstructOptions& options, int b_scans) {
   const unsigned wanted =
       options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
-  return std::min(wanted, static_cast<unsigned>(options.shape.b_scans / options.repeats));
+  return std::min(wanted, static_cast<unsigned>(b_scans));
 }
 
 hal::Result<> check(const ReconstructOptions& options) {
-  const int b_scans = options.shape.b_scans / options.repeats;
-  if (options.picture && (options.picture_b_scan < 0 || options.picture_b_scan >= b_scans))
-    return hal::fail(ErrorCode::invalid_argument, "--bscan is {}, expected 0 to {}",
-                     options.picture_b_scan, b_scans - 1);
   if (options.picture && options.picture->lexically_normal() == options.volume.lexically_normal())
     return hal::fail(ErrorCode::invalid_argument, "--out and --png are both {}, expected two files",
                      options.volume.string());
   return {};
 }
 
+hal::Result<> check(const ReconstructOptions& options, const ReconstructInput& input) {
+  if (options.picture && (options.picture_b_scan < 0 || options.picture_b_scan >= input.b_scans()))
+    return hal::fail(ErrorCode::invalid_argument, "--bscan is {}, expected 0 to {}",
+                     options.picture_b_scan, input.b_scans() - 1);
+  if ((options.flow || options.decorrelation) && input.plan && input.plan->bidirectional)
+    return hal::fail(ErrorCode::invalid_argument,
+                     "--flow and --decorrelation compare sweeps of one direction, and {} is of a "
+                     "bidirectional scan",
+                     options.spectra.string());
+  return {};
+}
+
+// A recording's levels are to be what they were, so the same instructions compute them where this
+// processor has them; else those it has.
+hal::Result<pipeline::Reconstructor> make_reconstructor(const ReconstructOptions& options,
+                                                        const ReconstructInput& input,
+                                                        ReconstructionCache& cache) {
+  pipeline::ReconstructionSetup setup{.calibration = input.calibration,
+                                      .format = input.format,
+                                      .a_scans = input.spectra.shape().a_scans,
+                                      .path = input.path,
+                                      .fused_isa = input.isa,
+                                      .memory = &cache,
+                                      .limit_saturated_lines =
+                                          input.plan && options.display_counts};
+  auto made = pipeline::Reconstructor::create(setup);
+  if (made || input.isa.empty())
+    return made;
+  setup.fused_isa = {};
+  made = pipeline::Reconstructor::create(setup);
+  if (made)
+    warn("warning: the recording's levels were computed with {}, these with {}: some differ by one "
+         "count\n",
+         input.isa, made->isa());
+  return made;
+}
+
 } // namespace
 
 hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
   HAL_CHECK(check(options));
-  const int samples = options.shape.samples;
-  HAL_TRY(const auto format,
-          spectrum_format(samples, {options.type, options.significant_bits}, options.right_shift));
-  HAL_TRY(auto spectra, pipeline::SpectraFile::open(options.spectra, options.shape, options.type));
-  hal::Result<pipeline::Calibration> calibration = pipeline::Calibration::identity(samples);
-  if (options.calibration)
-    calibration = pipeline::Calibration::load(*options.calibration, samples);
-  if (!calibration)
-    return tl::make_unexpected(calibration.error());
+  HAL_TRY(auto input, open_input(options));
+  HAL_CHECK(check(options, input));
   if (const auto words = pipeline::replace_background_of_few_lines(
-          *calibration, options.shape.a_scans, options.shape.b_scans))
+          input.calibration, input.spectra.shape().a_scans, input.spectra.shape().b_scans))
     warn("warning: {}\n", *words);
   if (options.calibration)
-    if (const auto doubt = pipeline::doubt_about_k_table(*calibration, *options.calibration))
+    if (const auto doubt = pipeline::doubt_about_k_table(input.calibration, *options.calibration))
       warn("warning: {}\n", *doubt);
   ReconstructionCache cache;
-  HAL_TRY(const auto reconstructor,
-          pipeline::Reconstructor::create({.calibration = *calibration,
-                                           .format = format,
-                                           .a_scans = options.shape.a_scans,
-                                           .memory = &cache}));
+  HAL_TRY(const auto reconstructor, make_reconstructor(options, input, cache));
   static_cast<void>(cache.save()); // what was not kept is measured again; the doctor says why
 
-  const pipeline::VolumeGeometry geometry{reconstructor.depths(),
-                                          options.shape.a_scans,
-                                          options.shape.b_scans / options.repeats,
-                                          calibration->bin_spacing_um(),
-                                          calibration->a_spacing_um,
-                                          calibration->b_spacing_um,
-                                          calibration->refractive_index,
-                                          calibration->assumed_spacings};
+  const pipeline::VolumeGeometry geometry = input.geometry();
   HAL_TRY(auto writer,
           pipeline::NrrdWriter::create(options.volume, geometry,
                                        options.display_counts ? pipeline::NrrdType::uint8
                                                               : pipeline::NrrdType::float32));
   std::optional<FlowVolumes> flow;
   if (options.flow || options.decorrelation) {
-    HAL_TRY(auto volumes, FlowVolumes::create({.repeats = options.repeats,
-                                               .a_scans = options.shape.a_scans,
+    HAL_TRY(auto volumes, FlowVolumes::create({.repeats = input.repeats,
+                                               .a_scans = geometry.a_scans,
                                                .depths = reconstructor.depths()},
                                               geometry, options.flow, options.decorrelation));
     flow.emplace(std::move(volumes));
   }
-  VolumeReconstruction work{options,       format, spectra,
-                            reconstructor, writer, flow ? &*flow : nullptr};
-  HAL_CHECK(work.run(worker_count(options)));
+  VolumeReconstruction work{options, input, reconstructor, writer, flow ? &*flow : nullptr};
+  HAL_CHECK(work.run(worker_count(options, input.b_scans())));
   HAL_CHECK(writer.commit());
   if (flow) {
     HAL_CHECK(flow->commit());
@@ -299,7 +336,8 @@ hal::Result<> reconstruct_volume(const ReconstructOptions& options) {
          geometry.assumed.words(), geometry.depth_spacing_um, geometry.a_spacing_um,
          geometry.b_spacing_um);
   if (work.saturated_lines() > 0)
-    warn("warning: {} of {} lines are saturated\n", work.saturated_lines(), options.shape.lines());
+    warn("warning: {} of {} lines are saturated\n", work.saturated_lines(),
+         input.spectra.shape().lines());
   if (!options.picture)
     return {};
   return pipeline::write_png(*options.picture,

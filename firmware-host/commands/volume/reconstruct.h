@@ -14,14 +14,15 @@ namespace octascope::firmware_host {
 
 struct ReconstructOptions {
   std::filesystem::path spectra;
-  pipeline::SpectraShape shape;
+  std::optional<pipeline::SpectraShape> shape; // of plain spectra; a recording says it itself
+  std::optional<std::size_t> raw_volume;       // of a recording, from 0; empty: the first whole one
   hal::SampleType type = hal::SampleType::u16;
-  std::optional<int> significant_bits;              // empty: all of the type's
-  int right_shift = 0;                              // of left-justified counts
-  std::optional<std::filesystem::path> calibration; // empty: no resampling, no dispersion
-                                                    // compensation
-  int repeats = 1;                                  // successive sweeps of one position
-  std::filesystem::path volume;                     // NRRD to write
+  std::optional<int> significant_bits; // empty: all of the type's
+  int right_shift = 0;                 // of left-justified counts
+  // Empty: a recording's own; else no resampling and no dispersion compensation.
+  std::optional<std::filesystem::path> calibration;
+  std::optional<int> repeats; // successive sweeps of one position; empty: a recording's own, else 1
+  std::filesystem::path volume; // NRRD to write
   // Likewise, of repeats: what flows, and how far they decorrelate before anything is decided.
   std::optional<std::filesystem::path> flow;
   std::optional<std::filesystem::path> decorrelation;

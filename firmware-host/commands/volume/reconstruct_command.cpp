@@ -26,7 +26,9 @@ struct ReconstructCommandLine {
   std::string calibration;
   std::string out;
   bool u8 = false;
-  int repeats = 1;
+  int repeats = 0; // 0: not given
+  CLI::Option* volume = nullptr;
+  std::size_t raw_volume = 0;
   std::string flow;
   std::string decorrelation;
   int b_scan = 0;
@@ -38,12 +40,16 @@ int run(const ReconstructCommandLine& line) {
     warn("octascope reconstruct: {}\n", error.message);
     return status;
   };
-  const auto shape = pipeline::SpectraShape::parse(line.shape);
-  if (!shape)
-    return complain(shape.error(), wrong_use);
   ReconstructOptions options;
   options.spectra = line.spectra;
-  options.shape = *shape;
+  if (!line.shape.empty()) {
+    const auto shape = pipeline::SpectraShape::parse(line.shape);
+    if (!shape)
+      return complain(shape.error(), wrong_use);
+    options.shape = *shape;
+  }
+  if (line.volume->count() > 0)
+    options.raw_volume = line.raw_volume;
   const SpectraType type = spectra_type_of(line.type);
   options.type = type.type;
   options.significant_bits = type.significant_bits;
@@ -55,24 +61,17 @@ int run(const ReconstructCommandLine& line) {
     options.calibration = line.calibration;
   if (!line.png.empty())
     options.picture = line.png;
-  options.repeats = line.repeats;
+  if (line.repeats > 0)
+    options.repeats = line.repeats;
   if (!line.flow.empty())
     options.flow = line.flow;
   if (!line.decorrelation.empty())
     options.decorrelation = line.decorrelation;
-  if (shape->b_scans % line.repeats != 0)
-    return complain({hal::ErrorCode::invalid_argument,
-                     fmt::format("--shape has {} sweeps, expected a multiple of the {} repeats of "
-                                 "each B-scan",
-                                 shape->b_scans, line.repeats)},
-                    wrong_use);
-  const int b_scans = shape->b_scans / line.repeats;
-  if (line.b_scan < 0 || line.b_scan >= b_scans)
-    return complain({hal::ErrorCode::invalid_argument,
-                     fmt::format("--bscan is {}, expected 0 to {}", line.b_scan, b_scans - 1)},
-                    wrong_use);
   const auto done = reconstruct_volume(options);
-  return done ? 0 : complain(done.error(), failed);
+  if (done)
+    return 0;
+  return complain(done.error(),
+                  done.error().code == hal::ErrorCode::invalid_argument ? wrong_use : failed);
 }
 
 } // namespace
@@ -80,21 +79,30 @@ int run(const ReconstructCommandLine& line) {
 void add_reconstruct_command(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand("reconstruct", "Raw spectra to a volume of levels (NRRD)");
   auto line = std::make_shared<ReconstructCommandLine>();
-  CLI::Option* spectra = command
-                             ->add_option("--spectra", line->spectra,
-                                          "Raw spectra, little-endian, [B-scan][A-scan][sample]")
-                             ->required()
-                             ->type_name("FILE");
+  CLI::Option* spectra =
+      command
+          ->add_option("--spectra", line->spectra,
+                       "Raw spectra, little-endian, [B-scan][A-scan][sample]; or a "
+                       "recording of them (octascope capture, record --raw)")
+          ->required()
+          ->type_name("FILE");
   command
       ->add_option("--shape", line->shape,
                    "B-scans (all their sweeps), A-scans per B-scan and samples per line, like "
-                   "100,100,1024")
-      ->required()
+                   "100,100,1024; a recording says it itself, and of which type samples are")
       ->type_name("B,A,N");
   add_spectra_type_options(*command, line->type, spectra);
+  line->volume =
+      command
+          ->add_option("--volume", line->raw_volume,
+                       "Which volume of a recording, counted from 0 (its first whole one "
+                       "if not given)")
+          ->check(within(0, 1000000000))
+          ->type_name("N");
   command
       ->add_option("--calibration", line->calibration,
-                   "Calibration; without it no resampling and no dispersion, Hann window")
+                   "Calibration; without it a recording's own, else no resampling and no "
+                   "dispersion, Hann window")
       ->type_name("FILE.toml");
   command->add_option("--out", line->out, "Volume to write: levels in dB, depth fastest")
       ->required()
@@ -135,7 +143,8 @@ void add_reconstruct_command(CLI::App& app, int& exit_status) {
                   "  octascope reconstruct --spectra spectra.raw --shape 100,100,1024 \\\n"
                   "    --calibration spectrometer.toml --out volume.nrrd --bscan 50 --png b50.png\n"
                   "  octascope reconstruct --spectra repeated.raw --shape 200,100,1024 \\\n"
-                  "    --repeats 2 --out volume.nrrd --flow flow.nrrd");
+                  "    --repeats 2 --out volume.nrrd --flow flow.nrrd\n"
+                  "  octascope reconstruct --spectra eye-raw.h5 --volume 12 --u8 --out v12.nrrd");
   command->callback([line, &exit_status] { exit_status = run(*line); });
 }
 

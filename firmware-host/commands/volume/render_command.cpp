@@ -89,9 +89,7 @@ hal::Result<VolumeRequest> request_of(const RenderArguments& a) {
     request.calibration = a.calibration;
   if (a.spectra.empty())
     return request;
-  HAL_TRY(const auto shape, pipeline::SpectraShape::parse(a.shape));
-  HAL_TRY(const auto format, camera_format(shape.samples, a.type));
-  request.recording = RecordingOptions{a.spectra, shape, format};
+  HAL_TRY(request.recording, recording_options(a.spectra, a.shape, a.type));
   return request;
 }
 
@@ -246,14 +244,12 @@ void add_volume_options(CLI::App& command, RenderArguments& a) {
   CLI::Option* spectra =
       command
           .add_option("--spectra", a.spectra,
-                      "Or raw spectra (little-endian, [B][A][N]), reconstructed as run does")
+                      "Or raw spectra (little-endian, [B][A][N], or a recording of them), "
+                      "reconstructed as run does")
           ->type_name("FILE");
-  CLI::Option* shape =
-      command
-          .add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024")
-          ->type_name("B,A,N")
-          ->needs(spectra);
-  spectra->needs(shape);
+  command.add_option("--shape", a.shape, "B-scans,A-scans,samples of --spectra, as 100,100,1024")
+      ->type_name("B,A,N")
+      ->needs(spectra);
   add_spectra_type_options(command, a.type, spectra);
   command.add_option("--calibration", a.calibration, "Calibration of the spectrometer (TOML)")
       ->type_name("FILE.toml")

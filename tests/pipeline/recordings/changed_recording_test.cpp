@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "pipeline/recordings/hdf5.h"
+#include "pipeline/recordings/hdf5/hdf5.h"
 #include "pipeline/recordings/recording_reader.h"
 #include "tests/support/fails_with.h"
 #include "tests/support/files/fresh_seed.h"

@@ -17,6 +17,7 @@
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/files/size_limit.h"
 #include "tests/support/files/small_recording.h"
 #include "tests/support/must.h"
 
@@ -146,6 +147,31 @@ TEST_F(Recording, of_a_program_that_was_killed_holds_what_came) {
   ASSERT_TRUE(WIFSIGNALED(status));
   expect_volumes(6);
   EXPECT_FALSE(RecordingReader::open(file)->end().finished);
+}
+
+// What cannot be written any more is left as it was, and closed by nobody.
+TEST_F(Recording, whose_disk_refused_to_be_written_holds_what_came) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    bool failed = false;
+    {
+      auto writer = RecordingWriter::create(file, small_recording_facts());
+      for (std::uint64_t n = 0; n < 200 && !failed; ++n) {
+        failed = !writer->append(small_recording_volume(n), small_recording_entry(n));
+        if (n == 5)
+          tests::limit_file_sizes(std::filesystem::file_size(file));
+      }
+      failed = failed && !writer->finish({});
+    }
+    ::_exit(failed ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_EQ(status, 0);
+  const auto reader = tests::must(RecordingReader::open(file));
+  EXPECT_GE(reader.volumes().size(), 6U);
+  expect_volumes(reader.volumes().size());
+  EXPECT_FALSE(reader.end().finished);
 }
 
 // By another process: HDF5 does not share a file with itself.
@@ -283,10 +309,9 @@ TEST_F(Recording, refuses_facts_that_cannot_be) {
   EXPECT_THAT(with("format_version", 2), HasSubstr("found 2, this program reads 1"));
   EXPECT_THAT(with("depths", 0), HasSubstr("depths: found 0"));
   EXPECT_THAT(with("a_scans", 70'000), HasSubstr("a_scans: found 70000, expected 1 to 65536"));
-  EXPECT_THAT(
-      with("b_scans", 6),
-      HasSubstr("/levels: found [1, 5, 7, 12] of whole numbers, expected [volumes, 6, 7, 12] "
-                "of whole numbers"));
+  EXPECT_THAT(with("b_scans", 6),
+              HasSubstr("/levels: found [1, 5, 7, 12] of whole numbers, expected [rows, 6, 7, 12] "
+                        "of whole numbers"));
   EXPECT_THAT(with("level_step_db", 1), HasSubstr("level_step_db: found 1, expected 0.5"));
   EXPECT_EQ(with("finished", 1), "");
 }

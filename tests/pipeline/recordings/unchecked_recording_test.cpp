@@ -4,6 +4,7 @@
 // In this program every checksum is the same number (--wrap in CMakeLists.txt), so that each damaged
 // byte gets as far as HDF5's decoders.
 #include <cstdlib>
+#include <functional>
 #include <random>
 
 #include <fmt/format.h>
@@ -12,10 +13,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "pipeline/recordings/raw/raw_reader.h"
 #include "pipeline/recordings/recording_reader.h"
 #include "tests/support/files/fresh_seed.h"
 #include "tests/support/files/mutation.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/files/small_raw.h"
 #include "tests/support/files/small_recording.h"
 
 extern "C" std::uint32_t __wrap_H5_checksum_metadata(const void*, std::size_t, std::uint32_t) {
@@ -25,26 +28,53 @@ extern "C" std::uint32_t __wrap_H5_checksum_metadata(const void*, std::size_t, s
 namespace octascope::pipeline {
 namespace {
 
-// How a process ended that opened the file and read every volume.
 enum class End { read, refused, crashed_in_trial };
 
-End read_apart(const std::filesystem::path& file) {
+// How `read` ended, in a process of its own.
+End ends_apart(const std::function<End()>& read) {
   const pid_t child = ::fork();
   if (child == 0) {
     ::alarm(60);
-    auto reader = RecordingReader::open(file);
-    if (!reader)
-      ::_exit(reader.error().message.find("HDF5 crashes on it") == std::string::npos ? 1 : 2);
-    Volume volume{reader->facts().geometry};
-    bool all = true;
-    for (std::size_t n = 0; n < reader->volumes().size(); ++n)
-      all = reader->read(n, volume).has_value() && all;
-    ::_exit(all ? 0 : 1);
+    ::_exit(static_cast<int>(read()));
   }
   int status = 0;
   EXPECT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFEXITED(status)) << "killed by signal " << WTERMSIG(status);
   return static_cast<End>(WEXITSTATUS(status));
+}
+
+End end_of_refusal(const hal::Error& error) {
+  return error.message.find("HDF5 crashes on it") == std::string::npos ? End::refused
+                                                                       : End::crashed_in_trial;
+}
+
+// The file is opened and every volume read.
+
+End read_apart(const std::filesystem::path& file) {
+  return ends_apart([&] {
+    auto reader = RecordingReader::open(file);
+    if (!reader)
+      return end_of_refusal(reader.error());
+    Volume volume{reader->facts().geometry};
+    bool all = true;
+    for (std::size_t n = 0; n < reader->volumes().size(); ++n)
+      all = reader->read(n, volume).has_value() && all;
+    return all ? End::read : End::refused;
+  });
+}
+
+// Likewise every frame.
+End read_raw_apart(const std::filesystem::path& file) {
+  return ends_apart([&] {
+    const auto reader = RawReader::open(file);
+    if (!reader)
+      return end_of_refusal(reader.error());
+    const auto spectra = reader->spectra(0, reader->frames().size(), RawLines::all);
+    bool all = reader->backgrounds(0, reader->frames().size()).has_value() && spectra.has_value();
+    for (int b = 0; spectra && b < spectra->shape().b_scans; ++b)
+      all = !spectra->find_fault(b) && all;
+    return all ? End::read : End::refused;
+  });
 }
 
 // OCTASCOPE_TEST_ROUNDS: so many, for a long run by hand.
@@ -53,10 +83,10 @@ int rounds() {
   return wanted == nullptr ? 300 : std::atoi(wanted);
 }
 
-TEST(UncheckedRecording, is_read_or_refused_and_crashes_nobody) {
-  const tests::ScratchFolder folder;
+// Of the good file in that folder.
+void damage_and_read(const tests::ScratchFolder& folder,
+                     const std::function<End(const std::filesystem::path&)>& read_apart) {
   const std::filesystem::path file = folder / "r.h5";
-  tests::write_small_recording(file, 3);
   const std::string good = tests::whole_file(file);
   ASSERT_EQ(read_apart(file), End::read);
   // Most of the file is zeros, for volumes to come: what HDF5 decodes is what is changed.
@@ -83,6 +113,18 @@ TEST(UncheckedRecording, is_read_or_refused_and_crashes_nobody) {
   }
   fmt::print("  {} read, {} refused, {} crashed HDF5 in its trial\n", ends[0], ends[1], ends[2]);
   EXPECT_GT(ends[1], 0);
+}
+
+TEST(UncheckedRecording, is_read_or_refused_and_crashes_nobody) {
+  const tests::ScratchFolder folder;
+  tests::write_small_recording(folder / "r.h5", 3);
+  damage_and_read(folder, read_apart);
+}
+
+TEST(UncheckedRecording, of_raw_spectra_is_read_or_refused_and_crashes_nobody) {
+  const tests::ScratchFolder folder;
+  tests::write_small_raw(folder / "r.h5", 12);
+  damage_and_read(folder, read_raw_apart);
 }
 
 } // namespace

@@ -88,7 +88,8 @@ TEST(RunHelp, says_what_each_key_does) {
 
 INSTANTIATE_TEST_SUITE_P(Commands, Help,
                          testing::Values("", "run", "devices", "doctor", "reconstruct", "render",
-                                         "record", "info", "export", "replay", "vessels"),
+                                         "record", "capture", "commission", "info", "export",
+                                         "replay", "vessels"),
                          [](const auto& test) {
                            return test.param.empty() ? std::string{"octascope"} : test.param;
                          });

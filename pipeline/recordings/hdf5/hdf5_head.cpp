@@ -1,4 +1,4 @@
-#include "pipeline/recordings/hdf5_head.h"
+#include "pipeline/recordings/hdf5/hdf5_head.h"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
-#include "pipeline/recordings/descriptor.h"
-#include "pipeline/recordings/little_endian.h"
+#include "pipeline/recordings/hdf5/descriptor.h"
+#include "pipeline/recordings/hdf5/little_endian.h"
 
 namespace octascope::pipeline {
 

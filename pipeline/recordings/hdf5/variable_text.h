@@ -8,7 +8,7 @@
 #include <string>
 
 #include "hal/result.h"
-#include "pipeline/recordings/hdf5.h"
+#include "pipeline/recordings/hdf5/hdf5.h"
 
 namespace octascope::pipeline {
 

@@ -28,6 +28,7 @@ public:
 
   bool valid() const { return id_ >= 0; }
   operator hid_t() const { return id_; }
+  void leave_open() { id_ = H5I_INVALID_HID; }
   herr_t close() { return valid() ? close_(std::exchange(id_, H5I_INVALID_HID)) : 0; }
 
 private:

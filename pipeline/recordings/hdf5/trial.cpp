@@ -1,4 +1,4 @@
-#include "pipeline/recordings/trial.h"
+#include "pipeline/recordings/hdf5/trial.h"
 
 #include <cerrno>
 #include <csignal>

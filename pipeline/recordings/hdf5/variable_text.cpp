@@ -1,4 +1,4 @@
-#include "pipeline/recordings/variable_text.h"
+#include "pipeline/recordings/hdf5/variable_text.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include <unistd.h>
 
-#include "pipeline/recordings/little_endian.h"
+#include "pipeline/recordings/hdf5/little_endian.h"
 
 namespace octascope::pipeline {
 

@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include "firmware-host/commands/commission/steps.h"
+#include "firmware-host/configuration/configuration.h"
+#include "firmware-host/terminal/terminal.h"
+#include "pipeline/files/atomic_file.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+// octascope.toml if it is not there or still as it was written here; else a new name.
+std::filesystem::path place_of_configuration(const Session& session) {
+  const auto file = session.folder() / "octascope.toml";
+  const std::string there = configuration_text(file);
+  return there == session.text("configuration_text") ? file
+                                                     : session.free_file("octascope", ".toml");
+}
+
+} // namespace
+
+hal::Result<StepRecord> write_configuration(Bench& bench) {
+  Session& session = bench.session;
+  const std::string text = session.configuration_toml();
+  const auto file = place_of_configuration(session);
+  HAL_CHECK(pipeline::write_atomically(file, text));
+  HAL_TRY(const auto configuration, load_configuration(file)); // what a run would say of it
+  StepRecord record;
+  if (!configuration.calibration)
+    record.warnings.emplace_back("there is no calibration: the picture will be blurred");
+  if (file.filename() == "octascope.toml")
+    session.set("configuration_text", text);
+  else
+    record.warnings.push_back(
+        fmt::format("octascope.toml was changed by hand and is left as it is: "
+                    "compare it with {}",
+                    file.filename().string()));
+  const std::string run = fmt::format("octascope run --config {}", file.string());
+  record.found = {{"file", file.filename().string()}, {"to see the picture", run}};
+  return record;
+}
+
+} // namespace octascope::firmware_host

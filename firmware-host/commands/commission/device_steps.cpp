@@ -1,0 +1,206 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include "firmware-host/commands/command.h"
+#include "firmware-host/commands/commission/live_look.h"
+#include "firmware-host/commands/commission/spectrum_text.h"
+#include "firmware-host/commands/commission/steps.h"
+#include "firmware-host/commands/devices/devices_learn.h"
+#include "firmware-host/devices/hardware_survey.h"
+#include "firmware-host/terminal/terminal.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+hal::Result<LiveLook> look_now(Bench& bench, std::string_view phantom, int pulses) {
+  HAL_TRY(const auto options, bench.session.run_options(phantom));
+  HAL_TRY(const auto configuration, bench.session.configuration());
+  return look(options, configuration, pulses, bench.clock);
+}
+
+hal::Result<> ask_which_camera(Bench& bench) {
+  if (bench.session.simulated()) {
+    bench.session.set("line_camera", "sim");
+    return {};
+  }
+  for (const FoundDevice& device : survey_hardware().video) {
+    say("  {}  {}{}\n", device.node, device.name,
+        device.usable ? std::string{} : " (" + device.why_not + "; " + device.remedy + ")");
+  }
+  HAL_TRY(auto camera, bench.dialogue.ask("Line camera: auto, or a node as /dev/video0?",
+                                          bench.session.text("line_camera", "auto")));
+  bench.session.set("line_camera", camera);
+  return {};
+}
+
+hal::Result<> ask_scan(Bench& bench) {
+  Session& session = bench.session;
+  const auto ask_count = [&](const char* key, const char* question, int fallback, int lowest,
+                             int highest) -> hal::Result<> {
+    HAL_TRY(const int count,
+            bench.dialogue.ask_count(question, static_cast<int>(session.number(key, fallback)),
+                                     lowest, highest));
+    session.set(key, count);
+    return {};
+  };
+  HAL_CHECK(ask_count("samples", "Samples of a line (pixels of the camera)?", 1024, 64, 65536));
+  HAL_CHECK(ask_count("a_scans", "A-scans kept of each B-scan?", 300, 8, 65536));
+  HAL_CHECK(ask_count("fly_back_lines", "Lines of the fly-back after them?", 79, 0, 65536));
+  HAL_CHECK(ask_count("b_scans", "B-scans of a volume?", 80, 3, 65536));
+  HAL_TRY(const double rate, bench.dialogue.ask_number(
+                                 "Lines a second?", session.number("line_rate_hz", 215e3), 1, 1e9));
+  session.set("line_rate_hz", rate);
+  const double a_scans = session.number("a_scans", 300);
+  const double b_scans = session.number("b_scans", 80);
+  HAL_TRY(const double a_mm,
+          bench.dialogue.ask_number("Width of the scan along a B-scan, in mm?",
+                                    session.number("a_spacing_um", 3000 / a_scans) * a_scans / 1000,
+                                    0.01, 1000));
+  HAL_TRY(const double b_mm,
+          bench.dialogue.ask_number("Width from the first B-scan to the last, in mm?",
+                                    session.number("b_spacing_um", 3000 / b_scans) * b_scans / 1000,
+                                    0.01, 1000));
+  session.set("a_spacing_um", a_mm * 1000 / a_scans);
+  session.set("b_spacing_um", b_mm * 1000 / b_scans);
+  return {};
+}
+
+// Shown over and over until Enter, where somebody sits at a terminal; else once.
+hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom) {
+  const bool live = ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0;
+  if (live)
+    say("Live; Enter ends it.\n");
+  std::fflush(stdout);
+  for (;;) {
+    HAL_TRY(auto found, look_now(bench, phantom, 1));
+    if (found.mean_line.empty())
+      return hal::fail(hal::ErrorCode::timed_out,
+                       "no frame came: is the camera on, and does the trigger start the scanner?");
+    if (!live)
+      return found;
+    show_progress(fmt::format("{} {:3.0f} % full, contrast {:4.1f} %, saturated {:.0f} %, lost {}",
+                              spectrum_strip(found.mean_line, found.format.full_scale()),
+                              found.quality.brightest * 100, found.quality.contrast * 100,
+                              found.quality.saturated_share * 100, found.lost_frames));
+    pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+    if (::poll(&input, 1, 100) > 0) {
+      show_progress("");
+      HAL_TRY(const std::string ended, bench.dialogue.ask("Ended:", "here"));
+      return found;
+    }
+  }
+}
+
+} // namespace
+
+hal::Result<std::string> ask_to_place(Bench& bench, const std::string& what,
+                                      const std::string& phantom) {
+  if (bench.session.simulated())
+    return bench.dialogue.ask(what + " The twin looks at", phantom);
+  HAL_TRY(const std::string ready, bench.dialogue.ask(what + " Enter when it is so:", "ready"));
+  return phantom;
+}
+
+hal::Result<StepRecord> find_camera(Bench& bench) {
+  HAL_CHECK(ask_which_camera(bench));
+  HAL_CHECK(ask_scan(bench));
+  HAL_TRY(const auto found, look_now(bench, "dark", 0));
+  bench.session.set("camera", found.camera);
+  StepRecord record;
+  record.found = {{"camera", found.camera.empty() ? "does not identify itself" : found.camera},
+                  {"found as", found.chosen},
+                  {"samples", fmt::format("{} of {} bits", found.format.samples,
+                                          found.format.significant_bits)}};
+  if (found.camera.empty())
+    record.warnings.emplace_back("the camera cannot be told from others of its kind: nobody will "
+                                 "notice when another one takes its place");
+  return record;
+}
+
+hal::Result<StepRecord> count_trigger(Bench& bench) {
+  constexpr int pulses = 5;
+  Session& session = bench.session;
+  if (!session.simulated()) {
+    HAL_TRY(const auto line,
+            bench.dialogue.ask("GPIO line of the trigger: its name, or as gpiochip0:17?",
+                               session.text("trigger_line", "octascope-trigger")));
+    HAL_TRY(const auto sync, bench.dialogue.ask("GPIO line on which the scanner answers, or none?",
+                                                session.text("sync_line", "none")));
+    HAL_TRY(const double width,
+            bench.dialogue.ask_number("Width of a pulse in µs?",
+                                      session.number("pulse_width_us", 50), 1, 1e5));
+    session.set("trigger_line", line);
+    session.set("sync_line", sync == "none" ? "" : sync);
+    session.set("pulse_width_us", width);
+  }
+  HAL_TRY(const auto found, look_now(bench, "dark", pulses));
+  StepRecord record;
+  record.found = {
+      {"trigger", found.trigger},
+      {"pulses answered", fmt::format("{} of {}", found.answered, found.pulses)},
+      {"frames", fmt::format("{} of {}, {} lost, {} broken", found.frames, found.expected_frames,
+                             found.lost_frames, found.broken_frames)}};
+  if (found.answered == 0)
+    return hal::fail(hal::ErrorCode::timed_out,
+                     "none of {} pulses was followed by a frame: is the trigger wired to the "
+                     "scanner, and does the scanner start the camera's frames?",
+                     found.pulses);
+  if (!session.text("sync_line").empty())
+    record.found.emplace_back("without an answer on the sync line",
+                              fmt::format("{}", found.unanswered_on_sync));
+  if (found.line_rate_hz > 0)
+    record.found.emplace_back("lines a second", fmt::format("{:.0f}", found.line_rate_hz));
+  const double wanted = session.number("line_rate_hz", 215e3);
+  if (found.line_rate_hz > 0 && std::abs(found.line_rate_hz / wanted - 1) > 0.02)
+    record.warnings.push_back(fmt::format("the frames' times say {:.0f} lines a second, expected "
+                                          "{:.0f}: repeat the step \"camera\" with the right rate",
+                                          found.line_rate_hz, wanted));
+  if (found.frames != found.expected_frames || found.answered != found.pulses)
+    record.warnings.emplace_back("not every pulse brought a whole volume: is the number of B-scans "
+                                 "that of the scanner?");
+  return record;
+}
+
+hal::Result<StepRecord> look_at_spectrum(Bench& bench) {
+  HAL_TRY(const auto phantom,
+          ask_to_place(bench, "Lay a mirror under the beam and block nothing.", "mirror_near"));
+  HAL_TRY(const auto found, watch(bench, phantom));
+  say("  {}\n", spectrum_strip(found.mean_line, found.format.full_scale()));
+  StepRecord record;
+  add_quality(record, found);
+  const auto picture = bench.session.free_file("spectrum", ".png");
+  HAL_CHECK(pipeline::write_png(
+      picture, draw_spectrum(found.mean_line, found.one_line, found.format.full_scale())));
+  record.pictures.push_back(picture.filename().string());
+  return record;
+}
+
+hal::Result<StepRecord> learn_pedal(Bench& bench) {
+  StepRecord record;
+  if (bench.session.simulated()) {
+    record.found = {{"pedal", "simulated: it follows a script, there is nothing to learn"}};
+    return record;
+  }
+  HAL_TRY(const auto answer,
+          bench.dialogue.ask_word("Learn a pedal or knob that `octascope devices` does not know?",
+                                  {"no", "yes"}));
+  if (answer == "no") {
+    record.found = {{"pedal", "one of those known, by its own profile"}};
+    return record;
+  }
+  const auto device = bench.session.free_file("pedal", ".device.toml");
+  const std::string name = device.filename().string();
+  const std::string stem = name.substr(0, name.size() - std::string_view{".device.toml"}.size());
+  if (learn_control({.usb = {}, .out = bench.session.folder() / stem}) != exit_done)
+    return hal::fail(hal::ErrorCode::absent, "nothing was learned; repeat the step, or skip it");
+  bench.session.set("control_device", stem + ".device.toml");
+  bench.session.set("control_profile", stem + ".profile.toml");
+  record.found = {{"pedal", fmt::format("learned: {0}.device.toml, {0}.profile.toml", stem)}};
+  return record;
+}
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,37 @@
+// Questions on the terminal, answered by lines: of a person, or of a script.
+#pragma once
+
+#include <initializer_list>
+#include <istream>
+#include <string>
+#include <string_view>
+
+#include "hal/result.h"
+
+namespace octascope::firmware_host {
+
+// An answer that does not do is told, and the question asked again. ErrorCode::disconnected: there
+// are no more answers; invalid_argument: five in a row did not do.
+class Dialogue {
+public:
+  // `answers` outlives this. `echoes`: answers are repeated on standard output, as nobody types
+  // them there.
+  Dialogue(std::istream& answers, bool echoes) : answers_(answers), echoes_(echoes) {}
+
+  // An empty answer is `fallback`.
+  hal::Result<std::string> ask(std::string_view question, std::string_view fallback);
+
+  hal::Result<double> ask_number(std::string_view question, double fallback, double lowest,
+                                 double highest);
+  hal::Result<int> ask_count(std::string_view question, int fallback, int lowest, int highest);
+
+  // One of `words`, the first where the answer is empty, whole or by its first letter.
+  hal::Result<std::string> ask_word(std::string_view question,
+                                    std::initializer_list<std::string_view> words);
+
+private:
+  std::istream& answers_;
+  bool echoes_;
+};
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,161 @@
+#include "firmware-host/commands/commission/live_look.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "firmware-host/commands/calibrate/calibrate_inputs.h"
+#include "firmware-host/devices/devices.h"
+
+namespace octascope::firmware_host {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr hal::Duration longest_silence = 3s; // after a pulse, with a machine that stands still
+constexpr hal::Duration at_once = 100ms;
+constexpr int lines_of_a_frame = 4; // that are looked at
+constexpr std::size_t most_lines = 128;
+
+class Look {
+public:
+  Look(Devices& devices, hal::Duration pulse_width, hal::Clock& clock)
+      : devices_(devices), pulse_width_(pulse_width), clock_(clock) {}
+  // Neither device stays open.
+  ~Look() {
+    devices_.line_camera().close();
+    devices_.galvo_trigger().close();
+  }
+  Look(const Look&) = delete;
+  Look& operator=(const Look&) = delete;
+
+  hal::Result<LiveLook> run(int pulses);
+
+private:
+  hal::Result<> pulse();
+  void take(const hal::LineFrame& frame);
+  void keep_lines(const hal::LineFrame& frame);
+  void judge();
+
+  Devices& devices_;
+  hal::Duration pulse_width_;
+  hal::Clock& clock_;
+  LiveLook found_;
+  std::optional<std::uint64_t> last_sequence_;
+  hal::Duration shortest_frame_{}; // from one frame's first line to the next one's
+  std::optional<hal::TimePoint> last_begin_;
+  std::vector<double> lines_;
+};
+
+hal::Result<LiveLook> Look::run(int pulses) {
+  hal::LineCamera& camera = devices_.line_camera();
+  HAL_CHECK(camera.open(devices_.camera_config()));
+  found_.camera = camera.identity();
+  found_.format = pipeline::SpectrumFormat{devices_.format()};
+  if (pulses == 0)
+    return found_;
+  HAL_CHECK(devices_.galvo_trigger().open({.pulse_width = pulse_width_}));
+  HAL_CHECK(camera.start());
+  for (int i = 0; i < pulses; ++i)
+    HAL_CHECK(pulse());
+  camera.stop();
+  found_.unanswered_on_sync = devices_.new_missed_answers();
+  if (!lines_.empty())
+    judge();
+  return found_;
+}
+
+// All frames of one volume, or what comes of them.
+hal::Result<> Look::pulse() {
+  const auto expected = static_cast<std::uint64_t>(devices_.plan().sweeps());
+  HAL_CHECK(devices_.galvo_trigger().pulse());
+  ++found_.pulses;
+  found_.expected_frames += expected;
+  last_begin_.reset(); // the time between two volumes is no frame's
+  const std::uint64_t before = found_.frames + found_.lost_frames;
+  hal::TimePoint last_news = clock_.now();
+  while (found_.frames + found_.lost_frames < before + expected &&
+         clock_.now() - last_news < longest_silence) {
+    HAL_TRY(const auto frame, devices_.line_camera().wait_frame(at_once));
+    if (!frame)
+      continue;
+    last_news = clock_.now();
+    take(*frame);
+    devices_.line_camera().release(frame->buffer);
+  }
+  if (found_.frames + found_.lost_frames > before)
+    ++found_.answered;
+  return {};
+}
+
+void Look::take(const hal::LineFrame& frame) {
+  ++found_.frames;
+  if (last_sequence_)
+    found_.lost_frames += frame.sequence - *last_sequence_ - 1;
+  if (last_begin_ && last_sequence_ && frame.sequence == *last_sequence_ + 1) {
+    const hal::Duration took = frame.first_line - *last_begin_;
+    shortest_frame_ = shortest_frame_ == hal::Duration{} ? took : std::min(shortest_frame_, took);
+  }
+  last_sequence_ = frame.sequence;
+  last_begin_ = frame.first_line;
+  if (frame.integrity == hal::FrameIntegrity::good)
+    keep_lines(frame);
+  else
+    ++found_.broken_frames;
+}
+
+void Look::keep_lines(const hal::LineFrame& frame) {
+  const std::size_t bytes = found_.format.line_bytes();
+  const int kept = devices_.plan().converted_lines();
+  const int step = std::max(1, kept / lines_of_a_frame);
+  for (int line = 0;
+       line < kept && lines_.size() < most_lines * static_cast<std::size_t>(found_.format.samples);
+       line += step) {
+    const auto counts = to_numbers(
+        frame.bytes.subspan(bytes * static_cast<std::size_t>(line), bytes), found_.format.type);
+    for (const double count : counts)
+      lines_.push_back(static_cast<double>(static_cast<unsigned>(count) >>
+                                           static_cast<unsigned>(found_.format.right_shift)));
+  }
+}
+
+void Look::judge() {
+  const auto samples = static_cast<std::size_t>(found_.format.samples);
+  found_.quality = pipeline::judge_spectra(lines_, samples, found_.format.full_scale());
+  found_.one_line.assign(lines_.end() - static_cast<std::ptrdiff_t>(samples), lines_.end());
+  found_.mean_line.assign(samples, 0);
+  const double count = static_cast<double>(lines_.size() / samples);
+  for (std::size_t i = 0; i < lines_.size(); ++i)
+    found_.mean_line[i % samples] += lines_[i] / count;
+  if (shortest_frame_ > hal::Duration{})
+    found_.line_rate_hz = devices_.plan().lines_per_frame() / hal::to_seconds(shortest_frame_);
+}
+
+} // namespace
+
+hal::Result<LiveLook> look(const RunOptions& options, const Configuration& configuration,
+                           int pulses, hal::Clock& clock) {
+  auto real =
+      std::make_unique<RealDevices>(configuration.devices, plan_of(options, configuration), clock);
+  const DeviceChoices choices =
+      choose_devices(real->find_for(options), options, configuration.devices);
+  if (camera_may_come(choices, options, configuration.devices))
+    return hal::fail(hal::ErrorCode::absent,
+                     "no line camera: {}; octascope doctor says more, and --sim works with a "
+                     "simulated one",
+                     choices.line_camera.reason);
+  Devices devices{std::move(real), choices, clock};
+  HAL_CHECK(devices.make_others(choices, options, configuration, clock));
+  HAL_TRY(auto found, Look(devices, configuration.devices.pulse_width, clock).run(pulses));
+  found.chosen = fmt::format("{}: {}", choices.line_camera.backend, choices.line_camera.reason);
+  found.trigger =
+      fmt::format("{}: {}", choices.galvo_trigger.backend, choices.galvo_trigger.reason);
+  return found;
+}
+
+} // namespace octascope::firmware_host

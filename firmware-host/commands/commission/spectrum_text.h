@@ -1,0 +1,24 @@
+// A spectrum for people: a strip of text, figures, and a picture.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "firmware-host/commands/commission/live_look.h"
+#include "firmware-host/commands/commission/session.h"
+#include "pipeline/files/png_image.h"
+
+namespace octascope::firmware_host {
+
+// 64 letters, each as high as the mean of its pixels: from a blank (0) to a full block (`highest`).
+std::string spectrum_strip(std::span<const double> line, double highest);
+
+// Saturation, brightness, dark level, contrast, frames.
+void add_quality(StepRecord& record, const LiveLook& look);
+
+// The mean line, and one line behind it; the axis reaches full scale.
+pipeline::Image draw_spectrum(const std::vector<double>& mean, const std::vector<double>& one,
+                              double full_scale);
+
+} // namespace octascope::firmware_host

@@ -1,0 +1,40 @@
+// A disk that stands still, for a program that is started with this library before the others
+// (LD_PRELOAD): while there is a file of the name in OCTASCOPE_STOPPED_DISK, whatever the program
+// writes at a place of a file, and has the disk sync, waits.
+#include <cstdlib>
+
+#include <dlfcn.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+namespace {
+
+void wait_while_stopped() {
+  const char* const name = std::getenv("OCTASCOPE_STOPPED_DISK");
+  while (name != nullptr && ::access(name, F_OK) == 0)
+    ::usleep(1000);
+}
+
+template <class Function> Function next(const char* name) {
+  return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
+}
+
+} // namespace
+
+extern "C" ssize_t pwrite64(int descriptor, const void* bytes, size_t size, off64_t offset) {
+  static const auto write = next<decltype(&pwrite64)>("pwrite64");
+  wait_while_stopped();
+  return write(descriptor, bytes, size, offset);
+}
+
+extern "C" ssize_t pwrite(int descriptor, const void* bytes, size_t size, off_t offset) {
+  static const auto write = next<decltype(&pwrite)>("pwrite");
+  wait_while_stopped();
+  return write(descriptor, bytes, size, offset);
+}
+
+extern "C" int fdatasync(int descriptor) {
+  static const auto sync = next<decltype(&fdatasync)>("fdatasync");
+  wait_while_stopped();
+  return sync(descriptor);
+}
