@@ -15,6 +15,7 @@
 #include "pipeline/calibration/calibration_writer.h"
 #include "pipeline/calibration_finder/lamp_lines.h"
 #include "pipeline/calibration_finder/tissue_sharpness.h"
+#include "pipeline/recordings/raw/raw_reader.h"
 
 namespace octascope::firmware_host {
 
@@ -394,6 +395,8 @@ hal::Result<> check(const CalibrateOptions& options) {
                   "or --calibration (with --tissue)");
   if (options.base && !options.tissue)
     return refuse("--calibration alone finds nothing new, expected --tissue with it");
+  if (options.tissue && !options.tissue_shape && !pipeline::is_raw_recording(*options.tissue))
+    return refuse("--tissue needs --shape B,A,N: B-scans, A-scans, samples");
   if (options.darks.sample.size() > 2)
     return refuse(fmt::format("--dark-sample is given {} times, expected once, or once for each "
                               "mirror",

@@ -217,12 +217,9 @@ SampleType spectrum_type(const std::filesystem::path& file, std::optional<Sample
 
 hal::Result<pipeline::SpectraFile> open_tissue(const std::filesystem::path& file,
                                                const TissueInput& input) {
-  if (!pipeline::is_raw_recording(file)) {
-    if (!input.shape)
-      return hal::fail(ErrorCode::invalid_argument,
-                       "--tissue needs --shape B,A,N: B-scans, A-scans, samples");
-    return pipeline::SpectraFile::open(file, *input.shape, spectrum_type(file, input.type));
-  }
+  if (!pipeline::is_raw_recording(file))
+    return pipeline::SpectraFile::open(file, input.shape.value_or(pipeline::SpectraShape{}),
+                                       spectrum_type(file, input.type));
   HAL_TRY(const auto reader, pipeline::RawReader::open(file));
   HAL_TRY(const auto volume, reader.first_whole_volume());
   HAL_TRY(auto spectra, reader.spectra(volume.first, volume.count, pipeline::RawLines::kept));

@@ -32,9 +32,9 @@ bool is_text(const std::filesystem::path& file);
 hal::Result<std::vector<double>> read_spectrum(const std::filesystem::path& file,
                                                const SpectrumInput& input, bool refuse_saturated);
 
-// Tissue: of a recording of raw spectra, which says its shape itself, the first whole volume.
+// Tissue: of a recording of raw spectra the first whole volume.
 struct TissueInput {
-  std::optional<pipeline::SpectraShape> shape;
+  std::optional<pipeline::SpectraShape> shape; // a recording says it itself
   std::optional<hal::SampleType> type;
 };
 hal::Result<pipeline::SpectraFile> open_tissue(const std::filesystem::path& file,

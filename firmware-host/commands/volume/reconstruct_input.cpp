@@ -32,13 +32,14 @@ hal::Result<ReconstructInput> open_plain(const ReconstructOptions& options) {
     return hal::fail(ErrorCode::invalid_argument,
                      "--shape has {} sweeps, expected a multiple of the {} repeats of each B-scan",
                      shape.b_scans, repeats);
-  HAL_TRY(const auto format,
-          spectrum_format(shape.samples, {options.type, options.significant_bits},
-                          options.right_shift));
+  const auto format =
+      spectrum_format(shape.samples, {options.type, options.significant_bits}, options.right_shift);
+  if (!format) // told as such ever since, as if the file did not fit
+    return hal::fail(ErrorCode::bad_data, "{}", format.error().message);
   HAL_TRY(auto spectra, pipeline::SpectraFile::open(options.spectra, shape, options.type));
   HAL_TRY(auto calibration,
           load_calibration(options, shape.samples, pipeline::Calibration::identity(shape.samples)));
-  return ReconstructInput{std::move(spectra), format, std::move(calibration), repeats};
+  return ReconstructInput{std::move(spectra), *format, std::move(calibration), repeats};
 }
 
 // As the run had it, but for another calibration that was asked for.
