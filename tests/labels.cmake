@@ -20,10 +20,14 @@ cmake_minimum_required(VERSION 3.25)
 # Real sweeps of hundreds of milliseconds, frames that must be taken in time, pictures that must not be
 # marked as late, and those of a moment after the start. What only waits for something to come is no clock's.
 set(clock
+  "aravis_camera\\.Genicam/LineCamera.*Contract\\."
   "pipeline_threads\\."
   "twins\\.sim/.*Contract\\..*/real_time"
   "v4l2_camera\\..*/real_time"
   "program\\.(NoFault|Scripts/ShownFaults|Window)\\.")
+
+# Aravis's fake camera has one port: who waits for it waits in its own time (loopback_port.h).
+set(genicam_port "aravis_camera\\.Genicam" "program_genicam\\.")
 
 set(slow
   "aravis_camera\\.GenicamCamera\\.(ends_soon|frames_with_lost|one_that_is_not_there|two_hundred)"
@@ -89,6 +93,10 @@ foreach(test IN LISTS test_${program}_TESTS)
     endif()
   endforeach()
   set_tests_properties("${test}" PROPERTIES LABELS "${labels}" RUN_SERIAL ${is_clock})
+  octascope_fits(has_port "${test}" ${genicam_port})
+  if(has_port)
+    set_tests_properties("${test}" PROPERTIES RESOURCE_LOCK genicam_port)
+  endif()
 endforeach()
 
 # An expression that fits nothing has been left behind by a test that has another name now.

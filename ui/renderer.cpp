@@ -138,7 +138,11 @@ hal::Result<> Renderer::draw_volume_alone(const ViewState& view, int width, int 
 
 hal::Result<> Renderer::prepare(const pipeline::Volume& volume, const ViewState& view,
                                 const DrawQuality& quality) {
-  return parts_->volume.finish(volume, parts_->fitted(view), quality);
+  const ViewState fitted = parts_->fitted(view);
+  parts_->volume.expect(fitted);
+  if (parts_->volume.wants_volume(fitted))
+    HAL_CHECK(show_volume(volume)); // in the flat pictures, too
+  return parts_->volume.finish(volume, fitted, quality);
 }
 
 bool Renderer::drew_volume() const {

@@ -38,6 +38,9 @@ public:
 
   hal::Result<> prepare();
   hal::Result<> run(StopSignal& stop_signal);
+  // Of volumes.
+  bool lost_sweeps() const;
+  void remove_file() const;
 
 private:
   hal::Result<> make_devices(const Configuration& configuration);
@@ -171,7 +174,12 @@ hal::Result<> Capture::run(StopSignal& stop_signal) {
   devices_->start_faults(clock_.now());
   if (recorder_)
     HAL_CHECK(recorder_->start(threads));
-  HAL_CHECK(acquisition_->start(threads));
+  if (auto started = acquisition_->start(threads); !started) {
+    if (recorder_)
+      recorder_->stop({});
+    remove_file();
+    return started;
+  }
   volumes_->start(threads);
   auto waited = wait_until_done(stop_signal);
   if (::isatty(STDERR_FILENO) != 0)
@@ -183,6 +191,16 @@ hal::Result<> Capture::run(StopSignal& stop_signal) {
     HAL_CHECK(write_mean());
   acquisition_->stop();
   return tell(std::move(waited));
+}
+
+// It was made by this capture, which refuses one that is there.
+void Capture::remove_file() const {
+  std::error_code error;
+  std::filesystem::remove(options_.file, error);
+}
+
+bool Capture::lost_sweeps() const {
+  return !options_.lines && volumes_->counters().lost_lines > 0;
 }
 
 // The file holds one frame of one line.
@@ -201,8 +219,10 @@ hal::Result<> Capture::write_mean() const {
 hal::Result<> Capture::tell(hal::Result<> waited) const {
   for (const pipeline::FaultRecord& fault : faults_.records())
     warn("octascope capture: {}: {}\n", facts_of(facts_of(fault.kind).device).name, fault.message);
-  if (!waited && kept_lines() == 0)
+  if (!waited && kept_lines() == 0) {
+    remove_file();
     return waited;
+  }
   if (recorder_)
     HAL_CHECK(raw_outcome(*recorder_));
   if (kept_lines() > 0 && recorder_)
@@ -221,9 +241,21 @@ hal::Result<> Capture::tell(hal::Result<> waited) const {
 } // namespace
 
 hal::Result<> capture(const CaptureOptions& options, StopSignal& stop_signal) {
-  Capture capture{options};
-  HAL_CHECK(capture.prepare());
-  return capture.run(stop_signal);
+  constexpr int most_attempts = 3; // a busy machine loses a sweep now and then
+  for (int attempt = 1;; ++attempt) {
+    Capture capture{options};
+    HAL_CHECK(capture.prepare());
+    auto done = capture.run(stop_signal);
+    if (!done || !capture.lost_sweeps())
+      return done;
+    if (attempt == most_attempts)
+      return hal::fail(hal::ErrorCode::bad_data,
+                       "{}: lines were lost in each of {} captures, so that volumes are not whole; "
+                       "give the machine less other work, or lower the line rate",
+                       options.file.string(), most_attempts);
+    warn("octascope capture: lines were lost; it is captured once more\n");
+    capture.remove_file();
+  }
 }
 
 } // namespace octascope::firmware_host

@@ -312,6 +312,8 @@ void compose_followed(VesselMarks& marks, const FollowedTreeStatus& tree, bool d
     marks.tree.format("vessels do not match");
   else if (tree.state == State::looking)
     marks.tree.format("vessels not placed yet");
+  else if (tree.state == State::removed && drawn) // where somebody had put it
+    marks.tree.format("vessels as placed by hand");
   else if (old || tree.state == State::removed)
     marks.tree.format("{} {} s ago", drawn ? "vessels placed" : "no vessels: placed", seconds);
 }

@@ -141,12 +141,16 @@ HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
     const Int distance =
         hn::And(brick_at(frame, frame.bricks, rays.octant, rays.position, active), whole(0xFF));
     const IntMask empty = hn::And(active, hn::Gt(distance, hn::Zero(Ints{})));
-    leaping = hn::CountTrue(Ints{}, empty);
+    Int samples = hn::IfThenElseZero(
+        empty, samples_to_leap(rays.axes, rays.position, hn::Sub(distance, whole(1))));
+    // One sample in four stands for all: always the same one.
+    if (frame.coarse_beside_flow)
+      samples = hn::AndNot(whole(samples_per_check - 1), samples);
+    leaping = hn::CountTrue(Ints{}, hn::Gt(samples, hn::Zero(Ints{})));
     if (leaping == 0)
       return;
     all = hn::CountTrue(Ints{}, active);
-    const Int samples = samples_to_leap(rays.axes, rays.position, hn::Sub(distance, whole(1)));
-    rays.leap(hn::IfThenElseZero(empty, samples));
+    rays.leap(samples);
   }
 }
 
@@ -191,15 +195,20 @@ HWY_INLINE void take_samples(const RayFrame& frame, IntMask may_flow, Rays& rays
   light = result;
 }
 
-// The second of the next samples, which stands for the tissue of all of them: it is weak where flow is
-// shown. Of what a ray has left, they are at least half then.
+// The second of the next samples, or the last one, which stands for the tissue of all of them: it is
+// weak where flow is shown.
 HWY_INLINE Sample begin_tissue(const RayFrame& frame, const Rays& rays) {
   static_assert(samples_per_check == 4);
-  const Position second{hn::Add(rays.position.z, rays.axes.z.step),
-                        hn::Add(rays.position.a, rays.axes.a.step),
-                        hn::Add(rays.position.b, rays.axes.b.step)};
-  return begin_sample<Flow::elsewhere>(frame, rays, second, hn::Add(rays.next, whole(1)),
-                                       no_rays());
+  const Int second = hn::Add(rays.next, whole(1));
+  const IntMask is_there = hn::Lt(second, rays.end);
+  const auto advanced = [&](Int from, Int step) {
+    return hn::Add(from, hn::IfThenElseZero(is_there, step));
+  };
+  const Position place{advanced(rays.position.z, rays.axes.z.step),
+                       advanced(rays.position.a, rays.axes.a.step),
+                       advanced(rays.position.b, rays.axes.b.step)};
+  return begin_sample<Flow::elsewhere>(frame, rays, place,
+                                       hn::IfThenElse(is_there, second, rays.next), no_rays());
 }
 
 // Advances by as many, with all that flows in such tissue.
@@ -233,8 +242,13 @@ HWY_INLINE void take_flow(const RayFrame& frame, IntMask may_flow, Rays& rays, L
 template <Look How> HWY_INLINE void take_tissue(const RayFrame& frame, Rays& rays, Light& light) {
   const Sample sample = begin_tissue(frame, rays);
   Substance here = classify<How, Flow::elsewhere>(frame, sample);
-  for (int twice = 0; twice < 2; ++twice)
-    here.opacity = hn::Mul(here.opacity, hn::Sub(real(2), here.opacity));
+  const Real one = here.opacity;
+  const Int left = hn::Sub(rays.end, rays.next);
+  for (int more = 1; more < samples_per_check; ++more) {
+    const RealMask is_there = hn::RebindMask(Floats{}, hn::Gt(left, whole(more)));
+    const Real added = hn::Mul(hn::Sub(real(1), here.opacity), one);
+    here.opacity = hn::Add(here.opacity, hn::IfThenElseZero(is_there, added));
+  }
   add_substance<false, has_hue(How, Flow::elsewhere), false>(here, sample.number, light);
   rays.leap(whole(samples_per_check));
   end_opaque(light, rays);

@@ -107,7 +107,10 @@ hal::Result<std::string> ask_to_place(Bench& bench, const std::string& what,
 
 hal::Result<StepRecord> find_camera(Bench& bench) {
   HAL_CHECK(ask_which_camera(bench));
+  const double samples = bench.session.number("samples", 0);
   HAL_CHECK(ask_scan(bench));
+  if (bench.session.number("samples", 0) != samples)
+    bench.session.set("calibration", ""); // it is of lines of another length
   HAL_TRY(const auto found, look_now(bench, "dark", 0));
   bench.session.set("camera", found.camera);
   StepRecord record;

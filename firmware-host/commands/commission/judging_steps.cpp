@@ -145,9 +145,10 @@ hal::Result<StepRecord> calibrate_from_captures(Bench& bench) {
   add_verdict(record, verdict);
   record.found.emplace_back("file", options.out.filename().string());
   record.pictures.push_back(options.picture->filename().string());
-  HAL_CHECK(draw_tissue(bench, options.out, record));
   bench.session.set("mirrors_apart_um", apart_um);
   bench.session.set("calibration", options.out.filename().string());
+  if (const auto drawn = draw_tissue(bench, options.out, record); !drawn)
+    record.warnings.push_back("the tissue could not be drawn: " + drawn.error().message);
   return record;
 }
 

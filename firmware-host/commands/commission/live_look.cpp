@@ -54,7 +54,11 @@ private:
 
 hal::Result<LiveLook> Look::run(int pulses) {
   hal::LineCamera& camera = devices_.line_camera();
-  HAL_CHECK(camera.open(devices_.camera_config()));
+  // One on the network may take longer than an open() waits; the next one goes on with it.
+  hal::Result<> opened = camera.open(devices_.camera_config());
+  for (int more = 0; more < 10 && !opened && opened.error().code == hal::ErrorCode::absent; ++more)
+    opened = camera.open(devices_.camera_config());
+  HAL_CHECK(opened);
   found_.camera = camera.identity();
   found_.format = pipeline::SpectrumFormat{devices_.format()};
   if (pulses == 0)
@@ -95,7 +99,7 @@ hal::Result<> Look::pulse() {
 
 void Look::take(const hal::LineFrame& frame) {
   ++found_.frames;
-  if (last_sequence_)
+  if (last_sequence_ && frame.sequence > *last_sequence_)
     found_.lost_frames += frame.sequence - *last_sequence_ - 1;
   if (last_begin_ && last_sequence_ && frame.sequence == *last_sequence_ + 1) {
     const hal::Duration took = frame.first_line - *last_begin_;

@@ -153,7 +153,9 @@ void Session::forget() {
 }
 
 hal::Result<> Session::save() const {
-  return pipeline::write_atomically(folder_ / state_file, state_.dump(2) + "\n");
+  return pipeline::write_atomically(
+      folder_ / state_file,
+      state_.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 std::filesystem::path Session::free_file(std::string_view stem, std::string_view extension) const {

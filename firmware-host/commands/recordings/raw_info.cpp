@@ -29,8 +29,8 @@ RawSummary summarise(const pipeline::RawReader& reader) {
   summary.whole_volumes = static_cast<std::size_t>(
       std::ranges::count_if(reader.volumes(), &pipeline::RawVolume::whole));
   if (!reader.frames().empty())
-    summary.duration_s = static_cast<double>(reader.frames().back().last_line_ns -
-                                             reader.frames().front().first_line_ns) *
+    summary.duration_s = (static_cast<double>(reader.frames().back().last_line_ns) -
+                          static_cast<double>(reader.frames().front().first_line_ns)) *
                          1e-9;
   return summary;
 }

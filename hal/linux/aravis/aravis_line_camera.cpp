@@ -35,14 +35,14 @@ Result<std::unique_ptr<OpenCamera>> open_genicam(const AravisLibrary& aravis,
   return open;
 }
 
-void end_stream(OpenCamera& open) {
-  if (!open.server)
+void end_stream(OpenCamera& open, std::unique_ptr<FrameServer> server) {
+  if (!server)
     return;
   if (!open.lost.load(std::memory_order_acquire)) {
     AravisAnswer answer{open.aravis};
     open.aravis.camera_stop_acquisition(open.camera.get(), answer.out());
   }
-  open.server.reset();
+  server.reset();
 }
 
 } // namespace
@@ -178,7 +178,10 @@ void AravisLineCamera::do_stop() {
   if (state() != DeviceState::streaming)
     return;
   open_->server->end_service();
-  errands_.start([open = open_.get()] { end_stream(*open); });
+  // Which has it from now on: close() may come while it is at work.
+  errands_.start([open = open_.get(), server = std::move(open_->server)]() mutable {
+    end_stream(*open, std::move(server));
+  });
   set_state(errands_.wait() ? DeviceState::ready : DeviceState::failed);
 }
 
@@ -188,7 +191,7 @@ void AravisLineCamera::do_close() {
     if (open_->server)
       open_->server->end_service();
     errands_.start([open = std::move(open_)]() mutable {
-      end_stream(*open);
+      end_stream(*open, std::move(open->server));
       open.reset();
     });
     if (answers)

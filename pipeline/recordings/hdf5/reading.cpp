@@ -155,6 +155,12 @@ hal::Result<> check_end(hid_t file, std::uint64_t address, std::uint64_t bytes) 
                    file_bytes, address + bytes);
 }
 
+bool walk_chunks(hid_t dataset) {
+  const Hdf5Handle all{H5Dget_space(dataset), H5Sclose}; // H5S_ALL not every version takes
+  hsize_t chunks = 0;
+  return H5Dget_num_chunks(dataset, all, &chunks) >= 0;
+}
+
 std::optional<StoredChunk> find_chunk(hid_t dataset, std::span<const hsize_t> offset) {
   unsigned filters = 0;
   haddr_t address = HADDR_UNDEF;

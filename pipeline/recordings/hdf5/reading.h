@@ -30,6 +30,9 @@ hal::Result<> check_members(hid_t dataset, const char* name, hid_t expected);
 // Of what was cut off a file after it was opened HDF5 reads zeros, and no error.
 hal::Result<> check_end(hid_t file, std::uint64_t address, std::uint64_t bytes);
 
+// Has HDF5 read the whole index of a dataset's chunks. False: it failed.
+bool walk_chunks(hid_t dataset);
+
 struct StoredChunk {
   std::uint64_t address = 0; // in the file
   std::uint64_t bytes = 0;

@@ -35,7 +35,11 @@ hal::Result<> try_apart(const std::function<void()>& action) {
   if (child == 0) {
     forget_signal_handlers();
     ::alarm(most_s);
-    action();
+    try {
+      action();
+    } catch (...) { // as without memory: nothing of this process may go on in the parent's frames
+      ::_exit(1);
+    }
     ::_exit(0);
   }
   int status = 0;

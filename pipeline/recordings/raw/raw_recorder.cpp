@@ -180,6 +180,7 @@ bool RawRecorder::has_room() {
               std::memory_order_relaxed);
   if (left >= facts_.format.frame_bytes())
     return true;
+  flush(); // nothing more will
   give_up(Fault::recording_disk_full,
           {hal::ErrorCode::system,
            fmt::format("{}: the recording ended: only {} MB are left on its disk, and {} stay free "

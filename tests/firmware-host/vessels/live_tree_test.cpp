@@ -215,7 +215,7 @@ class LiveTreeBesideVolumes : public LiveTreeDisplayTest {
 protected:
   void SetUp() override {
     show(stamped(live_flow()));
-    clock_.advance(LiveTreeThread::least_interval - LiveTreeDisplay::longest_wait - 1ms);
+    clock_.advance(LiveTreeThread::least_interval - 1ms);
     const pipeline::Volume next = stamped(live_flow());
     display_.advance(&next, false);
     display_.advance(&next, false); // the picture after it

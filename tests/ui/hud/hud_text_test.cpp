@@ -387,7 +387,7 @@ TEST(HudText, a_tree_that_was_not_registered_for_long_is_marked_with_its_age) {
   EXPECT_TRUE(told().tree_old);
   EXPECT_EQ(told().registration.view(), "residual 14 µm, overlap 91 %");
   status.vessels.followed = Followed{Followed::State::removed, 0, std::chrono::seconds{32}};
-  EXPECT_EQ(told().tree.view(), "vessels placed 32 s ago") << "by hand, they are";
+  EXPECT_EQ(told().tree.view(), "vessels as placed by hand");
   status.vessels.state = VesselStatus::State::none;
   EXPECT_EQ(told().tree.view(), "no vessels: placed 32 s ago");
   const HudText hud = compose_hud_text({}, status, {});
