@@ -38,7 +38,7 @@ public:
 
   hal::Result<> prepare();
   hal::Result<> run(StopSignal& stop_signal);
-  // Of volumes.
+  // So that not all of the kept volumes are whole.
   bool lost_sweeps() const;
   void remove_file() const;
 
@@ -200,7 +200,7 @@ void Capture::remove_file() const {
 }
 
 bool Capture::lost_sweeps() const {
-  return !options_.lines && volumes_->counters().lost_lines > 0;
+  return recorder_ && !options_.lines && volumes_->counters().lost_lines > 0;
 }
 
 // The file holds one frame of one line.

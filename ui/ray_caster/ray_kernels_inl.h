@@ -195,20 +195,15 @@ HWY_INLINE void take_samples(const RayFrame& frame, IntMask may_flow, Rays& rays
   light = result;
 }
 
-// The second of the next samples, or the last one, which stands for the tissue of all of them: it is
-// weak where flow is shown.
+// One of the next samples, which stands for the tissue of all of them: it is weak where flow is shown.
+// Another one in each pixel around, or shells would be seen.
 HWY_INLINE Sample begin_tissue(const RayFrame& frame, const Rays& rays) {
-  static_assert(samples_per_check == 4);
-  const Int second = hn::Add(rays.next, whole(1));
-  const IntMask is_there = hn::Lt(second, rays.end);
-  const auto advanced = [&](Int from, Int step) {
-    return hn::Add(from, hn::IfThenElseZero(is_there, step));
-  };
-  const Position place{advanced(rays.position.z, rays.axes.z.step),
-                       advanced(rays.position.a, rays.axes.a.step),
-                       advanced(rays.position.b, rays.axes.b.step)};
-  return begin_sample<Flow::elsewhere>(frame, rays, place,
-                                       hn::IfThenElse(is_there, second, rays.next), no_rays());
+  const Int last = hn::Sub(hn::Sub(rays.end, rays.next), whole(1));
+  const Int ahead = hn::Min(rays.chosen, hn::Max(last, hn::Zero(Ints{})));
+  const auto at = [&](Int from, Int step) { return hn::Add(from, hn::Mul(step, ahead)); };
+  const Position place{at(rays.position.z, rays.axes.z.step), at(rays.position.a, rays.axes.a.step),
+                       at(rays.position.b, rays.axes.b.step)};
+  return begin_sample<Flow::elsewhere>(frame, rays, place, hn::Add(rays.next, ahead), no_rays());
 }
 
 // Advances by as many, with all that flows in such tissue.

@@ -22,6 +22,8 @@ namespace octascope::ui::HWY_NAMESPACE {
 inline constexpr int packet_width = lanes >= 8 ? 4 : 2;
 inline constexpr int packet_height = lanes / packet_width;
 
+inline constexpr int samples_per_check = 4; // between two checks for empty bricks
+
 // The samples of each ray are numbered from 0, at t = first_mm.
 struct Rays {
   Position position; // of sample `next`
@@ -31,7 +33,8 @@ struct Rays {
   Real first_mm;
   Real cosine; // between ray and view
   Int next;
-  Int end; // one past the last sample
+  Int end;    // one past the last sample
+  Int chosen; // of so many samples taken together, the one that stands for all (coarse_beside_flow)
 
   HWY_INLINE IntMask active() const { return hn::Lt(next, end); }
   HWY_INLINE void step() {
@@ -139,6 +142,10 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
 
   // All rays' samples lie on common shells around the eye, shifted by each pixel's dither.
   const Real shift = dither(frame, column_at, hn::Sub(whole(frame.height - 1), row_at));
+  const Int elsewhere = hn::Add(column_at, whole(dither_size / 2));
+  rays.chosen = hn::ConvertTo(
+      Ints{}, hn::Mul(real(samples_per_check),
+                      dither(frame, elsewhere, hn::Sub(whole(frame.height - 1), row_at))));
   const Real step = real(frame.step_mm);
   const Real per_step = real(1 / frame.step_mm);
   const Real shell = hn::Ceil(hn::Sub(hn::Mul(inside.from, per_step), shift));
@@ -160,8 +167,6 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
                                 hn::And(rays.axes.b.towards, whole(4 * frame.brick_octant))));
   return rays;
 }
-
-inline constexpr int samples_per_check = 4; // between two checks for empty bricks
 
 // Stores a packet, clipped to the picture; x and y are its first pixel.
 HWY_INLINE void store(const RayFrame& frame, int x, int y, Int rgba, Real depth_mm) {

@@ -31,8 +31,10 @@ hal::Result<> ask_which_camera(Bench& bench) {
     say("  {}  {}{}\n", device.node, device.name,
         device.usable ? std::string{} : " (" + device.why_not + "; " + device.remedy + ")");
   }
-  HAL_TRY(auto camera, bench.dialogue.ask("Line camera: auto, or a node as /dev/video0?",
-                                          bench.session.text("line_camera", "auto")));
+  HAL_TRY(
+      auto camera,
+      bench.dialogue.ask("Line camera: auto, a node as /dev/video0, or as gigevision:192.168.1.20?",
+                         bench.session.text("line_camera", "auto")));
   bench.session.set("line_camera", camera);
   return {};
 }
