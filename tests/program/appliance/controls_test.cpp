@@ -120,7 +120,7 @@ TEST(Controls, a_pedal_and_a_knob_do_everything) {
   // The tree lay with its middle in the volume's; then it was turned and shifted.
   const fs::path kept_place = kept_registration(folder.path());
   const auto registration = pipeline::Registration::load(kept_place);
-  ASSERT_TRUE(registration) << registration.error().message;
+  ASSERT_TRUE(registration) << registration.error().message << '\n' << result.describe();
   EXPECT_EQ(registration->provenance.method, "moved by hand on the display");
   EXPECT_EQ(registration->provenance.source, "tree.swc, before: not registered");
   const auto& turned = registration->volume_from_tree.rotation;
