@@ -28,6 +28,8 @@ std::vector<double> fringes_of(std::span<const double> line) {
 }
 
 double level_of_darkest_hundredth(std::vector<double> values) {
+  if (values.empty())
+    return 0;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 100);
   std::ranges::nth_element(values, at);
   return *at;
