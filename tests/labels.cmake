@@ -56,9 +56,9 @@ set(sanitized
   "ui\\.Vessel(Methods|OverlayTest|Splatter)\\."
   "ui\\.VolumePainterTest\\.")
 # Minutes, for threads of which others have the same.
-set(not_tsan "ui\\.VolumePainterTest\\.draws_again" "live_tree\\.FollowedVesselsTest\\.")
-# Tracings that take as long as their trees may be old, by a clock that does not wait for them.
-set(not_asan "live_tree\\.FollowedVesselsTest\\.")
+set(not_tsan "ui\\.VolumePainterTest\\.draws_again" "ui\\.Buffers/EveryChange\\.with_vessels" "live_tree\\.FollowedVesselsTest\\.")
+# The same; and tracings that take as long as their trees may be old, by a clock that does not wait for them.
+set(not_asan "ui\\.Buffers/EveryChange\\.with_vessels" "live_tree\\.FollowedVesselsTest\\.")
 
 # Does one of the expressions fit the name?
 function(octascope_fits variable name)
