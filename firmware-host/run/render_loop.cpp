@@ -186,7 +186,10 @@ void RenderLoop::answer(const ui::ControlRequests& requests) {
   picture_wanted_ = picture_wanted_ || requests.snapshot;
   if (requests.auto_window)
     find_window();
-  if (requests.keep_registration && parts_.vessels != nullptr && volume_.whole() != nullptr)
+  if (requests.keep_registration && volume_.whole() == nullptr)
+    controller_.actions().tell(ui::Action::keep_registration, "not yet: no volume",
+                               parts_.clock.now());
+  else if (requests.keep_registration && parts_.vessels != nullptr)
     parts_.vessels->keep_registration(volume_.whole()->geometry, controller_.actions());
   if (requests.record)
     controller_.actions().tell(ui::Action::record,

@@ -287,8 +287,10 @@ void VesselDisplay::take_written(ui::Renderer* renderer, ui::ViewActions& action
 
 void VesselDisplay::keep_registration(const pipeline::VolumeGeometry& geometry,
                                       ui::ViewActions& actions) {
-  if (!loaded_ || status_.state != ui::VesselStatus::State::shown)
+  if (!loaded_ || status_.state != ui::VesselStatus::State::shown) {
+    actions.tell(ui::Action::keep_registration, "no loaded vessels are shown", clock_.now());
     return;
+  }
   const ui::VesselNudge nudge = actions.state().vessel_nudge;
   const pipeline::RigidTransform place = volume_from_tree(placed(), nudge, geometry);
   const std::string before =

@@ -59,13 +59,8 @@ RecordingReader::~RecordingReader() {
 }
 
 hal::Result<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
-  const Hdf5Silence silence;
-  auto opened = check_file(path)
-                    .and_then([&] { return try_apart([&] { read_indices(load(path)); }); })
-                    .and_then([&] { return load(path); });
-  if (!opened)
-    return hal::fail(opened.error().code, "{}: {}", path.string(), opened.error().message);
-  return RecordingReader{std::move(*opened)};
+  HAL_TRY(auto opened, load_tried(path, load, read_indices));
+  return RecordingReader{std::move(opened)};
 }
 
 hal::Result<std::unique_ptr<RecordingReader::File>>

@@ -131,13 +131,8 @@ RawReader::~RawReader() {
 }
 
 hal::Result<RawReader> RawReader::open(const std::filesystem::path& path) {
-  const Hdf5Silence silence;
-  auto opened = check_file(path)
-                    .and_then([&] { return try_apart([&] { read_indices(load(path)); }); })
-                    .and_then([&] { return load(path); });
-  if (!opened)
-    return hal::fail(opened.error().code, "{}: {}", path.string(), opened.error().message);
-  return RawReader{std::move(*opened)};
+  HAL_TRY(auto opened, load_tried(path, load, read_indices));
+  return RawReader{std::move(opened)};
 }
 
 hal::Result<std::unique_ptr<RawReader::File>> RawReader::load(const std::filesystem::path& path) {
