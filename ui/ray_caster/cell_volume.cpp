@@ -31,8 +31,6 @@ std::int64_t row_size(const pipeline::VolumeGeometry& g) {
 } // namespace
 
 bool CellVolume::fits(const pipeline::VolumeGeometry& g) {
-  // Positions have 16 bits for the fraction, one for the sign.
-  constexpr int longest = 32000;
   return g.depths >= 1 && g.a_scans >= 1 && g.b_scans >= 1 && g.depths <= longest &&
          g.a_scans <= longest && g.b_scans <= longest &&
          row_size(g) * (std::int64_t{g.b_scans} + 2) <

@@ -20,6 +20,9 @@ public:
   CellVolume() = default;
   explicit CellVolume(const pipeline::VolumeGeometry& geometry);
 
+  // Along any axis: positions have 16 bits for the fraction, one for the sign.
+  static constexpr int longest = 32000;
+
   // Whether the offsets fit in 32 bits, as the kernels require.
   static bool fits(const pipeline::VolumeGeometry& geometry);
 

@@ -114,14 +114,21 @@ RayCaster::RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team)
 void RayCaster::copy_b_scans(const pipeline::Volume& volume, const pipeline::BScanRange& range,
                              const std::function<void(int)>& prepare, const FlowVoxels* flow) {
   const std::size_t size = volume.geometry.b_scan_voxels();
+  const auto flow_of = [&](int b) {
+    return flow->counts.subspan(static_cast<std::size_t>(b) * size, size);
+  };
   team_->run(static_cast<std::uint32_t>(range.to - range.from), [&](std::uint32_t i) {
     const int b = range.from + static_cast<int>(i);
     if (prepare)
       prepare(b);
     cells_->update(b, volume.b_scan(b));
     if (flow != nullptr)
-      flow_cells_.update(b, flow->counts.subspan(static_cast<std::size_t>(b) * size, size));
+      flow_cells_.update(b, flow_of(b));
   });
+  if (flow == nullptr)
+    return;
+  team_->run(static_cast<std::uint32_t>(range.to - range.from + 1),
+             [&](std::uint32_t i) { flow_cells_.mark(range.from + static_cast<int>(i)); });
 }
 
 hal::Result<> RayCaster::show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
@@ -141,7 +148,7 @@ hal::Result<> RayCaster::show(const pipeline::Volume& volume, const pipeline::Oc
   if (!cells_ || cells_->geometry() != g)
     cells_.emplace(g);
   if (flow != nullptr && flow_cells_.geometry() != g)
-    flow_cells_ = CellVolume{g};
+    flow_cells_ = FlowCells{g};
   has_flow_ = flow != nullptr;
   occupancy_ = occupancy;
   copy_b_scans(volume, {0, g.b_scans}, prepare, flow);
@@ -249,7 +256,14 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
   f.cut[0] = rays.cut.x;
   f.cut[1] = rays.cut.y;
   if (settings.flow_opacity) {
-    f.flow_cells = flow_cells_.data();
+    f.flow = flow_cells_.counts();
+    f.flow_column = flow_cells_.column_bytes();
+    f.flow_slab = flow_cells_.slab_bytes();
+    f.last_a = g.a_scans - 1;
+    f.last_b = g.b_scans - 1;
+    f.flow_marks = flow_cells_.marks();
+    f.mark_row = flow_cells_.mark_row();
+    f.mark_slab = flow_cells_.mark_slab();
     f.flow_bricks = flow_distances_.data();
     f.flow_opacity_and_weight = flow_table_->opacity_and_weight.data();
     f.coarse_beside_flow = settings.coarse_beside_flow;

@@ -21,6 +21,7 @@
 #include "ui/depth_mask/depth_image.h"
 #include "ui/layout/layout.h"
 #include "ui/ray_caster/cell_volume.h"
+#include "ui/ray_caster/flow_cells.h"
 #include "ui/ray_caster/light_volume.h"
 #include "ui/ray_caster/projected_slab.h"
 #include "ui/ray_caster/ray_kernels.h"
@@ -69,7 +70,7 @@ struct RaySettings {
   // Of what flows for certain, over one reference step (ui/transfer/flow_look.h); nothing: flow is not
   // drawn.
   std::optional<float> flow_opacity{};
-  // With flow, for `composite`: of the tissue, one sample in four is taken for all four. It is a haze
+  // With flow, for `composite`: of the tissue, one sample in eight is taken for all eight. It is a haze
   // then (tissue_beside_flow), so that a picture changes little. Of what flows, all samples are.
   bool coarse_beside_flow = false;
   // Not empty: since the same picture was drawn into this image, the volume has changed in these
@@ -143,7 +144,7 @@ private:
   BrickGrid bricks_;
   DistancesAhead distances_;
   // What flows. The cells stay allocated while volumes without are shown.
-  CellVolume flow_cells_;
+  FlowCells flow_cells_;
   pipeline::Occupancy flow_occupancy_;
   bool has_flow_ = false;
   std::unique_ptr<FlowTable> flow_table_; // made when flow is first drawn, for:

@@ -36,8 +36,15 @@ struct RayFrame {
   bool is_cut;
   float cut[2]; // RayGeometry::cut
 
-  // What flows, in the layout of `cells` and `bricks`. Only kernels of flow read it.
-  const std::uint8_t* flow_cells;
+  // What flows. Only kernels of flow read it.
+  const std::uint8_t* flow; // FlowCells
+  std::int32_t flow_column;
+  std::int32_t flow_slab;
+  std::int32_t last_a;
+  std::int32_t last_b;
+  const std::uint32_t* flow_marks;
+  std::int32_t mark_row;
+  std::int32_t mark_slab;
   const std::uint16_t* flow_bricks;
   const std::uint32_t* flow_opacity_and_weight; // FlowTable
   bool coarse_beside_flow;                      // RaySettings::coarse_beside_flow

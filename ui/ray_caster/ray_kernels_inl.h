@@ -56,14 +56,15 @@ template <Flow Flows>
 HWY_INLINE Sample begin_sample(const RayFrame& frame, const Rays& rays, const Position& position,
                                Int number, IntMask may_flow) {
   const IntMask valid = hn::Lt(number, rays.end);
-  Sample sample{
-      position,         number,           valid,   fetch_cell(frame, frame.cells, position, valid),
-      hn::Zero(Ints{}), hn::Zero(Ints{}), may_flow};
+  Sample sample{position,         number,           valid,   fetch_cell(frame, position, valid),
+                hn::Zero(Ints{}), hn::Zero(Ints{}), may_flow};
   if constexpr (Flows == Flow::here) {
-    sample.flows = hn::And(valid, may_flow);
-    const Cell flow = fetch_cell(frame, frame.flow_cells, position, sample.flows);
-    sample.flow_near = flow.near;
-    sample.flow_far = flow.far;
+    sample.flows = flows_at(frame, position, hn::And(valid, may_flow));
+    if (!hn::AllFalse(Ints{}, sample.flows)) {
+      const Cell flow = fetch_flow(frame, position, sample.flows);
+      sample.flow_near = flow.near;
+      sample.flow_far = flow.far;
+    }
   }
   return sample;
 }
@@ -143,9 +144,9 @@ HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
     const IntMask empty = hn::And(active, hn::Gt(distance, hn::Zero(Ints{})));
     Int samples = hn::IfThenElseZero(
         empty, samples_to_leap(rays.axes, rays.position, hn::Sub(distance, whole(1))));
-    // One sample in four stands for all: always the same one.
+    // One sample stands for several: always the same one.
     if (frame.coarse_beside_flow)
-      samples = hn::AndNot(whole(samples_per_check - 1), samples);
+      samples = hn::AndNot(whole(samples_of_haze - 1), samples);
     leaping = hn::CountTrue(Ints{}, hn::Gt(samples, hn::Zero(Ints{})));
     if (leaping == 0)
       return;
@@ -157,7 +158,8 @@ HWY_INLINE void leap_empty_bricks(const RayFrame& frame, Rays& rays) {
 // The rays at whose next few samples something may flow. `still_before`: up to which sample of each
 // ray nothing is known to.
 HWY_INLINE IntMask meet_flow(const RayFrame& frame, const Rays& rays, Int& still_before) {
-  const Int needed = hn::Min(hn::Add(rays.next, whole(samples_per_check)), rays.end);
+  const int few = frame.coarse_beside_flow ? samples_of_haze : samples_per_check;
+  const Int needed = hn::Min(hn::Add(rays.next, whole(few)), rays.end);
   // Not of rays that have ended: their positions may lie outside of all bricks.
   const IntMask open = hn::And(rays.active(), hn::Lt(still_before, needed));
   if (hn::AllFalse(Ints{}, open))
@@ -197,40 +199,73 @@ HWY_INLINE void take_samples(const RayFrame& frame, IntMask may_flow, Rays& rays
 
 // One of the next samples, which stands for the tissue of all of them: it is weak where flow is shown.
 // Another one in each pixel around, or shells would be seen.
-HWY_INLINE Sample begin_tissue(const RayFrame& frame, const Rays& rays) {
+struct TissueAhead {
+  Position position;
+  Int number;
+};
+HWY_INLINE TissueAhead tissue_ahead(const Rays& rays) {
   const Int last = hn::Sub(hn::Sub(rays.end, rays.next), whole(1));
   const Int ahead = hn::Min(rays.chosen, hn::Max(last, hn::Zero(Ints{})));
   const auto at = [&](Int from, Int step) { return hn::Add(from, hn::Mul(step, ahead)); };
-  const Position place{at(rays.position.z, rays.axes.z.step), at(rays.position.a, rays.axes.a.step),
-                       at(rays.position.b, rays.axes.b.step)};
-  return begin_sample<Flow::elsewhere>(frame, rays, place, hn::Add(rays.next, ahead), no_rays());
+  return {{at(rays.position.z, rays.axes.z.step), at(rays.position.a, rays.axes.a.step),
+           at(rays.position.b, rays.axes.b.step)},
+          hn::Add(rays.next, ahead)};
+}
+HWY_INLINE Sample begin_tissue(const RayFrame& frame, const Rays& rays) {
+  const TissueAhead ahead = tissue_ahead(rays);
+  return begin_sample<Flow::elsewhere>(frame, rays, ahead.position, ahead.number, no_rays());
+}
+
+// Few lanes'.
+HWY_INLINE void prefetch_flow(const RayFrame& frame, const Position& p, IntMask valid) {
+  if (hn::AllFalse(Ints{}, valid))
+    return;
+  const Edges at = flow_edges(frame, p, valid);
+  alignas(64) std::int32_t offsets[4][lanes];
+  hn::Store(at.near_first, Ints{}, offsets[0]);
+  hn::Store(at.near_second, Ints{}, offsets[1]);
+  hn::Store(at.far_first, Ints{}, offsets[2]);
+  hn::Store(at.far_second, Ints{}, offsets[3]);
+  alignas(8) std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(Ints{}, valid, bits);
+  for (unsigned left = bits[0] | static_cast<unsigned>(bits[1]) << 8U; left != 0; left &= left - 1)
+    for (const auto& edge : offsets)
+      __builtin_prefetch(frame.flow + edge[std::countr_zero(left)]);
+}
+
+// Of the next few samples of each ray: where something may be seen to flow. It is fetched ahead.
+struct FlowAhead {
+  IntMask flows[samples_of_haze];
+  bool any = false;
+};
+HWY_INLINE FlowAhead find_flow(const RayFrame& frame, Rays rays, IntMask may_flow) {
+  FlowAhead ahead;
+  IntMask any = no_rays();
+  for (IntMask& flows : ahead.flows) {
+    flows = flows_at(frame, rays.position, hn::And(may_flow, rays.active()));
+    any = hn::Or(any, flows);
+    prefetch_flow(frame, rays.position, flows);
+    rays.step();
+  }
+  ahead.any = !hn::AllFalse(Ints{}, any);
+  return ahead;
 }
 
 // Advances by as many, with all that flows in such tissue.
 template <Look How>
-HWY_INLINE void take_flow(const RayFrame& frame, IntMask may_flow, Rays& rays, Light& light) {
-  const Sample middle = begin_tissue(frame, rays);
-  Light result = light;
-  Cell cell = fetch_cell(frame, frame.flow_cells, rays.position,
-                         hn::And(may_flow, hn::Lt(rays.next, rays.end)));
-  const Substance tissue = classify<How, Flow::elsewhere>(frame, middle);
-  for (int i = 0; i < samples_per_check; ++i) {
-    const Int number = rays.next;
-    const IntMask valid = hn::Lt(number, rays.end);
-    const Cell here = cell;
-    rays.step();
-    if (i + 1 < samples_per_check)
-      cell = fetch_cell(frame, frame.flow_cells, rays.position,
-                        hn::And(may_flow, hn::Lt(rays.next, rays.end)));
+HWY_INLINE void take_flow(const RayFrame& frame, const FlowAhead& ahead, Rays& rays, Light& light) {
+  const Substance tissue = classify<How, Flow::elsewhere>(frame, begin_tissue(frame, rays));
+  for (const IntMask& flows : ahead.flows) {
     Substance both = tissue;
-    both.opacity = hn::IfThenElseZero(hn::RebindMask(Floats{}, valid), both.opacity);
-    add_flow(hn::IfThenElseZero(hn::And(valid, may_flow),
-                                table_entry(frame.flow_opacity_and_weight, interpolate(here))),
-             both);
-    add_substance<false, true, true>(both, number, result);
+    both.opacity = hn::IfThenElseZero(hn::RebindMask(Floats{}, rays.active()), both.opacity);
+    if (!hn::AllFalse(Ints{}, flows)) {
+      const Int flow = interpolate(fetch_flow(frame, rays.position, flows));
+      add_flow(hn::IfThenElseZero(flows, table_entry(frame.flow_opacity_and_weight, flow)), both);
+    }
+    add_substance<false, true, true>(both, rays.next, light);
+    rays.step();
   }
-  end_opaque(result, rays);
-  light = result;
+  end_opaque(light, rays);
 }
 
 // Advances by as many, of tissue alone.
@@ -239,13 +274,13 @@ template <Look How> HWY_INLINE void take_tissue(const RayFrame& frame, Rays& ray
   Substance here = classify<How, Flow::elsewhere>(frame, sample);
   const Real one = here.opacity;
   const Int left = hn::Sub(rays.end, rays.next);
-  for (int more = 1; more < samples_per_check; ++more) {
+  for (int more = 1; more < samples_of_haze; ++more) {
     const RealMask is_there = hn::RebindMask(Floats{}, hn::Gt(left, whole(more)));
     const Real added = hn::Mul(hn::Sub(real(1), here.opacity), one);
     here.opacity = hn::Add(here.opacity, hn::IfThenElseZero(is_there, added));
   }
   add_substance<false, has_hue(How, Flow::elsewhere), false>(here, sample.number, light);
-  rays.leap(whole(samples_per_check));
+  rays.leap(whole(samples_of_haze));
   end_opaque(light, rays);
 }
 
@@ -261,10 +296,15 @@ HWY_INLINE bool advance(const RayFrame& frame, Rays& rays, Int& still_before, Li
     const IntMask may_flow = meet_flow(frame, rays, still_before);
     const bool flows = !hn::AllFalse(Ints{}, may_flow);
     if (!Shaded && frame.coarse_beside_flow) {
+      FlowAhead ahead;
       if (flows)
-        take_flow<How>(frame, may_flow, rays, light);
+        ahead = find_flow(frame, rays, may_flow);
+      if (ahead.any)
+        take_flow<How>(frame, ahead, rays, light);
       else
         take_tissue<How>(frame, rays, light);
+      // So few samples lie in a cache line that each would be waited for at the packet's next turn.
+      prefetch_cells(frame, tissue_ahead(rays).position, rays.active());
     } else if (flows) {
       take_samples<Shaded, How, Flow::here>(frame, may_flow, rays, light);
     } else {

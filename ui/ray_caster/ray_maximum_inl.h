@@ -46,13 +46,22 @@ HWY_INLINE Highest find_highest(const RayFrame& frame, Rays rays) {
       return highest;
     for (int i = 0; i < samples_per_check; ++i) {
       const IntMask valid = rays.active();
-      const Int level = hn::IfThenElseZero(
-          valid, interpolate(fetch_cell(frame, frame.cells, rays.position, valid)));
+      const Int level =
+          hn::IfThenElseZero(valid, interpolate(fetch_cell(frame, rays.position, valid)));
       highest.sample = hn::IfThenElse(hn::Gt(level, highest.level), rays.next, highest.sample);
       highest.level = hn::Max(level, highest.level);
       rays.step();
     }
   }
+}
+
+// FlowTable's entry there; 0 where nothing is seen to flow, and in other lanes.
+HWY_INLINE Int flow_entry(const RayFrame& frame, const Position& position, IntMask valid) {
+  const IntMask flows = flows_at(frame, position, valid);
+  if (hn::AllFalse(Ints{}, flows))
+    return hn::Zero(Ints{});
+  const Int flow = interpolate(fetch_flow(frame, position, flows));
+  return hn::IfThenElseZero(flows, table_entry(frame.flow_opacity_and_weight, flow));
 }
 
 // All that flows along each ray: how opaque it is, and the last sample up to which half was not reached.
@@ -69,9 +78,7 @@ HWY_INLINE FlowAlong gather_flow(const RayFrame& frame, Rays rays) {
     if (hn::AllFalse(Ints{}, rays.active()))
       return {hn::Sub(real(1), transparency), half};
     for (int i = 0; i < samples_per_check; ++i) {
-      const IntMask valid = rays.active();
-      const Int flow = interpolate(fetch_cell(frame, frame.flow_cells, rays.position, valid));
-      const Int entry = hn::IfThenElseZero(valid, table_entry(frame.flow_opacity_and_weight, flow));
+      const Int entry = flow_entry(frame, rays.position, rays.active());
       const Real opacity = hn::Mul(upper_16_bits(entry), real(1.0F / 65535));
       const RealMask counts = hn::And(hn::Gt(opacity, real(0)), hn::Ge(transparency, real(0.5F)));
       half = hn::IfThenElse(hn::RebindMask(Ints{}, counts), rays.next, half);

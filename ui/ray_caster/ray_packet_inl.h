@@ -23,6 +23,8 @@ inline constexpr int packet_width = lanes >= 8 ? 4 : 2;
 inline constexpr int packet_height = lanes / packet_width;
 
 inline constexpr int samples_per_check = 4; // between two checks for empty bricks
+inline constexpr int samples_of_haze =
+    8; // likewise, for one that stands for all (coarse_beside_flow)
 
 // The samples of each ray are numbered from 0, at t = first_mm.
 struct Rays {
@@ -144,7 +146,7 @@ HWY_INLINE Rays make_rays(const RayFrame& frame, int x, int y) {
   const Real shift = dither(frame, column_at, hn::Sub(whole(frame.height - 1), row_at));
   const Int elsewhere = hn::Add(column_at, whole(dither_size / 2));
   rays.chosen = hn::ConvertTo(
-      Ints{}, hn::Mul(real(samples_per_check),
+      Ints{}, hn::Mul(real(samples_of_haze),
                       dither(frame, elsewhere, hn::Sub(whole(frame.height - 1), row_at))));
   const Real step = real(frame.step_mm);
   const Real per_step = real(1 / frame.step_mm);

@@ -98,15 +98,75 @@ struct Cell {
   hn::Vec<UnsignedWords> to_far, to_second, below;
 };
 
-// Lanes that are not `valid` read the first cell. `cells`: those of the levels or of what flows.
-HWY_INLINE Cell fetch_cell(const RayFrame& frame, const std::uint8_t* cells, const Position& p,
-                           IntMask valid) {
+// Of the lanes' cells, in bytes; of those that are not `valid`, of the first one.
+HWY_INLINE Int cell_offset(const RayFrame& frame, const Position& p, IntMask valid) {
   const Int offset = hn::Add(hn::Add(hn::Mul(hn::ShiftRight<16>(p.b), whole(frame.row_bytes)),
                                      hn::Mul(hn::ShiftRight<16>(p.a), whole(frame.column_bytes))),
                              hn::And(hn::ShiftRight<15>(p.z), whole(-2)));
-  const Int at = hn::IfThenElseZero(valid, offset);
-  return {gather(cells, at), gather(cells + frame.row_bytes, at), upper_byte_twice(p.b),
+  return hn::IfThenElseZero(valid, offset);
+}
+
+// The processor fetches them while it does something else.
+HWY_INLINE void prefetch_cells(const RayFrame& frame, const Position& p, IntMask valid) {
+  alignas(64) std::int32_t offsets[lanes];
+  hn::Store(cell_offset(frame, p, valid), Ints{}, offsets);
+  for (const std::int32_t offset : offsets) {
+    __builtin_prefetch(frame.cells + offset);
+    __builtin_prefetch(frame.cells + offset + frame.row_bytes);
+  }
+}
+
+HWY_INLINE Cell fetch_cell(const RayFrame& frame, const Position& p, IntMask valid) {
+  const Int at = cell_offset(frame, p, valid);
+  return {gather(frame.cells, at), gather(frame.cells + frame.row_bytes, at), upper_byte_twice(p.b),
           fraction_twice(p.a), hn::ShiftRight<1>(fraction_twice(p.z))};
+}
+
+// The A-scans at a cell's edges, in bytes from the first one: those of one B-scan and of the next.
+struct Edges {
+  Int near_first, near_second, far_first, far_second;
+};
+HWY_INLINE Edges flow_edges(const RayFrame& frame, const Position& p, IntMask valid) {
+  const auto either_side = [&](Int position, int last, int stride, Int& before,
+                               Int& after) HWY_ATTR {
+    const Int cell = hn::IfThenElseZero(valid, hn::ShiftRight<16>(position));
+    before = hn::Mul(hn::Max(hn::Sub(cell, whole(1)), whole(0)), whole(stride));
+    after = hn::Mul(hn::Min(cell, whole(last)), whole(stride));
+  };
+  Int first, second, near, far;
+  either_side(p.a, frame.last_a, frame.flow_column, first, second);
+  either_side(p.b, frame.last_b, frame.flow_slab, near, far);
+  const Int z = hn::IfThenElseZero(valid, hn::ShiftRight<16>(p.z));
+  near = hn::Add(near, z);
+  far = hn::Add(far, z);
+  return {hn::Add(near, first), hn::Add(near, second), hn::Add(far, first), hn::Add(far, second)};
+}
+
+// The first two bytes of each, in turns.
+HWY_INLINE Int interleave_bytes(Int first, Int second) {
+  const auto apart = [](Int v) HWY_ATTR {
+    return hn::Or(hn::And(v, whole(0xFF)), hn::And(hn::ShiftLeft<8>(v), whole(0xFF'0000)));
+  };
+  return hn::Or(apart(first), hn::ShiftLeft<8>(apart(second)));
+}
+
+// The same of what flows.
+HWY_INLINE Cell fetch_flow(const RayFrame& frame, const Position& p, IntMask valid) {
+  const Edges at = flow_edges(frame, p, valid);
+  return {interleave_bytes(gather(frame.flow, at.near_first), gather(frame.flow, at.near_second)),
+          interleave_bytes(gather(frame.flow, at.far_first), gather(frame.flow, at.far_second)),
+          upper_byte_twice(p.b), fraction_twice(p.a), hn::ShiftRight<1>(fraction_twice(p.z))};
+}
+
+// Of those lanes the ones in whose cell something may be seen to flow.
+HWY_INLINE IntMask flows_at(const RayFrame& frame, const Position& p, IntMask among) {
+  const Int word = hn::Add(hn::Add(hn::Mul(hn::ShiftRight<16>(p.b), whole(frame.mark_slab)),
+                                   hn::Mul(hn::ShiftRight<18>(p.a), whole(frame.mark_row))),
+                           hn::ShiftRight<19>(p.z));
+  const Int marks = gather(frame.flow_marks, hn::ShiftLeft<2>(hn::IfThenElseZero(among, word)));
+  const Int bit = hn::Or(hn::And(hn::ShiftRight<13>(p.a), whole(3 << 3)),
+                         hn::And(hn::ShiftRight<16>(p.z), whole(7)));
+  return hn::And(among, hn::TestBit(marks, hn::Shl(whole(1), bit)));
 }
 
 // The interpolated level times 2^22, rounded up by half an entry of the transfer table.

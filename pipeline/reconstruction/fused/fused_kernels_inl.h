@@ -260,7 +260,16 @@ template <class Level> void finish(const FusedTables& tables, float* work, Level
     unscramble_rows(rows + row * row_size, row_size, row_offsets<Level>(tables), levels + row);
 }
 
+// A B-scan's bins do not fit into the second-level cache, and their order defeats what the processor
+// fetches ahead by itself: each would be waited for when it is stored.
+HWY_INLINE void expect_stores(const std::complex<float>* bins, int count) {
+  constexpr int in_line = 64 / sizeof(std::complex<float>);
+  for (int x = 0; x < count; x += in_line)
+    __builtin_prefetch(bins + x, 1, 2);
+}
+
 void finish_bins(const FusedTables& tables, float* work, std::complex<float>* bins) {
+  expect_stores(bins, tables.samples / 2);
   const int row_size = tables.last_radix() / 2 * lanes;
   float* re = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
   float* im = re + tables.samples / 2;

@@ -197,7 +197,7 @@ TEST_P(FlowRays, are_veiled_by_what_lies_before) {
   EXPECT_LT(channel(middle(-90), 2), 80);
 }
 
-// One sample for four of the tissue: a little more grain, and nowhere brighter,
+// One sample for eight of the tissue: a little more grain, and nowhere brighter,
 // darker or of another hue. What flows is as it was.
 TEST_P(FlowRays, hardly_differ_where_tissue_beside_flow_is_sampled_coarsely) {
   pipeline::Volume volume = tissue_volume(tissue);
