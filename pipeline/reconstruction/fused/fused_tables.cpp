@@ -250,19 +250,6 @@ void make_offsets(FusedTables& tables) {
 
 } // namespace
 
-void FusedTables::resample_background(const float* background, int offset,
-                                      std::int32_t* resampled) const {
-  const int width = 2 * tap_pairs;
-  for (std::size_t m = 0; m < tap_starts.size(); ++m) {
-    const float* window = background + tap_starts[m];
-    const std::int16_t* weight = tap_weights.data() + m * index(width);
-    double sum = 0;
-    for (int t = 0; t < width; ++t)
-      sum += (static_cast<double>(window[t]) - offset) * weight[t];
-    resampled[block_of[m]] = static_cast<std::int32_t>(std::lrint(sum));
-  }
-}
-
 std::optional<FusedTables> make_fused_tables(const Calibration& calibration, int right_shift,
                                              const WindowShape& shape) {
   const int samples = calibration.samples;
