@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 
 #include "pipeline/reconstruction/fused/fast_level.h"
 #include "pipeline/threads/cpu_clones.h"
@@ -24,43 +25,75 @@ OCTASCOPE_INLINE std::uint32_t load_counts(const Count* counts, const float* bac
   return highest;
 }
 
-// Four lines at a time: the sums are loaded and stored a quarter as often. The counts come from
-// memory, and this is the first to read them: the next four lines are fetched meanwhile, as the
-// processor's own prefetching ends with each page. Into the second-level cache: the first has too
-// few outstanding misses for that, and the counts are read again anyway.
-template <class Count, class Sum>
-OCTASCOPE_INLINE void sum_counts(const Count* counts, int lines, int samples, Sum* sum) {
-  const auto stride = static_cast<std::size_t>(samples);
-  constexpr std::size_t block = 64 / sizeof(Count);
-  std::fill_n(sum, stride, Sum{});
-  int line = 0;
-  for (; line + 4 <= lines; line += 4, counts += 4 * stride) {
-    const Count* ahead = counts + (line + 8 <= lines ? 4 * stride : 0);
-    for (std::size_t start = 0; start < stride; start += block) {
-      for (std::size_t i = 0; i < 4; ++i)
-        __builtin_prefetch(ahead + i * stride + start, 0, 2);
-      const std::size_t end = std::min(start + block, stride);
-      for (std::size_t p = start; p < end; ++p)
-        sum[p] +=
-            (static_cast<Sum>(counts[p]) + static_cast<Sum>(counts[stride + p])) +
-            (static_cast<Sum>(counts[2 * stride + p]) + static_cast<Sum>(counts[3 * stride + p]));
-    }
-  }
-  for (; line < lines; ++line, counts += stride)
-    for (std::size_t p = 0; p < stride; ++p)
-      sum[p] += static_cast<Sum>(counts[p]);
+template <class Sum, class Count> OCTASCOPE_INLINE Sum shifted(Count count, int right_shift) {
+  if constexpr (std::is_integral_v<Count>)
+    return static_cast<Sum>(count >> right_shift);
+  else
+    return static_cast<Sum>(count);
 }
 
-template <class Count>
-OCTASCOPE_INLINE void sum_shifted_counts(const Count* counts, int lines, int right_shift,
-                                         int samples, std::uint32_t* sum) {
-  if (right_shift == 0)
-    return sum_counts(counts, lines, samples, sum);
+// Lines are summed several at a time, `block_bytes` of each: the sums are loaded and stored less
+// often.
+constexpr std::size_t lines_at_once = 8;
+constexpr std::size_t block_bytes = 128;
+
+// One block of each line, `stride` counts apart.
+template <class Count, class Sum>
+OCTASCOPE_INLINE void sum_block(const Count* counts, std::size_t stride, int right_shift,
+                                Sum* sum) {
+  for (std::size_t p = 0; p < block_bytes / sizeof(Count); ++p) {
+    Sum of_lines{};
+    for (std::size_t i = 0; i < lines_at_once; ++i)
+      of_lines += shifted<Sum>(counts[i * stride + p], right_shift);
+    sum[p] += of_lines;
+  }
+}
+
+// Without widening each count: their sum modulo 2^16 and the sum of their upper bytes, which fits,
+// tell the sum of the lower bytes, which fits as well.
+OCTASCOPE_INLINE void sum_block(const std::uint16_t* counts, std::size_t stride, int right_shift,
+                                std::uint32_t* sum) {
+  using Words = std::uint16_t __attribute__((vector_size(block_bytes)));
+  Words all{};
+  Words upper{};
+  for (std::size_t i = 0; i < lines_at_once; ++i) {
+    Words words;
+    std::memcpy(&words, counts + i * stride, sizeof words);
+    words >>= static_cast<std::uint16_t>(right_shift);
+    all += words;
+    upper += words >> 8;
+  }
+  std::uint16_t high[sizeof all / 2];
+  std::uint16_t low[sizeof all / 2];
+  all -= upper << 8;
+  std::memcpy(high, &upper, sizeof high);
+  std::memcpy(low, &all, sizeof low);
+  for (std::size_t p = 0; p < sizeof all / 2; ++p)
+    sum[p] += (static_cast<std::uint32_t>(high[p]) << 8) + low[p];
+}
+
+// The counts come from memory, and this is the first to read them. Processors fetch ahead what is
+// read in sequence, but no further than the page and not fast enough for one sequence: so the lines
+// at a time are far apart, each the next one of its part of the B-scan.
+template <class Count, class Sum>
+OCTASCOPE_INLINE void sum_counts(const Count* counts, int lines, int right_shift, int samples,
+                                 Sum* sum) {
   const auto stride = static_cast<std::size_t>(samples);
-  std::fill_n(sum, stride, 0U);
-  for (int line = 0; line < lines; ++line, counts += stride)
+  const std::size_t part = static_cast<std::size_t>(lines) / lines_at_once * stride;
+  const std::size_t all = static_cast<std::size_t>(lines) * stride;
+  constexpr std::size_t block = block_bytes / sizeof(Count);
+  const std::size_t blocks_end = stride / block * block;
+  std::fill_n(sum, stride, Sum{});
+  for (std::size_t line = 0; line < part; line += stride) {
+    for (std::size_t p = 0; p < blocks_end; p += block)
+      sum_block(counts + line + p, part, right_shift, sum + p);
+    for (std::size_t i = 0; i < lines_at_once; ++i)
+      for (std::size_t p = blocks_end; p < stride; ++p)
+        sum[p] += shifted<Sum>(counts[i * part + line + p], right_shift);
+  }
+  for (std::size_t line = lines_at_once * part; line < all; line += stride)
     for (std::size_t p = 0; p < stride; ++p)
-      sum[p] += static_cast<std::uint32_t>(counts[p] >> right_shift);
+      sum[p] += shifted<Sum>(counts[line + p], right_shift);
 }
 
 template <class Count>
@@ -187,18 +220,18 @@ std::uint32_t load_line(const float* counts, const float* background, int, int s
 OCTASCOPE_CPU_CLONES
 void sum_lines(const std::uint8_t* counts, int lines, int right_shift, int samples,
                std::uint32_t* sum) {
-  sum_shifted_counts(counts, lines, right_shift, samples, sum);
+  sum_counts(counts, lines, right_shift, samples, sum);
 }
 
 OCTASCOPE_CPU_CLONES
 void sum_lines(const std::uint16_t* counts, int lines, int right_shift, int samples,
                std::uint32_t* sum) {
-  sum_shifted_counts(counts, lines, right_shift, samples, sum);
+  sum_counts(counts, lines, right_shift, samples, sum);
 }
 
 OCTASCOPE_CPU_CLONES
 void sum_lines(const float* counts, int lines, int, int samples, double* sum) {
-  sum_counts(counts, lines, samples, sum);
+  sum_counts(counts, lines, 0, samples, sum);
 }
 
 OCTASCOPE_CPU_CLONES

@@ -90,17 +90,18 @@ void make_taps(FusedTables& tables, const Calibration& calibration) {
 // The windows of one block that begins at sample m; false where one does not reach far enough.
 bool append_windows(FusedTables& tables, const WindowShape& shape, int m) {
   const int width = 2 * tables.tap_pairs;
+  const int moved = tables.one_window ? 0 : width - 2; // by the last pair
+  const int held = tables.one_window ? width : 2;      // taps in a window
   for (int group = m; group < m + shape.lanes; group += shape.outputs) {
     const auto first = tables.tap_starts.begin() + group;
     // The last pair's window must end with the line.
     const int start = std::min(*std::min_element(first, first + shape.outputs),
-                               tables.samples - shape.samples - width + 2);
+                               tables.samples - shape.samples - moved);
     tables.window_starts.push_back(start);
     for (int i = 0; i < shape.outputs; ++i) {
       const int offset = first[i] - start;
-      if (offset < 0 || offset + 1 >= shape.samples)
+      if (offset < 0 || offset + held > shape.samples)
         return false;
-      tables.one_window = tables.one_window && offset + width <= shape.samples;
       for (const int sample : {offset, offset + 1}) {
         const int low = shape.byte_indices ? 2 * sample : sample;
         const int high = shape.byte_indices ? 2 * sample + 1 : 0;
@@ -138,6 +139,10 @@ bool append_block(FusedTables& tables, const Calibration& calibration, const Win
 bool append_blocks(FusedTables& tables, const Calibration& calibration, const WindowShape& shape) {
   const int step = tables.blocks / first_radix;
   std::int32_t place = 0;
+  tables.window_starts.clear();
+  tables.permutations.clear();
+  tables.weights.clear();
+  tables.factors.clear();
   for (int j = 0; j < step; ++j)
     for (int a = 0; a < first_radix; ++a) {
       const int m = (j + a * step) * shape.lanes;
@@ -147,6 +152,15 @@ bool append_blocks(FusedTables& tables, const Calibration& calibration, const Wi
         tables.block_of[index(m + lane)] = place++;
     }
   return true;
+}
+
+// With one window for all pairs of taps where every block's is wide enough.
+bool append_all(FusedTables& tables, const Calibration& calibration, const WindowShape& shape) {
+  tables.one_window = !shape.byte_indices; // permutations by bytes cannot reach beyond their part
+  if (tables.one_window && append_blocks(tables, calibration, shape))
+    return true;
+  tables.one_window = false;
+  return append_blocks(tables, calibration, shape);
 }
 
 // J = 8·4^i·8^j with as few passes as possible, an eight last where there is one: every J of the
@@ -236,19 +250,6 @@ void make_offsets(FusedTables& tables) {
 
 } // namespace
 
-void FusedTables::resample_background(const float* background, int offset,
-                                      std::int32_t* resampled) const {
-  const int width = 2 * tap_pairs;
-  for (std::size_t m = 0; m < tap_starts.size(); ++m) {
-    const float* window = background + tap_starts[m];
-    const std::int16_t* weight = tap_weights.data() + m * index(width);
-    double sum = 0;
-    for (int t = 0; t < width; ++t)
-      sum += (static_cast<double>(window[t]) - offset) * weight[t];
-    resampled[block_of[m]] = static_cast<std::int32_t>(std::lrint(sum));
-  }
-}
-
 std::optional<FusedTables> make_fused_tables(const Calibration& calibration, int right_shift,
                                              const WindowShape& shape) {
   const int samples = calibration.samples;
@@ -263,7 +264,7 @@ std::optional<FusedTables> make_fused_tables(const Calibration& calibration, int
   tables.real_input = calibration.dispersion_rad.empty();
   make_taps(tables, calibration);
   tables.block_of.resize(index(samples));
-  if (!append_blocks(tables, calibration, shape))
+  if (!append_all(tables, calibration, shape))
     return std::nullopt;
   choose_radices(tables);
   make_pass_twiddles(tables);
