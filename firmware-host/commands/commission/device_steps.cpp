@@ -1,4 +1,6 @@
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -35,6 +37,9 @@ hal::Result<> ask_which_camera(Bench& bench) {
       auto camera,
       bench.dialogue.ask("Line camera: auto, a node as /dev/video0, or as gigevision:192.168.1.20?",
                          bench.session.text("line_camera", "auto")));
+  if (camera != bench.session.text("line_camera", camera))
+    for (const char* const of_another : {"significant_bits", "exposure_us", "gain"})
+      bench.session.unset(of_another);
   bench.session.set("line_camera", camera);
   return {};
 }
@@ -69,6 +74,44 @@ hal::Result<> ask_scan(Bench& bench) {
   session.set("a_spacing_um", a_mm * 1000 / a_scans);
   session.set("b_spacing_um", b_mm * 1000 / b_scans);
   return {};
+}
+
+// What the driver says of a sample may be its room: 12 bits in 16.
+hal::Result<LiveLook> ask_bits(Bench& bench, LiveLook found) {
+  HAL_TRY(const int bits, bench.dialogue.ask_count("Significant bits of a sample?",
+                                                   found.format.significant_bits, 8, 16));
+  bench.session.set("significant_bits", bits);
+  if (bits != found.format.significant_bits) {
+    HAL_TRY(found, look_now(bench, "dark", 0)); // does it offer them?
+  }
+  return found;
+}
+
+// True: the answer is another value than it has.
+hal::Result<bool> ask_control(Bench& bench, const std::optional<hal::CameraControl>& control,
+                              const char* key, const char* question) {
+  if (!control)
+    return false;
+  HAL_TRY(const double value,
+          bench.dialogue.ask_number(
+              fmt::format("{}, {:g} to {:g}?", question, control->least, control->most),
+              control->value, control->least, control->most));
+  if (value == control->value)
+    return false;
+  bench.session.set(key, value);
+  return true;
+}
+
+// Beside what they do to the light. True: one of them is another now.
+hal::Result<bool> ask_controls(Bench& bench, const LiveLook& found) {
+  if (found.controls.exposure_us || found.controls.gain)
+    say("  {:.0f} % full, {:.1f} % of the lines saturated, dark level {:.0f} counts\n",
+        found.quality.brightest * 100, found.quality.saturated_share * 100,
+        found.quality.dark_counts);
+  HAL_TRY(const bool exposure,
+          ask_control(bench, found.controls.exposure_us, "exposure_us", "Exposure in µs"));
+  HAL_TRY(const bool gain, ask_control(bench, found.controls.gain, "gain", "Gain"));
+  return exposure || gain;
 }
 
 // Shown over and over until Enter, where somebody sits at a terminal; else once.
@@ -113,7 +156,10 @@ hal::Result<StepRecord> find_camera(Bench& bench) {
   HAL_CHECK(ask_scan(bench));
   if (bench.session.number("samples", 0) != samples)
     bench.session.set("calibration", ""); // it is of lines of another length
-  HAL_TRY(const auto found, look_now(bench, "dark", 0));
+  HAL_TRY(auto found, look_now(bench, "dark", 0));
+  if (!bench.session.simulated()) {
+    HAL_TRY(found, ask_bits(bench, std::move(found)));
+  }
   bench.session.set("camera", found.camera);
   StepRecord record;
   record.found = {{"camera", found.camera.empty() ? "does not identify itself" : found.camera},
@@ -173,9 +219,17 @@ hal::Result<StepRecord> count_trigger(Bench& bench) {
 hal::Result<StepRecord> look_at_spectrum(Bench& bench) {
   HAL_TRY(const auto phantom,
           ask_to_place(bench, "Lay a mirror under the beam and block nothing.", "mirror_near"));
-  HAL_TRY(const auto found, watch(bench, phantom));
-  say("  {}\n", spectrum_strip(found.mean_line, found.format.full_scale()));
+  LiveLook found;
+  for (bool changed = true; changed;) {
+    HAL_TRY(found, watch(bench, phantom));
+    say("  {}\n", spectrum_strip(found.mean_line, found.format.full_scale()));
+    HAL_TRY(changed, ask_controls(bench, found));
+  }
   StepRecord record;
+  if (const auto& exposure = found.controls.exposure_us)
+    record.found.emplace_back("exposure", fmt::format("{:g} µs", exposure->value));
+  if (const auto& gain = found.controls.gain)
+    record.found.emplace_back("gain", fmt::format("{:g}", gain->value));
   add_quality(record, found);
   const auto picture = bench.session.free_file("spectrum", ".png");
   HAL_CHECK(pipeline::write_png(

@@ -248,6 +248,22 @@ TEST(Capture, keeps_whole_volumes_that_every_command_takes) {
   EXPECT_THAT(refused.err, HasSubstr("expected none, or 20,24,128"));
 }
 
+// What a calibration does not say of the scan, the recording does.
+TEST(Capture, says_how_wide_the_scan_is_to_another_calibration) {
+  const ScratchFolder folder;
+  run_well(small_capture(folder, {"--volumes", "1"}));
+  const auto other = folder.write("other.toml", "[depth]\nspacing_um = 3.4\n");
+  const ProgramResult result =
+      run_well({"reconstruct", "--spectra", folder / "c.h5", "--calibration", other.string(),
+                "--out", folder / "v.nrrd"});
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("assumed")));
+  const auto volume = must(pipeline::read_nrrd(folder / "v.nrrd"));
+  const auto plan = must_open<pipeline::RawReader>(folder / "c.h5").facts().plan;
+  EXPECT_DOUBLE_EQ(volume.geometry.a_spacing_um, plan.a_spacing_um);
+  EXPECT_DOUBLE_EQ(volume.geometry.b_spacing_um, plan.b_spacing_um);
+  EXPECT_DOUBLE_EQ(volume.geometry.depth_spacing_um, 3.4);
+}
+
 // Spectra that are known, played slowly: every second line has three counts more.
 std::vector<std::string> capture_of_known(const ScratchFolder& folder, const std::string& out,
                                           const std::vector<std::string>& more) {
