@@ -148,18 +148,13 @@ void RawRecorder::offer(std::size_t worker, const RawFrame& entry, std::span<con
 RawRecorderStatus RawRecorder::status() const {
   const std::int64_t room = room_.load(std::memory_order_relaxed);
   const bool on = taking_.load(std::memory_order_acquire);
-  return {.waiting = waiting(),
+  return {.waiting = waiting_for_file_.load(std::memory_order_acquire),
           .on = on,
           .since = on ? began_ : hal::TimePoint{},
           .offered = offered_.load(std::memory_order_relaxed),
           .kept = kept_.load(std::memory_order_relaxed),
           .not_kept = not_kept_.load(std::memory_order_relaxed),
           .room = room < 0 ? std::nullopt : std::optional{static_cast<std::uint64_t>(room)}};
-}
-
-bool RawRecorder::waiting() const {
-  const std::lock_guard lock{mutex_};
-  return waiting_for_file_;
 }
 
 std::optional<hal::Error> RawRecorder::failure() const {

@@ -85,7 +85,6 @@ private:
   };
 
   bool make_file();
-  bool waiting() const;
   void make_slots();
   void run();
   void write_waiting();
@@ -105,6 +104,7 @@ private:
   std::vector<Slot> slots_;
   std::unique_ptr<IndexRing> free_;                 // the writing thread's → the workers'
   std::vector<std::unique_ptr<IndexRing>> waiting_; // each worker's → the writing thread's
+  std::atomic<bool> waiting_for_file_{false};       // changed under mutex_
   std::atomic<bool> taking_{false};
   std::atomic<std::uint64_t> offered_{0};
   std::atomic<std::uint64_t> kept_{0};
@@ -115,7 +115,6 @@ private:
 
   mutable std::mutex mutex_;
   std::condition_variable made_; // the file, or not
-  bool waiting_for_file_ = false;
   bool told_of_waiting_ = false; // start() returned meanwhile
   std::optional<hal::Error> failure_;
 
