@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -87,31 +88,51 @@ hal::Result<LiveLook> ask_bits(Bench& bench, LiveLook found) {
   return found;
 }
 
-// True: the answer is another value than it has.
-hal::Result<bool> ask_control(Bench& bench, const std::optional<hal::CameraControl>& control,
-                              const char* key, const char* question) {
-  if (!control)
-    return false;
+// The configuration takes no others, and whole gains alone.
+constexpr double least_exposure_us = 0.01;
+constexpr double most_exposure_us = 1e6;
+
+// Each returns whether the answer is another value than the camera has.
+hal::Result<bool> ask_exposure(Bench& bench, const hal::CameraControl& exposure) {
+  const double least = std::max(exposure.least, least_exposure_us);
+  const double most = std::max(std::min(exposure.most, most_exposure_us), exposure.value);
   HAL_TRY(const double value,
-          bench.dialogue.ask_number(
-              fmt::format("{}, {:g} to {:g}?", question, control->least, control->most),
-              control->value, control->least, control->most));
-  if (value == control->value)
+          bench.dialogue.ask_number(fmt::format("Exposure in µs, {} to {}?", least, most),
+                                    exposure.value, std::min(least, exposure.value), most));
+  if (value == exposure.value)
     return false;
-  bench.session.set(key, value);
+  bench.session.set("exposure_us", value);
+  return true;
+}
+
+hal::Result<bool> ask_gain(Bench& bench, const hal::CameraControl& gain) {
+  const int least = static_cast<int>(std::ceil(gain.least));
+  const int most = std::max(least, static_cast<int>(std::floor(gain.most)));
+  const int present = std::clamp(static_cast<int>(std::lround(gain.value)), least, most);
+  HAL_TRY(const int value, bench.dialogue.ask_count(fmt::format("Gain, {} to {}?", least, most),
+                                                    present, least, most));
+  if (value == present)
+    return false;
+  bench.session.set("gain", value);
   return true;
 }
 
 // Beside what they do to the light. True: one of them is another now.
 hal::Result<bool> ask_controls(Bench& bench, const LiveLook& found) {
-  if (found.controls.exposure_us || found.controls.gain)
+  const auto& [exposure, gain] = found.controls;
+  if (exposure || gain)
     say("  {:.0f} % full, {:.1f} % of the lines saturated, dark level {:.0f} counts\n",
         found.quality.brightest * 100, found.quality.saturated_share * 100,
         found.quality.dark_counts);
-  HAL_TRY(const bool exposure,
-          ask_control(bench, found.controls.exposure_us, "exposure_us", "Exposure in µs"));
-  HAL_TRY(const bool gain, ask_control(bench, found.controls.gain, "gain", "Gain"));
-  return exposure || gain;
+  bool changed = false;
+  if (exposure) {
+    HAL_TRY(changed, ask_exposure(bench, *exposure));
+  }
+  if (gain) {
+    HAL_TRY(const bool another, ask_gain(bench, *gain));
+    changed = changed || another;
+  }
+  return changed;
 }
 
 // Shown over and over until Enter, where somebody sits at a terminal; else once.

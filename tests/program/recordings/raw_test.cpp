@@ -292,17 +292,18 @@ TEST(Capture, keeps_whole_volumes_that_every_command_takes) {
 TEST(Capture, says_how_wide_the_scan_is_to_another_calibration) {
   const ScratchFolder folder;
   run_well(small_capture(folder, {"--volumes", "1"}));
-  const auto other =
-      folder.write("other.toml", "[spectrometer]\nsamples = 128\n[depth]\nspacing_um = 3.4\n");
+  const auto other = folder.write("other.toml", "[spectrometer]\nsamples = 128\n"
+                                                "[k_linear]\npolynomial = [0.0, 127.0]\n"
+                                                "[depth]\nspacing_um = 3.4\n");
   const ProgramResult result =
       run_well({"reconstruct", "--spectra", folder / "c.h5", "--calibration", other.string(),
                 "--out", folder / "v.nrrd"});
   EXPECT_THAT(result.err, testing::Not(HasSubstr("assumed")));
   const auto volume = must(pipeline::read_nrrd(folder / "v.nrrd"));
   const auto plan = must_open<pipeline::RawReader>(folder / "c.h5").facts().plan;
-  EXPECT_DOUBLE_EQ(volume.geometry.a_spacing_um, plan.a_spacing_um);
-  EXPECT_DOUBLE_EQ(volume.geometry.b_spacing_um, plan.b_spacing_um);
-  EXPECT_DOUBLE_EQ(volume.geometry.depth_spacing_um, 3.4);
+  EXPECT_NEAR(volume.geometry.a_spacing_um, plan.a_spacing_um, 1e-6);
+  EXPECT_NEAR(volume.geometry.b_spacing_um, plan.b_spacing_um, 1e-6);
+  EXPECT_NEAR(volume.geometry.depth_spacing_um, 3.4, 1e-6);
 }
 
 // Spectra that are known, played slowly: every second line has three counts more.
