@@ -60,7 +60,19 @@ struct LineFrame {
   TimePoint fetched{}; // when the host had it; whoever takes it from the camera notes it
 };
 
-// Threads: open, start, wait_frame, stop and close from one thread at a time (the camera thread);
+// A number that a camera lets one set.
+struct CameraControl {
+  double value = 0; // at present
+  double least = 0;
+  double most = 0;
+};
+
+struct CameraControls { // empty: it has no such control
+  std::optional<CameraControl> exposure_us;
+  std::optional<CameraControl> gain; // in the camera's own steps
+};
+
+// Threads: open, controls, start, wait_frame, stop and close from one thread at a time (the camera thread);
 // release() from any thread while the camera is open; state() and identity() from any thread.
 class LineCamera : public Device {
 public:
@@ -71,6 +83,9 @@ public:
     HAL_CHECK(in_order(kind, "open", DeviceState::absent));
     return do_open(config);
   }
+
+  // As open() left them; nothing while absent. May take as long as the camera takes to answer.
+  CameraControls controls() const { return do_controls(); }
 
   // ready → streaming. Sequence numbers restart at each start.
   Result<> start() {
@@ -112,6 +127,7 @@ private:
   virtual void do_stop() = 0;
   virtual void do_close() = 0;
   virtual std::string do_identity() const = 0;
+  virtual CameraControls do_controls() const { return {}; }
 };
 
 } // namespace octascope::hal

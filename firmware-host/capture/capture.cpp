@@ -48,6 +48,7 @@ private:
   std::uint64_t most_frames() const;
   std::uint64_t kept_lines() const;
   bool done() const;
+  void wait_for_file(StopSignal& stop_signal);
   hal::Result<> wait_until_done(StopSignal& stop_signal);
   void show_progress() const;
   hal::Result<> write_mean() const;
@@ -121,7 +122,8 @@ void Capture::make_threads(const Configuration& configuration) {
 
 std::uint64_t Capture::most_frames() const {
   const auto lines = static_cast<std::uint64_t>(facts_->kept_lines());
-  return options_.lines ? (*options_.lines + lines - 1) / lines : 0;
+  return options_.lines ? (*options_.lines + lines - 1) / lines
+                        : options_.volumes * static_cast<std::uint64_t>(facts_->plan.sweeps());
 }
 
 std::uint64_t Capture::kept_lines() const {
@@ -132,6 +134,12 @@ std::uint64_t Capture::kept_lines() const {
 bool Capture::done() const {
   return options_.lines ? kept_lines() >= *options_.lines
                         : volumes_->counters().published >= options_.volumes;
+}
+
+// Nobody looks on: frames that come before it would be asked for in vain.
+void Capture::wait_for_file(StopSignal& stop_signal) {
+  while (recorder_->status().waiting && !stop_signal.requested())
+    clock_.sleep_for(between_looks);
 }
 
 hal::Result<> Capture::wait_until_done(StopSignal& stop_signal) {
@@ -172,8 +180,10 @@ hal::Result<> Capture::run(StopSignal& stop_signal) {
   const pipeline::ThreadSetup threads =
       make_thread_setup(clock_, faults_, reconstruction_->worker_cores());
   devices_->start_faults(clock_.now());
-  if (recorder_)
+  if (recorder_) {
     HAL_CHECK(recorder_->start(threads));
+    wait_for_file(stop_signal);
+  }
   if (auto started = acquisition_->start(threads); !started) {
     if (recorder_)
       recorder_->stop({});

@@ -1,6 +1,7 @@
 #include "firmware-host/devices/twins.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -74,6 +75,27 @@ hal::Result<> check_counts(const pipeline::SpectraFile& file,
 // Beyond that, what is played waits for the disk.
 constexpr std::size_t most_played_bytes = std::size_t{1} << 30;
 
+struct FrameRange { // of RawReader::frames()
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+// Of the first whole volumes; those that follow each other are one, as each is a mapping of its own.
+std::vector<FrameRange> whole_volumes(const pipeline::RawReader& reader, std::size_t most) {
+  std::vector<FrameRange> ranges;
+  std::size_t volumes = 0;
+  for (const pipeline::RawVolume& volume : reader.volumes()) {
+    if (!volume.whole || volumes == most)
+      continue;
+    ++volumes;
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == volume.first)
+      ranges.back().count += volume.count;
+    else
+      ranges.push_back({volume.first, volume.count});
+  }
+  return ranges;
+}
+
 // The first whole volumes of a recording, as they were scanned, with its own calibration unless
 // another one is given.
 hal::Result<> play_raw_recording(const RunOptions& options, const Configuration& configuration,
@@ -90,11 +112,9 @@ hal::Result<> play_raw_recording(const RunOptions& options, const Configuration&
   const std::size_t most = most_played_bytes / (facts.format.frame_bytes() * sweeps);
   const auto played = std::make_shared<std::vector<pipeline::SpectraFile>>();
   std::vector<std::span<const std::byte>> frames;
-  for (const pipeline::RawVolume& volume : reader.volumes()) {
-    if (!volume.whole || played->size() >= std::max<std::size_t>(most, 1))
-      continue;
-    HAL_TRY(auto file, reader.spectra(volume.first, volume.count, pipeline::RawLines::all));
-    for (int sweep = 0; sweep < facts.plan.sweeps(); ++sweep) {
+  for (const FrameRange& range : whole_volumes(reader, std::max<std::size_t>(most, 1))) {
+    HAL_TRY(auto file, reader.spectra(range.first, range.count, pipeline::RawLines::all));
+    for (int sweep = 0; sweep < file.shape().b_scans; ++sweep) {
       if (const auto fault = file.find_fault(sweep))
         return hal::fail(hal::ErrorCode::bad_data, *fault);
       frames.push_back(file.b_scan(sweep));
@@ -254,8 +274,12 @@ hal::Result<> make_control_input(const RunOptions& options, const Configuration&
 
 std::optional<double> medium_of(const pipeline::ScanPlan& plan,
                                 const pipeline::Calibration& calibration) {
-  return plan.depth_spacing_um == calibration.depth_spacing_um ? calibration.refractive_index
-                                                               : std::nullopt;
+  // Written with fewer digits it is the same spacing; that of the next likelier medium (1.33 and 1.336)
+  // is 0.4 % off.
+  constexpr double largest_share = 1e-3;
+  const double between = std::abs(plan.depth_spacing_um - calibration.depth_spacing_um);
+  return between <= largest_share * calibration.depth_spacing_um ? calibration.refractive_index
+                                                                 : std::nullopt;
 }
 
 bool Twins::concern_display() const {

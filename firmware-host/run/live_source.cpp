@@ -128,8 +128,6 @@ hal::Result<> LiveSource::prepare(Devices& devices, DeviceChoices choices) {
   reconstruction_ = std::move(reconstruction);
   make_recordings();
   make_threads();
-  if (options_.raw_to)
-    HAL_CHECK(check_raw_file(*options_.raw_to));
   return recordings_->check();
 }
 

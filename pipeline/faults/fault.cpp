@@ -84,6 +84,8 @@ constexpr std::array fault_table{
                "The recording was not closed: its disk fails", 20s},
     FaultFacts{Fault::recording_not_begun, Device::recording, "not_begun",
                "The recording cannot be begun: look at its folder", 20s},
+    FaultFacts{Fault::recording_waits, Device::recording, "waiting",
+               "The recording waits for its disk", 20s},
     FaultFacts{Fault::came_late, Device::line_camera, "came_late",
                "A line camera is there: start octascope again", 24h},
     FaultFacts{Fault::picture_not_kept, Device::host, "picture_not_kept",

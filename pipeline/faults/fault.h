@@ -67,6 +67,7 @@ enum class Fault : std::uint8_t {
   recording_not_kept,
   recording_not_finished,
   recording_not_begun,
+  recording_waits,
   came_late,
   picture_not_kept,
   stuck_switch,

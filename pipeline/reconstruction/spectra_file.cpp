@@ -7,9 +7,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include "hal/number_text.h"
+#include "pipeline/files/crc32.h"
 
 namespace octascope::pipeline {
 
@@ -112,8 +112,7 @@ std::optional<std::string> SpectraFile::find_fault(int b) const {
   const SweepPlace& place = places_[static_cast<std::size_t>(b)];
   const auto whole =
       mapped_.bytes().subspan(place.offset, line_bytes() * static_cast<std::size_t>(lines_));
-  const auto found = static_cast<std::uint32_t>(
-      ::crc32_z(0, reinterpret_cast<const Bytef*>(whole.data()), whole.size()));
+  const std::uint32_t found = crc32_of(whole);
   if (found != place.crc32)
     return fmt::format("{}: sweep {}, at byte {}, is damaged: found the checksum {:08x}, expected "
                        "{:08x}; take another copy of the file",

@@ -17,14 +17,28 @@ std::filesystem::path place_of_configuration(const Session& session) {
                                                      : session.free_file("octascope", ".toml");
 }
 
+// What a run would say of it: read under another name, so that it takes no good one's place.
+hal::Result<Configuration> check(const Session& session, const std::string& text) {
+  const auto candidate = session.free_file("unchecked", ".toml");
+  HAL_CHECK(pipeline::write_atomically(candidate, text));
+  auto read = load_configuration(candidate);
+  std::error_code ignored;
+  std::filesystem::remove(candidate, ignored);
+  if (!read)
+    return hal::fail(read.error().code,
+                     "a run would refuse the configuration, so it is not written: {}",
+                     read.error().message);
+  return read;
+}
+
 } // namespace
 
 hal::Result<StepRecord> write_configuration(Bench& bench) {
   Session& session = bench.session;
   const std::string text = session.configuration_toml();
+  HAL_TRY(const auto configuration, check(session, text));
   const auto file = place_of_configuration(session);
   HAL_CHECK(pipeline::write_atomically(file, text));
-  HAL_TRY(const auto configuration, load_configuration(file)); // what a run would say of it
   StepRecord record;
   if (!configuration.calibration)
     record.warnings.emplace_back("there is no calibration: the picture will be blurred");

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -35,6 +38,9 @@ hal::Result<> ask_which_camera(Bench& bench) {
       auto camera,
       bench.dialogue.ask("Line camera: auto, a node as /dev/video0, or as gigevision:192.168.1.20?",
                          bench.session.text("line_camera", "auto")));
+  if (camera != bench.session.text("line_camera", camera))
+    for (const char* const of_another : {"significant_bits", "exposure_us", "gain"})
+      bench.session.unset(of_another);
   bench.session.set("line_camera", camera);
   return {};
 }
@@ -69,6 +75,64 @@ hal::Result<> ask_scan(Bench& bench) {
   session.set("a_spacing_um", a_mm * 1000 / a_scans);
   session.set("b_spacing_um", b_mm * 1000 / b_scans);
   return {};
+}
+
+// What the driver says of a sample may be its room: 12 bits in 16.
+hal::Result<LiveLook> ask_bits(Bench& bench, LiveLook found) {
+  HAL_TRY(const int bits, bench.dialogue.ask_count("Significant bits of a sample?",
+                                                   found.format.significant_bits, 8, 16));
+  bench.session.set("significant_bits", bits);
+  if (bits != found.format.significant_bits) {
+    HAL_TRY(found, look_now(bench, "dark", 0)); // does it offer them?
+  }
+  return found;
+}
+
+// The configuration takes no others, and whole gains alone.
+constexpr double least_exposure_us = 0.01;
+constexpr double most_exposure_us = 1e6;
+
+// Each returns whether the answer is another value than the camera has.
+hal::Result<bool> ask_exposure(Bench& bench, const hal::CameraControl& exposure) {
+  const double least = std::max(exposure.least, least_exposure_us);
+  const double most = std::max(std::min(exposure.most, most_exposure_us), exposure.value);
+  HAL_TRY(const double value,
+          bench.dialogue.ask_number(fmt::format("Exposure in µs, {} to {}?", least, most),
+                                    exposure.value, std::min(least, exposure.value), most));
+  if (value == exposure.value)
+    return false;
+  bench.session.set("exposure_us", value);
+  return true;
+}
+
+hal::Result<bool> ask_gain(Bench& bench, const hal::CameraControl& gain) {
+  const int least = static_cast<int>(std::ceil(gain.least));
+  const int most = std::max(least, static_cast<int>(std::floor(gain.most)));
+  const int present = std::clamp(static_cast<int>(std::lround(gain.value)), least, most);
+  HAL_TRY(const int value, bench.dialogue.ask_count(fmt::format("Gain, {} to {}?", least, most),
+                                                    present, least, most));
+  if (value == present)
+    return false;
+  bench.session.set("gain", value);
+  return true;
+}
+
+// Beside what they do to the light. True: one of them is another now.
+hal::Result<bool> ask_controls(Bench& bench, const LiveLook& found) {
+  const auto& [exposure, gain] = found.controls;
+  if (exposure || gain)
+    say("  {:.0f} % full, {:.1f} % of the lines saturated, dark level {:.0f} counts\n",
+        found.quality.brightest * 100, found.quality.saturated_share * 100,
+        found.quality.dark_counts);
+  bool changed = false;
+  if (exposure) {
+    HAL_TRY(changed, ask_exposure(bench, *exposure));
+  }
+  if (gain) {
+    HAL_TRY(const bool another, ask_gain(bench, *gain));
+    changed = changed || another;
+  }
+  return changed;
 }
 
 // Shown over and over until Enter, where somebody sits at a terminal; else once.
@@ -113,7 +177,10 @@ hal::Result<StepRecord> find_camera(Bench& bench) {
   HAL_CHECK(ask_scan(bench));
   if (bench.session.number("samples", 0) != samples)
     bench.session.set("calibration", ""); // it is of lines of another length
-  HAL_TRY(const auto found, look_now(bench, "dark", 0));
+  HAL_TRY(auto found, look_now(bench, "dark", 0));
+  if (!bench.session.simulated()) {
+    HAL_TRY(found, ask_bits(bench, std::move(found)));
+  }
   bench.session.set("camera", found.camera);
   StepRecord record;
   record.found = {{"camera", found.camera.empty() ? "does not identify itself" : found.camera},
@@ -173,9 +240,17 @@ hal::Result<StepRecord> count_trigger(Bench& bench) {
 hal::Result<StepRecord> look_at_spectrum(Bench& bench) {
   HAL_TRY(const auto phantom,
           ask_to_place(bench, "Lay a mirror under the beam and block nothing.", "mirror_near"));
-  HAL_TRY(const auto found, watch(bench, phantom));
-  say("  {}\n", spectrum_strip(found.mean_line, found.format.full_scale()));
+  LiveLook found;
+  for (bool changed = true; changed;) {
+    HAL_TRY(found, watch(bench, phantom));
+    say("  {}\n", spectrum_strip(found.mean_line, found.format.full_scale()));
+    HAL_TRY(changed, ask_controls(bench, found));
+  }
   StepRecord record;
+  if (const auto& exposure = found.controls.exposure_us)
+    record.found.emplace_back("exposure", fmt::format("{:g} µs", exposure->value));
+  if (const auto& gain = found.controls.gain)
+    record.found.emplace_back("gain", fmt::format("{:g}", gain->value));
   add_quality(record, found);
   const auto picture = bench.session.free_file("spectrum", ".png");
   HAL_CHECK(pipeline::write_png(

@@ -47,7 +47,9 @@ private:
   hal::Clock& clock_;
   LiveLook found_;
   std::optional<std::uint64_t> last_sequence_;
-  hal::Duration shortest_frame_{}; // from one frame's first line to the next one's
+  // From one frame's first line to the next one's, all together: a single stamp may be late.
+  hal::Duration frames_took_{};
+  std::uint64_t frames_timed_ = 0;
   std::optional<hal::TimePoint> last_begin_;
   std::vector<double> lines_;
 };
@@ -60,6 +62,7 @@ hal::Result<LiveLook> Look::run(int pulses) {
     opened = camera.open(devices_.camera_config());
   HAL_CHECK(opened);
   found_.camera = camera.identity();
+  found_.controls = camera.controls();
   found_.format = pipeline::SpectrumFormat{devices_.format()};
   if (pulses == 0)
     return found_;
@@ -101,9 +104,9 @@ void Look::take(const hal::LineFrame& frame) {
   ++found_.frames;
   if (last_sequence_ && frame.sequence > *last_sequence_)
     found_.lost_frames += frame.sequence - *last_sequence_ - 1;
-  if (last_begin_ && last_sequence_ && frame.sequence == *last_sequence_ + 1) {
-    const hal::Duration took = frame.first_line - *last_begin_;
-    shortest_frame_ = shortest_frame_ == hal::Duration{} ? took : std::min(shortest_frame_, took);
+  if (last_begin_ && last_sequence_ && frame.sequence > *last_sequence_) {
+    frames_took_ += frame.first_line - *last_begin_;
+    frames_timed_ += frame.sequence - *last_sequence_;
   }
   last_sequence_ = frame.sequence;
   last_begin_ = frame.first_line;
@@ -136,8 +139,9 @@ void Look::judge() {
   const double count = static_cast<double>(lines_.size() / samples);
   for (std::size_t i = 0; i < lines_.size(); ++i)
     found_.mean_line[i % samples] += lines_[i] / count;
-  if (shortest_frame_ > hal::Duration{})
-    found_.line_rate_hz = devices_.plan().lines_per_frame() / hal::to_seconds(shortest_frame_);
+  if (frames_took_ > hal::Duration{})
+    found_.line_rate_hz = static_cast<double>(frames_timed_) * devices_.plan().lines_per_frame() /
+                          hal::to_seconds(frames_took_);
 }
 
 } // namespace

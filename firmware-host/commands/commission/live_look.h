@@ -8,6 +8,7 @@
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/configuration/run_options.h"
 #include "hal/clock.h"
+#include "hal/line_camera.h"
 #include "hal/result.h"
 #include "pipeline/calibration_finder/spectrum_quality.h"
 #include "pipeline/reconstruction/spectrum_format.h"
@@ -19,6 +20,7 @@ struct LiveLook {
   std::string trigger; // likewise
   std::string camera;  // LineCamera::identity(); empty: unknown
   pipeline::SpectrumFormat format;
+  hal::CameraControls controls;
   int pulses = 0;
   int answered = 0; // pulses after which a frame came
   std::uint64_t frames = 0;

@@ -104,6 +104,10 @@ void Session::set(std::string_view key, Json value) {
   values_[std::string{key}] = std::move(value);
 }
 
+void Session::unset(std::string_view key) {
+  values_.erase(std::string{key});
+}
+
 std::string Session::outcome(std::string_view step) const {
   const Json& steps = state_["steps"];
   const auto found = steps.find(std::string{step});
@@ -182,6 +186,9 @@ std::string Session::configuration_toml() const {
                         number("pulse_width_us", 50));
     if (const std::string sync = text("sync_line"); !sync.empty())
       toml += fmt::format("sync_line = {}\n", pipeline::toml_text(sync));
+    for (const char* const key : {"significant_bits", "exposure_us", "gain"})
+      if (values_.contains(key))
+        toml += fmt::format("{} = {}\n", key, number(key, 0));
   }
   if (values_.contains("samples"))
     toml +=

@@ -39,6 +39,7 @@ public:
   std::string text(std::string_view key, std::string_view fallback = {}) const;
   double number(std::string_view key, double fallback) const;
   void set(std::string_view key, nlohmann::ordered_json value);
+  void unset(std::string_view key);
 
   // Of a step: empty (never done), "done" or "skipped".
   std::string outcome(std::string_view step) const;

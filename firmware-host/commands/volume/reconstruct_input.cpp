@@ -42,6 +42,19 @@ hal::Result<ReconstructInput> open_plain(const ReconstructOptions& options) {
   return ReconstructInput{std::move(spectra), *format, std::move(calibration), repeats};
 }
 
+// What another calibration does not say of the scan, the recording does.
+void take_lateral_spacings(const pipeline::ScanPlan& plan, pipeline::Calibration& calibration) {
+  pipeline::AssumedSpacings& assumed = calibration.assumed_spacings;
+  if (assumed.a_scans) {
+    calibration.a_spacing_um = plan.a_spacing_um;
+    assumed.a_scans = plan.assumed_spacings.a_scans;
+  }
+  if (assumed.b_scans) {
+    calibration.b_spacing_um = plan.b_spacing_um;
+    assumed.b_scans = plan.assumed_spacings.b_scans;
+  }
+}
+
 // As the run had it, but for another calibration that was asked for.
 hal::Result<ReconstructInput> open_recording(const ReconstructOptions& options) {
   HAL_TRY(const auto reader, pipeline::RawReader::open(options.spectra));
@@ -74,8 +87,10 @@ hal::Result<ReconstructInput> open_recording(const ReconstructOptions& options) 
   input.path = facts.path == "fused" ? pipeline::ReconstructionPath::fused
                                      : pipeline::ReconstructionPath::fftw;
   input.isa = facts.path == "fused" ? facts.isa : std::string{};
-  if (options.calibration)
+  if (options.calibration) {
+    take_lateral_spacings(facts.plan, input.calibration);
     return input;
+  }
   input.calibration.a_spacing_um = facts.plan.a_spacing_um;
   input.calibration.b_spacing_um = facts.plan.b_spacing_um;
   input.calibration.depth_spacing_um = facts.plan.depth_spacing_um;

@@ -47,10 +47,12 @@ bool find_all(void* library, AravisLibrary& aravis) {
          find(library, "arv_camera_set_exposure_time_auto", aravis.camera_set_exposure_time_auto) &&
          find(library, "arv_camera_get_exposure_time_bounds",
               aravis.camera_get_exposure_time_bounds) &&
+         find(library, "arv_camera_get_exposure_time", aravis.camera_get_exposure_time) &&
          find(library, "arv_camera_set_exposure_time", aravis.camera_set_exposure_time) &&
          find(library, "arv_camera_is_gain_auto_available", aravis.camera_is_gain_auto_available) &&
          find(library, "arv_camera_set_gain_auto", aravis.camera_set_gain_auto) &&
          find(library, "arv_camera_get_gain_bounds", aravis.camera_get_gain_bounds) &&
+         find(library, "arv_camera_get_gain", aravis.camera_get_gain) &&
          find(library, "arv_camera_set_gain", aravis.camera_set_gain) &&
          find(library, "arv_camera_set_acquisition_mode", aravis.camera_set_acquisition_mode) &&
          find(library, "arv_camera_gv_set_stream_options", aravis.camera_gv_set_stream_options) &&

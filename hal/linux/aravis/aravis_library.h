@@ -40,10 +40,12 @@ struct AravisLibrary {
   decltype(&arv_camera_is_exposure_auto_available) camera_is_exposure_auto_available = nullptr;
   decltype(&arv_camera_set_exposure_time_auto) camera_set_exposure_time_auto = nullptr;
   decltype(&arv_camera_get_exposure_time_bounds) camera_get_exposure_time_bounds = nullptr;
+  decltype(&arv_camera_get_exposure_time) camera_get_exposure_time = nullptr;
   decltype(&arv_camera_set_exposure_time) camera_set_exposure_time = nullptr;
   decltype(&arv_camera_is_gain_auto_available) camera_is_gain_auto_available = nullptr;
   decltype(&arv_camera_set_gain_auto) camera_set_gain_auto = nullptr;
   decltype(&arv_camera_get_gain_bounds) camera_get_gain_bounds = nullptr;
+  decltype(&arv_camera_get_gain) camera_get_gain = nullptr;
   decltype(&arv_camera_set_gain) camera_set_gain = nullptr;
   decltype(&arv_camera_set_acquisition_mode) camera_set_acquisition_mode = nullptr;
   decltype(&arv_camera_gv_set_stream_options) camera_gv_set_stream_options = nullptr;

@@ -30,6 +30,7 @@ Result<std::unique_ptr<OpenCamera>> open_genicam(const AravisLibrary& aravis,
                              reinterpret_cast<GCallback>(&on_lost), open.get(), nullptr,
                              GConnectFlags{}); // the device ends before what it is given
   HAL_TRY(open->stream, set_features(open->aravis, camera, options, config));
+  open->controls = controls_of(open->aravis, camera);
   open->slots = std::make_unique<FrameSlots>(
       config.buffers, std::max(open->stream.payload_bytes, config.format.frame_bytes()));
   return open;

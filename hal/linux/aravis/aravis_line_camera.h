@@ -27,6 +27,7 @@ struct OpenCamera {
   Semaphore returns;             // of slots, by any thread
   Reference<ArvCamera> camera;
   CameraStream stream;
+  CameraControls controls;
   std::unique_ptr<FrameSlots> slots;
   std::unique_ptr<FrameServer> server; // while streaming
 };
@@ -53,6 +54,7 @@ private:
   void do_stop() override;
   void do_close() override;
   std::string do_identity() const override;
+  CameraControls do_controls() const override { return open_ ? open_->controls : CameraControls{}; }
 
   void begin_opening(const LineCameraConfig& config);
   Result<> finish_opening();

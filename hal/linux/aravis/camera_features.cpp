@@ -121,6 +121,21 @@ private:
   AravisAnswer answer_;
 };
 
+// Nothing where the camera has no such feature.
+template <class Get, class Bounds>
+std::optional<CameraControl> read_control(const AravisLibrary& aravis, ArvCamera* camera, Get get,
+                                          Bounds bounds) {
+  AravisAnswer answer{aravis};
+  CameraControl control;
+  control.value = get(camera, answer.out());
+  if (answer.failed())
+    return std::nullopt;
+  bounds(camera, &control.least, &control.most, answer.out());
+  if (answer.failed() || !(control.least <= control.most))
+    return std::nullopt;
+  return control;
+}
+
 // Aravis keeps one list of buses for the whole process.
 void ask_only(const AravisLibrary& aravis, GenicamAddress::Bus bus) {
   const bool usb = bus == GenicamAddress::Bus::usb3_vision;
@@ -170,6 +185,13 @@ Result<std::vector<std::string>> offered_formats(const AravisLibrary& aravis, Ar
   std::vector<std::string> formats{texts, texts + count};
   aravis.free(texts); // the texts are the camera's
   return formats;
+}
+
+CameraControls controls_of(const AravisLibrary& aravis, ArvCamera* camera) {
+  return {.exposure_us = read_control(aravis, camera, aravis.camera_get_exposure_time,
+                                      aravis.camera_get_exposure_time_bounds),
+          .gain =
+              read_control(aravis, camera, aravis.camera_get_gain, aravis.camera_get_gain_bounds)};
 }
 
 Result<CameraStream> set_features(const AravisLibrary& aravis, ArvCamera* camera,

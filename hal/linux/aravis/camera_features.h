@@ -35,4 +35,7 @@ Result<CameraStream> set_features(const AravisLibrary& aravis, ArvCamera* camera
                                   const GenicamCameraOptions& options,
                                   const LineCameraConfig& config);
 
+// Exposure and gain as they are, where the camera has them.
+CameraControls controls_of(const AravisLibrary& aravis, ArvCamera* camera);
+
 } // namespace octascope::hal::linux_backend

@@ -91,6 +91,14 @@ std::optional<std::int64_t> read(const FileDescriptor& file, std::uint32_t id) {
   return value;
 }
 
+// A control of 32 bits fills half of the field.
+std::optional<std::int64_t> read_number(const FileDescriptor& file, const Setting& setting) {
+  const auto value = read(file, setting.id);
+  if (value && setting.range.least >= INT32_MIN && setting.range.most <= INT32_MAX)
+    return static_cast<std::int32_t>(*value);
+  return value;
+}
+
 Result<std::string> set(const FileDescriptor& file, std::string_view node,
                         const std::optional<Setting>& found, std::string_view name,
                         std::int64_t wanted) {
@@ -106,6 +114,23 @@ Result<std::string> set(const FileDescriptor& file, std::string_view node,
   return fmt::format("{} set to {}{}", found->range.name, *value,
                      found->governed ? ", which has no effect while another control governs it"
                                      : "");
+}
+
+std::optional<Setting> find_gain(const FileDescriptor& file) {
+  auto gain = find(file, V4L2_CID_ANALOGUE_GAIN);
+  return gain ? gain : find(file, V4L2_CID_GAIN);
+}
+
+std::optional<CameraControl> read_control(const FileDescriptor& file,
+                                          const std::optional<Setting>& found, double unit) {
+  if (!found || !found->range.settable)
+    return std::nullopt;
+  const auto value = read_number(file, *found);
+  if (!value)
+    return std::nullopt;
+  return CameraControl{.value = static_cast<double>(*value) * unit,
+                       .least = static_cast<double>(found->range.least) * unit,
+                       .most = static_cast<double>(found->range.most) * unit};
 }
 
 // A value that is set by hand would have no effect while the camera's automatic is on. Not every
@@ -133,6 +158,12 @@ Result<std::string> set_line_rate(const FileDescriptor& file, std::string_view n
 }
 
 } // namespace
+
+CameraControls read_controls(const FileDescriptor& file) {
+  return {.exposure_us =
+              read_control(file, find(file, V4L2_CID_EXPOSURE_ABSOLUTE), exposure_unit_us),
+          .gain = read_control(file, find_gain(file), 1)};
+}
 
 Result<std::int64_t> fit_setting(const SettingRange& range, std::int64_t wanted) {
   if (!range.settable)
@@ -192,10 +223,7 @@ Result<std::vector<std::string>> apply_settings(const FileDescriptor& file, std:
   }
   if (settings.gain) {
     end_automatic(file, node, V4L2_CID_AUTOGAIN, 0);
-    auto gain = find(file, V4L2_CID_ANALOGUE_GAIN);
-    if (!gain)
-      gain = find(file, V4L2_CID_GAIN);
-    done.push_back(set(file, node, gain, "Gain", *settings.gain));
+    done.push_back(set(file, node, find_gain(file), "Gain", *settings.gain));
   }
   done.push_back(set_line_rate(file, node, line_rate_hz, width));
   std::vector<std::string> words;

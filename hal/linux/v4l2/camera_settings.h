@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/line_camera.h"
 #include "hal/linux/system/file_descriptor.h"
 #include "hal/result.h"
 
@@ -46,5 +47,8 @@ Result<std::int64_t> blanking_for(double line_rate_hz, std::int64_t pixel_rate_h
 Result<std::vector<std::string>> apply_settings(const FileDescriptor& file, std::string_view node,
                                                 const CameraSettings& settings, double line_rate_hz,
                                                 int width);
+
+// Exposure and gain as they are, where they can be set.
+CameraControls read_controls(const FileDescriptor& file);
 
 } // namespace octascope::hal::linux_backend

@@ -67,6 +67,10 @@ std::string V4l2LineCamera::do_identity() const {
   return camera_;
 }
 
+CameraControls V4l2LineCamera::do_controls() const {
+  return node_ ? read_controls(node_->file()) : CameraControls{};
+}
+
 void V4l2LineCamera::note(std::vector<std::string> words) {
   const std::lock_guard lock{notes_mutex_};
   notes_ = std::move(words);

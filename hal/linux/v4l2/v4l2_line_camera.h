@@ -75,6 +75,7 @@ private:
   void do_stop() override;
   void do_close() override;
   std::string do_identity() const override;
+  CameraControls do_controls() const override;
 
   Result<std::string> find_node(const LineFormat& wanted) const;
   Result<> open_node(const std::string& node, const LineCameraConfig& config);

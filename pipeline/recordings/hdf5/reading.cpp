@@ -4,6 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -25,6 +26,14 @@ constexpr unsigned read_attempts = 22;
 // tightest of HDF5's own filters, makes no more of a byte.
 constexpr double most_bytes_of_a_byte = 1032;
 
+// HDF5 reads and writes at places: where the file is at plays no part.
+std::optional<int> descriptor_of(hid_t file) {
+  void* descriptor = nullptr;
+  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor) < 0)
+    return std::nullopt;
+  return *static_cast<const int*>(descriptor);
+}
+
 double bytes_of(std::span<const hsize_t> sizes, std::size_t element_bytes) {
   double bytes = static_cast<double>(element_bytes);
   for (const hsize_t size : sizes)
@@ -36,9 +45,7 @@ double bytes_of(std::span<const hsize_t> sizes, std::size_t element_bytes) {
 hal::Result<> check_claims(hid_t dataset, const char* name, std::span<const hsize_t> sizes,
                            std::size_t element_bytes) {
   const Hdf5Handle file{H5Iget_file_id(dataset), H5Fclose};
-  hsize_t file_bytes = 0;
-  if (H5Fget_filesize(file, &file_bytes) < 0)
-    return hal::fail(hal::ErrorCode::bad_data, "its size cannot be found: " + hdf5_reason());
+  const std::uint64_t file_bytes = stored_bytes(file);
   const Hdf5Handle made{H5Dget_create_plist(dataset), H5Pclose};
   std::array<hsize_t, 4> chunk{};
   double claimed = bytes_of(sizes, element_bytes);
@@ -141,11 +148,30 @@ hal::Result<Hdf5Handle> open_dataset(hid_t where, const char* name, H5T_class_t 
   return dataset;
 }
 
-hal::Result<> check_end(hid_t file, std::uint64_t address, std::uint64_t bytes) {
-  void* descriptor = nullptr;
+std::uint64_t stored_bytes(hid_t file) {
+  const auto descriptor = descriptor_of(file);
   struct stat status = {};
-  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor) < 0 ||
-      ::fstat(*static_cast<const int*>(descriptor), &status) != 0)
+  if (!descriptor || ::fstat(*descriptor, &status) != 0)
+    return 0;
+  constexpr blkcnt_t block = 512; // whatever the file system's are
+  if (status.st_blocks >= (status.st_size + block - 1) / block)
+    return static_cast<std::uint64_t>(status.st_size);
+  // Fewer may be compressed ones, or not written yet: the file system tells holes from these.
+  std::uint64_t bytes = 0;
+  for (off_t at = ::lseek(*descriptor, 0, SEEK_DATA); at >= 0;) {
+    const off_t end = ::lseek(*descriptor, at, SEEK_HOLE);
+    if (end <= at)
+      break;
+    bytes += static_cast<std::uint64_t>(end - at);
+    at = ::lseek(*descriptor, end, SEEK_DATA);
+  }
+  return bytes;
+}
+
+hal::Result<> check_end(hid_t file, std::uint64_t address, std::uint64_t bytes) {
+  const auto descriptor = descriptor_of(file);
+  struct stat status = {};
+  if (!descriptor || ::fstat(*descriptor, &status) != 0)
     return {}; // nothing is known
   const auto file_bytes = static_cast<std::uint64_t>(status.st_size);
   if (address <= file_bytes && bytes <= file_bytes - address)

@@ -27,6 +27,10 @@ hal::Result<Hdf5Handle> open_dataset(hid_t where, const char* name, H5T_class_t 
 // Whether a dataset of records has every number of `expected`, by name.
 hal::Result<> check_members(hid_t dataset, const char* name, hid_t expected);
 
+// The bytes of an open file, its holes left out: what is claimed of it takes no more memory than they
+// make plausible, however long the file says it is.
+std::uint64_t stored_bytes(hid_t file);
+
 // Of what was cut off a file after it was opened HDF5 reads zeros, and no error.
 hal::Result<> check_end(hid_t file, std::uint64_t address, std::uint64_t bytes);
 

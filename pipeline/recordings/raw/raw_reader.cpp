@@ -12,6 +12,7 @@
 #include "pipeline/recordings/hdf5/hdf5_head.h"
 #include "pipeline/recordings/hdf5/reading.h"
 #include "pipeline/recordings/hdf5/trial.h"
+#include "pipeline/recordings/raw/frame_places.h"
 #include "pipeline/recordings/raw/raw_attributes.h"
 #include "pipeline/recordings/raw/raw_layout.h"
 
@@ -33,10 +34,18 @@ namespace {
 
 // As frames lie unpacked, a file has no more than it has room for, whatever it claims: so that what
 // is read of it takes little more memory than it has bytes.
-hsize_t most_frames_of(const std::filesystem::path& file, const hal::LineFormat& format) {
-  std::error_code unknown;
-  const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
-  return unknown ? 0 : bytes / format.frame_bytes();
+hal::Result<hsize_t> frames_with_room(hid_t file, const hal::LineFormat& format, hsize_t claimed) {
+  hsize_t file_bytes = 0;
+  if (H5Fget_filesize(file, &file_bytes) < 0)
+    return hal::fail(hal::ErrorCode::bad_data, "its size cannot be found: " + hdf5_reason());
+  const std::uint64_t stored = stored_bytes(file);
+  const hsize_t most = stored / format.frame_bytes();
+  if (claimed > most && stored < file_bytes / 2)
+    return hal::fail(hal::ErrorCode::bad_data,
+                     "found {} frames claimed, and {} of {} bytes stored, the others are holes: "
+                     "expected {} bytes a frame; take another copy of the file",
+                     claimed, stored, file_bytes, format.frame_bytes());
+  return std::min(claimed, most);
 }
 
 hal::Result<std::vector<RawFrame>> read_entries(hid_t frames, hsize_t count) {
@@ -157,7 +166,7 @@ hal::Result<std::unique_ptr<RawReader::File>> RawReader::load(const std::filesys
   }
   HAL_CHECK(check_storage(opened->spectra, format));
   // Of one that broke off, the last frames may lack their entries, or these their frames.
-  const hsize_t count = std::min(std::ranges::min(counts), most_frames_of(path, format));
+  HAL_TRY(const hsize_t count, frames_with_room(opened->file, format, std::ranges::min(counts)));
   HAL_TRY(const auto entries, read_entries(frames, count));
   opened->rows.resize(count);
   std::iota(opened->rows.begin(), opened->rows.end(), std::size_t{0});
@@ -225,15 +234,20 @@ hal::Result<SpectraFile> RawReader::spectra(std::size_t first, std::size_t count
                              .samples = facts.format.samples_per_line,
                              .type = facts.format.sample_type,
                              .places = {}};
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    const std::size_t row = file_->rows[first + i];
-    const auto chunk = find_chunk(file_->spectra, std::array<hsize_t, 3>{row, 0, 0});
-    if (!chunk || chunk->bytes != facts.format.frame_bytes() || chunk->skipped_filters != 0)
+  const auto rows = std::span{file_->rows}.subspan(first, count);
+  std::vector<std::size_t> in_file(count); // workers finish in another order
+  std::iota(in_file.begin(), in_file.end(), std::size_t{0});
+  std::ranges::sort(in_file, {}, [&](std::size_t i) { return rows[i]; });
+  HAL_TRY(auto places, FramePlaces::open(file_->path, file_->spectra, facts.format.frame_bytes()));
+  sweeps.places.resize(count);
+  for (const std::size_t i : in_file) {
+    const auto place = places.find(rows[i], part[i].crc32);
+    if (!place)
       return hal::fail(hal::ErrorCode::bad_data,
                        "{}: frame {} is not there: the file is damaged, or another program changed "
                        "it",
-                       file_->path.string(), row);
-    sweeps.places.push_back({chunk->address, part[i].crc32});
+                       file_->path.string(), rows[i]);
+    sweeps.places[i] = {*place, part[i].crc32};
   }
   return SpectraFile::open(file_->path, std::move(sweeps));
 }

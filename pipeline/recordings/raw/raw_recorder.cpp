@@ -24,9 +24,10 @@ constexpr std::uintmax_t room_left_alone = std::uintmax_t{256} << 20;
 constexpr std::size_t fewest_slots = 4;
 constexpr std::size_t most_slots = 1024;
 
-std::size_t slots_for(const RawFacts& facts) {
-  return std::clamp(RawRecorder::most_memory / facts.format.frame_bytes(), fewest_slots,
-                    most_slots);
+std::size_t slots_for(const RawFacts& facts, std::uint64_t most_frames) {
+  const std::size_t slots =
+      std::clamp(RawRecorder::most_memory / facts.format.frame_bytes(), fewest_slots, most_slots);
+  return most_frames > 0 ? std::min<std::uint64_t>(slots, most_frames) : slots;
 }
 
 std::int64_t wall_clock_ns() {
@@ -42,14 +43,37 @@ Fault fault_of_writing(const hal::Error& error, Fault other) {
 } // namespace
 
 RawRecorder::RawRecorder(std::filesystem::path file, RawFacts facts, std::size_t workers,
-                         std::uint64_t most_frames, hal::Clock& clock, FaultLog& faults)
+                         std::uint64_t most_frames, hal::Clock& clock, FaultLog& faults,
+                         RawWriterMaker make_writer)
     : file_(std::move(file)), folder_(std::filesystem::absolute(file_).parent_path()),
       facts_(std::move(facts)), most_frames_(most_frames), clock_(clock), faults_(faults),
-      waiting_(workers) {}
+      make_writer_(std::move(make_writer)), waiting_(workers) {}
 
 hal::Result<> RawRecorder::start(const ThreadSetup& setup) {
-  HAL_TRY(writer_, RawWriter::create(file_, facts_));
-  slots_.resize(slots_for(facts_));
+  make_slots();
+  waiting_for_file_ = true;
+  thread_.start({"raw"}, setup, [this] { run(); });
+  std::unique_lock lock{mutex_};
+  if (!made_.wait_for(lock, patience, [this] { return !waiting_for_file_; })) {
+    told_of_waiting_ = true;
+    faults_.add(Fault::recording_waits,
+                fmt::format("{}: its disk has not made the file for {} s; it is waited for, and no "
+                            "frame is kept until then",
+                            file_.string(), patience.count()),
+                clock_.now());
+  } else if (failure_) {
+    const hal::Error error = *failure_;
+    lock.unlock();
+    thread_.stop();
+    return tl::make_unexpected(error);
+  }
+  lock.unlock();
+  sync_thread_.start({"raw-sync"}, setup, [this] { sync(); });
+  return {};
+}
+
+void RawRecorder::make_slots() {
+  slots_.resize(slots_for(facts_, most_frames_));
   free_ = std::make_unique<IndexRing>(slots_.size());
   for (auto& waiting : waiting_)
     waiting = std::make_unique<IndexRing>(slots_.size());
@@ -59,11 +83,28 @@ hal::Result<> RawRecorder::start(const ThreadSetup& setup) {
       slots_[i].background.resize(static_cast<std::size_t>(facts_.format.samples_per_line));
     free_->push(static_cast<std::uint32_t>(i));
   }
-  began_ = flushed_ = clock_.now();
-  taking_.store(true, std::memory_order_release);
-  thread_.start({"raw"}, setup, [this] { run(); });
-  sync_thread_.start({"raw-sync"}, setup, [this] { sync(); });
-  return {};
+}
+
+// The writing thread. False: it cannot be made; failure_ says why.
+bool RawRecorder::make_file() {
+  Heartbeat::rest_here(); // a disk may take its time
+  auto made = make_writer_(file_, facts_);
+  Heartbeat::beat_here(clock_.now());
+  const bool is_made = made.has_value();
+  if (is_made) {
+    writer_ = std::move(*made);
+    began_ = flushed_ = clock_.now();
+    taking_.store(true, std::memory_order_release);
+  }
+  const std::lock_guard lock{mutex_};
+  if (!is_made) {
+    failure_ = made.error();
+    if (told_of_waiting_)
+      faults_.add(Fault::recording_not_begun, failure_->message, clock_.now());
+  }
+  waiting_for_file_ = false;
+  made_.notify_all();
+  return is_made;
 }
 
 void RawRecorder::stop(const std::string& camera) {
@@ -71,6 +112,8 @@ void RawRecorder::stop(const std::string& camera) {
     return;
   thread_.stop();
   sync_thread_.stop();
+  if (!writer_)
+    return;
   const auto finished =
       writer_->finish({.not_kept = not_kept_.load(std::memory_order_relaxed), .camera = camera});
   if (!finished && !failure())
@@ -84,9 +127,13 @@ void RawRecorder::offer(std::size_t worker, const RawFrame& entry, std::span<con
   if (most_frames_ > 0 && kept_.load(std::memory_order_relaxed) >= most_frames_)
     return;
   offered_.fetch_add(1, std::memory_order_relaxed);
-  const auto index = taking_.load(std::memory_order_acquire) ? free_->pop() : std::nullopt;
+  const bool taking = taking_.load(std::memory_order_acquire);
+  const auto index = taking ? free_->pop() : std::nullopt;
   if (!index) {
-    not_kept_.fetch_add(1, std::memory_order_relaxed);
+    if (taking && slots_.size() == most_frames_) // all that are wanted wait already
+      offered_.fetch_sub(1, std::memory_order_relaxed);
+    else
+      not_kept_.fetch_add(1, std::memory_order_relaxed);
     return;
   }
   Slot& slot = slots_[*index];
@@ -100,8 +147,10 @@ void RawRecorder::offer(std::size_t worker, const RawFrame& entry, std::span<con
 
 RawRecorderStatus RawRecorder::status() const {
   const std::int64_t room = room_.load(std::memory_order_relaxed);
-  return {.on = taking_.load(std::memory_order_acquire),
-          .since = began_,
+  const bool on = taking_.load(std::memory_order_acquire);
+  return {.waiting = waiting_for_file_.load(std::memory_order_acquire),
+          .on = on,
+          .since = on ? began_ : hal::TimePoint{},
           .offered = offered_.load(std::memory_order_relaxed),
           .kept = kept_.load(std::memory_order_relaxed),
           .not_kept = not_kept_.load(std::memory_order_relaxed),
@@ -114,6 +163,8 @@ std::optional<hal::Error> RawRecorder::failure() const {
 }
 
 void RawRecorder::run() {
+  if (!make_file())
+    return;
   bool stopping = false;
   while (!stopping) {
     Heartbeat::beat_here(clock_.now());

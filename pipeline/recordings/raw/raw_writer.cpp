@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include <zlib.h>
-
+#include "pipeline/files/crc32.h"
+#include "pipeline/recordings/hdf5/attributes.h"
 #include "pipeline/recordings/hdf5/growing_file.h"
 #include "pipeline/recordings/raw/raw_attributes.h"
 #include "pipeline/recordings/raw/raw_layout.h"
@@ -15,11 +15,6 @@ namespace layout = raw_layout;
 namespace {
 
 constexpr hsize_t entries_a_chunk = 256;
-
-std::uint32_t crc32_of(std::span<const std::byte> bytes) {
-  return static_cast<std::uint32_t>(
-      ::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 } // namespace
 
@@ -61,6 +56,11 @@ RawWriter::~RawWriter() {
 // Chunks begin at pages, so that their samples can be used where they lie in a mapped file.
 hal::Result<RawWriter> RawWriter::create(const std::filesystem::path& path, const RawFacts& facts) {
   const Hdf5Silence silence;
+  if (facts.format.lines_per_frame > largest_size)
+    return hal::fail(hal::ErrorCode::invalid_argument,
+                     "{}: found {} lines a frame, of which {} are kept, expected at most {} where "
+                     "raw spectra are recorded; record levels (--out), or scan fewer lines a sweep",
+                     path.string(), facts.format.lines_per_frame, facts.kept_lines(), largest_size);
   auto made = std::make_unique<File>();
   made->format = facts.format;
   made->has_backgrounds = facts.has_backgrounds();

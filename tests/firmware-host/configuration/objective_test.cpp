@@ -89,8 +89,11 @@ TEST(MediumOf, a_plan_is_the_calibrations_where_its_depths_are) {
   pipeline::ScanPlan plan;
   plan.depth_spacing_um = 2.54;
   EXPECT_EQ(medium_of(plan, calibration), 1.38);
-  plan.depth_spacing_um = 3.5;
-  EXPECT_FALSE(medium_of(plan, calibration));
+  for (const double written_shorter : {2.53996, 2.541})
+    EXPECT_EQ(medium_of({.depth_spacing_um = written_shorter}, calibration), 1.38)
+        << written_shorter;
+  for (const double of_another : {3.5, 2.54 * 1.336 / 1.33})
+    EXPECT_FALSE(medium_of({.depth_spacing_um = of_another}, calibration)) << of_another;
 }
 
 } // namespace

@@ -166,6 +166,12 @@ TEST_F(GenicamCamera, its_features_are_set_and_what_it_cannot_is_refused_with_th
   const auto camera = make({.exposure_us = 20, .gain = 2, .trigger = "Software"});
   const auto opened = camera->open(small_config());
   EXPECT_TRUE(opened.has_value()) << (opened ? "" : opened.error().message);
+  const hal::CameraControls controls = camera->controls();
+  ASSERT_TRUE(controls.exposure_us && controls.gain);
+  EXPECT_EQ(controls.exposure_us->value, 20);
+  EXPECT_EQ(controls.exposure_us->least, 10);
+  EXPECT_EQ(controls.gain->value, 2);
+  EXPECT_EQ(controls.gain->most, 10);
 }
 
 TEST_F(GenicamCamera, a_frame_that_it_cannot_give_is_refused) {

@@ -1,5 +1,6 @@
 // The recorder of raw spectra: what workers offer is kept or counted.
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/linux/monotonic_clock.h"
+#include "hal/semaphore.h"
 #include "pipeline/recordings/raw/raw_reader.h"
 #include "pipeline/recordings/raw/raw_recorder.h"
 #include "tests/support/allocation_counter.h"
@@ -118,6 +120,78 @@ TEST_F(RawRecorderTest, begins_nothing_where_it_cannot) {
   over->stop("");
   file = folder / "none/raw.h5";
   EXPECT_THAT(recorder()->start({}).error().message, HasSubstr("none/raw.h5"));
+}
+
+// A disk that does not answer until it is let go.
+class HangingDisk {
+public:
+  RawWriterMaker maker(std::optional<hal::Error> answer = {}) {
+    return [this, answer](const std::filesystem::path& file,
+                          const RawFacts& facts) -> hal::Result<RawWriter> {
+      answers_.wait();
+      if (answer)
+        return tl::make_unexpected(*answer);
+      return RawWriter::create(file, facts);
+    };
+  }
+  void answer() { answers_.post(); }
+
+private:
+  hal::Semaphore answers_;
+};
+
+TEST_F(RawRecorderTest, waits_for_its_disk_without_holding_up_the_start_and_counts_what_comes) {
+  HangingDisk disk;
+  RawRecorder raw{file, tests::small_raw_facts(), workers, 0, clock, faults, disk.maker()};
+  ASSERT_TRUE(raw.start({}));
+  EXPECT_TRUE(raw.status().waiting);
+  EXPECT_FALSE(raw.status().on);
+  ASSERT_FALSE(faults.records().empty());
+  EXPECT_EQ(faults.records()[0].kind, Fault::recording_waits);
+  offer(raw, 0, 0);
+  EXPECT_EQ(raw.status().not_kept, 1U);
+  disk.answer();
+  wait_until([&] { return raw.status().on; });
+  EXPECT_FALSE(raw.status().waiting);
+  offer(raw, 1, 1);
+  raw.stop("");
+  EXPECT_FALSE(raw.failure());
+  const auto reader = tests::must(RawReader::open(file));
+  ASSERT_EQ(reader.frames().size(), 1U);
+  EXPECT_EQ(reader.frames()[0].sequence, 1U);
+  EXPECT_EQ(reader.end().not_kept, 1U);
+}
+
+TEST_F(RawRecorderTest, ends_where_its_disk_answers_late_that_it_cannot) {
+  HangingDisk disk;
+  RawRecorder raw{file,
+                  tests::small_raw_facts(),
+                  workers,
+                  0,
+                  clock,
+                  faults,
+                  disk.maker(hal::Error{hal::ErrorCode::system, "the disk is broken"})};
+  ASSERT_TRUE(raw.start({}));
+  disk.answer();
+  wait_until([&] { return raw.failure().has_value(); });
+  offer(raw, 0, 0);
+  raw.stop("");
+  EXPECT_EQ(raw.failure()->message, "the disk is broken");
+  EXPECT_EQ(raw.status().not_kept, 1U);
+  EXPECT_FALSE(raw.status().on);
+  ASSERT_EQ(faults.records().size(), 2U);
+  EXPECT_EQ(faults.records()[1].kind, Fault::recording_not_begun);
+}
+
+// More could be written, and nobody could read it.
+TEST_F(RawRecorderTest, refuses_frames_that_no_reader_takes) {
+  RawFacts long_frames = tests::small_raw_facts();
+  long_frames.plan.fly_back_lines = 65536;
+  long_frames.format.lines_per_frame = long_frames.plan.lines_per_frame();
+  const auto begun = recorder(0, long_frames)->start({});
+  ASSERT_FALSE(begun);
+  EXPECT_THAT(begun.error().message, HasSubstr("expected at most 65536"));
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST_F(RawRecorderTest, ends_where_its_file_is_removed_and_says_why) {

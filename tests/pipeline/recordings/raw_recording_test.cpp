@@ -9,7 +9,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "pipeline/files/crc32.h"
 #include "pipeline/recordings/hdf5/hdf5.h"
+#include "pipeline/recordings/raw/frame_places.h"
 #include "pipeline/recordings/raw/raw_layout.h"
 #include "pipeline/recordings/raw/raw_reader.h"
 #include "tests/support/files/fresh_seed.h"
@@ -36,6 +38,19 @@ protected:
     const auto reader = RawReader::open(file);
     EXPECT_FALSE(reader);
     return reader ? "" : reader.error().message;
+  }
+
+  // That it has so many, of which it got no more than it has.
+  void claim(hsize_t frames) const {
+    const hal::LineFormat format = small_raw_facts().format;
+    const Hdf5Handle opened{H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
+    const auto extend = [&](const char* name, const auto& size) {
+      const Hdf5Handle dataset{H5Dopen2(opened, name, H5P_DEFAULT), H5Dclose};
+      ASSERT_GE(H5Dset_extent(dataset, size.data()), 0) << name;
+    };
+    extend(raw_layout::spectra, raw_layout::spectra_size(format, frames));
+    extend(raw_layout::frames, std::array{frames});
+    extend(raw_layout::backgrounds, raw_layout::backgrounds_size(format, frames));
   }
 
   tests::ScratchFolder folder;
@@ -209,17 +224,6 @@ TEST_F(RawRecordingTest, refuses_or_bears_any_number_in_its_attributes) {
 // As long as the file's size bears it out: HDF5 gives no room to rows that nobody wrote.
 TEST_F(RawRecordingTest, that_claims_frames_which_it_cannot_hold_is_given_no_memory_for_them) {
   tests::write_small_raw(file, sweeps);
-  const auto claim = [&](hsize_t frames) {
-    const hal::LineFormat format = small_raw_facts().format;
-    const Hdf5Handle opened{H5Fopen(file.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
-    const auto extend = [&](const char* name, const auto& size) {
-      const Hdf5Handle dataset{H5Dopen2(opened, name, H5P_DEFAULT), H5Dclose};
-      ASSERT_GE(H5Dset_extent(dataset, size.data()), 0) << name;
-    };
-    extend(raw_layout::spectra, raw_layout::spectra_size(format, frames));
-    extend(raw_layout::frames, std::array{frames});
-    extend(raw_layout::backgrounds, raw_layout::backgrounds_size(format, frames));
-  };
   claim(100'000);
   const std::uintmax_t bytes = std::filesystem::file_size(file);
   ASSERT_LT(bytes, 1'000'000U);
@@ -231,6 +235,62 @@ TEST_F(RawRecordingTest, that_claims_frames_which_it_cannot_hold_is_given_no_mem
   }
   claim(hsize_t{1} << 40);
   EXPECT_THAT(refusal(), HasSubstr("expected what a file of"));
+}
+
+TEST_F(RawRecordingTest, is_not_larger_for_its_holes) {
+  tests::write_small_raw(file, sweeps);
+  constexpr std::uintmax_t holes = std::uintmax_t{1} << 36;
+  std::filesystem::resize_file(file, holes);
+  EXPECT_EQ(open().frames().size(), sweeps) << "as long as it claims no more";
+  claim(100'000);
+  std::filesystem::resize_file(file, holes); // HDF5 left them out
+  EXPECT_THAT(refusal(), HasSubstr("the others are holes"));
+}
+
+// So that an index is found between frames now and then, and workers finish in any order.
+TEST_F(RawRecordingTest, finds_each_of_many_small_frames_where_hdf5_says_it_is) {
+  constexpr std::uint64_t frames = 3000;
+  {
+    auto writer = tests::must(RawWriter::create(file, small_raw_facts()));
+    for (std::uint64_t n = 0; n < frames; ++n) {
+      const std::uint64_t swapped = n ^ 1U;
+      const auto samples = small_raw_samples(swapped);
+      ASSERT_TRUE(writer.append(small_raw_frame(swapped), std::as_bytes(std::span{samples}),
+                                tests::small_raw_background(swapped)));
+    }
+    ASSERT_TRUE(writer.finish({}));
+  }
+  const auto reader = open();
+  const auto spectra = tests::must(reader.spectra(0, frames, RawLines::all));
+  for (std::uint64_t n = 0; n < frames; ++n) {
+    const auto expected = small_raw_samples(n);
+    const auto found = spectra.b_scan(static_cast<int>(n));
+    ASSERT_EQ(spectra.find_fault(static_cast<int>(n)), std::nullopt);
+    ASSERT_EQ(std::memcmp(found.data(), expected.data(), found.size()), 0) << n;
+  }
+}
+
+// How often HDF5 has to be asked, who counts frames from the first for each.
+TEST_F(RawRecordingTest, asks_hdf5_for_few_of_many_small_frames) {
+  constexpr std::size_t frames = 5000;
+  std::vector<std::uint32_t> checksums;
+  {
+    auto writer = tests::must(RawWriter::create(file, small_raw_facts()));
+    for (std::uint64_t n = 0; n < frames; ++n) {
+      const auto samples = small_raw_samples(n);
+      checksums.push_back(crc32_of(std::as_bytes(std::span{samples})));
+      ASSERT_TRUE(writer.append(small_raw_frame(n), std::as_bytes(std::span{samples}),
+                                tests::small_raw_background(n)));
+    }
+    ASSERT_TRUE(writer.finish({}));
+  }
+  const Hdf5Handle opened{H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose};
+  const Hdf5Handle dataset{H5Dopen2(opened, raw_layout::spectra, H5P_DEFAULT), H5Dclose};
+  auto places =
+      tests::must(FramePlaces::open(file, dataset, small_raw_facts().format.frame_bytes()));
+  for (std::size_t n = 0; n < frames; ++n)
+    ASSERT_TRUE(places.find(n, checksums[n])) << n;
+  EXPECT_LT(places.asked(), frames / 50);
 }
 
 // Chunks that another program made.

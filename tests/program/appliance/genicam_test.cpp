@@ -94,6 +94,28 @@ TEST_F(GenicamRun, shows_what_the_camera_sees_and_says_that_it_is_simulated) {
   EXPECT_LT(black, 0.9 * view.width * view.height) << "the volume is in the view";
 }
 
+TEST_F(GenicamRun, commission_asks_bits_exposure_and_gain_and_shows_what_they_do) {
+  const std::string camera = "\ngigevision:127.0.0.1\n256\n24\n6\n10\n750\n\n\n16\n\n";
+  const std::string spectrum =
+      "\n\n20\n11\n2\n\n\n\n"; // a gain that it has not, then what it has now
+  const auto answers = folder_.write("answers", camera + "skip\n" + spectrum + "quit\n");
+  std::vector<std::string> words{"sh", "-c", "exec \"$@\" < \"$0\"", answers};
+  for (auto& word : octascope_command({"commission", "--out", folder_ / "f"}))
+    words.push_back(std::move(word));
+  const ProgramResult result = run_program(std::move(words));
+  EXPECT_THAT(result.out, testing::AllOf(testing::HasSubstr("Exposure in µs, 10 to 1000000? [20]"),
+                                         testing::HasSubstr(
+                                             "found \"11\", expected a whole number from 0 to 10"),
+                                         testing::HasSubstr("Gain, 0 to 10? [2]")))
+      << result.describe();
+  const json values = read_report(folder_ / "f/commission.json")["values"];
+  EXPECT_EQ(values["significant_bits"], 16);
+  EXPECT_EQ(values["exposure_us"], 20);
+  EXPECT_EQ(values["gain"], 2);
+  const ProgramResult look = run_octascope({"devices", "--config", folder_ / "f/working.toml"});
+  EXPECT_EQ(look.exit_status, 0) << look.describe();
+}
+
 TEST_F(GenicamRun, goes_on_without_a_camera_that_goes_and_has_it_again_when_it_is_back) {
   ProgramRun run{octascope_command(command("40"))};
   ASSERT_TRUE(run.wait_for_thread("octa-genicam", 30s));

@@ -180,6 +180,22 @@ TEST(Commission, leaves_a_configuration_that_somebody_edited) {
   EXPECT_THAT(listing(folder / "f"), Contains(EndsWith("/octascope-2.toml")));
 }
 
+TEST(Commission, writes_no_configuration_that_a_run_would_refuse) {
+  const ScratchFolder folder;
+  std::string skips;
+  for (int step = 0; step < 9; ++step)
+    skips += skipped;
+  ASSERT_EQ(commission(folder, small_scan + skips + done).exit_status, 0);
+  const std::string good = text_of(folder / "f" / "octascope.toml");
+  auto state = state_in(folder);
+  state["values"]["b_scans"] = 70000;
+  folder.write("f/commission.json", state.dump());
+  const ProgramResult result = commission(folder, "keep\n" + skips + "repeat\nquit\n");
+  EXPECT_THAT(result.out, AllOf(HasSubstr("FAILED: "), HasSubstr("b_scans is 70000")));
+  EXPECT_EQ(text_of(folder / "f" / "octascope.toml"), good);
+  EXPECT_THAT(listing(folder / "f"), Not(Contains(HasSubstr("unchecked"))));
+}
+
 TEST(Commission, says_so_when_the_folder_is_of_no_use) {
   const ScratchFolder folder;
   const auto refuse = [&](const std::string& place, const std::string& why, int status,

@@ -14,6 +14,7 @@
 #include "pipeline/recordings/recording_reader.h"
 #include "tests/program/program_support.h"
 #include "tests/support/files/test_data.h"
+#include "tests/support/must.h"
 
 namespace octascope::tests {
 namespace {
@@ -172,37 +173,76 @@ std::uint64_t displayed(const nlohmann::json& status) {
              : 0;
 }
 
-// More than there are slots for comes meanwhile.
-TEST(RawSpectra, are_counted_while_their_disk_stands_still_and_the_display_goes_on) {
-  if (sanitized)
-    GTEST_SKIP() << "the sanitizer must be the first library";
-  const ScratchFolder folder;
-  std::vector<std::string> words{"env", "RUNTIME_DIRECTORY=" + folder.path().string(),
-                                 std::string{"LD_PRELOAD="} + OCTASCOPE_STOPPED_DISK_LIBRARY,
-                                 "OCTASCOPE_STOPPED_DISK=" + (folder / "stopped").string()};
-  for (std::string& word : octascope_command(small_raw_record(folder, {"--duration", "300"})))
-    words.push_back(std::move(word));
-  ProgramRun run{words};
-  ASSERT_TRUE(run.wait_for_thread("octa-raw-sync", 60s));
-  folder.write("stopped", "");
-  const auto displays = [&](std::uint64_t volumes) {
-    for (int i = 0; i < 1000 && run.running(); ++i, std::this_thread::sleep_for(100ms))
-      if (displayed(status_of(folder / "status.sock")) >= volumes)
+// A program that records to a disk which a file "stopped" on it brings to a stand.
+class StoppedDisk : public testing::Test {
+protected:
+  void SetUp() override {
+    if (sanitized)
+      GTEST_SKIP() << "the sanitizer must be the first library";
+    std::filesystem::create_directory(folder / "disk");
+  }
+  void start() {
+    std::vector<std::string> words{"env", "RUNTIME_DIRECTORY=" + folder.path().string(),
+                                   std::string{"LD_PRELOAD="} + OCTASCOPE_STOPPED_DISK_LIBRARY,
+                                   "OCTASCOPE_STOPPED_DISK=" + stopped.string()};
+    auto record = octascope_command(small_raw_record(folder, {"--duration", "300"}));
+    record.back() = file;
+    words.insert(words.end(), record.begin(), record.end());
+    run = std::make_unique<ProgramRun>(words);
+  }
+  template <class Condition> bool comes_true(const Condition& condition) const {
+    for (int i = 0; i < 1000 && run->running(); ++i, std::this_thread::sleep_for(100ms))
+      if (condition(status_of(folder / "status.sock")))
         return true;
     return false;
-  };
+  }
+  bool displays(std::uint64_t volumes) const {
+    return comes_true([&](const auto& status) { return displayed(status) >= volumes; });
+  }
+  void end() const {
+    run->send_signal(SIGINT);
+    const ProgramResult result = run->wait(60s);
+    EXPECT_EQ(result.exit_status, 0) << result.describe();
+    EXPECT_THAT(result.out, testing::ContainsRegex("raw.h5, [0-9]+ frames, [1-9][0-9]* not kept"));
+  }
+
+  const ScratchFolder folder;
+  const std::filesystem::path stopped = folder / "disk/stopped";
+  const std::filesystem::path file = folder / "disk/raw.h5";
+  std::unique_ptr<ProgramRun> run;
+};
+
+// More than there are slots for comes meanwhile.
+TEST_F(StoppedDisk, has_raw_spectra_counted_and_the_display_goes_on) {
+  start();
+  ASSERT_TRUE(run->wait_for_thread("octa-raw-sync", 60s));
+  folder.write("disk/stopped", "");
   ASSERT_TRUE(displays(1));
   constexpr std::uint64_t most_slots = 1024; // of the recorder
   EXPECT_TRUE(
       displays(displayed(status_of(folder / "status.sock")) + most_slots / small_b_scans + 10));
-  std::filesystem::remove(folder / "stopped");
-  run.send_signal(SIGINT);
-  const ProgramResult result = run.wait(60s);
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
-  EXPECT_THAT(result.out, testing::ContainsRegex("raw.h5, [0-9]+ frames, [1-9][0-9]* not kept"));
-  const auto raw = must_open<pipeline::RawReader>(folder / "raw.h5");
+  std::filesystem::remove(stopped);
+  end();
+  const auto raw = must_open<pipeline::RawReader>(file);
   EXPECT_GT(raw.end().not_kept, 0U);
   EXPECT_GE(raw.frames().size(), most_slots);
+}
+
+TEST_F(StoppedDisk, from_the_start_on_holds_up_no_display_and_is_recorded_to_later) {
+  folder.write("disk/stopped", "");
+  start();
+  ASSERT_TRUE(displays(3));
+  EXPECT_TRUE(comes_true([](const auto& status) {
+    return status.is_object() &&
+           status.dump().find("its disk has not made the file") != std::string::npos;
+  }));
+  std::filesystem::remove(stopped);
+  EXPECT_TRUE(
+      comes_true([this](const auto&) { return std::filesystem::file_size(file) > 1'000'000; }));
+  end();
+  const auto raw = must_open<pipeline::RawReader>(file);
+  EXPECT_GT(raw.end().not_kept, 0U);
+  EXPECT_GT(raw.frames().size(), 0U);
 }
 
 TEST(RawSpectra, end_before_the_disk_is_full) {
@@ -246,6 +286,24 @@ TEST(Capture, keeps_whole_volumes_that_every_command_takes) {
                                                "--shape", "3,3,1024", "--out", folder / "w.nrrd"});
   EXPECT_EQ(refused.exit_status, 2);
   EXPECT_THAT(refused.err, HasSubstr("expected none, or 20,24,128"));
+}
+
+// What a calibration does not say of the scan, the recording does.
+TEST(Capture, says_how_wide_the_scan_is_to_another_calibration) {
+  const ScratchFolder folder;
+  run_well(small_capture(folder, {"--volumes", "1"}));
+  const auto other = folder.write("other.toml", "[spectrometer]\nsamples = 128\n"
+                                                "[k_linear]\npolynomial = [0.0, 127.0]\n"
+                                                "[depth]\nspacing_um = 3.4\n");
+  const ProgramResult result =
+      run_well({"reconstruct", "--spectra", folder / "c.h5", "--calibration", other.string(),
+                "--out", folder / "v.nrrd"});
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("assumed")));
+  const auto volume = must(pipeline::read_nrrd(folder / "v.nrrd"));
+  const auto plan = must_open<pipeline::RawReader>(folder / "c.h5").facts().plan;
+  EXPECT_NEAR(volume.geometry.a_spacing_um, plan.a_spacing_um, 1e-6);
+  EXPECT_NEAR(volume.geometry.b_spacing_um, plan.b_spacing_um, 1e-6);
+  EXPECT_NEAR(volume.geometry.depth_spacing_um, 3.4, 1e-6);
 }
 
 // Spectra that are known, played slowly: every second line has three counts more.

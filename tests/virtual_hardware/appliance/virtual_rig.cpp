@@ -94,8 +94,10 @@ keyboards = ["046d:c31c"]
   return {};
 }
 
-hal::Result<std::unique_ptr<sim::SpectraSource>> virtual_rig_phantom(int volumes) {
+hal::Result<std::unique_ptr<sim::SpectraSource>> virtual_rig_phantom(int volumes,
+                                                                     const std::string& phantom) {
   sim::VolumeLoopConfig loop;
+  loop.phantom = phantom;
   loop.plan = VirtualRig::plan();
   loop.volumes = volumes;
   HAL_TRY(auto spectra, sim::VolumeLoop::make(loop));
@@ -200,7 +202,13 @@ void VirtualRig::answer() {
   static_cast<void>(chip_->pull(sync_line, false));
 }
 
+void VirtualRig::look_at(std::unique_ptr<sim::SpectraSource> spectra) {
+  const std::lock_guard lock{spectra_mutex_};
+  spectra_ = std::move(spectra);
+}
+
 void VirtualRig::sweep(hal::TimePoint pulse) {
+  const std::lock_guard lock{spectra_mutex_};
   const pipeline::ScanPlan p = plan();
   for (int sweep = 0; sweep < p.sweeps(); ++sweep) {
     clock_.sleep_until(pulse + (sweep + 1) * p.frame_period());

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -27,9 +28,10 @@ namespace octascope::tests {
 // Why there can be none here; empty when there can.
 std::string virtual_rig_missing();
 
-// An eye, made when it is asked for; or one volume of that, written and read again: for kernels in
+// A phantom, an eye mostly, made when it is asked for; or one volume of that, written and read again: for kernels in
 // which a second of work is a second of somebody's start. 16-bit samples, [sweep][line][sample].
-hal::Result<std::unique_ptr<sim::SpectraSource>> virtual_rig_phantom(int volumes);
+hal::Result<std::unique_ptr<sim::SpectraSource>>
+virtual_rig_phantom(int volumes, const std::string& phantom = "anterior_eye");
 hal::Result<> write_virtual_rig_spectra(const std::filesystem::path& file);
 hal::Result<std::unique_ptr<sim::SpectraSource>>
 read_virtual_rig_spectra(const std::filesystem::path& file);
@@ -66,6 +68,9 @@ public:
   static hal::Result<std::unique_ptr<VirtualKeyboard>> plug_keyboard();
   static hal::Result<std::unique_ptr<VirtualKeyboard>> plug_strange_keyboard();
 
+  // Another thing under the beam, from the next volume on. Waits until no sweep is under way.
+  void look_at(std::unique_ptr<sim::SpectraSource> spectra);
+
   // While it is blind, pulses go by and no frame comes, as from a camera without light or cable.
   void blind_camera(bool blind) { blind_ = blind; }
 
@@ -83,6 +88,7 @@ private:
   void sweep(hal::TimePoint pulse);
 
   hal::linux_backend::MonotonicClock clock_;
+  std::mutex spectra_mutex_;
   std::unique_ptr<sim::SpectraSource> spectra_;
   std::unique_ptr<SimGpioChip> chip_;
   std::unique_ptr<LoopbackFeeder> feeder_;

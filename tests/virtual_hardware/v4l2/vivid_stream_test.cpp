@@ -161,7 +161,14 @@ TEST_F(VividStream, settings_are_checked_and_told) {
   EXPECT_THAT(camera.notes(), Contains("Gain set to 17"));
   EXPECT_THAT(camera.notes(), Contains("Contrast set to 100"));
   EXPECT_THAT(camera.notes(), Contains(HasSubstr("no control of the line rate")));
+  const hal::CameraControls controls = camera.controls();
+  EXPECT_FALSE(controls.exposure_us);
+  ASSERT_TRUE(controls.gain);
+  EXPECT_EQ(controls.gain->value, 17);
+  EXPECT_EQ(controls.gain->least, 0);
+  EXPECT_EQ(controls.gain->most, 255);
   camera.close();
+  EXPECT_FALSE(camera.controls().gain);
 
   options.settings.gain = 100'000;
   V4l2LineCamera too_loud{options, clock_};
