@@ -109,8 +109,11 @@ void FrameServer::serve(int slot, ArvBuffer* buffer, TimePoint now) {
   frame.end =
       leader_lost ? now : camera_clock_.end_of_frame(aravis_.buffer_get_timestamp(buffer), now);
   frame.integrity = judge(buffer, frame.bytes);
-  if (frame.integrity == FrameIntegrity::good)
-    unpack(expected_.packing, slots_.bytes(slot), format_.frame_bytes() / sizeof(std::uint16_t));
+  if (frame.integrity == FrameIntegrity::good) {
+    const std::size_t samples = format_.frame_bytes() / sizeof(std::uint16_t);
+    unpack(expected_.packing, slots_.bytes(slot), samples);
+    rescale(slots_.bytes(slot), samples, expected_.bits, format_.significant_bits);
+  }
   slots_.serve(slot, frame);
   news_.post();
 }

@@ -15,6 +15,7 @@
 #include "tests/hal/aravis/packed_by_definition.h"
 #include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/program/genicam_description.h"
 
 namespace octascope::tests {
 namespace {
@@ -230,6 +231,34 @@ TEST_F(GenicamCamera, packed_samples_come_unpacked) {
     std::vector<std::uint16_t> received(samples.size());
     std::memcpy(received.data(), (*frame)->bytes.data(), (*frame)->bytes.size());
     EXPECT_THAT(received, testing::ElementsAreArray(samples));
+    camera->release((*frame)->buffer);
+  }
+}
+
+TEST_F(GenicamCamera, one_of_another_depth_is_taken_where_any_serves_and_scaled) {
+  const ScratchFolder folder;
+  FakeCamera fake{{.description = folder.write(
+                       "camera.xml", with_8_bits_alone(FakeCamera::usual_description()))}};
+  const auto refused = make({})->open(small_config());
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::unsupported) << refused.error().message;
+  std::vector<std::byte> samples(256 * 64);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i] = static_cast<std::byte>(i % 251 * 7);
+  fake.send_bytes(samples);
+  const auto camera = make({.trigger = "Software", .any_depth = true});
+  ASSERT_TRUE(camera->open(small_config()));
+  ASSERT_TRUE(camera->start());
+  fake.trigger(2);
+  for (int i = 0; i < 2; ++i) {
+    const auto frame = camera->wait_frame(20s);
+    ASSERT_TRUE(frame && *frame);
+    EXPECT_EQ((*frame)->integrity, FrameIntegrity::good);
+    ASSERT_EQ((*frame)->bytes.size(), samples.size() * 2);
+    std::vector<std::uint16_t> received(samples.size());
+    std::memcpy(received.data(), (*frame)->bytes.data(), (*frame)->bytes.size());
+    for (std::size_t s = 0; s < samples.size(); ++s)
+      ASSERT_NEAR(received[s], std::to_integer<int>(samples[s]) * 4095.0 / 255, 1) << s;
     camera->release((*frame)->buffer);
   }
 }
