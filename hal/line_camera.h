@@ -57,6 +57,9 @@ struct LineFrame {
   TimePoint first_line;       // exposure times of the first and the last line
   TimePoint last_line;
   FrameIntegrity integrity = FrameIntegrity::good;
+  // The camera's own time stamps have not fitted the host's clock for seconds: the exposure times are
+  // told from when the frame came, later by what its transport took.
+  bool timed_by_host = false;
   TimePoint fetched{}; // when the host had it; whoever takes it from the camera notes it
 };
 

@@ -158,7 +158,8 @@ LineFrame AravisLineCamera::handed_out(int slot) const {
           .sequence = served.sequence,
           .first_line = served.end - whole,
           .last_line = served.end - whole + to_last,
-          .integrity = served.integrity};
+          .integrity = served.integrity,
+          .timed_by_host = served.timed_by_host};
 }
 
 tl::unexpected<Error> AravisLineCamera::gone() {

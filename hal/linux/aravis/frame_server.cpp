@@ -108,6 +108,7 @@ void FrameServer::serve(int slot, ArvBuffer* buffer, TimePoint now) {
   frame.sequence = leader_lost ? counter_.guess() : counter_.extend(id);
   frame.end =
       leader_lost ? now : camera_clock_.end_of_frame(aravis_.buffer_get_timestamp(buffer), now);
+  frame.timed_by_host = !camera_clock_.fits();
   frame.integrity = judge(buffer, frame.bytes);
   if (frame.integrity == FrameIntegrity::good) {
     const std::size_t samples = format_.frame_bytes() / sizeof(std::uint16_t);
