@@ -75,7 +75,8 @@ public:
     return do_open(config);
   }
 
-  // ready → streaming. Sequence numbers restart at each start.
+  // ready → streaming. Sequence numbers restart at each start. ErrorCode::absent: the camera has not
+  // answered yet and stays `ready`; the next start() goes on with it, stop() and close() end it.
   Result<> start() {
     HAL_CHECK(in_order(kind, "start", DeviceState::ready));
     return do_start();

@@ -84,7 +84,10 @@ bool Acquisition::open_and_start() {
                           : camera_.open(config_).and_then([&] { return camera_.start(); });
   if (!result) {
     faults_.add(Device::line_camera, result.error(), clock_.now());
-    camera_.close();
+    const bool goes_on =
+        camera_.state() == hal::DeviceState::ready && result.error().code == hal::ErrorCode::absent;
+    if (!goes_on)
+      camera_.close();
     return false;
   }
   last_sequence_.reset();

@@ -12,8 +12,8 @@
 //   of the frame is left from an older one, and it is not unpacked.
 // - A GigE camera that goes is noticed by its heartbeat, some seconds later.
 // - Aravis waits seconds for a camera that does not answer; nobody waits for Aravis longer than a
-//   second: open() says ErrorCode::absent, and the next open() has what was found meanwhile; stop()
-//   leaves `failed`; what is left after close() and at the end ends by itself.
+//   second: open() and start() say ErrorCode::absent, and the next one has what came of it meanwhile;
+//   stop() leaves `failed`; what is left after close() and at the end ends by itself.
 #pragma once
 
 #include <memory>
