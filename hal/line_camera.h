@@ -57,6 +57,9 @@ struct LineFrame {
   TimePoint first_line;       // exposure times of the first and the last line
   TimePoint last_line;
   FrameIntegrity integrity = FrameIntegrity::good;
+  // The camera's own time stamps have not fitted the host's clock for seconds: the exposure times are
+  // told from when the frame came, later by what its transport took.
+  bool timed_by_host = false;
   TimePoint fetched{}; // when the host had it; whoever takes it from the camera notes it
 };
 
@@ -87,7 +90,8 @@ public:
   // As open() left them; nothing while absent. May take as long as the camera takes to answer.
   CameraControls controls() const { return do_controls(); }
 
-  // ready → streaming. Sequence numbers restart at each start.
+  // ready → streaming. Sequence numbers restart at each start. ErrorCode::absent: the camera has not
+  // answered yet and stays `ready`; the next start() goes on with it, stop() and close() end it.
   Result<> start() {
     HAL_CHECK(in_order(kind, "start", DeviceState::ready));
     return do_start();

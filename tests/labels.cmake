@@ -31,6 +31,7 @@ set(genicam_port "aravis_camera\\.Genicam" "program_genicam\\.")
 
 set(slow
   "aravis_camera\\.GenicamCamera\\.(ends_soon|frames_with_lost|one_that_is_not_there|two_hundred)"
+  "aravis_camera\\.GenicamCameraStart\\."
   "aravis_camera\\.Genicam/LineCameraLoansContract\\.(a_disconnect|another_thread)"
   "vessel_following\\."
   "bidirectional\\."

@@ -88,7 +88,8 @@ hal::Result<> Devices::make_real_spectra(const DeviceChoices& choices, const Run
   plan_.zero_padding = calibration_.zero_padding;
   format_ = real_->line_format();
   source_ = is_calibrated(options, configuration) ? "line camera" : "line camera, not calibrated";
-  line_camera_ = real_->make_line_camera();
+  line_camera_ =
+      real_->make_line_camera(calibration_.background_mode == pipeline::BackgroundMode::file);
   if (choices.galvo_trigger.backend == "gpio") {
     galvo_trigger_ = real_->make_galvo_trigger();
   } else if (line_camera_->simulated()) { // it runs free: the pulses only say where volumes begin

@@ -137,6 +137,9 @@ DeviceFinding RealDevices::find_line_camera() {
 
 DeviceFinding RealDevices::find_genicam(const backend::GenicamAddress& address) {
   const auto found = backend::find_genicam_camera(address);
+  if (!found && found.error().code == hal::ErrorCode::absent && !config_.significant_bits)
+    return {false, fmt::format("{}; if it comes later, its samples are brought to {} bits",
+                               found.error().message, format_.significant_bits)};
   if (!found)
     return {false, found.error().message};
   const std::vector<hal::LineFormat> formats = formats_to_try();
@@ -222,13 +225,14 @@ DeviceFinding RealDevices::find_console_display() const {
                           : fmt::format(", keyboards {}", fmt::join(config_.keyboards, ", ")))};
 }
 
-std::unique_ptr<hal::LineCamera> RealDevices::make_line_camera() {
+std::unique_ptr<hal::LineCamera> RealDevices::make_line_camera(bool counts_matter) {
   if (const auto address = genicam_address(config_.line_camera))
     return backend::make_genicam_camera({.address = *address,
                                          .exposure_us = config_.exposure_us,
                                          .gain = config_.gain,
                                          .trigger = config_.camera_trigger,
-                                         .packet_resend = config_.packet_resend},
+                                         .packet_resend = config_.packet_resend,
+                                         .any_depth = !config_.significant_bits && !counts_matter},
                                         clock_);
   backend::V4l2CameraOptions options;
   options.node = configured_node(config_);

@@ -46,7 +46,9 @@ public:
   // The line camera's frame format: the offered one if a camera is found, else the requested one.
   hal::LineFormat line_format() const { return format_; }
 
-  std::unique_ptr<hal::LineCamera> make_line_camera();
+  // `counts_matter`: the calibration holds counts of the camera's own, so that one of another depth,
+  // which came after all was set up, must not serve.
+  std::unique_ptr<hal::LineCamera> make_line_camera(bool counts_matter);
   std::unique_ptr<hal::GalvoTrigger> make_galvo_trigger();
   std::unique_ptr<hal::ControlInput> make_control_input();
   hal::Result<std::unique_ptr<hal::ScopeCamera>> make_scope_camera();

@@ -84,7 +84,10 @@ bool Acquisition::open_and_start() {
                           : camera_.open(config_).and_then([&] { return camera_.start(); });
   if (!result) {
     faults_.add(Device::line_camera, result.error(), clock_.now());
-    camera_.close();
+    const bool goes_on =
+        camera_.state() == hal::DeviceState::ready && result.error().code == hal::ErrorCode::absent;
+    if (!goes_on)
+      camera_.close();
     return false;
   }
   last_sequence_.reset();
@@ -126,6 +129,7 @@ void Acquisition::receive(const hal::LineFrame& frame) {
   patience_ = first_patience;
   unanswered_.store(false, std::memory_order_relaxed);
   check_sequence(frame.sequence);
+  check_times(frame);
   const bool sized = frame.bytes.size() == config_.format.frame_bytes();
   if (frame.integrity != hal::FrameIntegrity::good || !sized) {
     unusable_.fetch_add(1, std::memory_order_relaxed);
@@ -175,6 +179,18 @@ void Acquisition::check_sequence(std::uint64_t sequence) {
   }
   last_sequence_ = sequence;
   repeated_ = 0;
+}
+
+// Once, and again when they had been usable meanwhile.
+void Acquisition::check_times(const hal::LineFrame& frame) {
+  if (frame.timed_by_host && !timed_by_host_)
+    faults_.add(Fault::unusable_stamps,
+                "the camera's time stamps do not fit the computer's clock (none, or its clock runs "
+                "more than 1 % fast or slow): frames are given the times at which they come, which "
+                "are less exact, so that B-scans may lie beside their places; is what the camera "
+                "says of its time stamps' frequency true?",
+                clock_.now());
+  timed_by_host_ = frame.timed_by_host;
 }
 
 void Acquisition::give_back(int buffer) {

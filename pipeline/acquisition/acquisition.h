@@ -69,6 +69,7 @@ private:
   void receive(const hal::LineFrame& frame);
   void mend_silence();
   void check_sequence(std::uint64_t sequence);
+  void check_times(const hal::LineFrame& frame);
   void give_back(int buffer);
   void wait_before_retry();
   void note_look(hal::TimePoint until);
@@ -84,6 +85,7 @@ private:
   std::atomic<int> on_loan_{0};                // queued or with the pipeline
   std::optional<std::uint64_t> last_sequence_; // of this stream
   std::uint64_t repeated_ = 0;                 // later frames with the same number
+  bool timed_by_host_ = false;                 // the last one
   RetryDelay retry_;
   std::optional<hal::TimePoint> silent_since_; // no frames since then, despite pulses
   hal::Duration patience_;                     // how long that is tolerated before reopening

@@ -61,6 +61,8 @@ constexpr std::array fault_table{
                "Line camera is out of step: B-scans are missing"},
     FaultFacts{Fault::doubled_frame, Device::line_camera, "doubled_frame",
                "Line camera sends B-scans twice"},
+    FaultFacts{Fault::unusable_stamps, Device::line_camera, "unusable_stamps",
+               "Line camera's clock is wrong: B-scans may be misplaced", 20s},
     FaultFacts{Fault::saturation, Device::line_camera, "saturation",
                "Too much light: lines are saturated"},
     FaultFacts{Fault::upper_border, Device::picture, "upper_border",

@@ -55,6 +55,7 @@ enum class Fault : std::uint8_t {
   late_frame,
   unplaced_frame,
   doubled_frame,
+  unusable_stamps,
   saturation,
   upper_border,
   unreadable_volume,

@@ -22,6 +22,14 @@ constexpr hal::Duration at_once = 100ms;
 constexpr int lines_of_a_frame = 4; // that are looked at
 constexpr std::size_t most_lines = 128;
 
+// A camera on the network may take longer than one call waits; the next goes on with it.
+template <class Call> hal::Result<> patiently(Call call) {
+  hal::Result<> done = call();
+  for (int more = 0; more < 10 && !done && done.error().code == hal::ErrorCode::absent; ++more)
+    done = call();
+  return done;
+}
+
 class Look {
 public:
   Look(Devices& devices, hal::Duration pulse_width, hal::Clock& clock)
@@ -56,18 +64,14 @@ private:
 
 hal::Result<LiveLook> Look::run(int pulses) {
   hal::LineCamera& camera = devices_.line_camera();
-  // One on the network may take longer than an open() waits; the next one goes on with it.
-  hal::Result<> opened = camera.open(devices_.camera_config());
-  for (int more = 0; more < 10 && !opened && opened.error().code == hal::ErrorCode::absent; ++more)
-    opened = camera.open(devices_.camera_config());
-  HAL_CHECK(opened);
+  HAL_CHECK(patiently([&] { return camera.open(devices_.camera_config()); }));
   found_.camera = camera.identity();
   found_.controls = camera.controls();
   found_.format = pipeline::SpectrumFormat{devices_.format()};
   if (pulses == 0)
     return found_;
   HAL_CHECK(devices_.galvo_trigger().open({.pulse_width = pulse_width_}));
-  HAL_CHECK(camera.start());
+  HAL_CHECK(patiently([&] { return camera.start(); }));
   for (int i = 0; i < pulses; ++i)
     HAL_CHECK(pulse());
   camera.stop();

@@ -61,6 +61,7 @@ bool find_all(void* library, AravisLibrary& aravis) {
          find(library, "arv_camera_stop_acquisition", aravis.camera_stop_acquisition) &&
          find(library, "arv_device_error_quark", aravis.device_error_quark) &&
          find(library, "arv_stream_push_buffer", aravis.stream_push_buffer) &&
+         find(library, "arv_stream_try_pop_buffer", aravis.stream_try_pop_buffer) &&
          find(library, "arv_stream_timeout_pop_buffer", aravis.stream_timeout_pop_buffer) &&
          find(library, "arv_buffer_new_full", aravis.buffer_new_full) &&
          find(library, "arv_buffer_get_user_data", aravis.buffer_get_user_data) &&

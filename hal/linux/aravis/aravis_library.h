@@ -55,6 +55,7 @@ struct AravisLibrary {
   decltype(&arv_device_error_quark) device_error_quark = nullptr;
 
   decltype(&arv_stream_push_buffer) stream_push_buffer = nullptr;
+  decltype(&arv_stream_try_pop_buffer) stream_try_pop_buffer = nullptr;
   decltype(&arv_stream_timeout_pop_buffer) stream_timeout_pop_buffer = nullptr;
 
   decltype(&arv_buffer_new_full) buffer_new_full = nullptr;

@@ -19,7 +19,7 @@ bool same(const LineCameraConfig& a, const LineCameraConfig& b) {
   return a.format == b.format && a.line_rate_hz == b.line_rate_hz && a.buffers == b.buffers;
 }
 
-// This and the next wait for the camera's answers.
+// This and the next two wait for the camera's answers.
 Result<std::unique_ptr<OpenCamera>> open_genicam(const AravisLibrary& aravis,
                                                  const GenicamCameraOptions& options,
                                                  const LineCameraConfig& config) {
@@ -36,6 +36,16 @@ Result<std::unique_ptr<OpenCamera>> open_genicam(const AravisLibrary& aravis,
   return open;
 }
 
+Result<std::unique_ptr<FrameServer>> start_stream(OpenCamera& open,
+                                                  const FrameServer::Setup& setup) {
+  HAL_TRY(auto server, FrameServer::open_stream(open.aravis, setup, *open.slots));
+  AravisAnswer answer{open.aravis};
+  open.aravis.camera_start_acquisition(open.camera.get(), answer.out());
+  if (answer.failed())
+    return answer.error(setup.name, "starting", ErrorCode::disconnected);
+  return server;
+}
+
 void end_stream(OpenCamera& open, std::unique_ptr<FrameServer> server) {
   if (!server)
     return;
@@ -48,9 +58,10 @@ void end_stream(OpenCamera& open, std::unique_ptr<FrameServer> server) {
 
 } // namespace
 
-AravisLineCamera::AravisLineCamera(GenicamCameraOptions options, Clock& clock)
-    : options_{std::move(options)}, name_{to_text(options_.address)}, clock_{clock}, errands_{
-                                                                                         clock} {}
+AravisLineCamera::AravisLineCamera(GenicamCameraOptions options, Clock& clock,
+                                   std::optional<AravisLibrary> aravis)
+    : options_{std::move(options)}, name_{to_text(options_.address)}, clock_{clock},
+      aravis_{aravis}, errands_{clock} {}
 
 AravisLineCamera::~AravisLineCamera() {
   do_close();
@@ -109,30 +120,42 @@ Result<> AravisLineCamera::finish_opening() {
 }
 
 Result<> AravisLineCamera::do_start() {
-  auto started = lost() ? Result<>{gone()} : start_stream();
-  if (!started) {
-    open_->server.reset();
-    if (started.error().code == ErrorCode::disconnected)
-      set_state(DeviceState::failed);
-    return started;
+  if (!starting_) {
+    if (lost())
+      return gone();
+    begin_starting();
   }
-  set_state(DeviceState::streaming);
-  return {};
+  auto started = finish_starting();
+  if (started)
+    set_state(DeviceState::streaming);
+  else if (started.error().code == ErrorCode::disconnected)
+    set_state(DeviceState::failed);
+  return started;
 }
 
-Result<> AravisLineCamera::start_stream() {
-  open_->news.take_all();
-  HAL_TRY(open_->server, FrameServer::start(open_->aravis,
-                                            {.camera = open_->camera.get(),
+void AravisLineCamera::begin_starting() {
+  starting_ = std::make_shared<Starting>();
+  errands_.start([starting = starting_, open = open_.get(),
+                  setup = FrameServer::Setup{.camera = open_->camera.get(),
                                              .name = name_,
                                              .stream = open_->stream,
                                              .format = config_.format,
-                                             .packet_resend = options_.packet_resend},
-                                            *open_->slots, clock_, open_->news, open_->returns));
-  AravisAnswer answer{open_->aravis};
-  open_->aravis.camera_start_acquisition(open_->camera.get(), answer.out());
-  if (answer.failed())
-    return answer.error(name_, "starting", ErrorCode::disconnected);
+                                             .packet_resend = options_.packet_resend}] {
+    starting->server = start_stream(*open, setup);
+  });
+}
+
+Result<> AravisLineCamera::finish_starting() {
+  if (!errands_.wait())
+    return fail(
+        ErrorCode::absent,
+        "{}: the camera has not answered for a second while it was started; check cable and "
+        "power; it is waited for further",
+        name_);
+  const auto starting = std::move(starting_);
+  HAL_TRY(open_->server, std::move(starting->server));
+  open_->news.take_all();
+  open_->server->begin_service(clock_, open_->news, open_->returns);
   return {};
 }
 
@@ -159,7 +182,8 @@ LineFrame AravisLineCamera::handed_out(int slot) const {
           .sequence = served.sequence,
           .first_line = served.end - whole,
           .last_line = served.end - whole + to_last,
-          .integrity = served.integrity};
+          .integrity = served.integrity,
+          .timed_by_host = served.timed_by_host};
 }
 
 tl::unexpected<Error> AravisLineCamera::gone() {
@@ -176,25 +200,30 @@ void AravisLineCamera::do_release(int buffer) {
 }
 
 void AravisLineCamera::do_stop() {
-  if (state() != DeviceState::streaming)
+  if (state() != DeviceState::streaming && !starting_)
     return;
-  open_->server->end_service();
-  // Which has it from now on: close() may come while it is at work.
-  errands_.start([open = open_.get(), server = std::move(open_->server)]() mutable {
+  end_streaming();
+  set_state(errands_.wait() ? DeviceState::ready : DeviceState::failed);
+}
+
+// An errand has the stream from now on: close() may come while it is at work. A start under way is
+// ended when it is done.
+void AravisLineCamera::end_streaming() {
+  if (open_->server)
+    open_->server->end_service();
+  errands_.start([open = open_.get(), starting = std::move(starting_),
+                  server = std::move(open_->server)]() mutable {
+    if (starting && starting->server)
+      server = std::move(*starting->server);
     end_stream(*open, std::move(server));
   });
-  set_state(errands_.wait() ? DeviceState::ready : DeviceState::failed);
 }
 
 void AravisLineCamera::do_close() {
   if (open_) {
-    const bool answers = state() != DeviceState::failed && !lost();
-    if (open_->server)
-      open_->server->end_service();
-    errands_.start([open = std::move(open_)]() mutable {
-      end_stream(*open, std::move(open->server));
-      open.reset();
-    });
+    const bool answers = state() != DeviceState::failed && !starting_ && !lost();
+    end_streaming();
+    errands_.start([open = std::move(open_)]() mutable { open.reset(); });
     if (answers)
       errands_.wait();
   }

@@ -39,9 +39,16 @@ struct Opening {
   Result<std::unique_ptr<OpenCamera>> camera = nullptr;
 };
 
+// A camera that is being started; filled by an errand.
+struct Starting {
+  Result<std::unique_ptr<FrameServer>> server = nullptr;
+};
+
 class AravisLineCamera final : public LineCamera {
 public:
-  AravisLineCamera(GenicamCameraOptions options, Clock& clock);
+  // Without `aravis` the first open() loads it.
+  AravisLineCamera(GenicamCameraOptions options, Clock& clock,
+                   std::optional<AravisLibrary> aravis = {});
   ~AravisLineCamera() override;
 
 private:
@@ -58,7 +65,9 @@ private:
 
   void begin_opening(const LineCameraConfig& config);
   Result<> finish_opening();
-  Result<> start_stream();
+  void begin_starting();
+  Result<> finish_starting();
+  void end_streaming();
   LineFrame handed_out(int slot) const;
   bool lost() const { return open_->lost.load(std::memory_order_acquire); }
   tl::unexpected<Error> gone();
@@ -69,8 +78,9 @@ private:
 
   std::optional<AravisLibrary> aravis_;
   LineCameraConfig config_;
-  std::unique_ptr<OpenCamera> open_; // not while absent
-  std::shared_ptr<Opening> opening_; // asked for by an open() that did not wait for its end
+  std::unique_ptr<OpenCamera> open_;   // not while absent
+  std::shared_ptr<Opening> opening_;   // asked for by an open() that did not wait for its end
+  std::shared_ptr<Starting> starting_; // likewise, of start(); only while `ready`
   CameraErrands errands_;
 
   mutable std::mutex identity_mutex_; // never taken while streaming

@@ -1,11 +1,15 @@
 // From a camera's own time stamps to the host's clock. Pure: times in, times out.
 //
 // A frame's stamp is exact, but of a clock that began at another time and runs at another rate; its
-// arrival is on the host's clock, but late by what transport and scheduling took. The least delay
-// seen is taken as the clocks' distance (a minimum filter, as in NTP's clock filter, RFC 5905
-// section 10), and is let grow slowly, so that a camera's clock that runs slower is followed.
+// arrival is on the host's clock, but late by what transport and scheduling took. The clocks' distance,
+// drawn over the camera's time, is therefore a line below all points (stamp, arrival less stamp), as high
+// as it can be: it lies on the lower hull of the points of the last half minute, along the hull's longest
+// edge, which tells the rate best (Moon, Skelly and Towsley, INFOCOM 1999; Zhang, Liu and Xia, INFOCOM
+// 2002). A late frame lies above the hull and changes nothing.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -15,17 +19,51 @@ namespace octascope::hal::linux_backend {
 
 class CameraClock {
 public:
-  // How much faster or slower than the host's a camera's clock may be: beyond any crystal's.
-  static constexpr double most_drift = 200e-6;
+  // How much faster or slower than the host's a camera's clock may be: beyond any crystal's, and wide
+  // enough for one that does not quite know its own frequency.
+  static constexpr double most_drift = 0.01;
 
-  // The time at which the frame stamped `stamp_ns` was complete, never later than `arrival`. A
-  // stamp of 0, one that does not advance, and one that is a second off (the camera's clock was
-  // reset) give `arrival`, and the next stamps are compared with that anew.
+  // The time at which the frame stamped `stamp_ns` was complete, never later than `arrival`. In the
+  // first second the rate is not known: the time may be late then, too, by most_drift of what passed
+  // since the promptest frame. Where the stamp is of no use it is `arrival`: one of 0, one that does
+  // not advance, one that is 10 ms before its time or all of which are that much behind for 3 s (the
+  // camera's clock was set), and those of a clock of another rate. What follows is compared anew.
   TimePoint end_of_frame(std::uint64_t stamp_ns, TimePoint arrival);
 
+  // False once stamps were of no use for five seconds of frames more than they were of use, until
+  // they made up for that; all frames have their arrivals meanwhile.
+  bool fits() const { return fits_; }
+
 private:
-  std::optional<Duration> distance_; // host less camera
+  // More than the promptest frames of any second differ in what their transport took.
+  static constexpr double most_difference_ns = 10e6;
+  static constexpr double memory_ns = 30e9;
+  static constexpr double learning_ns = 1e9;
+
+  struct Point { // since the hull's first
+    double stamp_ns = 0;
+    double distance_ns = 0; // host less camera
+  };
+
+  void note_use(bool of_use, TimePoint arrival);
+  std::optional<TimePoint> from_stamp(std::uint64_t stamp_ns, TimePoint arrival);
+  bool has_leapt(const Point& point, TimePoint arrival);
+  void add(const Point& point);
+  void forget_old();
+  std::optional<double> rate() const;
+  double distance_at(double stamp_ns, double rate) const;
+  Point& last() { return hull_[vertices_ - 1]; }
+  double span_ns() const { return hull_[vertices_ - 1].stamp_ns - hull_[0].stamp_ns; }
+
+  std::array<Point, 64> hull_{}; // the lower one, by stamp
+  std::size_t vertices_ = 0;
+  std::uint64_t first_stamp_ns_ = 0;
+  Duration first_distance_{};
   std::uint64_t last_stamp_ns_ = 0;
+  std::optional<TimePoint> behind_since_;
+  std::optional<TimePoint> last_arrival_;
+  Duration unfit_{};
+  bool fits_ = true;
 };
 
 // Extends the frame number that a camera sends to one that counts from 0 at the first frame.

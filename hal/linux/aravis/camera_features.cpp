@@ -17,13 +17,13 @@ public:
   Settings(const AravisLibrary& aravis, ArvCamera* camera, std::string name)
       : aravis_{aravis}, camera_{camera}, name_{std::move(name)}, answer_{aravis} {}
 
-  Result<Packing> set_pixel_format(const LineFormat& wanted) {
+  Result<GenicamFormat> set_pixel_format(const LineFormat& wanted, Depths depths) {
     HAL_TRY(const auto offered, offered_formats(aravis_, camera_, name_));
-    HAL_TRY(const auto chosen, choose_genicam_format(offered, wanted));
+    HAL_TRY(const auto chosen, choose_genicam_format(offered, wanted, depths));
     const std::string name{chosen.name};
     aravis_.camera_set_pixel_format_from_string(camera_, name.c_str(), answer_.out());
     HAL_CHECK(done("setting the pixel format"));
-    return chosen.packing;
+    return chosen;
   }
 
   Result<> set_size(const LineFormat& wanted) {
@@ -78,18 +78,20 @@ public:
     return {};
   }
 
-  Result<CameraStream> stream(const LineFormat& wanted, Packing packing) {
+  Result<CameraStream> stream(const LineFormat& wanted, const GenicamFormat& chosen) {
     aravis_.camera_set_acquisition_mode(camera_, ARV_ACQUISITION_MODE_CONTINUOUS, answer_.out());
     HAL_CHECK(done("setting the acquisition mode"));
     CameraStream stream;
-    stream.packing = packing;
+    stream.packing = chosen.packing;
+    stream.bits = chosen.bits;
     stream.pixel_format = aravis_.camera_get_pixel_format(camera_, answer_.out());
     HAL_CHECK(done("reading the pixel format"));
     stream.payload_bytes = aravis_.camera_get_payload(camera_, answer_.out());
     HAL_CHECK(done("reading the payload size"));
     const std::size_t samples = wanted.frame_bytes() / bytes_per_sample(wanted.sample_type);
-    const std::size_t expected =
-        packing == Packing::none ? wanted.frame_bytes() : packed_bytes(packing, samples);
+    const std::size_t expected = chosen.packing == Packing::none
+                                     ? wanted.frame_bytes()
+                                     : packed_bytes(chosen.packing, samples);
     if (stream.payload_bytes < expected || stream.payload_bytes > 2 * expected + 65536)
       return fail(ErrorCode::unsupported, "{}: a frame has {} bytes, expected {}", name_,
                   stream.payload_bytes, expected);
@@ -198,7 +200,9 @@ Result<CameraStream> set_features(const AravisLibrary& aravis, ArvCamera* camera
                                   const GenicamCameraOptions& options,
                                   const LineCameraConfig& config) {
   Settings settings{aravis, camera, to_text(options.address)};
-  HAL_TRY(const Packing packing, settings.set_pixel_format(config.format));
+  HAL_TRY(
+      const GenicamFormat chosen,
+      settings.set_pixel_format(config.format, options.any_depth ? Depths::any : Depths::wanted));
   HAL_CHECK(settings.set_size(config.format));
   HAL_CHECK(settings.set_line_rate(config.line_rate_hz));
   if (options.exposure_us) {
@@ -210,7 +214,7 @@ Result<CameraStream> set_features(const AravisLibrary& aravis, ArvCamera* camera
   if (!options.trigger.empty()) {
     HAL_CHECK(settings.set_trigger(options.trigger));
   }
-  return settings.stream(config.format, packing);
+  return settings.stream(config.format, chosen);
 }
 
 } // namespace octascope::hal::linux_backend

@@ -16,6 +16,7 @@ namespace octascope::hal::linux_backend {
 struct CameraStream {
   ArvPixelFormat pixel_format{};
   Packing packing{};
+  int bits = 0;                  // of a sample as it is sent
   std::size_t payload_bytes = 0; // of a frame, with what the camera appends
 };
 

@@ -20,10 +20,8 @@ int slot_of(const void* pointer) {
 
 } // namespace
 
-Result<std::unique_ptr<FrameServer>> FrameServer::start(const AravisLibrary& aravis,
-                                                        const Setup& setup, FrameSlots& slots,
-                                                        Clock& clock, Semaphore& news,
-                                                        Semaphore& returns) {
+Result<std::unique_ptr<FrameServer>>
+FrameServer::open_stream(const AravisLibrary& aravis, const Setup& setup, FrameSlots& slots) {
   AravisAnswer answer{aravis};
   auto stream =
       own(aravis, aravis.camera_create_stream(setup.camera, nullptr, nullptr, answer.out()));
@@ -31,21 +29,27 @@ Result<std::unique_ptr<FrameServer>> FrameServer::start(const AravisLibrary& ara
     return answer.error(setup.name, "opening the stream", ErrorCode::disconnected);
   if (!setup.packet_resend) // only GigE Vision's has it, and only there it can be switched off
     aravis.object_set(stream.get(), "packet-resend", ARV_GV_STREAM_PACKET_RESEND_NEVER, nullptr);
-  return std::unique_ptr<FrameServer>{
-      new FrameServer{aravis, setup, slots, clock, news, returns, std::move(stream)}};
+  return std::unique_ptr<FrameServer>{new FrameServer{aravis, setup, slots, std::move(stream)}};
 }
 
 FrameServer::FrameServer(const AravisLibrary& aravis, const Setup& setup, FrameSlots& slots,
-                         Clock& clock, Semaphore& news, Semaphore& returns,
                          Reference<ArvStream> stream)
-    : aravis_{aravis}, expected_{setup.stream}, format_{setup.format}, slots_{slots}, clock_{clock},
-      news_{news}, returns_{returns}, stream_{std::move(stream)} {
+    : aravis_{aravis}, expected_{setup.stream}, format_{setup.format}, slots_{slots},
+      stream_{std::move(stream)} {
   for (int slot = 0; slot < slots_.count(); ++slot) {
     const std::span<std::byte> memory = slots_.bytes(slot);
     buffers_.push_back(own(aravis_, aravis_.buffer_new_full(memory.size(), memory.data(),
                                                             number_as_pointer(slot), nullptr)));
   }
   queue_idle();
+}
+
+void FrameServer::begin_service(Clock& clock, Semaphore& news, Semaphore& returns) {
+  clock_ = &clock;
+  news_ = &news;
+  returns_ = &returns;
+  forget_frames();
+  returns_->post(); // for what was given back meanwhile
   fetching_ = std::thread{[this] { fetch_frames(); }};
   returning_ = std::thread{[this] { return_slots(); }};
   ::pthread_setname_np(fetching_.native_handle(), "octa-genicam");
@@ -53,9 +57,9 @@ FrameServer::FrameServer(const AravisLibrary& aravis, const Setup& setup, FrameS
 }
 
 void FrameServer::end_service() {
-  if (over_.exchange(true))
+  if (over_.exchange(true) || !fetching_.joinable())
     return;
-  returns_.post();
+  returns_->post();
   returning_.join();
   fetching_.join();
 }
@@ -74,10 +78,16 @@ void FrameServer::queue_idle() {
                              aravis_.object_ref(buffers_[static_cast<std::size_t>(slot)].get())));
 }
 
+// A start that was long in coming has filled the slots with frames of long ago.
+void FrameServer::forget_frames() {
+  while (ArvBuffer* const buffer = aravis_.stream_try_pop_buffer(stream_.get()))
+    aravis_.stream_push_buffer(stream_.get(), buffer); // with the reference that we got
+}
+
 void FrameServer::return_slots() {
   while (!over_) {
-    returns_.wait();
-    returns_.take_all();
+    returns_->wait();
+    returns_->take_all();
     queue_idle();
   }
 }
@@ -87,7 +97,7 @@ void FrameServer::fetch_frames() {
     ArvBuffer* const buffer = aravis_.stream_timeout_pop_buffer(stream_.get(), look_every_us);
     if (buffer == nullptr)
       continue;
-    const TimePoint now = clock_.now();
+    const TimePoint now = clock_->now();
     serve(slot_of(aravis_.buffer_get_user_data(buffer)), buffer, now);
     aravis_.object_unref(buffer);
   }
@@ -97,7 +107,7 @@ void FrameServer::serve(int slot, ArvBuffer* buffer, TimePoint now) {
   const ArvBufferStatus status = aravis_.buffer_get_status(buffer);
   if (status == ARV_BUFFER_STATUS_ABORTED || status == ARV_BUFFER_STATUS_CLEARED) {
     slots_.drop(slot); // no frame
-    returns_.post();
+    returns_->post();
     return;
   }
   ServedFrame frame;
@@ -108,11 +118,15 @@ void FrameServer::serve(int slot, ArvBuffer* buffer, TimePoint now) {
   frame.sequence = leader_lost ? counter_.guess() : counter_.extend(id);
   frame.end =
       leader_lost ? now : camera_clock_.end_of_frame(aravis_.buffer_get_timestamp(buffer), now);
+  frame.timed_by_host = !camera_clock_.fits();
   frame.integrity = judge(buffer, frame.bytes);
-  if (frame.integrity == FrameIntegrity::good)
-    unpack(expected_.packing, slots_.bytes(slot), format_.frame_bytes() / sizeof(std::uint16_t));
+  if (frame.integrity == FrameIntegrity::good) {
+    const std::size_t samples = format_.frame_bytes() / sizeof(std::uint16_t);
+    unpack(expected_.packing, slots_.bytes(slot), samples);
+    rescale(slots_.bytes(slot), samples, expected_.bits, format_.significant_bits);
+  }
   slots_.serve(slot, frame);
-  news_.post();
+  news_->post();
 }
 
 FrameIntegrity FrameServer::judge(ArvBuffer* buffer, std::size_t& bytes) const {

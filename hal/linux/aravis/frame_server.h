@@ -1,6 +1,6 @@
 // Serves a camera's stream on threads of its own, so that nobody else meets Aravis's locks and
 // allocations: one waits for frames, unpacks them and hands them to the slots, one gives idle slots
-// back to the stream. They and Aravis's own inherit the priority of the thread that called start().
+// back to the stream. They and Aravis's own inherit the priority of the threads that call this.
 #pragma once
 
 #include <atomic>
@@ -28,23 +28,25 @@ public:
     bool packet_resend = true;
   };
 
-  // Gives the stream all idle slots. Posts `news` for each frame; whoever makes a slot idle posts
-  // `returns`. All references outlive this.
-  static Result<std::unique_ptr<FrameServer>> start(const AravisLibrary& aravis, const Setup& setup,
-                                                    FrameSlots& slots, Clock& clock,
-                                                    Semaphore& news, Semaphore& returns);
+  // Opens the camera's stream and gives it all idle slots; waits for the camera's answers. Nothing is
+  // served yet. All references outlive this.
+  static Result<std::unique_ptr<FrameServer>> open_stream(const AravisLibrary& aravis,
+                                                          const Setup& setup, FrameSlots& slots);
 
-  // Ends what hands frames on, so that clock and semaphores are not used any more. Quick, whatever
-  // the camera does.
+  // Begins to hand frames on, of those that came before none. Posts `news` for each frame; whoever
+  // makes a slot idle posts `returns`. `clock` and the semaphores are used until end_service().
+  // Once; as quick as that, whatever the camera does.
+  void begin_service(Clock& clock, Semaphore& news, Semaphore& returns);
   void end_service();
 
   // Ends all and the stream, too; all slots that are not lent are idle then.
   ~FrameServer();
 
 private:
-  FrameServer(const AravisLibrary& aravis, const Setup& setup, FrameSlots& slots, Clock& clock,
-              Semaphore& news, Semaphore& returns, Reference<ArvStream> stream);
+  FrameServer(const AravisLibrary& aravis, const Setup& setup, FrameSlots& slots,
+              Reference<ArvStream> stream);
   void queue_idle();
+  void forget_frames();
   void fetch_frames();
   void return_slots();
   void serve(int slot, ArvBuffer* buffer, TimePoint now);
@@ -54,9 +56,9 @@ private:
   const CameraStream expected_;
   const LineFormat format_;
   FrameSlots& slots_;
-  Clock& clock_;
-  Semaphore& news_;
-  Semaphore& returns_;
+  Clock* clock_ = nullptr; // while serving, as the next two
+  Semaphore* news_ = nullptr;
+  Semaphore* returns_ = nullptr;
   Reference<ArvStream> stream_;
   std::vector<Reference<ArvBuffer>> buffers_; // one a slot, over its memory
   CameraClock camera_clock_;

@@ -21,6 +21,7 @@ struct ServedFrame {
   TimePoint end{};       // when it was complete
   std::size_t bytes = 0; // at most the slot's
   FrameIntegrity integrity = FrameIntegrity::good;
+  bool timed_by_host = false; // as of LineFrame
 };
 
 // idle --queue--> queued --serve--> waiting --fetch--> lent --give_back--> idle

@@ -3,7 +3,7 @@
 // with a camera yet.
 //
 // A frame is an image of samples_per_line × lines_per_frame pixels. Packed samples are unpacked on a
-// thread of the camera's own.
+// thread of the camera's own, as are samples of another depth brought to the format's.
 //
 // Faults, in addition to those of hal::LineCamera:
 // - Aravis is not installed, or was not when octascope was built: open() is refused with
@@ -12,8 +12,8 @@
 //   of the frame is left from an older one, and it is not unpacked.
 // - A GigE camera that goes is noticed by its heartbeat, some seconds later.
 // - Aravis waits seconds for a camera that does not answer; nobody waits for Aravis longer than a
-//   second: open() says ErrorCode::absent, and the next open() has what was found meanwhile; stop()
-//   leaves `failed`; what is left after close() and at the end ends by itself.
+//   second: open() and start() say ErrorCode::absent, and the next one has what came of it meanwhile;
+//   stop() leaves `failed`; what is left after close() and at the end ends by itself.
 #pragma once
 
 #include <memory>
@@ -34,6 +34,9 @@ struct GenicamCameraOptions {
   std::optional<double> gain = {};        // in the camera's own unit
   std::string trigger = {};               // the source that starts a frame: "Line1", "Software"
   bool packet_resend = true;              // GigE Vision: ask for lost packets again
+  // A camera without a format of the wanted depth is taken, too, its samples scaled from full scale to
+  // full scale; else it is refused.
+  bool any_depth = false;
 };
 
 // `clock` is borrowed, must outlive the camera and must run on CLOCK_MONOTONIC.

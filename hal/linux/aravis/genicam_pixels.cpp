@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -24,14 +26,29 @@ constexpr std::array known{
     GenicamFormat{"Mono16", SampleType::u16, 16, Packing::none},
 };
 
+bool is_whole_type(const GenicamFormat& format) {
+  return format.bits == (format.type == SampleType::u8 ? 8 : 16);
+}
+
 bool fits(const GenicamFormat& format, const LineFormat& wanted) {
-  if (format.type != wanted.sample_type)
-    return false;
-  if (format.packing != Packing::none && wanted.samples_per_line % packed_group != 0)
-    return false;
-  const int whole = format.type == SampleType::u8 ? 8 : 16;
-  return format.bits == whole ||
-         (wanted.right_shift == 0 && format.bits == wanted.significant_bits);
+  return format.type == wanted.sample_type &&
+         (is_whole_type(format) ||
+          (wanted.right_shift == 0 && format.bits == wanted.significant_bits));
+}
+
+// As they are sent, with Mono8 as the packing that it is in words of 16 bits.
+std::vector<GenicamFormat> of_other_depths(const LineFormat& wanted) {
+  std::vector<GenicamFormat> formats;
+  for (GenicamFormat format : known) {
+    if (format.bits == wanted.significant_bits || 2 * format.bits < wanted.significant_bits)
+      continue;
+    if (format.type == SampleType::u8)
+      format.packing = Packing::mono8;
+    format.type = SampleType::u16;
+    formats.push_back(format);
+  }
+  std::ranges::stable_sort(formats, std::greater{}, &GenicamFormat::bits);
+  return formats;
 }
 
 Result<> refuse(std::string why) {
@@ -61,17 +78,26 @@ Result<> check_genicam_request(const LineCameraConfig& config) {
   return {};
 }
 
-std::vector<GenicamFormat> genicam_formats_for(const LineFormat& wanted) {
+std::vector<GenicamFormat> genicam_formats_for(const LineFormat& wanted, Depths depths) {
+  const bool others =
+      depths == Depths::any && wanted.sample_type == SampleType::u16 && wanted.right_shift == 0;
   std::vector<GenicamFormat> formats;
-  for (const GenicamFormat& format : known)
-    if (fits(format, wanted))
+  for (GenicamFormat format : known)
+    if (fits(format, wanted) && (!others || format.bits == wanted.significant_bits)) {
+      format.bits = wanted.significant_bits;
       formats.push_back(format);
+    }
+  if (others)
+    std::ranges::copy(of_other_depths(wanted), std::back_inserter(formats));
+  std::erase_if(formats, [&](const GenicamFormat& format) {
+    return format.packing != Packing::none && wanted.samples_per_line % packed_group != 0;
+  });
   return formats;
 }
 
 Result<GenicamFormat> choose_genicam_format(std::span<const std::string> offered,
-                                            const LineFormat& wanted) {
-  const auto serving = genicam_formats_for(wanted);
+                                            const LineFormat& wanted, Depths depths) {
+  const auto serving = genicam_formats_for(wanted, depths);
   std::vector<std::string_view> names;
   for (const GenicamFormat& format : serving) {
     if (std::ranges::find(offered, format.name) != offered.end())

@@ -2,6 +2,7 @@
 // Naming Convention, 2.x. Pure.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,16 +20,24 @@ Result<> check_genicam_request(const LineCameraConfig& config);
 struct GenicamFormat {
   std::string_view name;
   SampleType type;
-  int bits; // right-justified; where that is the whole type, a camera may use fewer
+  int bits; // of a sample, right-justified
   Packing packing;
 };
 
+// Which formats serve.
+enum class Depths : std::uint8_t {
+  wanted, // of so many bits, or the whole type, in which a camera may use fewer
+  any,    // of so many bits, or of others that are brought to them (packed_samples.h)
+};
+
 // Those that give this memory layout, best first: packed ones, as the wire is what limits a camera's
-// line rate, then those that say their bits, then the whole type.
-std::vector<GenicamFormat> genicam_formats_for(const LineFormat& wanted);
+// line rate, then those that say their bits, then the whole type; of other depths the deepest first.
+std::vector<GenicamFormat> genicam_formats_for(const LineFormat& wanted,
+                                               Depths depths = Depths::wanted);
 
 // The first of those that the camera offers. ErrorCode::unsupported, with found and expected: none.
 Result<GenicamFormat> choose_genicam_format(std::span<const std::string> offered,
-                                            const LineFormat& wanted);
+                                            const LineFormat& wanted,
+                                            Depths depths = Depths::wanted);
 
 } // namespace octascope::hal::linux_backend

@@ -3,18 +3,21 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <unistd.h>
 
 #include "hal/linux/aravis/aravis_library.h"
+#include "hal/linux/aravis/aravis_line_camera.h"
 #include "hal/linux/aravis/genicam_camera.h"
 #include "hal/linux/monotonic_clock.h"
 #include "tests/hal/aravis/fake_camera.h"
 #include "tests/hal/aravis/packed_by_definition.h"
 #include "tests/support/fails_with.h"
 #include "tests/support/files/scratch_folder.h"
+#include "tests/support/program/genicam_description.h"
 
 namespace octascope::tests {
 namespace {
@@ -240,6 +243,34 @@ TEST_F(GenicamCamera, packed_samples_come_unpacked) {
   }
 }
 
+TEST_F(GenicamCamera, one_of_another_depth_is_taken_where_any_serves_and_scaled) {
+  const ScratchFolder folder;
+  FakeCamera fake{{.description = folder.write(
+                       "camera.xml", with_8_bits_alone(FakeCamera::usual_description()))}};
+  const auto refused = make({})->open(small_config());
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::unsupported) << refused.error().message;
+  std::vector<std::byte> samples(256 * 64);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i] = static_cast<std::byte>(i % 251 * 7);
+  fake.send_bytes(samples);
+  const auto camera = make({.trigger = "Software", .any_depth = true});
+  ASSERT_TRUE(camera->open(small_config()));
+  ASSERT_TRUE(camera->start());
+  fake.trigger(2);
+  for (int i = 0; i < 2; ++i) {
+    const auto frame = camera->wait_frame(20s);
+    ASSERT_TRUE(frame && *frame);
+    EXPECT_EQ((*frame)->integrity, FrameIntegrity::good);
+    ASSERT_EQ((*frame)->bytes.size(), samples.size() * 2);
+    std::vector<std::uint16_t> received(samples.size());
+    std::memcpy(received.data(), (*frame)->bytes.data(), (*frame)->bytes.size());
+    for (std::size_t s = 0; s < samples.size(); ++s)
+      ASSERT_NEAR(received[s], std::to_integer<int>(samples[s]) * 4095.0 / 255, 1) << s;
+    camera->release((*frame)->buffer);
+  }
+}
+
 // Aravis waits 3 s for each answer, and asks twice or thrice.
 TEST_F(GenicamCamera, ends_soon_after_it_went_and_what_is_left_ends_by_itself) {
   const int idle = threads_without_camera();
@@ -256,6 +287,103 @@ TEST_F(GenicamCamera, ends_soon_after_it_went_and_what_is_left_ends_by_itself) {
   camera.reset();
   EXPECT_LT(clock_.now() - began, 2500ms) << "a second, and a machine may stand still for another";
   wait_for_threads(idle);
+}
+
+// Aravis, whose question for a stream is not answered before a test lets it.
+class HeldStart {
+public:
+  HeldStart() {
+    held_ = this;
+    EXPECT_TRUE(aravis_.has_value()) << aravis_.error().message;
+    asks_ = std::exchange(aravis_->camera_create_stream, &wait_and_ask);
+  }
+  ~HeldStart() { held_ = nullptr; }
+  HeldStart(const HeldStart&) = delete;
+  HeldStart& operator=(const HeldStart&) = delete;
+
+  AravisLibrary aravis() const { return *aravis_; }
+  void let_go() { may_.post(); }
+
+private:
+  static ArvStream* wait_and_ask(ArvCamera* camera, ArvStreamCallback callback, void* data,
+                                 GError** error) {
+    held_->may_.wait();
+    return held_->asks_(camera, callback, data, error);
+  }
+
+  static inline HeldStart* held_ = nullptr;
+  hal::Result<AravisLibrary> aravis_ = AravisLibrary::load();
+  decltype(&arv_camera_create_stream) asks_ = nullptr;
+  hal::Semaphore may_;
+};
+
+class GenicamCameraStart : public GenicamCamera {
+protected:
+  // Open, and being started.
+  void begin_start() {
+    ASSERT_TRUE(camera_->open(small_config()));
+    EXPECT_THAT(camera_->start(), FailsWith(ErrorCode::absent));
+    EXPECT_EQ(camera_->state(), hal::DeviceState::ready);
+  }
+  // Whatever a busy machine takes for it.
+  template <class Call> static hal::Result<> at_last(Call call) {
+    hal::Result<> done = call();
+    while (!done && done.error().code == ErrorCode::absent)
+      done = call();
+    return done;
+  }
+  void expect_frame_of_a_new_stream() {
+    fake_.trigger(1);
+    const auto frame = camera_->wait_frame(20s);
+    ASSERT_TRUE(frame && *frame);
+    EXPECT_EQ((*frame)->sequence, 0U);
+    EXPECT_EQ((*frame)->integrity, FrameIntegrity::good);
+    camera_->release((*frame)->buffer);
+  }
+
+  const int idle_ = threads_without_camera();
+  FakeCamera fake_;
+  HeldStart held_;
+  std::unique_ptr<hal::Clock> its_clock_ = std::make_unique<hal::linux_backend::MonotonicClock>();
+  std::unique_ptr<hal::LineCamera> camera_ = std::make_unique<hal::linux_backend::AravisLineCamera>(
+      GenicamCameraOptions{.address = {GenicamAddress::Bus::gige_vision, FakeCamera::address},
+                           .trigger = "Software"},
+      *its_clock_, held_.aravis());
+};
+
+TEST_F(GenicamCameraStart, what_came_of_a_start_has_the_next_one) {
+  begin_start();
+  EXPECT_THAT(camera_->start(), FailsWith(ErrorCode::absent)) << "it is asked once";
+  held_.let_go();
+  ASSERT_TRUE(at_last([&] { return camera_->start(); }));
+  EXPECT_EQ(camera_->state(), hal::DeviceState::streaming);
+  expect_frame_of_a_new_stream();
+}
+
+TEST_F(GenicamCameraStart, a_start_under_way_is_ended_by_stop_and_by_close) {
+  for (const bool by_stop : {true, false}) {
+    begin_start();
+    if (by_stop) {
+      camera_->stop();
+      EXPECT_EQ(camera_->state(), hal::DeviceState::failed) << "it was waited for in vain";
+    }
+    camera_->close();
+    EXPECT_EQ(camera_->state(), hal::DeviceState::absent);
+    held_.let_go();
+    ASSERT_TRUE(at_last([&] { return camera_->open(small_config()); }));
+    held_.let_go();
+    ASSERT_TRUE(at_last([&] { return camera_->start(); }));
+    expect_frame_of_a_new_stream();
+    camera_->close();
+  }
+}
+
+TEST_F(GenicamCameraStart, may_end_with_its_clock_while_a_start_is_under_way) {
+  begin_start();
+  camera_.reset();
+  its_clock_.reset();
+  held_.let_go();
+  wait_for_threads(idle_ + 1); // the fake camera's own
 }
 
 TEST_F(GenicamCamera, tells_what_it_is_and_offers) {

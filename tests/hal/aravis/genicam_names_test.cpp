@@ -12,6 +12,7 @@
 namespace octascope::tests {
 namespace {
 
+using hal::linux_backend::Depths;
 using hal::linux_backend::GenicamAddress;
 using hal::linux_backend::parse_genicam_address;
 using testing::ElementsAre;
@@ -52,9 +53,10 @@ hal::LineFormat format(hal::SampleType type, int bits, int shift = 0) {
   return {.sample_type = type, .significant_bits = bits, .right_shift = shift};
 }
 
-std::vector<std::string_view> names_for(const hal::LineFormat& wanted) {
+std::vector<std::string_view> names_for(const hal::LineFormat& wanted,
+                                        Depths depths = Depths::wanted) {
   std::vector<std::string_view> names;
-  for (const auto& format : hal::linux_backend::genicam_formats_for(wanted))
+  for (const auto& format : hal::linux_backend::genicam_formats_for(wanted, depths))
     names.push_back(format.name);
   return names;
 }
@@ -68,6 +70,23 @@ TEST(GenicamPixels, a_packed_format_comes_first_then_one_that_says_its_bits) {
               ElementsAre("Mono12p", "Mono12Packed", "Mono12", "Mono16"));
   EXPECT_THAT(names_for(format(SampleType::u16, 16)), ElementsAre("Mono16"));
   EXPECT_THAT(names_for(format(SampleType::u16, 12, 4)), ElementsAre("Mono16"));
+}
+
+TEST(GenicamPixels, where_any_depth_serves_the_wanted_comes_first_then_the_deepest) {
+  using hal::SampleType;
+  EXPECT_THAT(names_for(format(SampleType::u16, 12), Depths::any),
+              ElementsAre("Mono12p", "Mono12Packed", "Mono12", "Mono16", "Mono14", "Mono10p",
+                          "Mono10Packed", "Mono10", "Mono8"));
+  EXPECT_THAT(names_for(format(SampleType::u8, 8), Depths::any), ElementsAre("Mono8"));
+  EXPECT_THAT(names_for(format(SampleType::u16, 12, 4), Depths::any), ElementsAre("Mono16"));
+}
+
+TEST(GenicamPixels, of_the_whole_type_as_many_bits_are_taken_as_are_wanted_or_all) {
+  using hal::linux_backend::choose_genicam_format;
+  const std::vector<std::string> offered{"Mono16"};
+  const hal::LineFormat wanted = format(hal::SampleType::u16, 12);
+  EXPECT_EQ(choose_genicam_format(offered, wanted)->bits, 12);
+  EXPECT_EQ(choose_genicam_format(offered, wanted, Depths::any)->bits, 16);
 }
 
 TEST(GenicamPixels, lines_that_do_not_begin_at_a_byte_are_not_packed) {

@@ -61,6 +61,34 @@ TEST(PackedSamples, a_whole_frame_is_unpacked_where_it_lies) {
   }
 }
 
+TEST(PackedSamples, of_8_bits_lie_in_words_of_16) {
+  EXPECT_THAT(unpacked(Packing::mono8, bytes({0x00, 0x7F, 0x80, 0xFF, 1, 2, 3, 4}), 8),
+              testing::ElementsAre(0x00, 0x7F, 0x80, 0xFF, 1, 2, 3, 4));
+}
+
+TEST(PackedSamples, of_another_depth_keep_their_share_of_full_scale) {
+  for (const int from : {8, 10, 12, 14, 16})
+    for (const int to : {8, 10, 12, 14, 16}) {
+      if (to > 2 * from)
+        continue;
+      const int full_from = (1 << from) - 1;
+      const int full_to = (1 << to) - 1;
+      std::vector<std::byte> frame(2 * (static_cast<std::size_t>(full_from) + 1));
+      for (int i = 0; i <= full_from; ++i) {
+        frame[2 * static_cast<std::size_t>(i)] = static_cast<std::byte>(i & 0xFF);
+        frame[2 * static_cast<std::size_t>(i) + 1] = static_cast<std::byte>(i >> 8);
+      }
+      hal::linux_backend::rescale(frame, frame.size() / 2, from, to);
+      const std::vector<int> scaled = samples_in(frame);
+      EXPECT_EQ(scaled.front(), 0);
+      EXPECT_EQ(scaled.back(), full_to) << from << " to " << to;
+      for (int i = 0; i <= full_from; ++i)
+        ASSERT_NEAR(scaled[static_cast<std::size_t>(i)],
+                    static_cast<double>(i) * full_to / full_from, 1)
+            << i << " of " << from << " bits in " << to;
+    }
+}
+
 TEST(PackedSamples, others_stay_as_they_are) {
   EXPECT_EQ(unpacked(Packing::none, bytes({1, 2, 3, 4}), 2), (std::vector{0x201, 0x403}));
 }

@@ -148,5 +148,39 @@ TEST_F(AcquisitionTest, a_camera_that_nobody_triggers_may_be_silent) {
   EXPECT_TRUE(faults_.records().empty());
 }
 
+TEST_F(AcquisitionTest, stamps_of_no_use_are_told_once_and_again_when_they_were_of_use) {
+  deliver({0, 1});
+  EXPECT_TRUE(faults_.records().empty());
+  camera_.time_by_host(true);
+  deliver({2, 3, 4});
+  EXPECT_EQ(count_of(Fault::unusable_stamps), 1U);
+  camera_.time_by_host(false);
+  deliver({5});
+  camera_.time_by_host(true);
+  deliver({6, 7});
+  EXPECT_EQ(count_of(Fault::unusable_stamps), 2U);
+  EXPECT_EQ(acquisition_->counters().frames, 8U);
+}
+
+TEST(AcquisitionStart, a_camera_that_is_long_in_starting_is_waited_for_and_not_opened_anew) {
+  tests::FakeCamera camera;
+  camera.start_late(2);
+  hal::linux_backend::MonotonicClock clock;
+  FaultLog faults;
+  Wakeup arrived;
+  Acquisition acquisition{camera,
+                          {.format = {.samples_per_line = 16, .lines_per_frame = 2}, .buffers = 8},
+                          clock,
+                          faults,
+                          arrived};
+  ASSERT_TRUE(acquisition.start({}));
+  while (camera.state() != hal::DeviceState::streaming)
+    clock.sleep_for(1ms);
+  EXPECT_EQ(camera.opened(), 1);
+  acquisition.stop();
+  ASSERT_EQ(faults.records().size(), 1U);
+  EXPECT_EQ(faults.records()[0].kind, fault_of(Device::line_camera, hal::ErrorCode::absent));
+}
+
 } // namespace
 } // namespace octascope::pipeline

@@ -4,11 +4,15 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
+#include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "tests/program/program_support.h"
+#include "tests/support/program/genicam_description.h"
 #include "tests/support/program/loopback_port.h"
 
 namespace octascope::tests {
@@ -48,9 +52,10 @@ line_camera = "gigevision:127.0.0.1"
 )");
   }
 
-  void plug_in() {
-    camera_ = std::make_unique<ProgramRun>(
-        std::vector<std::string>{fake_camera, "-i", "127.0.0.1", "-s", "OCT1"});
+  void plug_in(const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{fake_camera, "-i", "127.0.0.1", "-s", "OCT1"};
+    words.insert(words.end(), more.begin(), more.end());
+    camera_ = std::make_unique<ProgramRun>(std::move(words));
     std::this_thread::sleep_for(500ms);
     ASSERT_TRUE(camera_->running());
   }
@@ -78,6 +83,38 @@ private:
   const LoopbackPort port_;
   std::unique_ptr<ProgramRun> camera_;
 };
+
+// Of Aravis's camera, with Mono8 as its only pixel format; empty: it cannot be had.
+std::string description_of_8_bits() {
+  void* const aravis = ::dlopen("libaravis-0.8.so.0", RTLD_NOW);
+  if (aravis == nullptr)
+    return {};
+  const auto make =
+      reinterpret_cast<void* (*)(const char*)>(::dlsym(aravis, "arv_fake_camera_new"));
+  const auto describe = reinterpret_cast<const char* (*)(void*, std::size_t*)>(
+      ::dlsym(aravis, "arv_fake_camera_get_genicam_xml"));
+  if (make == nullptr || describe == nullptr)
+    return {};
+  std::size_t size = 0;
+  const char* const text = describe(make("OCT1"), &size);
+  return with_8_bits_alone({text, size});
+}
+
+TEST_F(GenicamRun, takes_one_that_comes_later_whatever_depth_it_has) {
+  const std::string description = description_of_8_bits();
+  ASSERT_FALSE(description.empty());
+  pull_out();
+  ProgramRun run{octascope_command(command("30"))};
+  ASSERT_TRUE(run.wait_for_thread("octa-camera", 60s)) << "all is set up, without a camera";
+  plug_in({"-g", folder_.write("camera.xml", description)});
+  ASSERT_TRUE(run.wait_for_thread("octa-genicam", 30s));
+  const ProgramResult result = run.wait(120s);
+  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  const json report = read_report(folder_ / "report.json");
+  EXPECT_EQ(report["calibration"]["line_camera"], "Aravis Fake OCT1");
+  EXPECT_GT(report["volumes"]["displayed"].get<int>(), 2) << report.dump(2);
+  EXPECT_TRUE(find_fault(report, "line_camera", "unsupported").is_null()) << report.dump(2);
+}
 
 TEST_F(GenicamRun, shows_what_the_camera_sees_and_says_that_it_is_simulated) {
   run_well(command("8"));

@@ -48,6 +48,16 @@ public:
     const std::lock_guard lock{mutex_};
     plugged_ = true;
   }
+  // Of those that are delivered from now on.
+  void time_by_host(bool by_host) {
+    const std::lock_guard lock{mutex_};
+    timed_by_host_ = by_host;
+  }
+  // So many calls of start() find that it has not answered yet.
+  void start_late(int calls) {
+    const std::lock_guard lock{mutex_};
+    late_starts_ = calls;
+  }
   std::size_t on_loan() const {
     const std::lock_guard lock{mutex_};
     return loans_.size();
@@ -80,6 +90,11 @@ private:
     return {};
   }
   hal::Result<> do_start() override {
+    const std::lock_guard lock{mutex_};
+    if (late_starts_ > 0) {
+      --late_starts_;
+      return hal::fail(hal::ErrorCode::absent, "the fake has not answered yet");
+    }
     set_state(hal::DeviceState::streaming);
     return {};
   }
@@ -114,7 +129,8 @@ private:
                           order.sequence,
                           order.first_line,
                           order.first_line + std::chrono::microseconds{100},
-                          order.integrity};
+                          order.integrity,
+                          timed_by_host_};
   }
   void do_release(int buffer) override {
     const std::lock_guard lock{mutex_};
@@ -132,6 +148,8 @@ private:
   std::set<int> loans_;
   std::vector<std::vector<std::byte>> memory_;
   hal::LineCameraConfig config_;
+  int late_starts_ = 0;
+  bool timed_by_host_ = false;
   int opened_ = 0;
   bool plugged_ = true;
   bool hold_ = false, held_ = false;
