@@ -1,6 +1,7 @@
 // What flows, for the ray caster, and a mark for each cell in which it may be seen.
 //
-// Little of a volume flows. Rays ask the marks, which take an eighth of the counts' memory, and fetch few
+// Little of a volume flows. Rays ask the marks, which take an eighth of the counts' memory (and as much again, by B-scan, to renew
+// them from), and fetch few
 // counts: these are not interleaved as levels are (cell_volume.h), which would take more time for each
 // volume than fewer loads spare.
 #pragma once

@@ -266,7 +266,7 @@ RayFrame RayCaster::frame(const Camera& camera, const RaySettings& settings,
     f.mark_slab = flow_cells_.mark_slab();
     f.flow_bricks = flow_distances_.data();
     f.flow_opacity_and_weight = flow_table_->opacity_and_weight.data();
-    f.coarse_beside_flow = settings.coarse_beside_flow;
+    f.coarse_beside_flow = settings.coarse_beside_flow && settings.mode == RayMode::composite;
   }
   f.opacity_and_red = steps_table_->opacity_and_red.data();
   f.green_and_blue = steps_table_->green_and_blue.data();

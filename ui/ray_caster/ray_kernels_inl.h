@@ -236,25 +236,50 @@ HWY_INLINE void prefetch_flow(const RayFrame& frame, const Position& p, IntMask 
 // Of the next few samples of each ray: where something may be seen to flow. It is fetched ahead.
 struct FlowAhead {
   IntMask flows[samples_of_haze];
-  bool any = false;
+  IntMask anywhere;
+  bool any = false; // else the rest is undefined
 };
 HWY_INLINE FlowAhead find_flow(const RayFrame& frame, Rays rays, IntMask may_flow) {
   FlowAhead ahead;
-  IntMask any = no_rays();
+  ahead.anywhere = no_rays();
   for (IntMask& flows : ahead.flows) {
     flows = flows_at(frame, rays.position, hn::And(may_flow, rays.active()));
-    any = hn::Or(any, flows);
+    ahead.anywhere = hn::Or(ahead.anywhere, flows);
     prefetch_flow(frame, rays.position, flows);
     rays.step();
   }
-  ahead.any = !hn::AllFalse(Ints{}, any);
+  ahead.any = !hn::AllFalse(Ints{}, ahead.anywhere);
   return ahead;
 }
 
-// Advances by as many, with all that flows in such tissue.
-template <Look How>
-HWY_INLINE void take_flow(const RayFrame& frame, const FlowAhead& ahead, Rays& rays, Light& light) {
-  const Substance tissue = classify<How, Flow::elsewhere>(frame, begin_tissue(frame, rays));
+// Adds the tissue of the next few samples of each ray; advances none.
+template <bool WithHue>
+HWY_INLINE void add_tissue(const Rays& rays, const Substance& sample, Int number, Light& light) {
+  Substance all = sample;
+  const Int left = hn::Sub(rays.end, rays.next);
+  for (int more = 1; more < samples_of_haze; ++more) {
+    const RealMask is_there = hn::RebindMask(Floats{}, hn::Gt(left, whole(more)));
+    const Real added = hn::Mul(hn::Sub(real(1), all.opacity), sample.opacity);
+    all.opacity = hn::Add(all.opacity, hn::IfThenElseZero(is_there, added));
+  }
+  add_substance<false, WithHue, false>(all, number, light);
+}
+
+// Light of one of two, of a ray that is not shaded.
+HWY_INLINE Light select(IntMask first, const Light& a, const Light& b) {
+  const RealMask mask = hn::RebindMask(Floats{}, first);
+  Light light = b;
+  light.red = hn::IfThenElse(mask, a.red, b.red);
+  light.green = hn::IfThenElse(mask, a.green, b.green);
+  light.blue = hn::IfThenElse(mask, a.blue, b.blue);
+  light.transparency = hn::IfThenElse(mask, a.transparency, b.transparency);
+  light.half_opaque = hn::IfThenElse(first, a.half_opaque, b.half_opaque);
+  return light;
+}
+
+// Adds all that flows in such tissue.
+HWY_INLINE void add_flow_in(const RayFrame& frame, Rays rays, const Substance& tissue,
+                            const FlowAhead& ahead, Light& light) {
   for (const IntMask& flows : ahead.flows) {
     Substance both = tissue;
     both.opacity = hn::IfThenElseZero(hn::RebindMask(Floats{}, rays.active()), both.opacity);
@@ -265,21 +290,25 @@ HWY_INLINE void take_flow(const RayFrame& frame, const FlowAhead& ahead, Rays& r
     add_substance<false, true, true>(both, rays.next, light);
     rays.step();
   }
-  end_opaque(light, rays);
 }
 
-// Advances by as many, of tissue alone.
-template <Look How> HWY_INLINE void take_tissue(const RayFrame& frame, Rays& rays, Light& light) {
+// Advances by as many. A ray's light is the same whatever its neighbours meet: which of them are with it
+// changes with what it need not be drawn anew for.
+template <Look How>
+HWY_INLINE void take_coarsely(const RayFrame& frame, IntMask may_flow, Rays& rays, Light& light) {
+  FlowAhead ahead;
+  if (!hn::AllFalse(Ints{}, may_flow))
+    ahead = find_flow(frame, rays, may_flow);
   const Sample sample = begin_tissue(frame, rays);
-  Substance here = classify<How, Flow::elsewhere>(frame, sample);
-  const Real one = here.opacity;
-  const Int left = hn::Sub(rays.end, rays.next);
-  for (int more = 1; more < samples_of_haze; ++more) {
-    const RealMask is_there = hn::RebindMask(Floats{}, hn::Gt(left, whole(more)));
-    const Real added = hn::Mul(hn::Sub(real(1), here.opacity), one);
-    here.opacity = hn::Add(here.opacity, hn::IfThenElseZero(is_there, added));
+  const Substance tissue = classify<How, Flow::elsewhere>(frame, sample);
+  Light still = light;
+  add_tissue<true>(rays, tissue, sample.number, still);
+  if (ahead.any) {
+    Light flowing = light;
+    add_flow_in(frame, rays, tissue, ahead, flowing);
+    still = select(ahead.anywhere, flowing, still);
   }
-  add_substance<false, has_hue(How, Flow::elsewhere), false>(here, sample.number, light);
+  light = still;
   rays.leap(whole(samples_of_haze));
   end_opaque(light, rays);
 }
@@ -296,13 +325,7 @@ HWY_INLINE bool advance(const RayFrame& frame, Rays& rays, Int& still_before, Li
     const IntMask may_flow = meet_flow(frame, rays, still_before);
     const bool flows = !hn::AllFalse(Ints{}, may_flow);
     if (!Shaded && frame.coarse_beside_flow) {
-      FlowAhead ahead;
-      if (flows)
-        ahead = find_flow(frame, rays, may_flow);
-      if (ahead.any)
-        take_flow<How>(frame, ahead, rays, light);
-      else
-        take_tissue<How>(frame, rays, light);
+      take_coarsely<How>(frame, may_flow, rays, light);
       // So few samples lie in a cache line that each would be waited for at the packet's next turn.
       prefetch_cells(frame, tissue_ahead(rays).position, rays.active());
     } else if (flows) {

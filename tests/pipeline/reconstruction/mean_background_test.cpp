@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -85,6 +86,18 @@ TEST(FusedTables, hold_all_taps_of_a_block_in_one_window) {
     const auto tables = make_fused_tables(calibration, 0, WindowShape{16, 16, 32, false});
     ASSERT_TRUE(tables);
     EXPECT_TRUE(tables->one_window);
+  }
+}
+
+// What reconstructor_agreement_test.cpp has for windows of fewer taps.
+TEST(FusedTables, need_more_windows_for_a_steep_curve) {
+  for (const auto& [interpolation, pixels] :
+       {std::pair{Interpolation::cubic, 250.0}, std::pair{Interpolation::sinc8, 200.0}}) {
+    Calibration calibration = tests::chirped_calibration(1024, pixels);
+    calibration.interpolation = interpolation;
+    const auto tables = make_fused_tables(calibration, 0, WindowShape{16, 16, 32, false});
+    ASSERT_TRUE(tables);
+    EXPECT_FALSE(tables->one_window);
   }
 }
 

@@ -200,12 +200,15 @@ INSTANTIATE_TEST_SUITE_P(
         Case{1021, sinc8, hann, true, mean, 60}, Case{1024, sinc8, hann, true, mean, 0},
         Case{1024, sinc8, hann, false, mean, 0}),
     name);
-INSTANTIATE_TEST_SUITE_P(interpolations, Agreement,
-                         testing::Values(Case{1024, Interpolation::linear, hann, true, mean, 70},
-                                         Case{1024, Interpolation::linear, hann, false, mean, 70},
-                                         Case{1024, Interpolation::cubic, hann, true, mean, 70},
-                                         Case{1024, Interpolation::cubic, hann, false, mean, 70}),
-                         name);
+INSTANTIATE_TEST_SUITE_P(
+    interpolations, Agreement,
+    testing::Values(Case{1024, sinc8, hann, true, mean, 200},                // one window does not
+                    Case{1024, Interpolation::cubic, hann, true, mean, 250}, // hold these
+                    Case{1024, Interpolation::linear, hann, true, mean, 70},
+                    Case{1024, Interpolation::linear, hann, false, mean, 70},
+                    Case{1024, Interpolation::cubic, hann, true, mean, 70},
+                    Case{1024, Interpolation::cubic, hann, false, mean, 70}),
+    name);
 INSTANTIATE_TEST_SUITE_P(windows_and_backgrounds, Agreement,
                          testing::Values(Case{512, sinc8, SpectralWindow::hamming, true, mean, 30},
                                          Case{512, sinc8, SpectralWindow::blackman, true, mean, 30},

@@ -149,6 +149,24 @@ TEST_P(FlowRays, leaping_over_what_is_still_changes_not_one_bit) {
     }
 }
 
+// Nor where tissue is sampled coarsely: there, which rays advance together changes with the leaps.
+TEST_P(FlowRays, leaping_beside_coarse_tissue_changes_not_one_bit) {
+  pipeline::Volume volume = tissue_volume(tissue);
+  add_tubes(volume);
+  show(volume);
+  for (const Place& place : places) {
+    const ui::ViewState view = view_from(place, 0.5F * ui::tissue_beside_flow);
+    ui::RaySettings how = settings(RayMode::composite, view, true);
+    how.flow_opacity = ui::flow_opacity(0.5F);
+    how.coarse_beside_flow = true;
+    const ui::RayImage leapt = cast(view, how);
+    how.leap_empty = false;
+    const ui::RayImage full = cast(view, how);
+    EXPECT_EQ(leapt.rgba, full.rgba) << place.name;
+    EXPECT_EQ(leapt.depth_mm, full.depth_mm) << place.name;
+  }
+}
+
 TEST_P(FlowRays, of_what_is_static_or_hidden_are_those_of_the_levels) {
   pipeline::Volume volume = tissue_volume(tissue);
   const ui::ViewState view = view_from(places[0], 0.5F);
