@@ -16,7 +16,8 @@ namespace octascope::firmware_host {
 
 namespace {
 
-// The right switch twice: from the window's offset to the rotation. Then a detent each 50 ms.
+// The right switch twice: from the window's offset to the rotation. Then a detent for each refresh: fewer
+// would ask for fewer frames than can be drawn.
 void write_turning_knob(const std::filesystem::path& file, double seconds) {
   std::ofstream script{file};
   const auto event = [&](double time_s, const char* control, int value) {
@@ -26,7 +27,7 @@ void write_turning_knob(const std::filesystem::path& file, double seconds) {
     event(press_s, "switch = 2", 1);
     event(press_s + 0.1, "switch = 2", 0);
   }
-  for (double time_s = 1; time_s < seconds; time_s += 0.05)
+  for (double time_s = 1; time_s < seconds; time_s += 1.0 / 60)
     event(time_s, "knob = 0", 1);
 }
 
