@@ -30,6 +30,13 @@ bool is_file(const std::filesystem::path& path, const struct stat& file) {
          found.st_ino == file.st_ino;
 }
 
+// A disk that hangs does so here, and not under the lock that HDF5 has for all files: recordings on
+// other disks go on. HDF5 empties the file, and tells of a disk that refuses.
+void await_disk(int descriptor) {
+  if (::pwrite(descriptor, "", 1, 0) == 1)
+    static_cast<void>(::fdatasync(descriptor));
+}
+
 } // namespace
 
 Hdf5Handle make_growing_dataset(hid_t file, const char* name, hid_t type,
@@ -97,6 +104,7 @@ GrowingFile::create(const std::filesystem::path& path, const std::function<bool(
                      reason == EEXIST ? "; a recording is never written over" : "");
   }
   auto made = std::unique_ptr<GrowingFile>(new GrowingFile{path, descriptor});
+  await_disk(descriptor);
   const Hdf5Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST); // for readers who look on
   if (aligned_bytes > 0)
