@@ -48,7 +48,7 @@ private:
   std::uint64_t most_frames() const;
   std::uint64_t kept_lines() const;
   bool done() const;
-  void wait_for_file(StopSignal& stop_signal);
+  hal::Result<> wait_for_file(StopSignal& stop_signal);
   hal::Result<> wait_until_done(StopSignal& stop_signal);
   void show_progress() const;
   hal::Result<> write_mean() const;
@@ -137,9 +137,18 @@ bool Capture::done() const {
 }
 
 // Nobody looks on: frames that come before it would be asked for in vain.
-void Capture::wait_for_file(StopSignal& stop_signal) {
+hal::Result<> Capture::wait_for_file(StopSignal& stop_signal) {
+  if (recorder_->status().waiting)
+    warn("octascope capture: {}: its disk has not made the file yet; it is waited for; "
+         "Ctrl+C gives it up, twice where the disk goes on hanging\n",
+         options_.file.string());
   while (recorder_->status().waiting && !stop_signal.requested())
     clock_.sleep_for(between_looks);
+  if (auto failure = recorder_->failure())
+    return tl::make_unexpected(std::move(*failure));
+  if (stop_signal.requested())
+    return hal::fail(hal::ErrorCode::timed_out, "it was ended before any line was there");
+  return {};
 }
 
 hal::Result<> Capture::wait_until_done(StopSignal& stop_signal) {
@@ -180,11 +189,14 @@ hal::Result<> Capture::run(StopSignal& stop_signal) {
   const pipeline::ThreadSetup threads =
       make_thread_setup(clock_, faults_, reconstruction_->worker_cores());
   devices_->start_faults(clock_.now());
+  hal::Result<> started;
   if (recorder_) {
     HAL_CHECK(recorder_->start(threads));
-    wait_for_file(stop_signal);
+    started = wait_for_file(stop_signal);
   }
-  if (auto started = acquisition_->start(threads); !started) {
+  if (started)
+    started = acquisition_->start(threads);
+  if (!started) {
     if (recorder_)
       recorder_->stop({});
     remove_file();
@@ -203,8 +215,10 @@ hal::Result<> Capture::run(StopSignal& stop_signal) {
   return tell(std::move(waited));
 }
 
-// It was made by this capture, which refuses one that is there.
+// Never one that is not of this capture.
 void Capture::remove_file() const {
+  if (!recorder_ || !recorder_->status().made)
+    return;
   std::error_code error;
   std::filesystem::remove(options_.file, error);
 }

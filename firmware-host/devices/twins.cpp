@@ -75,6 +75,8 @@ hal::Result<> check_counts(const pipeline::SpectraFile& file,
 // Beyond that, what is played waits for the disk.
 constexpr std::size_t most_played_bytes = std::size_t{1} << 30;
 
+constexpr std::size_t most_mapped_frames = std::size_t{1} << 20; // as one SpectraFile takes
+
 struct FrameRange { // of RawReader::frames()
   std::size_t first = 0;
   std::size_t count = 0;
@@ -88,7 +90,8 @@ std::vector<FrameRange> whole_volumes(const pipeline::RawReader& reader, std::si
     if (!volume.whole || volumes == most)
       continue;
     ++volumes;
-    if (!ranges.empty() && ranges.back().first + ranges.back().count == volume.first)
+    if (!ranges.empty() && ranges.back().first + ranges.back().count == volume.first &&
+        ranges.back().count + volume.count <= most_mapped_frames)
       ranges.back().count += volume.count;
     else
       ranges.push_back({volume.first, volume.count});

@@ -32,7 +32,7 @@ constexpr hal::Duration patience_with_disk = 10s;
 
 RunRecorder::RunRecorder(RecordingSetup setup, hal::Clock& clock, pipeline::FaultLog& faults,
                          pipeline::Wakeup& news)
-    : setup_(std::move(setup)), clock_(clock), faults_(faults),
+    : setup_(std::move(setup)), clock_(clock),
       recorder_(setup_.facts.geometry, places_for(setup_.facts.geometry), clock, faults, news) {}
 
 hal::Result<> RunRecorder::check() const {
@@ -54,9 +54,8 @@ hal::Result<> RunRecorder::start(const pipeline::ThreadSetup& setup) {
   begin(*setup_.file);
   const hal::TimePoint deadline = clock_.now() + patience_with_disk;
   while (!recorder_.status().on) {
-    for (const pipeline::FaultRecord& fault : faults_.records())
-      if (facts_of(fault.kind).device == pipeline::Device::recording)
-        return hal::fail(hal::ErrorCode::system, fault.message);
+    if (const auto failure = recorder_.failure())
+      return hal::fail(hal::ErrorCode::system, failure->message);
     if (clock_.now() > deadline)
       return hal::fail(hal::ErrorCode::timed_out,
                        setup_.file->string() +

@@ -69,7 +69,6 @@ private:
 
   RecordingSetup setup_;
   hal::Clock& clock_;
-  pipeline::FaultLog& faults_;
   pipeline::Recorder recorder_;
   std::vector<KeptRecording> kept_;
 };

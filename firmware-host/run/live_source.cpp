@@ -245,9 +245,11 @@ hal::Result<> LiveSource::start() {
     faults_.add(pipeline::Fault::memory_not_locked, locked.error().message, clock_.now());
   supervision_.start(process_start(clock_));
   const pipeline::ThreadSetup setup = thread_setup();
-  HAL_CHECK(recordings_->start(setup));
+  // Raw spectra first: where they cannot begin, nothing is left in the way of another attempt, and
+  // the levels' file was looked at before.
   if (raw_)
     HAL_CHECK(raw_->start(setup));
+  HAL_CHECK(recordings_->start(setup));
   HAL_CHECK(acquisition_->start(setup));
   volumes_->start(setup);
   if (scope_)

@@ -24,11 +24,14 @@ hal::Result<Configuration> check(const Session& session, const std::string& text
   auto read = load_configuration(candidate);
   std::error_code ignored;
   std::filesystem::remove(candidate, ignored);
-  if (!read)
-    return hal::fail(read.error().code,
-                     "a run would refuse the configuration, so it is not written: {}",
-                     read.error().message);
-  return read;
+  if (read)
+    return read;
+  std::string reason = read.error().message;
+  const std::string name = candidate.string();
+  if (const auto at = reason.find(name); at != std::string::npos)
+    reason.replace(at, name.size(), "octascope.toml"); // the other is gone
+  return hal::fail(read.error().code,
+                   "a run would refuse the configuration, so it is not written: {}", reason);
 }
 
 } // namespace

@@ -38,9 +38,6 @@ hal::Result<> ask_which_camera(Bench& bench) {
       auto camera,
       bench.dialogue.ask("Line camera: auto, a node as /dev/video0, or as gigevision:192.168.1.20?",
                          bench.session.text("line_camera", "auto")));
-  if (camera != bench.session.text("line_camera", camera))
-    for (const char* const of_another : {"significant_bits", "exposure_us", "gain"})
-      bench.session.unset(of_another);
   bench.session.set("line_camera", camera);
   return {};
 }
@@ -77,10 +74,11 @@ hal::Result<> ask_scan(Bench& bench) {
   return {};
 }
 
-// What the driver says of a sample may be its room: 12 bits in 16.
-hal::Result<LiveLook> ask_bits(Bench& bench, LiveLook found) {
+// What the driver says of a sample may be its room: 12 bits in 16. `before`: what was said then.
+hal::Result<LiveLook> ask_bits(Bench& bench, LiveLook found, const Session& before) {
+  const double offered = before.number("significant_bits", found.format.significant_bits);
   HAL_TRY(const int bits, bench.dialogue.ask_count("Significant bits of a sample?",
-                                                   found.format.significant_bits, 8, 16));
+                                                   static_cast<int>(offered), 8, 16));
   bench.session.set("significant_bits", bits);
   if (bits != found.format.significant_bits) {
     HAL_TRY(found, look_now(bench, "dark", 0)); // does it offer them?
@@ -88,9 +86,29 @@ hal::Result<LiveLook> ask_bits(Bench& bench, LiveLook found) {
   return found;
 }
 
+// A look with what was chosen for the camera before is refused by another one that came to have its
+// name, and the step would never get to ask: it is looked at as it is. The same one has its light
+// again.
+hal::Result<LiveLook> look_at_camera(Bench& bench) {
+  Session& session = bench.session;
+  if (session.simulated())
+    return look_now(bench, "dark", 0);
+  const Session before = session;
+  for (const char* const chosen : {"significant_bits", "exposure_us", "gain"})
+    session.unset(chosen);
+  HAL_TRY(auto found, look_now(bench, "dark", 0));
+  HAL_TRY(found, ask_bits(bench, std::move(found), before));
+  if (!found.camera.empty() && found.camera == before.text("camera"))
+    for (const char* const chosen : {"exposure_us", "gain"})
+      if (const double value = before.number(chosen, NAN); !std::isnan(value))
+        session.set(chosen, value);
+  return found;
+}
+
 // The configuration takes no others, and whole gains alone.
 constexpr double least_exposure_us = 0.01;
 constexpr double most_exposure_us = 1e6;
+constexpr double most_gain = 1e6; // of either sign: a camera may give the bounds of its numbers
 
 // Each returns whether the answer is another value than the camera has.
 hal::Result<bool> ask_exposure(Bench& bench, const hal::CameraControl& exposure) {
@@ -106,9 +124,12 @@ hal::Result<bool> ask_exposure(Bench& bench, const hal::CameraControl& exposure)
 }
 
 hal::Result<bool> ask_gain(Bench& bench, const hal::CameraControl& gain) {
-  const int least = static_cast<int>(std::ceil(gain.least));
-  const int most = std::max(least, static_cast<int>(std::floor(gain.most)));
-  const int present = std::clamp(static_cast<int>(std::lround(gain.value)), least, most);
+  const auto whole = [](double value) {
+    return static_cast<int>(std::clamp(value, -most_gain, most_gain));
+  };
+  const int least = whole(std::ceil(gain.least));
+  const int most = std::max(least, whole(std::floor(gain.most)));
+  const int present = std::clamp(whole(std::round(gain.value)), least, most);
   HAL_TRY(const int value, bench.dialogue.ask_count(fmt::format("Gain, {} to {}?", least, most),
                                                     present, least, most));
   if (value == present)
@@ -177,10 +198,7 @@ hal::Result<StepRecord> find_camera(Bench& bench) {
   HAL_CHECK(ask_scan(bench));
   if (bench.session.number("samples", 0) != samples)
     bench.session.set("calibration", ""); // it is of lines of another length
-  HAL_TRY(auto found, look_now(bench, "dark", 0));
-  if (!bench.session.simulated()) {
-    HAL_TRY(found, ask_bits(bench, std::move(found)));
-  }
+  HAL_TRY(const auto found, look_at_camera(bench));
   bench.session.set("camera", found.camera);
   StepRecord record;
   record.found = {{"camera", found.camera.empty() ? "does not identify itself" : found.camera},

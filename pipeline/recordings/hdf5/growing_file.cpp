@@ -19,6 +19,10 @@ namespace {
 constexpr std::size_t most_dimensions = 4;
 constexpr hsize_t page = 4096;
 
+// To open a file that a reader has locked.
+constexpr int attempts = 50;
+constexpr std::chrono::milliseconds between_attempts{20};
+
 // A name of the open file itself, wherever it has been moved to.
 std::string own_name(int descriptor) {
   return fmt::format("/proc/self/fd/{}", descriptor);
@@ -28,6 +32,28 @@ bool is_file(const std::filesystem::path& path, const struct stat& file) {
   struct stat found = {};
   return ::stat(path.c_str(), &found) == 0 && found.st_dev == file.st_dev &&
          found.st_ino == file.st_ino;
+}
+
+// A disk that hangs does so here, and not under the lock that HDF5 has for all files: recordings on
+// other disks go on. HDF5 empties the file, and tells of a disk that refuses.
+void await_disk(int descriptor) {
+  if (::pwrite(descriptor, "", 1, 0) == 1)
+    static_cast<void>(::fdatasync(descriptor));
+}
+
+// A reader that looks whether the file is there yet holds it locked for a moment.
+Hdf5Handle begin_file(const std::filesystem::path& path, hid_t access) {
+  const auto begin = [&] {
+    return Hdf5Handle{H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose};
+  };
+  Hdf5Handle file = begin();
+  for (int i = 1;
+       i < attempts && !file.valid() && hdf5_reason().find("unable to lock") != std::string::npos;
+       ++i) {
+    std::this_thread::sleep_for(between_attempts);
+    file = begin();
+  }
+  return file;
 }
 
 } // namespace
@@ -97,11 +123,12 @@ GrowingFile::create(const std::filesystem::path& path, const std::function<bool(
                      reason == EEXIST ? "; a recording is never written over" : "");
   }
   auto made = std::unique_ptr<GrowingFile>(new GrowingFile{path, descriptor});
+  await_disk(descriptor);
   const Hdf5Handle access{H5Pcreate(H5P_FILE_ACCESS), H5Pclose};
   H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST); // for readers who look on
   if (aligned_bytes > 0)
     H5Pset_alignment(access, aligned_bytes, page);
-  made->file_ = {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose};
+  made->file_ = begin_file(path, access);
   if (!made->file_.valid() || !fill(made->file_) || H5Fstart_swmr_write(made->file_) < 0) {
     const auto error = made->failed("cannot be begun");
     made.reset();
@@ -148,11 +175,9 @@ hal::Result<> GrowingFile::sync() {
 
 // By whatever name it has now. A reader that is just opening it holds it locked for a moment.
 Hdf5Handle GrowingFile::open_once_more() const {
-  using namespace std::chrono_literals;
-  constexpr int attempts = 50;
   Hdf5Handle again{H5Fopen(own_name(descriptor_).c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
   for (int i = 1; i < attempts && !again.valid() && check_place(); ++i) {
-    std::this_thread::sleep_for(20ms);
+    std::this_thread::sleep_for(between_attempts);
     again = {H5Fopen(own_name(descriptor_).c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose};
   }
   return again;

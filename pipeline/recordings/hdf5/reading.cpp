@@ -154,18 +154,20 @@ std::uint64_t stored_bytes(hid_t file) {
   if (!descriptor || ::fstat(*descriptor, &status) != 0)
     return 0;
   constexpr blkcnt_t block = 512; // whatever the file system's are
-  if (status.st_blocks >= (status.st_size + block - 1) / block)
-    return static_cast<std::uint64_t>(status.st_size);
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  if (status.st_blocks >= status.st_size / block + (status.st_size % block != 0 ? 1 : 0))
+    return size;
   // Fewer may be compressed ones, or not written yet: the file system tells holes from these.
   std::uint64_t bytes = 0;
-  for (off_t at = ::lseek(*descriptor, 0, SEEK_DATA); at >= 0;) {
-    const off_t end = ::lseek(*descriptor, at, SEEK_HOLE);
+  for (off_t end = 0;;) {
+    const off_t at = ::lseek(*descriptor, end, SEEK_DATA);
+    if (at < 0)
+      return errno == ENXIO ? bytes : size; // nothing more, or it cannot tell
+    end = ::lseek(*descriptor, at, SEEK_HOLE);
     if (end <= at)
-      break;
+      return size;
     bytes += static_cast<std::uint64_t>(end - at);
-    at = ::lseek(*descriptor, end, SEEK_DATA);
   }
-  return bytes;
 }
 
 hal::Result<> check_end(hid_t file, std::uint64_t address, std::uint64_t bytes) {

@@ -14,6 +14,7 @@ constexpr std::size_t small_frame = std::size_t{64} << 10;
 
 constexpr std::uint64_t page = 4096; // at which frames begin
 constexpr std::uint64_t most_pages_between = 64;
+constexpr int most_misses = 16; // running: then the file is packed in another way
 
 } // namespace
 
@@ -25,7 +26,11 @@ hal::Result<FramePlaces> FramePlaces::open(const std::filesystem::path& file, hi
 }
 
 std::optional<std::uint64_t> FramePlaces::find(std::size_t row, std::uint32_t crc32) {
-  auto place = frame_bytes_ <= small_frame ? find_behind_last(row, crc32) : std::nullopt;
+  std::optional<std::uint64_t> place;
+  if (last_ && row > last_->row && frame_bytes_ <= small_frame && misses_ < most_misses) {
+    place = find_behind(*last_, row, crc32);
+    misses_ = place ? 0 : misses_ + 1;
+  }
   if (!place)
     place = ask_hdf5(row);
   if (place)
@@ -39,13 +44,16 @@ bool FramePlaces::is_at(std::uint64_t place, std::uint32_t crc32) const {
          crc32_of(bytes.subspan(place, frame_bytes_)) == crc32;
 }
 
-std::optional<std::uint64_t> FramePlaces::find_behind_last(std::size_t row,
-                                                           std::uint32_t crc32) const {
-  if (!last_ || row <= last_->row)
-    return std::nullopt;
+std::optional<std::uint64_t> FramePlaces::find_behind(const Found& last, std::size_t row,
+                                                      std::uint32_t crc32) const {
   const std::uint64_t stride = (frame_bytes_ + page - 1) / page * page;
-  const std::uint64_t next = last_->place + (row - last_->row) * stride;
-  for (std::uint64_t pages = 0; pages <= most_pages_between; ++pages)
+  const std::uint64_t next = last.place + (row - last.row) * stride;
+  if (is_at(next, crc32))
+    return next;
+  const std::uint64_t unaligned = last.place + (row - last.row) * frame_bytes_; // by h5repack
+  if (is_at(unaligned, crc32))
+    return unaligned;
+  for (std::uint64_t pages = 1; pages <= most_pages_between; ++pages)
     if (is_at(next + pages * page, crc32))
       return next + pages * page;
   return std::nullopt;

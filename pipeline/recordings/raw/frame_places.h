@@ -35,17 +35,20 @@ private:
       : mapped_(std::move(mapped)), spectra_(spectra), frame_bytes_(frame_bytes) {}
 
   bool is_at(std::uint64_t place, std::uint32_t crc32) const;
-  std::optional<std::uint64_t> find_behind_last(std::size_t row, std::uint32_t crc32) const;
   std::optional<std::uint64_t> ask_hdf5(std::size_t row);
 
   struct Found {
     std::size_t row;
     std::uint64_t place;
   };
+  std::optional<std::uint64_t> find_behind(const Found& last, std::size_t row,
+                                           std::uint32_t crc32) const;
+
   MappedFile mapped_;
   hid_t spectra_;
   std::size_t frame_bytes_;
   std::optional<Found> last_;
+  int misses_ = 0; // running, behind the last
   std::size_t asked_ = 0;
 };
 

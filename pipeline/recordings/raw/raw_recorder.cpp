@@ -56,11 +56,7 @@ hal::Result<> RawRecorder::start(const ThreadSetup& setup) {
   std::unique_lock lock{mutex_};
   if (!made_.wait_for(lock, patience, [this] { return !waiting_for_file_; })) {
     told_of_waiting_ = true;
-    faults_.add(Fault::recording_waits,
-                fmt::format("{}: its disk has not made the file for {} s; it is waited for, and no "
-                            "frame is kept until then",
-                            file_.string(), patience.count()),
-                clock_.now());
+    tell_of_waiting();
   } else if (failure_) {
     const hal::Error error = *failure_;
     lock.unlock();
@@ -70,6 +66,17 @@ hal::Result<> RawRecorder::start(const ThreadSetup& setup) {
   lock.unlock();
   sync_thread_.start({"raw-sync"}, setup, [this] { sync(); });
   return {};
+}
+
+void RawRecorder::tell_of_waiting() {
+  faults_.add(
+      Fault::recording_waits,
+      [this] {
+        return fmt::format("{}: its disk has not made the file for {} s; it is waited for, and no "
+                           "frame is kept until then",
+                           file_.string(), patience.count());
+      },
+      clock_.now());
 }
 
 void RawRecorder::make_slots() {
@@ -94,6 +101,7 @@ bool RawRecorder::make_file() {
   if (is_made) {
     writer_ = std::move(*made);
     began_ = flushed_ = clock_.now();
+    made_file_.store(true, std::memory_order_relaxed);
     taking_.store(true, std::memory_order_release);
   }
   const std::lock_guard lock{mutex_};
@@ -149,6 +157,7 @@ RawRecorderStatus RawRecorder::status() const {
   const std::int64_t room = room_.load(std::memory_order_relaxed);
   const bool on = taking_.load(std::memory_order_acquire);
   return {.waiting = waiting_for_file_.load(std::memory_order_acquire),
+          .made = made_file_.load(std::memory_order_relaxed),
           .on = on,
           .since = on ? began_ : hal::TimePoint{},
           .offered = offered_.load(std::memory_order_relaxed),
@@ -244,6 +253,8 @@ void RawRecorder::sync() {
   while (!sync_thread_.stopping()) {
     Heartbeat::rest_here(); // a disk may take its time
     sync_wakeup_.wait_until(clock_, clock_.now() + between_syncs);
+    if (waiting_for_file_.load(std::memory_order_acquire) && !sync_thread_.stopping())
+      tell_of_waiting(); // else its notice would go while no frame is kept
     if (!taking_.load(std::memory_order_acquire))
       continue;
     if (const auto synced = writer_->sync(); !synced)

@@ -26,6 +26,7 @@ namespace octascope::pipeline {
 // Every frame that was offered is kept or counted as not kept, once the recorder has stopped.
 struct RawRecorderStatus {
   bool waiting = false;   // for its disk, which has not made the file yet: no frame is kept
+  bool made = false;      // the file, by this recorder
   bool on = false;        // it takes frames
   hal::TimePoint since{}; // meaningful while on
   std::uint64_t offered = 0;
@@ -59,7 +60,8 @@ public:
 
   // Makes the slots, all memory that is ever used, then the threads, one of which makes the file. On
   // an Error the file cannot be made, and nothing was started. Where the disk does not answer
-  // (RawRecorderStatus::waiting) it is begun when it does, or ends by itself.
+  // (RawRecorderStatus::waiting, and a fault again and again) it is begun when it does, or ends by
+  // itself.
   hal::Result<> start(const ThreadSetup& setup);
 
   // After the last offer(): writes what waits and finishes the file. `camera`: RawEnd::camera.
@@ -91,6 +93,7 @@ private:
   void write(const Slot& slot);
   void flush();
   bool has_room();
+  void tell_of_waiting();
   void sync();
   void give_up(Fault fault, const hal::Error& error);
 
@@ -105,6 +108,7 @@ private:
   std::unique_ptr<IndexRing> free_;                 // the writing thread's → the workers'
   std::vector<std::unique_ptr<IndexRing>> waiting_; // each worker's → the writing thread's
   std::atomic<bool> waiting_for_file_{false};       // changed under mutex_
+  std::atomic<bool> made_file_{false};
   std::atomic<bool> taking_{false};
   std::atomic<std::uint64_t> offered_{0};
   std::atomic<std::uint64_t> kept_{0};

@@ -57,10 +57,12 @@ RawWriter::~RawWriter() {
 hal::Result<RawWriter> RawWriter::create(const std::filesystem::path& path, const RawFacts& facts) {
   const Hdf5Silence silence;
   if (facts.format.lines_per_frame > largest_size)
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     "{}: found {} lines a frame, of which {} are kept, expected at most {} where "
-                     "raw spectra are recorded; record levels (--out), or scan fewer lines a sweep",
-                     path.string(), facts.format.lines_per_frame, facts.kept_lines(), largest_size);
+    return hal::fail(
+        hal::ErrorCode::invalid_argument,
+        "{}: found {} lines a frame, of which {} are kept, expected at most {} where "
+        "raw spectra are kept; scan fewer lines a sweep, or keep levels (record --out) "
+        "or a mean (capture --average) instead",
+        path.string(), facts.format.lines_per_frame, facts.kept_lines(), largest_size);
   auto made = std::make_unique<File>();
   made->format = facts.format;
   made->has_backgrounds = facts.has_backgrounds();

@@ -140,19 +140,29 @@ private:
   hal::Semaphore answers_;
 };
 
+// Declared after the recorder that waits for the disk: where a test ends early, too, it is let go.
+struct AnswerAtEnd {
+  HangingDisk& disk;
+  ~AnswerAtEnd() { disk.answer(); }
+};
+
 TEST_F(RawRecorderTest, waits_for_its_disk_without_holding_up_the_start_and_counts_what_comes) {
   HangingDisk disk;
   RawRecorder raw{file, tests::small_raw_facts(), workers, 0, clock, faults, disk.maker()};
+  const AnswerAtEnd at_end{disk};
   ASSERT_TRUE(raw.start({}));
   EXPECT_TRUE(raw.status().waiting);
   EXPECT_FALSE(raw.status().on);
   ASSERT_FALSE(faults.records().empty());
   EXPECT_EQ(faults.records()[0].kind, Fault::recording_waits);
+  EXPECT_FALSE(raw.status().made);
+  wait_until([&] { return faults.records()[0].count > 1; }); // told as long as it lasts
   offer(raw, 0, 0);
   EXPECT_EQ(raw.status().not_kept, 1U);
   disk.answer();
   wait_until([&] { return raw.status().on; });
   EXPECT_FALSE(raw.status().waiting);
+  EXPECT_TRUE(raw.status().made);
   offer(raw, 1, 1);
   raw.stop("");
   EXPECT_FALSE(raw.failure());
@@ -171,12 +181,14 @@ TEST_F(RawRecorderTest, ends_where_its_disk_answers_late_that_it_cannot) {
                   clock,
                   faults,
                   disk.maker(hal::Error{hal::ErrorCode::system, "the disk is broken"})};
+  const AnswerAtEnd at_end{disk};
   ASSERT_TRUE(raw.start({}));
   disk.answer();
   wait_until([&] { return raw.failure().has_value(); });
   offer(raw, 0, 0);
   raw.stop("");
   EXPECT_EQ(raw.failure()->message, "the disk is broken");
+  EXPECT_FALSE(raw.status().made);
   EXPECT_EQ(raw.status().not_kept, 1U);
   EXPECT_FALSE(raw.status().on);
   ASSERT_EQ(faults.records().size(), 2U);

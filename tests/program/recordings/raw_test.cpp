@@ -160,6 +160,16 @@ TEST(RawSpectra, whose_file_is_removed_are_a_failure) {
   EXPECT_THAT(result.err, HasSubstr("raw.h5: was removed or moved"));
 }
 
+TEST(RawSpectra, that_cannot_begin_leave_no_levels_in_the_way_of_another_attempt) {
+  const ScratchFolder folder;
+  folder.write("raw.h5", "mine");
+  const ProgramResult result =
+      run_octascope(small_raw_record(folder, {"--volumes", "2", "--out", folder / "r.h5"}));
+  EXPECT_NE(result.exit_status, 0);
+  EXPECT_THAT(result.err, HasSubstr("raw.h5: cannot be made"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "r.h5"));
+}
+
 // The status of a run whose socket lies there; null where nobody answers (yet).
 nlohmann::json status_of(const std::filesystem::path& socket) {
   const ProgramResult result = run_octascope({"status", "--json", "--socket", socket});
