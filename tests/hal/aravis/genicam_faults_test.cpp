@@ -271,6 +271,29 @@ TEST_F(GenicamCamera, one_of_another_depth_is_taken_where_any_serves_and_scaled)
   }
 }
 
+TEST_F(GenicamCamera, one_that_sends_no_stamps_is_told_after_5_s_of_frames) {
+  FakeCamera fake;
+  auto aravis = AravisLibrary::load();
+  ASSERT_TRUE(aravis.has_value()) << aravis.error().message;
+  aravis->buffer_get_timestamp = [](ArvBuffer*) -> guint64 { return 0; };
+  hal::linux_backend::AravisLineCamera camera{
+      {.address = {GenicamAddress::Bus::gige_vision, FakeCamera::address}, .trigger = "Software"},
+      clock_,
+      *aravis};
+  ASSERT_TRUE(camera.open(small_config()));
+  ASSERT_TRUE(camera.start());
+  const hal::TimePoint began = clock_.now();
+  for (bool told = false; !told;) {
+    fake.trigger(1);
+    const auto frame = camera.wait_frame(20s);
+    ASSERT_TRUE(frame && *frame);
+    told = (*frame)->timed_by_host;
+    camera.release((*frame)->buffer);
+    clock_.sleep_for(20ms);
+  }
+  EXPECT_GE(clock_.now() - began, 5s);
+}
+
 // Aravis waits 3 s for each answer, and asks twice or thrice.
 TEST_F(GenicamCamera, ends_soon_after_it_went_and_what_is_left_ends_by_itself) {
   const int idle = threads_without_camera();
