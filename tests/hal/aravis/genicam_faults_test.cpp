@@ -26,6 +26,7 @@ using namespace std::chrono_literals;
 using hal::ErrorCode;
 using hal::FrameIntegrity;
 using hal::linux_backend::AravisLibrary;
+using hal::linux_backend::Depths;
 using hal::linux_backend::GenicamAddress;
 using hal::linux_backend::GenicamCameraOptions;
 using testing::HasSubstr;
@@ -254,7 +255,7 @@ TEST_F(GenicamCamera, one_of_another_depth_is_taken_where_any_serves_and_scaled)
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = static_cast<std::byte>(i % 251 * 7);
   fake.send_bytes(samples);
-  const auto camera = make({.trigger = "Software", .any_depth = true});
+  const auto camera = make({.trigger = "Software", .depths = Depths::any});
   ASSERT_TRUE(camera->open(small_config()));
   ASSERT_TRUE(camera->start());
   fake.trigger(2);
