@@ -1,7 +1,6 @@
 #include "firmware-host/devices/real_devices.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,16 +27,18 @@ namespace backend = hal::linux_backend;
 
 namespace {
 
-// Of a camera that offers several depths, the deepest.
-constexpr std::array depths_bits{16, 14, 12, 10, 8};
+hal::LineFormat wanted_format(const DeviceConfig& config, const pipeline::ScanPlan& plan) {
+  return backend::with_depth({.samples_per_line = plan.samples,
+                              .lines_per_frame = plan.lines_per_frame(),
+                              .right_shift = config.right_shift},
+                             config.significant_bits.value_or(12));
+}
 
-hal::LineFormat wanted_format(const DeviceConfig& config, const pipeline::ScanPlan& plan,
-                              int significant_bits) {
-  return {.samples_per_line = plan.samples,
-          .lines_per_frame = plan.lines_per_frame(),
-          .sample_type = significant_bits <= 8 ? hal::SampleType::u8 : hal::SampleType::u16,
-          .significant_bits = significant_bits,
-          .right_shift = config.right_shift};
+// Which formats of one that comes after all was set up serve.
+backend::Depths depths_of(const DeviceConfig& config, bool counts_matter) {
+  if (config.significant_bits)
+    return backend::Depths::wanted;
+  return counts_matter ? backend::Depths::own : backend::Depths::any;
 }
 
 // A wanted that names one device, as "/dev/video0", and not a kind.
@@ -63,9 +64,7 @@ backend::KmsConfig kms_config(const DeviceConfig& config) {
 } // namespace
 
 RealDevices::RealDevices(DeviceConfig config, const pipeline::ScanPlan& plan, hal::Clock& clock)
-    : config_{std::move(config)}, clock_{clock}, format_{wanted_format(
-                                                     config_, plan,
-                                                     config_.significant_bits.value_or(12))} {}
+    : config_{std::move(config)}, clock_{clock}, format_{wanted_format(config_, plan)} {}
 
 DetectedDevices RealDevices::find() {
   DetectedDevices detected;
@@ -98,16 +97,11 @@ DetectedDevices RealDevices::find_for(const RunOptions& options) {
 }
 
 std::vector<hal::LineFormat> RealDevices::formats_to_try() const {
-  std::vector<int> depths{depths_bits.begin(), depths_bits.end()};
   if (config_.significant_bits)
-    depths = {*config_.significant_bits};
+    return {format_};
   std::vector<hal::LineFormat> formats;
-  for (const int bits : depths) {
-    hal::LineFormat wanted = format_;
-    wanted.significant_bits = bits;
-    wanted.sample_type = bits <= 8 ? hal::SampleType::u8 : hal::SampleType::u16;
-    formats.push_back(wanted);
-  }
+  for (const int bits : backend::depths_bits)
+    formats.push_back(backend::with_depth(format_, bits));
   return formats;
 }
 
@@ -137,8 +131,10 @@ DeviceFinding RealDevices::find_line_camera() {
 
 DeviceFinding RealDevices::find_genicam(const backend::GenicamAddress& address) {
   const auto found = backend::find_genicam_camera(address);
-  if (!found && found.error().code == hal::ErrorCode::absent && !config_.significant_bits)
-    return {false, fmt::format("{}; if it comes later, its samples are brought to {} bits",
+  if (!found && found.error().code == hal::ErrorCode::absent && !config_.significant_bits &&
+      config_.right_shift == 0)
+    return {false, fmt::format("{}; if it comes later, its samples are brought to {} bits, unless "
+                               "the calibration has a recorded background",
                                found.error().message, format_.significant_bits)};
   if (!found)
     return {false, found.error().message};
@@ -232,7 +228,7 @@ std::unique_ptr<hal::LineCamera> RealDevices::make_line_camera(bool counts_matte
                                          .gain = config_.gain,
                                          .trigger = config_.camera_trigger,
                                          .packet_resend = config_.packet_resend,
-                                         .any_depth = !config_.significant_bits && !counts_matter},
+                                         .depths = depths_of(config_, counts_matter)},
                                         clock_);
   backend::V4l2CameraOptions options;
   options.node = configured_node(config_);

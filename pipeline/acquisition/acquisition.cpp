@@ -17,6 +17,7 @@ namespace {
 // began after its time was over.
 constexpr hal::Duration frame_timeout = 10ms;
 constexpr hal::Duration retry_step = 50ms; // how soon a stop is noticed while the camera is away
+constexpr hal::Duration stamps_told_every = 1s;
 constexpr hal::Duration first_patience = 3s;
 constexpr hal::Duration most_patience = 24s;
 
@@ -181,16 +182,22 @@ void Acquisition::check_sequence(std::uint64_t sequence) {
   repeated_ = 0;
 }
 
-// Once, and again when they had been usable meanwhile.
+// As long as it is so, that its notice stays.
 void Acquisition::check_times(const hal::LineFrame& frame) {
-  if (frame.timed_by_host && !timed_by_host_)
-    faults_.add(Fault::unusable_stamps,
-                "the camera's time stamps do not fit the computer's clock (none, or its clock runs "
-                "more than 1 % fast or slow): frames are given the times at which they come, which "
-                "are less exact, so that B-scans may lie beside their places; is what the camera "
-                "says of its time stamps' frequency true?",
-                clock_.now());
-  timed_by_host_ = frame.timed_by_host;
+  if (!frame.timed_by_host) {
+    stamps_told_.reset();
+    return;
+  }
+  const hal::TimePoint now = clock_.now();
+  if (stamps_told_ && now - *stamps_told_ < stamps_told_every)
+    return;
+  stamps_told_ = now;
+  faults_.add(Fault::unusable_stamps,
+              "the camera's time stamps do not fit the computer's clock (none, or its clock runs "
+              "more than 1 % fast or slow): frames are given the times at which they come, which "
+              "are less exact, so that B-scans may lie beside their places; is what the camera "
+              "says of its time stamps' frequency true?",
+              now);
 }
 
 void Acquisition::give_back(int buffer) {
@@ -208,6 +215,10 @@ void Acquisition::note_look(hal::TimePoint until) {
 }
 
 void Acquisition::wait_before_retry() {
+  if (camera_.state() == hal::DeviceState::ready) { // its start goes on, and start() waits for it
+    clock_.sleep_for(retry_step);
+    return;
+  }
   retry_.failure(clock_.now());
   while (!retry_.due(clock_.now()) && !thread_.stopping()) {
     Heartbeat::beat_here(clock_.now());

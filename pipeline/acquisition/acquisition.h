@@ -85,7 +85,7 @@ private:
   std::atomic<int> on_loan_{0};                // queued or with the pipeline
   std::optional<std::uint64_t> last_sequence_; // of this stream
   std::uint64_t repeated_ = 0;                 // later frames with the same number
-  bool timed_by_host_ = false;                 // the last one
+  std::optional<hal::TimePoint> stamps_told_;  // while frames are timed by the host
   RetryDelay retry_;
   std::optional<hal::TimePoint> silent_since_; // no frames since then, despite pulses
   hal::Duration patience_;                     // how long that is tolerated before reopening

@@ -12,7 +12,7 @@ namespace {
 
 constexpr Duration longest_behind = 3s;
 constexpr Duration longest_unfit = 5s;
-constexpr Duration longest_counted = 1s; // more is a pause, in which no stamp was of no use
+constexpr Duration longest_counted = 1s; // more is a pause, which tells nothing of stamps
 constexpr double farthest_ns = 1e9;      // from one frame to the next
 
 } // namespace
@@ -25,7 +25,7 @@ TimePoint CameraClock::end_of_frame(std::uint64_t stamp_ns, TimePoint arrival) {
 
 void CameraClock::note_use(bool of_use, TimePoint arrival) {
   const Duration passed = arrival - std::exchange(last_arrival_, arrival).value_or(arrival);
-  const Duration counted = std::clamp(passed, Duration{}, longest_counted);
+  const Duration counted = passed > longest_counted ? Duration{} : std::max(passed, Duration{});
   unfit_ = std::clamp(of_use ? unfit_ - counted : unfit_ + counted, Duration{}, longest_unfit);
   if (unfit_ == longest_unfit)
     fits_ = false;
@@ -78,7 +78,10 @@ bool CameraClock::has_leapt(const Point& point, TimePoint arrival) {
     behind_since_.reset();
   else if (!behind_since_)
     behind_since_ = arrival;
-  return late < -most_difference_ns || (behind_since_ && arrival - *behind_since_ > longest_behind);
+  const double least =
+      span_ns() < learning_ns ? -most_drift : *known; // the rate, as far as is known
+  return point.distance_ns - distance_at(point.stamp_ns, least) < -most_difference_ns ||
+         (behind_since_ && arrival - *behind_since_ > longest_behind);
 }
 
 void CameraClock::add(const Point& point) {

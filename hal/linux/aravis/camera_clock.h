@@ -79,10 +79,9 @@ public:
     return total_;
   }
 
-  // Whether a frame may have this number: it is soon after the last one.
-  bool follows(std::uint64_t id) const {
-    return begun_ ? step_to(id) - 1 < most_doubtful : id != 0;
-  }
+  // Whether a frame surely has this number: it is soon after the last one. None is before the first,
+  // as a buffer may hold that of a frame of long ago.
+  bool follows(std::uint64_t id) const { return begun_ && step_to(id) - 1 < most_doubtful; }
 
   // The number of a frame whose own was lost: the next.
   std::uint64_t guess() {

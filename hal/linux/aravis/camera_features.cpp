@@ -200,9 +200,7 @@ Result<CameraStream> set_features(const AravisLibrary& aravis, ArvCamera* camera
                                   const GenicamCameraOptions& options,
                                   const LineCameraConfig& config) {
   Settings settings{aravis, camera, to_text(options.address)};
-  HAL_TRY(
-      const GenicamFormat chosen,
-      settings.set_pixel_format(config.format, options.any_depth ? Depths::any : Depths::wanted));
+  HAL_TRY(const GenicamFormat chosen, settings.set_pixel_format(config.format, options.depths));
   HAL_CHECK(settings.set_size(config.format));
   HAL_CHECK(settings.set_line_rate(config.line_rate_hz));
   if (options.exposure_us) {

@@ -113,7 +113,7 @@ void FrameServer::serve(int slot, ArvBuffer* buffer, TimePoint now) {
   ServedFrame frame;
   const guint64 id = aravis_.buffer_get_frame_id(buffer);
   // With a frame's first packet its number and time are lost: Aravis leaves those of the frame that
-  // was in the buffer before.
+  // was in the buffer before, maybe one that was forgotten.
   const bool leader_lost = status != ARV_BUFFER_STATUS_SUCCESS && !counter_.follows(id);
   frame.sequence = leader_lost ? counter_.guess() : counter_.extend(id);
   frame.end =

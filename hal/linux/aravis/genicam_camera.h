@@ -24,6 +24,7 @@
 #include "hal/clock.h"
 #include "hal/line_camera.h"
 #include "hal/linux/aravis/genicam_address.h"
+#include "hal/linux/aravis/genicam_pixels.h"
 #include "hal/result.h"
 
 namespace octascope::hal::linux_backend {
@@ -34,9 +35,9 @@ struct GenicamCameraOptions {
   std::optional<double> gain = {};        // in the camera's own unit
   std::string trigger = {};               // the source that starts a frame: "Line1", "Software"
   bool packet_resend = true;              // GigE Vision: ask for lost packets again
-  // A camera without a format of the wanted depth is taken, too, its samples scaled from full scale to
-  // full scale; else it is refused.
-  bool any_depth = false;
+  // Depths::any: a camera without a format of the wanted depth is taken, too, its samples scaled from
+  // full scale to full scale; else it is refused.
+  Depths depths = Depths::wanted;
 };
 
 // `clock` is borrowed, must outlive the camera and must run on CLOCK_MONOTONIC.

@@ -51,6 +51,18 @@ std::vector<GenicamFormat> of_other_depths(const LineFormat& wanted) {
   return formats;
 }
 
+Result<> check_own_depth(std::span<const std::string> offered, const LineFormat& wanted) {
+  const auto own = std::ranges::find_if(depths_bits, [&](int bits) {
+    return choose_genicam_format(offered, with_depth(wanted, bits)).has_value();
+  });
+  if (own == depths_bits.end() || *own == wanted.significant_bits)
+    return {};
+  return fail(ErrorCode::unsupported,
+              "the camera offers {}, so that its own depth is {} bits, expected {}; set [devices] "
+              "significant_bits, or start octascope with the camera on",
+              fmt::join(offered, ", "), *own, wanted.significant_bits);
+}
+
 Result<> refuse(std::string why) {
   return fail(ErrorCode::invalid_argument, "line camera: " + std::move(why));
 }
@@ -78,6 +90,12 @@ Result<> check_genicam_request(const LineCameraConfig& config) {
   return {};
 }
 
+LineFormat with_depth(LineFormat format, int bits) {
+  format.significant_bits = bits;
+  format.sample_type = bits <= 8 ? SampleType::u8 : SampleType::u16;
+  return format;
+}
+
 std::vector<GenicamFormat> genicam_formats_for(const LineFormat& wanted, Depths depths) {
   const bool others =
       depths == Depths::any && wanted.sample_type == SampleType::u16 && wanted.right_shift == 0;
@@ -97,6 +115,9 @@ std::vector<GenicamFormat> genicam_formats_for(const LineFormat& wanted, Depths 
 
 Result<GenicamFormat> choose_genicam_format(std::span<const std::string> offered,
                                             const LineFormat& wanted, Depths depths) {
+  if (depths == Depths::own) {
+    HAL_CHECK(check_own_depth(offered, wanted));
+  }
   const auto serving = genicam_formats_for(wanted, depths);
   std::vector<std::string_view> names;
   for (const GenicamFormat& format : serving) {

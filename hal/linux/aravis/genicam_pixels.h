@@ -2,6 +2,7 @@
 // Naming Convention, 2.x. Pure.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -27,8 +28,15 @@ struct GenicamFormat {
 // Which formats serve.
 enum class Depths : std::uint8_t {
   wanted, // of so many bits, or the whole type, in which a camera may use fewer
+  own,    // likewise, where that is the camera's own depth: its counts are taken as they are
   any,    // of so many bits, or of others that are brought to them (packed_samples.h)
 };
+
+// Of a camera that offers several depths, the deepest is its own.
+inline constexpr std::array depths_bits{16, 14, 12, 10, 8};
+
+// `format` with so many bits, in the type that they need.
+LineFormat with_depth(LineFormat format, int bits);
 
 // Those that give this memory layout, best first: packed ones, as the wire is what limits a camera's
 // line rate, then those that say their bits, then the whole type; of other depths the deepest first.

@@ -26,6 +26,7 @@ using namespace std::chrono_literals;
 using hal::ErrorCode;
 using hal::FrameIntegrity;
 using hal::linux_backend::AravisLibrary;
+using hal::linux_backend::Depths;
 using hal::linux_backend::GenicamAddress;
 using hal::linux_backend::GenicamCameraOptions;
 using testing::HasSubstr;
@@ -254,7 +255,7 @@ TEST_F(GenicamCamera, one_of_another_depth_is_taken_where_any_serves_and_scaled)
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = static_cast<std::byte>(i % 251 * 7);
   fake.send_bytes(samples);
-  const auto camera = make({.trigger = "Software", .any_depth = true});
+  const auto camera = make({.trigger = "Software", .depths = Depths::any});
   ASSERT_TRUE(camera->open(small_config()));
   ASSERT_TRUE(camera->start());
   fake.trigger(2);
@@ -269,6 +270,29 @@ TEST_F(GenicamCamera, one_of_another_depth_is_taken_where_any_serves_and_scaled)
       ASSERT_NEAR(received[s], std::to_integer<int>(samples[s]) * 4095.0 / 255, 1) << s;
     camera->release((*frame)->buffer);
   }
+}
+
+TEST_F(GenicamCamera, one_that_sends_no_stamps_is_told_after_5_s_of_frames) {
+  FakeCamera fake;
+  auto aravis = AravisLibrary::load();
+  ASSERT_TRUE(aravis.has_value()) << aravis.error().message;
+  aravis->buffer_get_timestamp = [](ArvBuffer*) -> guint64 { return 0; };
+  hal::linux_backend::AravisLineCamera camera{
+      {.address = {GenicamAddress::Bus::gige_vision, FakeCamera::address}, .trigger = "Software"},
+      clock_,
+      *aravis};
+  ASSERT_TRUE(camera.open(small_config()));
+  ASSERT_TRUE(camera.start());
+  const hal::TimePoint began = clock_.now();
+  for (bool told = false; !told;) {
+    fake.trigger(1);
+    const auto frame = camera.wait_frame(20s);
+    ASSERT_TRUE(frame && *frame);
+    told = (*frame)->timed_by_host;
+    camera.release((*frame)->buffer);
+    clock_.sleep_for(20ms);
+  }
+  EXPECT_GE(clock_.now() - began, 5s);
 }
 
 // Aravis waits 3 s for each answer, and asks twice or thrice.

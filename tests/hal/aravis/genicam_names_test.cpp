@@ -89,6 +89,17 @@ TEST(GenicamPixels, of_the_whole_type_as_many_bits_are_taken_as_are_wanted_or_al
   EXPECT_EQ(choose_genicam_format(offered, wanted, Depths::any)->bits, 16);
 }
 
+TEST(GenicamPixels, where_its_own_depth_is_wanted_one_that_has_a_deeper_is_refused) {
+  using hal::linux_backend::choose_genicam_format;
+  const auto choose = [](const std::vector<std::string>& offered, int bits) {
+    return choose_genicam_format(offered, format(hal::SampleType::u16, bits), Depths::own);
+  };
+  EXPECT_EQ(choose({"Mono8", "Mono12"}, 12)->name, "Mono12");
+  EXPECT_EQ(choose({"Mono12", "Mono16"}, 16)->name, "Mono16");
+  for (const auto& offered : {std::vector<std::string>{"Mono12", "Mono16"}, {"Mono16"}, {"Mono8"}})
+    EXPECT_THAT(choose(offered, 12), FailsWith(hal::ErrorCode::unsupported)) << offered.front();
+}
+
 TEST(GenicamPixels, lines_that_do_not_begin_at_a_byte_are_not_packed) {
   hal::LineFormat odd = format(hal::SampleType::u16, 12);
   odd.samples_per_line = 1022;

@@ -93,11 +93,15 @@ std::string description_of_8_bits() {
       reinterpret_cast<void* (*)(const char*)>(::dlsym(aravis, "arv_fake_camera_new"));
   const auto describe = reinterpret_cast<const char* (*)(void*, std::size_t*)>(
       ::dlsym(aravis, "arv_fake_camera_get_genicam_xml"));
-  if (make == nullptr || describe == nullptr)
+  const auto unref = reinterpret_cast<void (*)(void*)>(::dlsym(aravis, "g_object_unref"));
+  if (make == nullptr || describe == nullptr || unref == nullptr)
     return {};
+  void* const camera = make("OCT1");
   std::size_t size = 0;
-  const char* const text = describe(make("OCT1"), &size);
-  return with_8_bits_alone({text, size});
+  const char* const text = describe(camera, &size);
+  std::string description{text, size};
+  unref(camera);
+  return with_8_bits_alone(std::move(description));
 }
 
 TEST_F(GenicamRun, takes_one_that_comes_later_whatever_depth_it_has) {
