@@ -35,7 +35,7 @@ protected:
   }
 
   // It runs free, 25 frames a second: a volume takes 0.4 s.
-  std::string configuration() const {
+  std::string configuration(const std::string& more = "") const {
     return folder_.write("genicam.toml", R"([scan]
 samples = 256
 a_scans = 24
@@ -49,7 +49,7 @@ b_spacing_um = 300
 workers = 2
 [devices]
 line_camera = "gigevision:127.0.0.1"
-)");
+)" + more);
   }
 
   void plug_in(const std::vector<std::string>& more = {}) {
@@ -61,10 +61,10 @@ line_camera = "gigevision:127.0.0.1"
   }
   void pull_out() { camera_.reset(); }
 
-  std::vector<std::string> command(const char* seconds) const {
+  std::vector<std::string> command(const char* seconds, const std::string& more = "") const {
     return {"run",
             "--config",
-            configuration(),
+            configuration(more),
             "--display",
             "offscreen",
             "--size",
@@ -118,6 +118,21 @@ TEST_F(GenicamRun, takes_one_that_comes_later_whatever_depth_it_has) {
   EXPECT_EQ(report["calibration"]["line_camera"], "Aravis Fake OCT1");
   EXPECT_GT(report["volumes"]["displayed"].get<int>(), 2) << report.dump(2);
   EXPECT_TRUE(find_fault(report, "line_camera", "unsupported").is_null()) << report.dump(2);
+}
+
+TEST_F(GenicamRun, refuses_one_that_comes_later_and_has_not_the_depth_of_a_recorded_background) {
+  pull_out();
+  folder_.write_values<float>("dark.raw", std::vector<float>(256, 100.0F));
+  folder_.write("dark.toml",
+                "[spectrometer]\nsamples = 256\n[k_linear]\npolynomial = [0.0, 255.0]\n"
+                "[background]\nmode = \"file\"\nfile = \"dark.raw\"\n");
+  ProgramRun run{octascope_command(command("30", "[calibration]\nfile = \"dark.toml\"\n"))};
+  ASSERT_TRUE(run.wait_for_thread("octa-camera", 60s));
+  plug_in(); // its samples have 16 bits
+  const ProgramResult result = run.wait(120s);
+  EXPECT_EQ(result.exit_status, 0) << result.describe();
+  const json report = read_report(folder_ / "report.json");
+  EXPECT_FALSE(find_fault(report, "line_camera", "unsupported").is_null()) << report.dump(2);
 }
 
 TEST_F(GenicamRun, shows_what_the_camera_sees_and_says_that_it_is_simulated) {
