@@ -42,7 +42,7 @@ void await_disk(int descriptor) {
 }
 
 // A reader that looks whether the file is there yet holds it locked for a moment.
-Hdf5Handle begin_file(const std::filesystem::path& path, hid_t access) {
+Hdf5Handle begin_file(const std::string& path, hid_t access) {
   const auto begin = [&] {
     return Hdf5Handle{H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose};
   };
@@ -128,9 +128,11 @@ GrowingFile::create(const std::filesystem::path& path, const std::function<bool(
   H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST); // for readers who look on
   if (aligned_bytes > 0)
     H5Pset_alignment(access, aligned_bytes, page);
-  made->file_ = begin_file(path, access);
+  // The file that was made: by its path, another one would be made in the place of one that is gone.
+  made->file_ = begin_file(own_name(descriptor), access);
   if (!made->file_.valid() || !fill(made->file_) || H5Fstart_swmr_write(made->file_) < 0) {
     const auto error = made->failed("cannot be begun");
+    HAL_CHECK(made->check_place());
     made.reset();
     std::error_code ignored;
     std::filesystem::remove(path, ignored); // there is nothing in it
