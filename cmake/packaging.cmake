@@ -48,6 +48,7 @@ install(FILES ${manual}/octascope.bash DESTINATION usr/share/bash-completion/com
 # What messages and man pages name; README's links lead there.
 file(GLOB documents CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/*.md ${CMAKE_SOURCE_DIR}/docs/*.png)
 install(FILES ${documents} DESTINATION ${OCTASCOPE_DOC}/docs)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/commissioning DESTINATION ${OCTASCOPE_DOC}/docs)
 
 # What lets the service reach a GigE Vision or USB3 Vision camera; nothing of it is in force.
 install(DIRECTORY ${OCTASCOPE_DEPLOY}/drop-ins DESTINATION ${OCTASCOPE_DOC})

@@ -1,5 +1,6 @@
 // What the captures give: the calibration, and what a target says of it.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double simulated_mirrors_apart_um = 630;
 constexpr double broad_fwhm_bins = 2.5;
+constexpr double other_spacing = 0.1; // by so large a share a spacing is not what was meant
 
 hal::Result<std::filesystem::path> captured_file(const Bench& bench, std::string_view key,
                                                  std::string_view step) {
@@ -51,6 +53,13 @@ void add_verdict(StepRecord& record, const CalibrationVerdict& verdict) {
                             fmt::format("{:.3f} dB/bin", verdict.roll_off_db_per_bin()));
   record.found.emplace_back("side of zero delay",
                             fmt::format("{}, {}", verdict.sample_side, verdict.side_source));
+  // A tissue that is none finds one as well, and all but the depths looks right.
+  if (verdict.mirrors.size() == 2 && verdict.sample_side.starts_with("the "))
+    record.warnings.push_back(
+        fmt::format("the mirrors lay on either side of zero delay, if the tissue is right: only {} "
+                    "on its side. If they lay on one side, take the tissue again, sharp and in the "
+                    "beam, and then this; else the depths are wrong",
+                    verdict.sample_side));
   record.found.emplace_back(
       "depth spacing", verdict.spacing_um ? fmt::format("{:.3f} µm in air", *verdict.spacing_um)
                                           : "not known: the mirrors' distance was not said");
@@ -106,13 +115,30 @@ hal::Result<> draw_target(Bench& bench, std::span<const float> en_face,
   return {};
 }
 
-hal::Result<> ask_about_spacings(Bench& bench, const pipeline::TargetMeasurement& measured) {
+// Before it is asked whether they are to be taken.
+void warn_of_other_spacings(const pipeline::TargetMeasurement& measured, double a_said_um,
+                            double b_said_um, StepRecord& record) {
+  const auto is_other = [](double found, double said) {
+    return std::abs(found - said) > other_spacing * said;
+  };
+  if (!is_other(measured.a_spacing_um, a_said_um) && !is_other(measured.b_spacing_um, b_said_um))
+    return;
+  record.warnings.push_back(fmt::format(
+      "measured spacings differ by more than {:.0f} % from what was said: is the target's side "
+      "right, and the scan's width?",
+      100 * other_spacing));
+  say("  WARNING: {}\n", record.warnings.back());
+}
+
+hal::Result<> ask_about_spacings(Bench& bench, const pipeline::TargetMeasurement& measured,
+                                 StepRecord& record) {
   HAL_TRY(
       const auto use,
       bench.dialogue.ask_word(
           fmt::format("Measured: {:.2f} µm between A-scans, {:.2f} µm between B-scans. Use them?",
                       measured.a_spacing_um, measured.b_spacing_um),
           {"yes", "no"}));
+  record.found.emplace_back("taken", use);
   if (use == "yes") {
     bench.session.set("a_spacing_um", measured.a_spacing_um);
     bench.session.set("b_spacing_um", measured.b_spacing_um);
@@ -190,7 +216,8 @@ hal::Result<StepRecord> check_target(Bench& bench) {
         fmt::format("the picture is {}: swap the scanner's axes, or the sign of one, until the "
                     "target is upright",
                     pipeline::orientation_text(measured)));
-  HAL_CHECK(ask_about_spacings(bench, measured));
+  warn_of_other_spacings(measured, a_before, b_before, record);
+  HAL_CHECK(ask_about_spacings(bench, measured, record));
   return record;
 }
 

@@ -105,6 +105,17 @@ TEST(Commission, leads_from_nothing_to_a_calibrated_picture) {
                             HasSubstr("</html>"), Not(HasSubstr("src=\"http"))));
 }
 
+// A mirror for the tissue: the spreads are narrow, but the depths are wrong.
+TEST(Commission, doubts_a_calibration_that_a_wrong_tissue_decided) {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      commission(folder, std::string{small_scan} + skipped + skipped + placed + placed + placed +
+                             "\nmirror_far\n\n" + placed + "quit\n");
+  EXPECT_THAT(result.out, HasSubstr("WARNING: the mirrors lay on either side of zero delay"))
+      << result.describe();
+  EXPECT_EQ(outcome(state_in(folder), "calibration"), "done") << result.describe();
+}
+
 TEST(Commission, goes_on_where_it_was_left_and_repeats_what_is_asked_for) {
   const ScratchFolder folder;
   // "repeat" after the dark, then the answers end.
