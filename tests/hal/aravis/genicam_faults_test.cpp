@@ -88,6 +88,18 @@ protected:
   hal::linux_backend::MonotonicClock clock_;
 };
 
+// Of the next frame, which has to be good; empty: none came.
+std::vector<std::uint16_t> next_samples(hal::LineCamera& camera) {
+  const auto frame = camera.wait_frame(20s);
+  if (!frame || !*frame)
+    return {};
+  EXPECT_EQ((*frame)->integrity, FrameIntegrity::good);
+  std::vector<std::uint16_t> samples((*frame)->bytes.size() / 2);
+  std::memcpy(samples.data(), (*frame)->bytes.data(), 2 * samples.size());
+  camera.release((*frame)->buffer);
+  return samples;
+}
+
 TEST_F(GenicamCamera, frames_with_lost_packets_are_told_as_corrupted_and_the_stream_goes_on) {
   for (const bool resend : {true, false}) {
     FakeCamera fake{{.lost = 0.05}};
@@ -233,14 +245,7 @@ TEST_F(GenicamCamera, packed_samples_come_unpacked) {
   ASSERT_TRUE(camera->start());
   fake.trigger(2);
   for (int i = 0; i < 2; ++i) { // the second is not disturbed by the first
-    const auto frame = camera->wait_frame(20s);
-    ASSERT_TRUE(frame && *frame);
-    EXPECT_EQ((*frame)->integrity, FrameIntegrity::good);
-    ASSERT_EQ((*frame)->bytes.size(), samples.size() * 2);
-    std::vector<std::uint16_t> received(samples.size());
-    std::memcpy(received.data(), (*frame)->bytes.data(), (*frame)->bytes.size());
-    EXPECT_THAT(received, testing::ElementsAreArray(samples));
-    camera->release((*frame)->buffer);
+    EXPECT_THAT(next_samples(*camera), testing::ElementsAreArray(samples));
   }
 }
 
@@ -260,15 +265,10 @@ TEST_F(GenicamCamera, one_of_another_depth_is_taken_where_any_serves_and_scaled)
   ASSERT_TRUE(camera->start());
   fake.trigger(2);
   for (int i = 0; i < 2; ++i) {
-    const auto frame = camera->wait_frame(20s);
-    ASSERT_TRUE(frame && *frame);
-    EXPECT_EQ((*frame)->integrity, FrameIntegrity::good);
-    ASSERT_EQ((*frame)->bytes.size(), samples.size() * 2);
-    std::vector<std::uint16_t> received(samples.size());
-    std::memcpy(received.data(), (*frame)->bytes.data(), (*frame)->bytes.size());
+    const auto received = next_samples(*camera);
+    ASSERT_EQ(received.size(), samples.size());
     for (std::size_t s = 0; s < samples.size(); ++s)
       ASSERT_NEAR(received[s], std::to_integer<int>(samples[s]) * 4095.0 / 255, 1) << s;
-    camera->release((*frame)->buffer);
   }
 }
 
