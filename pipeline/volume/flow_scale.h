@@ -4,6 +4,7 @@
 // beside what is static, so that interpolation never makes a vessel of it.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -14,14 +15,19 @@ inline constexpr std::uint8_t flow_static = 1;
 inline constexpr std::uint8_t flow_full = 255;
 
 // `flow`: 0 to 1, NaN where it cannot be told.
-// Plain enough to be vectorised.
+// By the order of the bits, which is that of floats: comparisons of floats, which may signal, keep
+// compilers from vectorising this below AVX-512.
 inline std::uint8_t quantise_flow(float flow) {
-  const bool told = flow == flow;
-  float clamped = told ? flow : 0.0F;
-  clamped = clamped < 0.0F ? 0.0F : clamped;
-  clamped = clamped > 1.0F ? 1.0F : clamped;
-  const int count = flow_static + static_cast<int>(clamped * 254.0F + 0.5F);
-  return static_cast<std::uint8_t>(told ? count : flow_untold);
+  constexpr auto one = std::bit_cast<std::int32_t>(1.0F);
+  constexpr auto first_nan =
+      std::bit_cast<std::int32_t>(std::numeric_limits<float>::infinity()) + 1;
+  const auto bits = std::bit_cast<std::int32_t>(flow);
+  std::int32_t clamped = bits > 0 ? bits : 0;
+  clamped = clamped < one ? clamped : std::int32_t{one}; // an address of either would be a branch
+  const int count = flow_static + static_cast<int>(std::bit_cast<float>(clamped) * 254.0F + 0.5F);
+  const std::int32_t told = ((bits & 0x7FFF'FFFF) - first_nan) >> 31; // all ones or zeros
+  static_assert(flow_untold == 0);
+  return static_cast<std::uint8_t>(count & told);
 }
 
 inline float flow_of(std::uint8_t count) {
