@@ -13,6 +13,7 @@ namespace octascope::tests {
 namespace {
 
 constexpr pipeline::VolumeGeometry odd{37, 13, 6, 25, 60, 150};
+constexpr pipeline::VolumeGeometry deep{203, 15, 3, 25, 60, 150}; // with whole blocks of still ones
 
 // Few voxels are seen to flow, on borders, too; many nearly are.
 std::vector<std::uint8_t> specks(const pipeline::VolumeGeometry& g) {
@@ -77,10 +78,12 @@ void expect_marks_of(const std::vector<std::uint8_t>& counts, const ui::FlowCell
 }
 
 TEST(FlowCells, marks_each_cell_with_a_corner_that_is_seen) {
-  const auto counts = specks(odd);
-  ui::FlowCells cells{odd};
-  take(cells, counts, 0, odd.b_scans);
-  expect_marks_of(counts, cells);
+  for (const pipeline::VolumeGeometry& geometry : {odd, deep}) {
+    const auto counts = specks(geometry);
+    ui::FlowCells cells{geometry};
+    take(cells, counts, 0, geometry.b_scans);
+    expect_marks_of(counts, cells);
+  }
 }
 
 TEST(FlowCells, of_some_b_scans_are_renewed) {
