@@ -45,16 +45,19 @@ install(CODE "
 install(FILES ${manual}/octascope.bash DESTINATION usr/share/bash-completion/completions
         RENAME octascope)
 
-# What messages and man pages name; README's links lead there.
-file(GLOB documents CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/*.md ${CMAKE_SOURCE_DIR}/docs/*.png)
-install(FILES ${documents} DESTINATION ${OCTASCOPE_DOC}/docs)
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/commissioning DESTINATION ${OCTASCOPE_DOC}/docs)
+# What messages and man pages name, and all that these documents link to, placed as they do.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION ${OCTASCOPE_DOC})
+install(CODE "
+  set(folder \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${OCTASCOPE_DOC}/deploy)
+  file(MAKE_DIRECTORY \${folder})
+  file(CREATE_LINK ../example.toml \${folder}/example.toml SYMBOLIC)")
 
 # What lets the service reach a GigE Vision or USB3 Vision camera; nothing of it is in force.
 install(DIRECTORY ${OCTASCOPE_DEPLOY}/drop-ins DESTINATION ${OCTASCOPE_DOC})
 
 # NOTICE, and in full the licences of what is compiled into the program itself.
-install(FILES README.md NOTICE ${OCTASCOPE_DEPLOY}/example.toml ${OCTASCOPE_DEPLOY}/debian/copyright
+install(FILES README.md ARCHITECTURE.md CONTRIBUTING.md LICENSE NOTICE
+              ${OCTASCOPE_DEPLOY}/example.toml ${OCTASCOPE_DEPLOY}/debian/copyright
         DESTINATION ${OCTASCOPE_DOC})
 install(CODE "execute_process(COMMAND gzip -9nc ${OCTASCOPE_DEPLOY}/debian/changelog
   OUTPUT_FILE ${CMAKE_BINARY_DIR}/package/changelog.gz COMMAND_ERROR_IS_FATAL ANY)")

@@ -91,7 +91,9 @@ void Recorder::offer(const Volume& volume) {
 
 RecorderStatus Recorder::status() const {
   const std::uint64_t room = room_.load(std::memory_order_relaxed);
-  return {.on = state_.load(std::memory_order_acquire) == State::on,
+  const State state = state_.load(std::memory_order_acquire);
+  return {.on = state == State::on,
+          .beginning = state == State::beginning,
           .since = hal::TimePoint{hal::Duration{since_ns_.load(std::memory_order_relaxed)}},
           .kept = kept_.load(std::memory_order_relaxed),
           .not_kept = not_kept_.load(std::memory_order_relaxed),

@@ -9,6 +9,7 @@
 
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/commission/live_look.h"
+#include "firmware-host/commands/commission/spectrum_display.h"
 #include "firmware-host/commands/commission/spectrum_text.h"
 #include "firmware-host/commands/commission/steps.h"
 #include "firmware-host/commands/devices/devices_learn.h"
@@ -156,11 +157,20 @@ hal::Result<bool> ask_controls(Bench& bench, const LiveLook& found) {
   return changed;
 }
 
+hal::Result<> open_display(Bench& bench, const std::string& phantom, SpectrumDisplay& display) {
+  HAL_TRY(const auto options, bench.session.run_options(phantom));
+  HAL_TRY(const auto configuration, bench.session.configuration());
+  display.open(options, configuration);
+  return {};
+}
+
 // Shown over and over until Enter, where somebody sits at a terminal; else once.
-hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom) {
+hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom, SpectrumDisplay& display) {
   const bool live = ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0;
-  if (live)
+  if (live) {
+    HAL_CHECK(open_display(bench, phantom, display));
     say("Live; Enter ends it.\n");
+  }
   std::fflush(stdout);
   for (;;) {
     HAL_TRY(auto found, look_now(bench, phantom, 1));
@@ -173,12 +183,17 @@ hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom) {
                               spectrum_strip(found.mean_line, found.format.full_scale()),
                               found.quality.brightest * 100, found.quality.contrast * 100,
                               found.quality.saturated_share * 100, found.lost_frames));
+    display.show(found);
     pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-    if (::poll(&input, 1, 100) > 0) {
-      show_progress("");
+    const bool answered = ::poll(&input, 1, 100) > 0;
+    if (!answered && !display.ended())
+      continue;
+    show_progress("");
+    display.close();
+    if (answered) {
       HAL_TRY(const std::string ended, bench.dialogue.ask("Ended:", "here"));
-      return found;
     }
+    return found;
   }
 }
 
@@ -259,8 +274,9 @@ hal::Result<StepRecord> look_at_spectrum(Bench& bench) {
   HAL_TRY(const auto phantom,
           ask_to_place(bench, "Lay a mirror under the beam and block nothing.", "mirror_near"));
   LiveLook found;
+  SpectrumDisplay display{bench.clock};
   for (bool changed = true; changed;) {
-    HAL_TRY(found, watch(bench, phantom));
+    HAL_TRY(found, watch(bench, phantom, display));
     say("  {}\n", spectrum_strip(found.mean_line, found.format.full_scale()));
     HAL_TRY(changed, ask_controls(bench, found));
   }

@@ -140,9 +140,13 @@ void Look::judge() {
   found_.quality = pipeline::judge_spectra(lines_, samples, found_.format.full_scale());
   found_.one_line.assign(lines_.end() - static_cast<std::ptrdiff_t>(samples), lines_.end());
   found_.mean_line.assign(samples, 0);
+  found_.highest_line.assign(samples, 0);
   const double count = static_cast<double>(lines_.size() / samples);
-  for (std::size_t i = 0; i < lines_.size(); ++i)
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
     found_.mean_line[i % samples] += lines_[i] / count;
+    double& highest = found_.highest_line[i % samples];
+    highest = std::max(highest, lines_[i]);
+  }
   if (frames_took_ > hal::Duration{})
     found_.line_rate_hz = static_cast<double>(frames_timed_) * devices_.plan().lines_per_frame() /
                           hal::to_seconds(frames_took_);

@@ -31,6 +31,7 @@ struct LiveLook {
   double line_rate_hz = 0;              // by the frames' times; 0: fewer than two came
   std::vector<double> mean_line;        // of the lines that were looked at; empty: none came
   std::vector<double> one_line;         // the last
+  std::vector<double> highest_line;     // of each pixel the highest count
   pipeline::SpectrumQuality quality;    // likewise
 };
 

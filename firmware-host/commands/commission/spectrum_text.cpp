@@ -55,6 +55,26 @@ void add_quality(StepRecord& record, const LiveLook& look) {
                               "program keeps the machine busy");
 }
 
+std::vector<ui::SpectrumFigure> figures_of(const LiveLook& look) {
+  const pipeline::SpectrumQuality& quality = look.quality;
+  const auto unless = [](bool good, const char* remedy) { return good ? "" : remedy; };
+  return {
+      {"Brightest sample", fmt::format("{:.0f} % full", quality.brightest * 100), "40 to 80 %",
+       quality.brightest > 0.8 ? "less light, shorter exposure"
+                               : unless(quality.brightest >= 0.4, "more light, longer exposure")},
+      {"Saturated lines", fmt::format("{:.1f} %", quality.saturated_share * 100), "0 %",
+       unless(quality.saturated_share == 0, "less light, shorter exposure")},
+      {"Fringe contrast", fmt::format("{:.1f} %", quality.contrast * 100),
+       "5 % and more, with a mirror",
+       unless(quality.contrast >= 0.05, "see overlap, polarisation, depth")},
+      {"Dark level",
+       fmt::format("{:.0f} of {} counts", quality.dark_counts, look.format.full_scale()),
+       "the camera's own offset"},
+      {"Frames lost, broken",
+       fmt::format("{}, {} of {}", look.lost_frames, look.broken_frames, look.expected_frames),
+       "0, 0", unless(look.lost_frames + look.broken_frames == 0, "see cable and other programs")}};
+}
+
 pipeline::Image draw_spectrum(const std::vector<double>& mean, const std::vector<double>& one,
                               double full_scale) {
   constexpr int width = 900;

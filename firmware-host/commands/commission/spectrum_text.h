@@ -8,6 +8,7 @@
 #include "firmware-host/commands/commission/live_look.h"
 #include "firmware-host/commands/commission/session.h"
 #include "pipeline/files/png_image.h"
+#include "ui/spectrum_screen.h"
 
 namespace octascope::firmware_host {
 
@@ -16,6 +17,9 @@ std::string spectrum_strip(std::span<const double> line, double highest);
 
 // Saturation, brightness, dark level, contrast, frames.
 void add_quality(StepRecord& record, const LiveLook& look);
+
+// The same for the display, each with what is good, and what helps.
+std::vector<ui::SpectrumFigure> figures_of(const LiveLook& look);
 
 // The mean line, and one line behind it; the axis reaches full scale.
 pipeline::Image draw_spectrum(const std::vector<double>& mean, const std::vector<double>& one,

@@ -1,12 +1,17 @@
 #include "firmware-host/commands/devices/devices_learn.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include "firmware-host/commands/arguments.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/configuration/control_device_file.h"
 #include "firmware-host/run/stop_signal.h"
@@ -33,10 +38,34 @@ std::vector<HidNode> nodes_of(std::string_view usb) {
   return nodes;
 }
 
-// Vendor and product of the next device that is plugged in; empty when a signal comes first.
-std::string wait_for_new_device(hal::Clock& clock, StopSignal& stop) {
+enum class Typed : std::uint8_t { nothing, a_line, the_end };
+
+// What waits on standard input; no byte after the line is taken.
+Typed typed() {
+  pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
+  while (::poll(&input, 1, 0) > 0) {
+    char letter = 0;
+    if (::read(STDIN_FILENO, &letter, 1) <= 0)
+      return Typed::the_end;
+    if (letter == '\n')
+      return Typed::a_line;
+  }
+  return Typed::nothing;
+}
+
+// Vendor and product of the next device that is plugged in. An Error where that is no longer waited
+// for.
+hal::Result<std::string> wait_for_new_device(hal::Clock& clock, StopSignal& stop) {
   std::vector<HidNode> known = hal::linux_backend::survey_hid();
-  while (!stop.requested()) {
+  for (;;) {
+    const Typed said = typed();
+    if (stop.requested() || said == Typed::a_line)
+      return hal::fail(hal::ErrorCode::absent, "given up before a device was plugged in");
+    if (said == Typed::the_end)
+      return hal::fail(
+          hal::ErrorCode::absent,
+          "the input has ended, expected somebody at a terminal who plugs a device in: "
+          "start it there, or name one that is plugged in, as --device 1234:5678");
     clock.sleep_for(look_every);
     std::vector<HidNode> now = hal::linux_backend::survey_hid();
     for (const HidNode& node : now)
@@ -46,12 +75,13 @@ std::string wait_for_new_device(hal::Clock& clock, StopSignal& stop) {
       }
     known = std::move(now); // one that was pulled out is new when it comes back
   }
-  return {};
 }
 
-// Until it is quiet, a signal comes or the device goes.
+// Until it is quiet, a signal comes or the device goes. Somebody at a terminal has all the time before
+// the first switch.
 void listen(LearningSession& session, const LearnOptions& options, hal::Clock& clock,
             StopSignal& stop) {
+  const bool attended = ::isatty(STDIN_FILENO) != 0;
   hal::TimePoint last = clock.now();
   while (!stop.requested()) {
     const auto lines = session.listen(50ms);
@@ -64,7 +94,7 @@ void listen(LearningSession& session, const LearnOptions& options, hal::Clock& c
     if (!lines->empty())
       last = clock.now();
     std::fflush(stdout);
-    if (session.learned() && clock.now() - last > hal::from_seconds(options.quiet_s))
+    if ((session.learned() || !attended) && clock.now() - last > hal::from_seconds(options.quiet_s))
       return;
   }
 }
@@ -96,11 +126,12 @@ int learn_control(const LearnOptions& options) {
   hal::linux_backend::MonotonicClock clock;
   std::string usb = options.usb;
   if (usb.empty()) {
-    say("Plug the new device in now, or pull it out and put it in again.\n");
+    say("Plug the new device in now, or pull it out and put it in again. Enter gives up.\n");
     std::fflush(stdout);
-    usb = wait_for_new_device(clock, stop);
-    if (usb.empty())
-      return exit_failed;
+    auto found = wait_for_new_device(clock, stop);
+    if (!found)
+      return complain("devices --learn", found.error());
+    usb = std::move(*found);
   }
   auto session = LearningSession::listen_to(nodes_of(usb));
   if (!session) {

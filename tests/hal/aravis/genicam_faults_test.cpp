@@ -1,4 +1,5 @@
 // What goes wrong with a GenICam camera, and what is refused; against Aravis's own on the loopback.
+#include <atomic>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -327,18 +328,28 @@ public:
 
   AravisLibrary aravis() const { return *aravis_; }
   void let_go() { may_.post(); }
+  // Frames that the stream has and nobody has fetched.
+  int frames_waiting() const {
+    gint idle = 0;
+    gint filled = 0;
+    if (ArvStream* const stream = stream_)
+      arv_stream_get_n_buffers(stream, &idle, &filled);
+    return filled;
+  }
 
 private:
   static ArvStream* wait_and_ask(ArvCamera* camera, ArvStreamCallback callback, void* data,
                                  GError** error) {
     held_->may_.wait();
-    return held_->asks_(camera, callback, data, error);
+    held_->stream_ = held_->asks_(camera, callback, data, error);
+    return held_->stream_;
   }
 
   static inline HeldStart* held_ = nullptr;
   hal::Result<AravisLibrary> aravis_ = AravisLibrary::load();
   decltype(&arv_camera_create_stream) asks_ = nullptr;
   hal::Semaphore may_;
+  std::atomic<ArvStream*> stream_{nullptr}; // the camera's
 };
 
 class GenicamCameraStart : public GenicamCamera {
@@ -382,6 +393,25 @@ TEST_F(GenicamCameraStart, what_came_of_a_start_has_the_next_one) {
   ASSERT_TRUE(at_last([&] { return camera_->start(); }));
   EXPECT_EQ(camera_->state(), hal::DeviceState::streaming);
   expect_frame_of_a_new_stream();
+}
+
+// They are of the time before anybody asked for frames, and would be taken for those of the first
+// pulse.
+TEST_F(GenicamCameraStart, frames_that_came_before_it_was_done_are_forgotten) {
+  begin_start();
+  held_.let_go();
+  fake_.trigger(3); // it sends when it was started
+  for (int i = 0; i < 2000 && held_.frames_waiting() < 3; ++i)
+    clock_.sleep_for(10ms);
+  ASSERT_EQ(held_.frames_waiting(), 3);
+  ASSERT_TRUE(at_last([&] { return camera_->start(); }));
+  std::vector<std::byte> new_one(std::size_t{256} * 64 * 2);
+  for (std::size_t i = 0; i < new_one.size(); i += 2)
+    new_one[i] = std::byte{77};
+  fake_.trigger(0); // all of the old ones are sent
+  fake_.send_bytes(new_one);
+  fake_.trigger(1);
+  EXPECT_THAT(next_samples(*camera_), testing::AllOf(testing::SizeIs(256 * 64), testing::Each(77)));
 }
 
 TEST_F(GenicamCameraStart, a_start_under_way_is_ended_by_stop_and_by_close) {

@@ -34,6 +34,24 @@ TEST(Devices, as_json) {
   }
 }
 
+// Nobody is there to plug a device in.
+TEST(DevicesLearn, ends_with_its_input) {
+  const ProgramResult result = run_octascope({"devices", "--learn"}, std::chrono::seconds{60});
+  EXPECT_EQ(result.exit_status, 1) << result.describe();
+  EXPECT_THAT(result.err, HasSubstr("octascope devices --learn: the input has ended"));
+  EXPECT_THAT(result.err, HasSubstr("--device"));
+}
+
+TEST(DevicesLearn, is_given_up_by_enter) {
+  std::vector<std::string> words{"sh", "-c", "echo | \"$@\"", "sh"};
+  for (auto& word : octascope_command({"devices", "--learn"}))
+    words.push_back(std::move(word));
+  const ProgramResult result = run_program(std::move(words));
+  EXPECT_EQ(result.exit_status, 1) << result.describe();
+  EXPECT_THAT(result.out, HasSubstr("Enter gives up"));
+  EXPECT_THAT(result.err, HasSubstr("given up before a device was plugged in"));
+}
+
 TEST(Doctor, looks_at_everything_and_says_how_to_mend_it) {
   const ProgramResult result = run_octascope({"doctor", "--json"});
   ASSERT_TRUE(result.exit_status == 0 || result.exit_status == 1) << result.describe();
