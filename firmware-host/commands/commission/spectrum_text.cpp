@@ -33,11 +33,12 @@ void add_quality(StepRecord& record, const LiveLook& look) {
   const pipeline::SpectrumQuality& quality = look.quality;
   record.found.emplace_back("saturated lines",
                             fmt::format("{:.1f} %", quality.saturated_share * 100));
-  record.found.emplace_back("brightest sample",
-                            fmt::format("{:.0f} % of full scale, {} counts",
-                                        quality.brightest * 100, look.format.full_scale()));
-  record.found.emplace_back("dark level", fmt::format("{:.0f} counts", quality.dark_counts));
-  record.found.emplace_back("fringe contrast", fmt::format("{:.1f} %", quality.contrast * 100));
+  record.found.emplace_back("brightest sample", brightness_text(look));
+  record.found.emplace_back(
+      "dark level",
+      fmt::format("{:.0f} counts, where the spectrum is darkest", quality.dark_counts));
+  record.found.emplace_back("fringe contrast", fmt::format("{:.1f} % of the light, noise included",
+                                                           quality.contrast * 100));
   record.found.emplace_back("frames", fmt::format("{} of {}, {} lost, {} broken", look.frames,
                                                   look.expected_frames, look.lost_frames,
                                                   look.broken_frames));
@@ -45,14 +46,32 @@ void add_quality(StepRecord& record, const LiveLook& look) {
     record.warnings.push_back(
         fmt::format("{:.1f} % of the lines are saturated: less light, or a shorter exposure",
                     quality.saturated_share * 100));
-  if (quality.brightest < 0.2)
-    record.warnings.push_back(
-        fmt::format("the brightest sample is {:.0f} % of full scale: more light, or a longer "
-                    "exposure, up to about 80 %",
-                    quality.brightest * 100));
   if (look.lost_frames + look.broken_frames > 0)
     record.warnings.push_back("frames were lost or broken: see the cable, and whether another "
                               "program keeps the machine busy");
+}
+
+void warn_of_light(StepRecord& record, const pipeline::SpectrumQuality& quality) {
+  constexpr double darkest = 0.4;
+  constexpr double lightest = 0.8;
+  if (quality.brightest < darkest || quality.brightest > lightest)
+    record.warnings.push_back(fmt::format(
+        "the brightest sample is {:.0f} % of full scale, expected {:.0f} to {:.0f} %: {}",
+        quality.brightest * 100, darkest * 100, lightest * 100,
+        quality.brightest < darkest ? "more light from the reference arm, or a longer exposure"
+                                    : "less light, or a shorter exposure"));
+  if (quality.contrast < least_mirror_contrast)
+    record.warnings.push_back(fmt::format(
+        "the fringe's contrast is {:.1f} %, expected {:.0f} % or more with a mirror: do "
+        "the arms overlap, is the polarisation right, is the mirror within the depth "
+        "range?",
+        quality.contrast * 100, least_mirror_contrast * 100));
+}
+
+std::string brightness_text(const LiveLook& look) {
+  const double full = look.format.full_scale();
+  return fmt::format("{:.0f} % of full scale ({:.0f} of {:.0f} counts)",
+                     look.quality.brightest * 100, look.quality.brightest * full, full);
 }
 
 pipeline::Image draw_spectrum(const std::vector<double>& mean, const std::vector<double>& one,
