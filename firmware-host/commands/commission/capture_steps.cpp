@@ -93,9 +93,9 @@ hal::Result<> judge_mirror(Bench& bench, AveragedCapture& captured) {
                                        captured.contrast * 100, least_mirror_contrast * 100);
   constexpr const char* remedy = "is the mirror in the beam, in focus, within the depth range and "
                                  "still, and are both arms open?";
-  if (const auto fringe = pipeline::find_fringe(captured.line, name); !fringe)
-    return hal::fail(hal::ErrorCode::bad_data, "{}; this is no mirror: {}; {}",
-                     fringe.error().message, seen, remedy);
+  if (const auto fringe = pipeline::find_fringe(captured.line, "the mean"); !fringe)
+    return hal::fail(hal::ErrorCode::bad_data, "{}: this is no mirror: {}; {} ({})", name, seen,
+                     remedy, fringe.error().message);
   if (captured.contrast < least_mirror_contrast)
     return ask_to_keep(bench, captured.record,
                        fmt::format("{}: this is hardly a mirror: {}; {}", name, seen, remedy));
