@@ -134,8 +134,8 @@ SmoothFit FringeFinder::first_phase(const Band& band) {
             transform_.begin() + static_cast<std::ptrdiff_t>(band.last) + 1,
             inverse.values().begin() + static_cast<std::ptrdiff_t>(band.first));
   inverse.run();
-  measured_.resize(n);
-  amplitude_.resize(n);
+  measured_.assign(n, 0.0);
+  amplitude_.assign(n, 0.0);
   for (std::size_t p = 0; p < n; ++p) {
     measured_[p] = std::arg(inverse.values()[p]);
     amplitude_[p] = std::abs(inverse.values()[p]);

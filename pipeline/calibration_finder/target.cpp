@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -62,9 +64,10 @@ public:
 
 private:
   hal::Result<> find_threshold();
-  hal::Result<Extent> find_extent(bool along_a) const;
+  Extent find_extent(bool along_a) const;
   hal::Result<TargetMeasurement> find_orientation() const;
   double agreement(bool mirrored, int quarter_turns) const;
+  double agreement(bool mirrored, int quarter_turns, double tilt_rad) const;
   hal::Result<double> find_pitch(const TargetMeasurement& way, bool along_a) const;
   std::vector<std::optional<double>> bar_profile(const TargetMeasurement& way, bool along_a,
                                                  bool x_axis) const;
@@ -73,33 +76,56 @@ private:
     return levels_[static_cast<std::size_t>(b) * static_cast<std::size_t>(a_scans_) +
                    static_cast<std::size_t>(a)];
   }
+  std::string seen() const;
+  std::string likely_reason() const;
+  bool reaches_border(bool along_a, bool first) const;
+
   bool bright(int a, int b) const { return level(a, b) >= threshold_; }
 
   std::span<const float> levels_;
   int a_scans_;
   int b_scans_;
+  double bright_share_ = 0; // of the picture
+  double contrast_db_ = 0;
   float threshold_ = 0;
   Extent a_;
   Extent b_;
 };
 
+// Halfway between the means of what is below and above it, so that it does not matter which share is
+// bright: of the smallest target that can be measured it is one place in fifty.
 hal::Result<> TargetPicture::find_threshold() {
-  constexpr float least_contrast_db = 10;
-  std::vector<float> sorted(levels_.begin(), levels_.end());
+  constexpr double least_contrast_db = 10;
+  constexpr int most_rounds = 50;
+  std::vector<double> sorted(levels_.begin(), levels_.end());
   std::ranges::sort(sorted);
-  const float dark = sorted[sorted.size() / 20];
-  const float light = sorted[sorted.size() - 1 - sorted.size() / 20];
-  if (!(light - dark >= least_contrast_db))
+  const auto count = static_cast<std::ptrdiff_t>(sorted.size());
+  double dark = sorted[sorted.size() / 20];
+  double light = sorted[sorted.size() - 1 - sorted.size() / 100];
+  auto first_light = sorted.begin();
+  for (int round = 0; round < most_rounds; ++round) {
+    const auto before =
+        std::exchange(first_light, std::ranges::lower_bound(sorted, (dark + light) / 2));
+    const auto darker = first_light - sorted.begin();
+    if (first_light == before || darker == 0 || darker == count)
+      break;
+    dark = std::accumulate(sorted.begin(), first_light, 0.0) / static_cast<double>(darker);
+    light = std::accumulate(first_light, sorted.end(), 0.0) / static_cast<double>(count - darker);
+  }
+  threshold_ = static_cast<float>((dark + light) / 2);
+  contrast_db_ = light - dark;
+  bright_share_ = static_cast<double>(sorted.end() - first_light) / static_cast<double>(count);
+  if (!(contrast_db_ >= least_contrast_db))
     return hal::fail(ErrorCode::bad_data,
                      "no target: bright and dark places differ by {:.1f} dB, expected at least "
-                     "{:.0f}; is it in focus, and within the depth range?",
-                     light - dark, least_contrast_db);
-  threshold_ = (dark + light) / 2;
+                     "{:.0f}; it is level (tilt it by a degree or two), or not within the field, "
+                     "the depth range or the focus",
+                     contrast_db_, least_contrast_db);
   return {};
 }
 
 // Where columns (or rows) are at least half as full as the fullest.
-hal::Result<Extent> TargetPicture::find_extent(bool along_a) const {
+Extent TargetPicture::find_extent(bool along_a) const {
   const int length = along_a ? a_scans_ : b_scans_;
   const int across = along_a ? b_scans_ : a_scans_;
   std::vector<int> filled(static_cast<std::size_t>(length));
@@ -113,24 +139,32 @@ hal::Result<Extent> TargetPicture::find_extent(bool along_a) const {
   const auto first = std::ranges::find_if(filled, is_enough) - filled.begin();
   const auto last =
       length - 1 - (std::find_if(filled.rbegin(), filled.rend(), is_enough) - filled.rbegin());
-  if (first == 0 || last == length - 1)
-    return hal::fail(ErrorCode::bad_data,
-                     "the target reaches the {} {}, expected all of it within the scan, with some "
-                     "margin; move it, or scan a larger field",
-                     first == 0 ? "first" : "last", along_a ? "A-scan" : "B-scan");
-  return Extent{static_cast<double>(first) - 0.5, static_cast<double>(last) + 0.5};
+  return {static_cast<double>(first) - 0.5, static_cast<double>(last) + 0.5};
 }
 
 double TargetPicture::agreement(bool mirrored, int quarter_turns) const {
+  constexpr double step_rad = 0.0175; // a degree
+  double best = -1;
+  for (int step = -3; step <= 3; ++step)
+    best = std::max(best, agreement(mirrored, quarter_turns, step * step_rad));
+  return best;
+}
+
+// `tilt_rad`: of the target against the axes of the scan, about its centre.
+double TargetPicture::agreement(bool mirrored, int quarter_turns, double tilt_rad) const {
   constexpr int grid = 2 * target_units;
+  const double middle_a = (a_.first + a_.last) / 2;
+  const double middle_b = (b_.first + b_.last) / 2;
   int balance = 0;
   for (int j = 0; j < grid; ++j)
     for (int i = 0; i < grid; ++i) {
-      const double u = (i + 0.5) / grid;
-      const double v = (j + 0.5) / grid;
-      const int a = static_cast<int>(std::lround(a_.first + u * (a_.last - a_.first)));
-      const int b = static_cast<int>(std::lround(b_.first + v * (b_.last - b_.first)));
-      const Place place = drawing_place(u, v, mirrored, quarter_turns);
+      const double u = (i + 0.5) / grid - 0.5;
+      const double v = (j + 0.5) / grid - 0.5;
+      const int a =
+          static_cast<int>(std::lround(middle_a + (u - v * tilt_rad) * (a_.last - a_.first)));
+      const int b =
+          static_cast<int>(std::lround(middle_b + (v + u * tilt_rad) * (b_.last - b_.first)));
+      const Place place = drawing_place(u + 0.5, v + 0.5, mirrored, quarter_turns);
       balance += bright(std::clamp(a, 0, a_scans_ - 1), std::clamp(b, 0, b_scans_ - 1)) ==
                          target_reflects(place.x, place.y)
                      ? 1
@@ -139,9 +173,48 @@ double TargetPicture::agreement(bool mirrored, int quarter_turns) const {
   return static_cast<double>(balance) / (grid * grid);
 }
 
+std::string TargetPicture::seen() const {
+  return fmt::format("{:.0f} % of the field are bright, by {:.1f} dB, and span {:.0f} % of the "
+                     "A-scans and {:.0f} % of the B-scans",
+                     100 * bright_share_, contrast_db_, 100 * (a_.last - a_.first) / a_scans_,
+                     100 * (b_.last - b_.first) / b_scans_);
+}
+
+bool TargetPicture::reaches_border(bool along_a, bool first) const {
+  constexpr double noise_alone = 0.04; // of the border's places that may be bright
+  const int across = along_a ? b_scans_ : a_scans_;
+  const int border = first ? 0 : (along_a ? a_scans_ : b_scans_) - 1;
+  int reached = 0;
+  for (int j = 0; j < across; ++j)
+    reached += (along_a ? bright(border, j) : bright(j, border)) ? 1 : 0;
+  return reached > noise_alone * across;
+}
+
+// The remedy of what is most probably wrong.
+std::string TargetPicture::likely_reason() const {
+  constexpr double least_samples = 3; // a bar
+  const double a_samples = (a_.last - a_.first) * bar_width / target_units;
+  const double b_samples = (b_.last - b_.first) * bar_width / target_units;
+  if (std::min(a_samples, b_samples) < least_samples)
+    return fmt::format("It is too small in this field: a bar is {:.1f} {}-scans wide, expected at "
+                       "least {:.0f}; scan a smaller field, or take a larger target",
+                       std::min(a_samples, b_samples), a_samples < b_samples ? 'A' : 'B',
+                       least_samples);
+  for (const bool along_a : {true, false})
+    for (const bool first : {true, false})
+      if (reaches_border(along_a, first))
+        return fmt::format(
+            "It reaches the {} {}-scan: is it wholly within the field? Move it, scan "
+            "a larger field, or take a smaller target",
+            first ? "first" : "last", along_a ? 'A' : 'B');
+  return "Is it the target, flat, in focus, and turned by a few degrees at most against the axes "
+         "of "
+         "the scan?";
+}
+
 hal::Result<TargetMeasurement> TargetPicture::find_orientation() const {
   constexpr double least_agreement = 0.7;
-  constexpr double least_lead = 0.2;
+  constexpr double least_lead = 0.15;
   TargetMeasurement best{.agreement = -2, .runner_up = -2};
   for (const bool mirrored : {false, true})
     for (int turns = 0; turns < 4; ++turns) {
@@ -157,9 +230,8 @@ hal::Result<TargetMeasurement> TargetPicture::find_orientation() const {
     return hal::fail(
         ErrorCode::bad_data,
         "what was scanned is not the target: it agrees with its drawing by {:.2f}, the "
-        "next way round by {:.2f}, expected {:.1f} and a lead of {:.1f}; is it flat, in "
-        "focus, and along the axes of the scan?",
-        best.agreement, best.runner_up, least_agreement, least_lead);
+        "next way round by {:.2f}, expected {:.2f} and a lead of {:.2f}. {}. {}",
+        best.agreement, best.runner_up, least_agreement, least_lead, seen(), likely_reason());
   return best;
 }
 
@@ -198,6 +270,7 @@ hal::Result<double> TargetPicture::find_pitch(const TargetMeasurement& way, bool
   const auto threshold = static_cast<double>(threshold_);
   std::vector<double> centres;
   std::optional<double> rose;
+  std::size_t cut = 0; // bars at the border, whose centre is not known
   for (std::size_t i = 1; i < profile.size(); ++i) {
     if (!profile[i - 1] || !profile[i])
       continue;
@@ -210,18 +283,20 @@ hal::Result<double> TargetPicture::find_pitch(const TargetMeasurement& way, bool
       rose = crossing;
     else if (rose)
       centres.push_back((*std::exchange(rose, std::nullopt) + crossing) / 2);
+    else
+      ++cut;
   }
+  if (rose)
+    ++cut;
   const auto expected = static_cast<std::size_t>(x_axis ? x_bars : y_bars);
-  if (centres.size() != expected)
-    return hal::fail(
-        ErrorCode::bad_data,
-        "{} bars are seen along the {}-scans, expected {}; is the target in focus, and "
-        "are there at least three {}-scans a bar?",
-        centres.size(), along_a ? 'A' : 'B', expected, along_a ? 'A' : 'B');
-  const double middle = (static_cast<double>(expected) - 1) / 2;
+  if (centres.size() + cut != expected)
+    return hal::fail(ErrorCode::bad_data,
+                     "{} bars are seen along the {}-scans, expected {}. {}. {}",
+                     centres.size() + cut, along_a ? 'A' : 'B', expected, seen(), likely_reason());
+  const double middle = (static_cast<double>(centres.size()) - 1) / 2;
   double slope = 0;
   double weight = 0;
-  for (std::size_t n = 0; n < expected; ++n) {
+  for (std::size_t n = 0; n < centres.size(); ++n) {
     const double step = static_cast<double>(n) - middle;
     slope += step * centres[n];
     weight += step * step;
@@ -231,8 +306,8 @@ hal::Result<double> TargetPicture::find_pitch(const TargetMeasurement& way, bool
 
 hal::Result<TargetMeasurement> TargetPicture::measure(double side_um) {
   HAL_CHECK(find_threshold());
-  HAL_TRY(a_, find_extent(true));
-  HAL_TRY(b_, find_extent(false));
+  a_ = find_extent(true);
+  b_ = find_extent(false);
   HAL_TRY(auto found, find_orientation());
   HAL_TRY(const double a_pitch, find_pitch(found, true));
   HAL_TRY(const double b_pitch, find_pitch(found, false));

@@ -39,8 +39,9 @@ struct TargetMeasurement {
 std::string orientation_text(const TargetMeasurement& measurement);
 
 // `en_face` is [b][a], brighter where there is more light, in decibels; the target lies within the
-// scan as a whole, with some margin, turned by few degrees at most. ErrorCode::bad_data: no
-// contrast, a target that reaches the border, a picture that is not that of the drawing.
+// scan as a whole, up to its border, turned by few degrees at most, with three samples or more a
+// bar. ErrorCode::bad_data, with what was seen and what is probably wrong: no contrast; a picture
+// that is not that of the drawing, as that of a target that is too small, or beyond the border.
 hal::Result<TargetMeasurement> measure_target(std::span<const float> en_face, int a_scans,
                                               int b_scans, double side_um);
 

@@ -60,7 +60,9 @@ void tell(const StepRecord& record) {
     say("  WARNING: {}\n", warning);
 }
 
-enum class Turn { next, quit };
+std::string_view title_of(std::string_view key) {
+  return std::ranges::find(steps, key, &Step::key)->title;
+}
 
 // Captures block the signals that end them, for good; at a question Ctrl+C ends the program.
 hal::Result<StepRecord> run_step(const Step& step, Bench& bench) {
@@ -71,53 +73,66 @@ hal::Result<StepRecord> run_step(const Step& step, Bench& bench) {
   return record;
 }
 
-// What the answers do not reach is no fault of the step: it ends the whole.
-bool ends_all(const hal::Error& error) {
-  return error.code == hal::ErrorCode::disconnected;
+// Before a step that was done in an earlier session.
+hal::Result<std::string> ask_to_keep(const Step& step, Bench& bench) {
+  say("Done before:\n");
+  tell(bench.session.record(step.key));
+  const std::string newer = bench.session.outdated_by(step.key);
+  if (newer.empty())
+    return bench.dialogue.ask_word("Keep it?", {"keep", "repeat"});
+  say("  OUTDATED: done before \"{}\" was last done\n", title_of(newer));
+  return bench.dialogue.ask_word("Repeat it?", {"repeat", "keep"});
 }
 
-// Until it is done and kept, skipped, or all is ended.
-hal::Result<Turn> take_step(const Step& step, Bench& bench) {
+// Until it is done and kept, or skipped.
+hal::Result<> take_step(const Step& step, Bench& bench) {
   Session& session = bench.session;
-  const bool before = session.outcome(step.key) == "done";
-  if (before) {
-    say("Done before:\n");
-    tell(session.record(step.key));
-  }
-  HAL_TRY(auto answer, before ? bench.dialogue.ask_word("Keep it?", {"keep", "repeat", "quit"})
-                              : bench.dialogue.ask_word("Do it?", {"do", "skip", "quit"}));
+  HAL_TRY(auto answer, session.outcome(step.key) == "done"
+                           ? ask_to_keep(step, bench)
+                           : bench.dialogue.ask_word("Do it?", {"do", "skip"}));
   while (answer == "do" || answer == "repeat") {
     const auto record = run_step(step, bench);
     if (record) {
       tell(*record);
       HAL_CHECK(session.keep(step.key, *record));
-      HAL_TRY(answer, bench.dialogue.ask_word("Go on?", {"next", "repeat", "quit"}));
+      HAL_TRY(answer, bench.dialogue.ask_word("Go on?", {"next", "repeat"}));
       continue;
     }
-    session.forget();
-    if (ends_all(record.error()))
+    if (bench.dialogue.quit() || bench.dialogue.ended()) // no fault of the step
       return tl::make_unexpected(record.error());
     say("  FAILED: {}\n", record.error().message);
+    HAL_CHECK(session.fail(step.key, record.error().message));
     HAL_TRY(answer, bench.dialogue.ask_word("Again?", {"quit", "repeat", "skip"}));
   }
-  if (answer == "skip")
-    HAL_CHECK(session.skip(step.key));
-  return answer == "quit" ? Turn::quit : Turn::next;
+  return answer == "skip" ? session.skip(step.key) : hal::Result<>{};
 }
 
 hal::Result<> take_steps(Bench& bench) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     say("\n{} of {} · {}\n{}\n", i + 1, steps.size(), steps[i].title, steps[i].purpose);
-    const auto turn = take_step(steps[i], bench);
+    const auto taken = take_step(steps[i], bench);
     HAL_CHECK(write_report(bench.session));
-    if (!turn)
-      return tl::make_unexpected(turn.error());
-    if (*turn == Turn::quit)
+    if (bench.dialogue.quit())
       return hal::fail(hal::ErrorCode::disconnected,
                        "ended at step {} of {}, \"{}\"; the same command goes on from there", i + 1,
                        steps.size(), steps[i].title);
+    HAL_CHECK(taken);
   }
   return {};
+}
+
+// What is still to be done with the same command.
+void say_what_is_left(const Session& session) {
+  const bool calibrated = session.outcome("calibration") == "done";
+  const bool configured = session.outcome("configuration") == "done";
+  if (!calibrated || !configured)
+    say("Without {}: skipped steps are asked for again by the same command.\n",
+        calibrated ? "a configuration" : "a calibration");
+  for (const Step& step : steps)
+    if (const std::string newer = session.outdated_by(step.key); !newer.empty())
+      say("Outdated: \"{}\", done before \"{}\" was last done; the same command offers to repeat "
+          "it.\n",
+          step.title, title_of(newer));
 }
 
 } // namespace
@@ -127,15 +142,12 @@ hal::Result<> commission(const CommissionOptions& options, std::istream& answers
   HAL_TRY(auto session, Session::open(options.folder, options.simulate));
   Dialogue dialogue{answers, ::isatty(STDIN_FILENO) == 0};
   Bench bench{session, dialogue, clock};
-  say("Commissioning into {}{}. An empty line takes what stands in brackets.\n",
+  say("Commissioning into {}{}. An empty line takes what stands in brackets, \"quit\" "
+      "ends at any question.\n",
       options.folder.string(), options.simulate ? ", SIMULATED" : "");
   HAL_CHECK(take_steps(bench));
   say("\nReport: {}\n", (options.folder / "report.html").string());
-  const bool calibrated = session.outcome("calibration") == "done";
-  const bool configured = session.outcome("configuration") == "done";
-  if (!calibrated || !configured)
-    say("Without {}: skipped steps are asked for again by the same command.\n",
-        calibrated ? "a configuration" : "a calibration");
+  say_what_is_left(session);
   return {};
 }
 

@@ -1,8 +1,16 @@
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "firmware-host/commands/commission/steps.h"
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/terminal/terminal.h"
+#include "pipeline/calibration/calibration_writer.h"
 #include "pipeline/files/atomic_file.h"
 
 namespace octascope::firmware_host {
@@ -34,6 +42,42 @@ hal::Result<Configuration> check(const Session& session, const std::string& text
                    "a run would refuse the configuration, so it is not written: {}", reason);
 }
 
+// As a shell takes it for one word.
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view safe = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                    "_-./+,:@%";
+  if (!text.empty() && text.find_first_not_of(safe) == text.npos)
+    return text;
+  std::string word = "'";
+  for (const char letter : text)
+    word += letter == '\'' ? "'\\''" : std::string(1, letter);
+  return word + "'";
+}
+
+// The configuration, and all that it names.
+std::vector<std::filesystem::path> files_of_appliance(const Session& session) {
+  std::vector<std::filesystem::path> files{session.folder() / "octascope.toml"};
+  if (const auto calibration = session.file("calibration")) {
+    files.push_back(*calibration);
+    std::ranges::copy(pipeline::curves_beside(*calibration), std::back_inserter(files));
+  }
+  for (const char* const key : {"control_device", "control_profile"})
+    if (const auto file = session.file(key))
+      files.push_back(*file);
+  std::erase_if(files, [](const std::filesystem::path& file) {
+    std::error_code ignored;
+    return !std::filesystem::exists(file, ignored);
+  });
+  return files;
+}
+
+std::string copy_command(const Session& session) {
+  std::string command = "sudo cp";
+  for (const auto& file : files_of_appliance(session))
+    command += " " + shell_word(file.string());
+  return command + " /etc/octascope/";
+}
+
 } // namespace
 
 hal::Result<StepRecord> write_configuration(Bench& bench) {
@@ -52,8 +96,12 @@ hal::Result<StepRecord> write_configuration(Bench& bench) {
         fmt::format("octascope.toml was changed by hand and is left as it is: "
                     "compare it with {}",
                     file.filename().string()));
-  const std::string run = fmt::format("octascope run --config {}", file.string());
-  record.found = {{"file", file.filename().string()}, {"to see the picture", run}};
+  record.found = {{"file", file.filename().string()},
+                  {"to see the picture", "octascope run --config " + shell_word(file.string())}};
+  if (!session.simulated()) {
+    record.found.emplace_back("for the appliance", copy_command(session));
+    record.found.emplace_back("and then", "sudo systemctl restart octascope");
+  }
   return record;
 }
 

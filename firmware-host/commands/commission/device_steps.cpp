@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -15,6 +17,8 @@
 #include "firmware-host/commands/devices/devices_learn.h"
 #include "firmware-host/devices/hardware_survey.h"
 #include "firmware-host/terminal/terminal.h"
+#include "hal/number_text.h"
+#include "sim/phantoms/phantom.h"
 
 namespace octascope::firmware_host {
 
@@ -26,20 +30,39 @@ hal::Result<LiveLook> look_now(Bench& bench, std::string_view phantom, int pulse
   return look(options, configuration, pulses, bench.clock);
 }
 
+void say_video_nodes(const std::vector<FoundDevice>& nodes) {
+  for (const FoundDevice& device : nodes)
+    say("  {}  {}{}\n", device.node, device.name,
+        device.usable ? std::string{} : " (" + device.why_not + "; " + device.remedy + ")");
+  if (nodes.empty())
+    say("  No video node: is the camera on, and its cable and its driver there? `octascope doctor` "
+        "says more.\n  Quit, and begin anew when it is there; a GenICam camera needs none.\n");
+}
+
 hal::Result<> ask_which_camera(Bench& bench) {
   if (bench.session.simulated()) {
     bench.session.set("line_camera", "sim");
     return {};
   }
-  for (const FoundDevice& device : survey_hardware().video) {
-    say("  {}  {}{}\n", device.node, device.name,
-        device.usable ? std::string{} : " (" + device.why_not + "; " + device.remedy + ")");
-  }
+  say_video_nodes(survey_hardware().video);
   HAL_TRY(
       auto camera,
       bench.dialogue.ask("Line camera: auto, a node as /dev/video0, or as gigevision:192.168.1.20?",
                          bench.session.text("line_camera", "auto")));
   bench.session.set("line_camera", camera);
+  return {};
+}
+
+// In mm, as somebody would say it. Taken as it stands it changes nothing.
+hal::Result<> ask_width(Bench& bench, const char* question, const char* key, double steps) {
+  constexpr double usual_mm = 3;
+  Session& session = bench.session;
+  const double known_mm = session.number(key, usual_mm * 1000 / steps) * steps / 1000;
+  const double offered_mm =
+      hal::number_of<double>(fmt::format("{:.4g}", known_mm)).value_or(known_mm);
+  HAL_TRY(const double width_mm, bench.dialogue.ask_number(question, offered_mm, 0.01, 1000));
+  const double same_mm = width_mm == offered_mm ? known_mm : width_mm;
+  session.set(key, same_mm * 1000 / steps);
   return {};
 }
 
@@ -60,18 +83,10 @@ hal::Result<> ask_scan(Bench& bench) {
   HAL_TRY(const double rate, bench.dialogue.ask_number(
                                  "Lines a second?", session.number("line_rate_hz", 215e3), 1, 1e9));
   session.set("line_rate_hz", rate);
-  const double a_scans = session.number("a_scans", 300);
-  const double b_scans = session.number("b_scans", 80);
-  HAL_TRY(const double a_mm,
-          bench.dialogue.ask_number("Width of the scan along a B-scan, in mm?",
-                                    session.number("a_spacing_um", 3000 / a_scans) * a_scans / 1000,
-                                    0.01, 1000));
-  HAL_TRY(const double b_mm,
-          bench.dialogue.ask_number("Width from the first B-scan to the last, in mm?",
-                                    session.number("b_spacing_um", 3000 / b_scans) * b_scans / 1000,
-                                    0.01, 1000));
-  session.set("a_spacing_um", a_mm * 1000 / a_scans);
-  session.set("b_spacing_um", b_mm * 1000 / b_scans);
+  HAL_CHECK(ask_width(bench, "Width of the scan along a B-scan, in mm?", "a_spacing_um",
+                      session.number("a_scans", 300)));
+  HAL_CHECK(ask_width(bench, "Width from the first B-scan to the last, in mm?", "b_spacing_um",
+                      session.number("b_scans", 80)));
   return {};
 }
 
@@ -143,9 +158,8 @@ hal::Result<bool> ask_gain(Bench& bench, const hal::CameraControl& gain) {
 hal::Result<bool> ask_controls(Bench& bench, const LiveLook& found) {
   const auto& [exposure, gain] = found.controls;
   if (exposure || gain)
-    say("  {:.0f} % full, {:.1f} % of the lines saturated, dark level {:.0f} counts\n",
-        found.quality.brightest * 100, found.quality.saturated_share * 100,
-        found.quality.dark_counts);
+    say("  brightest sample {}, {:.1f} % of the lines saturated, darkest pixels {:.0f} counts\n",
+        brightness_text(found), found.quality.saturated_share * 100, found.quality.dark_counts);
   bool changed = false;
   if (exposure) {
     HAL_TRY(changed, ask_exposure(bench, *exposure));
@@ -169,7 +183,7 @@ hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom, SpectrumDi
   const bool live = ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0;
   if (live) {
     HAL_CHECK(open_display(bench, phantom, display));
-    say("Live; Enter ends it.\n");
+    say("Live: the spectrum's height is its brightness, full scale the highest. Enter goes on.\n");
   }
   std::fflush(stdout);
   for (;;) {
@@ -179,10 +193,10 @@ hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom, SpectrumDi
                        "no frame came: is the camera on, and does the trigger start the scanner?");
     if (!live)
       return found;
-    show_progress(fmt::format("{} {:3.0f} % full, contrast {:4.1f} %, saturated {:.0f} %, lost {}",
-                              spectrum_strip(found.mean_line, found.format.full_scale()),
-                              found.quality.brightest * 100, found.quality.contrast * 100,
-                              found.quality.saturated_share * 100, found.lost_frames));
+    show_progress(fmt::format(
+        "{} {:3.0f} % of full scale, contrast {:4.1f} %, saturated {:.0f} %, lost {}",
+        spectrum_strip(found.mean_line, found.format.full_scale()), found.quality.brightest * 100,
+        found.quality.contrast * 100, found.quality.saturated_share * 100, found.lost_frames));
     display.show(found);
     pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
     const bool answered = ::poll(&input, 1, 100) > 0;
@@ -191,10 +205,16 @@ hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom, SpectrumDi
     show_progress("");
     display.close();
     if (answered) {
-      HAL_TRY(const std::string ended, bench.dialogue.ask("Ended:", "here"));
+      HAL_TRY(const std::string ended, bench.dialogue.ask("Taken:", "as it is now"));
     }
     return found;
   }
+}
+
+std::vector<std::string_view> all_phantoms() {
+  std::vector<std::string_view> names{sim::phantom_names.begin(), sim::phantom_names.end()};
+  names.insert(names.end(), sim::bench_phantom_names.begin(), sim::bench_phantom_names.end());
+  return names;
 }
 
 } // namespace
@@ -202,7 +222,7 @@ hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom, SpectrumDi
 hal::Result<std::string> ask_to_place(Bench& bench, const std::string& what,
                                       const std::string& phantom) {
   if (bench.session.simulated())
-    return bench.dialogue.ask(what + " The twin looks at", phantom);
+    return bench.dialogue.ask_name(what + " The twin looks at", phantom, all_phantoms());
   HAL_TRY(const std::string ready, bench.dialogue.ask(what + " Enter when it is so:", "ready"));
   return phantom;
 }
@@ -218,7 +238,7 @@ hal::Result<StepRecord> find_camera(Bench& bench) {
   StepRecord record;
   record.found = {{"camera", found.camera.empty() ? "does not identify itself" : found.camera},
                   {"found as", found.chosen},
-                  {"samples", fmt::format("{} of {} bits", found.format.samples,
+                  {"samples", fmt::format("{} a line, of {} bits", found.format.samples,
                                           found.format.significant_bits)}};
   if (found.camera.empty())
     record.warnings.emplace_back("the camera cannot be told from others of its kind: nobody will "
@@ -286,6 +306,7 @@ hal::Result<StepRecord> look_at_spectrum(Bench& bench) {
   if (const auto& gain = found.controls.gain)
     record.found.emplace_back("gain", fmt::format("{:g}", gain->value));
   add_quality(record, found);
+  warn_of_light(record, found.quality);
   const auto picture = bench.session.free_file("spectrum", ".png");
   HAL_CHECK(pipeline::write_png(
       picture, draw_spectrum(found.mean_line, found.one_line, found.format.full_scale())));

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <istream>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,8 +11,9 @@
 
 namespace octascope::firmware_host {
 
-// An answer that does not do is told, and the question asked again. ErrorCode::disconnected: there
-// are no more answers; invalid_argument: five in a row did not do.
+// An answer that does not do is told, and the question asked again. "quit" is an answer to every
+// question. ErrorCode::disconnected: "quit", or there are no more answers; invalid_argument: five in
+// a row did not do.
 class Dialogue {
 public:
   // `answers` outlives this. `echoes`: answers are repeated on standard output, as nobody types
@@ -25,13 +27,25 @@ public:
                                  double highest);
   hal::Result<int> ask_count(std::string_view question, int fallback, int lowest, int highest);
 
-  // One of `words`, the first where the answer is empty, whole or by its first letter.
+  // One of `words`, the first where the answer is empty, whole or by its first letter; "quit" may be
+  // among them, and is offered where not.
   hal::Result<std::string> ask_word(std::string_view question,
                                     std::initializer_list<std::string_view> words);
 
+  // As ask(); but one of `known`.
+  hal::Result<std::string> ask_name(std::string_view question, std::string_view fallback,
+                                    std::span<const std::string_view> known);
+
+  bool quit() const { return quit_; }   // it was answered
+  bool ended() const { return ended_; } // there were no more answers
+
 private:
+  hal::Error end_at(std::string_view question);
+
   std::istream& answers_;
   bool echoes_;
+  bool quit_ = false;
+  bool ended_ = false;
 };
 
 } // namespace octascope::firmware_host

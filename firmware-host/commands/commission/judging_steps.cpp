@@ -38,7 +38,8 @@ void add_verdict(StepRecord& record, const CalibrationVerdict& verdict) {
     const MirrorVerdict& mirror = verdict.mirrors[i];
     record.found.emplace_back(
         fmt::format("{} mirror", i == 0 ? "near" : "far"),
-        fmt::format("at {:.1f} bins, FWHM {:.2f} bins, was {:.1f}, level {:.1f} dB",
+        fmt::format("at depth bin {:.1f}, {:.2f} bins wide (FWHM; {:.1f} without the calibration), "
+                    "level {:.1f} dB",
                     mirror.peak_bins, mirror.fwhm_after_bins, mirror.fwhm_before_bins,
                     mirror.level_after_db));
     if (!(mirror.fwhm_after_bins <= broad_fwhm_bins))
@@ -47,10 +48,12 @@ void add_verdict(StepRecord& record, const CalibrationVerdict& verdict) {
                       "with more light, or farther apart",
                       i == 0 ? "near" : "far", mirror.fwhm_after_bins, broad_fwhm_bins));
   }
-  record.found.emplace_back("phase residual", fmt::format("{:.3f} rad", verdict.residual_rad()));
-  record.found.emplace_back("depth error", fmt::format("{:.2f} bins", verdict.depth_error_bins()));
+  record.found.emplace_back("phase residual",
+                            fmt::format("{:.3f} rad about a smooth curve", verdict.residual_rad()));
+  record.found.emplace_back("depth error",
+                            fmt::format("{:.2f} depth bins", verdict.depth_error_bins()));
   record.found.emplace_back("roll-off",
-                            fmt::format("{:.3f} dB/bin", verdict.roll_off_db_per_bin()));
+                            fmt::format("{:.3f} dB a depth bin", verdict.roll_off_db_per_bin()));
   record.found.emplace_back("side of zero delay",
                             fmt::format("{}, {}", verdict.sample_side, verdict.side_source));
   // A tissue that is none finds one as well, and all but the depths looks right.
@@ -61,8 +64,9 @@ void add_verdict(StepRecord& record, const CalibrationVerdict& verdict) {
                     "beam, and then this; else the depths are wrong",
                     verdict.sample_side));
   record.found.emplace_back(
-      "depth spacing", verdict.spacing_um ? fmt::format("{:.3f} µm in air", *verdict.spacing_um)
-                                          : "not known: the mirrors' distance was not said");
+      "depth spacing", verdict.spacing_um
+                           ? fmt::format("{:.3f} µm in air from bin to bin", *verdict.spacing_um)
+                           : "not known: the mirrors' distance was not said");
 }
 
 // A B-scan of the tissue with what was found.
@@ -199,18 +203,24 @@ hal::Result<StepRecord> check_target(Bench& bench) {
       brightest_along_depth(std::get<std::vector<std::uint8_t>>(read.levels), geometry);
   StepRecord record;
   HAL_CHECK(draw_target(bench, en_face, geometry, record));
-  HAL_TRY(const auto measured,
-          pipeline::measure_target(en_face, geometry.a_scans, geometry.b_scans, side_mm * 1000));
+  auto found =
+      pipeline::measure_target(en_face, geometry.a_scans, geometry.b_scans, side_mm * 1000);
+  if (!found)
+    return hal::fail(found.error().code, "{}. {} shows what was seen", found.error().message,
+                     (bench.session.folder() / record.pictures.front()).string());
+  const pipeline::TargetMeasurement measured = *found;
   const double a_before = bench.session.number("a_spacing_um", geometry.a_spacing_um);
   const double b_before = bench.session.number("b_spacing_um", geometry.b_spacing_um);
-  record.found = {{"orientation", pipeline::orientation_text(measured)},
-                  {"agreement", fmt::format("{:.2f}, next way round {:.2f}", measured.agreement,
-                                            measured.runner_up)},
-                  {"A-scans apart", fmt::format("{:.2f} µm, was said to be {:.2f}",
-                                                measured.a_spacing_um, a_before)},
-                  {"B-scans apart", fmt::format("{:.2f} µm, was said to be {:.2f}",
-                                                measured.b_spacing_um, b_before)},
-                  {"file", file.filename().string()}};
+  record.found = {
+      {"orientation", pipeline::orientation_text(measured)},
+      {"agreement", fmt::format("{:.2f} with the drawing (1: perfect), the next best way "
+                                "round {:.2f}",
+                                measured.agreement, measured.runner_up)},
+      {"A-scans apart", fmt::format("{:.2f} µm measured, {:.2f} µm in the scan's settings",
+                                    measured.a_spacing_um, a_before)},
+      {"B-scans apart", fmt::format("{:.2f} µm measured, {:.2f} µm in the scan's settings",
+                                    measured.b_spacing_um, b_before)},
+      {"file", file.filename().string()}};
   if (!measured.upright())
     record.warnings.push_back(
         fmt::format("the picture is {}: swap the scanner's axes, or the sign of one, until the "

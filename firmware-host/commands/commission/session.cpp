@@ -1,10 +1,13 @@
 #include "firmware-host/commands/commission/session.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "firmware-host/commands/commission/step_order.h"
 #include "firmware-host/outputs/local_time.h"
 #include "firmware-host/version/version.h"
 #include "pipeline/files/atomic_file.h"
@@ -28,11 +31,32 @@ hal::Result<> make_folder(const std::filesystem::path& folder) {
   return {};
 }
 
+bool is_text(const Json& value) {
+  return value.is_string();
+}
+
+bool is_revision(const Json& value) {
+  constexpr unsigned most = 1'000'000'000;
+  return value.is_number_unsigned() && value.get<std::uint64_t>() < most;
+}
+
+bool holds_only(const Json& object, bool (*is_sound)(const Json&)) {
+  return object.is_object() && std::ranges::all_of(object, is_sound);
+}
+
+// What tells whether a step is outdated. Folders of before have neither.
+bool has_sound_revisions(const Json& step) {
+  return (!step.contains("revision") || is_revision(step["revision"])) &&
+         (!step.contains("made_of") || holds_only(step["made_of"], is_revision));
+}
+
 // As save() writes it.
 bool is_state(const Json& json) {
   if (!json.is_object() || !json.contains("steps") || !json["steps"].is_object() ||
       !json.contains("values") || !json["values"].is_object() || !json.contains("simulated") ||
       !json["simulated"].is_boolean())
+    return false;
+  if (json.contains("failures") && !holds_only(json["failures"], is_text))
     return false;
   for (const auto& [name, value] : json["values"].items())
     if (!value.is_string() && !value.is_number())
@@ -48,13 +72,18 @@ bool is_state(const Json& json) {
   for (const auto& [name, step] : json["steps"].items()) {
     if (!step.is_object() || !step.contains("outcome") || !step["outcome"].is_string() ||
         !texts(step, "warnings") || !texts(step, "pictures") || !step.contains("found") ||
-        !step["found"].is_object())
+        !step["found"].is_object() || !has_sound_revisions(step))
       return false;
     for (const auto& [what, value] : step["found"].items())
       if (!value.is_string())
         return false;
   }
   return true;
+}
+
+// Values that were set anew are the same in another order.
+nlohmann::json sorted(const Json& values) {
+  return values;
 }
 
 } // namespace
@@ -127,16 +156,54 @@ StepRecord Session::record(std::string_view step) const {
   return record;
 }
 
+// Rises whenever the step brought other values than it had; 0: it never brought any.
+int Session::revision(std::string_view step) const {
+  const Json& steps = state_["steps"];
+  const auto kept = steps.find(std::string{step});
+  return kept == steps.end() ? 0 : kept->value("revision", 0);
+}
+
+std::string Session::outdated_by(std::string_view step) const {
+  if (outcome(step) != "done")
+    return {};
+  const Json& kept = state_["steps"][std::string{step}];
+  const Json used = kept.value("made_of", Json::object());
+  for (const std::string_view part : made_of(step))
+    if (used.value(std::string{part}, 0) != revision(part))
+      return std::string{part};
+  for (const std::string_view part : made_of(step))
+    if (std::string cause = outdated_by(part); !cause.empty())
+      return cause;
+  return {};
+}
+
+std::string Session::failure(std::string_view step) const {
+  const auto failures = state_.find("failures");
+  return failures == state_.end() ? std::string{} : failures->value(std::string{step}, "");
+}
+
 hal::Result<> Session::keep(std::string_view step, const StepRecord& record) {
   Json found = Json::object();
   for (const auto& [what, value] : record.found)
     found[what] = value;
+  Json used = Json::object();
+  for (const std::string_view part : made_of(step))
+    used[std::string{part}] = revision(part);
+  const bool brought = sorted(values_) != sorted(state_["values"]);
+  const int now = revision(step) + (brought ? 1 : 0);
   state_["values"] = values_;
-  state_["steps"][std::string{step}] = {{"outcome", "done"},
-                                        {"at", now_in_iso_8601()},
-                                        {"found", std::move(found)},
-                                        {"warnings", record.warnings},
-                                        {"pictures", record.pictures}};
+  if (state_.contains("failures"))
+    state_["failures"].erase(std::string{step});
+  state_["steps"][std::string{step}] = {
+      {"outcome", "done"},          {"at", now_in_iso_8601()},   {"revision", now},
+      {"made_of", std::move(used)}, {"found", std::move(found)}, {"warnings", record.warnings},
+      {"pictures", record.pictures}};
+  return save();
+}
+
+hal::Result<> Session::fail(std::string_view step, std::string_view why) {
+  forget();
+  state_["failures"][std::string{step}] = why;
   return save();
 }
 

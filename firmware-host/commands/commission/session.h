@@ -44,10 +44,17 @@ public:
   // Of a step: empty (never done), "done" or "skipped".
   std::string outcome(std::string_view step) const;
   StepRecord record(std::string_view step) const;
-  // Keeps the step with all values set since the last keep(), forget() or skip().
+  // Of a step that is done: the step whose newer result it lacks, its own or that of a step that it
+  // is made of (step_order.h). Empty: none, it is up to date.
+  std::string outdated_by(std::string_view step) const;
+  // Why the last attempt at the step failed; empty: it did not.
+  std::string failure(std::string_view step) const;
+  // Keeps the step with all values set since the last keep(), fail() or skip().
   hal::Result<> keep(std::string_view step, const StepRecord& record);
+  // Forget what was set since then.
+  hal::Result<> fail(std::string_view step, std::string_view why);
   hal::Result<> skip(std::string_view step);
-  void forget(); // what was set since then
+  void forget();
 
   // A file that is not there yet: "dark.h5", else "dark-2.h5" …
   std::filesystem::path free_file(std::string_view stem, std::string_view extension) const;
@@ -65,6 +72,7 @@ private:
   Session(std::filesystem::path folder, bool simulate)
       : folder_(std::move(folder)), simulate_(simulate) {}
   hal::Result<> save() const;
+  int revision(std::string_view step) const;
 
   std::filesystem::path folder_;
   bool simulate_;

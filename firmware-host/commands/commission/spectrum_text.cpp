@@ -11,6 +11,14 @@
 
 namespace octascope::firmware_host {
 
+namespace {
+
+// Of the brightest sample, as a share of full scale.
+constexpr double darkest = 0.4;
+constexpr double lightest = 0.8;
+
+} // namespace
+
 std::string spectrum_strip(std::span<const double> line, double highest) {
   static constexpr std::array<std::string_view, 9> heights{" ", "▁", "▂", "▃", "▄",
                                                            "▅", "▆", "▇", "█"};
@@ -33,11 +41,12 @@ void add_quality(StepRecord& record, const LiveLook& look) {
   const pipeline::SpectrumQuality& quality = look.quality;
   record.found.emplace_back("saturated lines",
                             fmt::format("{:.1f} %", quality.saturated_share * 100));
-  record.found.emplace_back("brightest sample",
-                            fmt::format("{:.0f} % of full scale, {} counts",
-                                        quality.brightest * 100, look.format.full_scale()));
-  record.found.emplace_back("dark level", fmt::format("{:.0f} counts", quality.dark_counts));
-  record.found.emplace_back("fringe contrast", fmt::format("{:.1f} %", quality.contrast * 100));
+  record.found.emplace_back("brightest sample", brightness_text(look));
+  record.found.emplace_back(
+      "dark level",
+      fmt::format("{:.0f} counts, where the spectrum is darkest", quality.dark_counts));
+  record.found.emplace_back("fringe contrast", fmt::format("{:.1f} % of the light, noise included",
+                                                           quality.contrast * 100));
   record.found.emplace_back("frames", fmt::format("{} of {}, {} lost, {} broken", look.frames,
                                                   look.expected_frames, look.lost_frames,
                                                   look.broken_frames));
@@ -45,11 +54,6 @@ void add_quality(StepRecord& record, const LiveLook& look) {
     record.warnings.push_back(
         fmt::format("{:.1f} % of the lines are saturated: less light, or a shorter exposure",
                     quality.saturated_share * 100));
-  if (quality.brightest < 0.2)
-    record.warnings.push_back(
-        fmt::format("the brightest sample is {:.0f} % of full scale: more light, or a longer "
-                    "exposure, up to about 80 %",
-                    quality.brightest * 100));
   if (look.lost_frames + look.broken_frames > 0)
     record.warnings.push_back("frames were lost or broken: see the cable, and whether another "
                               "program keeps the machine busy");
@@ -58,21 +62,43 @@ void add_quality(StepRecord& record, const LiveLook& look) {
 std::vector<ui::SpectrumFigure> figures_of(const LiveLook& look) {
   const pipeline::SpectrumQuality& quality = look.quality;
   const auto unless = [](bool good, const char* remedy) { return good ? "" : remedy; };
-  return {
-      {"Brightest sample", fmt::format("{:.0f} % full", quality.brightest * 100), "40 to 80 %",
-       quality.brightest > 0.8 ? "less light, shorter exposure"
-                               : unless(quality.brightest >= 0.4, "more light, longer exposure")},
-      {"Saturated lines", fmt::format("{:.1f} %", quality.saturated_share * 100), "0 %",
-       unless(quality.saturated_share == 0, "less light, shorter exposure")},
-      {"Fringe contrast", fmt::format("{:.1f} %", quality.contrast * 100),
-       "5 % and more, with a mirror",
-       unless(quality.contrast >= 0.05, "see overlap, polarisation, depth")},
-      {"Dark level",
-       fmt::format("{:.0f} of {} counts", quality.dark_counts, look.format.full_scale()),
-       "the camera's own offset"},
-      {"Frames lost, broken",
-       fmt::format("{}, {} of {}", look.lost_frames, look.broken_frames, look.expected_frames),
-       "0, 0", unless(look.lost_frames + look.broken_frames == 0, "see cable and other programs")}};
+  return {{"Brightest sample", fmt::format("{:.0f} % full", quality.brightest * 100), "40 to 80 %",
+           quality.brightest > lightest
+               ? "less light, shorter exposure"
+               : unless(quality.brightest >= darkest, "more light, longer exposure")},
+          {"Saturated lines", fmt::format("{:.1f} %", quality.saturated_share * 100), "0 %",
+           unless(quality.saturated_share == 0, "less light, shorter exposure")},
+          {"Fringe contrast", fmt::format("{:.1f} %", quality.contrast * 100),
+           "5 % and more, with a mirror",
+           unless(quality.contrast >= least_mirror_contrast, "see overlap, polarisation, depth")},
+          {"Dark level",
+           fmt::format("{:.0f} of {} counts", quality.dark_counts, look.format.full_scale()),
+           "the camera's own offset"},
+          {"Frames lost, broken",
+           fmt::format("{}, {} of {}", look.lost_frames, look.broken_frames, look.expected_frames),
+           "0, 0",
+           unless(look.lost_frames + look.broken_frames == 0, "see cable and other programs")}};
+}
+
+void warn_of_light(StepRecord& record, const pipeline::SpectrumQuality& quality) {
+  if (quality.brightest < darkest || quality.brightest > lightest)
+    record.warnings.push_back(fmt::format(
+        "the brightest sample is {:.0f} % of full scale, expected {:.0f} to {:.0f} %: {}",
+        quality.brightest * 100, darkest * 100, lightest * 100,
+        quality.brightest < darkest ? "more light from the reference arm, or a longer exposure"
+                                    : "less light, or a shorter exposure"));
+  if (quality.contrast < least_mirror_contrast)
+    record.warnings.push_back(fmt::format(
+        "the fringe's contrast is {:.1f} %, expected {:.0f} % or more with a mirror: do "
+        "the arms overlap, is the polarisation right, is the mirror within the depth "
+        "range?",
+        quality.contrast * 100, least_mirror_contrast * 100));
+}
+
+std::string brightness_text(const LiveLook& look) {
+  const double full = look.format.full_scale();
+  return fmt::format("{:.0f} % of full scale ({:.0f} of {:.0f} counts)",
+                     look.quality.brightest * 100, look.quality.brightest * full, full);
 }
 
 pipeline::Image draw_spectrum(const std::vector<double>& mean, const std::vector<double>& one,

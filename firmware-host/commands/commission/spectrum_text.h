@@ -15,11 +15,20 @@ namespace octascope::firmware_host {
 // 64 letters, each as high as the mean of its pixels: from a blank (0) to a full block (`highest`).
 std::string spectrum_strip(std::span<const double> line, double highest);
 
-// Saturation, brightness, dark level, contrast, frames.
+// Less is hardly a mirror's fringe: noise alone gives about 1 %.
+inline constexpr double least_mirror_contrast = 0.05;
+
+// Saturation, brightness, dark level, contrast, frames; warns of light that is lost or too much, and
+// of lost frames.
 void add_quality(StepRecord& record, const LiveLook& look);
 
 // The same for the display, each with what is good, and what helps.
 std::vector<ui::SpectrumFigure> figures_of(const LiveLook& look);
+// Warns where the light of both arms, with a mirror, is not what captures should begin with.
+void warn_of_light(StepRecord& record, const pipeline::SpectrumQuality& quality);
+
+// "62 % of full scale (2539 of 4095 counts)"
+std::string brightness_text(const LiveLook& look);
 
 // The mean line, and one line behind it; the axis reaches full scale.
 pipeline::Image draw_spectrum(const std::vector<double>& mean, const std::vector<double>& one,

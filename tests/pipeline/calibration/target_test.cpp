@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -22,21 +24,24 @@ struct EnFace {
 
 constexpr double side_um = 2400;
 
-// Upright, its upper left corner at (`left`, `top`) µm, in noise.
-EnFace scan(double a_um, double b_um, int a_scans, int b_scans, double left = 300,
-            double top = 260) {
+// Its upper left corner at (`left`, `top`) µm, turned about that by `tilt_degrees`, in noise.
+EnFace scan(double a_um, double b_um, int a_scans, int b_scans, double left = 300, double top = 260,
+            double tilt_degrees = 0, float noise_db = 2) {
   std::mt19937 random{1};
-  std::normal_distribution<float> noise{0, 2};
+  std::normal_distribution<float> noise{0, noise_db};
+  const double cosine = std::cos(tilt_degrees * std::numbers::pi / 180);
+  const double sine = std::sin(tilt_degrees * std::numbers::pi / 180);
   EnFace picture{
       a_scans, b_scans,
       std::vector<float>(static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(b_scans))};
   const double unit_um = side_um / target_units;
   for (int b = 0; b < b_scans; ++b)
-    for (int a = 0; a < a_scans; ++a)
-      picture.at(a, b) =
-          (target_reflects((a * a_um - left) / unit_um, (b * b_um - top) / unit_um) ? 30.0F
-                                                                                    : 5.0F) +
-          noise(random);
+    for (int a = 0; a < a_scans; ++a) {
+      const double x = (a * a_um - left) / unit_um;
+      const double y = (b * b_um - top) / unit_um;
+      const bool light = target_reflects(x * cosine + y * sine, y * cosine - x * sine);
+      picture.at(a, b) = (light ? 30.0F : 5.0F) + noise(random);
+    }
   return picture;
 }
 
@@ -101,6 +106,36 @@ TEST(Target, tells_spacings_that_are_not_what_was_thought) {
     }
 }
 
+// In a field of 200 × 200, `share` of which it spans.
+hal::Result<TargetMeasurement> measure_in_field(double share, double tilt_degrees, float noise_db) {
+  constexpr int scans = 200;
+  const double field_um = side_um / share;
+  const double margin_um = (field_um - side_um) / 2;
+  return measure(scan(field_um / scans, field_um / scans, scans, scans, margin_um, margin_um,
+                      tilt_degrees, noise_db));
+}
+
+TEST(Target, is_found_in_a_field_of_its_own_width_up_to_one_five_times_as_wide) {
+  for (const double share : {0.2, 0.24, 0.35, 0.5, 0.7, 0.9, 0.97, 1.0})
+    for (const double tilt : {-2.0, 0.0, 2.0})
+      for (const float noise : {1.0F, 4.0F}) {
+        const auto found = measure_in_field(share, tilt, noise);
+        ASSERT_TRUE(found) << share << " " << tilt << ": " << found.error().message;
+        const double um = side_um / share / 200;
+        EXPECT_TRUE(found->upright()) << share << " " << tilt << " " << noise;
+        EXPECT_NEAR(found->a_spacing_um, um, 0.03 * um) << share << " " << tilt << " " << noise;
+        EXPECT_NEAR(found->b_spacing_um, um, 0.03 * um) << share << " " << tilt << " " << noise;
+      }
+}
+
+TEST(Target, says_why_it_is_probably_not_found) {
+  EXPECT_THAT(measure(scan(40, 150, 300, 80, 4000, 4000)), // 12 mm wide
+              FailsWith(hal::ErrorCode::bad_data, "It is too small in this field: a bar is 1.6 B"));
+  EXPECT_THAT(measure_in_field(1.4, 0, 2), FailsWith(hal::ErrorCode::bad_data, "It reaches the"));
+  EXPECT_THAT(measure_in_field(0.6, 20, 2),
+              FailsWith(hal::ErrorCode::bad_data, "turned by a few degrees at most"));
+}
+
 TEST(Target, says_what_it_means_in_words) {
   EXPECT_EQ(orientation_text({}), "upright");
   EXPECT_EQ(orientation_text({.quarter_turns = 3}), "turned by 270° clockwise");
@@ -112,7 +147,7 @@ TEST(Target, says_what_it_means_in_words) {
 TEST(Target, refuses_what_is_none) {
   EnFace empty = scan(10, 37.5, 300, 80, 1e6, 1e6);
   EXPECT_THAT(measure(empty), FailsWith(hal::ErrorCode::bad_data, "no target"));
-  EXPECT_THAT(measure(scan(10, 37.5, 300, 80, -200)),
+  EXPECT_THAT(measure(scan(10, 37.5, 300, 80, -600)),
               FailsWith(hal::ErrorCode::bad_data, "reaches the first A-scan"));
   EXPECT_THAT(measure(scan(10, 37.5, 300, 80, 300, 1000)),
               FailsWith(hal::ErrorCode::bad_data, "reaches the last B-scan"));

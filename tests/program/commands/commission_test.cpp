@@ -100,9 +100,11 @@ TEST(Commission, leads_from_nothing_to_a_calibrated_picture) {
   EXPECT_EQ(read_snapshot(folder / "p.png").width, 640);
 
   const std::string report = text_of(folder / "f" / "report.html");
-  EXPECT_THAT(report, AllOf(HasSubstr("SIMULATED"), HasSubstr("FWHM"), HasSubstr("upright"),
-                            HasSubstr("src=\"data:image/png;base64,iVBORw0KGgo"),
-                            HasSubstr("</html>"), Not(HasSubstr("src=\"http"))));
+  EXPECT_THAT(report,
+              AllOf(HasSubstr("SIMULATED"), HasSubstr("FWHM"), HasSubstr("upright"),
+                    HasSubstr("src=\"data:image/png;base64,iVBORw0KGgo"), HasSubstr("an upright F"),
+                    HasSubstr("file = &quot;calibration.toml&quot;"), HasSubstr("</html>"),
+                    Not(HasSubstr("src=\"http"))));
 }
 
 // A mirror for the tissue: the spreads are narrow, but the depths are wrong.
@@ -110,7 +112,7 @@ TEST(Commission, doubts_a_calibration_that_a_wrong_tissue_decided) {
   const ScratchFolder folder;
   const ProgramResult result =
       commission(folder, std::string{small_scan} + skipped + skipped + placed + placed + placed +
-                             "\nmirror_far\n\n" + placed + "quit\n");
+                             "\nmirror_far\nyes\n\n" + placed + "quit\n");
   EXPECT_THAT(result.out, HasSubstr("WARNING: the mirrors lay on either side of zero delay"))
       << result.describe();
   EXPECT_EQ(outcome(state_in(folder), "calibration"), "done") << result.describe();
@@ -136,6 +138,111 @@ TEST(Commission, goes_on_where_it_was_left_and_repeats_what_is_asked_for) {
   EXPECT_EQ(state_in(folder).at("values").at("a_scans"), 120);
   EXPECT_EQ(outcome(state_in(folder), "trigger"), "skipped");
   EXPECT_EQ(text_of(folder / "f" / "dark.h5"), dark); // nothing was overwritten
+}
+
+// The dark is done again after the calibration that is made of it.
+TEST(Commission, says_what_is_outdated_until_it_is_repeated) {
+  const ScratchFolder folder;
+  const std::string begun = std::string{small_scan} + skipped + skipped;
+  const std::string calibrated = begun + placed + placed + placed + skipped + placed;
+  commission(folder, calibrated + "quit\n"); // at the target
+  ASSERT_EQ(outcome(state_in(folder), "calibration"), "done");
+  EXPECT_THAT(text_of(folder / "f" / "report.html"), Not(HasSubstr("Outdated")));
+
+  const std::string to_dark = std::string{"keep\n"} + skipped + skipped;
+  const std::string after_dark = std::string{"keep\nkeep\n"} + skipped;
+  const ProgramResult redone =
+      commission(folder, to_dark + "repeat\n" + "\n\n" + after_dark + "keep\nquit\n");
+  EXPECT_THAT(redone.out, HasSubstr("OUTDATED: done before \"Dark\" was last done\n"
+                                    "Repeat it? (repeat, keep, quit) [repeat]"))
+      << redone.describe();
+  EXPECT_THAT(text_of(folder / "f" / "report.html"),
+              HasSubstr("<b>Outdated:</b> done before \"Dark\" was last done."));
+
+  const ProgramResult repeated =
+      commission(folder, to_dark + "keep\n" + after_dark + placed + "quit\n");
+  EXPECT_THAT(repeated.out, HasSubstr("OUTDATED")) << repeated.describe();
+  EXPECT_THAT(text_of(folder / "f" / "report.html"), Not(HasSubstr("Outdated")));
+  EXPECT_EQ(state_in(folder).at("values").at("calibration"), "calibration-2.toml");
+}
+
+TEST(Commission, a_step_that_is_done_again_and_finds_the_same_makes_nothing_outdated) {
+  const ScratchFolder folder;
+  commission(folder, std::string{small_scan} + skipped + skipped + "\n\n\nquit\n");
+  const auto dark = [&] {
+    return commission(folder,
+                      "repeat\n\n\n\n\n\n\n\n\n" + std::string{skipped} + skipped + "keep\nquit\n")
+        .out;
+  };
+  EXPECT_THAT(dark(), AllOf(HasSubstr("Done before"), Not(HasSubstr("OUTDATED"))));
+  const ProgramResult other = commission(
+      folder, "repeat\n\n\n\n61\n\n\n\n\n" + std::string{skipped} + skipped + "keep\nquit\n");
+  EXPECT_THAT(other.out, HasSubstr("OUTDATED: done before \"Camera\" was last done"))
+      << other.describe();
+}
+
+// A folder of before the steps knew what they are made of.
+TEST(Commission, takes_a_step_of_an_older_folder_for_up_to_date_until_something_is_repeated) {
+  const ScratchFolder folder;
+  commission(folder, std::string{small_scan} + skipped + skipped + "\n\n\nquit\n");
+  auto state = state_in(folder);
+  for (auto& step : state["steps"]) {
+    step.erase("revision");
+    step.erase("made_of");
+  }
+  folder.write("f/commission.json", state.dump());
+  const ProgramResult result =
+      commission(folder, "keep\n" + std::string{skipped} + skipped + "keep\nquit\n");
+  EXPECT_THAT(result.out, AllOf(HasSubstr("Done before"), Not(HasSubstr("OUTDATED"))));
+}
+
+TEST(Commission, ends_with_quit_at_any_question) {
+  const ScratchFolder folder;
+  const auto expect_end = [&](const std::string& answers, const std::string& place) {
+    const ProgramResult result = commission(folder, answers);
+    EXPECT_EQ(result.exit_status, 1) << result.describe();
+    EXPECT_THAT(result.out, Not(HasSubstr("FAILED")));
+    EXPECT_THAT(result.err, HasSubstr("ended at step " + place));
+  };
+  expect_end("quit\n", "1 of 11");
+  expect_end("\n\n120\nquit\n", "1 of 11"); // a number
+  EXPECT_EQ(outcome(state_in(folder), "camera"), "");
+  EXPECT_FALSE(state_in(folder).at("values").contains("a_scans"));
+  const std::string to_dark = std::string{small_scan} + skipped + skipped;
+  expect_end(to_dark + "\nquit\n", "4 of 11"); // a phantom
+  EXPECT_EQ(outcome(state_in(folder), "camera"), "done");
+  expect_end("\n" + std::string{skipped} + skipped + "\n\nq\n", "4 of 11"); // "Go on?"
+  EXPECT_EQ(outcome(state_in(folder), "dark"), "done");
+}
+
+TEST(Commission, tells_a_mirror_and_a_tissue_that_are_none_at_their_own_step) {
+  const ScratchFolder folder;
+  const std::string begun = std::string{small_scan} + skipped + skipped + placed;
+  const ProgramResult result =
+      commission(folder, begun + "\ndark\nrepeat\nnothing\n\n\n" + // the near mirror
+                             "\ndark\nskip\n" +                    // no far one
+                             "\ndark\n\nquit\n");                  // no tissue
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("this is no mirror: contrast of the mean"),
+                    HasSubstr("found \"nothing\", expected one of: anterior_eye, "),
+                    HasSubstr("this is no tissue: nothing stands out of the noise at any depth"),
+                    HasSubstr("Keep it all the same? (no, yes, quit) [no]")))
+      << result.describe();
+  const auto state = state_in(folder);
+  EXPECT_EQ(outcome(state, "mirror_near"), "done");
+  EXPECT_EQ(outcome(state, "mirror_far"), "skipped");
+  EXPECT_EQ(outcome(state, "tissue"), "");
+  EXPECT_THAT(text_of(folder / "f" / "report.html"),
+              HasSubstr("<b>The last attempt failed:</b> tissue.h5: this is no tissue"));
+}
+
+TEST(Commission, warns_at_the_spectrum_of_what_is_not_good) {
+  const ScratchFolder folder;
+  const ProgramResult result =
+      commission(folder, std::string{small_scan} + skipped + "\ndark\nrepeat\n\nquit\n");
+  EXPECT_THAT(result.out, HasSubstr("WARNING: the fringe's contrast is ")) << result.describe();
+  EXPECT_THAT(state_in(folder).at("steps").at("spectrum").at("warnings"), testing::SizeIs(0))
+      << "of the mirror, at the second time";
 }
 
 TEST(Commission, tells_a_dark_that_is_none_and_one_mirror_taken_twice) {
