@@ -338,6 +338,9 @@ void RenderLoop::draw_if_changed() {
     lose_display(complete.error());
     return;
   }
+  // What it costs to bring a volume is not that of drawing it: no other quality would change it.
+  renderer_->finish();
+  const hal::TimePoint brought = parts_.clock.now();
   // A picture that is drawn in parts is drawn as a whole as often: which proves that all of it is true,
   // not that it was.
   hal::BackBuffer buffer = display.back_buffer();
@@ -353,7 +356,7 @@ void RenderLoop::draw_if_changed() {
   }
   renderer_->finish();
   const auto vessels = renderer_->vessel_report();
-  governor_.note(parts_.clock.now() - begin - vessels.cost, renderer_->drew_volume());
+  governor_.note(parts_.clock.now() - brought - vessels.cost, renderer_->drew_volume());
   if (parts_.vessels != nullptr)
     parts_.vessels->note(vessels, std::max(frame_budget().moving, frame_budget().resting));
   drawn_view_ = view;

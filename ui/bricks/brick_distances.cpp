@@ -12,29 +12,30 @@ namespace octascope::ui {
 
 namespace {
 
-// 1 where a neighbour `stride` before or after is 1, within one line or slab of `length`.
+// What lies `step` strides before and after counts, if that is more than its own.
 OCTASCOPE_CPU_CLONES
-void spread(const std::uint8_t* from, std::uint8_t* __restrict to, std::size_t length,
-            std::size_t stride) {
-  std::copy_n(from, length, to);
+void take_nearer(const std::uint8_t* from, std::uint8_t* __restrict to, std::size_t length,
+                 std::size_t stride, std::uint8_t step) {
   if (length <= stride)
     return;
   for (std::size_t i = 0; i < length - stride; ++i)
-    to[i] = to[i] | from[i + stride];
+    to[i] = std::min(to[i], std::max(from[i + stride], step));
   for (std::size_t i = stride; i < length; ++i)
-    to[i] = to[i] | from[i - stride];
+    to[i] = std::min(to[i], std::max(from[i - stride], step));
 }
 
-// Counts one brick more for all that are still out of reach; how many these are.
 OCTASCOPE_CPU_CLONES
-std::size_t count_unreached(const std::uint8_t* reach, std::uint8_t* __restrict distance,
-                            std::size_t count) {
-  std::size_t unreached = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    distance[i] = static_cast<std::uint8_t>(distance[i] + (1 - reach[i]));
-    unreached += 1U - reach[i];
-  }
-  return unreached;
+void take_nearer_slab(const std::uint8_t* from, std::uint8_t* __restrict to, std::size_t length,
+                      std::uint8_t step) {
+  for (std::size_t i = 0; i < length; ++i)
+    to[i] = std::min(to[i], std::max(from[i], step));
+}
+
+// The least, along one axis, of the greater of how far a brick lies and its own distance.
+void spread(const std::uint8_t* from, std::uint8_t* to, std::size_t length, std::size_t stride) {
+  std::copy_n(from, length, to);
+  for (std::size_t step = 1; step < DistancesAround::most; ++step)
+    take_nearer(from, to, length, step * stride, static_cast<std::uint8_t>(step));
 }
 
 OCTASCOPE_CPU_CLONES
@@ -77,31 +78,44 @@ void measure_line_down(const std::uint8_t* occupied, const std::uint8_t* beside,
 
 } // namespace
 
-// Each round reaches one brick farther, also diagonally: one axis after the other.
-bool DistancesAround::grow_reach(const pipeline::BrickCounts& counts) {
+// A Chebyshev distance is the greatest of those along the axes: one axis after the other.
+void DistancesAround::measure(const BrickGrid& grid, WorkTeam* team) {
+  const pipeline::BrickCounts& counts = grid.counts();
   const auto line = static_cast<std::size_t>(counts.depth);
   const std::size_t slab = counts.per_b_scan();
   const std::size_t all = counts.all();
-  for (std::size_t at = 0; at < all; at += line)
-    spread(reach_.data() + at, next_.data() + at, line, 1);
-  for (std::size_t at = 0; at < all; at += slab)
-    spread(next_.data() + at, reach_.data() + at, slab, line);
-  spread(reach_.data(), next_.data(), all, slab);
-  std::swap(reach_, next_);
-  return count_unreached(reach_.data(), distance_.data(), all) > 0;
+  within_.resize(all);
+  distance_.resize(all);
+  numbers_.resize(all);
+  run_pieces(team, static_cast<std::uint32_t>(counts.b), [&](std::uint32_t b) {
+    std::uint8_t* const distance = distance_.data() + b * slab;
+    std::uint8_t* const within = within_.data() + b * slab;
+    std::ranges::transform(
+        grid.occupied().subspan(b * slab, slab), distance,
+        [](std::uint8_t occupied) { return occupied != 0 ? std::uint8_t{0} : std::uint8_t{most}; });
+    for (std::size_t at = 0; at < slab; at += line)
+      spread(distance + at, within + at, line, 1);
+    spread(within, distance, slab, line);
+  });
+  run_pieces(team, static_cast<std::uint32_t>(counts.b), [&](std::uint32_t b) {
+    spread_slabs(b, slab, static_cast<std::size_t>(counts.b));
+    combine(grid.highest().data() + b * slab, within_.data() + b * slab, numbers_.data() + b * slab,
+            slab);
+  });
 }
 
-void DistancesAround::measure(const BrickGrid& grid) {
-  reach_.assign(grid.occupied().begin(), grid.occupied().end());
-  next_.resize(reach_.size());
-  distance_.resize(reach_.size());
-  numbers_.resize(reach_.size());
-  for (std::size_t i = 0; i < distance_.size(); ++i)
-    distance_[i] = 1 - reach_[i];
-  for (int distance = 1; distance < most; ++distance)
-    if (!grow_reach(grid.counts()))
-      break;
-  combine(grid.highest().data(), distance_.data(), numbers_.data(), distance_.size());
+// Into `within_`, of one slab, from those before and after it.
+void DistancesAround::spread_slabs(std::size_t b, std::size_t slab, std::size_t slabs) {
+  std::uint8_t* const to = within_.data() + b * slab;
+  std::copy_n(distance_.data() + b * slab, slab, to);
+  for (std::size_t step = 1; step < most; ++step) {
+    if (b >= step)
+      take_nearer_slab(distance_.data() + (b - step) * slab, to, slab,
+                       static_cast<std::uint8_t>(step));
+    if (b + step < slabs)
+      take_nearer_slab(distance_.data() + (b + step) * slab, to, slab,
+                       static_cast<std::uint8_t>(step));
+  }
 }
 
 void DistancesAhead::measure(const BrickGrid& grid, unsigned wanted, WorkTeam* team) {

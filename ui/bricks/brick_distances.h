@@ -19,16 +19,16 @@ class DistancesAround {
 public:
   static constexpr int most = 10;
 
-  void measure(const BrickGrid& grid);
+  // Shared among the team.
+  void measure(const BrickGrid& grid, WorkTeam* team = nullptr);
   const std::uint16_t* data() const { return numbers_.data(); }
 
 private:
-  bool grow_reach(const pipeline::BrickCounts& counts);
+  void spread_slabs(std::size_t b, std::size_t slab, std::size_t slabs);
 
   std::vector<std::uint16_t> numbers_;
-  std::vector<std::uint8_t> distance_;
-  std::vector<std::uint8_t> reach_; // 1 within the distance reached so far
-  std::vector<std::uint8_t> next_;
+  std::vector<std::uint8_t> distance_; // by turns, as one axis after the other is looked along
+  std::vector<std::uint8_t> within_;
 };
 
 // For rays grouped by octant of directions: the edge, in bricks, of the largest cube of empty

@@ -94,17 +94,16 @@ void RayImage::draw_into(const Rect& rect) {
   drawn = rect;
 }
 
-hal::Result<RayCaster> RayCaster::create(std::size_t helpers, const pipeline::ThreadSetup& setup,
-                                         std::string_view isa) {
+hal::Result<RayCaster> RayCaster::create(std::shared_ptr<WorkTeam> team, std::string_view isa) {
   const RayKernels* kernels = ray_kernels(isa);
   if (kernels == nullptr)
     return hal::fail(hal::ErrorCode::unsupported,
                      fmt::format("ray caster: this processor has no {}; let GL draw the volume",
                                  isa.empty() ? "instruction set that it is compiled for" : isa));
-  return RayCaster{*kernels, std::make_unique<WorkTeam>(helpers, setup)};
+  return RayCaster{*kernels, std::move(team)};
 }
 
-RayCaster::RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team)
+RayCaster::RayCaster(const RayKernels& kernels, std::shared_ptr<WorkTeam> team)
     : kernels_{&kernels}, team_{std::move(team)}, transfer_{std::make_unique<TransferTable>()},
       steps_table_{std::make_unique<StepTable>()} {
   constexpr std::size_t most_slabs = 8;

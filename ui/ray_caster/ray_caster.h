@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -79,13 +80,12 @@ struct RaySettings {
   std::span<const pipeline::BScanRange> changed{};
 };
 
-// Threads: bound to one, except for its own helpers. draw() allocates only the image.
+// Threads: bound to one, except for the team's helpers. draw() allocates only the image.
 class RayCaster {
 public:
-  // `helpers`: threads besides the caller's. `isa` names an instruction set; by default the widest
-  // is used. ErrorCode::unsupported: none of the compiled ones is available on this processor.
-  static hal::Result<RayCaster> create(std::size_t helpers, const pipeline::ThreadSetup& setup,
-                                       std::string_view isa = {});
+  // `team` shares the work. `isa` names an instruction set; by default the widest is used.
+  // ErrorCode::unsupported: none of the compiled ones is available on this processor.
+  static hal::Result<RayCaster> create(std::shared_ptr<WorkTeam> team, std::string_view isa = {});
 
   // Copies both. ErrorCode::unsupported: too large for 32-bit offsets. ErrorCode::invalid_argument:
   // the occupancy has another geometry. On errors the previous volume stays.
@@ -112,16 +112,13 @@ public:
   // Whether the last draw() may have changed pixels of its image there: false only of a renewal.
   bool may_have_changed(const Rect& pixels) const;
 
-  // The threads that draw, for other work between two pictures.
-  WorkTeam& team() { return *team_; }
-
   bool empty() const { return !cells_; }
   const pipeline::VolumeGeometry& geometry() const { return cells_->geometry(); }
   std::string_view isa() const { return kernels_->isa; }
   double occupied_share() const { return bricks_.occupied_share(); }
 
 private:
-  RayCaster(const RayKernels& kernels, std::unique_ptr<WorkTeam> team);
+  RayCaster(const RayKernels& kernels, std::shared_ptr<WorkTeam> team);
   void copy_b_scans(const pipeline::Volume& volume, const pipeline::BScanRange& range,
                     const std::function<void(int)>& prepare, const FlowVoxels* flow);
   void make_stale(const pipeline::BScanRange& b_scans);
@@ -136,7 +133,7 @@ private:
   RayFrame frame(const Camera& camera, const RaySettings& settings, RayImage& image) const;
 
   const RayKernels* kernels_;
-  std::unique_ptr<WorkTeam> team_;
+  std::shared_ptr<WorkTeam> team_;
   std::optional<CellVolume> cells_;
   pipeline::Occupancy occupancy_;
   std::unique_ptr<TransferTable> transfer_;

@@ -32,6 +32,14 @@ ViewState stretched(ViewState view) {
   return view;
 }
 
+// With the calling thread, one for each core.
+std::shared_ptr<WorkTeam> make_team(const pipeline::ThreadSetup& threads) {
+  constexpr unsigned most_helpers = 15;
+  const unsigned helpers =
+      std::clamp(std::thread::hardware_concurrency(), 1U, most_helpers + 1) - 1;
+  return std::make_shared<WorkTeam>(helpers, threads);
+}
+
 std::size_t index_of(StereoEye eye) {
   return eye == StereoEye::right ? 1 : 0;
 }
@@ -51,16 +59,13 @@ hal::Result<VolumePainter> VolumePainter::create(const TransferSet& transfers,
 
 VolumePainter::VolumePainter(bool software, const TransferSet& transfers,
                              const pipeline::ThreadSetup& threads)
-    : software_{software}, transfers_{transfers}, threads_{threads},
+    : software_{software}, transfers_{transfers}, threads_{threads}, team_{make_team(threads)},
       transfer_{std::make_unique<TransferTable>()}, techniques_{transfers, threads} {}
 
 // Leaves nothing where the ray caster knows no instruction set of this processor.
 void VolumePainter::make_caster() {
-  constexpr unsigned most_helpers = 15;
   caster_wanted_ = true;
-  const unsigned helpers =
-      std::clamp(std::thread::hardware_concurrency(), 1U, most_helpers + 1) - 1;
-  if (auto made = RayCaster::create(helpers, threads_))
+  if (auto made = RayCaster::create(team_))
     caster_.emplace(std::move(*made));
 }
 
@@ -190,14 +195,20 @@ void VolumePainter::prepare_b_scan(const pipeline::Volume& volume, int b_scan) {
     flow_occupancy_.update(b_scan, volume.b_scan_flow(b_scan));
 }
 
+void VolumePainter::prepare_b_scans(const pipeline::Volume& volume,
+                                    const pipeline::BScanRange& range) {
+  if (weakened_shows_ || flow_shows_)
+    team_->run(static_cast<std::uint32_t>(range.to - range.from),
+               [&](std::uint32_t i) { prepare_b_scan(volume, range.from + static_cast<int>(i)); });
+}
+
 void VolumePainter::copy_for_rays(const pipeline::Volume& volume) {
-  const pipeline::BScanRange all{0, volume.geometry.b_scans};
   const FlowVoxels flow{volume.flow, &flow_occupancy_};
   const auto prepare = [this, &volume](int b) { prepare_b_scan(volume, b); };
   caster_shows_ = caster_ && caster_->show(weakened_shows_ ? weakened_ : volume, occupancy_,
                                            prepare, flow_shows_ ? &flow : nullptr);
-  for (int b = all.from; !caster_shows_ && b < all.to; ++b)
-    prepare_b_scan(volume, b);
+  if (!caster_shows_)
+    prepare_b_scans(volume, {0, volume.geometry.b_scans});
 }
 
 hal::Result<> VolumePainter::renew_for_rays(const pipeline::Volume& volume,
@@ -208,8 +219,7 @@ hal::Result<> VolumePainter::renew_for_rays(const pipeline::Volume& volume,
     return caster_->renew(weakened_shows_ ? weakened_ : volume, occupancy_, changed, prepare,
                           flow_shows_ ? &flow : nullptr);
   for (const pipeline::BScanRange& range : changed)
-    for (int b = range.from; b < range.to; ++b)
-      prepare_b_scan(volume, b);
+    prepare_b_scans(volume, range);
   return {};
 }
 
@@ -220,11 +230,23 @@ hal::Result<> VolumePainter::prepare_flow(Technique technique) {
   return made;
 }
 
+bool VolumePainter::drawn_by_gl(const ViewState& view, RayBackend rays) const {
+  return view.technique != Technique::surface &&
+         (!ray_mode(view.technique) || rays != RayBackend::processor);
+}
+
 // Of two sections the flat pictures and a cut's faces are made; all else the processor draws from its own copy.
 TextureParts VolumePainter::parts_for(const ViewState& view, RayBackend rays) const {
-  return {.all = !ray_mode(view.technique) || rays != RayBackend::processor,
+  return {.all = view.technique == Technique::surface || drawn_by_gl(view, rays),
           .b_scan = view.b_scan,
           .a_scan = view.a_scan};
+}
+
+// Where a cover is drawn weaker, GL draws the volume from that one's texture.
+TextureParts VolumePainter::level_parts_for(const ViewState& view, RayBackend rays) const {
+  TextureParts parts = parts_for(view, rays);
+  parts.all = parts.all && !(weakened_shows_ && drawn_by_gl(view, rays));
+  return parts;
 }
 
 TextureParts VolumePainter::expected_parts() const {
@@ -234,13 +256,16 @@ TextureParts VolumePainter::expected_parts() const {
 hal::Result<> VolumePainter::complete(const pipeline::Volume& volume, const ViewState& view,
                                       const DrawQuality& quality) {
   completed_by_caller_ = true;
-  expected_ = parts_for(view, backend(quality));
+  expected_ = level_parts_for(view, backend(quality));
   if (empty())
     return {};
   if (!texture_.holds(expected_))
     HAL_CHECK(texture_.renew(volume, {}, expected_));
-  return needs_flow_texture(view, backend(quality)) ? bring_flow_texture(volume, expected_)
-                                                    : hal::Result<>{};
+  if (drawn_by_gl(view, backend(quality)))
+    HAL_CHECK(drawn_texture());
+  return needs_flow_texture(view, backend(quality))
+             ? bring_flow_texture(volume, parts_for(view, backend(quality)))
+             : hal::Result<>{};
 }
 
 hal::Result<const VolumeTexture*> VolumePainter::drawn_texture() {
@@ -356,14 +381,15 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
       refuse_flow(std::move(made.error()));
   update_transfer(view);
   expect(view);
-  const TextureParts parts = parts_for(view, backend(quality));
-  if (!texture_.holds(parts) || (needs_flow_texture(view, backend(quality)) &&
-                                 (flow_uploads_ != uploads_ || !flow_texture_.holds(parts))))
+  const RayBackend rays = backend(quality);
+  if (!texture_.holds(level_parts_for(view, rays)) ||
+      (needs_flow_texture(view, rays) &&
+       (flow_uploads_ != uploads_ || !flow_texture_.holds(parts_for(view, rays)))))
     return hal::fail(hal::ErrorCode::invalid_argument,
                      "volume display: found parts of a volume, expected complete() for this view");
   const VolumeTexture* drawn = &texture_; // the processor's rays need only its shape
   const bool surface = view.technique == Technique::surface;
-  if (!processor && !surface) {
+  if (drawn_by_gl(view, rays)) {
     HAL_TRY(drawn, drawn_texture());
   }
   VolumeScene scene{
@@ -372,6 +398,7 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   scene.cut_away = cut_away(view, camera, texture_.geometry());
   scene.light = light_for(view);
   scene.changed = changed_;
+  scene.team = team_.get();
   FlowScene flow = flow_scene(view.opacity);
   scene.flow = draws_flow(view) ? &flow : nullptr;
   surface_lacks_flow_ = false;

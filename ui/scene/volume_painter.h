@@ -43,8 +43,8 @@ constexpr float window_lift(Technique technique) {
 // geometry changes, or when a technique, an eye or a backend is first used.
 class VolumePainter {
 public:
-  // `threads` is kept and called on each thread started here, now or later: "rays" (several: the
-  // ray caster's helpers) and "surface" (the iso-surface's). ErrorCode::unsupported: this GL cannot
+  // `threads` is kept and called on each thread started here, now or later: "rays" (several: those
+  // that help to draw) and "surface" (the iso-surface's). ErrorCode::unsupported: this GL cannot
   // compile the shaders.
   static hal::Result<VolumePainter> create(const TransferSet& transfers = {},
                                            const pipeline::ThreadSetup& threads = {});
@@ -130,8 +130,8 @@ public:
   const pipeline::Occupancy& occupancy() const { return occupancy_; } // of the shown volume
   std::uint64_t uploads() const { return uploads_; }                  // the number of volumes shown
 
-  // The processor's drawing threads, for other work between two pictures; null: there are none.
-  WorkTeam* team() { return caster_ ? &caster_->team() : nullptr; }
+  // The drawing threads, for other work between two pictures.
+  WorkTeam* team() { return team_.get(); }
 
   // The number of pictures that update() drew; unchanged pictures are not redrawn.
   std::uint64_t drawings() const;
@@ -164,13 +164,16 @@ private:
   hal::Result<> renew_for_rays(const pipeline::Volume& volume,
                                std::span<const pipeline::BScanRange> changed);
   void prepare_b_scan(const pipeline::Volume& volume, int b_scan);
+  void prepare_b_scans(const pipeline::Volume& volume, const pipeline::BScanRange& range);
   bool needs_flow_texture(const ViewState& view, RayBackend rays) const;
   hal::Result<> bring_flow_texture(const pipeline::Volume& volume, const TextureParts& parts);
   hal::Result<> make_flow_programs(Technique technique, bool by_gl);
   FlowScene flow_scene(float view_opacity) const;
   bool match_flow(FlowScene& flow) const;
   TextureParts expected_parts() const;
+  bool drawn_by_gl(const ViewState& view, RayBackend rays) const;
   TextureParts parts_for(const ViewState& view, RayBackend rays) const;
+  TextureParts level_parts_for(const ViewState& view, RayBackend rays) const;
   hal::Result<const VolumeTexture*> drawn_texture();
   hal::Result<EyePictures*> pictures_of(StereoEye eye);
   void update_transfer(const ViewState& of);
@@ -197,6 +200,7 @@ private:
   bool software_;
   TransferSet transfers_;
   pipeline::ThreadSetup threads_;
+  std::shared_ptr<WorkTeam> team_; // the ray caster works with it, too
   VolumeTexture texture_;
   TextureParts expected_; // of it, where the caller completes them
   bool completed_by_caller_ = false;

@@ -52,11 +52,11 @@ void RayCastTechnique::prepare_bricks(const VolumeScene& scene) {
     return;
   const bool maximum = mode_ == RayMode::maximum; // that of flow is looked for on its own
   if (scene.flow != nullptr && !maximum)
-    flow_bricks_.update_flow(scene.flow->occupancy, false);
+    flow_bricks_.update_flow(scene.flow->occupancy, false, scene.team);
   bricks_.update(*scene.occupancy, scene.transfer.visible(),
-                 maximum ? Visibility::maximum : Visibility::range, nullptr, {},
+                 maximum ? Visibility::maximum : Visibility::range, scene.team, {},
                  scene.flow != nullptr && !maximum ? &flow_bricks_ : nullptr);
-  distances_.measure(bricks_);
+  distances_.measure(bricks_, scene.team);
   const pipeline::BrickCounts& n = bricks_.counts();
   glActiveTexture(GL_TEXTURE0 + brick_unit);
   if (!brick_texture_ || n != brick_counts_) {

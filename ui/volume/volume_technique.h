@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "pipeline/threads/work_team.h"
 #include "pipeline/volume/occupancy.h"
 #include "ui/depth_mask/depth_mask.h"
 #include "ui/ray_caster/light_volume.h"
@@ -32,6 +33,7 @@ struct VolumeScene {
   const FlowScene* flow = nullptr;    // null: nothing of it is drawn
   // In what B-scans the volume differs from that of the upload before; empty: in any.
   std::span<const pipeline::BScanRange> changed{};
+  WorkTeam* team = nullptr; // shares what the processor has to prepare; null: there is none
 };
 
 // Threads: as gl/objects.h. draw() allocates nothing after the first picture of a size.

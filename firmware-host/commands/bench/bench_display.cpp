@@ -131,7 +131,10 @@ private:
     const ui::Camera camera = ui::make_camera(view, ui::box_extents_mm(volume_.geometry), aspect);
     ui::DrawQuality quality{1, what.steps};
     quality.rays = what.backend;
-    HAL_CHECK(painter_.finish(volume_, view));
+    HAL_CHECK(painter_.finish(volume_, view, quality));
+    if (casts_rays(what.technique) && painter_.backend(quality) != what.backend)
+      return hal::fail(hal::ErrorCode::unsupported,
+                       "bench display: this processor casts no rays; measure with --drawn-by gl");
     HAL_CHECK(painter_.update(ui::StereoEye::centre, view, camera, quality, rect));
     ui::gl::clear_to_black(what.width, what.height);
     painter_.composite(ui::StereoEye::centre, rect, what.height);

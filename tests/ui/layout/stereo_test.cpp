@@ -109,7 +109,7 @@ TEST(Stereo, each_eye_has_half_of_the_frame) {
 // The processor's ray caster against rays in double precision, for an eye that looks past the
 // middle of its picture.
 TEST(Stereo, rays_are_cast_from_each_eye) {
-  auto made = RayCaster::create(0, {});
+  auto made = RayCaster::create(std::make_shared<WorkTeam>(0, pipeline::ThreadSetup{}));
   if (!made)
     GTEST_SKIP() << made.error().message;
   constexpr int width = 96;

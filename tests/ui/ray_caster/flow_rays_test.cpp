@@ -34,7 +34,8 @@ protected:
   static constexpr float aspect = static_cast<float>(width) / height;
 
   void SetUp() override {
-    auto made = ui::RayCaster::create(1, {}, GetParam());
+    auto made = ui::RayCaster::create(std::make_shared<ui::WorkTeam>(1, pipeline::ThreadSetup{}),
+                                      GetParam());
     ASSERT_TRUE(made) << made.error().message;
     caster_ = std::make_unique<ui::RayCaster>(std::move(*made));
   }

@@ -45,7 +45,7 @@ pipeline::Volume dome() {
 class GrainTest : public testing::TestWithParam<ui::RayMode> {
 protected:
   void SetUp() override {
-    auto made = ui::RayCaster::create(1, {});
+    auto made = ui::RayCaster::create(std::make_shared<ui::WorkTeam>(1, pipeline::ThreadSetup{}));
     ASSERT_TRUE(made) << made.error().message;
     caster_ = std::make_unique<ui::RayCaster>(std::move(*made));
     const pipeline::Volume volume = dome();

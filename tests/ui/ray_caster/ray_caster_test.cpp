@@ -29,7 +29,8 @@ constexpr pipeline::VolumeGeometry tissue{70, 45, 21, 25.6, 66.7, 142.9}; // of 
 constexpr pipeline::VolumeGeometry cube{32, 32, 32, 50, 50, 50};
 
 ui::RayCaster make_caster(std::string_view isa = {}, std::size_t helpers = 1) {
-  auto made = ui::RayCaster::create(helpers, {}, isa);
+  auto made =
+      ui::RayCaster::create(std::make_shared<ui::WorkTeam>(helpers, pipeline::ThreadSetup{}), isa);
   EXPECT_TRUE(made) << made.error().message;
   return std::move(*made);
 }
@@ -340,7 +341,9 @@ TEST(RayCaster, says_what_it_cannot_draw) {
   pipeline::Volume torn = uniform_volume(cube, 0);
   torn.levels.pop_back();
   EXPECT_THAT(show(caster, torn), FailsSaying("32767"));
-  EXPECT_THAT(ui::RayCaster::create(0, {}, "abacus"), FailsSaying("abacus"));
+  EXPECT_THAT(
+      ui::RayCaster::create(std::make_shared<ui::WorkTeam>(0, pipeline::ThreadSetup{}), "abacus"),
+      FailsSaying("abacus"));
 }
 
 } // namespace

@@ -51,7 +51,9 @@ double mean_opacity(const StagePicture& picture) {
 
 VolumeStage::VolumeStage()
     : table_{std::make_unique<ui::TransferTable>()}, picture_{must(ui::VolumePicture::create())},
-      caster_{must(ui::RayCaster::create(1, {}))} {}
+      caster_{
+          must(ui::RayCaster::create(std::make_shared<ui::WorkTeam>(1, pipeline::ThreadSetup{})))} {
+}
 
 void VolumeStage::show(const pipeline::Volume& volume) {
   occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
