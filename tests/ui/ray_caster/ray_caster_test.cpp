@@ -1,6 +1,7 @@
 // The processor's ray caster against a slow one in double precision, and against closed forms.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 

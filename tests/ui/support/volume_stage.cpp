@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <GLES3/gl3.h>
 #include <gtest/gtest.h>
