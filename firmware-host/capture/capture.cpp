@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -13,7 +12,6 @@
 #include "firmware-host/capture/line_averager.h"
 #include "firmware-host/configuration/kept/configuration_choice.h"
 #include "firmware-host/devices/devices.h"
-#include "firmware-host/outputs/hung_disk.h"
 #include "firmware-host/reconstruction/reconstruction.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
 #include "firmware-host/run/raw_recording.h"
@@ -45,7 +43,6 @@ public:
   void remove_file() const;
 
 private:
-  void end_recording(const std::string& camera);
   hal::Result<> make_devices(const Configuration& configuration);
   void make_threads(const Configuration& configuration);
   std::uint64_t most_frames() const;
@@ -201,7 +198,7 @@ hal::Result<> Capture::run(StopSignal& stop_signal) {
     started = acquisition_->start(threads);
   if (!started) {
     if (recorder_)
-      end_recording({});
+      recorder_->stop({});
     remove_file();
     return started;
   }
@@ -210,27 +207,12 @@ hal::Result<> Capture::run(StopSignal& stop_signal) {
   if (::isatty(STDERR_FILENO) != 0)
     firmware_host::show_progress("");
   volumes_->stop();
-  const std::string camera = devices_->line_camera().identity();
-  acquisition_->stop();
   if (recorder_)
-    end_recording(camera);
+    recorder_->stop(devices_->line_camera().identity());
   else if (averager_->lines() > 0)
     HAL_CHECK(write_mean());
+  acquisition_->stop();
   return tell(std::move(waited));
-}
-
-// What hangs is left behind, and with it the program.
-void Capture::end_recording(const std::string& camera) {
-  const auto progress = [this] { return recorder_->status().kept + recorder_->status().not_kept; };
-  if (ends_in_time([this, camera] { recorder_->stop(camera); }, progress, patience_at_terminal,
-                   clock_))
-    return;
-  const auto status = recorder_->status();
-  warn("octascope capture: {}\n",
-       hung_disk(options_.file.string(),
-                 fmt::format("{} of {} frames", status.kept, status.offered), patience_at_terminal)
-           .message);
-  leave_at_once(EXIT_FAILURE);
 }
 
 // Never one that is not of this capture.

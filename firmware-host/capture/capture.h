@@ -22,8 +22,7 @@ struct CaptureOptions {
 
 // Acquires until all are there or a stop is requested, and tells what the file holds. The Error's
 // message is for the user; ErrorCode::invalid_argument: another command line would fix it;
-// timed_out: nothing comes any more. Where the file's disk hangs at the end, it says so and ends the
-// program (hung_disk.h).
+// timed_out: nothing comes any more.
 hal::Result<> capture(const CaptureOptions& options, StopSignal& stop_signal);
 
 } // namespace octascope::firmware_host

@@ -26,13 +26,13 @@ std::size_t places_for(const pipeline::VolumeGeometry& geometry) {
   return std::clamp(memory_for_places / geometry.voxels(), std::size_t{2}, most_places);
 }
 
-constexpr std::chrono::seconds patience_with_disk{2};
+constexpr hal::Duration patience_with_disk = 10s;
 
 } // namespace
 
 RunRecorder::RunRecorder(RecordingSetup setup, hal::Clock& clock, pipeline::FaultLog& faults,
                          pipeline::Wakeup& news)
-    : setup_(std::move(setup)), clock_(clock), faults_(faults),
+    : setup_(std::move(setup)), clock_(clock),
       recorder_(setup_.facts.geometry, places_for(setup_.facts.geometry), clock, faults, news) {}
 
 hal::Result<> RunRecorder::check() const {
@@ -56,25 +56,14 @@ hal::Result<> RunRecorder::start(const pipeline::ThreadSetup& setup) {
   while (!recorder_.status().on) {
     if (const auto failure = recorder_.failure())
       return hal::fail(hal::ErrorCode::system, failure->message);
-    if (clock_.now() > deadline) {
-      tell_of_waiting(clock_.now());
-      return {};
-    }
+    if (clock_.now() > deadline)
+      return hal::fail(hal::ErrorCode::timed_out,
+                       setup_.file->string() +
+                           ": its disk has not answered for ten seconds: look at it, or "
+                           "record to another one");
     clock_.sleep_for(1ms);
   }
   return {};
-}
-
-void RunRecorder::tell_of_waiting(hal::TimePoint now) {
-  told_of_waiting_ = now;
-  faults_.add(
-      pipeline::Fault::recording_waits,
-      [this] {
-        return fmt::format("{}: its disk has not made the file for {} s; it is waited for, and no "
-                           "volume is kept until then",
-                           setup_.file->string(), patience_with_disk.count());
-      },
-      now);
 }
 
 void RunRecorder::stop() {
@@ -143,10 +132,8 @@ std::optional<hal::Duration> time_left(hal::Duration lasted, std::uint64_t kept,
       static_cast<std::int64_t>(std::min(each * static_cast<double>(*room), longest))};
 }
 
-ui::RecordingStatus RunRecorder::status(hal::TimePoint now) {
+ui::RecordingStatus RunRecorder::status(hal::TimePoint now) const {
   const pipeline::RecorderStatus recorder = recorder_.status();
-  if (told_of_waiting_ && recorder.beginning && now - *told_of_waiting_ > patience_with_disk)
-    tell_of_waiting(now);
   ui::RecordingStatus status;
   status.on = recorder.on;
   if (!status.on)

@@ -45,23 +45,14 @@ public:
   // Checks that the setup's file could be made; leaves nothing behind.
   hal::Result<> check() const;
 
-  // Starts the recording into the setup's file, if any, and waits until volumes are accepted; where
-  // the disk does not answer, only for two seconds: it begins when the file is made, and until then a
-  // fault says so again and again.
+  // Starts the recording into the setup's file, if any, and waits until volumes are accepted.
   hal::Result<> start(const pipeline::ThreadSetup& setup);
   void stop();
-  // The part of stop() that waits for the disk; on any one thread.
-  void end_writing() { recorder_.stop(); }
 
   // Begins a recording or ends the present one; returns the text to show.
   std::string_view toggle();
 
-  ui::RecordingStatus status(hal::TimePoint now);
-
-  // Volumes of the present recording that were handed to its disk. Any thread.
-  std::uint64_t written() const { return recorder_.status().kept; }
-  // Of the present recording, or of the last; empty: there was none.
-  std::filesystem::path newest_file() const { return kept_.empty() ? "" : kept_.back().file; }
+  ui::RecordingStatus status(hal::TimePoint now) const;
 
   // After stop(): every recording of the run, in order.
   const std::vector<KeptRecording>& kept() const { return kept_; }
@@ -74,13 +65,10 @@ public:
 
 private:
   bool begin(const std::filesystem::path& file);
-  void tell_of_waiting(hal::TimePoint now);
   void note_counts();
 
   RecordingSetup setup_;
   hal::Clock& clock_;
-  pipeline::FaultLog& faults_;
-  std::optional<hal::TimePoint> told_of_waiting_; // last, for the setup's file
   pipeline::Recorder recorder_;
   std::vector<KeptRecording> kept_;
 };

@@ -5,7 +5,6 @@
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/configuration/kept/configuration_choice.h"
 #include "firmware-host/configuration/kept/configuration_watch.h"
-#include "firmware-host/outputs/hung_disk.h"
 #include "firmware-host/outputs/local_time.h"
 #include "firmware-host/outputs/picture_writer.h"
 #include "firmware-host/report/notice.h"
@@ -98,16 +97,6 @@ public:
     if (trace_)
       HAL_CHECK(leave_trace(*trace_, options_, times_.started));
     return source_->outcome();
-  }
-
-  void end_if_disk_hangs(int exit_status) override {
-    if (!source_->waits_for_disk())
-      return;
-    loop_.reset(); // what of GL is left goes with the display
-    vessels_.reset();
-    controls_.reset();
-    devices_->display().close();
-    leave_at_once(exit_status);
   }
 
 private:

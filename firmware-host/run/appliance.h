@@ -26,10 +26,6 @@ public:
   // requested. Then writes snapshot and report, and prints the summary. ErrorCode::bad_data: none
   // of a recording's volumes could be read any more.
   virtual hal::Result<> run(StopSignal& stop_signal) = 0;
-
-  // After run(). Does nothing, unless a recording's disk hangs: then it releases the devices and ends
-  // the program, as destroying the appliance would wait for that disk.
-  virtual void end_if_disk_hangs(int exit_status) = 0;
 };
 
 } // namespace octascope::firmware_host

@@ -5,7 +5,6 @@
 
 #include "firmware-host/configuration/kept/configuration_choice.h"
 #include "firmware-host/devices/calibrated_camera.h"
-#include "firmware-host/outputs/hung_disk.h"
 #include "firmware-host/outputs/run_recorder.h"
 #include "firmware-host/reconstruction/reconstruction.h"
 #include "firmware-host/reconstruction/reconstruction_cache.h"
@@ -78,16 +77,11 @@ public:
   void stop() override;
   hal::Result<> report(const RenderLoop& loop, const RunTimes& times) const override;
   hal::Result<> outcome() const override {
-    if (hung_disk_)
-      return tl::make_unexpected(*hung_disk_);
     HAL_CHECK(recordings_->outcome());
     return raw_ ? raw_outcome(*raw_) : hal::Result<>{};
   }
 
-  bool waits_for_disk() const override { return hung_disk_.has_value(); }
-
 private:
-  void end_recordings(const std::string& camera);
   bool wait_for_udev();
   void look_out_for_camera();
   void heed_camera_hotplug();
@@ -112,7 +106,6 @@ private:
   std::unique_ptr<pipeline::ScopeThread> scope_;
   std::unique_ptr<CameraHotplug> camera_hotplug_; // while a twin serves in its place
   bool ends_for_camera_ = false;
-  std::optional<hal::Error> hung_disk_; // at the end
 };
 
 hal::Result<> LiveSource::prepare(Devices& devices, DeviceChoices choices) {
@@ -264,41 +257,15 @@ hal::Result<> LiveSource::start() {
   return {};
 }
 
-// Consumers first: the acquisition waits for its loans. Recordings have copies, and are last: a disk
-// that hangs shall hold no device.
+// Consumers first: the acquisition waits for its loans.
 void LiveSource::stop() {
   volumes_->stop();
-  const std::string camera = devices_->line_camera().identity();
+  recordings_->stop();
+  if (raw_)
+    raw_->stop(devices_->line_camera().identity());
   acquisition_->stop();
   if (scope_)
     scope_->stop();
-  end_recordings(camera);
-}
-
-void LiveSource::end_recordings(const std::string& camera) {
-  const hal::Duration patience =
-      service_folders().state ? patience_of_service : patience_at_terminal;
-  const auto end = [this, camera] {
-    if (raw_)
-      raw_->stop(camera);
-    recordings_->end_writing();
-  };
-  const auto progress = [this] {
-    const auto raw = raw_ ? raw_->status() : pipeline::RawRecorderStatus{};
-    return recordings_->written() + raw.kept + raw.not_kept;
-  };
-  if (ends_in_time(end, progress, patience, clock_)) {
-    recordings_->stop();
-    return;
-  }
-  std::string files = recordings_->newest_file().string();
-  std::string kept = fmt::format("{} volumes", recordings_->written());
-  if (raw_) {
-    const auto raw = raw_->status();
-    files = raw_->file().string() + (files.empty() ? "" : " or " + files);
-    kept = fmt::format("{} of {} frames", raw.kept, raw.offered);
-  }
-  hung_disk_ = hung_disk(files, kept, patience);
 }
 
 void LiveSource::describe(HostStatus& host, hal::TimePoint now) {
@@ -342,8 +309,6 @@ RunStatistics LiveSource::account(const RenderLoop& loop) const {
 
 hal::Result<> LiveSource::report(const RenderLoop& loop, const RunTimes& times) const {
   HAL_CHECK(leave_report(report_on(account(loop), times, faults_.records()), options_));
-  if (hung_disk_)
-    return {};
   for (const KeptRecording& recording : recordings_->kept())
     if (recording.is_there() && recording.kept > 0)
       say("recording: {}, {} volumes{}\n", recording.file.string(), recording.kept,

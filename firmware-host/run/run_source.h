@@ -73,8 +73,6 @@ public:
   virtual void stop() = 0;
   virtual hal::Result<> report(const RenderLoop& loop, const RunTimes& times) const = 0;
   virtual hal::Result<> outcome() const { return {}; }
-  // After stop(): a disk that hangs still has a thread, and this object cannot be destroyed.
-  virtual bool waits_for_disk() const { return false; }
 
 protected:
   explicit RunSource(const RunContext& run)

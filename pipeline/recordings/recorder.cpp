@@ -91,9 +91,7 @@ void Recorder::offer(const Volume& volume) {
 
 RecorderStatus Recorder::status() const {
   const std::uint64_t room = room_.load(std::memory_order_relaxed);
-  const State state = state_.load(std::memory_order_acquire);
-  return {.on = state == State::on,
-          .beginning = state == State::beginning,
+  return {.on = state_.load(std::memory_order_acquire) == State::on,
           .since = hal::TimePoint{hal::Duration{since_ns_.load(std::memory_order_relaxed)}},
           .kept = kept_.load(std::memory_order_relaxed),
           .not_kept = not_kept_.load(std::memory_order_relaxed),

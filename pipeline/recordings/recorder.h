@@ -20,7 +20,6 @@ namespace octascope::pipeline {
 
 struct RecorderStatus {
   bool on = false;                   // volumes are being taken
-  bool beginning = false;            // the file is being made: none is kept yet
   hal::TimePoint since;              // valid while `on`
   std::uint64_t kept = 0;            // volumes of this recording, or of the last
   std::uint64_t not_kept = 0;        // no place was free: the disk was too slow

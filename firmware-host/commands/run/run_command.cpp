@@ -96,10 +96,9 @@ int run(const char* command, const RunArguments& arguments) {
   auto appliance = Appliance::assemble(*options, &crash_report);
   if (!appliance)
     return complain(command, appliance.error());
-  const auto ran = (*appliance)->run(stop_signal);
-  const int exit_status = ran ? exit_done : complain(command, ran.error());
-  (*appliance)->end_if_disk_hangs(exit_status);
-  return exit_status;
+  if (const auto ran = (*appliance)->run(stop_signal); !ran)
+    return complain(command, ran.error());
+  return exit_done;
 }
 
 void add_options(CLI::App& command, RunArguments& a) {

@@ -199,9 +199,7 @@ protected:
     std::vector<std::string> words{"env", "RUNTIME_DIRECTORY=" + folder.path().string(),
                                    std::string{"LD_PRELOAD="} + OCTASCOPE_STOPPED_DISK_LIBRARY,
                                    "OCTASCOPE_STOPPED_DISK=" + stopped.string()};
-    words.insert(words.end(), environment.begin(), environment.end());
     auto record = octascope_command(small_raw_record(folder, {"--duration", "300"}));
-    record[record.size() - 2] = kept;
     record.back() = file;
     words.insert(words.end(), record.begin(), record.end());
     run = std::make_unique<ProgramRun>(words);
@@ -215,12 +213,6 @@ protected:
   bool displays(std::uint64_t volumes) const {
     return comes_true([&](const auto& status) { return displayed(status) >= volumes; });
   }
-  bool waits_for_disk() const {
-    return comes_true([](const auto& status) {
-      return status.is_object() &&
-             status.dump().find("its disk has not made the file") != std::string::npos;
-    });
-  }
   void end() const {
     run->send_signal(SIGINT);
     const ProgramResult result = run->wait(60s);
@@ -228,25 +220,7 @@ protected:
     EXPECT_THAT(result.out, testing::ContainsRegex("raw.h5, [0-9]+ frames, [1-9][0-9]* not kept"));
   }
 
-  // While it stands still; as a service, which is not given long.
-  void ends_all_the_same(const std::string& option, const std::string& thread) {
-    environment = {"STATE_DIRECTORY=" + (folder / "state").string()};
-    kept = option;
-    start();
-    ASSERT_TRUE(run->wait_for_thread(thread, 60s));
-    ASSERT_TRUE(displays(3));
-    folder.write("disk/stopped", "");
-    ASSERT_TRUE(displays(displayed(status_of(folder / "status.sock")) + 3));
-    run->send_signal(SIGINT);
-    const ProgramResult result = run->wait(60s);
-    EXPECT_EQ(result.exit_status, 1) << result.describe();
-    EXPECT_THAT(result.err, testing::ContainsRegex("raw.h5: its disk has not answered for 2 s.*"
-                                                   "[1-9][0-9]* (of [0-9]+ frames|volumes) were"));
-  }
-
   const ScratchFolder folder;
-  std::vector<std::string> environment;
-  std::string kept = "--raw";
   const std::filesystem::path stopped = folder / "disk/stopped";
   const std::filesystem::path file = folder / "disk/raw.h5";
   std::unique_ptr<ProgramRun> run;
@@ -272,7 +246,10 @@ TEST_F(StoppedDisk, from_the_start_on_holds_up_no_display_and_is_recorded_to_lat
   folder.write("disk/stopped", "");
   start();
   ASSERT_TRUE(displays(3));
-  EXPECT_TRUE(waits_for_disk());
+  EXPECT_TRUE(comes_true([](const auto& status) {
+    return status.is_object() &&
+           status.dump().find("its disk has not made the file") != std::string::npos;
+  }));
   std::filesystem::remove(stopped);
   EXPECT_TRUE(
       comes_true([this](const auto&) { return std::filesystem::file_size(file) > 1'000'000; }));
@@ -280,29 +257,6 @@ TEST_F(StoppedDisk, from_the_start_on_holds_up_no_display_and_is_recorded_to_lat
   const auto raw = must_open<pipeline::RawReader>(file);
   EXPECT_GT(raw.end().not_kept, 0U);
   EXPECT_GT(raw.frames().size(), 0U);
-}
-
-TEST_F(StoppedDisk, from_the_start_on_is_recorded_levels_to_later) {
-  kept = "--out";
-  folder.write("disk/stopped", "");
-  start();
-  ASSERT_TRUE(displays(3));
-  EXPECT_TRUE(waits_for_disk());
-  std::filesystem::remove(stopped);
-  EXPECT_TRUE(
-      comes_true([this](const auto&) { return std::filesystem::file_size(file) > 100'000; }));
-  run->send_signal(SIGINT);
-  const ProgramResult result = run->wait(60s);
-  EXPECT_EQ(result.exit_status, 0) << result.describe();
-  run_well({"info", file}); // finished
-}
-
-TEST_F(StoppedDisk, of_raw_spectra_does_not_hold_up_the_end_of_the_program) {
-  ends_all_the_same("--raw", "octa-raw-sync");
-}
-
-TEST_F(StoppedDisk, of_levels_does_not_hold_up_the_end_of_the_program) {
-  ends_all_the_same("--out", "octa-recorder");
 }
 
 TEST(RawSpectra, end_before_the_disk_is_full) {
