@@ -94,7 +94,6 @@ FlowShown Renderer::Parts::flow_of(const ViewState& view) const {
   if (!flow_shown(view))
     return flow;
   flow.shown = true;
-  flow.surface_lacks = view.technique == Technique::surface && volume.surface_lacks_flow();
   flow.b_scan = flow_states[static_cast<std::size_t>(view.b_scan)];
   flow.told = static_cast<int>(std::ranges::count(flow_states, pipeline::FlowState::told));
   flow.left_out = static_cast<int>(std::ranges::count(flow_states, pipeline::FlowState::left_out));

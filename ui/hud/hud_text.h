@@ -85,10 +85,9 @@ struct FlowShown {
   pipeline::FlowState b_scan = pipeline::FlowState::none; // of the one in the panel
   int told = 0;                                           // B-scans, of the volume
   int left_out = 0;                                       // likewise, as they moved
-  double deepest_mm = 0;      // below the surface: the last hue; 0: nothing flows
-  bool in_scope = false;      // in the microscope's picture, too
-  bool surface_lacks = false; // the iso-surface's own is gone: none is painted on it
-  int none = 0; // B-scans that came, and of which nothing was asked or a sweep was missing
+  double deepest_mm = 0; // below the surface: the last hue; 0: nothing flows
+  bool in_scope = false; // in the microscope's picture, too
+  int none = 0;          // B-scans that came, and of which nothing was asked or a sweep was missing
 };
 
 // What the renderer shows.
@@ -105,7 +104,7 @@ struct ShownPictures {
 struct HudText {
   // One per kind, and two of kind incomplete.
   static constexpr std::size_t most_badges = 10;
-  static constexpr std::size_t most_troubles = Status::most_devices + 8;
+  static constexpr std::size_t most_troubles = Status::most_devices + 7;
 
   // Lines, frames and volumes per second: dropped in this order if the strip is too narrow.
   static constexpr std::array<std::size_t, 3> dispensable_figures{1, 2, 0};

@@ -401,7 +401,6 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   scene.team = team_.get();
   FlowScene flow = flow_scene(view.opacity);
   scene.flow = draws_flow(view) ? &flow : nullptr;
-  surface_lacks_flow_ = false;
   std::optional<CutFace>& cut_face = scene.flow != nullptr ? flow_cut_face_ : cut_face_;
   if (!scene.cut_away.nothing() && !cut_face) {
     HAL_TRY(auto made, CutFace::create(scene.flow != nullptr ? WithFlow::yes : WithFlow::no));
@@ -416,10 +415,8 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   if (surface) {
     HAL_CHECK(techniques_.get(view.technique));
     scene.mesh = techniques_.surface()->prepare(view);
-    if (scene.flow != nullptr && !match_flow(flow)) {
+    if (scene.flow != nullptr && !match_flow(flow))
       scene.flow = nullptr;
-      surface_lacks_flow_ = techniques_.surface()->mesh_of() != 0;
-    }
   }
   pictures->processor_drew = processor;
   const auto vessels =

@@ -99,9 +99,6 @@ public:
   void refuse_flow(hal::Error why);
   // Empty: flow can be drawn, as far as was tried.
   const std::optional<hal::Error>& flow_refusal() const { return flow_refusal_; }
-  // Whether the iso-surface that was drawn last lacks the flow of its volume, which is gone: the mesh
-  // is two volumes late.
-  bool surface_lacks_flow() const { return surface_lacks_flow_; }
 
   // Brings the eye's picture up to date; `camera` must be that eye's, with the rectangle's aspect.
   // ErrorCode::invalid_argument: complete() was not called for it.
@@ -222,8 +219,7 @@ private:
   pipeline::Occupancy flow_occupancy_;
   bool flow_wanted_ = shows_flow(ViewState{});
   std::optional<hal::Error> flow_refusal_; // why none is drawn
-  bool surface_lacks_flow_ = false;
-  bool has_flow_ = false; // the volume shown
+  bool has_flow_ = false;                  // the volume shown
   bool flow_shows_ = false;
   float see_through_db_ = ViewState{}.see_through_db; // of the last view
   float shown_see_through_db_ = 0;                    // of the volume shown
