@@ -119,7 +119,7 @@ hal::Result<> TargetPicture::find_threshold() {
     return hal::fail(ErrorCode::bad_data,
                      "no target: bright and dark places differ by {:.1f} dB, expected at least "
                      "{:.0f}; it is level (tilt it by a degree or two), or not within the field, "
-                     "the depth range or the focus",
+                     "the depth range or the focus.",
                      contrast_db_, least_contrast_db);
   return {};
 }
@@ -197,7 +197,7 @@ std::string TargetPicture::likely_reason() const {
   const double b_samples = (b_.last - b_.first) * bar_width / target_units;
   if (std::min(a_samples, b_samples) < least_samples)
     return fmt::format("It is too small in this field: a bar is {:.1f} {}-scans wide, expected at "
-                       "least {:.0f}; scan a smaller field, or take a larger target",
+                       "least {:.0f}; scan a smaller field, or take a larger target.",
                        std::min(a_samples, b_samples), a_samples < b_samples ? 'A' : 'B',
                        least_samples);
   for (const bool along_a : {true, false})
@@ -205,11 +205,10 @@ std::string TargetPicture::likely_reason() const {
       if (reaches_border(along_a, first))
         return fmt::format(
             "It reaches the {} {}-scan: is it wholly within the field? Move it, scan "
-            "a larger field, or take a smaller target",
+            "a larger field, or take a smaller target.",
             first ? "first" : "last", along_a ? 'A' : 'B');
   return "Is it the target, flat, in focus, and turned by a few degrees at most against the axes "
-         "of "
-         "the scan?";
+         "of the scan?";
 }
 
 hal::Result<TargetMeasurement> TargetPicture::find_orientation() const {

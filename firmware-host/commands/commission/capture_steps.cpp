@@ -125,7 +125,7 @@ hal::Result<> judge_tissue(Bench& bench, const std::filesystem::path& file, Step
         to_numbers(tissue.b_scan((2 * i + 1) * shape.b_scans / (2 * judged)), tissue.type()));
   const auto highest = power.highest();
   record.found.emplace_back("brightest depth",
-                            fmt::format("{:.1f} dB above the noise, at bin {} of {}",
+                            fmt::format("{:.1f} dB above the noise, at depth bin {} of {}",
                                         highest.above_noise_db, highest.bin, shape.samples / 2));
   if (highest.above_noise_db >= least_above_noise_db)
     return {};

@@ -36,7 +36,9 @@ void say_video_nodes(const std::vector<FoundDevice>& nodes) {
         device.usable ? std::string{} : " (" + device.why_not + "; " + device.remedy + ")");
   if (nodes.empty())
     say("  No video node: is the camera on, and its cable and its driver there? `octascope doctor` "
-        "says more.\n  Quit, and begin anew when it is there; a GenICam camera needs none.\n");
+        "says more.\n  Quit, and give the same command again when it is there; a GenICam camera "
+        "needs no "
+        "node.\n");
 }
 
 hal::Result<> ask_which_camera(Bench& bench) {
@@ -57,12 +59,12 @@ hal::Result<> ask_which_camera(Bench& bench) {
 hal::Result<> ask_width(Bench& bench, const char* question, const char* key, double steps) {
   constexpr double usual_mm = 3;
   Session& session = bench.session;
-  const double known_mm = session.number(key, usual_mm * 1000 / steps) * steps / 1000;
+  const double known_um = session.number(key, usual_mm * 1000 / steps);
+  const double known_mm = known_um * steps / 1000;
   const double offered_mm =
       hal::number_of<double>(fmt::format("{:.4g}", known_mm)).value_or(known_mm);
   HAL_TRY(const double width_mm, bench.dialogue.ask_number(question, offered_mm, 0.01, 1000));
-  const double same_mm = width_mm == offered_mm ? known_mm : width_mm;
-  session.set(key, same_mm * 1000 / steps);
+  session.set(key, width_mm == offered_mm ? known_um : width_mm * 1000 / steps);
   return {};
 }
 
@@ -187,16 +189,19 @@ hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom, SpectrumDi
   }
   std::fflush(stdout);
   for (;;) {
-    HAL_TRY(auto found, look_now(bench, phantom, 1));
+    auto looked = look_now(bench, phantom, 1);
+    if (live && (!looked || looked->mean_line.empty()))
+      show_progress("");
+    HAL_TRY(auto found, std::move(looked));
     if (found.mean_line.empty())
       return hal::fail(hal::ErrorCode::timed_out,
                        "no frame came: is the camera on, and does the trigger start the scanner?");
     if (!live)
       return found;
-    show_progress(fmt::format(
-        "{} {:3.0f} % of full scale, contrast {:4.1f} %, saturated {:.0f} %, lost {}",
-        spectrum_strip(found.mean_line, found.format.full_scale()), found.quality.brightest * 100,
-        found.quality.contrast * 100, found.quality.saturated_share * 100, found.lost_frames));
+    show_progress(fmt::format("{} {:3.0f} % full, contrast {:4.1f} %, saturated {:.0f} %, lost {}",
+                              spectrum_strip(found.mean_line, found.format.full_scale()),
+                              found.quality.brightest * 100, found.quality.contrast * 100,
+                              found.quality.saturated_share * 100, found.lost_frames));
     display.show(found);
     pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
     const bool answered = ::poll(&input, 1, 100) > 0;
@@ -306,7 +311,7 @@ hal::Result<StepRecord> look_at_spectrum(Bench& bench) {
   if (const auto& gain = found.controls.gain)
     record.found.emplace_back("gain", fmt::format("{:g}", gain->value));
   add_quality(record, found);
-  warn_of_light(record, found.quality);
+  warn_of_contrast(record, found.quality);
   const auto picture = bench.session.free_file("spectrum", ".png");
   HAL_CHECK(pipeline::write_png(
       picture, draw_spectrum(found.mean_line, found.one_line, found.format.full_scale())));
@@ -330,7 +335,9 @@ hal::Result<StepRecord> learn_pedal(Bench& bench) {
   const auto device = bench.session.free_file("pedal", ".device.toml");
   const std::string name = device.filename().string();
   const std::string stem = name.substr(0, name.size() - std::string_view{".device.toml"}.size());
-  if (learn_control({.usb = {}, .out = bench.session.folder() / stem}) != exit_done)
+  if (learn_control({.usb = {},
+                     .out = bench.session.folder() / stem,
+                     .reads_input = ::isatty(STDIN_FILENO) != 0}) != exit_done)
     return hal::fail(hal::ErrorCode::absent, "nothing was learned; repeat the step, or skip it");
   bench.session.set("control_device", stem + ".device.toml");
   bench.session.set("control_profile", stem + ".profile.toml");

@@ -206,7 +206,7 @@ hal::Result<StepRecord> check_target(Bench& bench) {
   auto found =
       pipeline::measure_target(en_face, geometry.a_scans, geometry.b_scans, side_mm * 1000);
   if (!found)
-    return hal::fail(found.error().code, "{}. {} shows what was seen", found.error().message,
+    return hal::fail(found.error().code, "{} {} shows what was seen", found.error().message,
                      (bench.session.folder() / record.pictures.front()).string());
   const pipeline::TargetMeasurement measured = *found;
   const double a_before = bench.session.number("a_spacing_um", geometry.a_spacing_um);

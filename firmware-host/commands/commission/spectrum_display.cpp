@@ -72,8 +72,12 @@ bool SpectrumDisplay::ended() {
   if (!devices_)
     return false;
   std::array<hal::DisplayEvent, 16> events;
-  const std::size_t count = devices_->display().poll_events(events);
-  return std::any_of(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(count), ends);
+  for (std::size_t count = events.size(); count == events.size();) {
+    count = devices_->display().poll_events(events);
+    if (std::any_of(events.begin(), events.begin() + static_cast<std::ptrdiff_t>(count), ends))
+      return true;
+  }
+  return false;
 }
 
 void SpectrumDisplay::close() {

@@ -22,7 +22,7 @@ constexpr double lightest = 0.8;
 std::string spectrum_strip(std::span<const double> line, double highest) {
   static constexpr std::array<std::string_view, 9> heights{" ", "▁", "▂", "▃", "▄",
                                                            "▅", "▆", "▇", "█"};
-  constexpr std::size_t letters = 64;
+  constexpr std::size_t letters = 24;
   std::string strip;
   for (std::size_t i = 0; i < letters; ++i) {
     const std::size_t first = line.size() * i / letters;
@@ -54,6 +54,12 @@ void add_quality(StepRecord& record, const LiveLook& look) {
     record.warnings.push_back(
         fmt::format("{:.1f} % of the lines are saturated: less light, or a shorter exposure",
                     quality.saturated_share * 100));
+  if (quality.brightest < darkest || quality.brightest > lightest)
+    record.warnings.push_back(fmt::format(
+        "the brightest sample is {:.1f} % of full scale, expected {:.0f} to {:.0f} %: {}",
+        quality.brightest * 100, darkest * 100, lightest * 100,
+        quality.brightest < darkest ? "more light from the reference arm, or a longer exposure"
+                                    : "less light, or a shorter exposure"));
   if (look.lost_frames + look.broken_frames > 0)
     record.warnings.push_back("frames were lost or broken: see the cable, and whether another "
                               "program keeps the machine busy");
@@ -80,13 +86,7 @@ std::vector<ui::SpectrumFigure> figures_of(const LiveLook& look) {
            unless(look.lost_frames + look.broken_frames == 0, "see cable and other programs")}};
 }
 
-void warn_of_light(StepRecord& record, const pipeline::SpectrumQuality& quality) {
-  if (quality.brightest < darkest || quality.brightest > lightest)
-    record.warnings.push_back(fmt::format(
-        "the brightest sample is {:.0f} % of full scale, expected {:.0f} to {:.0f} %: {}",
-        quality.brightest * 100, darkest * 100, lightest * 100,
-        quality.brightest < darkest ? "more light from the reference arm, or a longer exposure"
-                                    : "less light, or a shorter exposure"));
+void warn_of_contrast(StepRecord& record, const pipeline::SpectrumQuality& quality) {
   if (quality.contrast < least_mirror_contrast)
     record.warnings.push_back(fmt::format(
         "the fringe's contrast is {:.1f} %, expected {:.0f} % or more with a mirror: do "

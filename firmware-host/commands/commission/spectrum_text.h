@@ -12,20 +12,20 @@
 
 namespace octascope::firmware_host {
 
-// 64 letters, each as high as the mean of its pixels: from a blank (0) to a full block (`highest`).
+// 24 letters, each as high as the mean of its pixels: from a blank (0) to a full block (`highest`).
 std::string spectrum_strip(std::span<const double> line, double highest);
 
 // Less is hardly a mirror's fringe: noise alone gives about 1 %.
 inline constexpr double least_mirror_contrast = 0.05;
 
-// Saturation, brightness, dark level, contrast, frames; warns of light that is lost or too much, and
-// of lost frames.
+// Saturation, brightness, dark level, contrast, frames; warns of too little light, of too much, and of
+// lost frames.
 void add_quality(StepRecord& record, const LiveLook& look);
 
 // The same for the display, each with what is good, and what helps.
 std::vector<ui::SpectrumFigure> figures_of(const LiveLook& look);
-// Warns where the light of both arms, with a mirror, is not what captures should begin with.
-void warn_of_light(StepRecord& record, const pipeline::SpectrumQuality& quality);
+// Warns where the arms interfere less than they should, with a mirror.
+void warn_of_contrast(StepRecord& record, const pipeline::SpectrumQuality& quality);
 
 // "62 % of full scale (2539 of 4095 counts)"
 std::string brightness_text(const LiveLook& look);

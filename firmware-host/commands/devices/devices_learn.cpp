@@ -43,7 +43,8 @@ enum class Typed : std::uint8_t { nothing, a_line, the_end };
 // What waits on standard input; no byte after the line is taken.
 Typed typed() {
   pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
-  while (::poll(&input, 1, 0) > 0) {
+  constexpr int most_letters = 4096; // at a time: a signal may have come
+  for (int i = 0; i<most_letters&& ::poll(&input, 1, 0)> 0; ++i) {
     char letter = 0;
     if (::read(STDIN_FILENO, &letter, 1) <= 0)
       return Typed::the_end;
@@ -55,10 +56,11 @@ Typed typed() {
 
 // Vendor and product of the next device that is plugged in. An Error where that is no longer waited
 // for.
-hal::Result<std::string> wait_for_new_device(hal::Clock& clock, StopSignal& stop) {
+hal::Result<std::string> wait_for_new_device(const LearnOptions& options, hal::Clock& clock,
+                                             StopSignal& stop) {
   std::vector<HidNode> known = hal::linux_backend::survey_hid();
   for (;;) {
-    const Typed said = typed();
+    const Typed said = options.reads_input ? typed() : Typed::nothing;
     if (stop.requested() || said == Typed::a_line)
       return hal::fail(hal::ErrorCode::absent, "given up before a device was plugged in");
     if (said == Typed::the_end)
@@ -126,9 +128,10 @@ int learn_control(const LearnOptions& options) {
   hal::linux_backend::MonotonicClock clock;
   std::string usb = options.usb;
   if (usb.empty()) {
-    say("Plug the new device in now, or pull it out and put it in again. Enter gives up.\n");
+    say("Plug the new device in now, or pull it out and put it in again. {} gives up.\n",
+        options.reads_input ? "Enter" : "Ctrl+C");
     std::fflush(stdout);
-    auto found = wait_for_new_device(clock, stop);
+    auto found = wait_for_new_device(options, clock, stop);
     if (!found)
       return complain("devices --learn", found.error());
     usb = std::move(*found);

@@ -182,7 +182,7 @@ TEST(Commission, a_step_that_is_done_again_and_finds_the_same_makes_nothing_outd
 }
 
 // A folder of before the steps knew what they are made of.
-TEST(Commission, takes_a_step_of_an_older_folder_for_up_to_date_until_something_is_repeated) {
+TEST(Commission, takes_a_step_of_an_older_folder_for_up_to_date) {
   const ScratchFolder folder;
   commission(folder, std::string{small_scan} + skipped + skipped + "\n\n\nquit\n");
   auto state = state_in(folder);

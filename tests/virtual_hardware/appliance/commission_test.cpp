@@ -123,8 +123,15 @@ private:
       const std::string log = text_of(log_file);
       asked_ = log.substr(std::min(log.size(), std::max(heard_, log.rfind('\n') + 1)));
       // The prompt ends with the brackets.
-      if (asked_.ends_with("] ") && (asked_.find(question) != std::string::npos ||
-                                     asked_.find("Again?") != std::string::npos)) {
+      const auto asks = [this](std::string_view what) {
+        return asked_.find(what) != std::string::npos;
+      };
+      if (asked_.ends_with("] ") && asks("Keep it all the same?")) {
+        heard_ = log.size();
+        say("no"); // to Again?
+        continue;
+      }
+      if (asked_.ends_with("] ") && (asks(question) || asks("Again?"))) {
         heard_ = log.size();
         return true;
       }
