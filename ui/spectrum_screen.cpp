@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -80,11 +81,9 @@ private:
                    TextStyle::label, palette::quiet_text, words);
     }
     canvas_.line({left_, y(spectrum_.dark)}, {right_, y(spectrum_.dark)}, palette::frozen, thin);
-    const std::string pixels = fmt::format("pixels 0 to {}", spectrum_.mean.size() - 1);
-    canvas_.text({right_ - canvas_.text_width(TextStyle::label, pixels), foot_ + half},
-                 TextStyle::label, palette::quiet_text, pixels);
   }
 
+  // Of curves and, where there is room left, of the axis below them.
   void name_curves() const {
     float left = left_;
     const std::array<std::pair<Colour, const char*>, 4> names{{{palette::accent, "mean"},
@@ -99,6 +98,10 @@ private:
       left += canvas_.text({left, foot_ + half}, TextStyle::label, palette::quiet_text, name) +
               20 * unit_;
     }
+    const std::string pixels = fmt::format("pixels 0 to {}", spectrum_.mean.size() - 1);
+    const float begin = right_ - canvas_.text_width(TextStyle::label, pixels);
+    if (begin > left)
+      canvas_.text({begin, foot_ + half}, TextStyle::label, palette::quiet_text, pixels);
   }
 
   Canvas& canvas_;
@@ -118,14 +121,14 @@ void lay_out_figures(Canvas& canvas, const Rect& room, float unit,
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const SpectrumFigure& figure = figures[i];
     const bool good = figure.remedy.empty();
-    const float top = static_cast<float>(room.y) + row * static_cast<float>(i);
+    const float top = std::floor(static_cast<float>(room.y) + row * static_cast<float>(i));
     canvas.bar({static_cast<float>(room.x), top},
                {static_cast<float>(room.x) + 6 * unit, top + row - 12 * unit},
                good ? palette::good : palette::warning);
     float y = top;
     const auto say = [&](TextStyle style, Colour colour, std::string_view words) {
       canvas.text({left, y}, style, colour, words);
-      y += canvas.text_height(style);
+      y += std::ceil(canvas.text_height(style));
     };
     say(TextStyle::label, palette::quiet_text, figure.name);
     say(TextStyle::badge, good ? palette::text : palette::warning, figure.value);
