@@ -457,7 +457,7 @@ hal::Result<> VolumePainter::finish(const pipeline::Volume& volume, const ViewSt
   if (caster_missing)
     make_caster();
   expect(view);
-  if (caster_missing || wants_volume(view))
+  if ((caster_missing && !empty()) || wants_volume(view))
     HAL_CHECK(show(volume));
   if (view.technique == Technique::surface) {
     HAL_CHECK(techniques_.get(view.technique));

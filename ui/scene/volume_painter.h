@@ -118,7 +118,7 @@ public:
   // Whether update() would redraw the same volume and view, because a mesh has been finished.
   bool has_newer(const ViewState& view) const;
   // Waits until update() has everything for the view at that quality (a mesh, the processor's copy
-  // of the volume): for commands and tests. `volume` must be the one shown last.
+  // of the volume): for commands and tests. `volume` must be the one shown last, if there is one.
   hal::Result<> finish(const pipeline::Volume& volume, const ViewState& view,
                        const DrawQuality& quality = {});
 

@@ -52,6 +52,8 @@ protected:
     for_both([&](ui::Renderer& renderer) {
       renderer.expect(view_);
       ASSERT_TRUE(renderer.show_volume(mixed_.volume()));
+      ASSERT_TRUE(
+          renderer.prepare(mixed_.volume(), view_, quality_)); // on a GPU, for the processor's rays
       renderer.show_levels(level_shares(mixed_.volume()));
       ASSERT_TRUE(renderer.show_scope_picture(scope_.frame(status_.now), scope_.field()));
     });

@@ -89,7 +89,7 @@ TEST_F(PanelTest, b_scan_is_windowed_exactly) {
     for (int z = 0; z < 256; ++z) {
       const double db = -40 + 0.5 * z;
       const double opacity = std::clamp((db - lower) / extent, 0.0, 1.0);
-      EXPECT_NEAR(pixel(5, z)[0], 255 * opacity, 0.51) << "level " << db << " dB";
+      EXPECT_NEAR(pixel(5, z)[0], 255 * opacity, most_rounded_off()) << "level " << db << " dB";
     }
   }
 }

@@ -104,7 +104,7 @@ protected:
       for (int x = 0; x < picture.width; ++x)
         for (std::size_t c = 0; c < 3; ++c)
           ASSERT_NEAR(rgba[static_cast<std::size_t>(4 * (y * picture.width + x)) + c],
-                      picture.expected(x, y)[c], 0.51)
+                      picture.expected(x, y)[c], most_rounded_off())
               << "format " << static_cast<int>(picture.format) << ", " << picture.width << "x"
               << picture.height << ", stride " << picture.stride << ", pixel " << x << ", " << y;
   }

@@ -40,6 +40,8 @@ protected:
     EXPECT_TRUE(renderer);
     (*renderer)->expect(view);
     EXPECT_TRUE((*renderer)->show_volume(mixed_.volume()));
+    EXPECT_TRUE(
+        (*renderer)->prepare(mixed_.volume(), view, quality)); // on a GPU, for the processor's rays
     return picture(**renderer, view, quality);
   }
 
@@ -79,6 +81,7 @@ TEST_P(RenewedPicture, is_that_of_the_whole_volume) {
     mixed_.become(mixed_.older());
     renderer_->expect(view);
     ASSERT_TRUE(renderer_->show_volume(mixed_.volume()));
+    ASSERT_TRUE(renderer_->prepare(mixed_.volume(), view, quality));
     picture(*renderer_, view, quality);
     const int end = mixed_.volume().geometry.b_scans;
     for (const auto& [from, to] :

@@ -6,8 +6,14 @@
 
 #include "sim/clock/virtual_clock.h"
 #include "sim/devices/offscreen_display.h"
+#include "ui/gl/context_info.h"
 
 namespace octascope::tests {
+
+// How far from a number its 8 bits may be: GPUs round to within 0.6 of a step.
+inline double most_rounded_off() {
+  return ui::gl::describe_context().software ? 0.51 : 0.6;
+}
 
 // Skips, saying why, where no offscreen context can be made.
 class GlTest : public ::testing::Test {
