@@ -157,7 +157,12 @@ void RenderLoop::show_levels() {
 }
 
 bool RenderLoop::handle_input() {
-  ui::ControlRequests requests;
+  bool quit = false;
+  // One after the other: what comes next may undo what was to be kept.
+  const auto act = [&](const ui::ControlRequests& requests) {
+    answer(requests);
+    quit = quit || requests.quit;
+  };
   const ui::ViewState before = controller_.state();
   std::optional<hal::TimePoint> oldest;
   const auto seen = [&](hal::TimePoint time) { oldest = std::min(oldest.value_or(time), time); };
@@ -165,21 +170,20 @@ bool RenderLoop::handle_input() {
   if (renderer_) {
     for (const hal::DisplayEvent& event :
          std::span{events}.first(parts_.display.poll_events(events))) {
-      requests.add(controller_.handle(event));
+      act(controller_.handle(event));
       seen(event.time);
       if (const auto control = ui::simulated_control(event); control && parts_.simulated_control)
         parts_.simulated_control(*control);
     }
   }
   while (const auto event = parts_.controls.take()) {
-    requests.add(controller_.handle(*event));
+    act(controller_.handle(*event));
     seen(event->time);
   }
-  requests.add(controller_.advance(parts_.clock.now()));
+  act(controller_.advance(parts_.clock.now()));
   if (!undisplayed_control_ && oldest && !(before == controller_.state()))
     undisplayed_control_ = oldest;
-  answer(requests);
-  return !requests.quit;
+  return !quit;
 }
 
 void RenderLoop::answer(const ui::ControlRequests& requests) {

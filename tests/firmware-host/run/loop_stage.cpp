@@ -123,7 +123,8 @@ ui::ControlProfile LoopStage::profile() {
   profile.knobs = {"window", "volume"};
   profile.menu = {ui::Action::window_offset};
   profile.switch_actions = {
-      {.switches = 1, .gesture = ui::GestureKind::press, .action = ui::Action::freeze}};
+      {.switches = 1, .gesture = ui::GestureKind::press, .action = ui::Action::freeze},
+      {.switches = 2, .gesture = ui::GestureKind::press, .action = ui::Action::auto_window}};
   profile.knob_actions = {{.knob = 0, .action = ui::Action::window_offset},
                           {.knob = 1, .action = ui::Action::rotate}};
   return profile;

@@ -118,7 +118,7 @@ protected:
   void SetUp() override;
   void TearDown() override;
 
-  // Switch 0 freezes; knob 0 moves the window, knob 1 turns the volume.
+  // Switch 0 freezes, switch 1 finds the window; knob 0 moves it, knob 1 turns the volume.
   static ui::ControlProfile profile();
   static pipeline::ScanPlan plan();
 

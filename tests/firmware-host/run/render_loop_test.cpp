@@ -5,6 +5,7 @@
 #include "tests/support/pictures/picture_counts.h"
 #include "ui/canvas/palette.h"
 #include "ui/layout/stereo.h"
+#include "ui/transfer/auto_window.h"
 #include "ui/transfer/histogram.h"
 
 namespace octascope::tests {
@@ -207,6 +208,22 @@ TEST_F(Staleness, ends_with_the_next_volume) {
   resume_sweeps();
   EXPECT_GT(badge_pixels(), 10);
   run_live(2, 0);
+}
+
+// However slow the frame was in which both came.
+TEST_F(LoopStage, what_is_asked_for_is_done_before_what_comes_after_it) {
+  start({});
+  send_volume(Tissue::usual);
+  turn();
+  const auto found = ui::suggest_window(tissues_[0]);
+  ASSERT_TRUE(found);
+  const hal::TimePoint now = clock_.now();
+  send_controls({{now, hal::ControlKind::pedal_switch, 1, 1},
+                 {now, hal::ControlKind::pedal_switch, 1, 0},
+                 {now, hal::ControlKind::knob, 0, 4}});
+  turn();
+  EXPECT_GT(view().window_offset_db, found->offset_db);
+  EXPECT_EQ(view().window_size_db, found->size_db);
 }
 
 TEST_F(Staleness, freezing_is_told_before_the_picture_gets_finer) {
