@@ -26,6 +26,15 @@ std::optional<RayMode> ray_mode(Technique technique) {
   return std::nullopt;
 }
 
+bool cast_by_processor(const ViewState& view, RayBackend rays) {
+  return ray_mode(view.technique) && rays == RayBackend::processor;
+}
+
+// From the texture of the volume, or of the one whose cover is weaker; a surface is made of neither.
+bool sampled_by_gl(const ViewState& view, RayBackend rays) {
+  return view.technique != Technique::surface && !cast_by_processor(view, rays);
+}
+
 ViewState stretched(ViewState view) {
   view.window_offset_db += window_lift(view.technique) * view.window_size_db;
   view.window_size_db *= window_stretch(view.technique);
@@ -230,22 +239,15 @@ hal::Result<> VolumePainter::prepare_flow(Technique technique) {
   return made;
 }
 
-bool VolumePainter::drawn_by_gl(const ViewState& view, RayBackend rays) const {
-  return view.technique != Technique::surface &&
-         (!ray_mode(view.technique) || rays != RayBackend::processor);
-}
-
 // Of two sections the flat pictures and a cut's faces are made; all else the processor draws from its own copy.
 TextureParts VolumePainter::parts_for(const ViewState& view, RayBackend rays) const {
-  return {.all = view.technique == Technique::surface || drawn_by_gl(view, rays),
-          .b_scan = view.b_scan,
-          .a_scan = view.a_scan};
+  return {.all = !cast_by_processor(view, rays), .b_scan = view.b_scan, .a_scan = view.a_scan};
 }
 
 // Where a cover is drawn weaker, GL draws the volume from that one's texture.
 TextureParts VolumePainter::level_parts_for(const ViewState& view, RayBackend rays) const {
   TextureParts parts = parts_for(view, rays);
-  parts.all = parts.all && !(weakened_shows_ && drawn_by_gl(view, rays));
+  parts.all = parts.all && !(weakened_shows_ && sampled_by_gl(view, rays));
   return parts;
 }
 
@@ -261,7 +263,7 @@ hal::Result<> VolumePainter::complete(const pipeline::Volume& volume, const View
     return {};
   if (!texture_.holds(expected_))
     HAL_CHECK(texture_.renew(volume, {}, expected_));
-  if (drawn_by_gl(view, backend(quality)))
+  if (sampled_by_gl(view, backend(quality)))
     HAL_CHECK(drawn_texture());
   return needs_flow_texture(view, backend(quality))
              ? bring_flow_texture(volume, parts_for(view, backend(quality)))
@@ -375,13 +377,13 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   HAL_TRY(const auto pictures, pictures_of(eye));
   if (quality.rays == RayBackend::processor)
     want_processor();
-  const bool processor = ray_mode(view.technique) && backend(quality) == RayBackend::processor;
+  const RayBackend rays = backend(quality);
+  const bool processor = cast_by_processor(view, rays);
   if (draws_flow(view))
     if (auto made = make_flow_programs(view.technique, !processor); !made)
       refuse_flow(std::move(made.error()));
   update_transfer(view);
   expect(view);
-  const RayBackend rays = backend(quality);
   if (!texture_.holds(level_parts_for(view, rays)) ||
       (needs_flow_texture(view, rays) &&
        (flow_uploads_ != uploads_ || !flow_texture_.holds(parts_for(view, rays)))))
@@ -389,7 +391,7 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
                      "volume display: found parts of a volume, expected complete() for this view");
   const VolumeTexture* drawn = &texture_; // the processor's rays need only its shape
   const bool surface = view.technique == Technique::surface;
-  if (drawn_by_gl(view, rays)) {
+  if (sampled_by_gl(view, rays)) {
     HAL_TRY(drawn, drawn_texture());
   }
   VolumeScene scene{

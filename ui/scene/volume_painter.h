@@ -168,7 +168,6 @@ private:
   FlowScene flow_scene(float view_opacity) const;
   bool match_flow(FlowScene& flow) const;
   TextureParts expected_parts() const;
-  bool drawn_by_gl(const ViewState& view, RayBackend rays) const;
   TextureParts parts_for(const ViewState& view, RayBackend rays) const;
   TextureParts level_parts_for(const ViewState& view, RayBackend rays) const;
   hal::Result<const VolumeTexture*> drawn_texture();

@@ -133,8 +133,10 @@ private:
     quality.rays = what.backend;
     HAL_CHECK(painter_.finish(volume_, view, quality));
     if (casts_rays(what.technique) && painter_.backend(quality) != what.backend)
-      return hal::fail(hal::ErrorCode::unsupported,
-                       "bench display: this processor casts no rays; measure with --drawn-by gl");
+      return hal::fail(
+          hal::ErrorCode::unsupported,
+          "bench display: the processor cannot cast the rays of this volume: it is too large, or "
+          "there is no code for its instruction set; measure with --drawn-by gl");
     HAL_CHECK(painter_.update(ui::StereoEye::centre, view, camera, quality, rect));
     ui::gl::clear_to_black(what.width, what.height);
     painter_.composite(ui::StereoEye::centre, rect, what.height);

@@ -73,11 +73,14 @@ protected:
 };
 
 TEST_F(BrickDistances, around_are_to_the_nearest_brick_that_is_not_empty) {
-  ui::DistancesAround distances;
-  distances.measure(grid_);
-  expect(distances.data(), ui::DistancesAround::most, [](int z, int a, int b) {
-    return std::max({std::abs(z), std::abs(a), std::abs(b)});
-  });
+  ui::WorkTeam two{1, pipeline::ThreadSetup{}};
+  for (ui::WorkTeam* const team : {static_cast<ui::WorkTeam*>(nullptr), &two}) {
+    ui::DistancesAround distances;
+    distances.measure(grid_, team);
+    expect(distances.data(), ui::DistancesAround::most, [](int z, int a, int b) {
+      return std::max({std::abs(z), std::abs(a), std::abs(b)});
+    });
+  }
 }
 
 TEST_F(BrickDistances, ahead_are_to_the_nearest_brick_in_the_octant_that_is_not_empty) {

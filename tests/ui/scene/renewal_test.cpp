@@ -98,19 +98,19 @@ constexpr auto processor = ui::RayBackend::processor;
 constexpr auto shader = ui::RayBackend::shader;
 INSTANTIATE_TEST_SUITE_P(
     Ways, RenewedPicture,
-    testing::Values(Way{Technique::rays, {1, 512, processor}, 0},
-                    Way{Technique::rays, {0.6F, 192, processor}, 0}, // softened
-                    Way{Technique::rays, {1, 256, shader}, 0},
-                    Way{Technique::rays, {1, 256, processor}, 12},
-                    Way{Technique::maximum, {1, 256, processor}, 0},
-                    Way{Technique::shaded, {1, 256, processor}, 0},
-                    Way{Technique::planes, {0.5F, 96}, 0}, Way{Technique::slices, {0.5F, 96}, 0},
-                    Way{Technique::rays, {1, 256, processor}, 0, true},
-                    Way{Technique::rays, {0.6F, 192, processor}, 12, true},
-                    Way{Technique::maximum, {1, 256, processor}, 0, true},
-                    Way{Technique::shaded, {1, 256, processor}, 0, true},
-                    Way{Technique::rays, {0.5F, 96, shader}, 0, true},
-                    Way{Technique::planes, {0.5F, 96}, 0, true}));
+    testing::Values(
+        Way{Technique::rays, {1, 512, processor}, 0},
+        Way{Technique::rays, {0.6F, 192, processor}, 0}, // softened
+        Way{Technique::rays, {1, 256, shader}, 0}, Way{Technique::rays, {1, 256, processor}, 12},
+        Way{Technique::rays, {1, 256, shader}, 12}, Way{Technique::planes, {0.5F, 96}, 12},
+        Way{Technique::maximum, {1, 256, processor}, 0},
+        Way{Technique::shaded, {1, 256, processor}, 0}, Way{Technique::planes, {0.5F, 96}, 0},
+        Way{Technique::slices, {0.5F, 96}, 0}, Way{Technique::rays, {1, 256, processor}, 0, true},
+        Way{Technique::rays, {0.6F, 192, processor}, 12, true},
+        Way{Technique::maximum, {1, 256, processor}, 0, true},
+        Way{Technique::shaded, {1, 256, processor}, 0, true},
+        Way{Technique::rays, {0.5F, 96, shader}, 0, true},
+        Way{Technique::planes, {0.5F, 96}, 0, true}));
 
 TEST_F(RenewalTest, the_seam_is_a_line_of_its_own_colour_where_it_is_said_to_be) {
   ui::ViewState view;
