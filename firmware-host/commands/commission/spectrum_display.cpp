@@ -91,7 +91,9 @@ void SpectrumDisplay::go_on_without(std::string_view why) {
   close();
   show_progress(""); // what stands there
   if (!std::exchange(told_, true))
-    say("No display: {}. The spectrum is on the terminal alone.\n", why);
+    say("No display: {}. The spectrum is on the terminal alone; on the display, too, where this "
+        "is put right and the step repeated.\n",
+        why.substr(0, why.find(';'))); // after that, what options of `run` help
 }
 
 } // namespace octascope::firmware_host
