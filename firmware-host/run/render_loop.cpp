@@ -176,9 +176,13 @@ bool RenderLoop::handle_input() {
         parts_.simulated_control(*control);
     }
   }
-  while (const auto event = parts_.controls.take()) {
-    act(controller_.handle(*event));
+  // What is asked for after a picture is not in it: it waits for the next turn.
+  bool keeps = false;
+  while (const auto event = keeps ? std::nullopt : parts_.controls.take()) {
+    const ui::ControlRequests requests = controller_.handle(*event);
+    act(requests);
     seen(event->time);
+    keeps = requests.snapshot;
   }
   act(controller_.advance(parts_.clock.now()));
   if (!undisplayed_control_ && oldest && !(before == controller_.state()))
@@ -216,7 +220,8 @@ void RenderLoop::find_window() {
 void RenderLoop::keep_picture() {
   const bool kept =
       parts_.keep_picture(renderer_->read_back(parts_.display.width(), parts_.display.height()));
-  controller_.actions().tell(ui::Action::snapshot, kept ? "kept" : "not kept: one is being written",
+  controller_.actions().tell(ui::Action::snapshot,
+                             kept ? "kept" : "not kept: others are being written",
                              parts_.clock.now());
   picture_wanted_ = false;
 }

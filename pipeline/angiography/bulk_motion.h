@@ -65,7 +65,8 @@ private:
 
   int a_scans_;
   int depths_;
-  int step_;                 // between the A-scans that are compared
+  int step_; // between the A-scans that are compared
+  float least_contrast_;
   std::vector<float> first_; // one A-scan: real parts, then imaginary ones
   std::vector<float> second_;
 };

@@ -62,6 +62,23 @@ TEST_F(KeptPictures, never_replace_one_another) {
   EXPECT_EQ(folder_.count(), 5);
 }
 
+// Quicker than the disk takes them; the first is being written, or has been.
+TEST_F(KeptPictures, that_come_together_are_all_written_up_to_a_limit) {
+  const int asked = 40;
+  int kept = 0;
+  {
+    PictureWriter keeper{folder_.path(), clock_, faults_};
+    for (int i = 0; i < asked; ++i)
+      kept += keeper.keep(picture()) ? 1 : 0;
+  }
+  EXPECT_GE(kept, 1 + static_cast<int>(PictureWriter::most_waiting));
+  EXPECT_EQ(folder_.count(), kept);
+  for (const auto& record : faults_.records()) {
+    EXPECT_EQ(record.kind, pipeline::Fault::picture_not_kept);
+    EXPECT_EQ(static_cast<int>(record.count), asked - kept);
+  }
+}
+
 // A limit on the size of files stands for a disk without room.
 TEST_F(KeptPictures, that_find_no_room_are_told_and_leave_nothing) {
   rlimit before{};

@@ -124,7 +124,8 @@ ui::ControlProfile LoopStage::profile() {
   profile.menu = {ui::Action::window_offset};
   profile.switch_actions = {
       {.switches = 1, .gesture = ui::GestureKind::press, .action = ui::Action::freeze},
-      {.switches = 2, .gesture = ui::GestureKind::press, .action = ui::Action::auto_window}};
+      {.switches = 2, .gesture = ui::GestureKind::press, .action = ui::Action::auto_window},
+      {.switches = 4, .gesture = ui::GestureKind::press, .action = ui::Action::snapshot}};
   profile.knob_actions = {{.knob = 0, .action = ui::Action::window_offset},
                           {.knob = 1, .action = ui::Action::rotate}};
   return profile;
@@ -199,19 +200,20 @@ firmware_host::RenderLoopSetup LoopStage::setup() {
 void LoopStage::open(firmware_host::RenderLoopSetup setup, pipeline::VolumeFeed& volumes,
                      const pipeline::Acquisition* acquisition, pipeline::ScopeThread* scope) {
   loop_ = std::make_unique<firmware_host::RenderLoop>(
-      firmware_host::RenderLoopParts{.display = display_,
-                                     .clock = clock_,
-                                     .volumes = volumes,
-                                     .acquisition = acquisition,
-                                     .scope = scope,
-                                     .controls = *control_thread_,
-                                     .faults = faults_,
-                                     .news = news_,
-                                     .keep_picture = [](const pipeline::Image&) { return true; },
-                                     .simulated_control = {},
-                                     .threads = {},
-                                     .vessels = vessels_.get(),
-                                     .proof = &proof_},
+      firmware_host::RenderLoopParts{
+          .display = display_,
+          .clock = clock_,
+          .volumes = volumes,
+          .acquisition = acquisition,
+          .scope = scope,
+          .controls = *control_thread_,
+          .faults = faults_,
+          .news = news_,
+          .keep_picture = [this](const pipeline::Image&) { return ++kept_pictures_ > 0; },
+          .simulated_control = {},
+          .threads = {},
+          .vessels = vessels_.get(),
+          .proof = &proof_},
       std::move(setup));
   const auto opened = loop_->open();
   ASSERT_TRUE(opened) << opened.error().message;

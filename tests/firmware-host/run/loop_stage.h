@@ -118,7 +118,7 @@ protected:
   void SetUp() override;
   void TearDown() override;
 
-  // Switch 0 freezes, switch 1 finds the window; knob 0 moves it, knob 1 turns the volume.
+  // Switch 0 freezes, 1 finds the window, 2 keeps a picture; knob 0 moves it, knob 1 turns the volume.
   static ui::ControlProfile profile();
   static pipeline::ScanPlan plan();
 
@@ -150,6 +150,7 @@ protected:
   const ui::ViewState& view() const { return loop_->actions().state(); }
   ui::Layout layout() const;
 
+  int kept_pictures_ = 0;
   sim::VirtualClock clock_;
   sim::VirtualClock
       sweep_clock_; // of trigger and volumes; moved to the other's time by send_volume()

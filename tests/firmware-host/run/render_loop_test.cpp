@@ -226,6 +226,24 @@ TEST_F(LoopStage, what_is_asked_for_is_done_before_what_comes_after_it) {
   EXPECT_EQ(view().window_size_db, found->size_db);
 }
 
+// As above: a picture shows what was set when it was asked for.
+TEST_F(LoopStage, a_kept_picture_is_of_the_view_in_which_it_was_asked_for) {
+  start({});
+  send_volume(Tissue::usual);
+  turn();
+  const float offset = view().window_offset_db;
+  const hal::TimePoint now = clock_.now();
+  send_controls({{now, hal::ControlKind::pedal_switch, 2, 1},
+                 {now, hal::ControlKind::pedal_switch, 2, 0},
+                 {now, hal::ControlKind::knob, 0, 4}});
+  turn();
+  EXPECT_EQ(kept_pictures_, 1);
+  EXPECT_EQ(view().window_offset_db, offset);
+  turn();
+  EXPECT_EQ(kept_pictures_, 1);
+  EXPECT_GT(view().window_offset_db, offset);
+}
+
 TEST_F(Staleness, freezing_is_told_before_the_picture_gets_finer) {
   start({});
   draw_slowly(300ms);
