@@ -27,9 +27,11 @@ function(octascope_module folder)
   target_include_directories(${target} PUBLIC ${include_root})
   target_link_libraries(${target} PUBLIC ${MODULE_USES}
                                   PRIVATE ${MODULE_PRIVATE_USES} octascope_compiler)
-  # What works hard is below; this takes the compiler long.
+  # What works hard is below; this takes the compiler long. What measures is optimised as what it measures.
   if(OCTASCOPE_SANITIZE AND folder MATCHES "^firmware-host")
     target_compile_options(${target} PRIVATE -O0)
+  elseif(folder MATCHES "^firmware-host/commands" AND NOT folder MATCHES "/bench")
+    target_compile_options(${target} PRIVATE -O1)
   endif()
 endfunction()
 

@@ -1,7 +1,7 @@
 # What each test is to CTest, by its name: the one place that says so, and which sanitizer runs what.
 # Read by CTest for each program of tests (tests/CMakeLists.txt), with `program`, the program's name,
 # test_${program}_TESTS, the names of its tests (none where it is not built), `random`, what draws
-# random input, and `sanitized_by`: what sanitizers need not is not compiled for them.
+# random input, `executable` and `environment`, and `sanitized_by`, asan or tsan in a build for sanitizers.
 #
 #   unit     of one module and quick: all of them take less than two minutes
 #   slow     of one module; takes seconds, or draws many pictures
@@ -9,8 +9,8 @@
 #   device   of a backend or of a twin, beside what else it is
 #   clock    keeps to a real clock: runs alone, and alone may be tried a second time
 #   random   draws random input, from a seed of its own unless OCTASCOPE_TEST_SEED says otherwise
-#   asan     runs under the address and undefined-behaviour sanitizers
-#   tsan     runs under the thread sanitizer
+#
+# In a build for sanitizers, `asan` and `tsan` are suites of those tests that it runs: see below.
 #
 # Expressions fit the beginning of a name, which is module.suite.test, with what GoogleTest adds to
 # suites and tests that have parameters.
@@ -72,6 +72,7 @@ function(octascope_fits variable name)
   endforeach()
 endfunction()
 
+set(suites) # what the sanitizer runs: a suite is one process, as each takes long to begin and to end
 foreach(test IN LISTS test_${program}_TESTS)
   octascope_fits(is_slow "${test}" ${slow})
   octascope_fits(is_sanitized "${test}" ${sanitized})
@@ -83,22 +84,49 @@ foreach(test IN LISTS test_${program}_TESTS)
     set(labels unit)
     set(is_sanitized TRUE)
   endif()
-  foreach(sanitizer asan tsan)
-    octascope_fits(is_left_out "${test}" ${not_${sanitizer}})
+  octascope_fits(has_port "${test}" ${genicam_port})
+  octascope_fits(is_clock "${test}" ${clock})
+  if(sanitized_by)
+    octascope_fits(is_left_out "${test}" ${not_${sanitized_by}})
     if(is_sanitized AND NOT is_left_out)
-      list(APPEND labels ${sanitizer})
+      string(REGEX MATCH "[^.]+[.][^.]+$" filter "${test}")
+      string(REGEX MATCH "^[^.]+[.][^.]+" suite "${test}")
+      if(is_clock)
+        string(APPEND suite ".by_the_clock")
+      endif()
+      list(APPEND suites "${suite}")
+      string(APPEND "filter_${suite}" "${filter}:")
+      math(EXPR "tests_${suite}" "${tests_${suite}} + 1")
+      set("port_${suite}" ${has_port})
+      set("clock_${suite}" ${is_clock})
     endif()
+    continue()
+  endif()
+  foreach(label device random)
+    octascope_fits(is_${label} "${test}" ${${label}})
   endforeach()
   foreach(label clock device random)
-    octascope_fits(is_${label} "${test}" ${${label}})
     if(is_${label})
       list(APPEND labels ${label})
     endif()
   endforeach()
   set_tests_properties("${test}" PROPERTIES LABELS "${labels}" RUN_SERIAL ${is_clock})
-  octascope_fits(has_port "${test}" ${genicam_port})
   if(has_port)
     set_tests_properties("${test}" PROPERTIES RESOURCE_LOCK genicam_port)
+  endif()
+endforeach()
+
+list(REMOVE_DUPLICATES suites)
+foreach(suite IN LISTS suites)
+  add_test("${suite}" "${executable}" "--gtest_filter=${filter_${suite}}")
+  set(labels ${sanitized_by})
+  if("${clock_${suite}}")
+    list(APPEND labels clock)
+  endif()
+  set_tests_properties("${suite}" PROPERTIES LABELS "${labels}" RUN_SERIAL "${clock_${suite}}"
+    COST "${tests_${suite}}" TIMEOUT 900 ENVIRONMENT "${environment}")
+  if("${port_${suite}}")
+    set_tests_properties("${suite}" PROPERTIES RESOURCE_LOCK genicam_port)
   endif()
 endforeach()
 
