@@ -302,7 +302,7 @@ SweepReport sweep_sites(const SweepPlan& plan) {
   unsigned faults = 0;
   for (const SeenSite& seen : sites)
     for (const int error : possible_errors(seen.site.kind))
-      if (faults++ % fault_stride() == 0)
+      if (is_injected(faults++))
         targets.push_back({seen, error});
   Shooting{plan, std::move(targets), report}.run();
   if (const auto wrong = plan.afterwards ? plan.afterwards() : plan.scenario())

@@ -224,7 +224,7 @@ SyscallFaultReport inject_faults(unsigned kinds, std::span<const int> errors,
   unsigned faults = 0;
   for (unsigned call = 0; call < report.calls; ++call)
     for (const int error : errors) {
-      if (faults++ % fault_stride() != 0)
+      if (!is_injected(faults++))
         continue;
       run(SyscallFault{call, error});
       if (check_recovery)
@@ -241,9 +241,13 @@ void expect_good(const SyscallFaultReport& report, unsigned least_calls) {
     ADD_FAILURE() << complaint;
 }
 
-unsigned fault_stride() {
-  const char* const wanted = std::getenv("OCTASCOPE_FAULT_EVERY");
-  return wanted == nullptr ? 1 : std::max(1U, static_cast<unsigned>(std::atoi(wanted)));
+bool is_injected(unsigned fault) {
+  const auto wanted = [](const char* name, unsigned otherwise) {
+    const char* const text = std::getenv(name);
+    return text == nullptr ? otherwise : static_cast<unsigned>(std::atoi(text));
+  };
+  const unsigned every = std::max(1U, wanted("OCTASCOPE_FAULT_EVERY", 1));
+  return fault % every == wanted("OCTASCOPE_FAULT_FIRST", 0) % every;
 }
 
 std::span<const int> usual_errors() {

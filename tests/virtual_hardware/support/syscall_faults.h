@@ -98,8 +98,9 @@ SyscallFaultReport inject_faults(unsigned kinds, std::span<const int> errors,
 // Prints it; a failed test for each complaint, and where there were fewer calls.
 void expect_good(const SyscallFaultReport& report, unsigned least_calls);
 
-// Of so many faults one is injected: 1, unless OCTASCOPE_FAULT_EVERY says more.
-unsigned fault_stride();
+// Is the fault of this number, from 0, injected? All are, unless OCTASCOPE_FAULT_EVERY is more than 1:
+// then every so many-th, from number OCTASCOPE_FAULT_FIRST on.
+bool is_injected(unsigned fault);
 
 // EINTR, EAGAIN, EBUSY, EIO, ENODEV, ENOMEM, and half reads and writes.
 std::span<const int> usual_errors();
