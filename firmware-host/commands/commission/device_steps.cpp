@@ -173,23 +173,20 @@ hal::Result<bool> ask_controls(Bench& bench, const LiveLook& found) {
   return changed;
 }
 
-hal::Result<> open_display(Bench& bench, const std::string& phantom, SpectrumDisplay& display) {
+// Shown over and over until Enter, where somebody sits at a terminal; else once.
+hal::Result<LiveLook> watch_spectrum(Bench& bench, const std::string& phantom,
+                                     SpectrumDisplay& display) {
+  const bool live = ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0;
   HAL_TRY(const auto options, bench.session.run_options(phantom));
   HAL_TRY(const auto configuration, bench.session.configuration());
-  display.open(options, configuration);
-  return {};
-}
-
-// Shown over and over until Enter, where somebody sits at a terminal; else once.
-hal::Result<LiveLook> watch(Bench& bench, const std::string& phantom, SpectrumDisplay& display) {
-  const bool live = ::isatty(STDIN_FILENO) != 0 && ::isatty(STDERR_FILENO) != 0;
+  HAL_TRY(const auto watch, LineWatch::open(options, configuration, true, bench.clock));
   if (live) {
-    HAL_CHECK(open_display(bench, phantom, display));
+    display.open(options, configuration);
     say("Live: the spectrum's height is its brightness, full scale the highest. Enter goes on.\n");
   }
   std::fflush(stdout);
   for (;;) {
-    auto looked = look_now(bench, phantom, 1);
+    auto looked = watch->look(1);
     if (live && (!looked || looked->mean_line.empty()))
       show_progress("");
     HAL_TRY(auto found, std::move(looked));
@@ -301,7 +298,7 @@ hal::Result<StepRecord> look_at_spectrum(Bench& bench) {
   LiveLook found;
   SpectrumDisplay display{bench.clock};
   for (bool changed = true; changed;) {
-    HAL_TRY(found, watch(bench, phantom, display));
+    HAL_TRY(found, watch_spectrum(bench, phantom, display));
     say("  {}\n", spectrum_strip(found.mean_line, found.format.full_scale()));
     HAL_TRY(changed, ask_controls(bench, found));
   }

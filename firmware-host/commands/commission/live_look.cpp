@@ -30,28 +30,22 @@ template <class Call> hal::Result<> patiently(Call call) {
   return done;
 }
 
-class Look {
+} // namespace
+
+class LineWatch::Look {
 public:
-  Look(Devices& devices, hal::Duration pulse_width, hal::Clock& clock)
-      : devices_(devices), pulse_width_(pulse_width), clock_(clock) {}
-  // Neither device stays open.
-  ~Look() {
-    devices_.line_camera().close();
-    devices_.galvo_trigger().close();
-  }
-  Look(const Look&) = delete;
-  Look& operator=(const Look&) = delete;
+  Look(Devices& devices, hal::Clock& clock) : devices_(devices), clock_(clock) {}
 
   hal::Result<LiveLook> run(int pulses);
 
 private:
+  hal::Result<> forget_frames();
   hal::Result<> pulse();
   void take(const hal::LineFrame& frame);
   void keep_lines(const hal::LineFrame& frame);
   void judge();
 
   Devices& devices_;
-  hal::Duration pulse_width_;
   hal::Clock& clock_;
   LiveLook found_;
   std::optional<std::uint64_t> last_sequence_;
@@ -62,27 +56,33 @@ private:
   std::vector<double> lines_;
 };
 
-hal::Result<LiveLook> Look::run(int pulses) {
-  hal::LineCamera& camera = devices_.line_camera();
-  HAL_CHECK(patiently([&] { return camera.open(devices_.camera_config()); }));
-  found_.camera = camera.identity();
-  found_.controls = camera.controls();
+hal::Result<LiveLook> LineWatch::Look::run(int pulses) {
+  found_.camera = devices_.line_camera().identity();
+  found_.controls = devices_.line_camera().controls();
   found_.format = pipeline::SpectrumFormat{devices_.format()};
   if (pulses == 0)
     return found_;
-  HAL_CHECK(devices_.galvo_trigger().open({.pulse_width = pulse_width_}));
-  HAL_CHECK(patiently([&] { return camera.start(); }));
+  HAL_CHECK(forget_frames());
   for (int i = 0; i < pulses; ++i)
     HAL_CHECK(pulse());
-  camera.stop();
   found_.unanswered_on_sync = devices_.new_missed_answers();
   if (!lines_.empty())
     judge();
   return found_;
 }
 
+// Of a look before: what came too late for it.
+hal::Result<> LineWatch::Look::forget_frames() {
+  for (;;) {
+    HAL_TRY(const auto frame, devices_.line_camera().wait_frame({}));
+    if (!frame)
+      return {};
+    devices_.line_camera().release(frame->buffer);
+  }
+}
+
 // All frames of one volume, or what comes of them.
-hal::Result<> Look::pulse() {
+hal::Result<> LineWatch::Look::pulse() {
   const auto expected = static_cast<std::uint64_t>(devices_.plan().sweeps());
   HAL_CHECK(devices_.galvo_trigger().pulse());
   ++found_.pulses;
@@ -104,7 +104,7 @@ hal::Result<> Look::pulse() {
   return {};
 }
 
-void Look::take(const hal::LineFrame& frame) {
+void LineWatch::Look::take(const hal::LineFrame& frame) {
   ++found_.frames;
   if (last_sequence_ && frame.sequence > *last_sequence_)
     found_.lost_frames += frame.sequence - *last_sequence_ - 1;
@@ -120,7 +120,7 @@ void Look::take(const hal::LineFrame& frame) {
     ++found_.broken_frames;
 }
 
-void Look::keep_lines(const hal::LineFrame& frame) {
+void LineWatch::Look::keep_lines(const hal::LineFrame& frame) {
   const std::size_t bytes = found_.format.line_bytes();
   const int kept = devices_.plan().converted_lines();
   const int step = std::max(1, kept / lines_of_a_frame);
@@ -135,7 +135,7 @@ void Look::keep_lines(const hal::LineFrame& frame) {
   }
 }
 
-void Look::judge() {
+void LineWatch::Look::judge() {
   const auto samples = static_cast<std::size_t>(found_.format.samples);
   found_.quality = pipeline::judge_spectra(lines_, samples, found_.format.full_scale());
   found_.one_line.assign(lines_.end() - static_cast<std::ptrdiff_t>(samples), lines_.end());
@@ -152,10 +152,14 @@ void Look::judge() {
                           hal::to_seconds(frames_took_);
 }
 
-} // namespace
+LineWatch::~LineWatch() {
+  devices_->line_camera().close();
+  devices_->galvo_trigger().close();
+}
 
-hal::Result<LiveLook> look(const RunOptions& options, const Configuration& configuration,
-                           int pulses, hal::Clock& clock) {
+hal::Result<std::unique_ptr<LineWatch>> LineWatch::open(const RunOptions& options,
+                                                        const Configuration& configuration,
+                                                        bool starts, hal::Clock& clock) {
   auto real =
       std::make_unique<RealDevices>(configuration.devices, plan_of(options, configuration), clock);
   const DeviceChoices choices =
@@ -165,13 +169,33 @@ hal::Result<LiveLook> look(const RunOptions& options, const Configuration& confi
                      "no line camera: {}; octascope doctor says more, and --sim works with a "
                      "simulated one",
                      choices.line_camera.reason);
-  Devices devices{std::move(real), choices, clock};
-  HAL_CHECK(devices.make_others(choices, options, configuration, clock));
-  HAL_TRY(auto found, Look(devices, configuration.devices.pulse_width, clock).run(pulses));
-  found.chosen = fmt::format("{}: {}", choices.line_camera.backend, choices.line_camera.reason);
-  found.trigger =
+  std::unique_ptr<LineWatch> watch{new LineWatch{clock}};
+  watch->devices_ = std::make_unique<Devices>(std::move(real), choices, clock);
+  watch->chosen_ = fmt::format("{}: {}", choices.line_camera.backend, choices.line_camera.reason);
+  watch->trigger_ =
       fmt::format("{}: {}", choices.galvo_trigger.backend, choices.galvo_trigger.reason);
+  HAL_CHECK(watch->devices_->make_others(choices, options, configuration, clock));
+  hal::LineCamera& camera = watch->devices_->line_camera();
+  HAL_CHECK(patiently([&] { return camera.open(watch->devices_->camera_config()); }));
+  if (starts) {
+    HAL_CHECK(
+        watch->devices_->galvo_trigger().open({.pulse_width = configuration.devices.pulse_width}));
+    HAL_CHECK(patiently([&] { return camera.start(); }));
+  }
+  return watch;
+}
+
+hal::Result<LiveLook> LineWatch::look(int pulses) {
+  HAL_TRY(auto found, Look(*devices_, clock_).run(pulses));
+  found.chosen = chosen_;
+  found.trigger = trigger_;
   return found;
+}
+
+hal::Result<LiveLook> look(const RunOptions& options, const Configuration& configuration,
+                           int pulses, hal::Clock& clock) {
+  HAL_TRY(const auto watch, LineWatch::open(options, configuration, pulses > 0, clock));
+  return watch->look(pulses);
 }
 
 } // namespace octascope::firmware_host

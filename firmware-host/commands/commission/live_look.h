@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "firmware-host/configuration/configuration.h"
 #include "firmware-host/configuration/run_options.h"
+#include "firmware-host/devices/devices.h"
 #include "hal/clock.h"
 #include "hal/line_camera.h"
 #include "hal/result.h"
@@ -35,8 +37,32 @@ struct LiveLook {
   pipeline::SpectrumQuality quality;    // likewise
 };
 
-// Opens camera and trigger, closes them again. No pulses: only opens the camera. An Error where a
-// device cannot be opened; frames that do not come are no Error, but counted.
+// Line camera and trigger, open for one look after another. Bound to one thread.
+class LineWatch {
+public:
+  // An Error where a device cannot be opened. Unless it `starts`, only the camera is, and looks have no
+  // pulses.
+  static hal::Result<std::unique_ptr<LineWatch>> open(const RunOptions& options,
+                                                      const Configuration& configuration,
+                                                      bool starts, hal::Clock& clock);
+  ~LineWatch(); // neither device stays open
+  LineWatch(const LineWatch&) = delete;
+  LineWatch& operator=(const LineWatch&) = delete;
+
+  // Frames that do not come are no Error, but counted.
+  hal::Result<LiveLook> look(int pulses);
+
+private:
+  class Look;
+  explicit LineWatch(hal::Clock& clock) : clock_(clock) {}
+
+  hal::Clock& clock_;
+  std::unique_ptr<Devices> devices_;
+  std::string chosen_;
+  std::string trigger_;
+};
+
+// One look, of a watch of its own.
 hal::Result<LiveLook> look(const RunOptions& options, const Configuration& configuration,
                            int pulses, hal::Clock& clock);
 
