@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "firmware-host/devices/node_access.h"
+#include "hal/linux/gpio/gpio_lookup.h"
 #include "hal/linux/kms/drm/edid.h"
 #include "hal/linux/system/system_files.h"
 
@@ -40,6 +41,19 @@ std::string product_of(const std::string& hid_id) {
 void add_fact(FoundDevice& device, const char* key, std::string value) {
   if (!value.empty())
     device.facts.emplace_back(key, std::move(value));
+}
+
+// Its lines are asked for by its node, so of this machine alone.
+FoundDevice gpio_chip(const fs::path& entry, const fs::path& root) {
+  FoundDevice device{.node = node_of(entry), .name = text_after("OF_FULLNAME=", entry / "uevent")};
+  if (root != "/")
+    return device;
+  if (const auto chip = hal::linux_backend::describe_gpio_chip(device.node)) {
+    if (device.name.empty())
+      device.name = chip->label;
+    add_fact(device, "lines", hal::linux_backend::listed_lines(*chip));
+  }
+  return device;
 }
 
 std::string monitor_of(const fs::path& edid) {
@@ -141,8 +155,7 @@ HardwareSurvey survey_hardware(const fs::path& root, const Person& person) {
   for (const fs::path& entry : entries(sys / "bus/media/devices", "media"))
     add(survey.media, {.node = node_of(entry), .name = first_line(entry / "model")});
   for (const fs::path& entry : entries(sys / "bus/gpio/devices", "gpiochip"))
-    add(survey.gpio,
-        {.node = node_of(entry), .name = text_after("OF_FULLNAME=", entry / "uevent")});
+    add(survey.gpio, gpio_chip(entry, root));
   for (const fs::path& entry : entries(sys / "class/hidraw", "hidraw")) {
     FoundDevice device{.node = node_of(entry),
                        .name = text_after("HID_NAME=", entry / "device/uevent")};

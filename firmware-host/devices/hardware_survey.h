@@ -14,7 +14,8 @@ struct FoundDevice {
   std::string node; // "/dev/video0"; of a display its connector: "card0-HDMI-A-1"
   std::string name; // what the kernel calls it; of a display "connected" or "disconnected"
   // Further facts for people: key ("product", "mode") and value ("05f3:00ff").
-  std::vector<std::pair<std::string, std::string>> facts{};
+  using Fact = std::pair<std::string, std::string>;
+  std::vector<Fact> facts{};
   bool usable = true;    // this user can use it now
   std::string why_not{}; // as text; empty if usable
   std::string remedy{};  // a command or an instruction; empty if usable

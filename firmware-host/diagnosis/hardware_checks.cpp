@@ -93,7 +93,9 @@ std::vector<HealthCheck> check_holders(const HardwareSurvey& survey) {
         checks.push_back(
             {"other programs", Verdict::limited,
              fmt::format("{} ({}) is open in {}", device.node, device.name, device.held_by),
-             fmt::format("end that program if the device is busy: sudo fuser -k {}", device.node)});
+             fmt::format("nothing, if that is what feeds it; if it is busy to octascope, end that "
+                         "program: sudo fuser -k {}",
+                         device.node)});
   return checks;
 }
 

@@ -55,7 +55,7 @@ hal::Result<AveragedCapture> capture_mean(Bench& bench, std::string_view stem,
           .contrast;
   captured.record.found.emplace_back(
       "contrast of the mean",
-      fmt::format("{:.1f} % over {} lines", captured.contrast * 100, averaged_lines));
+      fmt::format("{:.1f} % over {} lines or more", captured.contrast * 100, averaged_lines));
   const bool has_fringe = seen.quality.contrast >= least_mirror_contrast;
   if (stem != "dark" && has_fringe && captured.contrast < seen.quality.contrast / 2)
     captured.record.warnings.emplace_back(

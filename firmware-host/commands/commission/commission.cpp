@@ -102,7 +102,10 @@ hal::Result<> take_step(const Step& step, Bench& bench) {
       return tl::make_unexpected(record.error());
     say("  FAILED: {}\n", record.error().message);
     HAL_CHECK(session.fail(step.key, record.error().message));
-    HAL_TRY(answer, bench.dialogue.ask_word("Again?", {"quit", "repeat", "skip"}));
+    // A script that knows no better must come to an end.
+    HAL_TRY(answer, bench.dialogue.by_script()
+                        ? bench.dialogue.ask_word("Again?", {"quit", "repeat", "skip"})
+                        : bench.dialogue.ask_word("Again?", {"repeat", "skip", "quit"}));
   }
   return answer == "skip" ? session.skip(step.key) : hal::Result<>{};
 }

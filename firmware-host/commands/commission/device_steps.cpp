@@ -55,6 +55,14 @@ hal::Result<> ask_which_camera(Bench& bench) {
   return {};
 }
 
+void say_gpio_lines(const std::vector<FoundDevice>& chips) {
+  for (const FoundDevice& chip : chips) {
+    const auto lines = std::ranges::find(chip.facts, "lines", &FoundDevice::Fact::first);
+    say("  {}  {}: {}\n", chip.node, chip.name,
+        lines != chip.facts.end() ? "lines " + lines->second : chip.why_not + "; " + chip.remedy);
+  }
+}
+
 // In mm, as somebody would say it. Taken as it stands it changes nothing.
 hal::Result<> ask_width(Bench& bench, const char* question, const char* key, double steps) {
   constexpr double usual_mm = 3;
@@ -229,6 +237,19 @@ hal::Result<std::string> ask_to_place(Bench& bench, const std::string& what,
   return phantom;
 }
 
+// What was said of it.
+std::string scan_text(const Session& session) {
+  const double a_scans = session.number("a_scans", 0);
+  const double b_scans = session.number("b_scans", 0);
+  return fmt::format("{:.0f} A-scans and {:.0f} lines of fly-back a B-scan, {:.0f} B-scans, {:.0f} "
+                     "lines a second, "
+                     "{:.4g} x {:.4g} mm",
+                     a_scans, session.number("fly_back_lines", 0), b_scans,
+                     session.number("line_rate_hz", 0),
+                     session.number("a_spacing_um", 0) * a_scans / 1000,
+                     session.number("b_spacing_um", 0) * b_scans / 1000);
+}
+
 hal::Result<StepRecord> find_camera(Bench& bench) {
   HAL_CHECK(ask_which_camera(bench));
   const double samples = bench.session.number("samples", 0);
@@ -241,7 +262,8 @@ hal::Result<StepRecord> find_camera(Bench& bench) {
   record.found = {{"camera", found.camera.empty() ? "does not identify itself" : found.camera},
                   {"found as", found.chosen},
                   {"samples", fmt::format("{} a line, of {} bits", found.format.samples,
-                                          found.format.significant_bits)}};
+                                          found.format.significant_bits)},
+                  {"scan", scan_text(bench.session)}};
   if (found.camera.empty())
     record.warnings.emplace_back("the camera cannot be told from others of its kind: nobody will "
                                  "notice when another one takes its place");
@@ -252,6 +274,7 @@ hal::Result<StepRecord> count_trigger(Bench& bench) {
   constexpr int pulses = 5;
   Session& session = bench.session;
   if (!session.simulated()) {
+    say_gpio_lines(survey_hardware().gpio);
     HAL_TRY(const auto line,
             bench.dialogue.ask("GPIO line of the trigger: its name, or as gpiochip0:17?",
                                session.text("trigger_line", "octascope-trigger")));
@@ -268,6 +291,7 @@ hal::Result<StepRecord> count_trigger(Bench& bench) {
   StepRecord record;
   record.found = {
       {"trigger", found.trigger},
+      {"pulse", fmt::format("{:g} µs wide", session.number("pulse_width_us", 50))},
       {"pulses answered", fmt::format("{} of {}", found.answered, found.pulses)},
       {"frames", fmt::format("{} of {}, {} lost, {} broken", found.frames, found.expected_frames,
                              found.lost_frames, found.broken_frames)}};
@@ -286,7 +310,10 @@ hal::Result<StepRecord> count_trigger(Bench& bench) {
     record.warnings.push_back(fmt::format("the frames' times say {:.0f} lines a second, expected "
                                           "{:.0f}: repeat the step \"camera\" with the right rate",
                                           found.line_rate_hz, wanted));
-  if (found.frames != found.expected_frames || found.answered != found.pulses)
+  if (found.lost_frames > 0)
+    record.warnings.emplace_back("frames were lost between the camera and the program: has this "
+                                 "machine other work, or is the cable at fault?");
+  else if (found.frames != found.expected_frames || found.answered != found.pulses)
     record.warnings.emplace_back("not every pulse brought a whole volume: is the number of B-scans "
                                  "that of the scanner?");
   return record;
@@ -316,6 +343,17 @@ hal::Result<StepRecord> look_at_spectrum(Bench& bench) {
   return record;
 }
 
+// Of those known, the one that `run` takes, and why.
+hal::Result<std::string> pedal_in_use(Bench& bench) {
+  HAL_TRY(const auto options, bench.session.run_options("dark"));
+  HAL_TRY(const auto configuration, bench.session.configuration());
+  RealDevices real{configuration.devices, plan_of(options, configuration), bench.clock};
+  const auto choices = choose_devices(real.find_for(options), options, configuration.devices);
+  const bool known = choices.control_input.backend != "none";
+  return known ? choices.control_input.reason
+               : "none that is known: " + choices.control_input.reason;
+}
+
 hal::Result<StepRecord> learn_pedal(Bench& bench) {
   StepRecord record;
   if (bench.session.simulated()) {
@@ -326,7 +364,8 @@ hal::Result<StepRecord> learn_pedal(Bench& bench) {
           bench.dialogue.ask_word("Learn a pedal or knob that `octascope devices` does not know?",
                                   {"no", "yes"}));
   if (answer == "no") {
-    record.found = {{"pedal", "one of those known, by its own profile"}};
+    HAL_TRY(const auto pedal, pedal_in_use(bench));
+    record.found = {{"pedal", pedal}};
     return record;
   }
   const auto device = bench.session.free_file("pedal", ".device.toml");

@@ -36,6 +36,7 @@ public:
   hal::Result<std::string> ask_name(std::string_view question, std::string_view fallback,
                                     std::span<const std::string_view> known);
 
+  bool by_script() const { return echoes_; } // nobody types the answers
   bool quit() const { return quit_; }   // it was answered
   bool ended() const { return ended_; } // there were no more answers
 

@@ -173,6 +173,9 @@ hal::Result<StepRecord> calibrate_from_captures(Bench& bench) {
   HAL_TRY(const auto verdict, calibrate(options));
   StepRecord record;
   add_verdict(record, verdict);
+  record.found.emplace_back("mirrors moved by", apart_um > 0
+                                                    ? fmt::format("{:g} µm, as was said", apart_um)
+                                                    : "not known");
   record.found.emplace_back("file", options.out.filename().string());
   record.pictures.push_back(options.picture->filename().string());
   bench.session.set("mirrors_apart_um", apart_um);
@@ -216,6 +219,7 @@ hal::Result<StepRecord> check_target(Bench& bench) {
       {"agreement", fmt::format("{:.2f} with the drawing (1: perfect), the next best way "
                                 "round {:.2f}",
                                 measured.agreement, measured.runner_up)},
+      {"side of its square", fmt::format("{:g} mm, as was said", side_mm)},
       {"A-scans apart", fmt::format("{:.2f} µm measured, {:.2f} µm in the scan's settings",
                                     measured.a_spacing_um, a_before)},
       {"B-scans apart", fmt::format("{:.2f} µm measured, {:.2f} µm in the scan's settings",

@@ -47,12 +47,12 @@ std::string listed_chips(const GpioSurvey& survey) {
 tl::unexpected<Error> missing(const GpioSurvey& survey, std::string_view wanted) {
   if (!survey.complaints.empty())
     return fail(survey.udev_at_work ? ErrorCode::absent : ErrorCode::denied,
-                "GPIO line \"{}\": not found in {}, and not every chip could be asked: {}", wanted,
+                "GPIO line \"{}\": found {}, but not every chip could be asked: {}", wanted,
                 listed_chips(survey), survey.complaints.front());
   return fail(ErrorCode::absent,
               "GPIO line \"{}\": found {}, expected one with a line of that name; name the line in "
               "the device tree (gpio-line-names), or give it in the configuration as "
-              "\"gpiochip0:17\"; `gpioinfo` lists lines",
+              "\"gpiochip0:17\"; `octascope devices` lists lines",
               wanted, listed_chips(survey));
 }
 
@@ -83,13 +83,28 @@ GpioSurvey survey_gpio(const fs::path& dev) {
       survey.complaints.push_back(fmt::format("{}: udev has not gone through it yet", node));
     else if (chip.error().code == ErrorCode::denied)
       survey.complaints.push_back(
-          fmt::format("{}: permission denied; join the group that owns it (`sudo usermod -aG gpio "
-                      "$USER`, log in again) and install the udev rule deploy/70-octascope.rules",
+          fmt::format("{}: permission denied; install the package, or its udev rule "
+                      "(deploy/70-octascope.rules), "
+                      "and join the group gpio (`sudo usermod -aG gpio $USER`, log in again)",
                       node));
     else if (chip.error().code != ErrorCode::absent) // it may go between listing and asking
       survey.complaints.push_back(chip.error().message);
   }
   return survey;
+}
+
+std::string listed_lines(const GpioChipInfo& chip) {
+  std::string list;
+  std::size_t nameless = 0;
+  for (const GpioLineInfo& line : chip.lines) {
+    if (line.name.empty())
+      ++nameless;
+    else
+      list += fmt::format("{}{} {}", list.empty() ? "" : ", ", line.offset, line.name);
+  }
+  if (nameless > 0)
+    list += fmt::format("{}{} without a name", list.empty() ? "" : ", ", nameless);
+  return list;
 }
 
 Result<GpioLineAddress> find_gpio_line(const GpioSurvey& survey, std::string_view wanted) {

@@ -20,6 +20,9 @@ struct GpioSurvey {
 // Queries every chip in `dev`; acquires no line.
 GpioSurvey survey_gpio(const std::filesystem::path& dev = "/dev");
 
+// For people: "0 octascope-trigger, 1 octascope-sync, 6 without a name". Pure.
+std::string listed_lines(const GpioChipInfo& chip);
+
 struct GpioLineAddress {
   std::string node; // of the chip
   unsigned offset = 0;

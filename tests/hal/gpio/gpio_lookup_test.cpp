@@ -57,11 +57,18 @@ TEST(GpioLookup, a_chip_that_may_not_be_asked_may_be_the_one) {
   EXPECT_TRUE(find_gpio_line(survey, "trigger"));
 }
 
+TEST(GpioLookup, lists_lines_by_number_and_name) {
+  const GpioSurvey survey = two_chips();
+  EXPECT_EQ(listed_lines(survey.chips[0]), "0 LED, 1 without a name");
+  EXPECT_EQ(listed_lines(survey.chips[1]), "0 trigger, 1 LED, 2 held");
+  EXPECT_EQ(listed_lines({}), "");
+}
+
 TEST(GpioLookup, what_is_wrong_is_said_in_words) {
   EXPECT_EQ(gpio_complaint(two_chips(), "trigger"), "");
   EXPECT_THAT(gpio_complaint(two_chips(), "held"),
               AllOf(HasSubstr("\"pump\""), HasSubstr("gpiochip10:2")));
-  EXPECT_THAT(gpio_complaint(two_chips(), "elsewhere"), HasSubstr("gpioinfo"));
+  EXPECT_THAT(gpio_complaint(two_chips(), "elsewhere"), HasSubstr("octascope devices"));
 }
 
 TEST(GpioLookup, what_is_no_chip_is_told_or_passed_over) {
