@@ -18,13 +18,13 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Real sweeps of hundreds of milliseconds, frames that must be taken in time, pictures that must not be
-# marked as late, and those of a moment after the start. What only waits for something to come is no clock's.
+# marked as late, those of a moment after the start, and of a pedal's script that ends with the run. What only waits for something to come is no clock's.
 set(clock
   "aravis_camera\\.Genicam/LineCamera.*Contract\\."
   "pipeline_threads\\."
   "twins\\.sim/.*Contract\\..*/real_time"
   "v4l2_camera\\..*/real_time"
-  "program\\.(NoFault|Scripts/ShownFaults|Window)\\.")
+  "program\\.(Controls\\.a_pedal|NoFault\\.|Scripts/ShownFaults\\.|Window\\.)")
 
 # Aravis's fake camera has one port: who waits for it waits in its own time (loopback_port.h).
 set(genicam_port "aravis_camera\\.Genicam" "program_genicam\\.")

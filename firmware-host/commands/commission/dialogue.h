@@ -37,8 +37,8 @@ public:
                                     std::span<const std::string_view> known);
 
   bool by_script() const { return echoes_; } // nobody types the answers
-  bool quit() const { return quit_; }   // it was answered
-  bool ended() const { return ended_; } // there were no more answers
+  bool quit() const { return quit_; }        // it was answered
+  bool ended() const { return ended_; }      // there were no more answers
 
 private:
   hal::Error end_at(std::string_view question);

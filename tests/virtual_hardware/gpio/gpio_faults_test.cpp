@@ -58,7 +58,8 @@ TEST_F(GpioFaults, an_open_trigger_holds_its_line_under_its_name) {
 
 TEST_F(GpioFaults, an_unknown_line_is_never_guessed) {
   GpioGalvoTrigger trigger{clock_, {.line = "pump"}};
-  EXPECT_THAT(trigger.open({}), FailsWith(ErrorCode::absent, "\"pump\"", "6 lines", "octascope devices"));
+  EXPECT_THAT(trigger.open({}),
+              FailsWith(ErrorCode::absent, "\"pump\"", "6 lines", "octascope devices"));
 }
 
 TEST_F(GpioFaults, a_name_that_two_lines_have_is_refused) {
