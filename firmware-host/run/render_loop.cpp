@@ -184,6 +184,8 @@ bool RenderLoop::handle_input() {
     seen(event->time);
     keeps = requests.snapshot;
   }
+  if (keeps)
+    parts_.news.post(); // there may be more
   act(controller_.advance(parts_.clock.now()));
   if (!undisplayed_control_ && oldest && !(before == controller_.state()))
     undisplayed_control_ = oldest;
