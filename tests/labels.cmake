@@ -67,7 +67,10 @@ set(alike
   "angiography\\.Motions/MovingSample\\.vessels_are_told"
   "coronary_tree\\.CoronaryTree\\.(declares|feeds|follows|has_vessels|is_another|joins|keeps|shows|stays|tells_how)"
   "ui\\.Ways/RenewedPicture\\..*/(0|2|4|5|8|9|12|15)$"
-  "vessel_tracing\\.Scenes/VesselTracer\\..*/(0|1|2|3|5|6|7|9|10)$")
+  "ui\\.Buffers/EveryChange\\..*/(0|1)$"
+  "ui\\.VesselSmoothing\\.(a_wide|halves|within)"
+  "vessel_tracing\\.Scenes/VesselTracer\\..*/(0|1|2|3|5|6|7|9|10)$"
+  "vessel_tracing\\.VesselTracerTree\\.(bridges|joins|leaves_out|reaches|takes_less)")
 
 # Does one of the expressions fit the name?
 function(octascope_fits variable name)
