@@ -169,12 +169,12 @@ hal::Result<std::unique_ptr<LineWatch>> LineWatch::open(const RunOptions& option
                      "no line camera: {}; octascope doctor says more, and --sim works with a "
                      "simulated one",
                      choices.line_camera.reason);
-  std::unique_ptr<LineWatch> watch{new LineWatch{clock}};
-  watch->devices_ = std::make_unique<Devices>(std::move(real), choices, clock);
+  auto devices = std::make_unique<Devices>(std::move(real), choices, clock);
+  HAL_CHECK(devices->make_others(choices, options, configuration, clock));
+  std::unique_ptr<LineWatch> watch{new LineWatch{std::move(devices), clock}};
   watch->chosen_ = fmt::format("{}: {}", choices.line_camera.backend, choices.line_camera.reason);
   watch->trigger_ =
       fmt::format("{}: {}", choices.galvo_trigger.backend, choices.galvo_trigger.reason);
-  HAL_CHECK(watch->devices_->make_others(choices, options, configuration, clock));
   hal::LineCamera& camera = watch->devices_->line_camera();
   HAL_CHECK(patiently([&] { return camera.open(watch->devices_->camera_config()); }));
   if (starts) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware-host/configuration/configuration.h"
@@ -54,10 +55,11 @@ public:
 
 private:
   class Look;
-  explicit LineWatch(hal::Clock& clock) : clock_(clock) {}
+  LineWatch(std::unique_ptr<Devices> devices, hal::Clock& clock)
+      : devices_(std::move(devices)), clock_(clock) {}
 
+  std::unique_ptr<Devices> devices_; // camera and trigger are made
   hal::Clock& clock_;
-  std::unique_ptr<Devices> devices_;
   std::string chosen_;
   std::string trigger_;
 };
