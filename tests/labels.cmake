@@ -57,20 +57,34 @@ set(sanitized
   "ui\\.Vessel(Methods|OverlayTest|Splatter)\\."
   "ui\\.VolumePainterTest\\.")
 # Minutes, for threads of which others have the same.
-set(not_tsan "ui\\.VolumePainterTest\\.draws_again" "ui\\.Buffers/EveryChange\\.with_vessels" "live_tree\\.FollowedVesselsTest\\.")
-# The same; and tracings that take as long as their trees may be old, by a clock that does not wait for them.
-set(not_asan "ui\\.Buffers/EveryChange\\.with_vessels" "live_tree\\.FollowedVesselsTest\\.")
+set(not_tsan
+  "coronary_tree\\.(NearestApproach|SegmentGrid)"
+  "live_tree\\.FollowedVesselsTest\\."
+  "sim\\.(FlowTruth|MovingTissue|PerfusedTissue)\\."
+  "sim\\.RepeatedSweeps\\.(come_with|tissue)"
+  "sim\\.VolumeLoop\\.(comes_round|impossible|lines_stay|surfaces|the_beam)"
+  "ui\\.Buffers/EveryChange\\.")
+# Tracings that take as long as their trees may be old, by a clock that does not wait for them.
+set(not_asan "live_tree\\.FollowedVesselsTest\\.")
 
-# Of pictures, traced scenes, moving samples and generated trees some are enough: what is there to find by a
-# sanitizer is in each of them, and the others show what is right in numbers.
+# Of pictures, traced scenes, moving samples, generated trees and long series some are enough: what is there
+# to find by a sanitizer is in each of them, and the others show what is right in numbers.
 set(alike
+  "angiography\\.BScanFlow\\.repeats_that"
   "angiography\\.Motions/MovingSample\\.vessels_are_told"
-  "coronary_tree\\.CoronaryTree\\.(declares|feeds|follows|has_vessels|is_another|joins|keeps|shows|stays|tells_how)"
-  "ui\\.Ways/RenewedPicture\\..*/(0|2|4|5|8|9|12|15)$"
-  "ui\\.Buffers/EveryChange\\..*/(0|1)$"
+  "coronary_tree\\.CoronaryTree\\.(declares|feeds|follows|has|is_another|joins|keeps|shows|stays|tells_how)"
+  "firmware_host\\.(Calliper\\.measures|CalibrateCommand\\.tissue)"
+  "sim\\.(PerfusedTissue\\.is_about|RepeatedSweeps\\.a_beam|VolumeLoop\\.tissue)"
+  "soak\\.RandomFaults\\.are_never_refused"
+  "ui\\.Buffers/EveryChange\\.(gives|with)"
+  "ui\\.Glance\\.every_word_has_contrast"
+  "ui\\.Isas/.*SSE4"
+  "ui\\.ShownFlow\\.is_there_or_not"
   "ui\\.VesselSmoothing\\.(a_wide|halves|within)"
-  "vessel_tracing\\.Scenes/VesselTracer\\..*/(0|1|2|3|5|6|7|9|10)$"
-  "vessel_tracing\\.VesselTracerTree\\.(bridges|joins|leaves_out|reaches|takes_less)")
+  "ui\\.VolumePainterTest\\.(a_corner|a_cut|draws_again|sees_through)"
+  "ui\\.Ways/RenewedPicture\\..*/(0|2|4|5|6|8|9|10|12|13|15)$"
+  "vessel_tracing\\.Scenes/VesselTracer\\..*/(0|1|2|3|5|6|7|8|9|10)$"
+  "vessel_tracing\\.VesselTracerTree\\.(bridges|joins|leaves_out|may_be_stopped|reaches|takes_less)")
 
 # Does one of the expressions fit the name?
 function(octascope_fits variable name)

@@ -94,6 +94,7 @@ FlowShown Renderer::Parts::flow_of(const ViewState& view) const {
   if (!flow_shown(view))
     return flow;
   flow.shown = true;
+  flow.late = volume.flow_late(view);
   flow.b_scan = flow_states[static_cast<std::size_t>(view.b_scan)];
   flow.told = static_cast<int>(std::ranges::count(flow_states, pipeline::FlowState::told));
   flow.left_out = static_cast<int>(std::ranges::count(flow_states, pipeline::FlowState::left_out));

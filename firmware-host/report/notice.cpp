@@ -11,6 +11,17 @@ bool is_away(hal::DeviceState state) {
   return state == hal::DeviceState::absent || state == hal::DeviceState::failed;
 }
 
+// By what its newest fault says.
+std::string_view notice_of_away(pipeline::Device device,
+                                std::span<const pipeline::FaultRecord> faults) {
+  const pipeline::FaultRecord* newest = nullptr;
+  for (const pipeline::FaultRecord& record : faults)
+    if (facts_of(record.kind).device == device && (newest == nullptr || newest->last < record.last))
+      newest = &record;
+  const bool denied = newest != nullptr && newest->kind == fault_of(device, hal::ErrorCode::denied);
+  return denied ? facts_of(device).denied : facts_of(device).away;
+}
+
 } // namespace
 
 std::string_view compose_notice(std::span<const pipeline::FaultRecord> faults,
@@ -25,7 +36,7 @@ std::string_view compose_notice(std::span<const pipeline::FaultRecord> faults,
       away = std::min(away.value_or(device.device), device.device);
   }
   if (away)
-    return facts_of(*away).away;
+    return notice_of_away(*away, faults);
   std::optional<pipeline::FaultFacts> gravest;
   for (const pipeline::FaultRecord& record : faults) {
     const pipeline::FaultFacts facts = facts_of(record.kind);

@@ -103,17 +103,20 @@ std::string toml(const FoundCalibration& found, const CurveNames& names) {
     text += fmt::format("[dispersion]\ntable = {}\nsign = 1\n\n", toml_text(names.dispersion));
   text += options_toml(c, names.background, names.source);
   // What is assumed is no key, so that whoever reads the file knows it, too.
-  const auto spacing = [](std::string_view key, double um, bool known) {
+  const auto spacing = [](std::string_view key, double um, bool known,
+                          std::string_view assumed = "assumed, not measured") {
     return known ? fmt::format("{} = {}\n", key, um)
-                 : fmt::format("# {} = {} # assumed, not measured\n", key, um);
+                 : fmt::format("# {} = {} # {}\n", key, um, assumed);
   };
   // An index without the spacing that it belongs to would be refused.
   text += "[depth]\n" + spacing("spacing_um", c.depth_spacing_um,
                                 found.spacing_known || c.refractive_index.has_value());
   if (c.refractive_index)
     text += fmt::format("refractive_index = {}\n", *c.refractive_index);
-  text += spacing("a_spacing_um", c.a_spacing_um, !c.assumed_spacings.a_scans) +
-          spacing("b_spacing_um", c.b_spacing_um, !c.assumed_spacings.b_scans) + "\n";
+  // A run's [scan] goes before these two.
+  constexpr std::string_view scanners = "assumed, unless [scan] of a configuration says it";
+  text += spacing("a_spacing_um", c.a_spacing_um, !c.assumed_spacings.a_scans, scanners) +
+          spacing("b_spacing_um", c.b_spacing_um, !c.assumed_spacings.b_scans, scanners) + "\n";
   const Provenance& p = found.provenance;
   return text + fmt::format("[provenance]\nprogram = {}\nmethod = {}\ninputs = {}\ncreated = {}\n"
                             "verdict = {}\n",

@@ -10,13 +10,16 @@ using namespace std::chrono_literals;
 
 constexpr std::array device_table{
     DeviceFacts{Device::line_camera, "line_camera", "camera",
-                "Line camera disconnected: reconnecting"},
+                "Line camera disconnected: reconnecting",
+                "Line camera may not be opened: ask octascope doctor"},
     DeviceFacts{Device::galvo_trigger, "galvo_trigger", "trigger",
-                "Scanner trigger disconnected: reconnecting"},
-    DeviceFacts{Device::control_input, "control_input", "pedal",
-                "Pedal disconnected: reconnecting"},
+                "Scanner trigger disconnected: reconnecting",
+                "Scanner trigger may not be opened: ask octascope doctor"},
+    DeviceFacts{Device::control_input, "control_input", "pedal", "Pedal disconnected: reconnecting",
+                "Pedal may not be opened: ask octascope doctor"},
     DeviceFacts{Device::scope_camera, "scope_camera", "scope",
-                "Microscope camera disconnected: reconnecting"},
+                "Microscope camera disconnected: reconnecting",
+                "Microscope camera may not be opened: ask octascope doctor"},
     DeviceFacts{Device::display, "display"}, // nobody would see it
     DeviceFacts{Device::pipeline, "pipeline"},
     DeviceFacts{Device::picture, "picture"},

@@ -31,9 +31,10 @@ inline constexpr std::size_t device_count = static_cast<std::size_t>(Device::hos
 
 struct DeviceFacts {
   Device device;
-  std::string_view key;        // in reports, journal, metrics and fault scripts: stable
-  std::string_view name = key; // on the status bar and in `octascope status`: stable
-  std::string_view away = {};  // the notice while it is disconnected; empty: none
+  std::string_view key;         // in reports, journal, metrics and fault scripts: stable
+  std::string_view name = key;  // on the status bar and in `octascope status`: stable
+  std::string_view away = {};   // the notice while it is disconnected; empty: none
+  std::string_view denied = {}; // while it is there, and may not be opened
 };
 
 // Most severe first: of several faults, the display shows the one listed first.

@@ -148,6 +148,8 @@ void add_tree_trouble(HudText& hud, const TracedTreeStatus& tree) {
 void compose_troubles(HudText& hud, const Status& status, const FlowShown& flow) {
   if (flow.refused)
     add_trouble(hud, Trouble::Sign::failed).words.format("flow cannot be drawn");
+  if (flow.late)
+    add_trouble(hud, Trouble::Sign::lost).words.format("no flow on surface: late");
   // Where most of it is not there, its absence must not be taken for vessels that do not flow.
   if (const int lacking = flow.left_out + flow.none; flow.shown && lacking > flow.told) {
     const double share = std::floor(100.0 * lacking / (lacking + flow.told));

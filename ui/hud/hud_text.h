@@ -82,6 +82,7 @@ struct VesselMarks {
 struct FlowShown {
   bool shown = false;
   bool refused = false; // it should be, and this GL cannot draw it
+  bool late = false;    // not on the surface, whose mesh comes too late for it
   pipeline::FlowState b_scan = pipeline::FlowState::none; // of the one in the panel
   int told = 0;                                           // B-scans, of the volume
   int left_out = 0;                                       // likewise, as they moved
@@ -104,7 +105,7 @@ struct ShownPictures {
 struct HudText {
   // One per kind, and two of kind incomplete.
   static constexpr std::size_t most_badges = 10;
-  static constexpr std::size_t most_troubles = Status::most_devices + 7;
+  static constexpr std::size_t most_troubles = Status::most_devices + 8;
 
   // Lines, frames and volumes per second: dropped in this order if the strip is too narrow.
   static constexpr std::array<std::size_t, 3> dispensable_figures{1, 2, 0};

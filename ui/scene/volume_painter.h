@@ -90,6 +90,12 @@ public:
     return flow_shows_ && !flow_refusal_ && shows_flow(view);
   }
 
+  // Whether the surface was drawn without its flow, as its mesh came after the flow had gone, in one of
+  // the last volumes: of so many that it does not go and come with each.
+  bool flow_late(const ViewState& view) const {
+    return view.technique == Technique::surface && draws_flow(view) && flow_late_until_ > uploads_;
+  }
+
   // Whether what flows in the shown volume was computed: it was to be shown then.
   bool has_flow_computed() const { return flow_shows_; }
 
@@ -213,8 +219,9 @@ private:
   // What flows, if the view shows that.
   VolumeTexture flow_texture_{Voxels::flow}; // of the volume whose upload this was:
   std::uint64_t flow_uploads_ = 0;
-  std::uint64_t flow_before_ = 0; // likewise, of its texture before; 0: not all of it is there
-  bool flow_whole_ = false;       // all of it was uploaded
+  std::uint64_t flow_before_ = 0;     // likewise, of its texture before; 0: not all of it is there
+  bool flow_whole_ = false;           // all of it was uploaded
+  std::uint64_t flow_late_until_ = 0; // before this upload
   pipeline::Occupancy flow_occupancy_;
   bool flow_wanted_ = shows_flow(ViewState{});
   std::optional<hal::Error> flow_refusal_; // why none is drawn

@@ -64,6 +64,17 @@ TEST_F(Notice, names_a_device_for_as_long_as_it_is_away) {
   }
 }
 
+TEST_F(Notice, of_a_device_that_may_not_be_opened_does_not_call_it_disconnected) {
+  devices[0].state = DeviceState::absent;
+  const auto denied = fault("line_camera", "denied", 1s);
+  EXPECT_EQ(of({fault("line_camera", "disconnected", 2s), denied}),
+            "Line camera may not be opened: ask octascope doctor");
+  EXPECT_EQ(of({denied, fault("line_camera", "disconnected", 0s)}),
+            "Line camera disconnected: reconnecting");
+  EXPECT_EQ(of({denied, fault("scope_camera", "disconnected", 0s)}),
+            "Line camera may not be opened: ask octascope doctor");
+}
+
 TEST_F(Notice, names_any_other_fault_until_two_seconds_after_it) {
   EXPECT_NE(of({fault("line_camera", "dropped_frames", 0s)}), "");
   EXPECT_NE(of({fault("line_camera", "dropped_frames", 2s)}), "");

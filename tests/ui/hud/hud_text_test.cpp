@@ -271,6 +271,9 @@ TEST(HudText, flow_that_could_not_be_told_is_said) {
   shown.flow.none = 70; // workers that were behind
   shown.flow.left_out = 0;
   EXPECT_EQ(compose_hud_text(view, status, shown).troubles[0].words.view(), "no flow in 87 %");
+  shown.flow.late = true;
+  EXPECT_EQ(compose_hud_text(view, status, shown).troubles[0].words.view(),
+            "no flow on surface: late");
   shown.b_scan = pipeline::BScanState::saturated;
   EXPECT_EQ(compose_hud_text(view, status, shown).b_scan.note.view(), "B-scan 41 of 80: saturated");
 }

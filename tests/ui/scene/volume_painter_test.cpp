@@ -294,6 +294,35 @@ TEST_F(VolumePainterTest, an_iso_surface_is_of_one_volume) {
   }
 }
 
+// Meshes of large volumes take longer than two uploads.
+TEST_F(VolumePainterTest, says_that_flow_came_too_late_for_its_surface) {
+  pipeline::Volume volume = tissue_volume(full_geometry);
+  add_tubes(volume);
+  ui::ViewState view;
+  view.technique = ui::Technique::surface;
+  const auto update = [&] {
+    return painter_->update(ui::StereoEye::left, view, camera(view), by_shader, rect);
+  };
+  ASSERT_TRUE(show(volume));
+  draw(view, by_shader);
+  EXPECT_FALSE(painter_->flow_late(view));
+  for (int i = 0; i < 20 && !painter_->flow_late(view); ++i) {
+    ASSERT_TRUE(painter_->show(volume));
+    ASSERT_TRUE(painter_->show(volume));
+    ASSERT_TRUE(update());
+  }
+  ASSERT_TRUE(painter_->flow_late(view));
+  view.technique = ui::Technique::rays;
+  EXPECT_FALSE(painter_->flow_late(view)) << "these are in time";
+  view.technique = ui::Technique::surface;
+  for (int in_time = 0; in_time < 4; ++in_time) {
+    EXPECT_TRUE(painter_->flow_late(view)) << in_time << ": it must not come and go";
+    ASSERT_TRUE(show(volume));
+    draw(view, by_shader);
+  }
+  EXPECT_FALSE(painter_->flow_late(view));
+}
+
 float grey_of(std::uint8_t level, const ui::ViewState& view) {
   const float from_db =
       view.window_offset_db + ui::window_lift(view.technique) * view.window_size_db;
