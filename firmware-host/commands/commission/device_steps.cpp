@@ -9,12 +9,10 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "firmware-host/commands/command.h"
 #include "firmware-host/commands/commission/live_look.h"
 #include "firmware-host/commands/commission/spectrum_display.h"
 #include "firmware-host/commands/commission/spectrum_text.h"
 #include "firmware-host/commands/commission/steps.h"
-#include "firmware-host/commands/devices/devices_learn.h"
 #include "firmware-host/devices/hardware_survey.h"
 #include "firmware-host/terminal/terminal.h"
 #include "hal/number_text.h"
@@ -340,44 +338,6 @@ hal::Result<StepRecord> look_at_spectrum(Bench& bench) {
   HAL_CHECK(pipeline::write_png(
       picture, draw_spectrum(found.mean_line, found.one_line, found.format.full_scale())));
   record.pictures.push_back(picture.filename().string());
-  return record;
-}
-
-// Of those known, the one that `run` takes, and why.
-hal::Result<std::string> pedal_in_use(Bench& bench) {
-  HAL_TRY(const auto options, bench.session.run_options("dark"));
-  HAL_TRY(const auto configuration, bench.session.configuration());
-  RealDevices real{configuration.devices, plan_of(options, configuration), bench.clock};
-  const auto choices = choose_devices(real.find_for(options), options, configuration.devices);
-  const bool known = choices.control_input.backend != "none";
-  return known ? choices.control_input.reason
-               : "none that is known: " + choices.control_input.reason;
-}
-
-hal::Result<StepRecord> learn_pedal(Bench& bench) {
-  StepRecord record;
-  if (bench.session.simulated()) {
-    record.found = {{"pedal", "simulated: it follows a script, there is nothing to learn"}};
-    return record;
-  }
-  HAL_TRY(const auto answer,
-          bench.dialogue.ask_word("Learn a pedal or knob that `octascope devices` does not know?",
-                                  {"no", "yes"}));
-  if (answer == "no") {
-    HAL_TRY(const auto pedal, pedal_in_use(bench));
-    record.found = {{"pedal", pedal}};
-    return record;
-  }
-  const auto device = bench.session.free_file("pedal", ".device.toml");
-  const std::string name = device.filename().string();
-  const std::string stem = name.substr(0, name.size() - std::string_view{".device.toml"}.size());
-  if (learn_control({.usb = {},
-                     .out = bench.session.folder() / stem,
-                     .reads_input = ::isatty(STDIN_FILENO) != 0}) != exit_done)
-    return hal::fail(hal::ErrorCode::absent, "nothing was learned; repeat the step, or skip it");
-  bench.session.set("control_device", stem + ".device.toml");
-  bench.session.set("control_profile", stem + ".profile.toml");
-  record.found = {{"pedal", fmt::format("learned: {0}.device.toml, {0}.profile.toml", stem)}};
   return record;
 }
 

@@ -47,6 +47,7 @@ struct Step {
   std::vector<Answer> answers;
   const char* phantom = nullptr;          // what lies under the beam by then; null: as before
   std::vector<const char*> troubles = {}; // that it may tell of, beside a failure
+  std::vector<std::uint8_t> treads = {};  // on the pedal, when it asks for that
 };
 
 const Answer placed{"Enter when it is so:"};
@@ -77,7 +78,7 @@ public:
     say("");
     for (int attempt = 0; attempt < 5; ++attempt) {
       const std::size_t before = heard_;
-      if (!give(step.answers))
+      if (!give(step, before))
         return false;
       const bool well = went_well(step, text_of(log_file).substr(before));
       say(well ? "" : "repeat");
@@ -101,16 +102,33 @@ private:
     return !is_told("FAILED: ") && std::ranges::none_of(step.troubles, is_told);
   }
 
-  // Until the step asks what comes next.
-  bool give(const std::vector<Answer>& answers) {
-    for (const Answer& answer : answers) {
+  // Until the step asks what comes next. What it says is in the log from `since` on.
+  bool give(const Step& step, std::size_t since) {
+    for (const Answer& answer : step.answers) {
       if (!wait_for(answer.question))
         return false;
       if (asked_.find("Again?") != std::string::npos)
         return true;
       say(answer.answer);
     }
-    return wait_for("Go on?");
+    return tread(step.treads, since) && wait_for("Go on?");
+  }
+
+  // Once it asks for that, or has failed.
+  bool tread(const std::vector<std::uint8_t>& treads, std::size_t since) {
+    const auto asked = [&] {
+      const std::string log = text_of(log_file);
+      return log.find("Press each switch", since) != log.npos ||
+             log.find("Again?", since) != log.npos;
+    };
+    const auto deadline = WallClock::now() + 60s;
+    while (!treads.empty() && !asked() && run_->running() && WallClock::now() < deadline)
+      std::this_thread::sleep_for(10ms);
+    for (const std::uint8_t switches : treads) {
+      EXPECT_TRUE(rig_.tread(switches));
+      std::this_thread::sleep_for(100ms);
+    }
+    return true;
   }
 
   void say(const std::string& answer) { answers_ << answer << std::endl; }
@@ -172,7 +190,9 @@ const std::vector<Step> steps{
     {.answers = {placed}, .phantom = "anterior_eye"},
     {.answers = {{"How far apart", "630"}}},
     {.answers = {placed, {"Side of the target's square"}, {"Use them?"}}, .phantom = "target"},
-    {.answers = {{"Learn a pedal"}}},
+    {.answers = {{"Learn a pedal"}, {"Try it now?"}},
+     .troubles = {"nothing came"},
+     .treads = {1, 0, 2, 0, 4, 0}},
     {.answers = {}}};
 
 TEST(CommissionOnVirtualRig, leads_from_nothing_to_a_calibrated_live_picture) {
@@ -191,6 +211,7 @@ TEST(CommissionOnVirtualRig, leads_from_nothing_to_a_calibrated_live_picture) {
   EXPECT_THAT(log, AllOf(HasSubstr("v4l2: "), HasSubstr("gpio: "),
                          HasSubstr("pulses answered        5 of 5"),
                          HasSubstr("orientation            upright"), HasSubstr("12 bits"),
+                         HasSubstr("left"), HasSubstr("what was pressed or turned"),
                          Not(HasSubstr("SIMULATED"))));
   const auto calibration = pipeline::Calibration::load(folder / "calibration.toml", 1024);
   ASSERT_TRUE(calibration) << calibration.error().message;
