@@ -27,7 +27,9 @@ std::string complaint_about(FrameVerdict verdict, std::uint64_t sequence) {
   if (verdict == FrameVerdict::late)
     return fmt::format("frame {} came when its B-scan was made already", sequence);
   if (verdict == FrameVerdict::doubled)
-    return fmt::format("frame {} has the time of a sweep that had come already", sequence);
+    return fmt::format("frame {} is one of a sweep that is there already: are the camera's time "
+                       "stamps late, or does something beside the scanner trigger it?",
+                       sequence);
   return fmt::format("frame {} was exposed outside every sweep", sequence);
 }
 

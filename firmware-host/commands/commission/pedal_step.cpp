@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -124,7 +123,7 @@ hal::Result<StepRecord> known_pedal(Bench& bench) {
 hal::Result<StepRecord> new_pedal(Bench& bench) {
   const auto device = bench.session.free_file("pedal", ".device.toml");
   const std::string name = device.filename().string();
-  const std::string stem = name.substr(0, name.size() - std::string_view{".device.toml"}.size());
+  const std::string stem = name.substr(0, name.rfind(".device.toml"));
   if (learn_control({.usb = {},
                      .out = bench.session.folder() / stem,
                      .reads_input = ::isatty(STDIN_FILENO) != 0}) != exit_done)

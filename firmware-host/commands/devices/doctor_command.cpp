@@ -10,6 +10,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <pwd.h>
+#include <unistd.h>
 
 #include "firmware-host/commands/command.h"
 #include "firmware-host/diagnosis/health_check.h"
@@ -20,6 +22,8 @@ namespace octascope::firmware_host {
 
 namespace {
 
+constexpr const char* appliance_user = "octascope"; // the package's
+
 const char* word(Verdict verdict) {
   switch (verdict) {
   case Verdict::good: return "good";
@@ -29,12 +33,21 @@ const char* word(Verdict verdict) {
   return "unknown";
 }
 
+// Root may open everything; the appliance's own user may not.
+void say_who_was_asked() {
+  if (::geteuid() == 0 && ::getpwnam(appliance_user) != nullptr)
+    say("\nAsked as root, who may open everything. For what the appliance may: "
+        "sudo -u {} octascope doctor\n",
+        appliance_user);
+}
+
 void print_text(const std::vector<HealthCheck>& checks) {
   for (const HealthCheck& check : checks) {
     say("{:<8} {:<19} {}\n", word(check.verdict), check.subject, check.found);
     if (!check.remedy.empty())
       say("{:<28} → {}\n", "", check.remedy);
   }
+  say_who_was_asked();
 }
 
 void print_json(const std::vector<HealthCheck>& checks) {
