@@ -22,19 +22,6 @@ std::string capitalised(std::string words) {
   return words;
 }
 
-// "left pedal", "button 3", "left + right"
-std::string words_for(const ControlProfile& profile, SwitchSet switches) {
-  std::string names;
-  for (std::size_t i = 0; i < profile.switches.size(); ++i)
-    if ((switches >> i & 1U) != 0)
-      names += (names.empty() ? "" : " + ") + profile.switches[i];
-  if (profile.switch_word.empty() || !std::has_single_bit(switches))
-    return names;
-  const bool numbered = std::isdigit(static_cast<unsigned char>(names[0])) != 0;
-  return numbered ? fmt::format("{} {}", profile.switch_word, names)
-                  : fmt::format("{} {}", names, profile.switch_word);
-}
-
 std::string_view words_for(GestureKind gesture) {
   switch (gesture) {
   case GestureKind::press: return "press";
@@ -81,6 +68,18 @@ Legend make_legend(const ControlProfile& profile) {
   if (std::ranges::any_of(legend.lines, chooses))
     legend.menu = profile.menu;
   return legend;
+}
+
+std::string words_for(const ControlProfile& profile, SwitchSet switches) {
+  std::string names;
+  for (std::size_t i = 0; i < profile.switches.size(); ++i)
+    if ((switches >> i & 1U) != 0)
+      names += (names.empty() ? "" : " + ") + profile.switches[i];
+  if (profile.switch_word.empty() || !std::has_single_bit(switches))
+    return names;
+  const bool numbered = std::isdigit(static_cast<unsigned char>(names[0])) != 0;
+  return numbered ? fmt::format("{} {}", profile.switch_word, names)
+                  : fmt::format("{} {}", names, profile.switch_word);
 }
 
 Legend make_key_legend() {

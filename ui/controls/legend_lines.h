@@ -23,6 +23,9 @@ struct Legend {
 // For the profile's device, in the profile's order.
 Legend make_legend(const ControlProfile& profile);
 
+// "left pedal", "button 3", "left + right".
+std::string words_for(const ControlProfile& profile, SwitchSet switches);
+
 // For the keyboard, one line per action.
 Legend make_key_legend();
 

@@ -45,11 +45,16 @@ void VolumePainter::refuse_flow(hal::Error why) {
   flow_wanted_ = false;
 }
 
-// To the volume that the mesh is of. False: that is not there any more.
-bool VolumePainter::match_flow(FlowScene& flow) const {
+// To the volume that the mesh is of. False: that is not there any more, which is said for a second at the
+// most usual rate.
+bool VolumePainter::match_flow(FlowScene& flow) {
+  constexpr std::uint64_t late_for_volumes = 4;
   const std::uint64_t of = techniques_.surface()->mesh_of();
   flow.before = of == flow_before_;
-  return of != 0 && (of == flow_uploads_ || flow.before);
+  const bool there = of != 0 && (of == flow_uploads_ || flow.before);
+  if (!there)
+    flow_late_until_ = uploads_ + late_for_volumes;
+  return there;
 }
 
 FlowScene VolumePainter::flow_scene(float view_opacity) const {

@@ -13,9 +13,6 @@ namespace octascope::ui {
 
 namespace {
 
-// A second at the most usual rate.
-constexpr std::uint64_t late_for_volumes = 4;
-
 // How the ray casters draw a technique; nothing for those that only GL knows.
 std::optional<RayMode> ray_mode(Technique technique) {
   switch (technique) {
@@ -420,10 +417,8 @@ hal::Result<> VolumePainter::update(StereoEye eye, const ViewState& view, const 
   if (surface) {
     HAL_CHECK(techniques_.get(view.technique));
     scene.mesh = techniques_.surface()->prepare(view);
-    if (scene.flow != nullptr && !match_flow(flow)) {
+    if (scene.flow != nullptr && !match_flow(flow))
       scene.flow = nullptr;
-      flow_late_until_ = uploads_ + late_for_volumes;
-    }
   }
   pictures->processor_drew = processor;
   const auto vessels =

@@ -172,7 +172,7 @@ private:
   hal::Result<> bring_flow_texture(const pipeline::Volume& volume, const TextureParts& parts);
   hal::Result<> make_flow_programs(Technique technique, bool by_gl);
   FlowScene flow_scene(float view_opacity) const;
-  bool match_flow(FlowScene& flow) const;
+  bool match_flow(FlowScene& flow);
   TextureParts expected_parts() const;
   TextureParts parts_for(const ViewState& view, RayBackend rays) const;
   TextureParts level_parts_for(const ViewState& view, RayBackend rays) const;

@@ -19,6 +19,7 @@
 #include "firmware-host/terminal/terminal.h"
 #include "hal/control_input.h"
 #include "ui/controls/control_profile.h"
+#include "ui/controls/legend_lines.h"
 
 namespace octascope::firmware_host {
 
@@ -29,27 +30,19 @@ using namespace std::chrono_literals;
 constexpr hal::Duration first_within = 10s;
 constexpr hal::Duration next_within = 3s;
 
-std::string name_in(const std::vector<std::string>& names, std::size_t index) {
-  return index < names.size() ? names[index] : fmt::format("{}", index + 1);
-}
-
-// "left pedal", "button 2".
-std::string switch_name(const ui::ControlProfile& profile, std::size_t index) {
-  const std::string name = name_in(profile.switches, index);
-  const std::string word = profile.switch_word.empty() ? "switch" : profile.switch_word;
-  const bool numbered = !name.empty() && name.front() >= '0' && name.front() <= '9';
-  return numbered ? fmt::format("{} {}", word, name) : fmt::format("{} {}", name, word);
-}
-
 // What somebody did, in the words of the display; empty: let go, or a deflection that a hand does not
 // mean.
 std::string name_of(const hal::ControlEvent& event, const ui::ControlProfile& profile) {
   constexpr int meant = 200; // of 1000
   switch (event.kind) {
   case hal::ControlKind::pedal_switch:
-    return event.value != 0 ? switch_name(profile, event.index) : std::string{};
+    return event.value == 0 ? std::string{}
+           : event.index < profile.switches.size()
+               ? words_for(profile, ui::SwitchSet{1} << event.index)
+               : fmt::format("switch {}", event.index + 1);
   case hal::ControlKind::knob:
-    return fmt::format("{} {}", name_in(profile.knobs, event.index),
+    return fmt::format("{} {}",
+                       event.index < profile.knobs.size() ? profile.knobs[event.index] : "knob",
                        event.value > 0 ? "clockwise" : "counter-clockwise");
   case hal::ControlKind::axis:
     return std::abs(event.value) >= meant
@@ -90,8 +83,7 @@ hal::Result<> try_pedal(Bench& bench, RealDevices& devices, StepRecord& record) 
   HAL_CHECK(input->open());
   const auto profile = devices.new_control_profile().value_or(ui::ControlProfile{});
   say("  Press each switch and turn each knob, one after the other. It ends when nothing has come "
-      "for "
-      "three seconds.\n");
+      "for three seconds.\n");
   std::fflush(stdout); // seen now, through a pipe as well
   HAL_TRY(const auto heard, hear(*input, profile, bench.clock));
   input->close();
@@ -99,8 +91,7 @@ hal::Result<> try_pedal(Bench& bench, RealDevices& devices, StepRecord& record) 
     record.warnings.emplace_back("nothing came of it in 10 s: if something was pressed, repeat the "
                                  "step, and answer \"yes\" to learn it");
   else
-    record.found.emplace_back("what was pressed or turned",
-                              fmt::format("{}", fmt::join(heard, ", ")));
+    record.found.emplace_back("pressed or turned", fmt::format("{}", fmt::join(heard, ", ")));
   return {};
 }
 

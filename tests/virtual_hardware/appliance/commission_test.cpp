@@ -211,7 +211,7 @@ TEST(CommissionOnVirtualRig, leads_from_nothing_to_a_calibrated_live_picture) {
   EXPECT_THAT(log, AllOf(HasSubstr("v4l2: "), HasSubstr("gpio: "),
                          HasSubstr("pulses answered        5 of 5"),
                          HasSubstr("orientation            upright"), HasSubstr("12 bits"),
-                         HasSubstr("left"), HasSubstr("what was pressed or turned"),
+                         HasSubstr("pressed or turned      left pedal, centre pedal, right pedal"),
                          Not(HasSubstr("SIMULATED"))));
   const auto calibration = pipeline::Calibration::load(folder / "calibration.toml", 1024);
   ASSERT_TRUE(calibration) << calibration.error().message;
