@@ -333,6 +333,23 @@ bool RenderLoop::awaits_volume() const {
   return now + governor_.fixed_cost() > due && now < due + patience;
 }
 
+// It takes longer than others: a frame that nobody waits for is taken for it, if one comes in time.
+bool RenderLoop::is_to_be_whole() const {
+  if (!drawn_whole_)
+    return true;
+  const hal::Duration age = status().now - *drawn_whole_;
+  const bool is_awaited = volume_.rolls() || volume_undisplayed_ || undisplayed_control_;
+  return age >= longest_rest ||
+         (age >= longest_rest * 2 / 3 && !is_awaited && !volume_comes_soon());
+}
+
+// Within half of the time that there is between two.
+bool RenderLoop::volume_comes_soon() const {
+  const pipeline::Volume* const last = volume_.whole();
+  return last != nullptr && status().freshness.liveness == ui::Liveness::live &&
+         parts_.clock.now() > last->metadata.last_line + setup_.freshness.volume_period / 2;
+}
+
 void RenderLoop::draw_if_changed() {
   const ui::ViewState& view = controller_.state();
   quality_ = choose_quality();
@@ -355,7 +372,7 @@ void RenderLoop::draw_if_changed() {
   // A picture that is drawn in parts is drawn as a whole as often: which proves that all of it is true,
   // not that it was.
   hal::BackBuffer buffer = display.back_buffer();
-  if (!drawn_whole_ || status().now - *drawn_whole_ >= longest_rest) {
+  if (is_to_be_whole()) {
     buffer.holds = 0;
     drawn_whole_ = status().now;
   }
@@ -406,6 +423,7 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
       statistics_.first_picture = flip.completed;
     statistics_.latency.add(flip.completed - *undisplayed_last_line_);
     showing_.flipped = flip.completed;
+    volume_.reached_the_glass();
     note_passage();
     undisplayed_last_line_.reset();
   }

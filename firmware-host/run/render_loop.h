@@ -169,6 +169,8 @@ private:
   void take_scope_picture();
   void update_status();
   bool awaits_volume() const;
+  bool is_to_be_whole() const;
+  bool volume_comes_soon() const;
   void draw_if_changed();
   void flip_done(const hal::Flip& flip, hal::TimePoint begin);
   void note_passage();

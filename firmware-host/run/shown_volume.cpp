@@ -18,6 +18,7 @@ bool ShownVolume::may_roll(const ui::ViewState& view) const {
 
 const pipeline::Volume* ShownVolume::take(const ui::ViewState& view) {
   rolled_ = std::exchange(rolling_, may_roll(view));
+  volumes_.hurry(!rolling_ && !view.frozen);
   newest_ = view.frozen ? nullptr : volumes_.take_newest();
   if (newest_ != nullptr)
     whole_ = newest_;

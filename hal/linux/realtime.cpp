@@ -112,8 +112,8 @@ Result<> pin_this_thread(int core) {
 }
 
 void make_this_thread_background() {
-  constexpr int lowest = 19;
-  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), lowest);
+  const sched_param none{};
+  pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
 }
 
 Result<> lock_memory() {

@@ -34,7 +34,8 @@ std::vector<int> allowed_cores();
 // not allowed.
 Result<> pin_this_thread(int core);
 
-// Nice 19 for the calling thread: for background work without a deadline.
+// SCHED_IDLE for the calling thread: for background work without a deadline. Unlike one of nice 19, which
+// keeps its core to the end of its turn, some milliseconds, it goes as soon as another one wakes.
 void make_this_thread_background();
 
 // Locks all present and future memory of the process, so that none is swapped out.

@@ -59,6 +59,10 @@ public:
   // Any thread, wait-free: a pulse that should have produced frames produced none.
   void note_unanswered_pulse() { unanswered_.store(true, std::memory_order_relaxed); }
 
+  // Any thread. How many of the camera's buffers are queued or with the pipeline.
+  int on_loan() const { return on_loan_.load(std::memory_order_relaxed); }
+  int buffers() const { return config_.buffers; }
+
   // Any thread.
   AcquisitionCounters counters() const;
 

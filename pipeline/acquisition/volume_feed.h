@@ -52,6 +52,10 @@ public:
   // meanwhile. Empty: there is none. Neither waits.
   std::optional<VolumeInMaking> borrow_after(std::uint64_t after) { return do_borrow_after(after); }
   void give_back() { do_give_back(); }
+  // Renderer's thread only. Whether each volume is to be brought to the glass before the next one is
+  // begun (right_of_way.h), which on_glass() then ends.
+  void hurry(bool wanted) { do_hurry(wanted); }
+  void on_glass() { do_on_glass(); }
   // Whether any volume is ever lent.
   bool lends() const { return do_lends(); }
   // Whether its volumes say what flows.
@@ -65,6 +69,8 @@ private:
   virtual bool do_has_newer() const = 0;
   virtual std::optional<VolumeInMaking> do_borrow_after(std::uint64_t) { return std::nullopt; }
   virtual void do_give_back() {}
+  virtual void do_hurry(bool /*wanted*/) {}
+  virtual void do_on_glass() {}
   virtual bool do_lends() const { return false; }
   virtual bool do_has_flow() const { return false; }
   virtual VolumeCounters do_counters() const = 0;

@@ -13,6 +13,8 @@ namespace octascope::pipeline {
 
 namespace {
 
+using namespace std::chrono_literals;
+
 Fault fault_of(FrameVerdict verdict) {
   switch (verdict) {
   case FrameVerdict::doubled: return Fault::doubled_frame;
@@ -42,6 +44,13 @@ std::vector<Volume> make_pool(const VolumeGeometry& geometry, std::size_t size, 
   return std::vector<Volume>(size, volume);
 }
 
+// A quarter of a volume's time: workers with half of theirs to spare have caught up long before the last
+// line.
+hal::Duration longest_way(const ScanPlan& plan) {
+  constexpr hal::Duration enough = 80ms; // for a volume's picture where nobody is in its way
+  return std::min(enough, plan.sweep_duration() / 4);
+}
+
 } // namespace
 
 VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
@@ -63,6 +72,7 @@ VolumeThread::VolumeThread(VolumeThreadSetup setup, hal::GalvoTrigger& trigger,
 void VolumeThread::start(const ThreadSetup& setup) {
   scan_lag_.start(setup);
   const std::size_t most_jobs = volumes_.size() * static_cast<std::size_t>(setup_.plan.b_scans);
+  held_back_.reserve(most_jobs);
   workers_ = std::make_unique<WorkerPool>(
       setup_.workers, most_jobs, setup,
       [this](std::size_t worker, std::uint32_t job) { reconstruct(worker, job); });
@@ -100,8 +110,9 @@ void VolumeThread::run() {
       while (const auto frame = acquisition_.take())
         place(*frame);
       finish_due_volumes(looked_until);
+      submit_held_back();
     }
-    arrived_.wait_until(clock_, scheduler_.next_wake(clock_.now()));
+    arrived_.wait_until(clock_, next_wake());
   }
   // The workers' last jobs hold loans of the camera; those not begun are given back here.
   workers_.reset();
@@ -215,8 +226,44 @@ void VolumeThread::refuse(const hal::LineFrame& frame, FrameVerdict verdict) {
   acquisition_.release(frame.buffer);
 }
 
-// Never full: there is a place for every B-scan of the pool.
 void VolumeThread::submit(std::span<const BScanJob> jobs) {
+  const hal::TimePoint now = clock_.now();
+  if (held_back_.empty() && !holds_back(now))
+    return begin(jobs);
+  if (held_back_.empty())
+    held_since_ = now;
+  held_back_.insert(held_back_.end(), jobs.begin(), jobs.end()); // room is reserved
+  submit_held_back();
+}
+
+// Not from workers that are behind already.
+void VolumeThread::grant_right_of_way(hal::TimePoint published) {
+  const int under_way = static_cast<int>(workers_->workers() + 1) * setup_.plan.repeats;
+  if (acquisition_.on_loan() <= under_way)
+    right_of_way_.grant(published + longest_way(setup_.plan));
+}
+
+// Half of the camera's buffers are left to it.
+bool VolumeThread::holds_back(hal::TimePoint now) const {
+  return now < right_of_way_.until() && 2 * acquisition_.on_loan() < acquisition_.buffers();
+}
+
+hal::TimePoint VolumeThread::next_wake() const {
+  const hal::TimePoint wake = scheduler_.next_wake(clock_.now());
+  return held_back_.empty() ? wake : std::min(wake, right_of_way_.until());
+}
+
+void VolumeThread::submit_held_back() {
+  const hal::TimePoint now = clock_.now();
+  if (held_back_.empty() || holds_back(now))
+    return;
+  right_of_way_.hand_over(held_since_, now);
+  begin(held_back_);
+  held_back_.clear();
+}
+
+// Never full: there is a place for every B-scan of the pool.
+void VolumeThread::begin(std::span<const BScanJob> jobs) {
   for (const BScanJob& job : jobs)
     workers_->submit(job.buffer * static_cast<std::uint32_t>(setup_.plan.b_scans) +
                      static_cast<std::uint32_t>(job.b_scan));
@@ -282,7 +329,9 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
 
 // Workers that cannot keep up lose lines at last; before that they go without flow.
 bool VolumeThread::is_behind(const BScanWork& work, hal::TimePoint now) const {
-  return now - work.last_line > setup_.plan.sweep_duration() / 8;
+  const hal::TimePoint due = std::max(work.last_line, right_of_way_.caught_up());
+  return now - due > setup_.plan.sweep_duration() / 8 ||
+         4 * acquisition_.on_loan() > 3 * acquisition_.buffers();
 }
 
 // Before the B-scan is said to be built, so that whoever sees it sees its flow.
@@ -357,6 +406,7 @@ void VolumeThread::publish(std::uint32_t buffer, const FinishedVolume& finished)
   volume.metadata.assemble = assembled - begin;
   volume.metadata.published = assembled;
 
+  grant_right_of_way(assembled);
   const auto [recycled, skipped] = triple_buffer_.publish(buffer);
   loan_.close(recycled);
   statistics_.reconstruct.add(volume.metadata.reconstruct);

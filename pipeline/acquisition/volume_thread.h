@@ -19,6 +19,7 @@
 #include "pipeline/acquisition/b_scan_builder.h"
 #include "pipeline/acquisition/neighbour_average.h"
 #include "pipeline/acquisition/repeat_comparison.h"
+#include "pipeline/acquisition/right_of_way.h"
 #include "pipeline/acquisition/volume_assembler.h"
 #include "pipeline/acquisition/volume_feed.h"
 #include "pipeline/acquisition/volume_scheduler.h"
@@ -125,6 +126,8 @@ private:
   bool do_has_newer() const override { return triple_buffer_.has_newer(); }
   std::optional<VolumeInMaking> do_borrow_after(std::uint64_t after) override;
   void do_give_back() override { loan_.give_back(); }
+  void do_hurry(bool wanted) override { right_of_way_.want(wanted); }
+  void do_on_glass() override { right_of_way_.give_up(); }
   bool do_lends() const override { return true; }
   bool do_has_flow() const override { return builder_.compares(); }
   VolumeCounters do_counters() const override { return scheduler_.counters(); }
@@ -138,6 +141,11 @@ private:
   void note_last(VolumeMetadata& metadata, const hal::LineFrame& frame) const;
   void refuse(const hal::LineFrame& frame, FrameVerdict verdict);
   void submit(std::span<const BScanJob> jobs);
+  void submit_held_back();
+  void begin(std::span<const BScanJob> jobs);
+  bool holds_back(hal::TimePoint now) const;
+  void grant_right_of_way(hal::TimePoint published);
+  hal::TimePoint next_wake() const;
   void show_converted(std::size_t worker, const Workplace& workplace, int b_scan) const;
   void release(Sweeps& sweeps);
   static void note_exposure(BScanWork& work, const Sweeps& sweeps);
@@ -163,6 +171,9 @@ private:
   std::array<Workplace, VolumeScheduler::pool_size> workplaces_;
   TripleBuffer triple_buffer_{VolumeScheduler::first_middle, VolumeScheduler::first_front};
   BufferLoan<VolumeScheduler::pool_size> loan_;
+  RightOfWay right_of_way_;
+  std::vector<BScanJob> held_back_; // while the renderer has it, since:
+  hal::TimePoint held_since_{};
   VolumeScheduler scheduler_;
   BScanBuilder builder_;
   ScanLagThread scan_lag_;

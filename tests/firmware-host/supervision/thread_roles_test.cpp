@@ -86,7 +86,7 @@ TEST(ThreadSetup, those_that_help_drawing_are_ordinary_and_the_surface_comes_las
   const auto setup = make_thread_setup(clock, faults, cores);
   const int ours = getpriority(PRIO_PROCESS, 0);
   EXPECT_EQ(niceness_after(setup, {"rays", 0}), (std::pair{ours, SCHED_OTHER}));
-  EXPECT_EQ(niceness_after(setup, {"surface"}), (std::pair{19, SCHED_OTHER}));
+  EXPECT_EQ(niceness_after(setup, {"surface"}), (std::pair{ours, SCHED_IDLE}));
   EXPECT_EQ(cores.pinned(), std::vector{-1}) << "a helper is no worker";
 }
 

@@ -31,6 +31,75 @@ TEST_F(VolumeThreadTest, publishes_a_whole_volume_with_every_b_scan_in_its_place
   EXPECT_EQ(volumes->counters().lost_b_scans, 0U);
 }
 
+// A renderer that brings the first volume to the glass while the second one begins.
+class RightOfWayTest : public VolumeThreadTest {
+protected:
+  explicit RightOfWayTest(int buffers = 24) : VolumeThreadTest(slow_plan(), {}, buffers) {}
+
+  // The first is published 1 ms before the second one's pulse; of that one, so many frames come.
+  void begin_second_volume(std::uint64_t frames) {
+    start();
+    const hal::TimePoint first = trigger.wait_for_pulse(0);
+    deliver(first, 0, plan.b_scans - 1);
+    await_frames(7);
+    clock.sleep_until(first + plan.tick_period() - 1ms);
+    deliver(first, plan.b_scans - 1, plan.b_scans);
+    wait_for_volume(1);
+    published = clock.now();
+    clock.sleep_until(first + plan.tick_period());
+    const hal::TimePoint second = trigger.wait_for_pulse(1);
+    for (std::uint64_t b = 0; b < frames; ++b)
+      camera.deliver(8 + b, time_of(second, static_cast<int>(b)), 20);
+    await_frames(8 + frames);
+  }
+
+  bool are_built() const { return acquisition->on_loan() == 0; }
+  // For as long as a test can wait for what is not to come.
+  void expect_nothing_built(int frames) const {
+    std::this_thread::sleep_for(30ms);
+    EXPECT_EQ(acquisition->on_loan(), frames);
+  }
+
+  hal::TimePoint published;
+};
+
+TEST_F(RightOfWayTest, workers_begin_at_once_where_nobody_wants_it) {
+  begin_second_volume(3);
+  await([&] { return are_built(); });
+  stop();
+}
+
+TEST_F(RightOfWayTest, workers_begin_when_the_volume_is_on_the_glass) {
+  volumes->hurry(true);
+  begin_second_volume(3);
+  expect_nothing_built(3);
+  volumes->on_glass();
+  arrived.post(); // as the next frame would
+  await([&] { return are_built(); });
+  stop();
+}
+
+TEST_F(RightOfWayTest, workers_begin_after_a_while_whatever_becomes_of_the_volume) {
+  volumes->hurry(true);
+  begin_second_volume(3);
+  expect_nothing_built(3);
+  clock.sleep_until(published + 80ms);
+  await([&] { return are_built(); });
+  stop();
+}
+
+class FewBuffersTest : public RightOfWayTest {
+protected:
+  FewBuffersTest() : RightOfWayTest(8) {}
+};
+
+TEST_F(FewBuffersTest, workers_leave_the_camera_half_of_its_buffers) {
+  volumes->hurry(true);
+  begin_second_volume(4);
+  await([&] { return 2 * acquisition->on_loan() < acquisition->buffers(); });
+  stop();
+}
+
 // The volume in the making, as far as it is made, and when each B-scan was exposed.
 TEST_F(VolumeThreadTest, lends_what_is_finished_of_a_volume_in_the_making) {
   start();
