@@ -392,6 +392,8 @@ void RenderLoop::draw_if_changed() {
   if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
     keep_picture();
   showing_.drawn = parts_.clock.now();
+  if (undisplayed_last_line_)
+    volume_.note_drawn();
   const auto flip = display.present();
   if (!flip)
     lose_display(flip.error());
@@ -423,7 +425,6 @@ void RenderLoop::flip_done(const hal::Flip& flip, hal::TimePoint begin) {
       statistics_.first_picture = flip.completed;
     statistics_.latency.add(flip.completed - *undisplayed_last_line_);
     showing_.flipped = flip.completed;
-    volume_.reached_the_glass();
     note_passage();
     undisplayed_last_line_.reset();
   }

@@ -46,8 +46,8 @@ public:
   // All of it, to a renderer that has nothing; does nothing while there is no volume.
   hal::Result<> show_again(ui::Renderer& renderer);
 
-  // A frame with the newest whole one was seen, for the first time.
-  void reached_the_glass() { volumes_.on_glass(); }
+  // A frame with the newest whole one waits for its flip.
+  void note_drawn() { volumes_.note_drawn(); }
   // A frame with it was seen then.
   void flipped(hal::TimePoint seen) { line_latency_.flipped(seen); }
   // The display is gone: what it was given was not seen.

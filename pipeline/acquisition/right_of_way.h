@@ -1,4 +1,4 @@
-// Lets the renderer bring a whole volume to the glass before the workers begin the next one's B-scans.
+// Lets the renderer draw a whole volume before the workers begin the next one's B-scans.
 //
 // Workers have real-time priority and take every core as soon as a frame comes. Right after a volume
 // that hurts most: somebody waits for its picture, and nobody yet for the next one, whose last line is
@@ -16,7 +16,7 @@ class RightOfWay {
 public:
   // Renderer. Whether it wants it for each volume that is published from now on.
   void want(bool wanted) { wanted_.store(wanted, std::memory_order_relaxed); }
-  // Renderer. The volume is on the glass.
+  // Renderer. The volume is drawn; what is left is to wait for the refresh.
   void give_up() { until_.store(hal::TimePoint::min(), std::memory_order_relaxed); }
 
   // Who publishes. The renderer has it until then, if it wants it.

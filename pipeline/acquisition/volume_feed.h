@@ -52,10 +52,10 @@ public:
   // meanwhile. Empty: there is none. Neither waits.
   std::optional<VolumeInMaking> borrow_after(std::uint64_t after) { return do_borrow_after(after); }
   void give_back() { do_give_back(); }
-  // Renderer's thread only. Whether each volume is to be brought to the glass before the next one is
-  // begun (right_of_way.h), which on_glass() then ends.
+  // Renderer's thread only. Whether each volume is to be drawn before the next one is begun
+  // (right_of_way.h), until note_drawn() says that it was.
   void hurry(bool wanted) { do_hurry(wanted); }
-  void on_glass() { do_on_glass(); }
+  void note_drawn() { do_note_drawn(); }
   // Whether any volume is ever lent.
   bool lends() const { return do_lends(); }
   // Whether its volumes say what flows.
@@ -70,7 +70,7 @@ private:
   virtual std::optional<VolumeInMaking> do_borrow_after(std::uint64_t) { return std::nullopt; }
   virtual void do_give_back() {}
   virtual void do_hurry(bool /*wanted*/) {}
-  virtual void do_on_glass() {}
+  virtual void do_note_drawn() {}
   virtual bool do_lends() const { return false; }
   virtual bool do_has_flow() const { return false; }
   virtual VolumeCounters do_counters() const = 0;

@@ -127,7 +127,7 @@ private:
   std::optional<VolumeInMaking> do_borrow_after(std::uint64_t after) override;
   void do_give_back() override { loan_.give_back(); }
   void do_hurry(bool wanted) override { right_of_way_.want(wanted); }
-  void do_on_glass() override { right_of_way_.give_up(); }
+  void do_note_drawn() override { right_of_way_.give_up(); }
   bool do_lends() const override { return true; }
   bool do_has_flow() const override { return builder_.compares(); }
   VolumeCounters do_counters() const override { return scheduler_.counters(); }

@@ -28,14 +28,15 @@ constexpr float opaque_tissue = 0.5F; // of a voxel at the top of the window, pe
 constexpr float translucent_tissue = 0.03F;
 
 std::string name_of(const DisplayBenchCase& what) {
-  return fmt::format("{}{}_{}x{}_{}_{}", to_string(what.technique),
+  return fmt::format("{}{}_{}x{}_{}_{}{}", to_string(what.technique),
                      !casts_rays(what.technique)                 ? ""
                      : what.backend == ui::RayBackend::processor ? "_processor"
                                                                  : "_shader",
-                     what.width, what.height, what.steps, what.opaque ? "opaque" : "translucent");
+                     what.width, what.height, what.steps, what.opaque ? "opaque" : "translucent",
+                     what.flow ? "_flow" : "");
 }
 
-std::vector<DisplayBenchCase> all_cases(const DisplayBenchOptions& options) {
+std::vector<DisplayBenchCase> all_cases(const DisplayBenchOptions& options, bool with_flow) {
   std::vector<DisplayBenchCase> cases;
   for (const auto& [width, height] : options.sizes)
     for (const ui::Technique technique : ui::all_techniques)
@@ -56,6 +57,10 @@ std::vector<DisplayBenchCase> all_cases(const DisplayBenchOptions& options) {
             if (technique == ui::Technique::surface && steps != 512) // it takes no steps
               continue;
             cases.push_back({technique, backend, width, height, steps, opaque});
+            if (with_flow) {
+              cases.push_back(cases.back());
+              cases.back().flow = true;
+            }
           }
   return cases;
 }
@@ -75,7 +80,12 @@ public:
 
   const ui::ViewState& view() const { return view_; }
 
-  hal::Result<> show() { return painter_.show(volume_); }
+  // With what flows in it, or without.
+  hal::Result<> show(bool flow) {
+    view_.vessels = flow ? ui::VesselsShown::flow : ui::VesselsShown::off;
+    painter_.expect(view_);
+    return painter_.show(volume_);
+  }
 
   hal::Result<DisplayBenchResult> measure(const DisplayBenchCase& what, double seconds) {
     DisplayBenchResult result;
@@ -104,7 +114,8 @@ public:
   }
 
   // Volumes that differ from one to the next, as live ones do.
-  hal::Result<double> upload_ms() {
+  hal::Result<double> upload_ms(bool flow) {
+    HAL_CHECK(show(flow));
     pipeline::Volume changing = volume_;
     std::vector<double> ms;
     for (int repeat = 0; repeat < 15; ++repeat) {
@@ -115,7 +126,7 @@ public:
       ui::gl::finish();
       ms.push_back(1000 * seconds_since(begin));
     }
-    return show().map([&] { return quantile(ms, 0.5); });
+    return show(flow).map([&] { return quantile(ms, 0.5); });
   }
 
 private:
@@ -123,6 +134,7 @@ private:
     const ui::Rect rect{0, 0, what.width, what.height};
     ui::ViewState view = view_;
     view.technique = what.technique;
+    view.vessels = what.flow ? ui::VesselsShown::flow : ui::VesselsShown::off;
     view.opacity = what.opaque ? opaque_tissue : translucent_tissue;
     // A little farther each round, so that no picture was drawn before.
     view.yaw_deg =
@@ -197,12 +209,16 @@ hal::Result<DisplayBenchReport> bench_display(const pipeline::Volume& volume,
   {
     HAL_TRY(auto painter, ui::VolumePainter::create());
     DisplayBench bench{volume, std::move(painter)};
-    HAL_CHECK(bench.show());
+    HAL_CHECK(bench.show(false));
     report.window_offset_db = static_cast<double>(bench.view().window_offset_db);
     report.window_size_db = static_cast<double>(bench.view().window_size_db);
-    HAL_TRY(const auto upload, bench.upload_ms());
+    HAL_TRY(const auto upload, bench.upload_ms(false));
     report.upload_ms_p50 = upload;
-    const auto cases = all_cases(options);
+    if (volume.has_flow()) {
+      HAL_TRY(const auto with_flow, bench.upload_ms(true));
+      report.upload_with_flow_ms_p50 = with_flow;
+    }
+    const auto cases = all_cases(options, volume.has_flow());
     for (const DisplayBenchCase& what : cases) {
       HAL_TRY(auto result,
               bench.measure(what, options.seconds / static_cast<double>(cases.size())));
@@ -237,6 +253,8 @@ std::string to_json(const DisplayBenchReport& report) {
       {"upload_ms_p50", report.upload_ms_p50},
       {"occupancy_ms_per_b_scan", report.occupancy_ms_per_b_scan},
   };
+  if (report.upload_with_flow_ms_p50)
+    json["upload_with_flow_ms_p50"] = *report.upload_with_flow_ms_p50;
   auto& list = json["cases"] = nlohmann::ordered_json::array();
   for (const DisplayBenchResult& result : report.cases)
     list.push_back(
@@ -248,6 +266,7 @@ std::string to_json(const DisplayBenchReport& report) {
          {"size", fmt::format("{}x{}", result.what.width, result.what.height)},
          {"planes_or_step", fmt::format("1/{}", result.what.steps)},
          {"opacity", result.what.opaque ? "opaque" : "translucent"},
+         {"flow", result.what.flow},
          {"frames", result.frames},
          {"ms_p50", result.ms_p50},
          {"ms_p95", result.ms_p95},

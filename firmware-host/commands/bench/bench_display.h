@@ -33,6 +33,7 @@ struct DisplayBenchCase {
   int height = 720;
   int steps = 512; // along the longest edge of the volume
   bool opaque = true;
+  bool flow = false; // what flows is drawn, too
 };
 
 struct DisplayBenchResult {
@@ -53,10 +54,12 @@ struct DisplayBenchReport {
   double window_size_db = 0;
   std::vector<DisplayBenchResult> cases;
   double upload_ms_p50 = 0;
+  std::optional<double> upload_with_flow_ms_p50; // where the volume has flow
   double occupancy_ms_per_b_scan = 0;
   std::optional<LiveFigures> live;
 };
 
+// Of a volume that has flow, each case is measured without it and with it.
 hal::Result<DisplayBenchReport> bench_display(const pipeline::Volume& volume,
                                               const DisplayBenchOptions& options);
 

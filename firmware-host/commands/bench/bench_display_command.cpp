@@ -11,6 +11,7 @@
 #include "firmware-host/commands/bench/bench_display.h"
 #include "firmware-host/commands/command.h"
 #include "firmware-host/commands/numbers.h"
+#include "firmware-host/commands/volume/flow_file.h"
 #include "firmware-host/report/report_parts.h"
 #include "firmware-host/run/volume_source.h"
 #include "firmware-host/terminal/terminal.h"
@@ -23,6 +24,7 @@ struct BenchDisplayArguments {
   bool as_json = false;
   double seconds = 90;
   std::string volume;
+  std::string flow;
   std::string size;
   std::string technique;
   std::string drawn_by;
@@ -32,17 +34,21 @@ struct BenchDisplayArguments {
 
 void print_text(const DisplayBenchReport& report) {
   say("{}\n{}\nvolume {} x {} x {}, window {:.1f} dB from {:.1f} dB; eight directions\n\n"
-      "technique drawn by   size       step   opacity      ms p50  ms p95  difference\n",
+      "technique drawn by   size       step   opacity     flow ms p50  ms p95  difference\n",
       report.cpu, report.gl_renderer, report.geometry.depths, report.geometry.a_scans,
       report.geometry.b_scans, report.window_size_db, report.window_offset_db);
   for (const DisplayBenchResult& result : report.cases)
-    say("{:<9} {:<10} {:<10} 1/{:<4} {:<11} {:>7.1f} {:>7.1f}  {}\n",
+    say("{:<9} {:<10} {:<10} 1/{:<4} {:<11} {:<3} {:>7.1f} {:>7.1f}  {}\n",
         to_string(result.what.technique),
         result.what.backend == ui::RayBackend::processor ? "processor" : "gl",
         fmt::format("{}x{}", result.what.width, result.what.height), result.what.steps,
-        result.what.opaque ? "opaque" : "translucent", result.ms_p50, result.ms_p95,
+        result.what.opaque ? "opaque" : "translucent", result.what.flow ? "yes" : "no",
+        result.ms_p50, result.ms_p95,
         result.difference ? fmt::format("{:.2f}", *result.difference) : "-");
-  say("\nupload {:.2f} ms a volume; occupancy {:.3f} ms a B-scan\n", report.upload_ms_p50,
+  say("\nupload {:.2f} ms a volume{}; occupancy {:.3f} ms a B-scan\n", report.upload_ms_p50,
+      report.upload_with_flow_ms_p50
+          ? fmt::format(", with flow {:.2f} ms", *report.upload_with_flow_ms_p50)
+          : "",
       report.occupancy_ms_per_b_scan);
   if (const auto& live = report.live)
     say("live at 1280x720: first picture after {:.0f} ms; {:.1f} frames/s while the view "
@@ -71,9 +77,12 @@ int run(const BenchDisplayArguments& arguments) {
   if (!arguments.drawn_by.empty())
     options.rays =
         arguments.drawn_by == "processor" ? ui::RayBackend::processor : ui::RayBackend::shader;
-  const auto loaded = load_volume(request);
+  auto loaded = load_volume(request);
   if (!loaded)
     return complain("bench display", loaded.error());
+  if (!arguments.flow.empty())
+    if (const auto read = read_flow_beside(arguments.flow, loaded->volume); !read)
+      return complain("bench display", read.error());
   for (const std::string& remark : loaded->remarks)
     warn("octascope bench display: {}\n", remark);
   options.seconds = arguments.seconds;
@@ -97,10 +106,17 @@ void add_bench_display_command(CLI::App& bench, int& exit_status) {
   CLI::App* command = bench.add_subcommand(
       "display", "Milliseconds a picture of each technique, and of the whole appliance");
   command->add_flag("--json", arguments->as_json, "One JSON object");
+  CLI::Option* const volume =
+      command
+          ->add_option("--volume", arguments->volume,
+                       "Volume to draw (NRRD); else the simulated eye, 512 x 300 x 80")
+          ->type_name("FILE");
   command
-      ->add_option("--volume", arguments->volume,
-                   "Volume to draw (NRRD); else the simulated eye, 512 x 300 x 80")
-      ->type_name("FILE");
+      ->add_option("--flow", arguments->flow,
+                   "What flows in it: each picture is measured without and with it (NRRD of the "
+                   "same shape, as reconstruct --flow writes it)")
+      ->type_name("FILE.nrrd")
+      ->needs(volume);
   command
       ->add_option("--size", arguments->size,
                    "Of the pictures, as 1280x720; else 640x360, 1280x720 and 1920x1080")

@@ -31,7 +31,7 @@ TEST_F(VolumeThreadTest, publishes_a_whole_volume_with_every_b_scan_in_its_place
   EXPECT_EQ(volumes->counters().lost_b_scans, 0U);
 }
 
-// A renderer that brings the first volume to the glass while the second one begins.
+// A renderer that draws the first volume while the second one begins.
 class RightOfWayTest : public VolumeThreadTest {
 protected:
   explicit RightOfWayTest(int buffers = 24) : VolumeThreadTest(slow_plan(), {}, buffers) {}
@@ -69,11 +69,11 @@ TEST_F(RightOfWayTest, workers_begin_at_once_where_nobody_wants_it) {
   stop();
 }
 
-TEST_F(RightOfWayTest, workers_begin_when_the_volume_is_on_the_glass) {
+TEST_F(RightOfWayTest, workers_begin_when_the_volume_is_drawn) {
   volumes->hurry(true);
   begin_second_volume(3);
   expect_nothing_built(3);
-  volumes->on_glass();
+  volumes->note_drawn();
   arrived.post(); // as the next frame would
   await([&] { return are_built(); });
   stop();
