@@ -90,6 +90,9 @@ public:
   // As open() left them; nothing while absent. May take as long as the camera takes to answer.
   CameraControls controls() const { return do_controls(); }
 
+  // How many buffers the last open() got, if fewer than the configuration asked for. Camera thread.
+  std::optional<int> fewer_buffers() const { return do_fewer_buffers(); }
+
   // ready → streaming. Sequence numbers restart at each start. ErrorCode::absent: the camera has not
   // answered yet and stays `ready`; the next start() goes on with it, stop() and close() end it.
   Result<> start() {
@@ -125,6 +128,7 @@ private:
   static constexpr std::string_view kind = "line camera";
 
   virtual Result<> do_open(const LineCameraConfig& config) = 0;
+  virtual std::optional<int> do_fewer_buffers() const { return std::nullopt; }
   virtual Result<> do_start() = 0;
   virtual Result<std::optional<LineFrame>> do_wait_frame(Duration timeout) = 0;
   virtual void do_release(int buffer) = 0;

@@ -61,7 +61,8 @@ public:
 
   // Any thread. How many of the camera's buffers are queued or with the pipeline.
   int on_loan() const { return on_loan_.load(std::memory_order_relaxed); }
-  int buffers() const { return config_.buffers; }
+  // Of how many: drivers give fewer than they are asked for.
+  int buffers() const { return buffers_.load(std::memory_order_relaxed); }
 
   // Any thread.
   AcquisitionCounters counters() const;
@@ -86,6 +87,7 @@ private:
 
   std::vector<hal::LineFrame> frames_; // by buffer number; written before the number is queued
   IndexRing queue_;
+  std::atomic<int> buffers_;
   std::atomic<int> on_loan_{0};                // queued or with the pipeline
   std::optional<std::uint64_t> last_sequence_; // of this stream
   std::uint64_t repeated_ = 0;                 // later frames with the same number

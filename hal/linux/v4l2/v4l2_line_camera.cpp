@@ -137,6 +137,11 @@ Result<> V4l2LineCamera::open_node(const std::string& node, const LineCameraConf
   return {};
 }
 
+std::optional<int> V4l2LineCamera::do_fewer_buffers() const {
+  return buffers_ && buffers_->count() < config_.buffers ? std::optional{buffers_->count()}
+                                                         : std::nullopt;
+}
+
 Result<> V4l2LineCamera::do_start() {
   sequence_ = {};
   if (auto started = buffers_->start(); !started) {

@@ -69,6 +69,7 @@ private:
   std::string_view do_backend() const override { return "v4l2"; }
   bool do_simulated() const override { return false; }
   Result<> do_open(const LineCameraConfig& config) override;
+  std::optional<int> do_fewer_buffers() const override;
   Result<> do_start() override;
   Result<std::optional<LineFrame>> do_wait_frame(Duration timeout) override;
   void do_release(int buffer) override;

@@ -35,12 +35,12 @@ class VolumeThreadTest : public testing::Test {
 protected:
   // `bins`: of a sweep, where volumes shall have flow.
   explicit VolumeThreadTest(const ScanPlan& scan_plan = slow_plan(),
-                            const ReconstructBins& bins = {}, int buffers = 24)
+                            const ReconstructBins& bins = {})
       : plan(scan_plan) {
     hal::LineCameraConfig config;
     config.format.samples_per_line = plan.samples;
     config.format.lines_per_frame = plan.lines_per_frame();
-    config.buffers = buffers;
+    config.buffers = 24;
     acquisition = std::make_unique<Acquisition>(camera, config, clock, faults, arrived);
     VolumeThreadSetup setup{
         .plan = plan,

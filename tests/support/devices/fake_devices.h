@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -58,6 +59,11 @@ public:
     const std::lock_guard lock{mutex_};
     late_starts_ = calls;
   }
+  // As drivers do, from the next open() on.
+  void give_fewer_buffers(int buffers) {
+    const std::lock_guard lock{mutex_};
+    fewer_buffers_ = buffers;
+  }
   std::size_t on_loan() const {
     const std::lock_guard lock{mutex_};
     return loans_.size();
@@ -83,11 +89,16 @@ private:
     if (!plugged_)
       return hal::fail(hal::ErrorCode::absent, "the fake is unplugged");
     config_ = config;
-    memory_.assign(static_cast<std::size_t>(config.buffers),
+    config_.buffers = fewer_buffers_.value_or(config.buffers);
+    memory_.assign(static_cast<std::size_t>(config_.buffers),
                    std::vector<std::byte>(config.format.frame_bytes()));
     ++opened_;
     set_state(hal::DeviceState::ready);
     return {};
+  }
+  std::optional<int> do_fewer_buffers() const override {
+    const std::lock_guard lock{mutex_};
+    return fewer_buffers_;
   }
   hal::Result<> do_start() override {
     const std::lock_guard lock{mutex_};
@@ -147,6 +158,7 @@ private:
   std::deque<Order> queue_;
   std::set<int> loans_;
   std::vector<std::vector<std::byte>> memory_;
+  std::optional<int> fewer_buffers_;
   hal::LineCameraConfig config_;
   int late_starts_ = 0;
   bool timed_by_host_ = false;

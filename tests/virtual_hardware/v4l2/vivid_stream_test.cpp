@@ -71,6 +71,7 @@ TEST_F(VividStream, buffers_are_fewer_than_asked_for_and_that_is_said) {
   config.buffers = 96;
   ASSERT_TRUE(camera_.open(config));
   EXPECT_THAT(camera_.notes(), Contains(HasSubstr("32 buffers, 96 asked for")));
+  EXPECT_EQ(camera_.fewer_buffers(), 32);
 }
 
 TEST_F(VividStream, loans_stay_as_they_are_and_frames_without_buffers_are_a_gap) {
