@@ -27,7 +27,8 @@ Acquisition::Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& c
                          hal::Clock& clock, FaultLog& faults, Wakeup& arrived)
     : camera_(camera), config_(config), clock_(clock), faults_(faults), arrived_(arrived),
       frames_(static_cast<std::size_t>(config.buffers)),
-      queue_(static_cast<std::size_t>(config.buffers)), buffers_(config.buffers), patience_(first_patience) {}
+      queue_(static_cast<std::size_t>(config.buffers)), buffers_(config.buffers),
+      patience_(first_patience) {}
 
 hal::Result<> Acquisition::start(const ThreadSetup& setup) {
   if (auto opened = camera_.open(config_); !opened) {
