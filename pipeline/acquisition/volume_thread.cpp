@@ -44,11 +44,10 @@ std::vector<Volume> make_pool(const VolumeGeometry& geometry, std::size_t size, 
   return std::vector<Volume>(size, volume);
 }
 
-// A quarter of a volume's time: workers with half of theirs to spare have caught up long before the last
-// line.
+// A third of a volume's time: workers with as much of theirs to spare have caught up before the last line.
 hal::Duration longest_way(const ScanPlan& plan) {
-  constexpr hal::Duration enough = 80ms; // for a volume's picture where nobody is in its way
-  return std::min(enough, plan.sweep_duration() / 4);
+  constexpr hal::Duration enough = 100ms; // for a volume's picture where nobody is in its way
+  return std::min(enough, plan.sweep_duration() / 3);
 }
 
 } // namespace

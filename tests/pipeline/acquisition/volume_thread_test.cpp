@@ -81,7 +81,7 @@ TEST_F(RightOfWayTest, workers_begin_after_a_while_whatever_becomes_of_the_volum
   volumes->hurry(true);
   begin_second_volume(3);
   expect_nothing_built(3);
-  clock.sleep_until(published + 80ms);
+  clock.sleep_until(published + 100ms);
   await([&] { return are_built(); });
   stop();
 }
