@@ -61,6 +61,7 @@ public:
   hal::Result<> outcome() const;
 
   // To be called on the fixed-rate thread.
+  bool is_on() const { return recorder_.is_on(); }
   void offer(const pipeline::Volume& volume) { recorder_.offer(volume); }
 
 private:

@@ -167,6 +167,7 @@ std::string to_json(const RunReport& r) {
         {"published", volumes.published},
         {"displayed", r.counters.displayed},
         {"skipped", volumes.skipped},
+        {"passed_over", volumes.passed_over},
         {"lost", r.counters.undisplayed},
         {"unfinished", volumes.unfinished}}},
       {"lost", lost_to_json(r.counters)},

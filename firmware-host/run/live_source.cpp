@@ -213,6 +213,7 @@ void LiveSource::make_threads() {
       reconstruction_->volume_thread_setup(devices_->plan(), camera.buffers);
   setup.trigger = {.pulse_width = configuration_.devices.pulse_width};
   setup.observe_volume = [this](const pipeline::Volume& volume) { recordings_->offer(volume); };
+  setup.wants_every_volume = [this] { return options_.raw_to || recordings_->is_on(); };
   setup.most_volumes = options_.volumes;
   if (options_.raw_to) {
     raw_ = std::make_unique<pipeline::RawRecorder>(

@@ -305,8 +305,8 @@ RunCounters RenderLoop::final_counters(hal::Duration lasted) const {
   const auto per_s = [lasted](std::uint64_t count) {
     return static_cast<double>(count) / hal::to_seconds(lasted);
   };
-  all.rates = {per_s(all.lines), per_s(all.volumes.published), per_s(all.displayed),
-               per_s(all.frames_drawn)};
+  all.rates = {per_s(all.lines), per_s(all.volumes.published + all.volumes.passed_over),
+               per_s(all.displayed), per_s(all.frames_drawn)};
   return all;
 }
 

@@ -38,13 +38,15 @@ void StatusWriter::show(const pipeline::Volume& volume) {
     status_.replay.emplace();
   if (status_.replay)
     status_.replay->recorded = local_date_and_time(*metadata.recorded_ns);
+  passed_over_before_ = passed_over_;
   status_.missing_b_scans = volume.missing_b_scans();
   status_.saturated_lines = metadata.saturated_lines;
 }
 
 void StatusWriter::count(const RunCounters& counters, hal::TimePoint now) {
   status_.now = now;
-  volume_rate_.update(counters.volumes.acquired, now);
+  passed_over_ = counters.volumes.passed_over;
+  volume_rate_.update(counters.volumes.acquired + counters.volumes.passed_over, now);
   shown_rate_.update(counters.displayed, now);
   line_rate_.update(counters.lines, now);
   frame_rate_.update(counters.frames_drawn, now);
@@ -72,7 +74,10 @@ void StatusWriter::roll(bool asked, bool possible,
 
 void StatusWriter::judge(const ui::FreshnessLimits& limits,
                          const std::optional<hal::TimePoint>& frozen_since) {
-  status_.freshness = ui::judge_freshness(shown_, status_.now, limits, frozen_since);
+  std::optional<ui::ShownVolume> shown = shown_;
+  if (shown) // volumes passed over came, and none of them was to be shown
+    shown->arrived += (passed_over_ - passed_over_before_) * limits.volume_period;
+  status_.freshness = ui::judge_freshness(shown, status_.now, limits, frozen_since);
 }
 
 } // namespace octascope::firmware_host

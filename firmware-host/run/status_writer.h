@@ -68,6 +68,8 @@ public:
 private:
   ui::Status status_;
   std::optional<ui::ShownVolume> shown_;
+  std::uint64_t passed_over_ = 0; // so far, and before it was shown
+  std::uint64_t passed_over_before_ = 0;
   RateMeter volume_rate_, shown_rate_, line_rate_, frame_rate_;
 };
 

@@ -63,7 +63,8 @@ void add_picture(Json& json, const PictureStatus& p, hal::TimePoint now) {
   json["volumes"] = {{"acquired", c.volumes.acquired},
                      {"published", c.volumes.published},
                      {"displayed", c.displayed},
-                     {"skipped", c.volumes.skipped}};
+                     {"skipped", c.volumes.skipped},
+                     {"passed_over", c.volumes.passed_over}};
   json["lost"] = lost_to_json(c);
   json["saturated_lines"] = c.volumes.saturated_lines;
   json["frames"] = {{"drawn", c.frames_drawn}, {"missed", c.frames_missed}};
@@ -114,6 +115,7 @@ void add_picture(Metrics& m, const PictureStatus& p) {
   m.name("volumes_total", "counter", "Volumes, by what became of them.")
       .value(c.displayed, "fate=\"displayed\"")
       .value(c.volumes.skipped, "fate=\"skipped\"")
+      .value(c.volumes.passed_over, "fate=\"passed over\"")
       .value(c.volumes.lost_volumes, "fate=\"lost\"");
   m.name("lost_lines_total", "counter", "Kept lines of sweeps that did not come.")
       .value(c.volumes.lost_lines);

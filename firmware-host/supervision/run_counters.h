@@ -11,13 +11,14 @@ namespace octascope::firmware_host {
 
 struct RunRates {
   double lines_per_s = 0;
-  double volumes_per_s = 0;       // that were acquired
+  double volumes_per_s = 0;       // that came: acquired or passed over
   double shown_volumes_per_s = 0; // of those, in a frame that reached the glass
   double frames_per_s = 0;
 };
 
 // The books balance once the threads have ended (ARCHITECTURE.md, "What counts as lost"):
-//   volumes.planned = volumes.acquired + volumes.lost_volumes + volumes.unfinished
+//   volumes.planned = volumes.acquired + volumes.passed_over + volumes.lost_volumes +
+//                     volumes.unfinished
 //   volumes.acquired = displayed + volumes.skipped + undisplayed
 struct RunCounters {
   pipeline::VolumeCounters volumes;

@@ -16,12 +16,13 @@ class RightOfWay {
 public:
   // Renderer. Whether it wants it for each volume that is published from now on.
   void want(bool wanted) { wanted_.store(wanted, std::memory_order_relaxed); }
+  bool is_wanted() const { return wanted_.load(std::memory_order_relaxed); }
   // Renderer. The volume is drawn; what is left is to wait for the refresh.
   void give_up() { until_.store(hal::TimePoint::min(), std::memory_order_relaxed); }
 
   // Who publishes. The renderer has it until then, if it wants it.
   void grant(hal::TimePoint until) {
-    if (wanted_.load(std::memory_order_relaxed))
+    if (is_wanted())
       until_.store(until, std::memory_order_relaxed);
   }
   hal::TimePoint until() const { return until_.load(std::memory_order_relaxed); }

@@ -10,13 +10,14 @@
 
 namespace octascope::pipeline {
 
-// Once the thread has stopped, planned = acquired + lost_volumes + unfinished.
+// Once the thread has stopped, planned = acquired + passed_over + lost_volumes + unfinished.
 struct VolumeCounters {
   std::uint64_t planned = 0; // ticks, each of which should bring a volume
   std::uint64_t triggered = 0;
   std::uint64_t acquired = 0; // at least one B-scan came
   std::uint64_t published = 0;
   std::uint64_t skipped = 0;      // published, but replaced before the renderer took them
+  std::uint64_t passed_over = 0;  // came, and not reconstructed: nobody would have seen them
   std::uint64_t lost_lines = 0;   // kept lines of every sweep that did not arrive whole and in time
   std::uint64_t lost_b_scans = 0; // with no sweep that did
   std::uint64_t lost_volumes = 0; // ticks that yielded nothing

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <iterator>
+#include <span>
 
 namespace octascope::pipeline {
 
@@ -52,10 +53,7 @@ TickDecision VolumeScheduler::tick(hal::TimePoint now) {
 
 std::optional<std::uint32_t> VolumeScheduler::pulsed(hal::TimePoint when,
                                                      std::optional<std::uint32_t> lent) {
-  count(counts_.planned);
-  last_number_ = counts_.planned.load(std::memory_order_relaxed);
-  const hal::TimePoint end = sweeps_.pulsed(last_number_, when);
-  count(counts_.triggered);
+  const hal::TimePoint end = begin_pulse(when);
   const auto found =
       std::find_if(free_.rbegin(), free_.rend(), [&](std::uint32_t b) { return b != lent; });
   if (found == free_.rend()) {
@@ -64,7 +62,29 @@ std::optional<std::uint32_t> VolumeScheduler::pulsed(hal::TimePoint when,
   }
   const std::uint32_t buffer = *found;
   free_.erase(std::prev(found.base()));
-  PendingVolume& volume = pending_[buffer];
+  open(pending_[buffer], end);
+  return buffer;
+}
+
+// There is a place: what takes no frames any more is finished before the next pulse.
+void VolumeScheduler::pass_over(hal::TimePoint when) {
+  const hal::TimePoint end = begin_pulse(when);
+  const auto places = std::span{pending_}.subspan(pool_size);
+  const auto place = std::ranges::find(places, false, &PendingVolume::open);
+  if (place == places.end())
+    count_lost_volume();
+  else
+    open(*place, end);
+}
+
+hal::TimePoint VolumeScheduler::begin_pulse(hal::TimePoint when) {
+  count(counts_.planned);
+  last_number_ = counts_.planned.load(std::memory_order_relaxed);
+  count(counts_.triggered);
+  return sweeps_.pulsed(last_number_, when);
+}
+
+void VolumeScheduler::open(PendingVolume& volume, hal::TimePoint end) {
   volume.open = true;
   volume.facts = {.number = last_number_};
   volume.accept_until = end + plan_.sweep_duration() / grace_divisor;
@@ -74,7 +94,6 @@ std::optional<std::uint32_t> VolumeScheduler::pulsed(hal::TimePoint when,
   volume.submitted = 0;
   volume.flushed = 0;
   volume.made.store(0, std::memory_order_relaxed);
-  return buffer;
 }
 
 void VolumeScheduler::pulse_failed() {
@@ -102,20 +121,28 @@ std::uint64_t VolumeScheduler::under_way() const {
 }
 
 std::optional<std::uint32_t> VolumeScheduler::find(std::uint64_t number) const {
-  for (std::uint32_t i = 0; i < pool_size; ++i) {
+  for (std::uint32_t i = 0; i < pending_.size(); ++i) {
     if (pending_[i].open && pending_[i].facts.number == number)
       return i;
   }
   return std::nullopt;
 }
 
-std::optional<std::uint32_t> VolumeScheduler::oldest() const {
+std::optional<std::uint32_t> VolumeScheduler::oldest(std::uint32_t begin, std::uint32_t end) const {
   std::optional<std::uint32_t> oldest;
-  for (std::uint32_t i = 0; i < pool_size; ++i) {
+  for (std::uint32_t i = begin; i < end; ++i) {
     if (pending_[i].open && (!oldest || pending_[i].facts.number < pending_[*oldest].facts.number))
       oldest = i;
   }
   return oldest;
+}
+
+std::optional<std::uint32_t> VolumeScheduler::oldest_built() const {
+  return oldest(0, pool_size);
+}
+
+std::optional<std::uint32_t> VolumeScheduler::oldest_passed_over() const {
+  return oldest(pool_size, static_cast<std::uint32_t>(pending_.size()));
 }
 
 FrameDecision VolumeScheduler::place(hal::TimePoint first_line, hal::TimePoint last_line) {
@@ -140,6 +167,8 @@ FrameDecision VolumeScheduler::place(hal::TimePoint first_line, hal::TimePoint l
   volume.facts.last_line = std::max(volume.facts.last_line, last_line);
   slot.came |= 1U << repeat;
   ++volume.sweeps_came;
+  if (is_passed_over(*buffer))
+    return {.verdict = FrameVerdict::passed_over};
   // One that nothing had come of when it was passed over waits no longer either.
   if (std::popcount(slot.came) == plan_.repeats || b_scan < volume.flushed)
     submit(*buffer, b_scan);
@@ -175,10 +204,18 @@ VolumeDecision VolumeScheduler::next(hal::TimePoint now, hal::TimePoint looked_u
                                      bool streaming) {
   to_submit_.clear();
   overdue_.clear();
-  const auto buffer = oldest();
-  if (!buffer)
-    return {};
-  PendingVolume& volume = pending_[*buffer];
+  if (const auto passed = oldest_passed_over()) {
+    const VolumeDecision decision = next_of(*passed, now, looked_until, streaming);
+    if (decision.action != Action::wait)
+      return decision;
+  }
+  const auto built = oldest_built();
+  return built ? next_of(*built, now, looked_until, streaming) : VolumeDecision{};
+}
+
+VolumeDecision VolumeScheduler::next_of(std::uint32_t buffer, hal::TimePoint now,
+                                        hal::TimePoint looked_until, bool streaming) {
+  PendingVolume& volume = pending_[buffer];
   if (awaits_sweeps(volume)) {
     if (now < volume.accept_until)
       return {};
@@ -187,32 +224,42 @@ VolumeDecision VolumeScheduler::next(hal::TimePoint now, hal::TimePoint looked_u
     if (looked_until < volume.accept_until && streaming) {
       if (!volume.give_up_at) {
         volume.give_up_at = now + plan_.sweep_duration() / look_divisor;
-        return {.action = Action::look, .buffer = *buffer, .look_until = volume.accept_until};
+        return {.action = Action::look, .buffer = buffer, .look_until = volume.accept_until};
       }
       if (now < *volume.give_up_at)
         return {};
     }
   }
-  flush(*buffer, plan_.b_scans);
+  if (!is_passed_over(buffer))
+    flush(buffer, plan_.b_scans);
   if (!to_submit_.empty())
-    return {.action = Action::submit, .buffer = *buffer, .submit = to_submit_};
+    return {.action = Action::submit, .buffer = buffer, .submit = to_submit_};
   if (volume.made.load(std::memory_order_acquire) < volume.submitted)
     return {};
-  return finish(*buffer);
+  return finish(buffer);
+}
+
+int VolumeScheduler::b_scans_without_sweep(const PendingVolume& volume) const {
+  return static_cast<int>(std::ranges::count(volume.slots, 0U, &BScanSlot::came));
 }
 
 VolumeDecision VolumeScheduler::finish(std::uint32_t buffer) {
   PendingVolume& volume = pending_[buffer];
   volume.open = false;
-  volume.facts.lost_b_scans = plan_.b_scans - volume.submitted;
+  volume.facts.lost_b_scans = b_scans_without_sweep(volume);
   volume.facts.lost_lines = (plan_.sweeps() - volume.sweeps_came) * plan_.a_scans;
   if (volume.sweeps_came == 0) {
     count_lost_volume();
-    free_.push_back(buffer);
+    if (!is_passed_over(buffer))
+      free_.push_back(buffer);
     return {.action = Action::lose, .buffer = buffer, .volume = volume.facts};
   }
   count(counts_.lost_b_scans, volume.facts.lost_b_scans);
   count(counts_.lost_lines, volume.facts.lost_lines);
+  if (is_passed_over(buffer)) {
+    count(counts_.passed_over);
+    return {.action = Action::pass, .buffer = buffer, .volume = volume.facts};
+  }
   return {.action = Action::publish, .buffer = buffer, .volume = volume.facts};
 }
 
@@ -225,12 +272,13 @@ void VolumeScheduler::published(std::uint32_t recycled, bool skipped) {
 }
 
 hal::TimePoint VolumeScheduler::next_wake(hal::TimePoint now) const {
-  const hal::TimePoint wake = std::min(next_tick_, now + longest_pause);
-  const auto buffer = oldest();
-  if (!buffer || !awaits_sweeps(pending_[*buffer]))
-    return wake;
-  const PendingVolume& volume = pending_[*buffer];
-  return std::min(wake, volume.give_up_at.value_or(volume.accept_until));
+  hal::TimePoint wake = std::min(next_tick_, now + longest_pause);
+  for (const auto buffer : {oldest_built(), oldest_passed_over()})
+    if (buffer && awaits_sweeps(pending_[*buffer])) {
+      const PendingVolume& volume = pending_[*buffer];
+      wake = std::min(wake, volume.give_up_at.value_or(volume.accept_until));
+    }
+  return wake;
 }
 
 VolumeCounters VolumeScheduler::counters() const {
@@ -239,6 +287,7 @@ VolumeCounters VolumeScheduler::counters() const {
           .acquired = counts_.acquired,
           .published = counts_.published,
           .skipped = counts_.skipped,
+          .passed_over = counts_.passed_over,
           .lost_lines = counts_.lost_lines,
           .lost_b_scans = counts_.lost_b_scans,
           .lost_volumes = counts_.lost_volumes,

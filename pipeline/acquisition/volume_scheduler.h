@@ -10,8 +10,11 @@
 // A B-scan with several sweeps is built when all of them have arrived. If one is missing, it is
 // built once a sweep of the B-scan after the next has arrived, or when the volume's time is over.
 // It is missing if none of its sweeps arrived, and overdue as soon as it waits no longer.
+//
+// A volume may be passed over: its frames are placed and counted, and nothing is built of them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdint>
@@ -40,9 +43,10 @@ struct TickDecision {
 
 enum class FrameVerdict : std::uint8_t {
   placed,
-  outside, // not exposed during any sweep of the last volumes
-  doubled, // of a sweep that already has a frame
-  late     // its B-scan has been submitted, or its volume is over
+  passed_over, // of a volume that is
+  outside,     // not exposed during any sweep of the last volumes
+  doubled,     // of a sweep that already has a frame
+  late         // its B-scan has been submitted, or its volume is over
 };
 
 // Where to put a frame, and which jobs to hand to the workers, in this order, once it is there. A
@@ -63,20 +67,21 @@ struct FinishedVolume {
   std::int32_t lost_b_scans = 0, lost_lines = 0;
 };
 
-// What to do with the oldest volume under way.
+// What to do with the oldest volume under way, or with one that is passed over.
 struct VolumeDecision {
   enum class Action : std::uint8_t {
     wait,    // until next_wake(), a frame, a finished B-scan, or a poll by the camera thread
     look,    // ask the camera thread to poll the camera up to `look_until`
     submit,  // hand `submit` to the workers: the missing sweeps of these B-scans will not come
     publish, // `buffer` will not get any more complete; publish it, then call published()
-    lose     // nothing arrived; `buffer` is free again
+    pass,    // it was passed over; `buffer` is none of the pool
+    lose     // nothing arrived; `buffer` is free again, if it is one of the pool
   };
   Action action = Action::wait;
   std::uint32_t buffer = 0;
   hal::TimePoint look_until{};
   std::span<const BScanJob> submit{}; // valid until the next call
-  FinishedVolume volume{};            // publish and lose
+  FinishedVolume volume{};            // publish, pass and lose
 };
 
 // Pure logic: no clock, no thread, no device. For one thread, unless stated otherwise. Allocates on
@@ -99,6 +104,12 @@ public:
   // The pulse was sent. Returns the buffer to build its volume in, never `lent`, or nothing if the
   // workers are three volumes behind: the volume is then lost.
   std::optional<std::uint32_t> pulsed(hal::TimePoint when, std::optional<std::uint32_t> lent = {});
+  // The pulse was sent, and nothing is to be built of its volume. Takes no buffer of the pool.
+  void pass_over(hal::TimePoint when);
+  // Whether a volume is under way that is not passed over.
+  bool is_building() const {
+    return std::ranges::any_of(std::span{pending_}.first(pool_size), &PendingVolume::open);
+  }
   // Of the volume that is built in it.
   std::uint64_t number_of(std::uint32_t buffer) const { return pending_[buffer].facts.number; }
   void pulse_failed();
@@ -139,7 +150,6 @@ private:
     std::uint32_t came = 0; // one bit per repeat
     bool submitted = false; // from then on the worker owns the frames
   };
-  // One for each buffer of the pool.
   struct PendingVolume {
     bool open = false;
     FinishedVolume facts; // so far
@@ -153,7 +163,8 @@ private:
   };
   struct Counts {
     std::atomic<std::uint64_t> planned{0}, triggered{0}, acquired{0}, published{0}, skipped{0},
-        lost_lines{0}, lost_b_scans{0}, lost_volumes{0}, unfinished{0}, saturated_lines{0};
+        passed_over{0}, lost_lines{0}, lost_b_scans{0}, lost_volumes{0}, unfinished{0},
+        saturated_lines{0};
   };
 
   static void count(std::atomic<std::uint64_t>& counter, std::int64_t by = 1) {
@@ -163,16 +174,25 @@ private:
   bool awaits_sweeps(const PendingVolume& volume) const;
   void count_lost_volume();
   std::uint64_t under_way() const;
+  hal::TimePoint begin_pulse(hal::TimePoint when);
+  void open(PendingVolume& volume, hal::TimePoint end);
+  static bool is_passed_over(std::uint32_t place) { return place >= pool_size; }
   std::optional<std::uint32_t> find(std::uint64_t number) const;
-  std::optional<std::uint32_t> oldest() const;
+  std::optional<std::uint32_t> oldest(std::uint32_t begin, std::uint32_t end) const;
+  std::optional<std::uint32_t> oldest_built() const;
+  std::optional<std::uint32_t> oldest_passed_over() const;
+  VolumeDecision next_of(std::uint32_t buffer, hal::TimePoint now, hal::TimePoint looked_until,
+                         bool streaming);
   void submit(std::uint32_t buffer, int b_scan);
   void flush(std::uint32_t buffer, int end);
   VolumeDecision finish(std::uint32_t buffer);
+  int b_scans_without_sweep(const PendingVolume& volume) const;
 
   ScanPlan plan_;
   std::optional<std::uint64_t> most_volumes_;
   SweepTracker sweeps_;
-  std::array<PendingVolume, pool_size> pending_;
+  std::array<PendingVolume, pool_size + SweepTracker::volumes>
+      pending_;                     // of each buffer; passed over
   std::vector<std::uint32_t> free_; // buffers of the pool to build in
   std::vector<BScanJob> to_submit_; // jobs of the last decision
   std::vector<int> overdue_;        // likewise

@@ -20,6 +20,7 @@ Fault fault_of(FrameVerdict verdict) {
   case FrameVerdict::doubled: return Fault::doubled_frame;
   case FrameVerdict::late: return Fault::late_frame;
   case FrameVerdict::outside:
+  case FrameVerdict::passed_over:
   case FrameVerdict::placed: break;
   }
   return Fault::unplaced_frame;
@@ -85,7 +86,15 @@ void VolumeThread::stop() {
 
 const Volume* VolumeThread::do_take_newest() {
   const auto index = triple_buffer_.take();
-  return index ? &volumes_[*index] : nullptr;
+  if (!index)
+    return nullptr;
+  demand_.taken(volumes_[*index].metadata.published);
+  return &volumes_[*index];
+}
+
+void VolumeThread::do_note_drawn() {
+  right_of_way_.give_up();
+  demand_.drawn(clock_.now());
 }
 
 // The assembler's `progress` says what of it may be read.
@@ -149,6 +158,8 @@ void VolumeThread::pulse(hal::TimePoint now) {
     if (trigger_.state() == hal::DeviceState::failed)
       trigger_.close();
     scheduler_.pulse_failed();
+  } else if (passes_over(*pulsed)) {
+    scheduler_.pass_over(*pulsed);
   } else if (const auto buffer = scheduler_.pulsed(*pulsed, loan_.lent())) {
     begin_volume(*buffer, *pulsed);
   } else {
@@ -157,6 +168,17 @@ void VolumeThread::pulse(hal::TimePoint now) {
                 "interpolation, would help",
                 *pulsed);
   }
+}
+
+// One that would be replaced before the renderer comes to it; one that comes while another is replaced so;
+// and one for which the workers have not caught up, so that what is built is built whole.
+bool VolumeThread::passes_over(hal::TimePoint pulsed) const {
+  if (!right_of_way_.is_wanted() || (setup_.wants_every_volume && setup_.wants_every_volume()))
+    return false;
+  const bool one_waits = triple_buffer_.has_newer();
+  const bool another_is_built = scheduler_.is_building(); // and is about to replace it
+  return 2 * acquisition_.on_loan() > acquisition_.buffers() || (one_waits && another_is_built) ||
+         !demand_.would_be_seen(pulsed, setup_.plan.tick_period(), one_waits || another_is_built);
 }
 
 bool VolumeThread::trigger_ready() {
@@ -195,6 +217,12 @@ void VolumeThread::begin_volume(std::uint32_t buffer, hal::TimePoint pulsed) {
 
 void VolumeThread::place(const hal::LineFrame& frame) {
   const FrameDecision decision = scheduler_.place(frame.first_line, frame.last_line);
+  if (decision.verdict == FrameVerdict::passed_over) {
+    if (setup_.observe)
+      setup_.observe(frame);
+    acquisition_.release(frame.buffer);
+    return;
+  }
   if (decision.verdict != FrameVerdict::placed) {
     refuse(frame, decision.verdict);
     return;
@@ -373,15 +401,18 @@ void VolumeThread::finish_due_volumes(hal::TimePoint looked_until) {
     case Action::look: acquisition_.ask_for_look(decision.look_until); break;
     case Action::submit: submit(decision.submit); break;
     case Action::publish: publish(decision.buffer, decision.volume); break;
+    case Action::pass: break;
     case Action::lose: lose(decision.buffer); break;
     }
   }
 }
 
 void VolumeThread::lose(std::uint32_t buffer) {
-  loan_.close(buffer);
-  if (workplaces_[buffer].sketch != nullptr)
-    scan_lag_.finished();
+  if (buffer < VolumeScheduler::pool_size) { // else it was passed over
+    loan_.close(buffer);
+    if (workplaces_[buffer].sketch != nullptr)
+      scan_lag_.finished();
+  }
   if (camera_.state() != hal::DeviceState::streaming)
     return;
   faults_.add(Fault::missed_pulse,

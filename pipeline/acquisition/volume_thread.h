@@ -21,6 +21,7 @@
 #include "pipeline/acquisition/repeat_comparison.h"
 #include "pipeline/acquisition/right_of_way.h"
 #include "pipeline/acquisition/volume_assembler.h"
+#include "pipeline/acquisition/volume_demand.h"
 #include "pipeline/acquisition/volume_feed.h"
 #include "pipeline/acquisition/volume_scheduler.h"
 #include "pipeline/faults/fault_log.h"
@@ -59,6 +60,10 @@ struct PlacedFrame {
 // Must not throw, allocate or wait. May be empty.
 using ObserveConverted = std::function<void(std::size_t worker, const PlacedFrame& placed)>;
 
+// Called on the volume thread before each volume: whether it is wanted even if the renderer could not
+// show it. Must not throw, allocate or wait. May be empty: no.
+using WantsEveryVolume = std::function<bool()>;
+
 struct VolumeThreadSetup {
   ScanPlan plan;
   hal::GalvoTriggerConfig trigger;
@@ -68,7 +73,8 @@ struct VolumeThreadSetup {
   ObserveVolume observe_volume = {};
   ObserveConverted observe_converted = {};
   NeighbourAverage average;
-  std::optional<std::uint64_t> most_volumes; // stop triggering after this many
+  WantsEveryVolume wants_every_volume = {};
+  std::optional<std::uint64_t> most_volumes; // stop triggering after this many that are published
   // Of the same plan and workers; empty: volumes have no flow. Where it is there, `reconstruct` is
   // not called.
   std::optional<RepeatComparison> comparison = std::nullopt;
@@ -127,7 +133,7 @@ private:
   std::optional<VolumeInMaking> do_borrow_after(std::uint64_t after) override;
   void do_give_back() override { loan_.give_back(); }
   void do_hurry(bool wanted) override { right_of_way_.want(wanted); }
-  void do_note_drawn() override { right_of_way_.give_up(); }
+  void do_note_drawn() override;
   bool do_lends() const override { return true; }
   bool do_has_flow() const override { return builder_.compares(); }
   VolumeCounters do_counters() const override { return scheduler_.counters(); }
@@ -136,6 +142,7 @@ private:
   void tick();
   void pulse(hal::TimePoint now);
   bool trigger_ready();
+  bool passes_over(hal::TimePoint pulsed) const;
   void begin_volume(std::uint32_t buffer, hal::TimePoint pulsed);
   void place(const hal::LineFrame& frame);
   void note_last(VolumeMetadata& metadata, const hal::LineFrame& frame) const;
@@ -172,6 +179,7 @@ private:
   TripleBuffer triple_buffer_{VolumeScheduler::first_middle, VolumeScheduler::first_front};
   BufferLoan<VolumeScheduler::pool_size> loan_;
   RightOfWay right_of_way_;
+  VolumeDemand demand_;
   std::vector<BScanJob> held_back_; // while the renderer has it, since:
   hal::TimePoint held_since_{};
   VolumeScheduler scheduler_;

@@ -49,6 +49,11 @@ public:
   // Fixed-rate thread: copies the volume if a recording is on.
   void offer(const Volume& volume);
 
+  // Any thread. Whether volumes are being taken, or will be as soon as the file is made.
+  bool is_on() const {
+    const State state = state_.load(std::memory_order_relaxed);
+    return state == State::beginning || state == State::on;
+  }
   // Any thread.
   RecorderStatus status() const;
   // Of this recording, or of the last: why it did not begin, ended by itself, or is no longer there

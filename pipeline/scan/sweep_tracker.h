@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -25,13 +26,15 @@ struct SweepSlot {
 // by a quarter of its deviation, so the camera's clock may drift against ours.
 class SweepTracker {
 public:
+  static constexpr std::size_t volumes = 3; // that a frame may belong to
+
   explicit SweepTracker(const ScanPlan& plan)
       : period_(plan.frame_period()), duration_(plan.sweep_duration()), sweeps_(plan.sweeps()) {}
 
   // The pulse for `volume` (> 0, counting up) was made. Returns when its last sweep should end.
   hal::TimePoint pulsed(std::uint64_t volume, hal::TimePoint when);
 
-  // Empty for a frame that belongs to none of the last three volumes.
+  // Empty for a frame that belongs to none of the last volumes.
   std::optional<SweepSlot> place(hal::TimePoint first_line);
 
 private:
@@ -46,8 +49,8 @@ private:
 
   hal::Duration period_;
   hal::Duration duration_;
-  int sweeps_;                    // of a volume
-  std::array<Start, 3> recent_{}; // newest first
+  int sweeps_;                          // of a volume
+  std::array<Start, volumes> recent_{}; // newest first
 };
 
 } // namespace octascope::pipeline

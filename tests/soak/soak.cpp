@@ -223,6 +223,7 @@ void print_table(const Outcome& quiet, const Outcome& faulty) {
   counted("    displayed", "volumes", "displayed");
   counted("    skipped", "volumes", "skipped");
   counted("    lost on the way to the glass", "volumes", "lost");
+  counted("  passed over", "volumes", "passed_over");
   counted("  lost (nothing came)", "lost", "volumes");
   row("    explained by faults, at most",
       [](const Outcome& o) { return fmt::format("{:.0f}", o.phase.explained); });

@@ -55,11 +55,12 @@ TEST(SoakVerdict, does_not_judge_a_run_that_was_cut_short) {
 
 json report() {
   return {{"volumes",
-           {{"planned", 20},
+           {{"planned", 22},
             {"acquired", 15},
             {"published", 15},
             {"displayed", 12},
             {"skipped", 2},
+            {"passed_over", 2},
             {"lost", 1},
             {"unfinished", 1}}},
           {"lost", {{"volumes", 4}}}};
@@ -68,7 +69,8 @@ json report() {
 TEST(SoakVerdict, sees_volumes_that_are_missing_from_the_books) {
   EXPECT_TRUE(complaints_about_volumes(report(), 4).empty());
   EXPECT_EQ(complaints_about_volumes(report(), 3).size(), 1U) << "lost, and not explained";
-  for (const char* key : {"planned", "acquired", "displayed", "skipped", "lost", "unfinished"}) {
+  for (const char* key :
+       {"planned", "acquired", "displayed", "skipped", "passed_over", "lost", "unfinished"}) {
     json wrong = report();
     wrong["volumes"][key] = wrong["volumes"][key].get<int>() + 1;
     EXPECT_EQ(complaints_about_volumes(wrong, 4).size(), 1U) << key;

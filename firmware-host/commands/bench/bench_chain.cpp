@@ -113,6 +113,7 @@ private:
     };
     return ChainFigures{.lost_lines = static_cast<std::uint64_t>(number("/lost/lines")),
                         .volumes_per_s = number("/rates/volumes_per_s"),
+                        .passed_over_per_s = number("/volumes/passed_over") / number("/duration_s"),
                         .shown_per_s = number("/rates/shown_volumes_per_s"),
                         .frames_per_s = number("/rates/frames_per_s"),
                         .latency = latency("/latency_ms"),
@@ -234,6 +235,7 @@ nlohmann::ordered_json json_of(const ChainResult& result) {
                               {"lost_lines", figures.lost_lines},
                               {"volumes_per_s", figures.volumes_per_s}};
   if (what.display) {
+    json["passed_over_per_s"] = figures.passed_over_per_s;
     json["shown_per_s"] = figures.shown_per_s;
     json["frames_per_s"] = figures.frames_per_s;
     json["quality"] = to_json(figures.quality);

@@ -50,7 +50,8 @@ struct ChainLatency {
 
 struct ChainFigures {
   std::uint64_t lost_lines = 0; // kept ones; those of lost B-scans and volumes included
-  double volumes_per_s = 0;     // acquired
+  double volumes_per_s = 0;     // that came
+  double passed_over_per_s = 0; // of those, not reconstructed, as nobody would have seen them
   double shown_per_s = 0;       // volumes
   double frames_per_s = 0;
   std::optional<ChainLatency> latency{}; // where volumes were shown

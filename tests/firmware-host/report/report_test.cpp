@@ -114,6 +114,7 @@ TEST(Report, says_every_figure_under_its_key) {
                                 {"published", 9},
                                 {"displayed", 7},
                                 {"skipped", 2},
+                                {"passed_over", 0},
                                 {"lost", 1},
                                 {"unfinished", 3}}));
   const json& flow = j["flow"];

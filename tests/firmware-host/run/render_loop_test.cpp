@@ -78,6 +78,25 @@ INSTANTIATE_TEST_SUITE_P(Techniques, FrozenWindow,
 
 // ---- STALE.
 
+// Says of volumes that they were passed over.
+class PassingFeed final : public pipeline::VolumeFeed {
+public:
+  explicit PassingFeed(pipeline::VolumeFeed& feed) : feed_(feed) {}
+
+  std::uint64_t passed_over = 0;
+
+private:
+  const pipeline::Volume* do_take_newest() override { return feed_.take_newest(); }
+  bool do_has_newer() const override { return feed_.has_newer(); }
+  pipeline::VolumeCounters do_counters() const override {
+    pipeline::VolumeCounters counters = feed_.counters();
+    counters.passed_over = passed_over;
+    return counters;
+  }
+
+  pipeline::VolumeFeed& feed_;
+};
+
 class Staleness : public LoopStage {
 protected:
   // What drawing costs: so much for the volume at full quality, and a little for the rest.
@@ -153,6 +172,26 @@ TEST_F(Staleness, is_told_one_and_a_half_periods_after_the_last_volume_and_not_b
   EXPECT_GT(told, due());
   // Judged at the first refresh after it is due, and on the glass at the next.
   EXPECT_LE(told, due() + 2 * display_.refresh_period());
+}
+
+// They came, and their successor is due one period after them.
+TEST_F(Staleness, is_told_as_much_later_as_volumes_were_passed_over) {
+  PassingFeed feed{*volumes_};
+  firmware_host::RenderLoopSetup live = setup();
+  live.freshness.volume_period = plan().tick_period();
+  open(std::move(live), feed, acquisition_.get(), scope_thread_.get());
+  feed.passed_over = 5; // before the volume that is shown
+  turn();
+  const hal::TimePoint arrived = run_live(1, 0);
+  clock_.sleep_until(arrived + due() - 1ms);
+  turn();
+  EXPECT_EQ(loop_->status().freshness.liveness, Liveness::live);
+  feed.passed_over += 2;
+  turn_until(arrived + due() + 2 * plan().tick_period() - 50ms);
+  EXPECT_EQ(loop_->status().freshness.liveness, Liveness::live);
+  turn_until(arrived + due() + 2 * plan().tick_period() + 50ms);
+  EXPECT_EQ(loop_->status().freshness.liveness, Liveness::stale);
+  loop_.reset(); // before the feed
 }
 
 TEST_F(Staleness, does_not_wait_for_a_finer_picture) {

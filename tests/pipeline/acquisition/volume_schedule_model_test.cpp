@@ -1,6 +1,6 @@
 // Random schedules against a model that knows what truly happened: which sweep each frame was of,
-// what came, what was made. Frames are lost, late and doubled, workers are slow, pulses fail, the
-// thread oversleeps; every decision is checked, and the books balance.
+// what came, what was made. Frames are lost, late and doubled, workers are slow, pulses fail, volumes
+// are passed over, the thread oversleeps; every decision is checked, and the books balance.
 #include <algorithm>
 #include <iostream>
 #include <map>
@@ -27,6 +27,7 @@ struct TrueVolume {
   std::set<int> placed;                // sweeps
   std::set<int> submitted;             // B-scans
   int made = 0;
+  bool passed_over = false;
   std::optional<hal::TimePoint> waits_since; // for a look at the camera
 };
 
@@ -45,6 +46,7 @@ public:
     late_share_ = pick<double>({0, 0, 0.2});
     failed_share_ = pick<double>({0, 0.2});
     away_share_ = pick<double>({0, 0.2});
+    passed_share_ = pick<double>({0, 0, 0.3, 0.8});
     oversleep_share_ = pick<double>({0, 0, 0.02});
     unlooked_share_ = pick<double>({0, 0.3, 1});
     most_work_ = pick<hal::Duration>({0ms, plan_.frame_period(), 4 * plan_.sweep_duration()});
@@ -142,6 +144,25 @@ private:
         volumes_.size() == 1
             ? now_
             : std::max(now_, volumes_[volumes_.size() - 2]->begin + plan_.sweep_duration());
+    if (chance(passed_share_))
+      pass_over(volume);
+    else
+      build(volume);
+    send_frames(volume);
+  }
+
+  void pass_over(TrueVolume& volume) {
+    scheduler_.pass_over(now_);
+    volume.passed_over = true;
+    if (passed_over_.size() == SweepTracker::volumes) {
+      lose_whole(1);
+      return;
+    }
+    volume.buffer = VolumeScheduler::pool_size; // or another one that is none of the pool
+    passed_over_.push_back(&volume);
+  }
+
+  void build(TrueVolume& volume) {
     volume.buffer = scheduler_.pulsed(now_);
     if (volume.buffer) {
       EXPECT_NE(volume.buffer, shown_.front()) << "the renderer has it";
@@ -153,7 +174,6 @@ private:
       EXPECT_EQ(under_way_.size(), 3U);
       lose_whole(1);
     }
-    send_frames(volume);
   }
 
   void send_frames(TrueVolume& volume) {
@@ -194,11 +214,18 @@ private:
         scheduler_.place(first_line, first_line + plan_.frame_period() / 2);
     switch (decision.verdict) {
     case FrameVerdict::placed:
+      EXPECT_FALSE(volume.passed_over);
       EXPECT_EQ(decision.buffer, volume.buffer);
       EXPECT_EQ(decision.b_scan, b_scan);
       EXPECT_EQ(decision.repeat, sweep % plan_.repeats);
       EXPECT_FALSE(came);
       EXPECT_FALSE(made);
+      volume.placed.insert(sweep);
+      break;
+    case FrameVerdict::passed_over:
+      EXPECT_TRUE(volume.passed_over);
+      EXPECT_FALSE(came);
+      EXPECT_TRUE(decision.submit.empty());
       volume.placed.insert(sweep);
       break;
     case FrameVerdict::doubled: EXPECT_TRUE(came); break;
@@ -227,20 +254,32 @@ private:
     if (!chance(unlooked_share_))
       looked_until_ = now_;
     while (!testing::Test::HasFailure()) {
-      TrueVolume* const oldest = under_way_.empty() ? nullptr : under_way_.front();
-      if (oldest != nullptr && !oldest->waits_since && is_over(*oldest) &&
-          waits_for_look(*oldest, streaming))
-        oldest->waits_since = now_;
+      TrueVolume* const built = oldest_of(under_way_, streaming);
+      TrueVolume* const passed = oldest_of(passed_over_, streaming);
       const VolumeDecision decision = scheduler_.next(now_, looked_until_, streaming);
       if (decision.action == VolumeDecision::Action::wait) {
-        if (oldest != nullptr)
-          check_wait(*oldest, streaming);
+        for (const TrueVolume* const volume : {built, passed})
+          if (volume != nullptr)
+            check_wait(*volume, streaming);
         return;
       }
+      TrueVolume* const oldest = decision.buffer < VolumeScheduler::pool_size ? built : passed;
       ASSERT_NE(oldest, nullptr);
-      EXPECT_EQ(decision.buffer, oldest->buffer) << "the oldest first";
+      if (oldest == built) {
+        EXPECT_EQ(decision.buffer, oldest->buffer) << "the oldest first";
+      }
       act(*oldest, decision);
     }
+  }
+
+  // Notes since when it waits for a look at the camera, if it does.
+  TrueVolume* oldest_of(const std::vector<TrueVolume*>& volumes, bool streaming) const {
+    if (volumes.empty())
+      return nullptr;
+    TrueVolume& oldest = *volumes.front();
+    if (!oldest.waits_since && is_over(oldest) && waits_for_look(oldest, streaming))
+      oldest.waits_since = now_;
+    return &oldest;
   }
 
   bool is_whole(const TrueVolume& volume) const {
@@ -281,25 +320,21 @@ private:
       lose_whole(1);
       leave(volume);
       break;
+    case VolumeDecision::Action::pass:
+      EXPECT_TRUE(volume.passed_over);
+      ++passed_over_volumes_;
+      count_lost(volume, decision.volume);
+      leave(volume);
+      break;
     case VolumeDecision::Action::publish: publish(volume, decision.volume); break;
     }
   }
 
   void publish(TrueVolume& volume, const FinishedVolume& finished) {
-    std::set<int> b_scans;
-    for (const int sweep : volume.placed)
-      b_scans.insert(sweep / plan_.repeats);
+    EXPECT_FALSE(volume.passed_over);
     EXPECT_TRUE(is_made(volume));
-    EXPECT_EQ(volume.submitted, b_scans) << "all that came is shown";
-    EXPECT_FALSE(volume.placed.empty());
-    EXPECT_EQ(finished.number, volume.number);
-    const int lost_b_scans = plan_.b_scans - static_cast<int>(b_scans.size());
-    const int lost_lines =
-        (plan_.sweeps() - static_cast<int>(volume.placed.size())) * plan_.a_scans;
-    EXPECT_EQ(finished.lost_b_scans, lost_b_scans);
-    EXPECT_EQ(finished.lost_lines, lost_lines);
-    lost_b_scans_ += static_cast<std::uint64_t>(lost_b_scans);
-    lost_lines_ += static_cast<std::uint64_t>(lost_lines);
+    EXPECT_EQ(volume.submitted, b_scans_of(volume)) << "all that came is shown";
+    count_lost(volume, finished);
     ++acquired_;
     const auto [recycled, skipped] = shown_.publish(*volume.buffer);
     waiting_to_be_shown_ = *volume.buffer;
@@ -308,8 +343,28 @@ private:
     leave(volume);
   }
 
+  std::set<int> b_scans_of(const TrueVolume& volume) const {
+    std::set<int> b_scans;
+    for (const int sweep : volume.placed)
+      b_scans.insert(sweep / plan_.repeats);
+    return b_scans;
+  }
+
+  void count_lost(const TrueVolume& volume, const FinishedVolume& finished) {
+    EXPECT_FALSE(volume.placed.empty());
+    EXPECT_EQ(finished.number, volume.number);
+    const int lost_b_scans = plan_.b_scans - static_cast<int>(b_scans_of(volume).size());
+    const int lost_lines =
+        (plan_.sweeps() - static_cast<int>(volume.placed.size())) * plan_.a_scans;
+    EXPECT_EQ(finished.lost_b_scans, lost_b_scans);
+    EXPECT_EQ(finished.lost_lines, lost_lines);
+    lost_b_scans_ += static_cast<std::uint64_t>(lost_b_scans);
+    lost_lines_ += static_cast<std::uint64_t>(lost_lines);
+  }
+
   void leave(TrueVolume& volume) {
     std::erase(under_way_, &volume);
+    std::erase(passed_over_, &volume);
     volume.buffer.reset();
   }
 
@@ -330,8 +385,10 @@ private:
     EXPECT_EQ(counters.lost_volumes, lost_volumes_);
     EXPECT_EQ(counters.lost_b_scans, lost_b_scans_);
     EXPECT_EQ(counters.lost_lines, lost_lines_);
-    EXPECT_EQ(counters.unfinished, under_way_.size());
-    EXPECT_EQ(counters.planned, counters.acquired + counters.lost_volumes + counters.unfinished);
+    EXPECT_EQ(counters.passed_over, passed_over_volumes_);
+    EXPECT_EQ(counters.unfinished, under_way_.size() + passed_over_.size());
+    EXPECT_EQ(counters.planned, counters.acquired + counters.passed_over + counters.lost_volumes +
+                                    counters.unfinished);
   }
 
   std::mt19937 random_;
@@ -340,7 +397,7 @@ private:
   TripleBuffer shown_{VolumeScheduler::first_middle, VolumeScheduler::first_front};
   std::uint32_t waiting_to_be_shown_ = VolumeScheduler::first_middle;
   double lost_share_, doubled_share_, late_share_, failed_share_, away_share_, oversleep_share_,
-      unlooked_share_;
+      unlooked_share_, passed_share_;
   hal::Duration most_work_;
 
   const hal::TimePoint first_tick_{10s};
@@ -349,9 +406,10 @@ private:
   bool overslept_ = false;
   std::multimap<hal::TimePoint, Event> events_;
   std::vector<std::unique_ptr<TrueVolume>> volumes_; // all that were pulsed, in order
-  std::vector<TrueVolume*> under_way_;               // oldest first
-  std::uint64_t planned_ = 0, acquired_ = 0, skipped_ = 0, lost_volumes_ = 0, lost_b_scans_ = 0,
-                lost_lines_ = 0;
+  std::vector<TrueVolume*> under_way_;               // that are built; oldest first
+  std::vector<TrueVolume*> passed_over_;             // likewise
+  std::uint64_t planned_ = 0, acquired_ = 0, passed_over_volumes_ = 0, skipped_ = 0,
+                lost_volumes_ = 0, lost_b_scans_ = 0, lost_lines_ = 0;
 };
 
 TEST(VolumeSchedule, is_right_at_every_step_and_its_books_balance) {

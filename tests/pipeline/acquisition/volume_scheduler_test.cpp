@@ -109,6 +109,36 @@ TEST_F(VolumeSchedulerTest, a_volume_of_which_nothing_came_is_lost) {
   EXPECT_EQ(pulse(tick(2) - moment), buffer) << "it is free again";
 }
 
+TEST_F(VolumeSchedulerTest, nothing_is_built_of_a_volume_that_is_passed_over) {
+  ASSERT_TRUE(scheduler.tick(first_tick).pulse);
+  scheduler.pass_over(first_tick);
+  EXPECT_FALSE(scheduler.is_building());
+  for (int sweep = 0; sweep < plan.b_scans; ++sweep) {
+    const FrameDecision decision = frame(first_tick, sweep);
+    EXPECT_EQ(decision.verdict, FrameVerdict::passed_over);
+    EXPECT_TRUE(decision.submit.empty());
+  }
+  EXPECT_EQ(frame(first_tick, 3).verdict, FrameVerdict::doubled);
+  EXPECT_EQ(next(time_of(first_tick, 8)).action, Action::pass);
+  EXPECT_EQ(next(time_of(first_tick, 8)).action, Action::wait);
+  EXPECT_EQ(scheduler.counters().passed_over, 1U);
+  EXPECT_EQ(scheduler.counters().acquired, 0U);
+  EXPECT_EQ(scheduler.counters().lost_lines, 0U);
+}
+
+// Workers may need long for the one before.
+TEST_F(VolumeSchedulerTest, a_volume_that_is_passed_over_waits_for_none_that_is_built) {
+  pulse(first_tick);
+  for (int sweep = 0; sweep < plan.b_scans; ++sweep)
+    frame(first_tick, sweep); // none of which is made
+  ASSERT_TRUE(scheduler.tick(tick(1)).pulse);
+  scheduler.pass_over(tick(1));
+  for (int sweep = 0; sweep < plan.b_scans; ++sweep)
+    frame(tick(1), sweep);
+  EXPECT_EQ(next(tick(2)).action, Action::pass);
+  EXPECT_TRUE(scheduler.is_building());
+}
+
 TEST_F(VolumeSchedulerTest, a_camera_not_looked_at_is_waited_for_but_not_for_ever) {
   pulse(first_tick);
   deliver(first_tick, 0, 5);

@@ -56,7 +56,8 @@ TEST_P(Ledger, accounts_for_every_planned_volume) {
     const LedgerRun run = run_of(GetParam());
     ASSERT_EQ(run.result.exit_status, 0) << run.result.describe() << run.script;
     EXPECT_EQ(unbalanced(run.report), "") << run.report.dump(2) << run.script;
-    EXPECT_LE(run.report["volumes"]["unfinished"], 3) << "no more are built at once";
+    EXPECT_LE(run.report["volumes"]["unfinished"], 3 + 3)
+        << "no more are built or passed over at once";
     planned = run.planned();
   }
   EXPECT_GE(planned, 1);

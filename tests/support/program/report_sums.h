@@ -15,9 +15,10 @@ inline std::string unbalanced(const nlohmann::json& report) {
   const auto count = [&](const char* key) { return volumes.at(key).get<std::uint64_t>(); };
   const auto lost = report.at("lost").at("volumes").get<std::uint64_t>();
   std::string words;
-  if (count("planned") != count("acquired") + lost + count("unfinished"))
-    words += fmt::format("{} volumes planned, but {} acquired + {} lost + {} unfinished\n",
-                         count("planned"), count("acquired"), lost, count("unfinished"));
+  if (count("planned") != count("acquired") + count("passed_over") + lost + count("unfinished"))
+    words += fmt::format(
+        "{} volumes planned, but {} acquired + {} passed over + {} lost + {} unfinished\n",
+        count("planned"), count("acquired"), count("passed_over"), lost, count("unfinished"));
   if (count("acquired") != count("published"))
     words += fmt::format("{} volumes acquired, but {} published\n", count("acquired"),
                          count("published"));
