@@ -18,8 +18,10 @@ RollingVolume::RollingVolume(const VolumeGeometry& geometry, bool with_flow)
     : volume_{geometry}, numbers_(volume_.b_scan_states.size()),
       changed_(volume_.b_scan_states.size()) {
   volume_.occupancy = Occupancy{geometry, blank_depth_bins};
-  if (with_flow)
+  if (with_flow) {
     volume_.add_flow();
+    volume_.flow_marks = FlowMarks{geometry, blank_depth_bins};
+  }
   volume_.work.resize(volume_.b_scan_states.size());
   changes_.reserve(volume_.b_scan_states.size());
 }
@@ -30,6 +32,7 @@ void RollingVolume::copy(int b, const Volume& from, std::uint64_t number) {
   volume_.occupancy.copy(b, from.occupancy);
   if (volume_.has_flow()) {
     std::ranges::copy(from.b_scan_flow(b), volume_.b_scan_flow(b).begin());
+    volume_.flow_marks.copy(b, from.flow_marks);
     volume_.flow_states[at] = from.flow_states[at];
   }
   state(b) = from.b_scan_states[at];
@@ -45,6 +48,7 @@ void RollingVolume::blank(int b, BScanState as, std::uint64_t number) {
   volume_.occupancy.update(b, volume_.b_scan(b));
   if (volume_.has_flow()) {
     std::ranges::fill(volume_.b_scan_flow(b), flow_untold);
+    volume_.flow_marks.clear(b);
     volume_.flow_states[at] = FlowState::none;
   }
   state(b) = as;

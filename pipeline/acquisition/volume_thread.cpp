@@ -38,8 +38,10 @@ std::string complaint_about(FrameVerdict verdict, std::uint64_t sequence) {
 
 std::vector<Volume> make_pool(const VolumeGeometry& geometry, std::size_t size, bool with_flow) {
   Volume volume{geometry};
-  if (with_flow)
+  if (with_flow) {
     volume.add_flow();
+    volume.flow_marks = FlowMarks{geometry, blank_depth_bins};
+  }
   volume.occupancy = Occupancy{geometry, blank_depth_bins};
   volume.work.resize(volume.b_scan_states.size());
   return std::vector<Volume>(size, volume);
@@ -367,19 +369,23 @@ void VolumeThread::tell_flow(std::size_t worker, Volume& volume, int b_scan) {
   if (builder_.is_whole(worker) &&
       is_behind(volume.work[static_cast<std::size_t>(b_scan)], begin)) {
     std::ranges::fill(volume.b_scan_flow(b_scan), flow_untold); // its state is FlowState::none
+    volume.flow_marks.clear(b_scan);
     statistics_.flow.no_time.fetch_add(1, std::memory_order_relaxed);
     return;
   }
   volume.flow_states[static_cast<std::size_t>(b_scan)] =
       builder_.tell_flow(worker, volume.b_scan_flow(b_scan));
+  volume.flow_marks.update(b_scan, volume.b_scan_flow(b_scan));
   statistics_.flow.tell.add(clock_.now() - begin);
 }
 
 // Of B-scans that nobody built there is none, and counts what is told of the others.
 void VolumeThread::finish_flow(Volume& volume) {
   for (int b = 0; b < volume.geometry.b_scans; ++b)
-    if (volume.b_scan_states[static_cast<std::size_t>(b)] == BScanState::missing)
+    if (volume.b_scan_states[static_cast<std::size_t>(b)] == BScanState::missing) {
       std::ranges::fill(volume.b_scan_flow(b), flow_untold);
+      volume.flow_marks.clear(b);
+    }
   const auto count = [&](FlowState state) {
     return static_cast<std::uint64_t>(std::ranges::count(volume.flow_states, state));
   };

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "pipeline/volume/flow_marks.h"
 #include "pipeline/volume/occupancy.h"
 #include "pipeline/volume/volume_geometry.h"
 #include "pipeline/volume/volume_metadata.h"
@@ -89,8 +90,9 @@ struct Volume {
   // could be told: of volumes from repeated sweeps that were compared. Else empty.
   std::vector<std::uint8_t> flow;
   std::vector<FlowState> flow_states;
-  // Set in volumes from the pipeline; empty() where it was not built.
+  // Set in volumes from the pipeline; empty() where they were not built. Marks: of volumes with flow.
   Occupancy occupancy;
+  FlowMarks flow_marks;
   std::vector<BScanWork> work; // by B-scan, likewise; `end` is zero of those that nobody built
   VolumeMetadata metadata;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pipeline/threads/work_team.h"
+#include "pipeline/volume/flow_marks.h"
 #include "pipeline/volume/occupancy.h"
 #include "ui/transfer/visible_levels.h"
 
@@ -27,9 +28,9 @@ public:
               Visibility visibility, WorkTeam* team = nullptr,
               std::span<const std::uint8_t> stale = {}, const BrickGrid* also = nullptr);
 
-  // Occupied are bricks in which something is seen to flow (ui/transfer/flow_look.h), or all. `flow`:
-  // of counts of flow instead of levels.
-  void update_flow(const pipeline::Occupancy& flow, bool all, WorkTeam* team = nullptr,
+  // Occupied are bricks in which something is seen to flow, or all. The highest level of those is 255, of
+  // others 0.
+  void update_flow(const pipeline::FlowMarks& flow, bool all, WorkTeam* team = nullptr,
                    std::span<const std::uint8_t> stale = {});
 
   const pipeline::BrickCounts& counts() const { return counts_; }
@@ -39,9 +40,11 @@ public:
 
 private:
   void resize(const pipeline::BrickCounts& counts);
-  template <class Occupied>
-  void update_rows(const pipeline::Occupancy& occupancy, WorkTeam* team,
-                   std::span<const std::uint8_t> stale, Occupied is_occupied);
+  // Calls `update` with each row.
+  template <class Update>
+  void update_rows(const pipeline::BrickCounts& counts, WorkTeam* team,
+                   std::span<const std::uint8_t> stale, Update update);
+  void merge_flow(const pipeline::FlowMarks& flow, int row);
   void merge_b_scans(const pipeline::Occupancy& occupancy, int row);
 
   pipeline::BrickCounts counts_;

@@ -68,8 +68,27 @@ Run strongest_run(const std::uint8_t* counts, int from, int depths) {
   return strongest;
 }
 
-FlowFromAbove flow_of(const std::uint8_t* counts, int surface, int depths) {
-  const Run run = strongest_run(counts, surface, depths);
+// Depths, from the first one to before the last one.
+struct Depths {
+  int from = 0;
+  int to = 0;
+};
+
+// Of four A-scans, where their marks, a row of words, leave room for a run.
+Depths depths_to_search(std::span<const std::uint32_t> marks, int depths) {
+  constexpr int bins_of_word = 8;
+  const auto is_marked = [](std::uint32_t word) { return word != 0; };
+  const auto first = std::ranges::find_if(marks, is_marked);
+  if (first == marks.end())
+    return {};
+  const auto last = std::find_if(marks.rbegin(), marks.rend(), is_marked);
+  const int marked_from = static_cast<int>(first - marks.begin()) * bins_of_word;
+  const int marked_to = static_cast<int>(marks.rend() - last) * bins_of_word;
+  return {std::max(marked_from - flow_run, 0), std::min(marked_to + flow_run, depths)};
+}
+
+FlowFromAbove flow_of(const std::uint8_t* counts, int surface, const Depths& search, int depths) {
+  const Run run = strongest_run(counts, std::max(surface, search.from), search.to);
   if (!run.from)
     return {};
   const int strength = (run.sum + flow_run / 2) / flow_run;
@@ -126,6 +145,7 @@ void project_flow(const pipeline::Volume& volume, const TissueMap& tissue,
                   std::span<FlowFromAbove> out, std::span<const std::uint8_t> wanted,
                   WorkTeam* team) {
   const pipeline::VolumeGeometry& geometry = volume.geometry;
+  const pipeline::FlowMarks& marks = volume.flow_marks;
   const auto a_scans = static_cast<std::size_t>(geometry.a_scans);
   run_pieces(team, static_cast<std::uint32_t>(geometry.b_scans), [&](std::uint32_t piece) {
     if (!wanted.empty() && wanted[piece] == 0)
@@ -133,8 +153,14 @@ void project_flow(const pipeline::Volume& volume, const TissueMap& tissue,
     const int b = static_cast<int>(piece);
     const std::uint8_t* counts = volume.b_scan_flow(b).data();
     std::size_t i = piece * a_scans;
-    for (int a = 0; a < geometry.a_scans; ++a, counts += geometry.depths)
-      out[i++] = flow_of(counts, tissue.begin_of(b, a).depth, geometry.depths);
+    Depths search{0, geometry.depths};
+    for (int a = 0; a < geometry.a_scans; ++a, counts += geometry.depths) {
+      if (!marks.empty() && a % 4 == 0)
+        search = depths_to_search(marks.of(b).subspan(static_cast<std::size_t>(a / 4 * marks.row()),
+                                                      static_cast<std::size_t>(marks.row())),
+                                  geometry.depths);
+      out[i++] = flow_of(counts, tissue.begin_of(b, a).depth, search, geometry.depths);
+    }
   });
 }
 

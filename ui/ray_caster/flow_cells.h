@@ -1,36 +1,32 @@
 // What flows, for the ray caster, and a mark for each cell in which it may be seen.
 //
-// Little of a volume flows. Rays ask the marks, which take an eighth of the counts' memory (and as much again, by B-scan, to renew
-// them from), and fetch few
-// counts: these are not interleaved as levels are (cell_volume.h), which would take more time for each
-// volume than fewer loads spare.
+// Little of a volume flows. Rays ask the marks and fetch few counts; only what they may fetch is copied, and
+// not interleaved as levels are (cell_volume.h).
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
-#include "pipeline/volume/volume.h"
+#include "pipeline/volume/flow_marks.h"
 #include "ui/ray_caster/large_buffer.h"
 
 namespace octascope::ui {
 
-// Counts as [b][a][z], and below each A-scan's last bin the same once more. A cell
-// (pipeline/volume/occupancy.h) is marked when one of its eight corners is first_seen_flow
-// (ui/transfer/flow_look.h) or more. Marks are words of 32 cells, 8 along depth in each of 4 along the fast
-// axis: [b cell][a cell / 4][z / 8], bit a % 4 · 8 + z % 8.
+// Counts as [b][a][z], and below each A-scan's last bin the same once more: those at the corners of marked
+// cells; the others are of no volume. A cell is marked when one of its eight corners is first_seen_flow
+// (ui/transfer/flow_look.h) or more. Marks are words as FlowMarks has them, of cells between two B-scans:
+// [b cell][a cell / 4][z / 8].
 //
-// Threads: update() of different B-scans may run concurrently, and then mark() of different rows. Allocates
-// at construction. The volume must fit a CellVolume.
+// Threads: take() of different B-scans may run concurrently. Allocates at construction. The volume must
+// fit a CellVolume.
 class FlowCells {
 public:
   FlowCells() = default;
   explicit FlowCells(const pipeline::VolumeGeometry& geometry);
 
-  // Takes the counts [a][z] of one B-scan.
-  void update(int b, std::span<const std::uint8_t> counts) noexcept;
-  // Marks the cells between B-scans row − 1 and row, once both are there; 0 to b_scans.
-  void mark(int row) noexcept;
+  // Takes of one B-scan the counts [a][z] that may be fetched, and the marks of the cells between it and
+  // the one before it; with the last one those behind it, too. `marks`: of this one and of those beside it.
+  void take(int b, std::span<const std::uint8_t> counts, const pipeline::FlowMarks& marks) noexcept;
 
   const pipeline::VolumeGeometry& geometry() const { return geometry_; }
   const std::uint8_t* counts() const { return counts_.data(); }
@@ -41,15 +37,14 @@ public:
   std::int32_t mark_slab() const { return mark_slab_; } // … along the slow axis
 
 private:
-  using Word = std::uint32_t;
-  const Word* seen(int b) const; // clamped to the volume's
+  void copy(int b, int word_row, int from, int to, std::span<const std::uint8_t> counts) noexcept;
+  std::uint32_t* marks_of(int row);
 
   pipeline::VolumeGeometry geometry_;
   std::int32_t column_bytes_ = 0;
   std::int32_t mark_row_ = 0;
   std::int32_t mark_slab_ = 0;
   LargeBuffer counts_;
-  std::vector<Word> seen_; // as the marks, of one B-scan's corners: [b][a cell / 4][z / 8]
   LargeBuffer marks_;
 };
 

@@ -112,22 +112,27 @@ RayCaster::RayCaster(const RayKernels& kernels, std::shared_ptr<WorkTeam> team)
 
 void RayCaster::copy_b_scans(const pipeline::Volume& volume, const pipeline::BScanRange& range,
                              const std::function<void(int)>& prepare, const FlowVoxels* flow) {
-  const std::size_t size = volume.geometry.b_scan_voxels();
-  const auto flow_of = [&](int b) {
-    return flow->counts.subspan(static_cast<std::size_t>(b) * size, size);
-  };
   team_->run(static_cast<std::uint32_t>(range.to - range.from), [&](std::uint32_t i) {
     const int b = range.from + static_cast<int>(i);
     if (prepare)
       prepare(b);
     cells_->update(b, volume.b_scan(b));
     if (flow != nullptr)
-      flow_cells_.update(b, flow_of(b));
+      flow_marks_.copy(b, *flow->marks);
   });
-  if (flow == nullptr)
-    return;
-  team_->run(static_cast<std::uint32_t>(range.to - range.from + 1),
-             [&](std::uint32_t i) { flow_cells_.mark(range.from + static_cast<int>(i)); });
+  if (flow != nullptr)
+    take_flow(*flow, range);
+}
+
+// Once the marks are there; of the neighbours, too, whose cells reach into what changed.
+void RayCaster::take_flow(const FlowVoxels& flow, const pipeline::BScanRange& range) {
+  const std::size_t size = cells_->geometry().b_scan_voxels();
+  const int from = std::max(range.from - 1, 0);
+  const int to = std::min(range.to + 1, cells_->geometry().b_scans);
+  team_->run(static_cast<std::uint32_t>(to - from), [&](std::uint32_t i) {
+    const int b = from + static_cast<int>(i);
+    flow_cells_.take(b, flow.counts.subspan(static_cast<std::size_t>(b) * size, size), flow_marks_);
+  });
 }
 
 hal::Result<> RayCaster::show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
@@ -146,13 +151,13 @@ hal::Result<> RayCaster::show(const pipeline::Volume& volume, const pipeline::Oc
                                  occupancy.geometry().b_scans, g.depths, g.a_scans, g.b_scans));
   if (!cells_ || cells_->geometry() != g)
     cells_.emplace(g);
-  if (flow != nullptr && flow_cells_.geometry() != g)
+  if (flow != nullptr && flow_cells_.geometry() != g) {
     flow_cells_ = FlowCells{g};
+    flow_marks_ = *flow->marks;
+  }
   has_flow_ = flow != nullptr;
   occupancy_ = occupancy;
   copy_b_scans(volume, {0, g.b_scans}, prepare, flow);
-  if (flow != nullptr)
-    flow_occupancy_ = *flow->occupancy;
   bricks_current_ = false;
   return {};
 }
@@ -168,8 +173,6 @@ hal::Result<> RayCaster::renew(const pipeline::Volume& volume, const pipeline::O
     for (int b = range.from; b < range.to; ++b)
       occupancy_.copy(b, occupancy);
     copy_b_scans(volume, range, prepare, flow);
-    for (int b = range.from; flow != nullptr && b < range.to; ++b)
-      flow_occupancy_.copy(b, *flow->occupancy);
     make_stale(range);
   }
   return {};
@@ -222,7 +225,7 @@ void RayCaster::prepare(const RaySettings& settings) {
     return;
   const auto stale = all ? std::span<const std::uint8_t>{} : stale_;
   if (with_flow) {
-    flow_bricks_.update_flow(flow_occupancy_, !settings.leap_empty, team_.get(), stale);
+    flow_bricks_.update_flow(flow_marks_, !settings.leap_empty, team_.get(), stale);
     flow_distances_.forget();
   }
   // The maximum of flow is looked for on its own.

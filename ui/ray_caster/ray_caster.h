@@ -54,10 +54,10 @@ struct RayImage {
   void draw_into(const Rect& rect);             // clears what was drawn outside of `rect`
 };
 
-// What flows in a volume, in the order of its levels, and the occupancy of that. Borrowed.
+// What flows in a volume, in the order of its levels, and where. Borrowed.
 struct FlowVoxels {
   std::span<const std::uint8_t> counts; // pipeline/volume/flow_scale.h
-  const pipeline::Occupancy* occupancy = nullptr;
+  const pipeline::FlowMarks* marks = nullptr;
 };
 
 struct RaySettings {
@@ -89,8 +89,8 @@ public:
 
   // Copies both. ErrorCode::unsupported: too large for 32-bit offsets. ErrorCode::invalid_argument:
   // the occupancy has another geometry. On errors the previous volume stays.
-  // `prepare` is called with each B-scan before it is copied, by one of the threads; it may fill that
-  // B-scan's part of the flow's occupancy, too. `flow`: null without.
+  // `prepare` is called with each B-scan before it is copied, by one of the threads; it may make that
+  // B-scan's marks of flow, too. `flow`: null without.
   hal::Result<> show(const pipeline::Volume& volume, const pipeline::Occupancy& occupancy,
                      const std::function<void(int)>& prepare = {},
                      const FlowVoxels* flow = nullptr);
@@ -121,6 +121,7 @@ private:
   RayCaster(const RayKernels& kernels, std::shared_ptr<WorkTeam> team);
   void copy_b_scans(const pipeline::Volume& volume, const pipeline::BScanRange& range,
                     const std::function<void(int)>& prepare, const FlowVoxels* flow);
+  void take_flow(const FlowVoxels& flow, const pipeline::BScanRange& range);
   void make_stale(const pipeline::BScanRange& b_scans);
   hal::Result<> check(const Camera& camera, const RaySettings& settings,
                       const RayImage& image) const;
@@ -142,7 +143,7 @@ private:
   DistancesAhead distances_;
   // What flows. The cells stay allocated while volumes without are shown.
   FlowCells flow_cells_;
-  pipeline::Occupancy flow_occupancy_;
+  pipeline::FlowMarks flow_marks_;
   bool has_flow_ = false;
   std::unique_ptr<FlowTable> flow_table_; // made when flow is first drawn, for:
   float flow_opacity_ = 0;

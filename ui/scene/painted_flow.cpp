@@ -58,7 +58,7 @@ bool VolumePainter::match_flow(FlowScene& flow) {
 }
 
 FlowScene VolumePainter::flow_scene(float view_opacity) const {
-  return {flow_texture_, flow_occupancy_, flow_opacity(view_opacity)};
+  return {flow_texture_, flow_marks_, flow_opacity(view_opacity)};
 }
 
 } // namespace octascope::ui

@@ -116,8 +116,8 @@ hal::Result<> VolumePainter::show(const pipeline::Volume& volume,
   const pipeline::Volume& drawn = see_through(volume);
   has_flow_ = volume.has_flow();
   flow_shows_ = has_flow_ && flow_wanted_;
-  if (flow_shows_ && flow_occupancy_.geometry() != volume.geometry)
-    flow_occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
+  if (flow_shows_ && flow_marks_.geometry() != volume.geometry)
+    flow_marks_ = pipeline::FlowMarks{volume.geometry, pipeline::blank_depth_bins};
   copy_for_rays(volume);
   if (flow_shows_ && !completed_by_caller_)
     HAL_CHECK(bring_flow_texture(volume, {}));
@@ -200,8 +200,12 @@ void VolumePainter::weaken(const pipeline::Volume& volume, int b_scan) {
 void VolumePainter::prepare_b_scan(const pipeline::Volume& volume, int b_scan) {
   if (weakened_shows_)
     weaken(volume, b_scan);
-  if (flow_shows_)
-    flow_occupancy_.update(b_scan, volume.b_scan_flow(b_scan));
+  if (!flow_shows_)
+    return;
+  if (volume.flow_marks.empty())
+    flow_marks_.update(b_scan, volume.b_scan_flow(b_scan));
+  else
+    flow_marks_.copy(b_scan, volume.flow_marks);
 }
 
 void VolumePainter::prepare_b_scans(const pipeline::Volume& volume,
@@ -212,7 +216,7 @@ void VolumePainter::prepare_b_scans(const pipeline::Volume& volume,
 }
 
 void VolumePainter::copy_for_rays(const pipeline::Volume& volume) {
-  const FlowVoxels flow{volume.flow, &flow_occupancy_};
+  const FlowVoxels flow{volume.flow, &flow_marks_};
   const auto prepare = [this, &volume](int b) { prepare_b_scan(volume, b); };
   caster_shows_ = caster_ && caster_->show(weakened_shows_ ? weakened_ : volume, occupancy_,
                                            prepare, flow_shows_ ? &flow : nullptr);
@@ -222,7 +226,7 @@ void VolumePainter::copy_for_rays(const pipeline::Volume& volume) {
 
 hal::Result<> VolumePainter::renew_for_rays(const pipeline::Volume& volume,
                                             std::span<const pipeline::BScanRange> changed) {
-  const FlowVoxels flow{volume.flow, &flow_occupancy_};
+  const FlowVoxels flow{volume.flow, &flow_marks_};
   const auto prepare = [this, &volume](int b) { prepare_b_scan(volume, b); };
   if (caster_shows_)
     return caster_->renew(weakened_shows_ ? weakened_ : volume, occupancy_, changed, prepare,

@@ -222,7 +222,7 @@ private:
   std::uint64_t flow_before_ = 0;     // likewise, of its texture before; 0: not all of it is there
   bool flow_whole_ = false;           // all of it was uploaded
   std::uint64_t flow_late_until_ = 0; // before this upload
-  pipeline::Occupancy flow_occupancy_;
+  pipeline::FlowMarks flow_marks_;
   bool flow_wanted_ = shows_flow(ViewState{});
   std::optional<hal::Error> flow_refusal_; // why none is drawn
   bool has_flow_ = false;                  // the volume shown

@@ -52,7 +52,7 @@ void RayCastTechnique::prepare_bricks(const VolumeScene& scene) {
     return;
   const bool maximum = mode_ == RayMode::maximum; // that of flow is looked for on its own
   if (scene.flow != nullptr && !maximum)
-    flow_bricks_.update_flow(scene.flow->occupancy, false, scene.team);
+    flow_bricks_.update_flow(scene.flow->marks, false, scene.team);
   bricks_.update(*scene.occupancy, scene.transfer.visible(),
                  maximum ? Visibility::maximum : Visibility::range, scene.team, {},
                  scene.flow != nullptr && !maximum ? &flow_bricks_ : nullptr);

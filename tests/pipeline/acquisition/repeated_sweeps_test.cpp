@@ -115,6 +115,14 @@ protected:
     camera.deliver(static_cast<std::uint64_t>(sweep), time_of(pulsed, sweep), fill);
   }
   const FlowStatistics& flow() const { return volumes->statistics().flow; }
+  // As who draws it relies on.
+  static void expect_marks_of_its_flow(const Volume& volume) {
+    FlowMarks made_anew{volume.geometry, blank_depth_bins};
+    for (int b = 0; b < volume.geometry.b_scans; ++b) {
+      made_anew.update(b, volume.b_scan_flow(b));
+      EXPECT_TRUE(std::ranges::equal(volume.flow_marks.of(b), made_anew.of(b))) << b;
+    }
+  }
 };
 
 TEST_F(FlowTest, a_volume_says_of_each_b_scan_whether_flow_could_be_told) {
@@ -146,6 +154,7 @@ TEST_F(FlowTest, a_volume_says_of_each_b_scan_whether_flow_could_be_told) {
   for (int b = 0; b < plan.b_scans; ++b)
     EXPECT_EQ(volume->b_scan(b).front(), levels[static_cast<std::size_t>(b)]) << "as without flow";
   EXPECT_EQ(volume->b_scan_states[2], BScanState::missing);
+  expect_marks_of_its_flow(*volume);
   EXPECT_EQ(flow().volumes, 0U) << "not all of it";
   EXPECT_EQ(flow().told, 1U);
   EXPECT_EQ(flow().left_out, 1U);
@@ -171,6 +180,7 @@ TEST_F(FlowTest, workers_that_are_behind_go_without_flow) {
   EXPECT_EQ(volume->flow_states,
             (std::vector{FlowState::told, FlowState::none, FlowState::told, FlowState::told}));
   EXPECT_EQ(volume->b_scan_flow(1)[50], flow_untold);
+  expect_marks_of_its_flow(*volume);
   EXPECT_EQ(volume->b_scan(1).front(), 20);
   EXPECT_EQ(volume->missing_b_scans(), 0);
   stop();
@@ -192,6 +202,7 @@ TEST_F(FlowTest, nothing_is_left_of_an_earlier_volume) {
     EXPECT_EQ(volume->flow_states[0], last ? FlowState::none : FlowState::told);
     EXPECT_EQ(volume->b_scan_flow(0)[50] == flow_untold, last);
     EXPECT_NE(volume->b_scan_flow(1)[50], flow_untold);
+    expect_marks_of_its_flow(*volume);
   }
   stop();
   EXPECT_EQ(flow().volumes, static_cast<std::uint64_t>(volume_count) - 1);

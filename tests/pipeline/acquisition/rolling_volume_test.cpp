@@ -201,11 +201,13 @@ TEST_F(RollingVolumeTest, flow_goes_with_its_b_scan) {
   RollingVolume flowing{geometry, true};
   for (Making* const making : {&first, &second}) {
     making->volume.add_flow();
+    making->volume.flow_marks = FlowMarks{geometry, blank_depth_bins};
     for (int b = 0; b < count; ++b) {
       making->volume.flow_states[static_cast<std::size_t>(b)] =
           b % 2 == 0 ? FlowState::left_out : FlowState::told;
       std::ranges::fill(making->volume.b_scan_flow(b),
-                        b % 2 == 0 ? flow_untold : static_cast<std::uint8_t>(making->number));
+                        b % 2 == 0 ? flow_untold : static_cast<std::uint8_t>(200 + making->number));
+      making->volume.flow_marks.update(b, making->volume.b_scan_flow(b));
     }
   }
   flowing.take(first.published());
@@ -218,15 +220,18 @@ TEST_F(RollingVolumeTest, flow_goes_with_its_b_scan) {
   const auto expect_flow = [&](int b, FlowState state, int flow) {
     EXPECT_EQ(shown.flow_states[static_cast<std::size_t>(b)], state) << b;
     EXPECT_TRUE(std::ranges::all_of(shown.b_scan_flow(b), [=](int at) { return at == flow; })) << b;
+    EXPECT_EQ(std::ranges::any_of(shown.flow_marks.of(b), [](auto word) { return word != 0; }),
+              flow != flow_untold)
+        << b;
   };
   expect_flow(0, FlowState::left_out, flow_untold);
-  expect_flow(1, FlowState::told, 8);
+  expect_flow(1, FlowState::told, 208);
   expect_flow(2, FlowState::left_out, flow_untold);
   expect_flow(3, FlowState::none, flow_untold); // missing
   expect_flow(4, FlowState::left_out, flow_untold);
   expect_flow(5, FlowState::none, flow_untold); // the seam
   expect_flow(6, FlowState::left_out, flow_untold);
-  expect_flow(7, FlowState::told, 7);
+  expect_flow(7, FlowState::told, 207);
   flowing.take(second.finish_all().published());
   EXPECT_EQ(shown.flow, second.volume.flow);
   EXPECT_EQ(shown.flow_states, second.volume.flow_states);

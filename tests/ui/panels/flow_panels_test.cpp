@@ -227,6 +227,27 @@ TEST(FlowProjection, is_the_strongest_run_of_depths) {
   EXPECT_LT(seen, 96 * 24 - 200);
 }
 
+// A volume from the pipeline has them; another is searched whole.
+TEST(FlowProjection, is_the_same_where_marks_say_where_to_look) {
+  for (const int depths : {413, 416}) {
+    pipeline::Volume volume = layered({depths, 95, 24, 5, 20, 80});
+    std::minstd_rand random{12};
+    for (std::uint8_t& count : volume.flow)
+      count = static_cast<std::uint8_t>(random() % 1000 == 0 ? 255 : 127);
+    const ui::TissueMap tissue = tissue_in(volume);
+    std::vector<ui::FlowFromAbove> whole(95 * 24);
+    ui::project_flow(volume, tissue, whole);
+    volume.flow_marks = pipeline::FlowMarks{volume.geometry, pipeline::blank_depth_bins};
+    for (int b = 0; b < 24; ++b)
+      volume.flow_marks.update(b, volume.b_scan_flow(b));
+    std::vector<ui::FlowFromAbove> marked(95 * 24);
+    ui::project_flow(volume, tissue, marked);
+    EXPECT_EQ(marked, whole);
+    EXPECT_GT(std::ranges::count(whole, ui::FlowFromAbove{}), 500);
+    EXPECT_LT(std::ranges::count(whole, ui::FlowFromAbove{}), 1800);
+  }
+}
+
 TEST(FlowProjection, leaves_alone_what_is_not_wanted) {
   const pipeline::Volume volume = layered({400, 96, 24, 5, 20, 80});
   std::vector<ui::FlowFromAbove> out(96 * 24, ui::FlowFromAbove{9, 9});

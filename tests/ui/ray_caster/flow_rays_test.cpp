@@ -43,10 +43,10 @@ protected:
   void show(const pipeline::Volume& volume) {
     pipeline::Occupancy levels{volume.geometry, pipeline::blank_depth_bins};
     levels.update(volume);
-    pipeline::Occupancy counts{volume.geometry, pipeline::blank_depth_bins};
+    pipeline::FlowMarks marks{volume.geometry, pipeline::blank_depth_bins};
     for (int b = 0; volume.has_flow() && b < volume.geometry.b_scans; ++b)
-      counts.update(b, volume.b_scan_flow(b));
-    const ui::FlowVoxels flow{volume.flow, &counts};
+      marks.update(b, volume.b_scan_flow(b));
+    const ui::FlowVoxels flow{volume.flow, &marks};
     ASSERT_TRUE(caster_->show(volume, levels, {}, volume.has_flow() ? &flow : nullptr));
     light_.show(volume);
   }

@@ -60,11 +60,11 @@ void VolumeStage::show(const pipeline::Volume& volume) {
   occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
   occupancy_.update(volume);
   EXPECT_TRUE(texture_.upload(volume));
-  const ui::FlowVoxels flow{volume.flow, &flow_occupancy_};
+  const ui::FlowVoxels flow{volume.flow, &flow_marks_};
   if (volume.has_flow()) {
-    flow_occupancy_ = pipeline::Occupancy{volume.geometry, pipeline::blank_depth_bins};
+    flow_marks_ = pipeline::FlowMarks{volume.geometry, pipeline::blank_depth_bins};
     for (int b = 0; b < volume.geometry.b_scans; ++b)
-      flow_occupancy_.update(b, volume.b_scan_flow(b));
+      flow_marks_.update(b, volume.b_scan_flow(b));
     EXPECT_TRUE(flow_texture_.upload(volume));
   }
   EXPECT_TRUE(caster_.show(volume, occupancy_, {}, volume.has_flow() ? &flow : nullptr));
@@ -94,7 +94,7 @@ StagePicture VolumeStage::draw(const ui::ViewState& view, const ui::TransferTabl
                         view,      settings.step_mm, settings.leap_empty ? &occupancy_ : nullptr,
                         uploads_++};
   scene.light = light_for(view);
-  const ui::FlowScene flow{flow_texture_, flow_occupancy_, ui::flow_opacity(view.opacity)};
+  const ui::FlowScene flow{flow_texture_, flow_marks_, ui::flow_opacity(view.opacity)};
   scene.flow = settings.flow ? &flow : nullptr;
   const auto updated =
       picture_.update(techniques_, scene, {}, {0, 0, settings.width, settings.height});

@@ -65,7 +65,7 @@ private:
 
   ui::VolumeTexture texture_;
   ui::VolumeTexture flow_texture_{ui::Voxels::flow};
-  pipeline::Occupancy flow_occupancy_;
+  pipeline::FlowMarks flow_marks_;
   pipeline::Occupancy occupancy_;
   ui::TransferTexture transfer_;
   std::unique_ptr<ui::TransferTable> table_;
