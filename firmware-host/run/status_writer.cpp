@@ -1,5 +1,7 @@
 #include "firmware-host/run/status_writer.h"
 
+#include <algorithm>
+
 #include "firmware-host/outputs/local_time.h"
 #include "hal/plain_text.h"
 
@@ -8,6 +10,16 @@ namespace octascope::firmware_host {
 namespace {
 
 constexpr std::size_t longest_subject = 24; // bytes: what finds room beside what else is said
+
+// The successor of the shown volume is due: those that were passed over came, and were not to be shown. After
+// a picture that took long there may be many, and it is old all the same.
+hal::Duration later_by(std::uint64_t passed_over, hal::Duration volume_period) {
+  constexpr hal::Duration enough = std::chrono::milliseconds{300};
+  const hal::Duration most = std::max(volume_period, enough);
+  return most / volume_period < static_cast<std::int64_t>(passed_over)
+             ? most
+             : static_cast<std::int64_t>(passed_over) * volume_period;
+}
 
 } // namespace
 
@@ -75,8 +87,8 @@ void StatusWriter::roll(bool asked, bool possible,
 void StatusWriter::judge(const ui::FreshnessLimits& limits,
                          const std::optional<hal::TimePoint>& frozen_since) {
   std::optional<ui::ShownVolume> shown = shown_;
-  if (shown) // volumes passed over came, and none of them was to be shown
-    shown->arrived += (passed_over_ - passed_over_before_) * limits.volume_period;
+  if (shown)
+    shown->arrived += later_by(passed_over_ - passed_over_before_, limits.volume_period);
   status_.freshness = ui::judge_freshness(shown, status_.now, limits, frozen_since);
 }
 

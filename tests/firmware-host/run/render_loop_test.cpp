@@ -174,24 +174,47 @@ TEST_F(Staleness, is_told_one_and_a_half_periods_after_the_last_volume_and_not_b
   EXPECT_LE(told, due() + 2 * display_.refresh_period());
 }
 
+class StalenessOfThePassedOver : public Staleness {
+protected:
+  // Shows a volume; then so many are passed over, and nothing comes any more.
+  void pass_over(std::uint64_t volumes) {
+    feed_.emplace(*volumes_);
+    firmware_host::RenderLoopSetup live = setup();
+    live.freshness.volume_period = plan().tick_period();
+    open(std::move(live), *feed_, acquisition_.get(), scope_thread_.get());
+    feed_->passed_over = 5; // before the volume that is shown
+    turn();
+    arrived_ = run_live(1, 0);
+    clock_.sleep_until(arrived_ + due() - 1ms);
+    turn();
+    EXPECT_EQ(loop_->status().freshness.liveness, Liveness::live);
+    feed_->passed_over += volumes;
+  }
+  void expect_stale_at(hal::Duration since_it_was_due) {
+    turn_until(arrived_ + due() + since_it_was_due - 30ms);
+    EXPECT_EQ(loop_->status().freshness.liveness, Liveness::live);
+    turn_until(arrived_ + due() + since_it_was_due + 30ms);
+    EXPECT_EQ(loop_->status().freshness.liveness, Liveness::stale);
+  }
+  void TearDown() override {
+    loop_.reset(); // before the feed
+    Staleness::TearDown();
+  }
+
+  std::optional<PassingFeed> feed_;
+  hal::TimePoint arrived_;
+};
+
 // They came, and their successor is due one period after them.
-TEST_F(Staleness, is_told_as_much_later_as_volumes_were_passed_over) {
-  PassingFeed feed{*volumes_};
-  firmware_host::RenderLoopSetup live = setup();
-  live.freshness.volume_period = plan().tick_period();
-  open(std::move(live), feed, acquisition_.get(), scope_thread_.get());
-  feed.passed_over = 5; // before the volume that is shown
-  turn();
-  const hal::TimePoint arrived = run_live(1, 0);
-  clock_.sleep_until(arrived + due() - 1ms);
-  turn();
-  EXPECT_EQ(loop_->status().freshness.liveness, Liveness::live);
-  feed.passed_over += 2;
-  turn_until(arrived + due() + 2 * plan().tick_period() - 50ms);
-  EXPECT_EQ(loop_->status().freshness.liveness, Liveness::live);
-  turn_until(arrived + due() + 2 * plan().tick_period() + 50ms);
-  EXPECT_EQ(loop_->status().freshness.liveness, Liveness::stale);
-  loop_.reset(); // before the feed
+TEST_F(StalenessOfThePassedOver, is_told_as_much_later) {
+  pass_over(2);
+  expect_stale_at(2 * plan().tick_period());
+}
+
+// As after a frame that took seconds.
+TEST_F(StalenessOfThePassedOver, is_told_soon_however_many_they_are) {
+  pass_over(1000);
+  expect_stale_at(300ms);
 }
 
 TEST_F(Staleness, does_not_wait_for_a_finer_picture) {
