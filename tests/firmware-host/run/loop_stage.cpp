@@ -12,6 +12,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
+// Its lower left corner.
+bool is_spoilt(const pipeline::Image& picture) {
+  return picture.pixel(0, picture.height - 1) == std::array<std::uint8_t, 3>{255, 0, 255};
+}
+
 // A frame's bytes say which B-scan of which tissue it is.
 constexpr int frames_of_a_tissue = 64;
 
@@ -32,6 +37,17 @@ int GlassDisplay::do_height() const {
   return inner_.height();
 }
 
+hal::BackBuffer GlassDisplay::do_back_buffer() {
+  if (spoils) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, 2, 2);
+    glClearColor(1, 0, 1, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
+  }
+  return inner_.back_buffer();
+}
+
 hal::Result<hal::Flip> GlassDisplay::do_present() {
   if (covered)
     return hal::Flip{clock_.now(), last_flip_};
@@ -43,6 +59,8 @@ hal::Result<hal::Flip> GlassDisplay::do_present() {
     ++frames;
     picture = std::move(drawn);
     completed = flip->completed;
+    if (spoils && !is_spoilt(picture))
+      whole_frames.push_back(completed);
     last_flip_ = flip->sequence;
   }
   return flip;

@@ -39,6 +39,11 @@ public:
   // It shows an image at the next refresh, as a monitor does; else as soon as it is presented.
   bool refreshes = false;
 
+  // What a frame is drawn over has a spot of another colour in its corner, so that one that is drawn as a
+  // whole is told from one of which parts are: when those were completed.
+  bool spoils = false;
+  std::vector<hal::TimePoint> whole_frames;
+
   // Another console is in front: what is presented is seen by nobody.
   bool covered = false;
   // Opening it fails for this reason.
@@ -60,7 +65,7 @@ private:
   int do_height() const override;
   hal::Duration do_refresh_period() const override { return inner_.refresh_period(); }
   std::optional<hal::TimePoint> do_next_refresh() const override;
-  hal::BackBuffer do_back_buffer() override { return inner_.back_buffer(); }
+  hal::BackBuffer do_back_buffer() override;
   hal::Result<hal::Flip> do_present() override;
   std::size_t do_poll_events(std::span<hal::DisplayEvent>) override;
   void do_close() override { inner_.close(); }
