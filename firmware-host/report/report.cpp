@@ -201,12 +201,16 @@ std::string to_json(const RunReport& r) {
 std::string to_text(const RunReport& r) {
   const RunCounters& c = r.counters;
   std::string text = fmt::format(
-      "{:.1f} s, {} volumes displayed of {} acquired ({:.2f}/s, {:.0f} lines/s), {} frames "
+      "{:.1f} s, {} volumes displayed of {} that came ({:.2f}/s, {:.0f} lines/s), {} frames "
       "({:.1f}/s)\n"
       "lost: {} lines, {} B-scans, {} volumes; latency {:.0f} ms median, {:.0f} ms p95\n",
-      r.duration_s, c.displayed, c.volumes.acquired, c.rates.volumes_per_s, c.rates.lines_per_s,
-      c.frames_drawn, c.rates.frames_per_s, c.volumes.lost_lines, c.volumes.lost_b_scans,
-      c.volumes.lost_volumes, c.latency.p50_ms, c.latency.p95_ms);
+      r.duration_s, c.displayed, c.volumes.acquired + c.volumes.passed_over, c.rates.volumes_per_s,
+      c.rates.lines_per_s, c.frames_drawn, c.rates.frames_per_s, c.volumes.lost_lines,
+      c.volumes.lost_b_scans, c.volumes.lost_volumes, c.latency.p50_ms, c.latency.p95_ms);
+  if (c.volumes.passed_over > 0)
+    text +=
+        fmt::format("{} volumes were not reconstructed: the display would not have come to them\n",
+                    c.volumes.passed_over);
   if (const std::string quality = to_text(r.quality); !quality.empty())
     text += fmt::format("the volume was drawn at {}\n", quality);
   if (r.flow)

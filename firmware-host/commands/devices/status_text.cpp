@@ -65,9 +65,9 @@ void add_picture(Words& words, const Json& json) {
   words.line("rates", "{:.2f} volumes/s, {:.2f} shown, {:.0f} lines/s, {:.1f} frames/s",
              number(json, "rates", "volumes_per_s"), number(json, "rates", "shown_volumes_per_s"),
              number(json, "rates", "lines_per_s"), number(json, "rates", "frames_per_s"));
-  words.line("volumes", "{:.0f} acquired, {:.0f} displayed, {:.0f} skipped",
+  words.line("volumes", "{:.0f} acquired, {:.0f} displayed, {:.0f} skipped, {:.0f} passed over",
              number(json, "volumes", "acquired"), number(json, "volumes", "displayed"),
-             number(json, "volumes", "skipped"));
+             number(json, "volumes", "skipped"), number(json, "volumes", "passed_over"));
   words.line("lost", "{:.0f} lines, {:.0f} B-scans, {:.0f} volumes", number(json, "lost", "lines"),
              number(json, "lost", "b_scans"), number(json, "lost", "volumes"));
   words.line("latency", "{:.0f} ms median, {:.0f} ms p95", number(json, "latency_ms", "p50"),

@@ -41,7 +41,8 @@ RunReport example() {
   r.counters.displayed = 7;
   r.counters.volumes.skipped = 2;
   r.counters.undisplayed = 1;
-  r.counters.volumes.planned = 14;
+  r.counters.volumes.planned = 16;
+  r.counters.volumes.passed_over = 2;
   r.counters.volumes.unfinished = 3;
   r.counters.volumes.lost_lines = 600;
   r.counters.volumes.lost_b_scans = 2;
@@ -109,12 +110,12 @@ TEST(Report, says_every_figure_under_its_key) {
                                {"correlation", 0.5},
                                {"significance", 9.0}}}}));
   EXPECT_EQ(j["workers"], (json{{"count", 2}, {"cores", {2, -1}}}));
-  EXPECT_EQ(j["volumes"], (json{{"planned", 14},
+  EXPECT_EQ(j["volumes"], (json{{"planned", 16},
                                 {"acquired", 10},
                                 {"published", 9},
                                 {"displayed", 7},
                                 {"skipped", 2},
-                                {"passed_over", 0},
+                                {"passed_over", 2},
                                 {"lost", 1},
                                 {"unfinished", 3}}));
   const json& flow = j["flow"];
@@ -202,7 +203,8 @@ TEST(Report, tells_a_faults_times_from_the_start) {
 
 TEST(Report, speaks_to_people_too) {
   const std::string text = to_text(example());
-  EXPECT_THAT(text, testing::HasSubstr("7 volumes displayed of 10 acquired"));
+  EXPECT_THAT(text, testing::HasSubstr("7 volumes displayed of 12 that came"));
+  EXPECT_THAT(text, testing::HasSubstr("\n2 volumes were not reconstructed: "));
   EXPECT_THAT(text, testing::HasSubstr("lost: 600 lines, 2 B-scans, 1 volumes"));
   EXPECT_THAT(text, testing::HasSubstr("trees: 5 traced, 2 refused; 0.61 s median, 0.80 s p95"));
   EXPECT_THAT(text, testing::HasSubstr("drawn at resolution 0.70 (worst 0.25), steps 256 (80)"));
