@@ -30,7 +30,10 @@ public:
   }
 
   // A turn without a display: what will be shown again stays as it is.
-  void keep(const ui::ViewState& view) { rolling_ = rolling_ && may_roll(view); }
+  void keep(const ui::ViewState& view) {
+    rolling_ = rolling_ && may_roll(view);
+    volumes_.hurry(false);
+  }
 
   // Takes the newest, unless the view is frozen, and returns it; null if none has come.
   const pipeline::Volume* take(const ui::ViewState& view);

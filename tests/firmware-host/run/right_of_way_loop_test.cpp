@@ -79,6 +79,20 @@ TEST_F(RightOfWayLoop, is_not_asked_for_while_b_scans_are_shown_as_they_come) {
   EXPECT_FALSE(feed_->hurried);
 }
 
+TEST_F(RightOfWayLoop, is_not_asked_for_without_a_display) {
+  start_watched(false);
+  send_volume(Tissue::usual);
+  turn();
+  display_.cable().lose();
+  send_volume(Tissue::reversed);
+  turn();
+  turn();
+  EXPECT_FALSE(feed_->hurried);
+  display_.cable().restore();
+  turn_until(clock_.now() + 3s); // the longest that it waits before it tries again
+  EXPECT_TRUE(feed_->hurried);
+}
+
 TEST_F(RightOfWayLoop, is_not_asked_for_while_the_picture_is_frozen) {
   start_watched(false);
   send_volume(Tissue::usual);
