@@ -239,7 +239,7 @@ VolumeDecision VolumeScheduler::next_of(std::uint32_t buffer, hal::TimePoint now
   return finish(buffer);
 }
 
-int VolumeScheduler::b_scans_without_sweep(const PendingVolume& volume) const {
+int VolumeScheduler::b_scans_without_sweep(const PendingVolume& volume) {
   return static_cast<int>(std::ranges::count(volume.slots, 0U, &BScanSlot::came));
 }
 

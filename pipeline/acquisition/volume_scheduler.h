@@ -186,7 +186,7 @@ private:
   void submit(std::uint32_t buffer, int b_scan);
   void flush(std::uint32_t buffer, int end);
   VolumeDecision finish(std::uint32_t buffer);
-  int b_scans_without_sweep(const PendingVolume& volume) const;
+  static int b_scans_without_sweep(const PendingVolume& volume);
 
   ScanPlan plan_;
   std::optional<std::uint64_t> most_volumes_;
