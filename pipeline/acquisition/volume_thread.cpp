@@ -153,14 +153,16 @@ void VolumeThread::tick() {
     scheduler_.not_ready();
 }
 
+// What becomes of a volume is settled before its first frame can come.
 void VolumeThread::pulse(hal::TimePoint now) {
+  const bool passed_over = passes_over(now);
   const auto pulsed = trigger_.pulse();
   if (!pulsed) {
     faults_.add(Device::galvo_trigger, pulsed.error(), now);
     if (trigger_.state() == hal::DeviceState::failed)
       trigger_.close();
     scheduler_.pulse_failed();
-  } else if (passes_over(*pulsed)) {
+  } else if (passed_over) {
     scheduler_.pass_over(*pulsed);
   } else if (const auto buffer = scheduler_.pulsed(*pulsed, loan_.lent())) {
     begin_volume(*buffer, *pulsed);
@@ -174,13 +176,13 @@ void VolumeThread::pulse(hal::TimePoint now) {
 
 // One that would be replaced before the renderer comes to it; one that comes while another is replaced so;
 // and one for which the workers have not caught up, so that what is built is built whole.
-bool VolumeThread::passes_over(hal::TimePoint pulsed) const {
+bool VolumeThread::passes_over(hal::TimePoint now) const {
   if (!right_of_way_.is_wanted() || (setup_.wants_every_volume && setup_.wants_every_volume()))
     return false;
   const bool one_waits = triple_buffer_.has_newer();
   const bool another_is_built = scheduler_.is_building(); // and is about to replace it
   return 2 * acquisition_.on_loan() > acquisition_.buffers() || (one_waits && another_is_built) ||
-         !demand_.would_be_seen(pulsed, setup_.plan.tick_period(), one_waits || another_is_built);
+         !demand_.would_be_seen(now, setup_.plan.tick_period(), one_waits || another_is_built);
 }
 
 bool VolumeThread::trigger_ready() {

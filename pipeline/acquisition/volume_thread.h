@@ -142,7 +142,7 @@ private:
   void tick();
   void pulse(hal::TimePoint now);
   bool trigger_ready();
-  bool passes_over(hal::TimePoint pulsed) const;
+  bool passes_over(hal::TimePoint now) const;
   void begin_volume(std::uint32_t buffer, hal::TimePoint pulsed);
   void place(const hal::LineFrame& frame);
   void note_last(VolumeMetadata& metadata, const hal::LineFrame& frame) const;
