@@ -392,7 +392,7 @@ void RenderLoop::draw_if_changed() {
   if (picture_wanted_) // before the flip: afterwards the frame buffer is another one
     keep_picture();
   showing_.drawn = parts_.clock.now();
-  if (undisplayed_last_line_)
+  if (undisplayed_last_line_ || volume_.rolls())
     volume_.note_drawn();
   const auto flip = display.present();
   if (!flip)

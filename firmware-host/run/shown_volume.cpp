@@ -18,7 +18,9 @@ bool ShownVolume::may_roll(const ui::ViewState& view) const {
 
 const pipeline::Volume* ShownVolume::take(const ui::ViewState& view) {
   rolled_ = std::exchange(rolling_, may_roll(view));
-  volumes_.hurry(!rolling_ && !view.frozen);
+  volumes_.expect(view.frozen ? pipeline::Showing::nothing
+                  : rolling_  ? pipeline::Showing::rolling
+                              : pipeline::Showing::whole);
   newest_ = view.frozen ? nullptr : volumes_.take_newest();
   if (newest_ != nullptr)
     whole_ = newest_;
@@ -72,6 +74,8 @@ hal::Result<> ShownVolume::show_b_scans(ui::Renderer& renderer, const pipeline::
     volumes_.give_back();
   }
   const auto changes = rolling_volume_->take_changes();
+  if (!changes.empty())
+    volumes_.note_begun();
   HAL_CHECK(std::exchange(renewable_, false)
                 ? renderer.renew_volume(rolling_volume_->volume(), changes)
                 : renderer.show_volume(rolling_volume_->volume()));

@@ -32,7 +32,7 @@ public:
   // A turn without a display: what will be shown again stays as it is.
   void keep(const ui::ViewState& view) {
     rolling_ = rolling_ && may_roll(view);
-    volumes_.hurry(false);
+    volumes_.expect(pipeline::Showing::nothing);
   }
 
   // Takes the newest, unless the view is frozen, and returns it; null if none has come.
@@ -49,7 +49,7 @@ public:
   // All of it, to a renderer that has nothing; does nothing while there is no volume.
   hal::Result<> show_again(ui::Renderer& renderer);
 
-  // A frame with the newest whole one waits for its flip.
+  // A frame with what was shown waits for its flip.
   void note_drawn() { volumes_.note_drawn(); }
   // A frame with it was seen then.
   void flipped(hal::TimePoint seen) { line_latency_.flipped(seen); }

@@ -39,6 +39,13 @@ struct VolumeInMaking {
   std::span<const std::atomic<BScanProgress>> progress; // by B-scan
 };
 
+// What the renderer makes of what comes.
+enum class Showing : std::uint8_t {
+  nothing, // or only now and then
+  whole,   // each volume, to be drawn before the next one is begun (right_of_way.h)
+  rolling  // B-scans of the one in the making
+};
+
 class VolumeFeed {
 public:
   virtual ~VolumeFeed() = default;
@@ -53,9 +60,12 @@ public:
   // meanwhile. Empty: there is none. Neither waits.
   std::optional<VolumeInMaking> borrow_after(std::uint64_t after) { return do_borrow_after(after); }
   void give_back() { do_give_back(); }
-  // Renderer's thread only. Whether each volume is to be drawn before the next one is begun
-  // (right_of_way.h), until note_drawn() says that it was.
-  void hurry(bool wanted) { do_hurry(wanted); }
+  // Renderer's thread only. What it would not come to need not be made (volume_demand.h), unless it shows
+  // nothing.
+  void expect(Showing how) { do_expect(how); }
+  // It has begun a frame with B-scans that it borrowed; a frame with them, or with the newest volume that
+  // it took, is drawn.
+  void note_begun() { do_note_begun(); }
   void note_drawn() { do_note_drawn(); }
   // Whether any volume is ever lent.
   bool lends() const { return do_lends(); }
@@ -70,7 +80,8 @@ private:
   virtual bool do_has_newer() const = 0;
   virtual std::optional<VolumeInMaking> do_borrow_after(std::uint64_t) { return std::nullopt; }
   virtual void do_give_back() {}
-  virtual void do_hurry(bool /*wanted*/) {}
+  virtual void do_expect(Showing /*how*/) {}
+  virtual void do_note_begun() {}
   virtual void do_note_drawn() {}
   virtual bool do_lends() const { return false; }
   virtual bool do_has_flow() const { return false; }

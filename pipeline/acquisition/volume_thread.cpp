@@ -94,6 +94,11 @@ const Volume* VolumeThread::do_take_newest() {
   return &volumes_[*index];
 }
 
+void VolumeThread::do_expect(Showing how) {
+  right_of_way_.want(how == Showing::whole);
+  demand_.expect(how);
+}
+
 void VolumeThread::do_note_drawn() {
   right_of_way_.give_up();
   demand_.drawn(clock_.now());
@@ -174,15 +179,16 @@ void VolumeThread::pulse(hal::TimePoint now) {
   }
 }
 
-// One that would be replaced before the renderer comes to it; one that comes while another is replaced so;
-// and one for which the workers have not caught up, so that what is built is built whole.
+// One that the renderer would not come to, and one for which the workers have not caught up, so that what
+// is built is built whole.
 bool VolumeThread::passes_over(hal::TimePoint now) const {
-  if (!right_of_way_.is_wanted() || (setup_.wants_every_volume && setup_.wants_every_volume()))
+  if (demand_.expected() == Showing::nothing ||
+      (setup_.wants_every_volume && setup_.wants_every_volume()))
     return false;
-  const bool one_waits = triple_buffer_.has_newer();
-  const bool another_is_built = scheduler_.is_building(); // and is about to replace it
-  return 2 * acquisition_.on_loan() > acquisition_.buffers() || (one_waits && another_is_built) ||
-         !demand_.would_be_seen(now, setup_.plan.tick_period(), one_waits || another_is_built);
+  const auto waits_since = triple_buffer_.has_newer() ? std::optional{waits_since_} : std::nullopt;
+  return 2 * acquisition_.on_loan() > acquisition_.buffers() ||
+         !demand_.would_be_seen(now, setup_.plan.tick_period(), waits_since,
+                                scheduler_.is_building());
 }
 
 bool VolumeThread::trigger_ready() {
@@ -447,6 +453,8 @@ void VolumeThread::publish(std::uint32_t buffer, const FinishedVolume& finished)
   grant_right_of_way(assembled);
   const auto [recycled, skipped] = triple_buffer_.publish(buffer);
   loan_.close(recycled);
+  if (!skipped)
+    waits_since_ = assembled;
   statistics_.reconstruct.add(volume.metadata.reconstruct);
   statistics_.assemble.add(volume.metadata.assemble);
   statistics_.publish.add(clock_.now() - assembled);

@@ -132,7 +132,8 @@ private:
   bool do_has_newer() const override { return triple_buffer_.has_newer(); }
   std::optional<VolumeInMaking> do_borrow_after(std::uint64_t after) override;
   void do_give_back() override { loan_.give_back(); }
-  void do_hurry(bool wanted) override { right_of_way_.want(wanted); }
+  void do_expect(Showing how) override;
+  void do_note_begun() override { demand_.begun(clock_.now()); }
   void do_note_drawn() override;
   bool do_lends() const override { return true; }
   bool do_has_flow() const override { return builder_.compares(); }
@@ -180,6 +181,7 @@ private:
   BufferLoan<VolumeScheduler::pool_size> loan_;
   RightOfWay right_of_way_;
   VolumeDemand demand_;
+  hal::TimePoint waits_since_{}; // for the renderer: what was published then, or what replaced it
   std::vector<BScanJob> held_back_; // while the renderer has it, since:
   hal::TimePoint held_since_{};
   VolumeScheduler scheduler_;

@@ -1,17 +1,19 @@
-// When the render loop asks for a volume to go before the next one, and when it says that it is seen.
+// What the render loop expects of the volumes, and when it says that one is seen.
 #include "tests/firmware-host/run/loop_stage.h"
 
 namespace octascope::tests {
 namespace {
 
 using namespace std::chrono_literals;
+using pipeline::Showing;
 
 // Hands everything on and remembers what is asked for.
 class WatchedFeed final : public pipeline::VolumeFeed {
 public:
   explicit WatchedFeed(pipeline::VolumeFeed& feed) : feed_(feed) {}
 
-  bool hurried = false; // by the last turn
+  Showing expected = Showing::nothing; // by the last turn
+  int begun = 0;
   int drawn = 0;
 
 private:
@@ -21,9 +23,13 @@ private:
     return feed_.borrow_after(after);
   }
   void do_give_back() override { feed_.give_back(); }
-  void do_hurry(bool wanted) override {
-    hurried = wanted;
-    feed_.hurry(wanted);
+  void do_expect(Showing how) override {
+    expected = how;
+    feed_.expect(how);
+  }
+  void do_note_begun() override {
+    ++begun;
+    feed_.note_begun();
   }
   void do_note_drawn() override {
     ++drawn;
@@ -57,7 +63,7 @@ protected:
 TEST_F(RightOfWayLoop, ends_with_the_first_frame_that_shows_the_volume) {
   start_watched(false);
   turn();
-  EXPECT_TRUE(feed_->hurried);
+  EXPECT_EQ(feed_->expected, Showing::whole);
   EXPECT_EQ(feed_->drawn, 0) << "there is no volume";
   send_volume(Tissue::usual);
   EXPECT_EQ(feed_->drawn, 0) << "no frame shows it";
@@ -76,7 +82,9 @@ TEST_F(RightOfWayLoop, is_not_asked_for_while_b_scans_are_shown_as_they_come) {
   send_volume(Tissue::usual);
   turn();
   turn();
-  EXPECT_FALSE(feed_->hurried);
+  EXPECT_EQ(feed_->expected, Showing::rolling);
+  EXPECT_EQ(feed_->begun, 1) << "nothing more has come";
+  EXPECT_GE(feed_->drawn, 1);
 }
 
 TEST_F(RightOfWayLoop, is_not_asked_for_without_a_display) {
@@ -87,10 +95,10 @@ TEST_F(RightOfWayLoop, is_not_asked_for_without_a_display) {
   send_volume(Tissue::reversed);
   turn();
   turn();
-  EXPECT_FALSE(feed_->hurried);
+  EXPECT_EQ(feed_->expected, Showing::nothing);
   display_.cable().restore();
   turn_until(clock_.now() + 3s); // the longest that it waits before it tries again
-  EXPECT_TRUE(feed_->hurried);
+  EXPECT_EQ(feed_->expected, Showing::whole);
 }
 
 TEST_F(RightOfWayLoop, is_not_asked_for_while_the_picture_is_frozen) {
@@ -100,11 +108,11 @@ TEST_F(RightOfWayLoop, is_not_asked_for_while_the_picture_is_frozen) {
   press_freeze();
   turn();
   turn();
-  EXPECT_FALSE(feed_->hurried);
+  EXPECT_EQ(feed_->expected, Showing::nothing);
   press_freeze();
   turn();
   turn();
-  EXPECT_TRUE(feed_->hurried);
+  EXPECT_EQ(feed_->expected, Showing::whole);
 }
 
 } // namespace

@@ -7,6 +7,8 @@ namespace {
 
 class VolumeDemandRule : public testing::Test {
 protected:
+  VolumeDemandRule() { demand.expect(Showing::whole); }
+
   static constexpr hal::TimePoint begin{10s};
   static constexpr hal::Duration period = 100ms;
 
@@ -18,32 +20,42 @@ protected:
     }
   }
 
+  bool wants(hal::TimePoint pulsed, std::optional<hal::TimePoint> waits_since = std::nullopt,
+             bool another_is_built = false) const {
+    return demand.would_be_seen(pulsed, period, waits_since, another_is_built);
+  }
+
   VolumeDemand demand;
 };
 
 TEST_F(VolumeDemandRule, wants_every_volume_of_a_renderer_that_is_as_fast_as_the_scan) {
-  EXPECT_TRUE(demand.would_be_seen(begin, period, true)) << "nothing is known of it";
+  EXPECT_TRUE(wants(begin, begin)) << "nothing is known of it";
   draw(140ms, 16);
-  EXPECT_TRUE(demand.would_be_seen(begin, period, false));
-  EXPECT_TRUE(demand.would_be_seen(begin, period, true)) << "it waits for half of a scan at most";
+  EXPECT_TRUE(wants(begin));
+  EXPECT_TRUE(wants(begin, begin)) << "the next one waits for half of a scan at most";
 }
 
 TEST_F(VolumeDemandRule, does_not_want_what_would_be_replaced_before_it_is_taken) {
   draw(160ms, 16);
-  EXPECT_TRUE(demand.would_be_seen(begin, period, false));
-  EXPECT_FALSE(demand.would_be_seen(begin, period, true));
+  EXPECT_TRUE(wants(begin));
+  EXPECT_FALSE(wants(begin, begin));
+  EXPECT_FALSE(wants(begin, std::nullopt, true));
+  EXPECT_TRUE(wants(begin + 11ms, begin)) << "it may be at it for 11 ms already";
   demand.taken(begin);
-  EXPECT_FALSE(demand.would_be_seen(begin + 1ms, period, false));
-  EXPECT_TRUE(demand.would_be_seen(begin + 11ms, period, false)) << "it has 149 ms to go";
-  EXPECT_FALSE(demand.would_be_seen(begin + 11ms, period, true));
+  EXPECT_FALSE(wants(begin + 1ms));
+  EXPECT_TRUE(wants(begin + 11ms)) << "it has 149 ms to go";
+  EXPECT_FALSE(wants(begin + 11ms, begin + 10ms));
+  EXPECT_FALSE(wants(begin + 11ms, std::nullopt, true));
 }
 
 TEST_F(VolumeDemandRule, gives_a_renderer_that_lacks_the_cores_half_as_long_again) {
+  EXPECT_TRUE(wants(begin + 300ms, begin)) << "it has not taken it yet";
+  EXPECT_FALSE(wants(begin + 301ms, begin));
   demand.taken(begin);
-  EXPECT_TRUE(demand.would_be_seen(begin + 300ms, period, false));
-  EXPECT_FALSE(demand.would_be_seen(begin + 301ms, period, false));
+  EXPECT_TRUE(wants(begin + 300ms));
+  EXPECT_FALSE(wants(begin + 301ms));
   demand.drawn(begin + 400ms);
-  EXPECT_TRUE(demand.would_be_seen(begin + 400ms, period, true)) << "one of sixteen";
+  EXPECT_TRUE(wants(begin + 400ms, begin + 400ms)) << "one of sixteen";
 }
 
 TEST_F(VolumeDemandRule, counts_what_else_was_drawn_before_a_volume_was_taken) {
@@ -52,7 +64,28 @@ TEST_F(VolumeDemandRule, counts_what_else_was_drawn_before_a_volume_was_taken) {
     demand.taken(begin + i * 400ms);
     demand.drawn(begin + i * 400ms + 160ms);
   }
-  EXPECT_FALSE(demand.would_be_seen(begin + 6400ms, period, true));
+  EXPECT_FALSE(wants(begin + 6400ms, begin + 6400ms));
+}
+
+TEST_F(VolumeDemandRule, does_not_want_what_comes_while_one_is_about_to_replace_another) {
+  EXPECT_TRUE(wants(begin, std::nullopt, true));
+  EXPECT_FALSE(wants(begin, begin, true));
+}
+
+TEST_F(VolumeDemandRule, wants_what_rolls_of_a_renderer_that_comes_to_it_before_it_is_whole) {
+  demand.expect(Showing::rolling);
+  draw(60ms, 16);
+  EXPECT_TRUE(wants(begin + 90ms, begin, true)) << "it may have just begun";
+  EXPECT_FALSE(wants(begin + 201ms, begin, true)) << "it does not come to it";
+  demand.begun(begin);
+  EXPECT_TRUE(wants(begin + 1ms, std::nullopt, true)) << "it goes on while it is built";
+  EXPECT_FALSE(wants(begin + 1ms, begin, true)) << "the one before comes first";
+  EXPECT_TRUE(wants(begin + 200ms, std::nullopt, true));
+  EXPECT_FALSE(wants(begin + 201ms, std::nullopt, true)) << "it lacks the cores";
+  demand.begun(begin + 190ms);
+  EXPECT_FALSE(wants(begin + 201ms, std::nullopt, true)) << "it is the same frame";
+  demand.drawn(begin + 210ms);
+  EXPECT_TRUE(wants(begin + 210ms, std::nullopt, true));
 }
 
 class VolumeDemandTest : public VolumeThreadTest {
@@ -60,7 +93,7 @@ protected:
   // Takes the first volume as soon as it is there, and is not done with it.
   void begin_drawing() {
     start();
-    volumes->hurry(true);
+    volumes->expect(Showing::whole);
     deliver_frames(plan.b_scans);
     wait_for_volume(1);
     await_next_pulse();
@@ -150,13 +183,36 @@ TEST_F(VolumeDemandTest, builds_every_volume_that_somebody_else_wants) {
   EXPECT_EQ(counters().passed_over, 0U);
 }
 
-TEST_F(VolumeDemandTest, builds_every_volume_of_which_b_scans_are_shown_as_they_come) {
+TEST_F(VolumeDemandTest, builds_every_volume_of_a_renderer_that_shows_nothing) {
   begin_drawing();
-  volumes->hurry(false);
+  volumes->expect(Showing::nothing);
   scan_whole(6);
   await([&] { return counters().published == 7; });
   stop();
   EXPECT_EQ(counters().passed_over, 0U);
+}
+
+TEST_F(VolumeDemandTest, passes_over_what_would_be_whole_before_a_b_scan_of_it_is_seen) {
+  begin_drawing();
+  volumes->expect(Showing::rolling);
+  scan_whole(2); // it has been at one frame for 0.8 s then: of the second one nothing would be seen
+  await([&] { return counters().published == 3; });
+  scan_whole(2);
+  await([&] { return counters().passed_over == 2; });
+  deliver_frames(plan.b_scans);
+  EXPECT_NE(volumes->take_newest(), nullptr);
+  volumes->note_drawn();
+  await_next_pulse();
+  for (int i = 0; i < 3; ++i) {
+    deliver_frames(plan.b_scans);
+    volumes->take_newest();
+    volumes->note_begun();
+    volumes->note_drawn();
+    await_next_pulse();
+  }
+  stop();
+  EXPECT_EQ(counters().published, 6U);
+  EXPECT_EQ(counters().passed_over, 3U);
 }
 
 } // namespace

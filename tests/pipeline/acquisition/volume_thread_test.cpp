@@ -68,7 +68,7 @@ TEST_F(RightOfWayTest, workers_begin_at_once_where_nobody_wants_it) {
 }
 
 TEST_F(RightOfWayTest, workers_begin_when_the_volume_is_drawn) {
-  volumes->hurry(true);
+  volumes->expect(Showing::whole);
   begin_second_volume(3);
   expect_nothing_built(3);
   volumes->note_drawn();
@@ -78,7 +78,7 @@ TEST_F(RightOfWayTest, workers_begin_when_the_volume_is_drawn) {
 }
 
 TEST_F(RightOfWayTest, workers_begin_after_a_while_whatever_becomes_of_the_volume) {
-  volumes->hurry(true);
+  volumes->expect(Showing::whole);
   begin_second_volume(3);
   expect_nothing_built(3);
   clock.sleep_until(published + 100ms);
@@ -89,7 +89,7 @@ TEST_F(RightOfWayTest, workers_begin_after_a_while_whatever_becomes_of_the_volum
 // Of those that the driver gave it, not of those that it was asked for.
 TEST_F(RightOfWayTest, workers_leave_the_camera_half_of_its_buffers) {
   camera.give_fewer_buffers(8);
-  volumes->hurry(true);
+  volumes->expect(Showing::whole);
   begin_second_volume(4);
   await([&] { return 2 * acquisition->on_loan() < 8; });
   stop();
