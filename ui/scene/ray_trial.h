@@ -8,8 +8,9 @@
 namespace octascope::ui {
 
 struct RayTrial {
-  hal::Duration shader{}; // medians of a few small pictures
-  hal::Duration processor{};
+  // The least time of a few small pictures: others were held up by something else.
+  hal::Duration shader = hal::Duration::max();
+  hal::Duration processor = hal::Duration::max();
 
   RayBackend faster() const {
     return processor < shader ? RayBackend::processor : RayBackend::shader;

@@ -337,7 +337,7 @@ TEST_F(Glance, nothing_lies_over_anything_else_nor_over_a_pictures_middle) {
 }
 
 // What most of a rectangle's pixels are.
-Colour ground_in(const pipeline::Image& image, const Rect& rect) {
+ui::Colour ground_in(const pipeline::Image& image, const Rect& rect) {
   std::map<std::array<std::uint8_t, 3>, int> counts;
   for (int y = rect.y; y < rect.bottom(); ++y)
     for (int x = rect.x; x < rect.right(); ++x)
@@ -381,7 +381,7 @@ TEST_F(Glance, every_word_has_contrast_over_any_picture) {
           renderer->draw(drawn.overlay, frame, height);
           const pipeline::Image image = gl::read_framebuffer(width, height);
           for (const Canvas::Words& words : drawn.overlay.words()) {
-            const Colour ground = words.shadowed ? palette::ink : ground_in(image, words.rect);
+            const ui::Colour ground = words.shadowed ? palette::ink : ground_in(image, words.rect);
             EXPECT_GE(contrast(words.colour, ground), 6.9)
                 << "at " << words.rect.x << ", " << words.rect.y;
           }
