@@ -85,6 +85,8 @@ bool RenderLoop::turn() {
     report_flow_refusal();
     choose_ray_backend();
   }
+  if (parts_.vessels != nullptr)
+    parts_.vessels->trace(volume_.whole(), controller_.state());
   const hal::TimePoint next = late_start_.next_look(turn_began_, parts_.clock.now(), next_refresh(),
                                                     parts_.display.refresh_period());
   // At once when something came meanwhile; a long press is due when it is.
@@ -320,17 +322,30 @@ void RenderLoop::update_status() {
     status_writer_.show_vessels(parts_.vessels->status());
 }
 
+// A frame that is begun now, with its flip.
+hal::TimePoint RenderLoop::seen_by(hal::TimePoint now) const {
+  const hal::TimePoint drawn = now + governor_.fixed_cost();
+  const auto next = next_refresh();
+  if (!next || drawn <= *next)
+    return next.value_or(drawn);
+  const hal::Duration period = parts_.display.refresh_period();
+  return *next + (drawn - *next + period - hal::Duration{1}) / period * period;
+}
+
 // A frame that shows nothing new of the volume, such as one for the microscope camera's picture, lets the
-// next volume go first where that comes before the frame would be done; if it is late, no more.
+// next volume go first where that comes before the frame would be seen; if it is later than the last one
+// was, no more.
 bool RenderLoop::awaits_volume() const {
-  constexpr std::chrono::milliseconds patience{3};
+  constexpr std::chrono::milliseconds patience{3}, longest_making{20};
   const pipeline::Volume* const last = volume_.whole();
   if (last == nullptr || volume_.rolls() || volume_undisplayed_ || undisplayed_control_ ||
       status().freshness.liveness != ui::Liveness::live)
     return false;
-  const hal::TimePoint due = last->metadata.last_line + setup_.freshness.volume_period;
+  const hal::TimePoint due =
+      std::min(last->metadata.published, last->metadata.last_line + longest_making) +
+      setup_.freshness.volume_period;
   const hal::TimePoint now = parts_.clock.now();
-  return now + governor_.fixed_cost() > due && now < due + patience;
+  return seen_by(now) > due && now < due + patience;
 }
 
 // It takes longer than others: a frame that nobody waits for is taken for it, if one comes in time.

@@ -50,7 +50,7 @@ LiveTreeThread::~LiveTreeThread() {
   stop_.request_stop();
 }
 
-void LiveTreeThread::offer(const pipeline::Volume& volume) {
+void LiveTreeThread::offer(const pipeline::Volume& volume, hal::Duration interval) {
   if (!volume.has_flow() || turn_.load(std::memory_order_acquire) != Turn::idle)
     return;
   if (!thread_.started()) {
@@ -60,7 +60,7 @@ void LiveTreeThread::offer(const pipeline::Volume& volume) {
     return;
   }
   const hal::TimePoint now = clock_.now();
-  if (offered_ && (volume.metadata.index == offered_index_ || now - *offered_ < least_interval))
+  if (offered_ && (volume.metadata.index == offered_index_ || now - *offered_ < interval))
     return;
   offered_ = now;
   offered_index_ = volume.metadata.index;

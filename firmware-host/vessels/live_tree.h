@@ -46,9 +46,9 @@ public:
 
   // All of these: the render thread.
 
-  // Copies the volume's flow, about a millisecond for a live volume, if the thread is idle, the volume
-  // is another than the last one and has flow, and the last was at least `least_interval` ago.
-  void offer(const pipeline::Volume& volume);
+  // Copies the volume's flow, which takes milliseconds for a live volume, if the thread is idle, the volume
+  // is another than the last one and has flow, and the last was at least `interval` ago.
+  void offer(const pipeline::Volume& volume, hal::Duration interval);
   // What was found last, once; null if nothing new was.
   std::shared_ptr<const LiveTree> take();
 
@@ -61,9 +61,6 @@ public:
     pipeline::DurationSummary took; // from the copy to the packed tree, of both
   };
   Counters counters() const;
-
-  // Trees more often than that would show nothing more and take memory's time from the picture.
-  static constexpr hal::Duration least_interval = std::chrono::milliseconds{700};
 
 private:
   enum class Turn : std::uint8_t {

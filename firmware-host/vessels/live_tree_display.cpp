@@ -46,8 +46,6 @@ bool LiveTreeDisplay::advance(const pipeline::Volume* shown, bool frozen) {
       newest_ = std::move(found);
       status_ = status_of(*newest_);
     }
-  if (shown != nullptr)
-    thread_.offer(*shown);
   if (newest_ == nullptr)
     return false;
   const hal::TimePoint now = frozen && shown != nullptr ? shown->metadata.last_line : clock_.now();

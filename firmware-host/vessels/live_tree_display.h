@@ -27,10 +27,20 @@ public:
       : clock_{clock}, thread_{clock, news, std::move(setup)} {}
 
   static constexpr hal::Duration longest_wait = std::chrono::milliseconds{500};
+  // Trees more often than that would show nothing more, and tracing takes memory's time from the picture: a
+  // tree that nobody sees is only kept young enough to be shown at once when it is asked for.
+  static constexpr hal::Duration interval_seen = std::chrono::milliseconds{700};
+  static constexpr hal::Duration interval_unseen = std::chrono::seconds{5};
 
   // `shown`: the whole volume of the picture; null while there is none. True: drawn() is another one. The
   // one before it stays in memory until the next call.
   bool advance(const pipeline::Volume* shown, bool frozen);
+
+  // Has that volume traced, if it is time; `seen`: its tree is drawn or needed otherwise. Best after a frame,
+  // as it copies.
+  void trace(const pipeline::Volume& shown, bool seen) {
+    thread_.offer(shown, seen ? interval_seen : interval_unseen);
+  }
 
   // Null: none is to be drawn.
   const LiveTree* drawn() const { return drawn_.get(); }

@@ -110,6 +110,12 @@ void VesselDisplay::advance(ui::Renderer* renderer, ui::ViewActions& actions,
   describe_place();
 }
 
+// Those from a file are followed by traced ones.
+void VesselDisplay::trace(const pipeline::Volume* shown, const ui::ViewState& view) {
+  if (live_ && shown != nullptr)
+    live_->trace(*shown, ui::shows_tree(view) || loaded_.has_value());
+}
+
 void VesselDisplay::describe_place() {
   using Followed = ui::FollowedTreeStatus;
   status_.registered = drawn_place().has_value() || status_.traced;

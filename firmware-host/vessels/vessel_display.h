@@ -53,6 +53,8 @@ public:
   // Takes what was loaded, traced or written meanwhile; `renderer` is null while the display is gone,
   // `shown` until there is a whole volume.
   void advance(ui::Renderer* renderer, ui::ViewActions& actions, const pipeline::Volume* shown);
+  // After the frame: has vessels traced in what it showed.
+  void trace(const pipeline::Volume* shown, const ui::ViewState& view);
 
   // Shows the tree again with a new renderer.
   hal::Result<> show_again(ui::Renderer& renderer);

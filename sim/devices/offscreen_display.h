@@ -1,7 +1,8 @@
 // A simulated display: draws into memory, without a screen, a window system or a GPU.
 //
 // Uses a surfaceless EGL context (included in every Mesa), with a framebuffer of the requested size
-// as the draw target. Refreshes are ticks of the injected clock and pace frames like a screen.
+// as the draw target. Images are seen as soon as they are drawn, as on outputs and in windows without a
+// refresh of their own; the injected clock paces them like those (hal/linux/system/flip_pacing.h).
 #pragma once
 
 #include <atomic>
@@ -55,7 +56,7 @@ private:
   int width_ = 0;
   int height_ = 0;
   hal::Duration refresh_period_{};
-  hal::TimePoint opened_;
+  hal::TimePoint next_allowed_; // image
   std::uint64_t flips_ = 0;
   std::atomic<bool> lost_{false};
   std::atomic<bool> context_lost_{false}; // until the next open()

@@ -1,6 +1,8 @@
 // What a surgeon relies on, frame by frame on a time axis that stands still between them.
 #include <string>
 
+#include <fmt/format.h>
+
 #include "tests/firmware-host/run/loop_stage.h"
 #include "tests/support/pictures/picture_counts.h"
 #include "ui/layout/stereo.h"
@@ -300,6 +302,32 @@ TEST_F(Pacing, frames_for_a_monitor_begin_late_and_miss_no_refresh) {
     }
   }
 }
+
+// For the microscope's picture, so long before the next volume is due.
+class FrameBeforeVolume : public LoopStage, public testing::WithParamInterface<hal::Duration> {
+protected:
+  static constexpr hal::Duration cost = 8ms;
+};
+
+TEST_P(FrameBeforeVolume, lets_that_go_first_unless_it_is_done_by_then) {
+  display_.cost = [] { return cost; };
+  start({});
+  send_volume(Tissue::usual);
+  const hal::TimePoint due = clock_.now() + plan().tick_period(); // to be published
+  turn();
+  turn_knob(1, 1); // what a frame costs without a volume's picture is known, too
+  turn();
+  const int frames = display_.frames;
+  clock_.sleep_until(due - GetParam());
+  send_scope_picture();
+  turn();
+  EXPECT_EQ(display_.frames, GetParam() > cost ? frames + 1 : frames);
+  turn();
+  EXPECT_EQ(display_.frames, frames + 1) << "the volume is late";
+}
+
+INSTANTIATE_TEST_SUITE_P(Times, FrameBeforeVolume, testing::Values(10ms, 4ms, -1ms),
+                         [](const auto& test) { return fmt::format("case_{}", test.index); });
 
 INSTANTIATE_TEST_SUITE_P(Techniques, LostDisplay, testing::ValuesIn(all_losses()),
                          [](const auto& test) {

@@ -52,11 +52,13 @@ protected:
 
 class LiveTreeThreadTest : public LiveTreeTest {
 protected:
+  static constexpr hal::Duration interval = 700ms;
+
   // What becomes of the volume.
   std::shared_ptr<const LiveTree> traced(const pipeline::Volume& volume) {
     std::shared_ptr<const LiveTree> found;
     EXPECT_TRUE(await([&] {
-      thread_.offer(volume);
+      thread_.offer(volume, interval);
       found = thread_.take();
       return found != nullptr;
     }));
@@ -132,13 +134,13 @@ TEST_F(LiveTreeThreadTest, says_why_there_is_none) {
 TEST_F(LiveTreeThreadTest, leaves_volumes_without_flow_and_those_that_it_had) {
   const pipeline::Volume without = stamped(pipeline::Volume{live_flow().geometry});
   for (int i = 0; i < 20; ++i) {
-    thread_.offer(without);
+    thread_.offer(without, interval);
     std::this_thread::sleep_for(1ms);
   }
   const pipeline::Volume volume = stamped(live_flow());
   ASSERT_EQ(traced(volume)->number, 1U);
   clock_.advance(1s);
-  thread_.offer(volume);
+  thread_.offer(volume, interval);
   std::this_thread::sleep_for(50ms);
   EXPECT_EQ(thread_.take(), nullptr) << "it had this one";
   EXPECT_EQ(traced(stamped(live_flow()))->number, 2U);
@@ -146,8 +148,8 @@ TEST_F(LiveTreeThreadTest, leaves_volumes_without_flow_and_those_that_it_had) {
 
 TEST_F(LiveTreeThreadTest, traces_no_more_often_than_its_interval) {
   ASSERT_TRUE(traced(stamped(live_flow())));
-  clock_.advance(LiveTreeThread::least_interval - 1ms);
-  thread_.offer(stamped(live_flow()));
+  clock_.advance(interval - 1ms);
+  thread_.offer(stamped(live_flow()), interval);
   std::this_thread::sleep_for(50ms);
   EXPECT_EQ(thread_.take(), nullptr);
   clock_.advance(1ms);
@@ -159,7 +161,7 @@ TEST_F(LiveTreeThreadTest, has_a_copy_of_what_it_works_on) {
   pipeline::Volume volume = stamped(live_flow());
   const auto alone = pipeline::trace_vessels(volume.geometry, volume.flow);
   ASSERT_TRUE(await([&] {
-    thread_.offer(volume);
+    thread_.offer(volume, interval);
     return thread_.is_at_work();
   }));
   std::ranges::fill(volume.flow, pipeline::flow_untold);
@@ -173,7 +175,7 @@ TEST_F(LiveTreeThreadTest, ends_in_the_middle_of_a_tree) {
   auto thread = std::make_unique<LiveTreeThread>(clock_, news_);
   const pipeline::Volume volume = stamped(live_flow());
   ASSERT_TRUE(await([&] {
-    thread->offer(volume);
+    thread->offer(volume, interval);
     return thread->is_at_work();
   }));
   thread.reset(); // under the sanitizers: nothing is left behind
@@ -183,13 +185,20 @@ class LiveTreeDisplayTest : public LiveTreeTest {
 protected:
   // Until the volume's tree, or refusal, has come: it is as old as it may have to wait.
   void show(const pipeline::Volume& volume) {
-    display_.advance(&volume, false);
+    advance(volume, false);
     clock_.advance(LiveTreeDisplay::longest_wait);
     ASSERT_TRUE(await([&] {
-      display_.advance(&volume, false);
+      advance(volume, false);
       return display_.newest() != nullptr &&
              display_.newest()->volume_index == volume.metadata.index;
     }));
+  }
+
+  // A turn of the loop with that picture.
+  bool advance(const pipeline::Volume& shown, bool frozen, bool seen = true) {
+    const bool changed = display_.advance(&shown, frozen);
+    display_.trace(shown, seen);
+    return changed;
   }
 
   LiveTreeDisplay display_{clock_, news_};
@@ -215,17 +224,17 @@ class LiveTreeBesideVolumes : public LiveTreeDisplayTest {
 protected:
   void SetUp() override {
     show(stamped(live_flow()));
-    clock_.advance(LiveTreeThread::least_interval - 1ms);
+    clock_.advance(LiveTreeDisplay::interval_seen - 1ms);
     const pipeline::Volume next = stamped(live_flow());
-    display_.advance(&next, false);
-    display_.advance(&next, false); // the picture after it
+    advance(next, false);
+    advance(next, false); // the picture after it
     clock_.advance(1ms);
-    display_.advance(&next, false); // is traced from now on
+    advance(next, false); // is traced from now on
     for ([[maybe_unused]] const char* news : {"started", "a tree", "another"})
       news_.wait();
     clock_.advance(1ms);
     const pipeline::Volume newer = stamped(live_flow());
-    display_.advance(&newer, false);
+    advance(newer, false);
     EXPECT_NE(display_.newest()->volume_index, next.metadata.index);
     traced_ = next.metadata.index;
     shown_ = newer;
@@ -235,28 +244,28 @@ protected:
 };
 
 TEST_F(LiveTreeBesideVolumes, waits_for_the_next_picture) {
-  display_.advance(&shown_, false);
+  advance(shown_, false);
   EXPECT_EQ(display_.newest()->volume_index, traced_);
 }
 
 TEST_F(LiveTreeBesideVolumes, that_comes_later_waits_for_the_next_volume) {
-  display_.advance(&shown_, false);
-  clock_.advance(LiveTreeThread::least_interval);
-  display_.advance(&shown_, false); // is traced from now on
+  advance(shown_, false);
+  clock_.advance(LiveTreeDisplay::interval_seen);
+  advance(shown_, false); // is traced from now on
   news_.wait();
   clock_.advance(1ms);
   const pipeline::Volume newest = stamped(live_flow());
-  display_.advance(&newest, false);
+  advance(newest, false);
   EXPECT_EQ(display_.newest()->volume_index, traced_);
   clock_.advance(1ms);
-  display_.advance(&newest, false);
+  advance(newest, false);
   EXPECT_EQ(display_.newest()->volume_index, shown_.metadata.index);
 }
 
 TEST_F(LiveTreeBesideVolumes, waits_once_where_each_picture_is_of_a_new_volume) {
   clock_.advance(1ms);
   const pipeline::Volume newest = stamped(live_flow());
-  display_.advance(&newest, false);
+  advance(newest, false);
   EXPECT_EQ(display_.newest()->volume_index, traced_);
 }
 
@@ -264,31 +273,50 @@ TEST_F(LiveTreeDisplayTest, tells_the_age_and_removes_a_tree_that_is_old) {
   const pipeline::Volume volume = stamped(live_flow());
   show(volume);
   clock_.advance(ui::TracedTreeStatus::removed_after - LiveTreeDisplay::longest_wait - 1ms);
-  EXPECT_FALSE(display_.advance(&volume, false));
+  EXPECT_FALSE(advance(volume, false));
   EXPECT_NE(display_.drawn(), nullptr);
   EXPECT_EQ(display_.status()->age, ui::TracedTreeStatus::removed_after - 1ms);
   clock_.advance(1ms);
-  EXPECT_TRUE(display_.advance(&volume, false)) << "another picture";
+  EXPECT_TRUE(advance(volume, false)) << "another picture";
   EXPECT_EQ(display_.drawn(), nullptr);
   EXPECT_EQ(display_.status()->state, State::removed);
+}
+
+TEST_F(LiveTreeDisplayTest, traces_seldom_what_nobody_sees) {
+  show(stamped(live_flow()));
+  clock_.advance(LiveTreeDisplay::interval_unseen - LiveTreeDisplay::longest_wait - 1ms);
+  const pipeline::Volume volume = stamped(live_flow());
+  for (int i = 0; i < 50; ++i) {
+    advance(volume, false, false);
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_NE(display_.newest()->volume_index, volume.metadata.index);
+  EXPECT_NE(display_.drawn(), nullptr) << "and may be shown at once";
+  clock_.advance(1ms);
+  advance(volume, false, false);
+  clock_.advance(LiveTreeDisplay::longest_wait);
+  EXPECT_TRUE(await([&] {
+    advance(volume, false, false);
+    return display_.newest()->volume_index == volume.metadata.index;
+  }));
 }
 
 // As old as when the picture stood still, and then the frozen volume's own.
 TEST_F(LiveTreeDisplayTest, keeps_the_tree_of_a_frozen_picture) {
   show(stamped(live_flow()));
-  clock_.advance(LiveTreeThread::least_interval / 2);
+  clock_.advance(LiveTreeDisplay::interval_seen / 2);
   const pipeline::Volume frozen = stamped(live_flow());
-  display_.advance(&frozen, true);
-  const hal::Duration age = LiveTreeDisplay::longest_wait + LiveTreeThread::least_interval / 2;
+  advance(frozen, true);
+  const hal::Duration age = LiveTreeDisplay::longest_wait + LiveTreeDisplay::interval_seen / 2;
   EXPECT_EQ(display_.status()->age, age);
   clock_.advance(10min);
   ASSERT_TRUE(await([&] {
-    display_.advance(&frozen, true);
+    advance(frozen, true);
     return display_.newest()->volume_index == frozen.metadata.index;
   }));
   EXPECT_EQ(display_.status()->age, 0s);
   EXPECT_EQ(display_.drawn(), display_.newest().get());
-  display_.advance(&frozen, false);
+  advance(frozen, false);
   EXPECT_EQ(display_.drawn(), nullptr) << "live again, it is ten minutes old";
 }
 

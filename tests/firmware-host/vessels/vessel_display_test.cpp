@@ -71,6 +71,7 @@ protected:
     ++volume_.metadata.index;
     volume_.metadata.last_line = clock_.now();
     display_->advance(nullptr, actions_, &volume_);
+    display_->trace(&volume_, actions_.state());
   }
   bool send_until(const std::function<bool()>& so) {
     for (int i = 0; i < 20'000; ++i) {
