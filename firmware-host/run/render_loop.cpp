@@ -322,16 +322,6 @@ void RenderLoop::update_status() {
     status_writer_.show_vessels(parts_.vessels->status());
 }
 
-// A frame that is begun now, with its flip.
-hal::TimePoint RenderLoop::seen_by(hal::TimePoint now) const {
-  const hal::TimePoint drawn = now + governor_.fixed_cost();
-  const auto next = next_refresh();
-  if (!next || drawn <= *next)
-    return next.value_or(drawn);
-  const hal::Duration period = parts_.display.refresh_period();
-  return *next + (drawn - *next + period - hal::Duration{1}) / period * period;
-}
-
 // A frame that shows nothing new of the volume, such as one for the microscope camera's picture, lets the
 // next volume go first where that comes before the frame would be seen; if it is later than the last one
 // was, no more.
@@ -345,7 +335,9 @@ bool RenderLoop::awaits_volume() const {
       std::min(last->metadata.published, last->metadata.last_line + longest_making) +
       setup_.freshness.volume_period;
   const hal::TimePoint now = parts_.clock.now();
-  return seen_by(now) > due && now < due + patience;
+  const hal::TimePoint seen = ui::LateStart::seen(now + governor_.fixed_cost(), next_refresh(),
+                                                  parts_.display.refresh_period());
+  return seen > due && now < due + patience;
 }
 
 // It takes longer than others: a frame that nobody waits for is taken for it, if one comes in time.

@@ -168,7 +168,6 @@ private:
   void note_taken(const pipeline::Volume& newest, hal::TimePoint begin);
   void take_scope_picture();
   void update_status();
-  hal::TimePoint seen_by(hal::TimePoint now) const;
   bool awaits_volume() const;
   bool is_to_be_whole() const;
   bool volume_comes_soon() const;

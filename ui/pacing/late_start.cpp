@@ -56,6 +56,11 @@ hal::TimePoint LateStart::next_look(hal::TimePoint began, hal::TimePoint now,
   return next > from ? next : began + period;
 }
 
+hal::TimePoint LateStart::seen(hal::TimePoint drawn, std::optional<hal::TimePoint> refresh,
+                               hal::Duration period) {
+  return refresh ? first_from(*refresh, period, drawn) : drawn;
+}
+
 void LateStart::note(hal::Duration cost, hal::TimePoint seen) {
   costs_[frames_++ % kept] = cost;
   if (!planned_)

@@ -31,6 +31,10 @@ public:
   hal::TimePoint next_look(hal::TimePoint began, hal::TimePoint now,
                            std::optional<hal::TimePoint> refresh, hal::Duration period);
 
+  // When a frame is seen that is drawn at that time.
+  static hal::TimePoint seen(hal::TimePoint drawn, std::optional<hal::TimePoint> refresh,
+                             hal::Duration period);
+
   // Reports the frame that begin() was asked about, from its beginning until it was drawn, and when it
   // was seen.
   void note(hal::Duration cost, hal::TimePoint seen);

@@ -167,5 +167,14 @@ TEST(LateStart, plans_for_the_first_refresh_that_can_be_reached) {
   }
 }
 
+TEST(LateStart, says_when_a_frame_is_seen) {
+  const TimePoint refresh{milliseconds{100}};
+  const TimePoint drawn{milliseconds{110}};
+  EXPECT_EQ(ui::LateStart::seen(drawn, std::nullopt, period), drawn) << "at once";
+  EXPECT_EQ(ui::LateStart::seen(drawn, drawn, period), drawn);
+  EXPECT_EQ(ui::LateStart::seen(drawn, refresh, period), refresh + period);
+  EXPECT_EQ(ui::LateStart::seen(drawn + period, refresh, period), refresh + 2 * period);
+}
+
 } // namespace
 } // namespace octascope::tests
