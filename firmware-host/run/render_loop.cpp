@@ -322,8 +322,15 @@ void RenderLoop::update_status() {
     status_writer_.show_vessels(parts_.vessels->status());
 }
 
+// After a frame that is begun now. Outputs without a refresh that is known hold it for whole periods, too.
+hal::TimePoint RenderLoop::free_again(hal::TimePoint now) const {
+  const auto refresh = next_refresh();
+  return ui::LateStart::seen(now + governor_.fixed_cost(), refresh ? refresh : last_free_,
+                             parts_.display.refresh_period());
+}
+
 // A frame that shows nothing new of the volume, such as one for the microscope camera's picture, lets the
-// next volume go first where that comes before the frame would be seen; if it is later than the last one
+// next volume go first where that comes before the renderer would be free again; if it is later than the last one
 // was, no more.
 bool RenderLoop::awaits_volume() const {
   constexpr std::chrono::milliseconds patience{3}, longest_making{20};
@@ -335,9 +342,7 @@ bool RenderLoop::awaits_volume() const {
       std::min(last->metadata.published, last->metadata.last_line + longest_making) +
       setup_.freshness.volume_period;
   const hal::TimePoint now = parts_.clock.now();
-  const hal::TimePoint seen = ui::LateStart::seen(now + governor_.fixed_cost(), next_refresh(),
-                                                  parts_.display.refresh_period());
-  return seen > due && now < due + patience;
+  return free_again(now) > due && now < due + patience;
 }
 
 // It takes longer than others: a frame that nobody waits for is taken for it, if one comes in time.
@@ -402,6 +407,7 @@ void RenderLoop::draw_if_changed() {
   if (undisplayed_last_line_ || volume_.rolls())
     volume_.note_drawn();
   const auto flip = display.present();
+  last_free_ = parts_.clock.now();
   if (!flip)
     lose_display(flip.error());
   else

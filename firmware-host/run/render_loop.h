@@ -168,6 +168,7 @@ private:
   void note_taken(const pipeline::Volume& newest, hal::TimePoint begin);
   void take_scope_picture();
   void update_status();
+  hal::TimePoint free_again(hal::TimePoint now) const;
   bool awaits_volume() const;
   bool is_to_be_whole() const;
   bool volume_comes_soon() const;
@@ -214,6 +215,7 @@ private:
   std::optional<hal::TimePoint> drawn_whole_;  // not in parts
   std::uint64_t last_flip_ = 0;                // its number since this opening of the display
   std::optional<hal::TimePoint> presented_;    // time of the last presentation, seen or not
+  std::optional<hal::TimePoint> last_free_;    // when the display gave the renderer free after it
   std::optional<hal::TimePoint> display_lost_; // empty while it is present
   bool picture_wanted_ = false;                // by key or pedal: keep the next frame
   pipeline::RetryDelay retry_;

@@ -183,7 +183,7 @@ hal::Result<> OffscreenDisplay::do_open(const hal::DisplayConfig& config) {
   height_ = config.height;
   refresh_period_ = hal::from_seconds(1.0 / config.refresh_hz);
   context_lost_.store(false, std::memory_order_release);
-  next_allowed_ = clock_.now();
+  opened_ = clock_.now();
   flips_ = 0;
   set_state(hal::DeviceState::ready);
   return {};
@@ -200,8 +200,8 @@ hal::Result<hal::Flip> OffscreenDisplay::do_present() {
   }
   glFinish();
   const hal::TimePoint completed = clock_.now();
-  next_allowed_ = std::max(std::min(next_allowed_, completed) + refresh_period_, completed);
-  clock_.sleep_until(next_allowed_);
+  const std::int64_t ticks = (completed - opened_) / refresh_period_;
+  clock_.sleep_until(opened_ + (ticks + 1) * refresh_period_);
   return hal::Flip{completed, ++flips_, completed};
 }
 

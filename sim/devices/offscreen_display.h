@@ -1,8 +1,7 @@
 // A simulated display: draws into memory, without a screen, a window system or a GPU.
 //
 // Uses a surfaceless EGL context (included in every Mesa), with a framebuffer of the requested size
-// as the draw target. Images are seen as soon as they are drawn, as on outputs and in windows without a
-// refresh of their own; the injected clock paces them like those (hal/linux/system/flip_pacing.h).
+// as the draw target. Refreshes are ticks of the injected clock and pace frames like a screen.
 #pragma once
 
 #include <atomic>
@@ -56,7 +55,7 @@ private:
   int width_ = 0;
   int height_ = 0;
   hal::Duration refresh_period_{};
-  hal::TimePoint next_allowed_; // image
+  hal::TimePoint opened_;
   std::uint64_t flips_ = 0;
   std::atomic<bool> lost_{false};
   std::atomic<bool> context_lost_{false}; // until the next open()

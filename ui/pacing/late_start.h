@@ -31,7 +31,7 @@ public:
   hal::TimePoint next_look(hal::TimePoint began, hal::TimePoint now,
                            std::optional<hal::TimePoint> refresh, hal::Duration period);
 
-  // When a frame is seen that is drawn at that time.
+  // When a frame that is drawn at that time meets a refresh.
   static hal::TimePoint seen(hal::TimePoint drawn, std::optional<hal::TimePoint> refresh,
                              hal::Duration period);
 
