@@ -253,6 +253,27 @@ void LoopStage::turn() {
     clock_.advance(next - clock_.now());
 }
 
+void LoopStage::draw_for(hal::Duration full, hal::Duration rest,
+                         std::function<void(const ui::DrawQuality&)> anew) {
+  struct Drawn {
+    ui::DrawQuality quality;
+    ui::ViewState view;
+    std::uint64_t published = 0;
+  };
+  display_.cost = [this, full, rest, anew = std::move(anew), last = Drawn{}]() mutable {
+    const Drawn now{loop_->quality(), view(), volumes_->counters().published};
+    const bool differs =
+        now.published > 0 && (now.quality != last.quality || now.published != last.published ||
+                              !ui::same_sight(now.view, last.view));
+    last = now;
+    if (!differs)
+      return rest;
+    if (anew)
+      anew(now.quality);
+    return rest + hal::from_seconds(hal::to_seconds(full) * ui::sample_share(now.quality));
+  };
+}
+
 void LoopStage::turn_until(hal::TimePoint time) {
   while (clock_.now() < time)
     turn();

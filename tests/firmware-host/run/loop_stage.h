@@ -136,6 +136,10 @@ protected:
   // One round of the loop; if it drew nothing, a refresh passes all the same.
   void turn();
   void turn_until(hal::TimePoint time);
+  // What drawing costs from now on: so much for the volume at full quality where something of its picture
+  // differs from the last one, and the rest of a frame. `anew` is told at which quality each such was drawn.
+  void draw_for(hal::Duration full, hal::Duration rest,
+                std::function<void(const ui::DrawQuality&)> anew = {});
   // Until the picture would not get any better.
   void rest();
 

@@ -11,21 +11,10 @@ using namespace std::chrono_literals;
 
 class QualityOfARun : public LoopStage {
 protected:
-  // At full quality, the volume costs so much; the rest of a frame, a little. Keeps the quality of every
-  // frame in which something of the volume differs from the last one.
-  void draw_for(hal::Duration full) {
+  // Keeps the quality of every frame in which something of the volume differs from the last one.
+  void draw_at(hal::Duration full) {
     longest_turn_ = 130ms;
-    display_.cost = [this, full, last = Shown{}]() mutable {
-      const Shown now{loop_->quality(), view(), volumes_->counters().published};
-      const bool anew =
-          now.published > 0 && (now.quality != last.quality || now.published != last.published ||
-                                !ui::same_sight(now.view, last.view));
-      last = now;
-      if (!anew)
-        return hal::Duration{1ms};
-      drawn_.push_back(now.quality);
-      return 1ms + hal::from_seconds(hal::to_seconds(full) * ui::sample_share(now.quality));
-    };
+    draw_for(full, 1ms, [this](const ui::DrawQuality& quality) { drawn_.push_back(quality); });
   }
 
   void show_volumes(int volumes) {
@@ -57,18 +46,11 @@ protected:
   }
 
   std::vector<ui::DrawQuality> drawn_;
-
-private:
-  struct Shown {
-    ui::DrawQuality quality;
-    ui::ViewState view;
-    std::uint64_t published = 0;
-  };
 };
 
 TEST_F(QualityOfARun, is_low_where_the_governor_was_forced_low) {
   start({});
-  draw_for(300ms);
+  draw_at(300ms);
   show_volumes(24);
   expect_told_as_drawn();
   EXPECT_LE(told().resolution->worst, 0.5);
@@ -78,7 +60,7 @@ TEST_F(QualityOfARun, is_low_where_the_governor_was_forced_low) {
 
 TEST_F(QualityOfARun, is_high_where_drawing_costs_little) {
   start({});
-  draw_for(2ms);
+  draw_at(2ms);
   show_volumes(24);
   expect_told_as_drawn();
   EXPECT_EQ(told().resolution->median, 1);
@@ -87,7 +69,7 @@ TEST_F(QualityOfARun, is_high_where_drawing_costs_little) {
 
 TEST_F(QualityOfARun, counts_no_frame_that_leaves_the_volume_as_it_is_and_none_that_nobody_saw) {
   start({});
-  draw_for(2ms);
+  draw_at(2ms);
   send_scope_picture(); // from here on it has a place
   show_volumes(3);
   rest();

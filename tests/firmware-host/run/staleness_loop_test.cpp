@@ -32,20 +32,6 @@ private:
 
 class Staleness : public LoopStage {
 protected:
-  // What drawing costs: so much for the volume at full quality, and a little for the rest.
-  void draw_slowly(hal::Duration full) {
-    display_.cost = [this, full, drawn = Drawn{}]() mutable {
-      const Drawn now{loop_->quality(), view(), volumes_->counters().published};
-      const bool anew =
-          now.published > 0 && (now.quality != drawn.quality || now.published != drawn.published ||
-                                !ui::same_sight(now.view, drawn.view));
-      drawn = now;
-      constexpr hal::Duration rest = 2ms;
-      return anew ? rest + hal::from_seconds(hal::to_seconds(full) * ui::sample_share(now.quality))
-                  : rest;
-    };
-  }
-
   int badge_pixels() const {
     return count_colour(display_.picture, layout().marks, ui::palette::warning);
   }
@@ -90,13 +76,6 @@ protected:
   }
 
   hal::Duration due() const { return plan().tick_period() * 3 / 2; }
-
-private:
-  struct Drawn {
-    ui::DrawQuality quality;
-    ui::ViewState view;
-    std::uint64_t published = 0;
-  };
 };
 
 TEST_F(Staleness, is_told_one_and_a_half_periods_after_the_last_volume_and_not_before) {
@@ -152,7 +131,7 @@ TEST_F(StalenessOfThePassedOver, is_told_soon_however_many_they_are) {
 
 TEST_F(Staleness, does_not_wait_for_a_finer_picture) {
   start({});
-  draw_slowly(300ms);
+  draw_for(300ms, 2ms);
   longest_turn_ = 130ms;
   const hal::TimePoint last = run_live(12, 0);
   const ui::DrawQuality live = loop_->quality();
@@ -171,7 +150,7 @@ TEST_F(Staleness, of_volumes_that_keep_coming_makes_no_picture_finer) {
   firmware_host::RenderLoopSetup quick = setup();
   quick.freshness.volume_period = 20ms;
   open(std::move(quick), *volumes_, acquisition_.get(), scope_thread_.get());
-  draw_slowly(200ms);
+  draw_for(200ms, 2ms);
   longest_turn_ = 130ms;
   for (int i = 0; i < 12; ++i) {
     send_volume(i % 2 == 0 ? Tissue::usual : Tissue::reversed);
@@ -187,7 +166,7 @@ TEST_F(Staleness, of_volumes_that_keep_coming_makes_no_picture_finer) {
 
 TEST_F(Staleness, is_told_while_the_view_moves_and_frames_are_slow) {
   start({});
-  draw_slowly(300ms);
+  draw_for(300ms, 2ms);
   longest_turn_ = 130ms;
   const hal::TimePoint last = run_live(12, 1);
   turn_knob(1, 1);
@@ -207,7 +186,7 @@ TEST_F(Staleness, ends_with_the_next_volume) {
 
 TEST_F(Staleness, freezing_is_told_before_the_picture_gets_finer) {
   start({});
-  draw_slowly(300ms);
+  draw_for(300ms, 2ms);
   longest_turn_ = 130ms;
   run_live(12, 0);
   press_freeze();
