@@ -1,7 +1,7 @@
 // Marks the hot paths, so that a test and the report can prove that they allocate nothing.
 //
 // The stretch of a thread's work between construction and destruction of a HotPath is hot. The
-// program's allocation functions (firmware-host/allocation_guard.cpp) count every allocation made
+// program's allocation functions (firmware-host/allocation.cpp) count every allocation made
 // there.
 #pragma once
 
