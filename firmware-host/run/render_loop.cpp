@@ -325,7 +325,7 @@ void RenderLoop::update_status() {
 // After a frame that is begun now. Outputs without a refresh that is known hold it for whole periods, too.
 hal::TimePoint RenderLoop::free_again(hal::TimePoint now) const {
   const auto refresh = next_refresh();
-  return ui::LateStart::seen(now + governor_.fixed_cost(), refresh ? refresh : last_free_,
+  return ui::LateStart::seen(now + governor_.longest_fixed_cost(), refresh ? refresh : last_free_,
                              parts_.display.refresh_period());
 }
 

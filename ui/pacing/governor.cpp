@@ -64,7 +64,7 @@ FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how) {
   return {moving, refresh * (how.rolling ? 18 : 15) / 10};
 }
 
-double Governor::Median::value() const {
+double Governor::Recent::median() const {
   const std::size_t count = std::min(count_, kept);
   std::array<double, kept> sorted = values_;
   const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(count);
@@ -73,14 +73,19 @@ double Governor::Median::value() const {
   return *middle;
 }
 
-hal::Duration Governor::fixed_cost() const {
-  return fixed_ms_.empty() ? hal::Duration{} : hal::from_seconds(fixed_ms_.value() * 1e-3);
+double Governor::Recent::longest() const {
+  return *std::max_element(values_.begin(),
+                           values_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kept)));
+}
+
+hal::Duration Governor::longest_fixed_cost() const {
+  return fixed_ms_.empty() ? hal::Duration{} : hal::from_seconds(fixed_ms_.longest() * 1e-3);
 }
 
 double Governor::predict_ms(const Knowledge& knowledge, std::size_t rung) const {
-  const double fixed = fixed_ms_.empty() ? 0 : fixed_ms_.value();
+  const double fixed = fixed_ms_.empty() ? 0 : fixed_ms_.median();
   return fixed +
-         knowledge.full_ms.value() * sample_share(ladder[rung]) * knowledge.correction[rung];
+         knowledge.full_ms.median() * sample_share(ladder[rung]) * knowledge.correction[rung];
 }
 
 double Governor::budget_ms() const {
@@ -91,7 +96,7 @@ double Governor::budget_ms() const {
 bool Governor::worth_trying(const Knowledge& knowledge, std::size_t rung) {
   constexpr double quite = 0.3;
   const double then = knowledge.learnt_at_ms[rung];
-  return std::abs(knowledge.full_ms.value() - then) > quite * then || then == 0;
+  return std::abs(knowledge.full_ms.median() - then) > quite * then || then == 0;
 }
 
 void Governor::enter(Place& place, std::size_t rung) {
@@ -111,7 +116,7 @@ void Governor::settle(Place& place, Knowledge& knowledge, double budget_ms,
   if (rung == place.rung)
     while (rung > 0 && predict_ms(knowledge, rung - 1) <= finer_share * budget_ms)
       --rung;
-  const bool half_idle = place.frames >= kept && place.frame_ms.value() <= idle_share * budget_ms;
+  const bool half_idle = place.frames >= kept && place.frame_ms.median() <= idle_share * budget_ms;
   if (rung == place.rung && rung > 0 && half_idle && worth_trying(knowledge, rung - 1))
     --rung;
   if (rung == place.rung)
@@ -150,12 +155,12 @@ void Governor::learn(Place& place, Knowledge& knowledge, double sampling_ms,
     knowledge.full_ms.add(sampling_ms / (share * correction));
     return;
   }
-  const double measured = place.sampling_ms.value();
+  const double measured = place.sampling_ms.median();
   const bool far_over = place.frames > 1 && measured > 1.3 * budget_ms;
   if (place.frames == kept || far_over) {
     constexpr double most = 4;
-    correction = std::clamp(measured / (knowledge.full_ms.value() * share), 1 / most, most);
-    knowledge.learnt_at_ms[place.rung] = knowledge.full_ms.value();
+    correction = std::clamp(measured / (knowledge.full_ms.median() * share), 1 / most, most);
+    knowledge.learnt_at_ms[place.rung] = knowledge.full_ms.median();
     place.frames = kept;
   }
 }
@@ -169,7 +174,7 @@ void Governor::note(hal::Duration cost, bool volume_drawn) {
   if (still_)
     return;
   constexpr double least_ms = 0.01;
-  const double fixed = fixed_ms_.empty() ? 0 : fixed_ms_.value();
+  const double fixed = fixed_ms_.empty() ? 0 : fixed_ms_.median();
   Place& place = places_[technique_][moving_ ? 1 : 0];
   place.frame_ms.add(ms);
   learn(place, knowledge_[technique_], std::max(ms - fixed, least_ms), budget_ms());

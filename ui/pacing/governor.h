@@ -71,8 +71,8 @@ public:
   // For the frame that begins now. Full quality at rest without live volumes, or within budget.
   DrawQuality choose(const Situation& situation);
 
-  // What a frame costs whose volume's picture is not redrawn.
-  hal::Duration fixed_cost() const;
+  // The most that any of the last few frames cost whose volume's picture was not redrawn.
+  hal::Duration longest_fixed_cost() const;
 
   // Reports the cost of that frame, from its beginning until it was drawn.
   void note(hal::Duration cost, bool volume_drawn);
@@ -84,13 +84,14 @@ private:
   static constexpr std::size_t kept = 7;
   static constexpr std::size_t most_rungs = 16;
 
-  // The median of the last few values.
-  class Median {
+  // The median and the largest of the last few values.
+  class Recent {
   public:
     void add(double value) { values_[count_++ % kept] = value; }
     void clear() { count_ = 0; }
     bool empty() const { return count_ == 0; }
-    double value() const; // not to be called when empty
+    double median() const;  // not to be called when empty
+    double longest() const; // neither
 
   private:
     std::array<double, kept> values_{};
@@ -99,7 +100,7 @@ private:
 
   // What is known about a technique: cost = fixed + full · sample_share · correction.
   struct Knowledge {
-    Median full_ms;
+    Recent full_ms;
     std::array<double, most_rungs> correction;
     std::array<double, most_rungs> learnt_at_ms{}; // full_ms at that time; 0: never
     bool compared = false;                         // more than one quality was drawn
@@ -110,8 +111,8 @@ private:
   struct Place {
     std::size_t rung = 4;   // initial guess
     std::size_t frames = 0; // drawn since it moved to this rung
-    Median sampling_ms;
-    Median frame_ms;
+    Recent sampling_ms;
+    Recent frame_ms;
   };
 
   double predict_ms(const Knowledge& knowledge, std::size_t rung) const;
@@ -122,7 +123,7 @@ private:
   double budget_ms() const;
 
   FrameBudget budget_;
-  Median fixed_ms_;
+  Recent fixed_ms_;
   std::array<Knowledge, all_techniques.size()> knowledge_;
   std::array<std::array<Place, 2>, all_techniques.size()> places_; // resting, moving
   hal::TimePoint still_since_{};
