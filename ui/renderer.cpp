@@ -70,6 +70,11 @@ hal::Result<> Renderer::renew_volume(const pipeline::Volume& volume,
   return parts_->follow(volume, changed);
 }
 
+void Renderer::bring_ahead(const pipeline::Volume& coming, std::uint64_t number, int finished,
+                           const pipeline::Volume& shown) {
+  parts_->volume.bring_ahead(coming, number, finished, shown);
+}
+
 hal::Result<> Renderer::show_scope_picture(const hal::ScopeFrame& frame,
                                            const std::optional<ScanField>& field) {
   HAL_CHECK(parts_->scope_panel.show(frame, field));

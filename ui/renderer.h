@@ -53,6 +53,12 @@ public:
   hal::Result<> renew_volume(const pipeline::Volume& volume,
                              std::span<const pipeline::BScanRange> changed);
 
+  // Copies what it can of a volume that is going to be shown, so that showing it takes less: of the first
+  // `finished` B-scans, which stay as they are; none of the others is read. `number`: what will be its
+  // VolumeMetadata::index. `shown` must be the volume shown last.
+  void bring_ahead(const pipeline::Volume& coming, std::uint64_t number, int finished,
+                   const pipeline::Volume& shown);
+
   // Copies the frame before it returns. `field` is the outline of the OCT scan. The frame's time
   // decides when the picture is marked stale.
   hal::Result<> show_scope_picture(const hal::ScopeFrame& frame,

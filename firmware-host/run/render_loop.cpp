@@ -87,6 +87,8 @@ bool RenderLoop::turn() {
   }
   if (parts_.vessels != nullptr)
     parts_.vessels->trace(volume_.whole(), controller_.state());
+  if (renderer_ && !volume_undisplayed_)
+    volume_.bring_ahead(*renderer_, controller_.state());
   const hal::TimePoint next = late_start_.next_look(turn_began_, parts_.clock.now(), next_refresh(),
                                                     parts_.display.refresh_period());
   // At once when something came meanwhile; a long press is due when it is.

@@ -27,6 +27,22 @@ const pipeline::Volume* ShownVolume::take(const ui::ViewState& view) {
   return newest_;
 }
 
+void ShownVolume::bring_ahead(ui::Renderer& renderer, const ui::ViewState& view) {
+  if (!volumes_.lends() || whole_ == nullptr || rolling_ || !given_ || view.frozen)
+    return;
+  const auto making = volumes_.borrow_after(whole_->metadata.index);
+  if (!making)
+    return;
+  int finished = 0;
+  for (const auto& progress : making->progress) {
+    if (progress.load(std::memory_order_acquire) != pipeline::BScanProgress::finished)
+      break;
+    ++finished;
+  }
+  renderer.bring_ahead(*making->volume, making->number, finished, *whole_);
+  volumes_.give_back();
+}
+
 // What could not be given, complete() tries again as a whole: the renderer may hold another one.
 hal::Result<> ShownVolume::show(ui::Renderer& renderer, const ui::ViewState& view) {
   const auto result = give(renderer, view);

@@ -43,6 +43,9 @@ public:
 
   // Gives the renderer what it lacks since the last take().
   hal::Result<> show(ui::Renderer& renderer, const ui::ViewState& view);
+  // Between two frames. Gives the renderer, which has drawn what it was given, what is finished of the next
+  // whole one, unless B-scans are shown as they come or none is going to be shown.
+  void bring_ahead(ui::Renderer& renderer, const ui::ViewState& view);
   // What a frame of that view needs of it and was not given so far, right before it is drawn.
   hal::Result<> complete(ui::Renderer& renderer, const ui::ViewState& view,
                          const ui::DrawQuality& quality);

@@ -113,6 +113,7 @@ public:
   bool may_have_changed(const Rect& pixels) const;
 
   bool empty() const { return !cells_; }
+  bool has_flow() const { return has_flow_; } // the volume shown, as far as it was given
   const pipeline::VolumeGeometry& geometry() const { return cells_->geometry(); }
   std::string_view isa() const { return kernels_->isa; }
   double occupied_share() const { return bricks_.occupied_share(); }

@@ -71,18 +71,6 @@ VolumePainter::VolumePainter(bool software, const TransferSet& transfers,
     : software_{software}, transfers_{transfers}, threads_{threads}, team_{make_team(threads)},
       transfer_{std::make_unique<TransferTable>()}, techniques_{transfers, threads} {}
 
-// Leaves nothing where the ray caster knows no instruction set of this processor.
-void VolumePainter::make_caster() {
-  caster_wanted_ = true;
-  if (auto made = RayCaster::create(team_))
-    caster_.emplace(std::move(*made));
-}
-
-void VolumePainter::want_processor() {
-  if (!caster_wanted_)
-    make_caster();
-}
-
 hal::Result<VolumePainter::EyePictures*> VolumePainter::pictures_of(StereoEye eye) {
   auto& kept = pictures_[index_of(eye)];
   if (!kept) {
@@ -213,27 +201,6 @@ void VolumePainter::prepare_b_scans(const pipeline::Volume& volume,
   if (weakened_shows_ || flow_shows_)
     team_->run(static_cast<std::uint32_t>(range.to - range.from),
                [&](std::uint32_t i) { prepare_b_scan(volume, range.from + static_cast<int>(i)); });
-}
-
-void VolumePainter::copy_for_rays(const pipeline::Volume& volume) {
-  const FlowVoxels flow{volume.flow, &flow_marks_};
-  const auto prepare = [this, &volume](int b) { prepare_b_scan(volume, b); };
-  caster_shows_ = caster_ && caster_->show(weakened_shows_ ? weakened_ : volume, occupancy_,
-                                           prepare, flow_shows_ ? &flow : nullptr);
-  if (!caster_shows_)
-    prepare_b_scans(volume, {0, volume.geometry.b_scans});
-}
-
-hal::Result<> VolumePainter::renew_for_rays(const pipeline::Volume& volume,
-                                            std::span<const pipeline::BScanRange> changed) {
-  const FlowVoxels flow{volume.flow, &flow_marks_};
-  const auto prepare = [this, &volume](int b) { prepare_b_scan(volume, b); };
-  if (caster_shows_)
-    return caster_->renew(weakened_shows_ ? weakened_ : volume, occupancy_, changed, prepare,
-                          flow_shows_ ? &flow : nullptr);
-  for (const pipeline::BScanRange& range : changed)
-    prepare_b_scans(volume, range);
-  return {};
 }
 
 hal::Result<> VolumePainter::prepare_flow(Technique technique) {

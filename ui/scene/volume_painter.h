@@ -14,6 +14,7 @@
 #include "pipeline/volume/occupancy.h"
 #include "pipeline/volume/volume.h"
 #include "ui/layout/layout.h"
+#include "ui/scene/coming_volume.h"
 #include "ui/scene/cut_face.h"
 #include "ui/transfer/transfer_set.h"
 #include "ui/transfer/transfer_texture.h"
@@ -61,6 +62,12 @@ public:
   // B-scan is renewed. Light (of "shaded") is computed anew as a whole.
   hal::Result<> renew(const pipeline::Volume& volume,
                       std::span<const pipeline::BScanRange> changed);
+
+  // Copies what it can of a volume that is going to be shown: of the first `finished` B-scans, which stay as
+  // they are, and reads none of the others. show() then copies the rest. `shown` must be the volume shown last;
+  // `number`: what will be the other's VolumeMetadata::index.
+  void bring_ahead(const pipeline::Volume& coming, std::uint64_t number, int finished,
+                   const pipeline::Volume& shown);
 
   // From the next update() on, if the view shows vessels. The tree is borrowed until others are
   // shown; an empty one shows none. `clock` must outlive the painter. ErrorCode::unsupported: this
@@ -164,6 +171,7 @@ private:
   const pipeline::Volume& see_through(const pipeline::Volume& volume);
   void weaken(const pipeline::Volume& volume, int b_scan);
   void copy_for_rays(const pipeline::Volume& volume);
+  bool copy_rest_for_rays(const pipeline::Volume& volume, int brought);
   hal::Result<> renew_for_rays(const pipeline::Volume& volume,
                                std::span<const pipeline::BScanRange> changed);
   void prepare_b_scan(const pipeline::Volume& volume, int b_scan);
@@ -238,6 +246,7 @@ private:
   std::optional<CutFace> flow_cut_face_; // likewise with flow
   std::optional<VesselOverlay> vessels_; // empty until some are shown
   std::optional<RayCaster> caster_;      // empty until requested
+  ComingVolume coming_;
   bool caster_wanted_ = false;
   bool caster_shows_ = false; // the same volume as the texture
   bool surface_shows_ = false;
