@@ -35,8 +35,9 @@ void ComingVolume::make_room(const pipeline::Volume& like, const pipeline::Occup
     caster_.reset();
 }
 
-int ComingVolume::has_of(const pipeline::Volume& volume) const {
-  return volume_ == &volume && number_ == volume.metadata.index ? brought_ : 0;
+int ComingVolume::has_of(const pipeline::Volume& volume, bool with_flow) const {
+  const bool is_it = volume_ == &volume && number_ == volume.metadata.index;
+  return is_it && caster_->has_flow() == with_flow ? brought_ : 0;
 }
 
 void ComingVolume::give(RayCaster& caster) {

@@ -25,8 +25,9 @@ public:
   void make_room(const pipeline::Volume& like, const pipeline::Occupancy& occupancy,
                  const FlowVoxels* flow, const std::shared_ptr<WorkTeam>& team);
 
-  // How many of that volume's first B-scans it has; 0 of another one.
-  int has_of(const pipeline::Volume& volume) const;
+  // How many of that volume's first B-scans it has, with their flow or without; 0 of another one, and where
+  // the one is there and the other is asked for.
+  int has_of(const pipeline::Volume& volume, bool with_flow) const;
 
   // Exchanges the ray caster for that one, which lacks the other B-scans of the volume.
   void give(RayCaster& caster);

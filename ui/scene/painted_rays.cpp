@@ -37,7 +37,7 @@ bool VolumePainter::copy_rest_for_rays(const pipeline::Volume& volume, int broug
 }
 
 void VolumePainter::copy_for_rays(const pipeline::Volume& volume) {
-  if (const int brought = weakened_shows_ ? 0 : coming_.has_of(volume);
+  if (const int brought = weakened_shows_ ? 0 : coming_.has_of(volume, flow_shows_);
       caster_shows_ && brought > 0) {
     caster_shows_ = copy_rest_for_rays(volume, brought);
     return;

@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
-#include <ostream>
+#include <optional>
 
 #include "pipeline/threads/work_team.h"
 #include "tests/support/allocation_counter.h"
+#include "tests/ui/support/drawing_way.h"
 #include "tests/ui/support/mixed_volume.h"
 #include "tests/ui/support/renderer_stage.h"
 #include "ui/scene/coming_volume.h"
-#include "ui/view/choice_value.h"
 
 namespace octascope::tests {
 namespace {
@@ -68,21 +68,7 @@ private:
   int finished_ = 0;
 };
 
-struct Way {
-  Technique technique;
-  ui::DrawQuality quality;
-  float see_through_db;
-  bool flow = false;
-
-  // Also in the test's name.
-  friend void PrintTo(const Way& way, std::ostream* out) {
-    *out << ui::technique_values[static_cast<std::size_t>(way.technique)].name << ", "
-         << way.quality.resolution << ", " << way.quality.steps << " steps, " << way.see_through_db
-         << " dB" << (way.flow ? ", flow" : "");
-  }
-};
-
-class BroughtAhead : public RendererTest, public testing::WithParamInterface<Way> {
+class BroughtAhead : public RendererTest, public testing::WithParamInterface<DrawingWay> {
 protected:
   void SetUp() override {
     RendererTest::SetUp();
@@ -102,12 +88,15 @@ protected:
   void bring(const VolumeInTheMaking& making) {
     renderer_->bring_ahead(making.volume(), making.number(), making.finished(), volumes_.older());
   }
-  // The first call makes room.
-  void bring_parts(VolumeInTheMaking& making) {
-    for (const int finished : {0, 1, 6, 7, 20}) {
+  // While the older one is shown, of one with that content. The first call makes room.
+  VolumeInTheMaking& bring_parts(const pipeline::Volume& content, int last = 20) {
+    show(*renderer_, volumes_.older());
+    VolumeInTheMaking& making = making_.emplace(content, 9);
+    for (const int finished : {0, 1, 6, 7, last}) {
       making.finish(finished);
       bring(making);
     }
+    return making;
   }
 
   pipeline::Image picture(ui::Renderer& renderer, const pipeline::Volume& volume) const {
@@ -126,66 +115,62 @@ protected:
   }
 
   MixedVolume volumes_;
+  std::optional<VolumeInTheMaking> making_;
   ui::ViewState view_;
 };
 
 TEST_P(BroughtAhead, is_drawn_as_if_it_had_come_at_once) {
-  show(*renderer_, volumes_.older());
+  VolumeInTheMaking& making = bring_parts(volumes_.newer());
   picture(*renderer_, volumes_.older());
-  VolumeInTheMaking making{volumes_.newer(), 9};
-  bring_parts(making);
   making.finish();
   expect_same_as_fresh(making.volume());
 }
 
 TEST_P(BroughtAhead, is_forgotten_when_its_memory_is_used_for_another_volume) {
-  show(*renderer_, volumes_.older());
-  VolumeInTheMaking making{volumes_.older(), 9};
-  bring_parts(making);
-  making.begin_again(volumes_.newer(), 10);
-  bring(making);
-  making.finish(3);
-  bring(making);
-  making.finish();
-  expect_same_as_fresh(making.volume());
-}
-
-TEST_P(BroughtAhead, is_forgotten_though_nothing_was_told_of_the_other_volume) {
-  show(*renderer_, volumes_.older());
-  VolumeInTheMaking making{volumes_.older(), 9};
-  bring_parts(making);
-  making.begin_again(volumes_.newer(), 10);
-  making.finish();
-  expect_same_as_fresh(making.volume());
+  for (const bool told : {true, false}) {
+    VolumeInTheMaking& making = bring_parts(volumes_.older());
+    making.begin_again(volumes_.newer(), 10);
+    if (told) {
+      bring(making);
+      making.finish(3);
+      bring(making);
+    }
+    making.finish();
+    expect_same_as_fresh(making.volume());
+  }
 }
 
 TEST_P(BroughtAhead, is_not_taken_for_another_volume_of_that_number) {
-  show(*renderer_, volumes_.older());
-  VolumeInTheMaking making{volumes_.newer(), 9};
-  bring_parts(making);
+  bring_parts(volumes_.newer());
   pipeline::Volume mixture = volumes_.older();
   mixture.metadata.index = 9;
   expect_same_as_fresh(mixture);
 }
 
-TEST_P(BroughtAhead, fits_a_view_that_shows_no_flow_meanwhile) {
-  show(*renderer_, volumes_.older());
-  VolumeInTheMaking making{volumes_.newer(), 9};
-  bring_parts(making);
-  making.finish();
-  view_.vessels = ui::VesselsShown::off;
-  expect_same_as_fresh(making.volume());
+// Be it whole.
+TEST_P(BroughtAhead, fits_a_view_that_shows_flow_or_none_meanwhile) {
+  const int all = volumes_.newer().geometry.b_scans;
+  for (const int last : {20, all})
+    for (const auto shown : {ui::VesselsShown::off, ui::VesselsShown::flow}) {
+      view_.vessels =
+          shown == ui::VesselsShown::off ? ui::VesselsShown::flow : ui::VesselsShown::off;
+      VolumeInTheMaking& making = bring_parts(volumes_.newer(), last);
+      making.finish();
+      view_.vessels = shown;
+      expect_same_as_fresh(making.volume());
+    }
 }
 
 constexpr auto processor = ui::RayBackend::processor;
-INSTANTIATE_TEST_SUITE_P(Ways, BroughtAhead,
-                         testing::Values(Way{Technique::rays, {0.6F, 192, processor}, 0},
-                                         Way{Technique::rays, {1, 256, processor}, 12},
-                                         Way{Technique::shaded, {1, 256, processor}, 0},
-                                         Way{Technique::planes, {0.5F, 96}, 0},
-                                         Way{Technique::rays, {0.6F, 192, processor}, 0, true},
-                                         Way{Technique::rays, {1, 256, processor}, 12, true},
-                                         Way{Technique::maximum, {1, 256, processor}, 0, true}));
+INSTANTIATE_TEST_SUITE_P(
+    Ways, BroughtAhead,
+    testing::Values(DrawingWay{Technique::rays, {0.6F, 192, processor}, 0},
+                    DrawingWay{Technique::rays, {1, 256, processor}, 12},
+                    DrawingWay{Technique::shaded, {1, 256, processor}, 0},
+                    DrawingWay{Technique::planes, {0.5F, 96}, 0},
+                    DrawingWay{Technique::rays, {0.6F, 192, processor}, 0, true},
+                    DrawingWay{Technique::rays, {1, 256, processor}, 12, true},
+                    DrawingWay{Technique::maximum, {1, 256, processor}, 0, true}));
 
 class ComingVolumeTest : public testing::Test {
 protected:
@@ -213,16 +198,16 @@ TEST_F(ComingVolumeTest, has_what_was_finished) {
   EXPECT_FALSE(bring(making, false)) << "there is no room";
   make_room(false);
   ASSERT_TRUE(bring(making, false));
-  EXPECT_EQ(coming_.has_of(making.volume()), 0);
+  EXPECT_EQ(coming_.has_of(making.volume(), false), 0);
   making.finish(7);
   EXPECT_TRUE(bring(making, false));
-  EXPECT_EQ(coming_.has_of(making.volume()), 7);
-  EXPECT_EQ(coming_.has_of(older_), 0);
+  EXPECT_EQ(coming_.has_of(making.volume(), false), 7);
+  EXPECT_EQ(coming_.has_of(older_, false), 0);
   EXPECT_FALSE(bring(making, true)) << "the room is for volumes without flow";
   making.begin_again(volumes_.newer(), 10);
-  EXPECT_EQ(coming_.has_of(making.volume()), 0);
+  EXPECT_EQ(coming_.has_of(making.volume(), false), 0);
   EXPECT_TRUE(bring(making, false));
-  EXPECT_EQ(coming_.has_of(making.volume()), 0);
+  EXPECT_EQ(coming_.has_of(making.volume(), false), 0);
 }
 
 TEST_F(ComingVolumeTest, leaves_the_last_flow_to_its_neighbour) {
@@ -230,10 +215,11 @@ TEST_F(ComingVolumeTest, leaves_the_last_flow_to_its_neighbour) {
   make_room(true);
   making.finish(7);
   EXPECT_TRUE(bring(making, true));
-  EXPECT_EQ(coming_.has_of(making.volume()), 6);
+  EXPECT_EQ(coming_.has_of(making.volume(), true), 6);
+  EXPECT_EQ(coming_.has_of(making.volume(), false), 0);
   making.finish();
   EXPECT_TRUE(bring(making, true));
-  EXPECT_EQ(coming_.has_of(making.volume()), making.volume().geometry.b_scans);
+  EXPECT_EQ(coming_.has_of(making.volume(), true), making.volume().geometry.b_scans);
 }
 
 TEST_F(ComingVolumeTest, is_given_once) {
@@ -245,7 +231,7 @@ TEST_F(ComingVolumeTest, is_given_once) {
   ASSERT_TRUE(caster);
   coming_.give(*caster);
   EXPECT_FALSE(caster->empty());
-  EXPECT_EQ(coming_.has_of(making.volume()), 0);
+  EXPECT_EQ(coming_.has_of(making.volume(), false), 0);
 }
 
 TEST_F(ComingVolumeTest, allocates_nothing_once_there_is_room) {

@@ -1,14 +1,13 @@
 // B-scans renewed one after the other give the picture that the whole volume does.
-#include <ostream>
 #include <string>
 #include <vector>
 
 #include "tests/support/allocation_counter.h"
+#include "tests/ui/support/drawing_way.h"
 #include "tests/ui/support/mixed_volume.h"
 #include "tests/ui/support/renderer_stage.h"
 #include "ui/canvas/palette.h"
 #include "ui/layout/layout.h"
-#include "ui/view/choice_value.h"
 
 namespace octascope::tests {
 namespace {
@@ -50,22 +49,7 @@ protected:
   MixedVolume mixed_;
 };
 
-struct Way {
-  Technique technique;
-  ui::DrawQuality quality;
-  float see_through_db;
-  bool flow = false;
-
-  // Also in the test's name.
-  friend void PrintTo(const Way& way, std::ostream* out) {
-    *out << ui::technique_values[static_cast<std::size_t>(way.technique)].name << ", "
-         << way.quality.resolution << ", " << way.quality.steps << " steps, "
-         << (way.quality.rays == ui::RayBackend::shader ? "shader" : "processor") << ", "
-         << way.see_through_db << " dB" << (way.flow ? ", flow" : "");
-  }
-};
-
-class RenewedPicture : public RenewalTest, public testing::WithParamInterface<Way> {};
+class RenewedPicture : public RenewalTest, public testing::WithParamInterface<DrawingWay> {};
 
 TEST_P(RenewedPicture, is_that_of_the_whole_volume) {
   const auto& [technique, quality, see_through_db, flow] = GetParam();
@@ -98,19 +82,22 @@ constexpr auto processor = ui::RayBackend::processor;
 constexpr auto shader = ui::RayBackend::shader;
 INSTANTIATE_TEST_SUITE_P(
     Ways, RenewedPicture,
-    testing::Values(
-        Way{Technique::rays, {1, 512, processor}, 0},
-        Way{Technique::rays, {0.6F, 192, processor}, 0}, // softened
-        Way{Technique::rays, {1, 256, shader}, 0}, Way{Technique::rays, {1, 256, processor}, 12},
-        Way{Technique::rays, {1, 256, shader}, 12}, Way{Technique::planes, {0.5F, 96}, 12},
-        Way{Technique::maximum, {1, 256, processor}, 0},
-        Way{Technique::shaded, {1, 256, processor}, 0}, Way{Technique::planes, {0.5F, 96}, 0},
-        Way{Technique::slices, {0.5F, 96}, 0}, Way{Technique::rays, {1, 256, processor}, 0, true},
-        Way{Technique::rays, {0.6F, 192, processor}, 12, true},
-        Way{Technique::maximum, {1, 256, processor}, 0, true},
-        Way{Technique::shaded, {1, 256, processor}, 0, true},
-        Way{Technique::rays, {0.5F, 96, shader}, 0, true},
-        Way{Technique::planes, {0.5F, 96}, 0, true}));
+    testing::Values(DrawingWay{Technique::rays, {1, 512, processor}, 0},
+                    DrawingWay{Technique::rays, {0.6F, 192, processor}, 0}, // softened
+                    DrawingWay{Technique::rays, {1, 256, shader}, 0},
+                    DrawingWay{Technique::rays, {1, 256, processor}, 12},
+                    DrawingWay{Technique::rays, {1, 256, shader}, 12},
+                    DrawingWay{Technique::planes, {0.5F, 96}, 12},
+                    DrawingWay{Technique::maximum, {1, 256, processor}, 0},
+                    DrawingWay{Technique::shaded, {1, 256, processor}, 0},
+                    DrawingWay{Technique::planes, {0.5F, 96}, 0},
+                    DrawingWay{Technique::slices, {0.5F, 96}, 0},
+                    DrawingWay{Technique::rays, {1, 256, processor}, 0, true},
+                    DrawingWay{Technique::rays, {0.6F, 192, processor}, 12, true},
+                    DrawingWay{Technique::maximum, {1, 256, processor}, 0, true},
+                    DrawingWay{Technique::shaded, {1, 256, processor}, 0, true},
+                    DrawingWay{Technique::rays, {0.5F, 96, shader}, 0, true},
+                    DrawingWay{Technique::planes, {0.5F, 96}, 0, true}));
 
 TEST_F(RenewalTest, the_seam_is_a_line_of_its_own_colour_where_it_is_said_to_be) {
   ui::ViewState view;
