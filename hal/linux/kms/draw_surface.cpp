@@ -51,15 +51,37 @@ std::vector<EGLConfig> drawable_configs(EGLDisplay display) {
   return configs;
 }
 
-// A frame buffer of the card, for as long as GBM keeps the buffer.
-struct AddedFramebuffer {
+// What a buffer has from its first picture on, for as long as GBM keeps it.
+struct KnownBuffer {
   int card = -1;
-  std::uint32_t id = 0;
+  std::uint32_t framebuffer = 0;
+  void* mapping = nullptr; // GBM's; null: none is held
 };
 
-void remove_framebuffer(gbm_bo*, void* data) {
-  const std::unique_ptr<AddedFramebuffer> added{static_cast<AddedFramebuffer*>(data)};
-  drmModeRmFB(added->card, added->id);
+void forget_buffer(gbm_bo* buffer, void* data) {
+  const std::unique_ptr<KnownBuffer> known{static_cast<KnownBuffer*>(data)};
+  if (known->mapping != nullptr)
+    gbm_bo_unmap(buffer, known->mapping);
+  drmModeRmFB(known->card, known->framebuffer);
+}
+
+bool draws_in_software(EGLDisplay display) {
+  if (!has_extension(eglQueryString(display, EGL_EXTENSIONS), "EGL_MESA_query_driver"))
+    return false;
+  const auto name_of = reinterpret_cast<PFNEGLGETDISPLAYDRIVERNAMEPROC>(
+      eglGetProcAddress("eglGetDisplayDriverName"));
+  const char* const name = name_of != nullptr ? name_of(display) : nullptr;
+  return name != nullptr && std::string_view{name}.find("swrast") != std::string_view::npos;
+}
+
+// Mesa's software renderer maps a buffer for each picture and gives the mapping back when it is drawn, so that
+// each finds all of its pages anew. It takes the mapping that there is; null: it has to do without.
+void* hold_mapping(gbm_bo* buffer) {
+  std::uint32_t stride = 0;
+  void* mapping = nullptr;
+  gbm_bo_map(buffer, 0, 0, gbm_bo_get_width(buffer), gbm_bo_get_height(buffer),
+             GBM_BO_TRANSFER_READ_WRITE, &stride, &mapping);
+  return mapping;
 }
 
 struct BufferLayout {
@@ -150,6 +172,7 @@ struct DrawSurface::Parts {
     if (has_extension(extensions, "EGL_ANDROID_native_fence_sync"))
       find_fence_calls();
     knows_ages = has_extension(extensions, "EGL_EXT_buffer_age");
+    in_software = draws_in_software(display);
     return {};
   }
 
@@ -235,6 +258,7 @@ struct DrawSurface::Parts {
 
   bool swapped = false;
   bool knows_ages = false;
+  bool in_software = false;
   std::uint64_t images = 0; // swapped so far
 };
 
@@ -286,22 +310,24 @@ Result<DrawnPicture> DrawSurface::take_picture(bool with_fence) {
   picture.buffer = gbm_surface_lock_front_buffer(parts_->buffers);
   if (picture.buffer == nullptr)
     return fail(ErrorCode::system, "kms display: no buffer with the picture; it is opened again");
-  auto* added = static_cast<AddedFramebuffer*>(gbm_bo_get_user_data(picture.buffer));
-  if (added == nullptr) {
-    auto made = std::make_unique<AddedFramebuffer>();
+  auto* known = static_cast<KnownBuffer*>(gbm_bo_get_user_data(picture.buffer));
+  if (known == nullptr) {
+    auto made = std::make_unique<KnownBuffer>();
     made->card = parts_->card;
-    if (const int error =
-            add_framebuffer(parts_->card, parts_->can_name_modifiers, picture.buffer, made->id)) {
+    if (const int error = add_framebuffer(parts_->card, parts_->can_name_modifiers, picture.buffer,
+                                          made->framebuffer)) {
       release(picture.buffer);
       return fail(
           ErrorCode::system,
           "kms display: the card did not take a buffer as a picture: {}; it is opened again",
           std::generic_category().message(error));
     }
-    added = made.release();
-    gbm_bo_set_user_data(picture.buffer, added, remove_framebuffer);
+    if (parts_->in_software)
+      made->mapping = hold_mapping(picture.buffer);
+    known = made.release();
+    gbm_bo_set_user_data(picture.buffer, known, forget_buffer);
   }
-  picture.framebuffer = added->id;
+  picture.framebuffer = known->framebuffer;
   return picture;
 }
 

@@ -174,14 +174,14 @@ const std::vector<Step> steps{
                  {"A-scans kept", "96"},
                  {"fly-back", "32"},
                  {"B-scans of a volume", "32"},
-                 {"Lines a second", "5000"},
+                 {"Lines a second", "2500"},
                  {"along a B-scan", "3.84"},
                  {"first B-scan to the last", "2.56"},
                  {"Significant bits", "12"}}},
     {.answers = {{"GPIO line of the trigger"},
                  {"scanner answers", "octascope-sync"},
                  {"Width of a pulse", "20000"}},
-     .troubles = {"expected 5000", // lines a second, by stamps of which some come late
+     .troubles = {"expected 2500", // lines a second, by stamps of which some come late
                   "not every pulse"}},
     {.answers = {placed}, .phantom = "mirror_near"},
     {.answers = {placed}, .phantom = "dark"},

@@ -21,8 +21,14 @@ namespace {
 
 constexpr unsigned trigger_line = 0, sync_line = 1;
 
-// Long enough to be seen by one who looks every half a millisecond.
-constexpr int pulse_width_us = 20000;
+// A sixth of a sweep, and long enough for the processor that the appliance shares with its rig: each look is
+// two system calls, which user-mode Linux makes dear.
+constexpr hal::Duration look_every = 4ms;
+constexpr int pulse_width_us = 60000; // is not overlooked
+
+// vkms maps all pages of a picture for each flip; user-mode Linux takes 17 µs for each of them and as much to let
+// go of it, and lets nobody else run meanwhile: in vkms' own mode 28 ms, longer than a sweep.
+constexpr const char* monitor_mode = "640x480@60";
 
 constexpr int scanner_priority = 60; // above the appliance: hardware does not wait for it
 
@@ -45,10 +51,10 @@ pipeline::ScanPlan VirtualRig::plan() {
   plan.samples = 1024;
   plan.a_scans = 96;
   plan.fly_back_lines = 32;
-  plan.b_scans = 32;
-  plan.line_rate_hz = 5e3;
+  plan.b_scans = 16;
+  plan.line_rate_hz = 2.5e3;
   plan.a_spacing_um = 40;
-  plan.b_spacing_um = 80;
+  plan.b_spacing_um = 160;
   return plan;
 }
 
@@ -85,12 +91,13 @@ sync_line = "octascope-sync"
 line_camera = "{}"
 scope_camera = "{}"
 seat = {}
+mode = "{}"
 [controls]
 keyboards = ["046d:c31c"]
 )",
       p.samples, p.a_scans, p.fly_back_lines, p.b_scans, p.line_rate_hz, p.a_spacing_um,
       p.b_spacing_um, config.significant_bits, pulse_width_us, at_boot ? "v4l2" : "auto",
-      at_boot ? "libcamera" : "auto", at_boot);
+      at_boot ? "libcamera" : "auto", at_boot, monitor_mode);
   return {};
 }
 
@@ -184,14 +191,12 @@ void VirtualRig::scan(std::stop_token stop) {
   }
 }
 
-// The rising edge; a line that was high already when the sweeps ended is a latched pulse. Before
-// there is an appliance it looks ten times less often, which leaves the processor to what starts.
+// The rising edge; a line that was high already when the sweeps ended is a latched pulse.
 bool VirtualRig::wait_for_pulse(std::stop_token stop) {
-  const hal::Duration pause = pulses_ == 0 ? 5ms : 500us;
   while (!stop.stop_requested()) {
     if (chip_->level(trigger_line))
       return true;
-    clock_.sleep_for(pause);
+    clock_.sleep_for(look_every);
   }
   return false;
 }

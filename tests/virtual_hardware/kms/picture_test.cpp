@@ -5,6 +5,8 @@
 
 #include <GLES3/gl3.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "hal/linux/kms/kms_display.h"
 #include "hal/linux/monotonic_clock.h"
@@ -115,6 +117,25 @@ TEST_P(KmsPicture, is_black_before_the_first_and_then_the_newest_that_was_drawn)
     show(frame);
     expect_shown({0, 0, 1024, 768}, frame);
   }
+}
+
+// Mesa's software renderer would otherwise map the buffer anew for each picture, and each of its pages then costs
+// a fault.
+TEST_P(KmsPicture, finds_the_pages_of_the_one_before) {
+  open("");
+  const auto faults_of = [this](int pictures) {
+    rusage before{}, after{};
+    ::getrusage(RUSAGE_SELF, &before);
+    for (int i = 0; i < pictures; ++i) {
+      glClear(GL_COLOR_BUFFER_BIT);
+      EXPECT_TRUE(display_->present());
+    }
+    ::getrusage(RUSAGE_SELF, &after);
+    return after.ru_minflt - before.ru_minflt;
+  };
+  faults_of(4); // the surface has no more buffers
+  const long pages = 4L * display_->width() * display_->height() / ::sysconf(_SC_PAGESIZE);
+  EXPECT_LT(faults_of(8), pages);
 }
 
 TEST_P(KmsPicture, has_the_configured_mode) {
