@@ -26,8 +26,8 @@ constexpr unsigned trigger_line = 0, sync_line = 1;
 constexpr hal::Duration look_every = 4ms;
 constexpr int pulse_width_us = 60000; // is not overlooked
 
-// vkms maps all pages of a picture for each flip; user-mode Linux takes 17 µs for each of them and as much to let
-// go of it, and lets nobody else run meanwhile: in vkms' own mode 28 ms, longer than a sweep.
+// vkms maps all pages of a picture for each flip; user-mode Linux takes 17 µs for each of them and 23 µs to let
+// go of it, and lets nobody else run meanwhile: in vkms' own mode 13 and 18 ms, and sweeps come late.
 constexpr const char* monitor_mode = "640x480@60";
 
 constexpr int scanner_priority = 60; // above the appliance: hardware does not wait for it
