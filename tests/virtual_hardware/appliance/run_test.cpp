@@ -195,8 +195,10 @@ TEST_F(InVirtualRig, finds_all_five_devices_by_itself_and_loses_nothing) {
   EXPECT_EQ(report["devices"]["control_input"], "hid");
   EXPECT_EQ(report["devices"]["scope_camera"], "libcamera");
   EXPECT_EQ(report["devices"]["display"], "kms");
-  EXPECT_GE(report["volumes"]["acquired"], 10);
-  EXPECT_GE(report["volumes"]["displayed"], 3);
+  // Volumes are passed over while the first picture is being made.
+  const auto& volumes = report["volumes"];
+  EXPECT_GE(volumes["acquired"].get<int>() + volumes["passed_over"].get<int>(), 10);
+  EXPECT_GE(volumes["displayed"], 3);
   EXPECT_EQ(report["lost"]["lines"], 0);
   EXPECT_EQ(report["lost"]["volumes"], 0);
   EXPECT_EQ(report["hot_path"]["allocations"], 0);
@@ -309,6 +311,11 @@ TEST_F(InVirtualRig, as_a_service_it_waits_for_its_monitor_at_the_start) {
   ASSERT_TRUE(set_cable(*card, "detect"));
   ASSERT_TRUE(waits);
   ASSERT_TRUE(scanned(3));
+  const auto shows_one = [] {
+    std::this_thread::sleep_for(500ms); // one processor: asking takes from what is asked
+    return status()["volumes"]["displayed"] >= 1;
+  };
+  EXPECT_TRUE(within(20s, shows_one)) << status();
   EXPECT_GE(end()["volumes"]["displayed"], 1);
 }
 

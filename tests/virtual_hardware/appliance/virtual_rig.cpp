@@ -51,10 +51,10 @@ pipeline::ScanPlan VirtualRig::plan() {
   plan.samples = 1024;
   plan.a_scans = 96;
   plan.fly_back_lines = 32;
-  plan.b_scans = 16;
-  plan.line_rate_hz = 2.5e3;
+  plan.b_scans = 24;
+  plan.line_rate_hz = 3.75e3;
   plan.a_spacing_um = 40;
-  plan.b_spacing_um = 160;
+  plan.b_spacing_um = 105;
   return plan;
 }
 

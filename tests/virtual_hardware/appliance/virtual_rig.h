@@ -48,8 +48,8 @@ hal::Result<> write_virtual_rig_configuration(const std::filesystem::path& folde
 // Threads: one at a time; the scanner and the camera work in a thread of their own.
 class VirtualRig {
 public:
-  // What one processor without a GPU can carry: 1.2 volumes a second, 2500 lines a second. A frame may come half
-  // a sweep late, 26 ms, and the bench's kernel lets nobody run for 10 of them at times.
+  // What one processor without a GPU can carry: 1.2 volumes a second, 3750 lines a second. A frame may come half
+  // a sweep late, 17 ms, and the bench's kernel lets nobody run for 7 of them at times.
   static pipeline::ScanPlan plan();
 
   // Makes every device; the scanner waits for its first pulse. The camera sees the spectra, whose
