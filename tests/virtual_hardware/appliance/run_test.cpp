@@ -184,7 +184,7 @@ TEST_F(InVirtualRig, finds_all_five_devices_by_itself_and_loses_nothing) {
   nlohmann::json report;
   for (int attempt = 0; attempt < 3; ++attempt) {
     start();
-    ASSERT_TRUE(scanned(12));
+    ASSERT_TRUE(scanned(16)); // some are passed over while the first picture is made
     report = end();
     if (report["lost"]["lines"] == 0 && fault_count(report, "galvo_trigger") == 0)
       break;
@@ -195,10 +195,8 @@ TEST_F(InVirtualRig, finds_all_five_devices_by_itself_and_loses_nothing) {
   EXPECT_EQ(report["devices"]["control_input"], "hid");
   EXPECT_EQ(report["devices"]["scope_camera"], "libcamera");
   EXPECT_EQ(report["devices"]["display"], "kms");
-  // Volumes are passed over while the first picture is being made.
-  const auto& volumes = report["volumes"];
-  EXPECT_GE(volumes["acquired"].get<int>() + volumes["passed_over"].get<int>(), 10);
-  EXPECT_GE(volumes["displayed"], 3);
+  EXPECT_GE(report["volumes"]["acquired"], 10);
+  EXPECT_GE(report["volumes"]["displayed"], 3);
   EXPECT_EQ(report["lost"]["lines"], 0);
   EXPECT_EQ(report["lost"]["volumes"], 0);
   EXPECT_EQ(report["hot_path"]["allocations"], 0);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr unsigned trigger_line = 0, sync_line = 1;
 
-// A sixth of a sweep, and long enough for the processor that the appliance shares with its rig: each look is
+// An eighth of a sweep, and long enough for the processor that the appliance shares with its rig: each look is
 // two system calls, which user-mode Linux makes dear.
 constexpr hal::Duration look_every = 4ms;
 constexpr int pulse_width_us = 60000; // is not overlooked
