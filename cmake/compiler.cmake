@@ -23,6 +23,12 @@ if(OCTASCOPE_SANITIZE)
   target_compile_options(octascope_compiler INTERFACE
     -fsanitize=${OCTASCOPE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     -Wno-null-dereference -Wno-maybe-uninitialized)
+  # Of what is undefined, null and what is past an object is found by its address, and classes are told
+  # apart nowhere: without these checks the build takes a quarter less.
+  if(OCTASCOPE_SANITIZE MATCHES "address,undefined")
+    target_compile_options(octascope_compiler INTERFACE
+      -fno-sanitize=null,object-size,pointer-overflow,vptr)
+  endif()
   target_link_options(octascope_compiler INTERFACE -fsanitize=${OCTASCOPE_SANITIZE})
   target_compile_definitions(octascope_compiler INTERFACE OCTASCOPE_SANITIZED=1)
 elseif(CMAKE_BUILD_TYPE STREQUAL "Debug")
