@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -11,6 +12,12 @@
 #include <malloc.h>
 
 namespace octascope::tests {
+
+// How often a test of leaks does what must leave nothing: as OCTASCOPE_LEAK_CYCLES says, or 200 times.
+inline int leak_cycles() {
+  const char* const given = std::getenv("OCTASCOPE_LEAK_CYCLES");
+  return given != nullptr ? std::atoi(given) : 200;
+}
 
 struct ResourceCount {
   std::size_t descriptors = 0;
