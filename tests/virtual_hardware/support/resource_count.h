@@ -1,6 +1,7 @@
 // What this process holds of the kernel and of the heap: a test of leaks counts before and after.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -16,7 +17,7 @@ namespace octascope::tests {
 // How often a test of leaks does what must leave nothing: as OCTASCOPE_LEAK_CYCLES says, or 200 times.
 inline int leak_cycles() {
   const char* const given = std::getenv("OCTASCOPE_LEAK_CYCLES");
-  return given != nullptr ? std::atoi(given) : 200;
+  return given != nullptr ? std::max(1, std::atoi(given)) : 200;
 }
 
 struct ResourceCount {
