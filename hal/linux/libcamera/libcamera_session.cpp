@@ -28,7 +28,8 @@ namespace {
 std::atomic_flag session_lives = ATOMIC_FLAG_INIT;
 
 // libcamera does not hear of nodes that udevd sets up in the moment when it starts (0.0.3). So
-// where it lists no camera, it begins anew, but not at every question.
+// where it lists no camera, it begins anew, but not at every question, and never while udevd is at work:
+// it may crash when it begins or ends while nodes are set up.
 constexpr std::chrono::seconds second_look_after{2};
 
 bool has_media_device() {
@@ -95,7 +96,8 @@ struct LibcameraSession::Parts {
     manager.reset();
   }
   bool may_have_missed_one() const {
-    return std::chrono::steady_clock::now() - started_at > second_look_after && has_media_device();
+    return std::chrono::steady_clock::now() - started_at > second_look_after &&
+           has_media_device() && !udev_is_at_work();
   }
   Result<std::vector<Listed>> list(const std::vector<std::string>& taken_nodes);
 
@@ -108,8 +110,10 @@ Result<std::vector<LibcameraSession::Parts::Listed>>
 LibcameraSession::Parts::list(const std::vector<std::string>& taken_nodes) {
   const std::vector<dev_t> taken = device_numbers(taken_nodes);
   for (bool again = false;; again = true) {
-    HAL_CHECK(start());
     std::vector<Listed> cameras;
+    if (!manager && udev_is_at_work())
+      return cameras;
+    HAL_CHECK(start());
     bool one_is_gone = false;
     for (const auto& camera : manager->cameras()) {
       CameraNodes nodes{nodes_of(*manager, camera)};
