@@ -45,10 +45,24 @@ double length_of(std::span<const TreeSample> samples) {
   return whole;
 }
 
+// The direction that most of their length has, either way: where they are parallel, they may lie
+// anywhere along it. By powers of the sum of their directions' squares.
+Point main_direction(std::span<const TreeSample> samples) {
+  constexpr int powers = 30;
+  Point found = samples.front().along;
+  for (int i = 0; i < powers; ++i) {
+    Point next{};
+    for (const TreeSample& sample : samples)
+      next = sum(next, scaled(sample.along, sample.length_mm * product(sample.along, found)));
+    found = direction(next);
+  }
+  return found;
+}
+
 // As one would see them: a turn by 6 degrees, or a shift by 0.2 mm.
+constexpr double least_shift_mm = 0.2;
 bool are_distinct(const RigidTransform& a, const RigidTransform& b, const Point& middle) {
   constexpr double least_turn_deg = 6;
-  constexpr double least_shift_mm = 0.2;
   const RigidTransform change = a * inverse(b);
   const double trace = change.rotation[0][0] + change.rotation[1][1] + change.rotation[2][2];
   return (trace - 1) / 2 < std::cos(least_turn_deg * std::numbers::pi / 180) ||
@@ -90,6 +104,9 @@ public:
     keep_distinct(places, last);
     improve(places, live_, {{0.08, 6}, {0.06, 10}}, score_mm);
     keep_distinct(places, 2);
+    if (!places.empty())
+      add_slid(places);
+    keep_distinct(places, 2);
     return places;
   }
 
@@ -130,6 +147,20 @@ private:
         place.planned_from_live =
             fit_pose(*grid_, samples, middle_, place.planned_from_live, stage);
       place.score = pose_score(*grid_, samples, place.planned_from_live, reach_mm);
+    }
+  }
+
+  // The first place, moved along the vessels just far enough to be another one. The search may have
+  // come upon one that is farther along and fits less.
+  void add_slid(std::vector<Place>& places) const {
+    const Place best = places.front();
+    constexpr double distinct_mm = 1.01 * least_shift_mm;
+    const Point along = scaled(main_direction(live_), distinct_mm);
+    for (const Point& shift : {along, scaled(along, -1)}) {
+      RigidTransform slid;
+      slid.shift_mm = shift;
+      const RigidTransform pose = best.planned_from_live * slid;
+      places.push_back({pose, pose_score(*grid_, live_, pose, score_mm)});
     }
   }
 

@@ -128,18 +128,38 @@ INSTANTIATE_TEST_SUITE_P(
                     Motion{"part_of_an_a_scan", {0, 2.6, 1.1, -2.7}, {0, 0.4, 0.8, 0.2}}),
     [](const auto& info) { return std::string{info.param.name}; });
 
+struct FiguresByMethod {
+  tests::FlowFigures complex_bins;
+  tests::FlowFigures intensity;
+};
+
+// The mean of B-scans with other speckle: one has too few speckles to tell a method by.
+FiguresByMethod mean_figures(const SpeckleScene& scene) {
+  constexpr unsigned b_scans = 4;
+  const unsigned seed = tests::fresh_seed();
+  std::vector<tests::FlowFigures> of_bins, of_intensity;
+  for (unsigned i = 0; i < b_scans; ++i) {
+    const Bins bins = SpeckleSweeps{scene, seed + i}.bins();
+    const auto figures = [&](FlowMethod method) {
+      const auto result = compute(setup_of(scene, method), bins);
+      EXPECT_FALSE(result.outcome.left_out);
+      return tests::flow_figures(scene, result.flow);
+    };
+    of_bins.push_back(figures(FlowMethod::complex_bins));
+    of_intensity.push_back(figures(FlowMethod::intensity));
+  }
+  return {tests::mean_of(of_bins), tests::mean_of(of_intensity)};
+}
+
 TEST_P(MovingSample, vessels_are_told_from_static_tissue) {
   for (const int repeats : {2, 3, 4}) {
     SpeckleScene scene = scene_with(GetParam(), repeats);
     scene.tubes = {{20, 60, 3, 8},   {48, 80, 5, 14},  {75, 110, 2, 5.7},
                    {30, 130, 4, 11}, {60, 160, 6, 17}, {80, 60, 2, 6}};
-    const Bins bins = SpeckleSweeps{scene, tests::fresh_seed()}.bins();
-    const auto figures = flow_figures(scene, compute(setup_of(scene), bins).flow);
-    EXPECT_GE(figures.area, repeats == 4 ? 0.95 : 0.90) << repeats << " repeats";
-    EXPECT_LE(figures.false_share, 0.02) << repeats << " repeats";
-    EXPECT_GE(figures.told_share, 0.95) << repeats << " repeats";
-    const auto intensity =
-        flow_figures(scene, compute(setup_of(scene, FlowMethod::intensity), bins).flow);
+    const auto [complex_bins, intensity] = mean_figures(scene);
+    EXPECT_GE(complex_bins.area, repeats == 4 ? 0.95 : 0.90) << repeats << " repeats";
+    EXPECT_LE(complex_bins.false_share, 0.02) << repeats << " repeats";
+    EXPECT_GE(complex_bins.told_share, 0.95) << repeats << " repeats";
     EXPECT_GE(intensity.area, repeats == 4 ? 0.90 : 0.83) << repeats << " repeats";
     EXPECT_LE(intensity.false_share, 0.03) << repeats << " repeats";
   }
@@ -149,12 +169,9 @@ TEST_P(MovingSample, static_tissue_is_not_called_flowing) {
   for (const double snr_db : {25, 12}) {
     SpeckleScene scene = scene_with(GetParam(), 2);
     scene.snr_db = snr_db;
-    const Bins bins = SpeckleSweeps{scene, tests::fresh_seed()}.bins();
-    for (const auto method : {FlowMethod::complex_bins, FlowMethod::intensity}) {
-      const auto result = compute(setup_of(scene, method), bins);
-      EXPECT_FALSE(result.outcome.left_out);
-      EXPECT_LE(flow_figures(scene, result.flow).false_share, 0.01) << snr_db << " dB";
-    }
+    const auto [complex_bins, intensity] = mean_figures(scene);
+    EXPECT_LE(complex_bins.false_share, 0.01) << snr_db << " dB";
+    EXPECT_LE(intensity.false_share, 0.01) << snr_db << " dB";
   }
 }
 
@@ -250,7 +267,7 @@ TEST(BScanFlow, where_there_is_no_power_nothing_is_told) {
     bins[scene.voxels() + i] = bins[i]; // alike to the last bit: noise is 0
   }
   const auto flow = compute(setup_of(scene), bins).flow;
-  EXPECT_EQ(flow[100], 0);
+  EXPECT_NEAR(flow[100], 0, 1e-6);
   EXPECT_TRUE(std::isnan(flow[empty_from + 10]));
 }
 

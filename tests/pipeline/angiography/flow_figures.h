@@ -14,7 +14,6 @@ namespace octascope::tests {
 struct FlowFigures {
   double area = 0;        // under the curve of true against false positives
   double false_share = 0; // of static voxels that are called flowing, ½ or more
-  double found_share = 0; // of flowing ones
   double told_share = 0;  // of tissue that is more than 3 dB above the noise
 };
 
@@ -32,7 +31,7 @@ inline FlowFigures flow_figures(const SpeckleScene& scene, std::span<const float
     }
   std::sort(values.begin(), values.end());
   FlowFigures figures;
-  double flowing = 0, still = 0, below = 0, found = 0, called = 0;
+  double flowing = 0, still = 0, below = 0, called = 0;
   for (std::size_t i = 0; i < values.size();) {
     std::size_t end = i;
     double ties = 0, ties_flowing = 0;
@@ -42,14 +41,25 @@ inline FlowFigures flow_figures(const SpeckleScene& scene, std::span<const float
     still += ties;
     flowing += ties_flowing;
     if (values[i].first >= 0.5F)
-      found += ties_flowing, called += ties;
+      called += ties;
     i = end;
   }
   figures.area = below / (flowing * still);
   figures.false_share = called / still;
-  figures.found_share = found / flowing;
   figures.told_share = (flowing + still) / tissue;
   return figures;
+}
+
+// Of B-scans of one scene, at least one.
+inline FlowFigures mean_of(std::span<const FlowFigures> all) {
+  FlowFigures mean;
+  const auto share = 1 / static_cast<double>(all.size());
+  for (const auto& figures : all) {
+    mean.area += share * figures.area;
+    mean.false_share += share * figures.false_share;
+    mean.told_share += share * figures.told_share;
+  }
+  return mean;
 }
 
 } // namespace octascope::tests

@@ -52,16 +52,18 @@ TEST(LiveFlow, every_volume_has_it_and_nothing_is_lost) {
   expect_nothing_lost(report);
   const json& flow = report.at("flow");
   const json& b_scans = flow.at("b_scans");
+  const int told = b_scans.at("told"), none = b_scans.at("none");
+  const int published = report["volumes"]["published"];
   EXPECT_EQ(b_scans.at("left_out"), 0);
+  EXPECT_EQ(told + none, 12 * published);
+  EXPECT_GT(flow["angiograms"], 0);
+  // Where other programs took the workers' time, some of it is given up, and counted.
   if (report["lost"]["lines"] == 0 && b_scans.at("no_time") == 0) {
-    EXPECT_EQ(flow.at("angiograms"), report["volumes"]["published"]);
+    EXPECT_EQ(flow["angiograms"], published);
     EXPECT_NEAR(flow.at("angiograms_per_s").get<double>(),
-                report["volumes"]["published"].get<double>() / report["duration_s"].get<double>(),
-                0.01);
-    EXPECT_EQ(b_scans.at("none"), 0);
-    EXPECT_EQ(b_scans.at("told"), 12 * report["volumes"]["published"].get<int>());
+                published / report["duration_s"].get<double>(), 0.01);
+    EXPECT_EQ(none, 0);
   }
-  EXPECT_GT(flow["angiograms"], 6);
   EXPECT_GT(flow.at("ms").at("p50"), 0);
   EXPECT_EQ(report["hot_path"]["allocations"], 0);
 }
