@@ -1,9 +1,11 @@
 #include "hal/linux/libcamera/libcamera_session.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <string_view>
 #include <utility>
@@ -17,6 +19,7 @@
 
 #include "hal/linux/libcamera/camera_link.h"
 #include "hal/linux/libcamera/libcamera_version.h"
+#include "hal/linux/libcamera/media_events.h"
 #include "hal/linux/system/system_error.h"
 
 namespace octascope::hal::linux_backend {
@@ -27,14 +30,26 @@ namespace {
 // so this has to be one of the process, too.
 std::atomic_flag session_lives = ATOMIC_FLAG_INIT;
 
-// libcamera does not hear of nodes that udevd sets up in the moment when it starts (0.0.3). So
-// where it lists no camera, it begins anew, but not at every question, and never while udevd is at work:
-// it may crash when it begins or ends while nodes are set up.
+// libcamera hears of no camera that comes while it runs (media_events.h), nor of nodes that udevd sets up in
+// the moment when it starts (0.0.3). So it begins anew where another device has come, and where it lists no
+// camera, but then not at every question; and never while udevd is at work: it may crash when it begins or ends
+// while nodes are set up.
 constexpr std::chrono::seconds second_look_after{2};
 
-bool has_media_device() {
+// Those that udevd has set up, by their numbers in sysfs: one that is plugged in again has another.
+std::vector<ino_t> media_devices() {
+  std::vector<ino_t> devices;
   std::error_code error;
-  return !std::filesystem::is_empty("/sys/bus/media/devices", error) && !error;
+  for (const auto& entry : std::filesystem::directory_iterator{"/sys/bus/media/devices", error}) {
+    std::string number;
+    std::ifstream{entry.path() / "dev"} >> number;
+    struct stat status {};
+    if (std::filesystem::exists("/run/udev/data/c" + number, error) &&
+        ::stat(entry.path().c_str(), &status) == 0)
+      devices.push_back(status.st_ino);
+  }
+  std::ranges::sort(devices);
+  return devices;
 }
 
 int note_module(dl_phdr_info* module, std::size_t, void* names) {
@@ -84,8 +99,10 @@ struct LibcameraSession::Parts {
     if (manager)
       return {};
     auto made = std::make_unique<libcamera::CameraManager>();
+    devices = media_devices();
     if (const int result = made->start(); result < 0)
       return system_failure("libcamera", "starting", -result);
+    HAL_CHECK(keep_video_nodes_from_libcamera());
     manager = std::move(made);
     started_at = std::chrono::steady_clock::now();
     return {};
@@ -97,17 +114,21 @@ struct LibcameraSession::Parts {
   }
   bool may_have_missed_one() const {
     return std::chrono::steady_clock::now() - started_at > second_look_after &&
-           has_media_device() && !udev_is_at_work();
+           !media_devices().empty() && !udev_is_at_work();
   }
-  Result<std::vector<Listed>> list(const std::vector<std::string>& taken_nodes);
+  bool another_came() const { return media_devices() != devices && !udev_is_at_work(); }
+  // Cameras that are held become useless where it may begin anew.
+  enum class Others : std::uint8_t { left, looked_for };
+  Result<std::vector<Listed>> list(const std::vector<std::string>& taken_nodes, Others others);
 
   std::mutex mutex; // of all below
   std::unique_ptr<libcamera::CameraManager> manager;
   std::chrono::steady_clock::time_point started_at;
+  std::vector<ino_t> devices; // that there were when it started
 };
 
 Result<std::vector<LibcameraSession::Parts::Listed>>
-LibcameraSession::Parts::list(const std::vector<std::string>& taken_nodes) {
+LibcameraSession::Parts::list(const std::vector<std::string>& taken_nodes, Others others) {
   const std::vector<dev_t> taken = device_numbers(taken_nodes);
   for (bool again = false;; again = true) {
     std::vector<Listed> cameras;
@@ -124,7 +145,8 @@ LibcameraSession::Parts::list(const std::vector<std::string>& taken_nodes) {
       if (nodes.present())
         cameras.push_back({camera, std::move(nodes), std::move(facts)});
     }
-    const bool look_again = one_is_gone || (cameras.empty() && may_have_missed_one());
+    const bool look_again = one_is_gone || (cameras.empty() && may_have_missed_one()) ||
+                            ((cameras.empty() || others == Others::looked_for) && another_came());
     if (!look_again || again)
       return cameras;
     cameras.clear();
@@ -149,7 +171,7 @@ LibcameraSession::~LibcameraSession() = default;
 std::vector<LibcameraFound> LibcameraSession::cameras(const std::vector<std::string>& taken_nodes) {
   const std::lock_guard lock{parts_->mutex};
   std::vector<LibcameraFound> found;
-  if (const auto listed = parts_->list(taken_nodes))
+  if (const auto listed = parts_->list(taken_nodes, Parts::Others::left))
     for (const Parts::Listed& one : *listed)
       found.push_back(one.facts);
   return found;
@@ -158,7 +180,7 @@ std::vector<LibcameraFound> LibcameraSession::cameras(const std::vector<std::str
 Result<LibcameraSession::Chosen>
 LibcameraSession::choose(const std::string& wanted, const std::vector<std::string>& taken_nodes) {
   const std::lock_guard lock{parts_->mutex};
-  HAL_TRY(const auto listed, parts_->list(taken_nodes));
+  HAL_TRY(const auto listed, parts_->list(taken_nodes, Parts::Others::looked_for));
   if (listed.empty())
     return tl::make_unexpected(explain_absence());
   std::vector<LibcameraFound> found;

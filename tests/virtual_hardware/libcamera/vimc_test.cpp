@@ -247,10 +247,24 @@ TEST_F(Vimc, a_frame_costs_no_more_allocations_than_libcameras_own) {
   EXPECT_LE(allocations, 10U * frames) << "its message, and a request's empty lists";
 }
 
+// As where udevd's rules are applied to all devices once more, which says that each has come.
+TEST_F(Vimc, nodes_that_are_told_of_again_hurt_nothing) {
+  open_and_start();
+  camera_->release(next_frame().buffer);
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_EQ(std::system("udevadm trigger --action=add --subsystem-match=video4linux "
+                          "--subsystem-match=media && udevadm settle"),
+              0);
+    camera_->release(next_frame().buffer);
+  }
+}
+
 // The last, because it ends udevd and starts it again.
 TEST_F(Vimc, without_udevd_it_says_so_and_with_it_the_camera_is_there_again) {
   if (std::system("udevadm control --exit 2>/dev/null") != 0)
     GTEST_SKIP() << "udevd cannot be ended here";
+  // It says so before it has ended, and would set up what is bound below.
+  ASSERT_EQ(std::system("while pgrep -x systemd-udevd >/dev/null; do sleep 0.1; done"), 0);
   camera_.reset();
   session_.reset();
   unplug_vimc();
