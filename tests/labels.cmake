@@ -24,7 +24,7 @@ set(clock
   "pipeline_threads\\."
   "twins\\.sim/.*Contract\\..*/real_time"
   "v4l2_camera\\..*/real_time"
-  "program\\.(Controls\\.a_pedal|NoFault\\.|Scripts/ShownFaults\\.|Window\\.)")
+  "program\\.(Controls\\.a_pedal|LiveFlow\\.every|NoFault\\.|Scripts/ShownFaults\\.|Window\\.)")
 
 # Aravis's fake camera has one port: who waits for it waits in its own time (loopback_port.h).
 set(genicam_port "aravis_camera\\.Genicam" "program_genicam\\.")

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <string_view>
 #include <utility>
@@ -21,6 +20,7 @@
 #include "hal/linux/libcamera/libcamera_version.h"
 #include "hal/linux/libcamera/media_events.h"
 #include "hal/linux/system/system_error.h"
+#include "hal/linux/system/system_files.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -40,12 +40,10 @@ constexpr std::chrono::seconds second_look_after{2};
 std::vector<ino_t> media_devices() {
   std::vector<ino_t> devices;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator{"/sys/bus/media/devices", error}) {
-    std::string number;
-    std::ifstream{entry.path() / "dev"} >> number;
+  for (const auto& device : entries("/sys/bus/media/devices")) {
     struct stat status {};
-    if (std::filesystem::exists("/run/udev/data/c" + number, error) &&
-        ::stat(entry.path().c_str(), &status) == 0)
+    if (std::filesystem::exists("/run/udev/data/c" + first_line(device / "dev"), error) &&
+        ::stat(device.c_str(), &status) == 0)
       devices.push_back(status.st_ino);
   }
   std::ranges::sort(devices);

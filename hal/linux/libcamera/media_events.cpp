@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
-#include <filesystem>
+#include <cstdlib>
 #include <initializer_list>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include <libudev.h>
@@ -15,6 +13,7 @@
 #include <sys/socket.h>
 
 #include "hal/linux/system/system_error.h"
+#include "hal/linux/system/system_files.h"
 
 namespace octascope::hal::linux_backend {
 
@@ -56,18 +55,6 @@ bool is_equal(const Filter& a, const Filter& b) {
   });
 }
 
-std::vector<int> open_descriptors() {
-  std::vector<int> descriptors;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator{"/proc/self/fd", error}) {
-    const std::string name = entry.path().filename();
-    int descriptor = -1;
-    std::from_chars(name.data(), name.data() + name.size(), descriptor);
-    descriptors.push_back(descriptor);
-  }
-  return descriptors;
-}
-
 bool hears_of_devices(int descriptor) {
   int protocol = 0;
   socklen_t size = sizeof protocol;
@@ -81,15 +68,20 @@ Result<int> keep_video_nodes_from_libcamera() {
   HAL_TRY(const Filter of_libcamera, filter_for({"media", "video4linux"}));
   HAL_TRY(Filter media_alone, filter_for({"media"}));
   if (of_libcamera.empty() || media_alone.empty())
-    return fail(ErrorCode::system, "udev: found a watch without a filter, expected libudev's");
+    return fail(ErrorCode::system,
+                "libcamera: found no way to read a socket's filter, expected SO_GET_FILTER, "
+                "without which a camera that comes back may end the program; use Linux 3.8 or "
+                "newer, or scope_camera = \"none\"");
   const sock_fprog program{static_cast<unsigned short>(media_alone.size()), media_alone.data()};
   int changed = 0;
-  for (const int descriptor : open_descriptors())
+  for (const auto& entry : entries("/proc/self/fd")) {
+    const int descriptor = std::atoi(entry.filename().c_str());
     if (hears_of_devices(descriptor) && is_equal(filter_of(descriptor), of_libcamera)) {
       if (::setsockopt(descriptor, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program) != 0)
         return system_failure("udev", "choosing libcamera's events", errno);
       ++changed;
     }
+  }
   return changed;
 }
 

@@ -56,7 +56,7 @@ TEST(LiveFlow, every_volume_has_it_and_nothing_is_lost) {
   const int published = report["volumes"]["published"];
   EXPECT_EQ(b_scans.at("left_out"), 0);
   EXPECT_EQ(told + none, 12 * published);
-  EXPECT_GT(flow["angiograms"], 0);
+  EXPECT_GT(flow["angiograms"], 6);
   // Where other programs took the workers' time, some of it is given up, and counted.
   if (report["lost"]["lines"] == 0 && b_scans.at("no_time") == 0) {
     EXPECT_EQ(flow["angiograms"], published);
