@@ -73,6 +73,8 @@ hal::Result<> Renderer::renew_volume(const pipeline::Volume& volume,
 void Renderer::bring_ahead(const pipeline::Volume& coming, std::uint64_t number, int finished,
                            const pipeline::Volume& shown) {
   parts_->volume.bring_ahead(coming, number, finished, shown);
+  if (parts_->volume.has_flow_computed() && coming.has_flow())
+    parts_->en_face_panel.bring_ahead(coming, number, finished);
 }
 
 hal::Result<> Renderer::show_scope_picture(const hal::ScopeFrame& frame,

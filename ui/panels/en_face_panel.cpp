@@ -89,7 +89,8 @@ void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue,
   stretch_contrast(volume, grey_);
   flow_before_ = flow_;
   if (with_flow && volume.has_flow())
-    show_flow(volume, tissue, team);
+    show_flow(volume, tissue,
+              changed.empty() ? coming_.of(volume) : std::span<const ComingRuns::Run>{}, team);
   else
     flow_.clear();
   compare_rows();
@@ -101,10 +102,11 @@ void EnFacePanel::show(const pipeline::Volume& volume, const TissueMap& tissue,
 
 // Where it is new, in all B-scans.
 void EnFacePanel::show_flow(const pipeline::Volume& volume, const TissueMap& tissue,
-                            WorkTeam* team) {
+                            std::span<const ComingRuns::Run> ahead, WorkTeam* team) {
   const bool is_new = flow_.empty();
   flow_.resize(levels_.size());
-  project_flow(volume, tissue, flow_, is_new ? std::span<const std::uint8_t>{} : wanted_, team);
+  project_flow(volume, tissue, flow_, is_new ? std::span<const std::uint8_t>{} : wanted_, ahead,
+               team);
   if (!flow_projection_ || is_new)
     flow_projection_ = gl::make_picture_texture(GL_RG8, a_scans_, b_scans_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

@@ -37,6 +37,11 @@ public:
             std::span<const pipeline::BScanRange> changed = {}, WorkTeam* team = nullptr,
             bool with_flow = true);
 
+  // Of a volume that is still coming (ComingRuns), for its show().
+  void bring_ahead(const pipeline::Volume& coming, std::uint64_t number, int finished) {
+    coming_.bring(coming, number, finished);
+  }
+
   // Of the last volume shown: what flows, a texel each A-scan (FlowFromAbove); nothing if it has none or
   // was shown without.
   const gl::Texture& flow() const { return flow_projection_; }
@@ -68,7 +73,8 @@ private:
   static void set_marks(const Pass& pass, const StateTexture& states, const Rect& rect,
                         int target_height);
   void allocate(int a_scans, int b_scans);
-  void show_flow(const pipeline::Volume& volume, const TissueMap& tissue, WorkTeam* team);
+  void show_flow(const pipeline::Volume& volume, const TissueMap& tissue,
+                 std::span<const ComingRuns::Run> ahead, WorkTeam* team);
   void compare_rows();
 
   Passes passes_;
@@ -82,6 +88,7 @@ private:
   std::vector<std::uint8_t> changed_;
   std::vector<FlowFromAbove> flow_; // empty where the volume has none
   std::vector<FlowFromAbove> flow_before_;
+  ComingRuns coming_;
   int a_scans_ = 0;
   int b_scans_ = 0;
 };

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstring>
 #include <numeric>
-#include <optional>
 
 #include "ui/transfer/flow_look.h"
 
@@ -32,13 +31,15 @@ std::uint8_t highest_of(const std::uint8_t* counts) {
 }
 
 // Of what is too little to be seen nothing is found.
-struct Run {
-  int sum = flow_run * (first_seen_flow - 1);
-  std::optional<int> from;
+constexpr int unseen_sum = flow_run * (first_seen_flow - 1);
+
+struct Strongest {
+  int sum = unseen_sum;
+  int from = 0;
 };
 
 // Of the runs that begin from there to before there.
-void find_strongest(const std::uint8_t* counts, int from, int to, Run& strongest) {
+void find_strongest(const std::uint8_t* counts, int from, int to, Strongest& strongest) {
   int sum = 0;
   for (int i = 0; i < flow_run; ++i)
     sum += counts[from + i];
@@ -53,8 +54,8 @@ void find_strongest(const std::uint8_t* counts, int from, int to, Run& strongest
 
 // Nearly all blocks have too little to be looked at once more: a run has at most the mean of the
 // highest in its block and in the next one.
-Run strongest_run(const std::uint8_t* counts, int from, int depths) {
-  Run strongest;
+ComingRuns::Run strongest_run(const std::uint8_t* counts, int from, int depths) {
+  Strongest strongest;
   int at = from;
   std::uint8_t here = at + block <= depths ? highest_of(counts + at) : std::uint8_t{255};
   for (; at + 2 * block <= depths; at += block) {
@@ -65,7 +66,9 @@ Run strongest_run(const std::uint8_t* counts, int from, int depths) {
   }
   if (at + flow_run <= depths)
     find_strongest(counts, at, depths - flow_run + 1, strongest);
-  return strongest;
+  if (strongest.sum == unseen_sum)
+    return {};
+  return {static_cast<std::uint16_t>(strongest.from), static_cast<std::uint16_t>(strongest.sum)};
 }
 
 // Depths, from the first one to before the last one.
@@ -87,12 +90,26 @@ Depths depths_to_search(std::span<const std::uint32_t> marks, int depths) {
   return {std::max(marked_from - flow_run, 0), std::min(marked_to + flow_run, depths)};
 }
 
-FlowFromAbove flow_of(const std::uint8_t* counts, int surface, const Depths& search, int depths) {
-  const Run run = strongest_run(counts, std::max(surface, search.from), search.to);
-  if (!run.from)
+// Calls visit(a, its counts, where to search them) for the A-scans of a B-scan.
+template <class Visit> void for_a_scans(const pipeline::Volume& volume, int b, const Visit& visit) {
+  const pipeline::VolumeGeometry& geometry = volume.geometry;
+  const pipeline::FlowMarks& marks = volume.flow_marks;
+  const std::uint8_t* counts = volume.b_scan_flow(b).data();
+  Depths search{0, geometry.depths};
+  for (int a = 0; a < geometry.a_scans; ++a, counts += geometry.depths) {
+    if (!marks.empty() && a % 4 == 0)
+      search = depths_to_search(marks.of(b).subspan(static_cast<std::size_t>(a / 4 * marks.row()),
+                                                    static_cast<std::size_t>(marks.row())),
+                                geometry.depths);
+    visit(a, counts, search);
+  }
+}
+
+FlowFromAbove flow_of(const ComingRuns::Run& run, int surface, int depths) {
+  if (run.sum == 0)
     return {};
   const int strength = (run.sum + flow_run / 2) / flow_run;
-  const int below = *run.from + flow_run / 2 - surface;
+  const int below = run.from + flow_run / 2 - surface;
   return {static_cast<std::uint8_t>(strength),
           static_cast<std::uint8_t>((strength * below + depths / 2) / depths)};
 }
@@ -115,6 +132,30 @@ double next_step_mm(double step_mm) {
 }
 
 } // namespace
+
+void ComingRuns::bring(const pipeline::Volume& coming, std::uint64_t number, int finished) {
+  const auto a_scans = static_cast<std::size_t>(coming.geometry.a_scans);
+  if (volume_ != &coming || number_ != number) {
+    volume_ = &coming;
+    number_ = number;
+    brought_ = 0;
+    runs_.resize(a_scans * static_cast<std::size_t>(coming.geometry.b_scans));
+  }
+  for (; brought_ < finished; ++brought_) {
+    const std::span<Run> runs =
+        std::span{runs_}.subspan(static_cast<std::size_t>(brought_) * a_scans, a_scans);
+    for_a_scans(coming, brought_, [&](int a, const std::uint8_t* counts, const Depths& search) {
+      runs[static_cast<std::size_t>(a)] = strongest_run(counts, search.from, search.to);
+    });
+  }
+}
+
+std::span<const ComingRuns::Run> ComingRuns::of(const pipeline::Volume& volume) const {
+  if (volume_ != &volume || number_ != volume.metadata.index)
+    return {};
+  return std::span{runs_}.first(static_cast<std::size_t>(brought_) *
+                                static_cast<std::size_t>(volume.geometry.a_scans));
+}
 
 void FlowDepths::follow(std::span<const FlowFromAbove> flow, double volume_depth_mm) {
   constexpr double least_mm = 0.1;
@@ -143,24 +184,23 @@ void FlowDepths::follow(std::span<const FlowFromAbove> flow, double volume_depth
 
 void project_flow(const pipeline::Volume& volume, const TissueMap& tissue,
                   std::span<FlowFromAbove> out, std::span<const std::uint8_t> wanted,
-                  WorkTeam* team) {
+                  std::span<const ComingRuns::Run> ahead, WorkTeam* team) {
   const pipeline::VolumeGeometry& geometry = volume.geometry;
-  const pipeline::FlowMarks& marks = volume.flow_marks;
   const auto a_scans = static_cast<std::size_t>(geometry.a_scans);
   run_pieces(team, static_cast<std::uint32_t>(geometry.b_scans), [&](std::uint32_t piece) {
     if (!wanted.empty() && wanted[piece] == 0)
       return;
     const int b = static_cast<int>(piece);
-    const std::uint8_t* counts = volume.b_scan_flow(b).data();
-    std::size_t i = piece * a_scans;
-    Depths search{0, geometry.depths};
-    for (int a = 0; a < geometry.a_scans; ++a, counts += geometry.depths) {
-      if (!marks.empty() && a % 4 == 0)
-        search = depths_to_search(marks.of(b).subspan(static_cast<std::size_t>(a / 4 * marks.row()),
-                                                      static_cast<std::size_t>(marks.row())),
-                                  geometry.depths);
-      out[i++] = flow_of(counts, tissue.begin_of(b, a).depth, search, geometry.depths);
-    }
+    const std::size_t first = piece * a_scans;
+    for_a_scans(volume, b, [&](int a, const std::uint8_t* counts, const Depths& search) {
+      const std::size_t i = first + static_cast<std::size_t>(a);
+      const int surface = tissue.begin_of(b, a).depth;
+      // The strongest of all is that of the tissue if it lies in it.
+      const bool known = i < ahead.size() && (ahead[i].sum == 0 || ahead[i].from >= surface);
+      const ComingRuns::Run run =
+          known ? ahead[i] : strongest_run(counts, std::max(surface, search.from), search.to);
+      out[i] = flow_of(run, surface, geometry.depths);
+    });
   });
 }
 

@@ -248,6 +248,40 @@ TEST(FlowProjection, is_the_same_where_marks_say_where_to_look) {
   }
 }
 
+// A fifth of the depths lies above the tissue.
+TEST(FlowProjection, is_the_same_of_runs_found_while_the_volume_came) {
+  pipeline::Volume volume = layered({413, 95, 24, 5, 20, 80});
+  volume.metadata.index = 7;
+  std::minstd_rand random{13};
+  for (std::uint8_t& count : volume.flow)
+    count = static_cast<std::uint8_t>(random() % 100 == 0 ? 255 : 110);
+  volume.flow_marks = pipeline::FlowMarks{volume.geometry, pipeline::blank_depth_bins};
+  for (int b = 0; b < 24; ++b)
+    volume.flow_marks.update(b, volume.b_scan_flow(b));
+  const ui::TissueMap tissue = tissue_in(volume);
+  std::vector<ui::FlowFromAbove> whole(95 * 24);
+  ui::project_flow(volume, tissue, whole);
+  ui::ComingRuns coming;
+  EXPECT_TRUE(coming.of(volume).empty());
+  for (const int finished : {0, 3, 3, 17, 24}) {
+    coming.bring(volume, 7, finished);
+    const auto runs = coming.of(volume);
+    ASSERT_EQ(std::ssize(runs), 95 * finished);
+    std::vector<ui::FlowFromAbove> found(95 * 24);
+    ui::project_flow(volume, tissue, found, {}, runs);
+    EXPECT_EQ(found, whole);
+  }
+  int above = 0;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const auto [from, sum] = coming.of(volume)[i];
+    above +=
+        sum > 0 && from < tissue.begin_of(static_cast<int>(i / 95), static_cast<int>(i % 95)).depth;
+  }
+  EXPECT_GT(above, 100);
+  volume.metadata.index = 8;
+  EXPECT_TRUE(coming.of(volume).empty()) << "another one in the same memory";
+}
+
 TEST(FlowProjection, leaves_alone_what_is_not_wanted) {
   const pipeline::Volume volume = layered({400, 96, 24, 5, 20, 80});
   std::vector<ui::FlowFromAbove> out(96 * 24, ui::FlowFromAbove{9, 9});
