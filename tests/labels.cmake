@@ -86,7 +86,7 @@ set(alike
   "ui\\.VesselSmoothing\\.(a_wide|halves|outlines|within)"
   "ui\\.VolumePainterTest\\.(a_corner|a_cut|draws_again|processor_shader|says_that|sees_through)"
   "ui\\.Ways/RenewedPicture\\..*/(0|2|4|5|6|8|9|10|12|13|15)$"
-  "vessel_tracing\\.Scenes/VesselTracer\\..*/(0|1|2|3|5|6|7|8|9|10)$"
+  "vessel_tracing\\.Scenes/VesselTracerScenes\\..*/(0|1|2|3|5|6|7|8|9|10)$"
   "vessel_tracing\\.VesselTracerTree\\.(bridges|joins|leaves_out|may_be_stopped|reaches|takes_less)")
 
 # Does one of the expressions fit the name?

@@ -6,7 +6,6 @@
 #include "pipeline/vessels/clusters/cluster_builder.h"
 #include "pipeline/vessels/clusters/cluster_facts.h"
 #include "pipeline/vessels/straight_nodes.h"
-#include "pipeline/vessels/tracing/vessel_tracer.h"
 #include "pipeline/vessels/tree_summary.h"
 
 namespace octascope::firmware_host {
@@ -51,6 +50,8 @@ LiveTreeThread::~LiveTreeThread() {
 }
 
 void LiveTreeThread::offer(const pipeline::Volume& volume, hal::Duration interval) {
+  const std::uint64_t index = volume.metadata.index;
+  const bool just_came = std::exchange(seen_index_, index) != index;
   if (!volume.has_flow() || turn_.load(std::memory_order_acquire) != Turn::idle)
     return;
   if (!thread_.started()) {
@@ -60,15 +61,16 @@ void LiveTreeThread::offer(const pipeline::Volume& volume, hal::Duration interva
     return;
   }
   const hal::TimePoint now = clock_.now();
-  if (offered_ && (volume.metadata.index == offered_index_ || now - *offered_ < interval))
+  if (offered_ && (index == traced_index_ ||
+                   now - *offered_ < interval + (just_came ? hal::Duration{} : patience)))
     return;
   offered_ = now;
-  offered_index_ = volume.metadata.index;
+  traced_index_ = index;
   geometry_ = volume.geometry;
   flow_.assign(volume.flow.begin(), volume.flow.end());
   tree_ = std::make_shared<LiveTree>();
   tree_->of_volume = volume.metadata.last_line;
-  tree_->volume_index = volume.metadata.index;
+  tree_->volume_index = index;
   tree_->number = ++count_;
   turn_.store(Turn::at_work, std::memory_order_release);
   wakeup_.post();
@@ -101,7 +103,7 @@ void LiveTreeThread::run() {
 
 void LiveTreeThread::trace() {
   const hal::TimePoint begin = clock_.now();
-  auto traced = pipeline::trace_vessels(geometry_, flow_, stop_.get_token());
+  auto traced = tracer_.trace(geometry_, flow_, stop_.get_token());
   if (traced) {
     tree_->tree = std::move(traced->tree);
     tree_->quality = traced->quality;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "pipeline/threads/duration_statistics.h"
 #include "pipeline/threads/role_thread.h"
 #include "pipeline/threads/wakeup.h"
+#include "pipeline/vessels/tracing/vessel_tracer.h"
 #include "pipeline/vessels/tree.h"
 #include "pipeline/volume/volume.h"
 
@@ -47,7 +49,10 @@ public:
   // All of these: the render thread.
 
   // Copies the volume's flow, which takes milliseconds for a live volume, if the thread is idle, the volume
-  // is another than the last one and has flow, and the last was at least `interval` ago.
+  // is another than the last one and has flow, and the last was at least `interval` ago; `patience` more if
+  // this volume was offered before: a tree that is begun when its volume comes is mostly done before the
+  // next one is drawn, and takes no memory's time from that picture.
+  static constexpr hal::Duration patience = std::chrono::milliseconds{500};
   void offer(const pipeline::Volume& volume, hal::Duration interval);
   // What was found last, once; null if nothing new was.
   std::shared_ptr<const LiveTree> take();
@@ -82,13 +87,15 @@ private:
 
   // The render thread's.
   std::optional<hal::TimePoint> offered_;
-  std::uint64_t offered_index_ = 0;
+  std::uint64_t traced_index_ = 0;
+  std::optional<std::uint64_t> seen_index_; // of the volume that was offered last
   std::uint64_t count_ = 0;
   std::uint64_t refused_ = 0;
 
   // Of the thread while it is at work or makes room, else of the render thread.
   pipeline::VolumeGeometry geometry_;
   std::vector<std::uint8_t> flow_;
+  pipeline::VesselTracer tracer_;
   std::shared_ptr<LiveTree> tree_;
 
   pipeline::DurationStatistics took_;

@@ -29,7 +29,7 @@ public:
   static constexpr hal::Duration longest_wait = std::chrono::milliseconds{500};
   // Trees more often than that would show nothing more, and tracing takes memory's time from the picture: a
   // tree that nobody sees is only kept young enough to be shown at once when it is asked for.
-  static constexpr hal::Duration interval_seen = std::chrono::milliseconds{700};
+  static constexpr hal::Duration interval_seen = std::chrono::milliseconds{500};
   static constexpr hal::Duration interval_unseen = std::chrono::seconds{5};
 
   // `shown`: the whole volume of the picture; null while there is none. True: drawn() is another one. The

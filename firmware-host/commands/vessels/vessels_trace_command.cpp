@@ -65,7 +65,7 @@ hal::Result<TraceReport> trace(const std::filesystem::path& file) {
     warn("octascope vessels trace: {}: {}\n", file.string(), remark);
   const auto begun = std::chrono::steady_clock::now();
   auto traced =
-      pipeline::trace_vessels(volume.geometry, std::get<std::vector<float>>(volume.levels));
+      pipeline::VesselTracer{}.trace(volume.geometry, std::get<std::vector<float>>(volume.levels));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
   if (!traced)
     return hal::fail(traced.error().code, "{}: {}", file.string(), traced.error().message);

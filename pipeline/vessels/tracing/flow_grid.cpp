@@ -254,12 +254,13 @@ void smooth(FlowGrid& grid) {
 }
 
 template <class Value>
-hal::Result<FlowGrid> make_grid(const VolumeGeometry& g, std::span<const Value> flow) {
+hal::Result<> make_grid(const VolumeGeometry& g, std::span<const Value> flow, FlowGrid& grid) {
   HAL_CHECK(check_shape(g));
   const std::array<double, 3> spacing{g.a_spacing_um, g.b_spacing_um, g.depth_spacing_um};
   const std::array<int, 3> counts{g.a_scans, g.b_scans, g.depths};
   const std::array<int, 3> together = voxels_together(spacing);
-  FlowGrid grid;
+  grid.told_b_scans = 0;
+  grid.moved_b_scans = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     grid.counts[axis] = (counts[axis] + together[axis] - 1) / together[axis];
     grid.spacing_um[axis] = spacing[axis] * together[axis];
@@ -275,18 +276,19 @@ hal::Result<FlowGrid> make_grid(const VolumeGeometry& g, std::span<const Value> 
   leave_out_moved(grid, together[1], g.b_scans);
   bridge_b_scans(grid);
   smooth(grid);
-  return grid;
+  return {};
 }
 
 } // namespace
 
-hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& geometry, std::span<const float> flow) {
-  return make_grid(geometry, flow);
+hal::Result<> make_flow_grid(const VolumeGeometry& geometry, std::span<const float> flow,
+                             FlowGrid& grid) {
+  return make_grid(geometry, flow, grid);
 }
 
-hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& geometry,
-                                     std::span<const std::uint8_t> counts) {
-  return make_grid(geometry, counts);
+hal::Result<> make_flow_grid(const VolumeGeometry& geometry, std::span<const std::uint8_t> counts,
+                             FlowGrid& grid) {
+  return make_grid(geometry, counts, grid);
 }
 
 } // namespace octascope::pipeline

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -46,9 +47,11 @@ inline constexpr double most_flow_of_a_b_scan = 0.5;
 // unknown at a place are interpolated between their neighbours. ErrorCode::invalid_argument: counts or
 // spacings that are not positive, or another number of values; unsupported: more cells than 32 bits
 // number; bad_data: values that are no flow.
-hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& geometry, std::span<const float> flow);
+// `grid` is replaced; of one of the same shape its memory is taken.
+hal::Result<> make_flow_grid(const VolumeGeometry& geometry, std::span<const float> flow,
+                             FlowGrid& grid);
 // Of a live volume's counts (flow_scale.h), which are always flow.
-hal::Result<FlowGrid> make_flow_grid(const VolumeGeometry& geometry,
-                                     std::span<const std::uint8_t> counts);
+hal::Result<> make_flow_grid(const VolumeGeometry& geometry, std::span<const std::uint8_t> counts,
+                             FlowGrid& grid);
 
 } // namespace octascope::pipeline

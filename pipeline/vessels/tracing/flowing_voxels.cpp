@@ -15,16 +15,23 @@ bool flows(std::uint32_t mark) {
 
 } // namespace
 
-FlowingVoxels::FlowingVoxels(const FlowGrid& grid, const FlowThresholds& thresholds,
-                             const std::stop_token& stop)
-    : counts_{grid.counts[0] + 2, grid.counts[1] + 2, grid.counts[2] + 2}, spacing_um_{
-                                                                               grid.spacing_um} {
+void FlowingVoxels::set_shape(const FlowGrid& grid) {
+  counts_ = {grid.counts[0] + 2, grid.counts[1] + 2, grid.counts[2] + 2};
+  spacing_um_ = grid.spacing_um;
   std::size_t n = 0;
   for (std::ptrdiff_t y = -1; y <= 1; ++y)
     for (std::ptrdiff_t x = -1; x <= 1; ++x)
       for (std::ptrdiff_t z = -1; z <= 1; ++z)
         if (x != 0 || y != 0 || z != 0)
           neighbours_[n++] = (y * counts_[0] + x) * counts_[2] + z;
+}
+
+void FlowingVoxels::find(const FlowGrid& grid, const FlowThresholds& thresholds,
+                         const std::stop_token& stop) {
+  set_shape(grid);
+  cells_.clear();
+  components_.assign(1, 0);
+  all_flow_ = 0;
   voxel_of_.assign(static_cast<std::size_t>(counts_[0] * counts_[1] * counts_[2]), none);
   mark(grid, thresholds);
   fill_holes();

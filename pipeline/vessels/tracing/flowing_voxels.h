@@ -27,9 +27,9 @@ class FlowingVoxels {
 public:
   static constexpr std::uint32_t none = 0xFFFFFFFF;
 
-  // Once `stop` is requested it leaves soon, with what is of no use.
-  FlowingVoxels(const FlowGrid& grid, const FlowThresholds& thresholds,
-                const std::stop_token& stop);
+  // Replaces what was found before, and takes its memory. Once `stop` is requested it leaves soon, with
+  // what is of no use.
+  void find(const FlowGrid& grid, const FlowThresholds& thresholds, const std::stop_token& stop);
 
   std::size_t size() const { return cells_.size(); }
   // Components one after the other: where each begins, and the end of the last. In a component a
@@ -60,6 +60,7 @@ public:
   double background_share(const FlowGrid& grid) const;
 
 private:
+  void set_shape(const FlowGrid& grid);
   void mark(const FlowGrid& grid, const FlowThresholds& thresholds);
   void fill_holes();
   void flood(std::uint32_t cell);

@@ -39,8 +39,12 @@ std::string refusal_of(const TracedVessels& traced, const FlowGrid& grid, std::s
   return {};
 }
 
-TracedVessels trace(const FlowGrid& grid, const std::stop_token& stop) {
-  const FlowingVoxels voxels{grid, {}, stop};
+} // namespace
+
+TracedVessels VesselTracer::trace_grid(const std::stop_token& stop) {
+  voxels_.find(grid_, {}, stop);
+  const FlowGrid& grid = grid_;
+  const FlowingVoxels& voxels = voxels_;
   TracedVessels traced;
   traced.contrast = 1 - voxels.background_share(grid);
   std::vector<VesselLine> lines;
@@ -63,19 +67,18 @@ TracedVessels trace(const FlowGrid& grid, const std::stop_token& stop) {
   return traced;
 }
 
-} // namespace
-
-hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
-                                         std::span<const float> flow, const std::stop_token& stop) {
-  HAL_TRY(const FlowGrid grid, make_flow_grid(geometry, flow));
-  return trace(grid, stop);
+hal::Result<TracedVessels> VesselTracer::trace(const VolumeGeometry& geometry,
+                                               std::span<const float> flow,
+                                               const std::stop_token& stop) {
+  HAL_CHECK(make_flow_grid(geometry, flow, grid_));
+  return trace_grid(stop);
 }
 
-hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
-                                         std::span<const std::uint8_t> counts,
-                                         const std::stop_token& stop) {
-  HAL_TRY(const FlowGrid grid, make_flow_grid(geometry, counts));
-  return trace(grid, stop);
+hal::Result<TracedVessels> VesselTracer::trace(const VolumeGeometry& geometry,
+                                               std::span<const std::uint8_t> counts,
+                                               const std::stop_token& stop) {
+  HAL_CHECK(make_flow_grid(geometry, counts, grid_));
+  return trace_grid(stop);
 }
 
 } // namespace octascope::pipeline

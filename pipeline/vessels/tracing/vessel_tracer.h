@@ -13,6 +13,8 @@
 #include <string>
 
 #include "hal/result.h"
+#include "pipeline/vessels/tracing/flow_grid.h"
+#include "pipeline/vessels/tracing/flowing_voxels.h"
 #include "pipeline/vessels/tree.h"
 #include "pipeline/volume/volume_geometry.h"
 
@@ -34,14 +36,25 @@ struct TracedVessels {
       refusal; // empty: the tree may be shown; else why not, a sentence without its full stop
 };
 
-// `flow`: geometry.voxels() values [b][a][z], 0 static to 1 flowing, NaN unknown. Reentrant. Errors as
-// make_flow_grid(); once `stop` is requested it leaves soon, with a result of no use.
-hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
-                                         std::span<const float> flow,
-                                         const std::stop_token& stop = {});
-// The same of a live volume's counts (flow_scale.h).
-hal::Result<TracedVessels> trace_vessels(const VolumeGeometry& geometry,
-                                         std::span<const std::uint8_t> counts,
-                                         const std::stop_token& stop = {});
+// Keeps most of its memory from trace to trace: to fetch it anew is half of what one costs.
+//
+// Threads: one at a time.
+class VesselTracer {
+public:
+  // `flow`: geometry.voxels() values [b][a][z], 0 static to 1 flowing, NaN unknown. Errors as
+  // make_flow_grid(); once `stop` is requested it leaves soon, with a result of no use.
+  hal::Result<TracedVessels> trace(const VolumeGeometry& geometry, std::span<const float> flow,
+                                   const std::stop_token& stop = {});
+  // The same of a live volume's counts (flow_scale.h).
+  hal::Result<TracedVessels> trace(const VolumeGeometry& geometry,
+                                   std::span<const std::uint8_t> counts,
+                                   const std::stop_token& stop = {});
+
+private:
+  TracedVessels trace_grid(const std::stop_token& stop);
+
+  FlowGrid grid_;
+  FlowingVoxels voxels_;
+};
 
 } // namespace octascope::pipeline

@@ -77,7 +77,7 @@ TEST_F(LiveTreeThreadTest, traces_what_flows_in_the_volume) {
   EXPECT_EQ(found->number, 1U);
   EXPECT_EQ(found->of_volume, exposed);
   EXPECT_EQ(found->volume_index, volume.metadata.index);
-  const auto alone = pipeline::trace_vessels(volume.geometry, volume.flow);
+  const auto alone = pipeline::VesselTracer{}.trace(volume.geometry, volume.flow);
   ASSERT_TRUE(alone);
   EXPECT_EQ(found->tree.positions_mm, alone->tree.positions_mm);
   EXPECT_EQ(found->quality, alone->quality);
@@ -156,10 +156,22 @@ TEST_F(LiveTreeThreadTest, traces_no_more_often_than_its_interval) {
   EXPECT_TRUE(traced(stamped(live_flow())));
 }
 
+TEST_F(LiveTreeThreadTest, rather_begins_when_a_volume_comes) {
+  ASSERT_TRUE(traced(stamped(live_flow())));
+  clock_.advance(interval - 1ms);
+  const pipeline::Volume volume = stamped(live_flow());
+  thread_.offer(volume, interval);
+  clock_.advance(LiveTreeThread::patience);
+  thread_.offer(volume, interval);
+  EXPECT_FALSE(thread_.is_at_work()) << "in the midst of its time";
+  clock_.advance(1ms);
+  EXPECT_TRUE(traced(volume)) << "nothing else comes";
+}
+
 // The render thread goes on to the next volume at once, and its memory is filled anew.
 TEST_F(LiveTreeThreadTest, has_a_copy_of_what_it_works_on) {
   pipeline::Volume volume = stamped(live_flow());
-  const auto alone = pipeline::trace_vessels(volume.geometry, volume.flow);
+  const auto alone = pipeline::VesselTracer{}.trace(volume.geometry, volume.flow);
   ASSERT_TRUE(await([&] {
     thread_.offer(volume, interval);
     return thread_.is_at_work();
@@ -228,7 +240,7 @@ protected:
     const pipeline::Volume next = stamped(live_flow());
     advance(next, false);
     advance(next, false); // the picture after it
-    clock_.advance(1ms);
+    clock_.advance(LiveTreeThread::patience + 1ms);
     advance(next, false); // is traced from now on
     for ([[maybe_unused]] const char* news : {"started", "a tree", "another"})
       news_.wait();
@@ -250,7 +262,7 @@ TEST_F(LiveTreeBesideVolumes, waits_for_the_next_picture) {
 
 TEST_F(LiveTreeBesideVolumes, that_comes_later_waits_for_the_next_volume) {
   advance(shown_, false);
-  clock_.advance(LiveTreeDisplay::interval_seen);
+  clock_.advance(LiveTreeDisplay::interval_seen + LiveTreeThread::patience);
   advance(shown_, false); // is traced from now on
   news_.wait();
   clock_.advance(1ms);
@@ -292,7 +304,7 @@ TEST_F(LiveTreeDisplayTest, traces_seldom_what_nobody_sees) {
   }
   EXPECT_NE(display_.newest()->volume_index, volume.metadata.index);
   EXPECT_NE(display_.drawn(), nullptr) << "and may be shown at once";
-  clock_.advance(1ms);
+  clock_.advance(LiveTreeThread::patience + 1ms);
   advance(volume, false, false);
   clock_.advance(LiveTreeDisplay::longest_wait);
   EXPECT_TRUE(await([&] {

@@ -135,7 +135,7 @@ void PrintTo(const Scene& scene, std::ostream* out) {
   *out << scene.name << " of " << scene.radius_um << " µm";
 }
 
-class VesselTracer : public testing::TestWithParam<Scene> {};
+class VesselTracerScenes : public testing::TestWithParam<Scene> {};
 
 // Wide enough for the limits below to fail; what is farther away counts as invented.
 TreeComparison compare(const TracedVessels& traced, const VesselTree& truth, double radius_um) {
@@ -144,10 +144,10 @@ TreeComparison compare(const TracedVessels& traced, const VesselTree& truth, dou
 }
 
 // The figures: 15 µm across depth and A-scans, 55 µm across B-scans, 90 % found, 5 % invented.
-TEST_P(VesselTracer, finds_centrelines_within_voxels) {
+TEST_P(VesselTracerScenes, finds_centrelines_within_voxels) {
   const Scene& scene = GetParam();
   const VesselTree truth = scene.tree(scene.radius_um);
-  const auto traced = trace_vessels(field, flow_of(truth, field, flaws));
+  const auto traced = VesselTracer{}.trace(field, flow_of(truth, field, flaws));
   ASSERT_TRUE(traced) << traced.error().message;
   ASSERT_EQ(traced->refusal, "");
   const TreeComparison found = compare(*traced, truth, scene.radius_um);
@@ -164,7 +164,7 @@ TEST_P(VesselTracer, finds_centrelines_within_voxels) {
   EXPECT_NEAR(found.radius_bias_share, 0, 0.2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, VesselTracer,
+INSTANTIATE_TEST_SUITE_P(Scenes, VesselTracerScenes,
                          testing::Values(Scene{"tubes", tubes, 20}, Scene{"tubes", tubes, 30},
                                          Scene{"tubes", tubes, 75}, Scene{"forks", forks, 30},
                                          Scene{"forks", forks, 75}, Scene{"helices", helices, 25},
@@ -181,8 +181,8 @@ TEST(VesselTracerTree, is_the_same_of_a_live_volumes_counts) {
     counts.push_back(quantise_flow(value));
     value = pipeline::flow_of(counts.back());
   }
-  const auto of_counts = trace_vessels(field, counts);
-  const auto of_flow = trace_vessels(field, flow);
+  const auto of_counts = VesselTracer{}.trace(field, counts);
+  const auto of_flow = VesselTracer{}.trace(field, flow);
   ASSERT_TRUE(of_counts && of_flow);
   ASSERT_EQ(of_counts->refusal, "");
   EXPECT_NEAR(of_counts->quality, of_flow->quality, 1e-4);
@@ -196,7 +196,7 @@ TEST(VesselTracerTree, is_the_same_of_a_live_volumes_counts) {
 
 TEST(VesselTracerTree, joins_branches_at_forks) {
   const VesselTree truth = forks(50);
-  const auto traced = trace_vessels(field, flow_of(truth, field));
+  const auto traced = VesselTracer{}.trace(field, flow_of(truth, field));
   ASSERT_TRUE(traced);
   const TreeSummary summary = summarise(traced->tree);
   EXPECT_EQ(summary.roots, 1U);
@@ -212,14 +212,14 @@ TEST(VesselTracerTree, bridges_a_gap_between_ends_that_point_at_each_other) {
   VesselTree truth;
   add_tube(truth, {0, 900, 500}, {900, 900, 500}, 40);
   add_tube(truth, {1090, 900, 500}, {2000, 900, 500}, 40);
-  auto traced = trace_vessels(field, flow_of(truth, field));
+  auto traced = VesselTracer{}.trace(field, flow_of(truth, field));
   ASSERT_TRUE(traced);
   EXPECT_EQ(summarise(traced->tree).roots, 1U);
 
   truth = {};
   add_tube(truth, {0, 900, 500}, {900, 900, 500}, 40);
   add_tube(truth, {1090, 800, 500}, {1090, 0, 500}, 40); // turns away
-  traced = trace_vessels(field, flow_of(truth, field));
+  traced = VesselTracer{}.trace(field, flow_of(truth, field));
   ASSERT_TRUE(traced);
   EXPECT_EQ(summarise(traced->tree).roots, 2U);
 }
@@ -229,7 +229,7 @@ TEST(VesselTracerTree, reaches_across_missing_b_scans) {
   add_tube(truth, {900, 0, 500}, {1000, 1875, 560}, 40);
   FlowFlaws missing;
   missing.missing_every = 8;
-  const auto traced = trace_vessels(field, flow_of(truth, field, missing));
+  const auto traced = VesselTracer{}.trace(field, flow_of(truth, field, missing));
   ASSERT_TRUE(traced);
   const TreeComparison found = compare(*traced, truth, 40);
   EXPECT_EQ(summarise(traced->tree).roots, 1U);
@@ -243,7 +243,7 @@ TEST(VesselTracerTree, leaves_out_b_scans_that_moved) {
   for (const std::size_t b : {7U, 20U, 21U, 40U})
     std::fill_n(flow.begin() + static_cast<std::ptrdiff_t>(b * field.b_scan_voxels()),
                 field.b_scan_voxels(), 0.8F);
-  const auto traced = trace_vessels(field, flow);
+  const auto traced = VesselTracer{}.trace(field, flow);
   ASSERT_TRUE(traced);
   EXPECT_EQ(traced->refusal, "");
   EXPECT_EQ(traced->moved_b_scans, 4);
@@ -255,7 +255,7 @@ TEST(VesselTracerTree, leaves_out_b_scans_that_moved) {
 TEST(VesselTracerTree, is_refused_where_nothing_has_the_shape_of_vessels) {
   const VolumeGeometry small = oct_geometry(200, 100, 24);
   const auto refusal = [&](const std::vector<float>& flow) {
-    const auto traced = trace_vessels(small, flow);
+    const auto traced = VesselTracer{}.trace(small, flow);
     EXPECT_TRUE(traced);
     EXPECT_EQ(traced->tree.nodes(), 0U);
     return traced->refusal;
@@ -268,7 +268,7 @@ TEST(VesselTracerTree, is_refused_where_nothing_has_the_shape_of_vessels) {
   fine.b_scans = 23;
   fine.b_spacing_um = 3.5;
   fine.depth_spacing_um = 10;
-  EXPECT_EQ(trace_vessels(fine, std::vector<float>(fine.voxels(), 1.0F))->refusal,
+  EXPECT_EQ(VesselTracer{}.trace(fine, std::vector<float>(fine.voxels(), 1.0F))->refusal,
             "23 of 23 B-scans flow as a whole: motion, not vessels");
   FlowFlaws noise{.salt = 0.02};
   EXPECT_NE(refusal(flow_of({}, small, noise)), "");
@@ -300,7 +300,7 @@ TEST(VesselTracerTree, comes_of_any_shape_and_content) {
         last = below(9) == 0 ? unknown : static_cast<float>(below(100)) / 100 * (below(2) == 0);
       value = last;
     }
-    const auto traced = trace_vessels(g, flow);
+    const auto traced = VesselTracer{}.trace(g, flow);
     ASSERT_TRUE(traced) << traced.error().message;
     for (const auto& at : traced->tree.positions_mm)
       for (const float c : at)
@@ -313,18 +313,18 @@ TEST(VesselTracerTree, comes_of_any_shape_and_content) {
 TEST(VesselTracerTree, is_refused_of_what_is_no_flow) {
   const VolumeGeometry small = oct_geometry(10, 10, 2);
   using tests::FailsWith;
-  EXPECT_THAT(trace_vessels(small, std::vector<float>(small.voxels(), 60.0F)),
+  EXPECT_THAT(VesselTracer{}.trace(small, std::vector<float>(small.voxels(), 60.0F)),
               FailsWith(hal::ErrorCode::bad_data, "found values from 0 to 60, expected flow"));
-  EXPECT_THAT(trace_vessels(small, std::vector<float>(7)),
+  EXPECT_THAT(VesselTracer{}.trace(small, std::vector<float>(7)),
               FailsWith(hal::ErrorCode::invalid_argument, "found 7 values of flow"));
-  EXPECT_THAT(trace_vessels(oct_geometry(0, 10, 2), std::vector<float>{}),
+  EXPECT_THAT(VesselTracer{}.trace(oct_geometry(0, 10, 2), std::vector<float>{}),
               FailsWith(hal::ErrorCode::invalid_argument, "expected at least one of each"));
   EXPECT_THAT(
-      trace_vessels(oct_geometry(1, 40'000, 40'000), std::vector<float>{}),
+      VesselTracer{}.trace(oct_geometry(1, 40'000, 40'000), std::vector<float>{}),
       FailsWith(hal::ErrorCode::unsupported, "expected at most 4294967280: cut the volume"));
   VolumeGeometry flat = small;
   flat.a_spacing_um = 0;
-  EXPECT_THAT(trace_vessels(flat, std::vector<float>(small.voxels())),
+  EXPECT_THAT(VesselTracer{}.trace(flat, std::vector<float>(small.voxels())),
               FailsWith(hal::ErrorCode::invalid_argument, "expected one above 0"));
 }
 
@@ -339,7 +339,7 @@ double processor_s(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
 TEST(VesselTracerTree, may_be_stopped) {
   const std::vector<float> flow = flow_of(winding(60), field);
   double begun = processor_s();
-  ASSERT_TRUE(trace_vessels(field, flow));
+  ASSERT_TRUE(VesselTracer{}.trace(field, flow));
   const double whole = processor_s() - begun;
   clockid_t clock{};
   ASSERT_EQ(pthread_getcpuclockid(pthread_self(), &clock), 0);
@@ -357,7 +357,7 @@ TEST(VesselTracerTree, may_be_stopped) {
         stopped = processor_s(clock);
         source.request_stop();
       }};
-      const auto traced = trace_vessels(field, flow, source.get_token());
+      const auto traced = VesselTracer{}.trace(field, flow, source.get_token());
       EXPECT_TRUE(traced);
     }
     longest = std::max(longest, processor_s() - stopped);
@@ -368,10 +368,34 @@ TEST(VesselTracerTree, may_be_stopped) {
 TEST(VesselTracerTree, finds_nothing_once_it_is_stopped) {
   std::stop_source source;
   source.request_stop();
-  const auto traced = trace_vessels(field, flow_of(tubes(60), field), source.get_token());
+  const auto traced = VesselTracer{}.trace(field, flow_of(tubes(60), field), source.get_token());
   ASSERT_TRUE(traced);
   EXPECT_EQ(traced->tree.nodes(), 0U);
   EXPECT_NE(traced->refusal, "");
+}
+
+// Of other shapes, of less that flows, or stopped on the way.
+TEST(VesselTracerTree, is_the_same_whatever_the_tracer_traced_before) {
+  const std::vector<float> flow = flow_of(winding(60), field);
+  const VesselTree alone = VesselTracer{}.trace(field, flow)->tree;
+  const VolumeGeometry larger =
+      oct_geometry(field.depths + 7, field.a_scans + 5, field.b_scans + 3);
+  VesselTracer tracer;
+  std::stop_source source;
+  source.request_stop();
+  for (const auto& before : std::vector<std::function<hal::Result<TracedVessels>()>>{
+           [&] { return tracer.trace(larger, std::vector<float>(larger.voxels(), 1.0F)); },
+           [&] { return tracer.trace(field, std::vector<float>(field.voxels())); },
+           [&] { return tracer.trace(field, flow, source.get_token()); },
+           [&] { return tracer.trace(field, std::vector<float>(7)); },
+           [&] { return tracer.trace(field, flow); }}) {
+    static_cast<void>(before());
+    const auto traced = tracer.trace(field, flow);
+    EXPECT_EQ(traced->tree.positions_mm, alone.positions_mm);
+    EXPECT_EQ(traced->tree.radii_mm, alone.radii_mm);
+    EXPECT_EQ(traced->tree.parents, alone.parents);
+    EXPECT_EQ(traced->moved_b_scans, 0);
+  }
 }
 
 // Prints what a whole volume costs; the bound is wide, since tests share the machine.
@@ -397,7 +421,7 @@ TEST(VesselTracerTree, takes_less_than_three_seconds_of_one_core) {
   TracedVessels traced;
   for (int turn = 0; turn < 2; ++turn) {
     const double begun = processor_s();
-    traced = *trace_vessels(g, flow);
+    traced = *VesselTracer{}.trace(g, flow);
     least = std::min(least, processor_s() - begun);
   }
   fmt::print("512×300×80 voxels, {:.1f} mm of vessels: {:.2f} s of one core\n",

@@ -127,7 +127,7 @@ private:
 hal::Result<TreeFigures> trace_and_compare(const sim::RepeatedSweeps& sweeps,
                                            std::span<const float> flow) {
   const pipeline::VolumeGeometry geometry = sweeps.plan().geometry();
-  HAL_TRY(const auto traced, pipeline::trace_vessels(geometry, flow));
+  HAL_TRY(const auto traced, pipeline::VesselTracer{}.trace(geometry, flow));
   return TreeFigures{
       traced.refusal, traced.quality,
       pipeline::compare_trees(traced.tree, vessels_within(geometry, sweeps.loop->phantom()),
@@ -147,7 +147,8 @@ hal::Result<pipeline::TracedVessels> trace_bench_scene(int repeats) {
   HAL_TRY(const auto reconstructor, make_reconstructor(sweeps));
   FlowMeasurement measurement{sweeps, reconstructor};
   HAL_CHECK(measurement.run());
-  return pipeline::trace_vessels(sweeps.plan().geometry(), measurement.results().front().flow);
+  return pipeline::VesselTracer{}.trace(sweeps.plan().geometry(),
+                                        measurement.results().front().flow);
 }
 
 hal::Result<FlowBenchReport> bench_flow(const FlowBenchOptions& options, const FlowProbe& probe,
