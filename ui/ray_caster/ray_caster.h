@@ -75,8 +75,7 @@ struct RaySettings {
   // then (tissue_beside_flow), so that a picture changes little. Of what flows, all samples are.
   bool coarse_beside_flow = false;
   // Not empty: since the same picture was drawn into this image, the volume has changed in these
-  // B-scans alone (and no vessels were merged, no light is used). Only rays that may meet them are
-  // cast.
+  // B-scans alone (the stops are the same, no light is used). Only rays that may meet them are cast.
   std::span<const pipeline::BScanRange> changed{};
 };
 

@@ -18,6 +18,12 @@ std::size_t tile_count(int pixels) {
   return static_cast<std::size_t>((pixels + tile_size - 1) / tile_size);
 }
 
+// Whether `held` is the same picture of the volume before some B-scans were renewed.
+bool holds_before(const std::optional<VolumePictureKey>& held, VolumePictureKey key) {
+  --key.upload;
+  return held == key;
+}
+
 bool any_of(const std::uint32_t* from, const std::uint32_t* to) {
   std::uint32_t all = 0;
   for (; from != to; ++from)
@@ -55,18 +61,19 @@ hal::Result<> RayCastPicture::resize(int width, int height, const Rect& rect) {
 
 // Straight from memory: where the processor casts rays it is GL, too, and a pixel buffer would be
 // one copy more.
-void RayCastPicture::upload_image(bool all) {
-  const Rect& drawn = all ? image_.drawn : image_.renewed;
+void RayCastPicture::upload_image() {
+  const RayImage& image = shown();
+  const Rect& drawn = renews_ ? image_.renewed : image.drawn;
   if (drawn.empty())
     return;
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, image_.width);
+  glPixelStorei(GL_UNPACK_ROW_LENGTH, image.width);
   glPixelStorei(GL_UNPACK_SKIP_PIXELS, drawn.x);
   glPixelStorei(GL_UNPACK_SKIP_ROWS, drawn.y);
   glTexSubImage2D(GL_TEXTURE_2D, 0, drawn.x, drawn.y, drawn.width, drawn.height, GL_RGBA,
-                  GL_UNSIGNED_BYTE, image_.rgba.data());
+                  GL_UNSIGNED_BYTE, image.rgba.data());
   glPixelStorei(GL_UNPACK_SKIP_ROWS, 0);
   glPixelStorei(GL_UNPACK_SKIP_PIXELS, 0);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
@@ -85,15 +92,14 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   }
   settings.soften = is_grained(scene.step_mm, scene.volume.geometry());
   const DepthMask* vessels = scene.vessels;
-  if (vessels == nullptr) {
-    if (is_renewal(scene, mode, key))
-      settings.changed = scene.changed;
-    return caster.draw(scene.camera, settings, image_);
-  }
-  const bool veiled = vessels->opacity < 1;
+  const bool veiled = vessels != nullptr && vessels->opacity < 1;
   VolumePictureKey alone_key = key;
   alone_key.vessels = 0;
   alone_key.vessel_opacity = 1;
+  renews_ = scene.light == nullptr && mode == drawn_mode_ && holds_before(cast_, key) &&
+            (!veiled || holds_before(alone_drawn_, alone_key));
+  if (renews_)
+    settings.changed = scene.changed;
   if (veiled && (alone_drawn_ != alone_key || alone_mode_ != mode)) {
     alone_drawn_.reset();
     if (key.width != alone_.width || key.height != alone_.height)
@@ -102,17 +108,26 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
     alone_drawn_ = alone_key;
     alone_mode_ = mode;
   }
-  settings.stops = vessels->image;
+  if (vessels != nullptr)
+    settings.stops = vessels->image;
   HAL_CHECK(caster.draw(scene.camera, settings, image_));
-  merge_mask(image_, *vessels->image, vessels->opacity, veiled ? &alone_ : nullptr);
+  has_vessels_ = vessels != nullptr;
+  if (has_vessels_)
+    merge(*vessels);
   return {};
 }
 
-// Whether the image holds the same picture of the volume before some B-scans were renewed.
-bool RayCastPicture::is_renewal(const VolumeScene& scene, RayMode mode,
-                                VolumePictureKey key) const {
-  --key.upload;
-  return cast_ == key && cast_mode_ == mode && scene.light == nullptr;
+// The rays' own image stays without vessels, so that a part of it can be cast anew.
+void RayCastPicture::merge(const DepthMask& vessels) {
+  if (merged_.width != image_.width || merged_.height != image_.height)
+    merged_.resize(image_.width, image_.height);
+  const Rect& drawn = image_.drawn;
+  merged_.draw_into(drawn);
+  for (int y = drawn.y; y < drawn.bottom(); ++y) {
+    const std::ptrdiff_t at = std::ptrdiff_t{y} * image_.width + drawn.x;
+    std::copy_n(image_.rgba.begin() + at, drawn.width, merged_.rgba.begin() + at);
+  }
+  merge_mask(merged_, *vessels.image, vessels.opacity, vessels.opacity < 1 ? &alone_ : nullptr);
 }
 
 hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene, RayMode mode,
@@ -122,12 +137,11 @@ hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene
   if (drawn_ == key && drawn_mode_ == mode)
     return {};
   cast_ = std::exchange(drawn_, std::nullopt);
-  cast_mode_ = drawn_mode_;
   if (key.width != image_.width || key.height != image_.height)
     HAL_CHECK(resize(key.width, key.height, rect));
   HAL_CHECK(cast(caster, scene, mode, quality, key));
-  upload_image(scene.vessels != nullptr);
-  note_changes(caster, scene.vessels == nullptr && is_renewal(scene, mode, key));
+  upload_image();
+  note_changes(caster, renews_);
   drawn_ = key;
   ++drawings_;
   drawn_mode_ = mode;
@@ -137,7 +151,7 @@ hal::Result<> RayCastPicture::update(RayCaster& caster, const VolumeScene& scene
 // What lies outside of `drawn` in the texture is old; a border of it that is transparent stays out
 // of the interpolation with it.
 Rect RayCastPicture::visible_in(const Rect& rect) const {
-  const Rect& drawn = image_.drawn;
+  const Rect& drawn = shown().drawn;
   const auto scaled = [](int texel, int texels, int pixels) {
     return static_cast<int>(std::int64_t{texel} * pixels / texels);
   };
@@ -153,11 +167,12 @@ Rect RayCastPicture::visible_in(const Rect& rect) const {
 void RayCastPicture::find_filled() {
   std::swap(filled_, was_filled_);
   filled_.assign(was_filled_.size(), 0);
-  const std::size_t across = tile_count(image_.width);
-  const Rect& drawn = image_.drawn;
+  const RayImage& image = shown();
+  const std::size_t across = tile_count(image.width);
+  const Rect& drawn = image.drawn;
   for (int y = drawn.y; y < drawn.bottom(); ++y) {
     const std::uint32_t* const row =
-        image_.rgba.data() + static_cast<std::ptrdiff_t>(y) * image_.width;
+        image.rgba.data() + static_cast<std::ptrdiff_t>(y) * image.width;
     std::uint8_t* const filled = filled_.data() + static_cast<std::size_t>(y / tile_size) * across;
     for (int x = drawn.x; x < drawn.right(); x = (x / tile_size + 1) * tile_size)
       if (filled[x / tile_size] == 0)
@@ -200,7 +215,7 @@ void RayCastPicture::add_changed(const Rect& rect, Damage& damage) const {
 
 void RayCastPicture::composite(const Rect& rect, int target_height) const {
   const Rect visible = visible_in(rect);
-  if (image_.drawn.empty() || visible.empty())
+  if (shown().drawn.empty() || visible.empty())
     return;
   // Pixel by pixel there is nothing to interpolate, which costs a software rasteriser a
   // millisecond.

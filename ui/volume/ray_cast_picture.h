@@ -32,31 +32,32 @@ public:
 
   std::uint64_t drawings() const { return drawings_; } // counts the pictures made
 
-  const RayImage& image() const { return image_; } // the last one, with its depths
-
 private:
   explicit RayCastPicture(gl::PicturePass pass) : pass_{std::move(pass)} {}
   hal::Result<> resize(int width, int height, const Rect& rect);
   hal::Result<> cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                      const DrawQuality& quality, const VolumePictureKey& key);
-  bool is_renewal(const VolumeScene& scene, RayMode mode, VolumePictureKey key) const;
+  void merge(const DepthMask& vessels);
   void note_changes(const RayCaster& caster, bool renewed);
   void find_filled();
   Rect shown_at(const Rect& texels, const Rect& rect) const;
-  void upload_image(bool all);
+  void upload_image();
+  const RayImage& shown() const { return has_vessels_ ? merged_ : image_; }
   Rect visible_in(const Rect& rect) const;
 
   gl::PicturePass pass_;
   gl::Texture texture_;
-  RayImage image_;
-  RayImage alone_; // the volume without vessels, if these are not opaque
+  RayImage image_;  // the volume, up to the vessels
+  RayImage merged_; // with them; of use if has_vessels_
+  RayImage alone_;  // the volume without vessels, if these are not opaque
+  bool has_vessels_ = false;
+  bool renews_ = false; // of the last update(): only what changed was cast
   std::optional<VolumePictureKey> alone_drawn_;
   RayMode alone_mode_ = RayMode::composite;
   std::optional<VolumePictureKey> drawn_;
   std::optional<VolumePictureKey> cast_; // of update(): what the image held before
-  RayMode cast_mode_ = RayMode::composite;
-  std::vector<Rect> changed_;        // of the image, by the last update()
-  std::vector<std::uint8_t> filled_; // by tile of the image: whether anything is in it
+  std::vector<Rect> changed_;            // of the image, by the last update()
+  std::vector<std::uint8_t> filled_;     // by tile of the image: whether anything is in it
   std::vector<std::uint8_t> was_filled_;
   std::uint64_t drawings_ = 0;
   RayMode drawn_mode_ = RayMode::composite;

@@ -6,6 +6,7 @@
 #include "tests/ui/support/drawing_way.h"
 #include "tests/ui/support/mixed_volume.h"
 #include "tests/ui/support/renderer_stage.h"
+#include "tests/ui/support/vessels/vessel_along.h"
 #include "ui/canvas/palette.h"
 #include "ui/layout/layout.h"
 
@@ -37,6 +38,7 @@ protected:
   pipeline::Image fresh_picture(const ui::ViewState& view, const ui::DrawQuality& quality) const {
     auto renderer = ui::Renderer::create();
     EXPECT_TRUE(renderer);
+    show_vessels(**renderer);
     (*renderer)->expect(view);
     EXPECT_TRUE((*renderer)->show_volume(mixed_.volume()));
     EXPECT_TRUE(
@@ -44,15 +46,22 @@ protected:
     return picture(**renderer, view, quality);
   }
 
+  void show_vessels(ui::Renderer& renderer) const {
+    EXPECT_TRUE(renderer.show_vessels(
+        {vessels_.view(), {0.5, 0.5, 0.5}, pipeline::RigidTransform{}}, clock_));
+  }
+
   ui::Rect whole() const { return {0, 0, width_, height_}; }
 
   MixedVolume mixed_;
+  const pipeline::ClusterArrays vessels_ =
+      vessel_along({{0.4F, 0.1F, 0.5F}, {0.5F, 0.9F, 0.7F}}, 0.04F);
 };
 
 class RenewedPicture : public RenewalTest, public testing::WithParamInterface<DrawingWay> {};
 
 TEST_P(RenewedPicture, is_that_of_the_whole_volume) {
-  const auto& [technique, quality, see_through_db, flow] = GetParam();
+  const auto& [technique, quality, see_through_db, flow, vessel_opacity] = GetParam();
   if (flow)
     mixed_.add_flow();
   ui::ViewState view;
@@ -60,6 +69,9 @@ TEST_P(RenewedPicture, is_that_of_the_whole_volume) {
   view.see_through_db = see_through_db;
   view.zoom_to_tissue = false; // which remembers what was there
   view.b_scan = 11;
+  view.vessels = vessel_opacity > 0 ? ui::VesselsShown::both : ui::VesselsShown::flow;
+  view.vessel_opacity = vessel_opacity;
+  show_vessels(*renderer_);
   for (const float yaw : {20.0F, 200.0F}) {
     view.yaw_deg = yaw;
     mixed_.become(mixed_.older());
@@ -97,7 +109,10 @@ INSTANTIATE_TEST_SUITE_P(
                     DrawingWay{Technique::maximum, {1, 256, processor}, 0, true},
                     DrawingWay{Technique::shaded, {1, 256, processor}, 0, true},
                     DrawingWay{Technique::rays, {0.5F, 96, shader}, 0, true},
-                    DrawingWay{Technique::planes, {0.5F, 96}, 0, true}));
+                    DrawingWay{Technique::planes, {0.5F, 96}, 0, true},
+                    DrawingWay{Technique::rays, {0.6F, 192, processor}, 0, false, 1},
+                    DrawingWay{Technique::rays, {1, 256, processor}, 12, true, 0.4F},
+                    DrawingWay{Technique::maximum, {0.6F, 192, processor}, 0, false, 0.4F}));
 
 TEST_F(RenewalTest, the_seam_is_a_line_of_its_own_colour_where_it_is_said_to_be) {
   ui::ViewState view;

@@ -14,6 +14,7 @@ struct DrawingWay {
   ui::DrawQuality quality;
   float see_through_db;
   bool flow = false;
+  float vessel_opacity = 0; // 0: none are shown
 
   // Also in the test's name.
   friend void PrintTo(const DrawingWay& way, std::ostream* out) {
@@ -21,6 +22,8 @@ struct DrawingWay {
          << way.quality.resolution << ", " << way.quality.steps << " steps, "
          << (way.quality.rays == ui::RayBackend::shader ? "shader" : "processor") << ", "
          << way.see_through_db << " dB" << (way.flow ? ", flow" : "");
+    if (way.vessel_opacity > 0)
+      *out << ", vessels " << way.vessel_opacity;
   }
 };
 
