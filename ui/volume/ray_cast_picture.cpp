@@ -39,6 +39,11 @@ hal::Result<RayCastPicture> RayCastPicture::create() {
 }
 
 // With room for full quality at once: a finer picture later asks for no memory.
+void RayCastPicture::fit(RayImage& image, int width, int height) const {
+  image.make_room(most_wide_, most_high_);
+  image.resize(width, height);
+}
+
 hal::Result<> RayCastPicture::resize(int width, int height, const Rect& rect) {
   texture_ = gl::make_picture_texture(GL_RGBA8, width, height);
   GLint has_memory = GL_FALSE;
@@ -48,8 +53,9 @@ hal::Result<> RayCastPicture::resize(int width, int height, const Rect& rect) {
                      "volume display: the driver has no texture of {}x{} (GL error 0x{:04x}); "
                      "choose a smaller size",
                      width, height, glGetError());
-  image_.make_room(rect.width, rect.height);
-  image_.resize(width, height);
+  most_wide_ = rect.width;
+  most_high_ = rect.height;
+  fit(image_, width, height);
   const auto tiles = [](int pixels) { return static_cast<std::size_t>(pixels / tile_size + 2); };
   const std::size_t most_tiles = tiles(rect.width) * tiles(rect.height);
   changed_.reserve(most_tiles);
@@ -103,7 +109,7 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
   if (veiled && (alone_drawn_ != alone_key || alone_mode_ != mode)) {
     alone_drawn_.reset();
     if (key.width != alone_.width || key.height != alone_.height)
-      alone_.resize(key.width, key.height);
+      fit(alone_, key.width, key.height);
     HAL_CHECK(caster.draw(scene.camera, settings, alone_));
     alone_drawn_ = alone_key;
     alone_mode_ = mode;
@@ -120,7 +126,7 @@ hal::Result<> RayCastPicture::cast(RayCaster& caster, const VolumeScene& scene, 
 // The rays' own image stays without vessels, so that a part of it can be cast anew.
 void RayCastPicture::merge(const DepthMask& vessels) {
   if (merged_.width != image_.width || merged_.height != image_.height)
-    merged_.resize(image_.width, image_.height);
+    fit(merged_, image_.width, image_.height);
   const Rect& drawn = image_.drawn;
   merged_.draw_into(drawn);
   for (int y = drawn.y; y < drawn.bottom(); ++y) {

@@ -15,7 +15,8 @@
 
 namespace octascope::ui {
 
-// Threads: as gl/objects.h. Allocates when `rect` grows; GL does when the picture's size changes.
+// Threads: as gl/objects.h. Allocates when `rect` grows and when vessels are first shown; GL does when the
+// picture's size changes.
 class RayCastPicture {
 public:
   static hal::Result<RayCastPicture> create();
@@ -34,6 +35,7 @@ public:
 
 private:
   explicit RayCastPicture(gl::PicturePass pass) : pass_{std::move(pass)} {}
+  void fit(RayImage& image, int width, int height) const;
   hal::Result<> resize(int width, int height, const Rect& rect);
   hal::Result<> cast(RayCaster& caster, const VolumeScene& scene, RayMode mode,
                      const DrawQuality& quality, const VolumePictureKey& key);
@@ -47,9 +49,11 @@ private:
 
   gl::PicturePass pass_;
   gl::Texture texture_;
-  RayImage image_;  // the volume, up to the vessels
-  RayImage merged_; // with them; of use if has_vessels_
-  RayImage alone_;  // the volume without vessels, if these are not opaque
+  RayImage image_;    // the volume, up to the vessels
+  RayImage merged_;   // with them; of use if has_vessels_
+  RayImage alone_;    // the volume without vessels, if these are not opaque
+  int most_wide_ = 0; // of the images, at full quality
+  int most_high_ = 0;
   bool has_vessels_ = false;
   bool renews_ = false; // of the last update(): only what changed was cast
   std::optional<VolumePictureKey> alone_drawn_;
