@@ -16,10 +16,20 @@ namespace {
 // Also how soon a stop is noticed; a volume that misses frames waits for the end of a look that
 // began after its time was over.
 constexpr hal::Duration frame_timeout = 10ms;
+// Frames that come more often are fetched several at a time.
+constexpr hal::Duration gathering = 1ms;
 constexpr hal::Duration retry_step = 50ms; // how soon a stop is noticed while the camera is away
 constexpr hal::Duration stamps_told_every = 1s;
 constexpr hal::Duration first_patience = 3s;
 constexpr hal::Duration most_patience = 24s;
+
+// More often than threads should be woken, and not so fast that an eighth of the buffers would not hold
+// what is gathered.
+bool comes_often(const hal::LineCameraConfig& config, int buffers) {
+  const hal::Duration period =
+      hal::from_seconds(config.format.lines_per_frame / config.line_rate_hz);
+  return period < gathering && buffers / 8 * period >= gathering;
+}
 
 } // namespace
 
@@ -64,20 +74,37 @@ void Acquisition::run() {
       continue;
     }
     const HotPath hot;
-    const auto frame = camera_.wait_frame(frame_timeout);
-    if (!frame) {
-      faults_.add(Device::line_camera, frame.error(), clock_.now());
-      close_when_returned();
-    } else if (*frame) {
-      receive(**frame);
-      note_look(std::min((*frame)->last_line, clock_.now()));
-    } else {
-      mend_silence();
-      note_look(asked);
-    }
+    if (look(frame_timeout) && gathers_)
+      gather();
   }
   camera_.stop();
   close_when_returned();
+}
+
+// Whether a frame came.
+bool Acquisition::look(hal::Duration timeout) {
+  const hal::TimePoint asked = clock_.now();
+  const auto frame = camera_.wait_frame(timeout);
+  if (!frame) {
+    faults_.add(Device::line_camera, frame.error(), clock_.now());
+    close_when_returned();
+    return false;
+  }
+  if (*frame)
+    receive(**frame);
+  else
+    mend_silence();
+  note_look(*frame ? std::min((*frame)->last_line, clock_.now()) : asked);
+  return frame->has_value();
+}
+
+// Those that came meanwhile, and then for a while none: what frames have brought is worth less than
+// the cores that waking two threads for each would take from it.
+void Acquisition::gather() {
+  for (int more = 1; more < config_.buffers && look(hal::Duration{}); ++more) {
+  }
+  arrived_.post();
+  clock_.sleep_for(gathering);
 }
 
 bool Acquisition::open_and_start() {
@@ -93,6 +120,7 @@ bool Acquisition::open_and_start() {
     return false;
   }
   buffers_.store(camera_.fewer_buffers().value_or(config_.buffers), std::memory_order_relaxed);
+  gathers_ = comes_often(config_, buffers());
   last_sequence_.reset();
   repeated_ = 0;
   silent_since_.reset();
@@ -157,7 +185,8 @@ void Acquisition::receive(const hal::LineFrame& frame) {
                 clock_.now());
     give_back(static_cast<int>(*dropped));
   }
-  arrived_.post();
+  if (!gathers_)
+    arrived_.post();
 }
 
 // A counter that hung jumps to where it should be: the frames that came meanwhile fill the gap.

@@ -30,8 +30,9 @@ struct AcquisitionCounters {
 // 3 s, then 6 s, 12 s and every 24 s: the cause may equally be a scanner that is off.
 class Acquisition {
 public:
-  // `camera`, `clock` and `faults` outlive this. `arrived` is posted after each queued frame and
-  // after a poll requested by ask_for_look().
+  // `camera`, `clock` and `faults` outlive this. `arrived` is posted after each queued frame,
+  // or at most every millisecond where frames come more often, and after a poll requested by
+  // ask_for_look().
   Acquisition(hal::LineCamera& camera, const hal::LineCameraConfig& config, hal::Clock& clock,
               FaultLog& faults, Wakeup& arrived);
 
@@ -69,6 +70,8 @@ public:
 
 private:
   void run();
+  bool look(hal::Duration timeout);
+  void gather();
   bool open_and_start();
   void close_when_returned();
   void receive(const hal::LineFrame& frame);
@@ -87,6 +90,7 @@ private:
 
   std::vector<hal::LineFrame> frames_; // by buffer number; written before the number is queued
   IndexRing queue_;
+  bool gathers_ = false; // frames come too often to be told of one by one
   std::atomic<int> buffers_;
   std::atomic<int> on_loan_{0};                // queued or with the pipeline
   std::optional<std::uint64_t> last_sequence_; // of this stream

@@ -45,7 +45,7 @@ hal::Result<RepeatComparison> RepeatComparison::create(const ScanPlan& plan, std
                 {.repeats = plan.repeats, .a_scans = geometry.a_scans, .depths = geometry.depths}));
     comparison.buffers_.push_back(
         {.flow = std::move(flow),
-         .bins = std::vector<std::complex<float>>(voxels * static_cast<std::size_t>(plan.repeats)),
+         .bins = std::vector<PackedBin>(voxels * static_cast<std::size_t>(plan.repeats)),
          .told = std::vector<float>(voxels),
          .decorrelation = std::vector<float>(voxels),
          .saturated = std::vector<std::uint8_t>(static_cast<std::size_t>(geometry.a_scans))});
@@ -91,7 +91,7 @@ void RepeatComparison::darken_saturated(Buffers& buffers) const noexcept {
       std::fill_n(buffers.bins.begin() +
                       static_cast<std::ptrdiff_t>(
                           static_cast<std::size_t>(repeat) * buffers.told.size() + a * depths),
-                  depths, std::complex<float>{});
+                  depths, PackedBin{});
 }
 
 // With lateral motion the dark A-scans of two repeats lie beside each other, within the limits of

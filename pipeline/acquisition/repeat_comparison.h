@@ -2,7 +2,6 @@
 // in it (docs/ANGIOGRAPHY.md).
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,7 +18,7 @@ namespace octascope::pipeline {
 
 // What becomes of a sweep. All [line][z] but the last.
 struct SweepBins {
-  std::span<std::complex<float>> bins;
+  std::span<PackedBin> bins;
   std::span<std::uint8_t> levels;    // of those bins, as ReconstructSweep gives them
   std::span<std::uint8_t> saturated; // by line: set to 1 where it is saturated, else left alone
 };
@@ -55,7 +54,7 @@ public:
 private:
   struct Buffers {
     BScanFlow flow;
-    std::vector<std::complex<float>> bins; // [repeat][a][z]
+    std::vector<PackedBin> bins; // [repeat][a][z]
     std::vector<float> told, decorrelation;
     std::vector<std::uint8_t> saturated; // by A-scan, in any of the repeats
     int came = 0;

@@ -50,7 +50,7 @@ BScanFlow::BScanFlow(const FlowSetup& setup)
   }
 }
 
-FlowOutcome BScanFlow::compute(std::span<const std::complex<float>> bins, std::span<float> flow,
+FlowOutcome BScanFlow::compute(std::span<const PackedBin> bins, std::span<float> flow,
                                std::span<float> decorrelation) noexcept {
   FlowOutcome outcome;
   coherence_ = motion_.coherence(bins.data());
@@ -69,8 +69,7 @@ FlowOutcome BScanFlow::compute(std::span<const std::complex<float>> bins, std::s
 }
 
 // Each against the one before, so that what changes slowly is still alike; shifts add up.
-void BScanFlow::find_motion(std::span<const std::complex<float>> bins,
-                            FlowOutcome& outcome) noexcept {
+void BScanFlow::find_motion(std::span<const PackedBin> bins, FlowOutcome& outcome) noexcept {
   BulkMotion sum;
   for (int m = 1; m < setup_.repeats; ++m) {
     const auto* const before = bins.data() + size(m - 1) * voxels_;
@@ -87,8 +86,7 @@ void BScanFlow::find_motion(std::span<const std::complex<float>> bins,
   }
 }
 
-void BScanFlow::sum_line(std::span<const std::complex<float>> bins, int a,
-                         LineSums& sums) noexcept {
+void BScanFlow::sum_line(std::span<const PackedBin> bins, int a, LineSums& sums) noexcept {
   for (auto* const part : {&sums.like, &sums.other, &sums.power})
     std::fill(part->begin(), part->end(), 0.0F);
   sums.pairs = 0;
@@ -151,7 +149,7 @@ void BScanFlow::finish_line(int a, std::span<float> decorrelation) noexcept {
                      level_.data() + at, second_moment_.data() + at);
 }
 
-void BScanFlow::decorrelate(std::span<const std::complex<float>> bins,
+void BScanFlow::decorrelate(std::span<const PackedBin> bins,
                             std::span<float> decorrelation) noexcept {
   for (int a = 0; a < setup_.a_scans; ++a) {
     sum_line(bins, a, ring_[size(a % kernel_a_scans)]);

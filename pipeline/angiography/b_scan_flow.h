@@ -12,7 +12,6 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -21,6 +20,7 @@
 #include "pipeline/angiography/bulk_motion.h"
 #include "pipeline/angiography/kernel_sums.h"
 #include "pipeline/angiography/static_tissue.h"
+#include "pipeline/volume/packed_bin.h"
 
 namespace octascope::pipeline {
 
@@ -54,7 +54,7 @@ public:
   // where it cannot be told. `decorrelation`: D above, likewise, before anything is decided, of
   // B-scans that are left out as well; 1 where repeats have no power or do not overlap. Allocates
   // nothing, locks nothing, logs nothing.
-  FlowOutcome compute(std::span<const std::complex<float>> bins, std::span<float> flow,
+  FlowOutcome compute(std::span<const PackedBin> bins, std::span<float> flow,
                       std::span<float> decorrelation) noexcept;
 
 private:
@@ -71,11 +71,10 @@ private:
     std::vector<float> real, imaginary; // of the A-scan at hand, brought back
   };
 
-  void find_motion(std::span<const std::complex<float>> bins, FlowOutcome& outcome) noexcept;
-  void sum_line(std::span<const std::complex<float>> bins, int a, LineSums& sums) noexcept;
+  void find_motion(std::span<const PackedBin> bins, FlowOutcome& outcome) noexcept;
+  void sum_line(std::span<const PackedBin> bins, int a, LineSums& sums) noexcept;
   void finish_line(int a, std::span<float> decorrelation) noexcept;
-  void decorrelate(std::span<const std::complex<float>> bins,
-                   std::span<float> decorrelation) noexcept;
+  void decorrelate(std::span<const PackedBin> bins, std::span<float> decorrelation) noexcept;
 
   FlowSetup setup_;
   std::size_t voxels_;

@@ -49,11 +49,11 @@ BulkMotionEstimator::BulkMotionEstimator(int a_scans, int depths)
       least_contrast_(least_contrast_of(a_scans, step_)),
       first_(2 * static_cast<std::size_t>(depths)), second_(first_) {}
 
-void BulkMotionEstimator::split(const std::complex<float>* line, float* parts) const noexcept {
+void BulkMotionEstimator::split(const PackedBin* line, float* parts) const noexcept {
   split_parts(line, 0, depths_, parts, parts + depths_);
 }
 
-AxialCoherence BulkMotionEstimator::coherence(const std::complex<float>* sweep) noexcept {
+AxialCoherence BulkMotionEstimator::coherence(const PackedBin* sweep) noexcept {
   AxialCoherence result;
   if (depths_ < fewest_depths)
     return result;
@@ -76,8 +76,8 @@ AxialCoherence BulkMotionEstimator::coherence(const std::complex<float>* sweep) 
   return result;
 }
 
-BulkMotionEstimator::Peak BulkMotionEstimator::axial_peak(const std::complex<float>* first,
-                                                          const std::complex<float>* second,
+BulkMotionEstimator::Peak BulkMotionEstimator::axial_peak(const PackedBin* first,
+                                                          const PackedBin* second,
                                                           int lateral) noexcept {
   Correlation sum{};
   float most = 0; // of a lag at which both were alike
@@ -132,8 +132,7 @@ BulkMotionEstimator::Peak BulkMotionEstimator::axial_peak(const std::complex<flo
   return peak;
 }
 
-BulkMotion BulkMotionEstimator::estimate(const std::complex<float>* first,
-                                         const std::complex<float>* second) noexcept {
+BulkMotion BulkMotionEstimator::estimate(const PackedBin* first, const PackedBin* second) noexcept {
   if (depths_ < fewest_depths)
     return {};
   Peak best = axial_peak(first, second, 0);
@@ -201,7 +200,7 @@ int FractionalShift::last(int depths) const {
   return std::clamp(depths - whole - (interpolates ? 3 : 0), first(depths), depths);
 }
 
-void FractionalShift::apply(const std::complex<float>* line, int begin, int end, float* real,
+void FractionalShift::apply(const PackedBin* line, int begin, int end, float* real,
                             float* imaginary, float* scratch) const noexcept {
   if (interpolates)
     interpolate(line + whole - 2, taps, begin, end, real, imaginary, scratch);

@@ -14,6 +14,8 @@
 #include <complex>
 #include <vector>
 
+#include "pipeline/volume/packed_bin.h"
+
 namespace octascope::pipeline {
 
 struct BulkMotion {
@@ -42,9 +44,9 @@ public:
   BulkMotionEstimator(int a_scans, int depths);
 
   // B-scans of less than 48 depths are too short to compare: no motion.
-  BulkMotion estimate(const std::complex<float>* first, const std::complex<float>* second) noexcept;
+  BulkMotion estimate(const PackedBin* first, const PackedBin* second) noexcept;
   // Unmeasured of such, and of a sweep without power.
-  AxialCoherence coherence(const std::complex<float>* sweep) noexcept;
+  AxialCoherence coherence(const PackedBin* sweep) noexcept;
 
 private:
   static constexpr int lags = 32; // −16 to +15
@@ -59,9 +61,8 @@ private:
   };
 
   // Over A-scans that both sweeps have. Sums of complex products by lag, one A-scan after another.
-  void split(const std::complex<float>* line, float* parts) const noexcept;
-  Peak axial_peak(const std::complex<float>* first, const std::complex<float>* second,
-                  int lateral) noexcept;
+  void split(const PackedBin* line, float* parts) const noexcept;
+  Peak axial_peak(const PackedBin* first, const PackedBin* second, int lateral) noexcept;
 
   int a_scans_;
   int depths_;
@@ -82,7 +83,7 @@ struct FractionalShift {
 
   // real[z] + i·imaginary[z] = line(z + shift), for z from `begin` to `end`, which must stay within
   // first(depths) and last(depths). `scratch` has room for two lines.
-  void apply(const std::complex<float>* line, int begin, int end, float* real, float* imaginary,
+  void apply(const PackedBin* line, int begin, int end, float* real, float* imaginary,
              float* scratch) const noexcept;
   int first(int depths) const; // the depths that the shifted line has
   int last(int depths) const;

@@ -15,11 +15,11 @@ constexpr int lanes = 16;
 constexpr float no_power = 1e-30F;
 
 OCTASCOPE_CPU_CLONES
-void split_loop(const float* __restrict line, int begin, int end, float* __restrict real,
+void split_loop(const PackedBin* __restrict line, int begin, int end, float* __restrict real,
                 float* __restrict imaginary) {
   for (int z = begin; z < end; ++z) {
-    real[z] = line[2 * z];
-    imaginary[z] = line[2 * z + 1];
+    real[z] = line[z].real();
+    imaginary[z] = line[z].imaginary();
   }
 }
 
@@ -43,15 +43,21 @@ void interpolate_loop(const float* __restrict re, const float* __restrict im,
 OCTASCOPE_CPU_CLONES
 void correlate_loop(const float* __restrict first, const float* __restrict second, int depths,
                     float* __restrict real, float* __restrict imaginary) {
+  std::array<float, 32> re{}; // in registers
+  std::array<float, 32> im{};
   for (int z = 16; z < depths - 16; ++z) {
     const float a = first[z];
     const float b = first[z + depths];
     const float* const c = second + z - 16;
     const float* const d = c + depths;
-    for (int s = 0; s < 32; ++s) {
-      real[s] += a * c[s] + b * d[s];
-      imaginary[s] += b * c[s] - a * d[s];
+    for (std::size_t s = 0; s < re.size(); ++s) {
+      re[s] += a * c[s] + b * d[s];
+      im[s] += b * c[s] - a * d[s];
     }
+  }
+  for (std::size_t s = 0; s < re.size(); ++s) {
+    real[s] += re[s];
+    imaginary[s] += im[s];
   }
 }
 
@@ -65,23 +71,35 @@ void squares_loop(const float* __restrict values, int count, float* __restrict s
 }
 
 OCTASCOPE_CPU_CLONES
-void sum_loop(const float* __restrict values, int count, float* __restrict sums) {
-  for (int i = 0; i + lanes <= count; i += lanes)
-    for (int lane = 0; lane < lanes; ++lane)
-      sums[lane] += values[i + lane];
-  for (int i = count / lanes * lanes; i < count; ++i)
-    sums[0] += values[i];
-}
-
-OCTASCOPE_CPU_CLONES
 void product_loop(const float* __restrict re1, const float* __restrict im1,
                   const float* __restrict re2, const float* __restrict im2, int count,
-                  float* __restrict re, float* __restrict im, float* __restrict power) {
-  for (int z = 0; z < count; ++z) {
+                  float* __restrict re, float* __restrict im, float* __restrict power,
+                  float* __restrict real_sums, float* __restrict imaginary_sums) {
+  std::array<float, lanes> x{};
+  std::array<float, lanes> y{};
+  int z = 0;
+  for (; z + lanes <= count; z += lanes) {
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const float a = (re1 + z)[i];
+      const float b = (im1 + z)[i];
+      const float c = (re2 + z)[i];
+      const float d = (im2 + z)[i];
+      (re + z)[i] = a * c + b * d;
+      (im + z)[i] = b * c - a * d;
+      x[i] += (re + z)[i];
+      y[i] += (im + z)[i];
+      (power + z)[i] += 0.5F * (a * a + b * b + c * c + d * d);
+    }
+  }
+  for (; z < count; ++z) {
     re[z] = re1[z] * re2[z] + im1[z] * im2[z];
     im[z] = im1[z] * re2[z] - re1[z] * im2[z];
+    x[0] += re[z];
+    y[0] += im[z];
     power[z] += 0.5F * (re1[z] * re1[z] + im1[z] * im1[z] + re2[z] * re2[z] + im2[z] * im2[z]);
   }
+  std::copy_n(x.begin(), lanes, real_sums);
+  std::copy_n(y.begin(), lanes, imaginary_sums);
 }
 
 // Turned back by the phase whose cosine and sine are c and s.
@@ -158,32 +176,22 @@ float total(const std::array<float, lanes>& sums) {
   return sum;
 }
 
-float sum_of(const float* values, int count) {
-  std::array<float, lanes> sums{};
-  sum_loop(values, count, sums.data());
-  return total(sums);
-}
-
-const float* floats(const std::complex<float>* line) {
-  return reinterpret_cast<const float*>(line); // as the standard allows
-}
-
 } // namespace
 
-void split_parts(const std::complex<float>* line, int begin, int end, float* real,
+void split_parts(const PackedBin* line, int begin, int end, float* real,
                  float* imaginary) noexcept {
-  split_loop(floats(line), begin, end, real, imaginary);
+  split_loop(line, begin, end, real, imaginary);
 }
 
-void interpolate(const std::complex<float>* line, const std::array<std::complex<float>, 6>& taps,
-                 int begin, int end, float* real, float* imaginary, float* scratch) noexcept {
+void interpolate(const PackedBin* line, const std::array<std::complex<float>, 6>& taps, int begin,
+                 int end, float* real, float* imaginary, float* scratch) noexcept {
   const int count = end - begin;
   if (count <= 0)
     return;
   const int read = count + 5;
-  split_loop(floats(line + begin), 0, read, scratch, scratch + read);
-  interpolate_loop(scratch, scratch + read, floats(taps.data()), count, real + begin,
-                   imaginary + begin);
+  const auto* const weights = reinterpret_cast<const float*>(taps.data()); // as the standard allows
+  split_loop(line + begin, 0, read, scratch, scratch + read);
+  interpolate_loop(scratch, scratch + read, weights, count, real + begin, imaginary + begin);
 }
 
 void correlate_lags(const float* first, const float* second, int depths,
@@ -197,8 +205,8 @@ float sum_of_squares(const float* values, int count) noexcept {
   return total(sums);
 }
 
-void fetch_line(const std::complex<float>* line, int depths) noexcept {
-  constexpr int cache_line = 64 / sizeof(std::complex<float>);
+void fetch_line(const PackedBin* line, int depths) noexcept {
+  constexpr int cache_line = 64 / sizeof(PackedBin);
   for (int z = 0; z < depths; z += cache_line)
     __builtin_prefetch(line + z);
 }
@@ -208,10 +216,13 @@ void add_complex_pair(const Parts& first, const Parts& second, int begin, int en
   const int count = end - begin;
   float* const re = scratch;
   float* const im = scratch + count;
+  std::array<float, lanes> real_sums{};
+  std::array<float, lanes> imaginary_sums{};
   product_loop(first.real + begin, first.imaginary + begin, second.real + begin,
-               second.imaginary + begin, count, re, im, sums.power + begin);
-  const float x = sum_of(re, count);
-  const float y = sum_of(im, count);
+               second.imaginary + begin, count, re, im, sums.power + begin, real_sums.data(),
+               imaginary_sums.data());
+  const float x = total(real_sums);
+  const float y = total(imaginary_sums);
   const float modulus = std::sqrt(x * x + y * y);
   const bool turns = modulus > no_power;
   turn_loop(re, im, turns ? x / modulus : 1, turns ? y / modulus : 0, count, sums.like + begin,

@@ -7,6 +7,8 @@
 #include <array>
 #include <complex>
 
+#include "pipeline/volume/packed_bin.h"
+
 namespace octascope::pipeline {
 
 // The kernel: 3 A-scans by 5 depths. At the borders of a B-scan it has what there is of it.
@@ -14,12 +16,11 @@ inline constexpr int kernel_a_scans = 3;
 inline constexpr int kernel_depths = 5;
 
 // Bins as real and imaginary parts.
-void split_parts(const std::complex<float>* line, int begin, int end, float* real,
-                 float* imaginary) noexcept;
+void split_parts(const PackedBin* line, int begin, int end, float* real, float* imaginary) noexcept;
 
 // The same of Σ_i taps[i]·line[z + i]. `scratch` has room for two lines.
-void interpolate(const std::complex<float>* line, const std::array<std::complex<float>, 6>& taps,
-                 int begin, int end, float* real, float* imaginary, float* scratch) noexcept;
+void interpolate(const PackedBin* line, const std::array<std::complex<float>, 6>& taps, int begin,
+                 int end, float* real, float* imaginary, float* scratch) noexcept;
 
 // real[s] + i·imaginary[s] += Σ_z first[z]·conj(second[z + s − 16]). Lines are `depths` real parts,
 // then as many imaginary ones; depths > 32.
@@ -30,7 +31,7 @@ float sum_of_squares(const float* values, int count) noexcept;
 
 // Asks for a line that is needed soon: bins come from memory, and what processors fetch ahead by
 // themselves ends with a page, as a line may do.
-void fetch_line(const std::complex<float>* line, int depths) noexcept;
+void fetch_line(const PackedBin* line, int depths) noexcept;
 
 // What the kernel sums of each pair of repeats.
 struct PairSums {

@@ -34,8 +34,11 @@ void write_levels(const float* bins, int depths, std::uint8_t* levels) {
 void write_levels(const float* bins, int depths, float* levels) {
   levels_db(bins, depths, levels);
 }
-void write_levels(const float* bins, int depths, std::complex<float>* copy) {
-  std::copy_n(reinterpret_cast<const std::complex<float>*>(bins), depths, copy);
+void write_levels(const float* bins, int depths, const BinsAndLevels& both) {
+  levels_u8(bins, depths, both.levels);
+  std::transform(reinterpret_cast<const std::complex<float>*>(bins),
+                 reinterpret_cast<const std::complex<float>*>(bins) + depths, both.bins,
+                 &PackedBin::of);
 }
 
 // The line is read after the transform of the one before it; until then it comes to the cache.
@@ -88,32 +91,30 @@ void FftwPath::transform_line(Buffers& buffers) const noexcept {
     fftwf_execute_dft_r2c(transform_.get(), buffers.shaped.get(), as_complex(buffers.bins.get()));
 }
 
-template <class Count, class Level>
+template <class Count, class Levels>
 int FftwPath::reconstruct(const Count* counts, int lines, const float* background, Buffers& buffers,
-                          Level* levels, std::uint8_t* saturated) const noexcept {
+                          Levels levels, std::uint8_t* saturated) const noexcept {
   const std::uint32_t full_scale = format_.full_scale();
-  const auto depths = static_cast<std::size_t>(depths_);
+  const auto at = [&](int a) { return levels + std::ptrdiff_t{a} * depths_; };
   int saturated_lines = 0;
   for (int a = 0; a < lines; ++a) {
-    const auto line = static_cast<std::size_t>(a);
+    const Count* const line = counts + std::ptrdiff_t{a} * format_.samples;
     const std::uint32_t highest =
-        load_line(counts + line * static_cast<std::size_t>(format_.samples), background,
-                  format_.right_shift, format_.samples, buffers.line.get());
+        load_line(line, background, format_.right_shift, format_.samples, buffers.line.get());
     saturated[a] = highest >= full_scale ? 1 : 0;
     saturated_lines += saturated[a];
     if (a + 1 < lines)
-      fetch(counts + (line + 1) * static_cast<std::size_t>(format_.samples), format_.samples);
+      fetch(line + format_.samples, format_.samples);
     transform_line(buffers);
     if (buffers.fixed_pattern)
-      std::copy_n(buffers.bins.get(), 2 * depths, buffers.fixed_pattern->a_scan(a));
+      std::copy_n(buffers.bins.get(), 2 * depths_, buffers.fixed_pattern->a_scan(a));
     else
-      write_levels(buffers.bins.get(), depths_, levels + line * depths);
+      write_levels(buffers.bins.get(), depths_, at(a));
   }
   if (buffers.fixed_pattern) {
     buffers.fixed_pattern->remove(lines);
     for (int a = 0; a < lines; ++a)
-      write_levels(buffers.fixed_pattern->a_scan(a), depths_,
-                   levels + static_cast<std::size_t>(a) * depths);
+      write_levels(buffers.fixed_pattern->a_scan(a), depths_, at(a));
   }
   return saturated_lines;
 }
@@ -122,19 +123,19 @@ template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffe
                                    std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffers&, float*,
                                    std::uint8_t*) const noexcept;
-template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffers&,
-                                   std::complex<float>*, std::uint8_t*) const noexcept;
+template int FftwPath::reconstruct(const std::uint8_t*, int, const float*, Buffers&, BinsAndLevels,
+                                   std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&, std::uint8_t*,
                                    std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&, float*,
                                    std::uint8_t*) const noexcept;
-template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&,
-                                   std::complex<float>*, std::uint8_t*) const noexcept;
+template int FftwPath::reconstruct(const std::uint16_t*, int, const float*, Buffers&, BinsAndLevels,
+                                   std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const float*, int, const float*, Buffers&, std::uint8_t*,
                                    std::uint8_t*) const noexcept;
 template int FftwPath::reconstruct(const float*, int, const float*, Buffers&, float*,
                                    std::uint8_t*) const noexcept;
-template int FftwPath::reconstruct(const float*, int, const float*, Buffers&, std::complex<float>*,
+template int FftwPath::reconstruct(const float*, int, const float*, Buffers&, BinsAndLevels,
                                    std::uint8_t*) const noexcept;
 
 } // namespace octascope::pipeline

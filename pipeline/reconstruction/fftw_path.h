@@ -14,6 +14,7 @@
 #include "pipeline/reconstruction/fft_plan.h"
 #include "pipeline/reconstruction/line_kernels.h"
 #include "pipeline/reconstruction/spectrum_format.h"
+#include "pipeline/volume/packed_bin.h"
 
 namespace octascope::pipeline {
 
@@ -37,11 +38,11 @@ public:
 
   // Lines without gaps → levels, calibration.depths() each. `background` has N values in counts
   // after the shift. `saturated`: by line, whether a count is at full scale; returns the number of
-  // such lines. Count: std::uint8_t, std::uint16_t or float; Level: std::uint8_t, float (dB) or
-  // std::complex<float> (bins).
-  template <class Count, class Level>
+  // such lines. Count: std::uint8_t, std::uint16_t or float; Levels: std::uint8_t*, float* (dB)
+  // or BinsAndLevels.
+  template <class Count, class Levels>
   int reconstruct(const Count* counts, int lines, const float* background, Buffers& buffers,
-                  Level* levels, std::uint8_t* saturated) const noexcept;
+                  Levels levels, std::uint8_t* saturated) const noexcept;
 
 private:
   FftwPath() = default;

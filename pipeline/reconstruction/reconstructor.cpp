@@ -89,6 +89,13 @@ void limit_lines(std::span<const std::uint8_t> saturated, Level* levels, std::si
   }
 }
 
+template <class Level> Level* levels_of(Level* levels) {
+  return levels;
+}
+std::uint8_t* levels_of(const BinsAndLevels& both) {
+  return both.levels;
+}
+
 } // namespace
 
 // Everything that is the same for all B-scans.
@@ -112,20 +119,17 @@ struct Reconstructor::Plan {
                              std::span<const float> running) const noexcept;
   void set_background(const FusedPath& path, Workspace::Buffers& buffers,
                       const float* background) const noexcept;
-  template <class Count, class Level>
+  template <class Count, class Levels>
   int run(const std::optional<FusedPath>& path, Workspace::Buffers& buffers, int lines,
-          std::span<const std::byte> frame, Level* levels,
+          std::span<const std::byte> frame, Levels levels,
           std::span<const float> running) const noexcept;
-  template <class Level>
+  template <class Levels>
   int dispatch(const std::optional<FusedPath>& path, Workspace::Buffers& buffers, int lines,
-               std::span<const std::byte> frame, Level* levels,
+               std::span<const std::byte> frame, Levels levels,
                std::span<const float> running) const noexcept;
-  int fused_bins_and_levels(Workspace::Buffers& buffers, std::span<const std::byte> frame,
-                            std::complex<float>* bins, std::uint8_t* levels,
-                            std::span<const float> running) const noexcept;
-  template <class Level>
-  BScanOutcome b_scan(Workspace::Buffers& buffers, std::span<const std::byte> frame,
-                      std::span<Level> levels, std::span<const float> running) const noexcept;
+  template <class Levels>
+  BScanOutcome b_scan(Workspace::Buffers& buffers, std::span<const std::byte> frame, Levels levels,
+                      std::span<const float> running) const noexcept;
 };
 
 struct Reconstructor::Workspace::Buffers {
@@ -173,9 +177,9 @@ void Reconstructor::Plan::set_background(const FusedPath& path, Workspace::Buffe
     path.set_background(background, *buffers.fused);
 }
 
-template <class Count, class Level>
+template <class Count, class Levels>
 int Reconstructor::Plan::run(const std::optional<FusedPath>& path, Workspace::Buffers& buffers,
-                             int lines, std::span<const std::byte> frame, Level* levels,
+                             int lines, std::span<const std::byte> frame, Levels levels,
                              std::span<const float> running) const noexcept {
   const auto* counts = reinterpret_cast<const Count*>(frame.data());
   const float* background = background_of(buffers, counts, lines, running);
@@ -190,9 +194,9 @@ int Reconstructor::Plan::run(const std::optional<FusedPath>& path, Workspace::Bu
                           buffers.saturated.data());
 }
 
-template <class Level>
+template <class Levels>
 int Reconstructor::Plan::dispatch(const std::optional<FusedPath>& path, Workspace::Buffers& buffers,
-                                  int lines, std::span<const std::byte> frame, Level* levels,
+                                  int lines, std::span<const std::byte> frame, Levels levels,
                                   std::span<const float> running) const noexcept {
   switch (format.type) {
   case hal::SampleType::u8: return run<std::uint8_t>(path, buffers, lines, frame, levels, running);
@@ -203,32 +207,15 @@ int Reconstructor::Plan::dispatch(const std::optional<FusedPath>& path, Workspac
   return run<float>(path, buffers, lines, frame, levels, running);
 }
 
-template <class Level>
+template <class Levels>
 BScanOutcome Reconstructor::Plan::b_scan(Workspace::Buffers& buffers,
-                                         std::span<const std::byte> frame, std::span<Level> levels,
+                                         std::span<const std::byte> frame, Levels levels,
                                          std::span<const float> running) const noexcept {
   assert(frame.size() >= format.line_bytes() * static_cast<std::size_t>(a_scans));
-  assert(levels.size() >= static_cast<std::size_t>(a_scans) * static_cast<std::size_t>(depths));
-  const int saturated = dispatch(fused, buffers, a_scans, frame, levels.data(), running);
-  if constexpr (!std::is_same_v<Level, std::complex<float>>)
-    if (saturated > 0 && limit_saturated_lines)
-      limit_lines(buffers.saturated, levels.data(), static_cast<std::size_t>(depths));
+  const int saturated = dispatch(fused, buffers, a_scans, frame, levels, running);
+  if (saturated > 0 && limit_saturated_lines)
+    limit_lines(buffers.saturated, levels_of(levels), static_cast<std::size_t>(depths));
   return {saturated};
-}
-
-int Reconstructor::Plan::fused_bins_and_levels(Workspace::Buffers& buffers,
-                                               std::span<const std::byte> frame,
-                                               std::complex<float>* bins, std::uint8_t* levels,
-                                               std::span<const float> running) const noexcept {
-  const auto background = [&]<class Count>(const Count* counts) {
-    return background_of(buffers, counts, a_scans, running);
-  };
-  set_background(*fused, buffers,
-                 format.type == hal::SampleType::u8
-                     ? background(reinterpret_cast<const std::uint8_t*>(frame.data()))
-                     : background(reinterpret_cast<const std::uint16_t*>(frame.data())));
-  return fused->reconstruct_both(frame.data(), a_scans, format.full_scale(), *buffers.fused, bins,
-                                 levels, buffers.saturated.data());
 }
 
 PathTimes Reconstructor::Plan::measure_paths() const {
@@ -331,41 +318,26 @@ BScanOutcome Reconstructor::reconstruct_b_scan(Workspace& workspace,
                                                std::span<const std::byte> frame,
                                                std::span<std::uint8_t> levels,
                                                std::span<const float> running) const noexcept {
-  return plan_->b_scan(*workspace.buffers_, frame, levels, running);
+  assert(levels.size() >= this->levels());
+  return plan_->b_scan(*workspace.buffers_, frame, levels.data(), running);
 }
 
 BScanOutcome Reconstructor::reconstruct_b_scan_db(Workspace& workspace,
                                                   std::span<const std::byte> frame,
                                                   std::span<float> levels_db,
                                                   std::span<const float> running) const noexcept {
-  return plan_->b_scan(*workspace.buffers_, frame, levels_db, running);
-}
-
-BScanOutcome Reconstructor::reconstruct_b_scan_bins(Workspace& workspace,
-                                                    std::span<const std::byte> frame,
-                                                    std::span<std::complex<float>> bins,
-                                                    std::span<const float> running) const noexcept {
-  return plan_->b_scan(*workspace.buffers_, frame, bins, running);
+  assert(levels_db.size() >= levels());
+  return plan_->b_scan(*workspace.buffers_, frame, levels_db.data(), running);
 }
 
 BScanOutcome Reconstructor::reconstruct_b_scan_both(Workspace& workspace,
                                                     std::span<const std::byte> frame,
-                                                    std::span<std::complex<float>> bins,
+                                                    std::span<PackedBin> bins,
                                                     std::span<std::uint8_t> levels,
                                                     std::span<const float> running) const noexcept {
-  const auto depths = static_cast<std::size_t>(plan_->depths);
-  BScanOutcome outcome;
-  if (plan_->fused) {
-    outcome.saturated_lines = plan_->fused_bins_and_levels(*workspace.buffers_, frame, bins.data(),
-                                                           levels.data(), running);
-  } else {
-    outcome = plan_->b_scan(*workspace.buffers_, frame, bins, running);
-    for (std::size_t at = 0; at < this->levels(); at += depths)
-      levels_u8(reinterpret_cast<const float*>(&bins[at]), plan_->depths, &levels[at]);
-  }
-  if (outcome.saturated_lines > 0 && plan_->limit_saturated_lines)
-    limit_lines(workspace.buffers_->saturated, levels.data(), depths);
-  return outcome;
+  assert(bins.size() >= this->levels() && levels.size() >= this->levels());
+  return plan_->b_scan(*workspace.buffers_, frame, BinsAndLevels{bins.data(), levels.data()},
+                       running);
 }
 
 std::span<const std::uint8_t>

@@ -10,7 +10,6 @@
 // one (fused_path.h), a line in one pass, for integer counts and N = 256, 512 … 8192.
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,6 +22,7 @@
 #include "pipeline/reconstruction/background.h"
 #include "pipeline/reconstruction/path_choice.h"
 #include "pipeline/reconstruction/spectrum_format.h"
+#include "pipeline/volume/packed_bin.h"
 
 namespace octascope::pipeline {
 
@@ -99,16 +99,10 @@ public:
   BScanOutcome reconstruct_b_scan_db(Workspace& workspace, std::span<const std::byte> frame,
                                      std::span<float> levels_db,
                                      std::span<const float> running = {}) const noexcept;
-  // The complex bins themselves, Y above, whose phase tells of motion: level = 10·log10(|bin|²).
-  // Saturated lines stay as they are.
-  BScanOutcome reconstruct_b_scan_bins(Workspace& workspace, std::span<const std::byte> frame,
-                                       std::span<std::complex<float>> bins,
-                                       std::span<const float> running = {}) const noexcept;
-  // Both with one transform: the levels of reconstruct_b_scan(), to the bit, and the bins that they
-  // are of.
+  // With one transform the levels of reconstruct_b_scan(), to the bit, and the complex bins that they
+  // are of, Y above, whose phase tells of motion. Bins of saturated lines stay as they are.
   BScanOutcome reconstruct_b_scan_both(Workspace& workspace, std::span<const std::byte> frame,
-                                       std::span<std::complex<float>> bins,
-                                       std::span<std::uint8_t> levels,
+                                       std::span<PackedBin> bins, std::span<std::uint8_t> levels,
                                        std::span<const float> running = {}) const noexcept;
   // Of the B-scan reconstructed last in that workspace, by line: whether it was saturated, 0 or 1.
   std::span<const std::uint8_t> saturated_lines(const Workspace& workspace) const noexcept;

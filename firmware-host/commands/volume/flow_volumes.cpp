@@ -9,7 +9,7 @@ FlowVolumes::Worker::Worker(FlowVolumes& volumes, pipeline::BScanFlow flow)
       bins_(computer_.voxels() * static_cast<std::size_t>(volumes.setup_.repeats)),
       flow_(computer_.voxels()), decorrelation_(computer_.voxels()) {}
 
-std::span<std::complex<float>> FlowVolumes::Worker::bins(std::size_t repeat) {
+std::span<pipeline::PackedBin> FlowVolumes::Worker::bins(std::size_t repeat) {
   return std::span{bins_}.subspan(repeat * computer_.voxels(), computer_.voxels());
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <complex>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -21,7 +20,7 @@ public:
   class Worker {
   public:
     // For the bins of a repeat, [a][z].
-    std::span<std::complex<float>> bins(std::size_t repeat);
+    std::span<pipeline::PackedBin> bins(std::size_t repeat);
     hal::Result<> write_b_scan(int b);
 
   private:
@@ -30,7 +29,7 @@ public:
 
     FlowVolumes* volumes_;
     pipeline::BScanFlow computer_;
-    std::vector<std::complex<float>> bins_;
+    std::vector<pipeline::PackedBin> bins_;
     std::vector<float> flow_;
     std::vector<float> decorrelation_;
   };

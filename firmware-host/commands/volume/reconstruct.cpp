@@ -193,6 +193,7 @@ template <class Level> hal::Result<> VolumeReconstruction::reconstruct_all() {
   std::vector<Level> lines(reconstructor_.levels());
   std::vector<std::vector<float>> running(repeats);
   std::optional<FlowVolumes::Worker> flow;
+  std::vector<std::uint8_t> levels_of_bins(flow_ != nullptr ? reconstructor_.levels() : 0);
   if (flow_ != nullptr) {
     HAL_TRY(flow, flow_->make_worker());
   }
@@ -202,8 +203,8 @@ template <class Level> hal::Result<> VolumeReconstruction::reconstruct_all() {
       HAL_CHECK(check_counts(sweep));
       reconstruct_sweep(workspace, sweep, running[m], lines, sweeps[m]);
       if (flow)
-        reconstructor_.reconstruct_b_scan_bins(workspace, spectra_.b_scan(sweep), flow->bins(m),
-                                               running[m]);
+        reconstructor_.reconstruct_b_scan_both(workspace, spectra_.b_scan(sweep), flow->bins(m),
+                                               levels_of_bins, running[m]);
     }
     if (repeats > 1)
       average_sweeps(sweeps, average);

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstdint>
 #include <string_view>
 
 #include "pipeline/reconstruction/fused/fused_tables.h"
+#include "pipeline/volume/packed_bin.h"
 
 namespace octascope::pipeline {
 
@@ -34,15 +34,13 @@ struct FusedKernels {
   using FirstPasses = std::array<std::array<FirstPass, 2>, 2>;  // [one window][real input]
   std::array<std::array<FirstPasses, 3>, raw_kinds> first_pass; // [kind][log2 of the tap pairs]
 
-  // The rest of the transform, bins 0 … N/2−1, and the levels, or the bins as they are.
+  // The rest of the transform, bins 0 … N/2−1, and the levels, or both.
   void (*finish_u8)(const FusedTables& tables, float* work, std::uint8_t* levels);
   void (*finish_db)(const FusedTables& tables, float* work, float* levels_db);
-  void (*finish_bins)(const FusedTables& tables, float* work, std::complex<float>* bins);
-  void (*finish_both)(const FusedTables& tables, float* work, std::complex<float>* bins,
-                      std::uint8_t* levels);
+  void (*finish_both)(const FusedTables& tables, float* work, const BinsAndLevels& both);
 };
 
-// N complex numbers, and the rows of powers or, two of each, of complex bins.
+// N complex numbers, and the rows of powers and of packed bins.
 constexpr std::size_t work_floats(int samples) {
   return static_cast<std::size_t>(3 * samples);
 }

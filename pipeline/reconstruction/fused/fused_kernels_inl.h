@@ -154,24 +154,34 @@ struct Powers {
   }
 };
 
-struct Bins {
-  float* re;
-  float* im;
-  int stride;
+// And the bins that they are of, packed.
+struct BinsAndPowers {
+  using Packed = hn::Repartition<std::uint32_t, Floats>;
+
+  std::uint32_t* bins;
+  Powers powers;
+
+  static HWY_INLINE hn::Vec<Packed> pack(Real re, Real im) {
+    const Packed packed;
+    const auto half_a_step = hn::Set(packed, PackedBin::half_a_step);
+    const auto real = hn::Add(hn::BitCast(packed, re), half_a_step);
+    const auto imaginary = hn::Add(hn::BitCast(packed, im), half_a_step);
+    return hn::Or(hn::And(real, hn::Set(packed, PackedBin::upper_half)),
+                  hn::ShiftRight<16>(imaginary));
+  }
 
   template <std::size_t Registers>
   HWY_INLINE void put(const Complex (&y)[Registers], int row) const {
-    for (std::size_t r = 0; r < Registers; ++r) {
-      hn::Store(y[r].re, Floats{}, re + row * stride + r * lanes);
-      hn::Store(y[r].im, Floats{}, im + row * stride + r * lanes);
-    }
+    for (std::size_t r = 0; r < Registers; ++r)
+      hn::Store(pack(y[r].re, y[r].im), Packed{}, bins + row * powers.stride + r * lanes);
+    powers.put(y, row);
   }
   template <std::size_t Registers>
   HWY_INLINE void put_mirrored(const Complex (&y)[Registers], int row) const {
-    for (std::size_t r = 0; r < Registers; ++r) {
-      store_reversed(y[r].re, r, Registers, re + row * stride);
-      store_reversed(hn::Neg(y[r].im), r, Registers, im + row * stride);
-    }
+    for (std::size_t r = 0; r < Registers; ++r)
+      hn::Store(hn::Reverse(Packed{}, pack(y[r].re, hn::Neg(y[r].im))), Packed{},
+                bins + row * powers.stride + (Registers - 1 - r) * lanes);
+    powers.put_mirrored(y, row);
   }
 };
 
@@ -262,45 +272,30 @@ template <class Level> void finish(const FusedTables& tables, float* work, Level
 
 // A B-scan's bins do not fit into the second-level cache, and their order defeats what the processor
 // fetches ahead by itself: each would be waited for when it is stored.
-HWY_INLINE void expect_stores(const std::complex<float>* bins, int count) {
-  constexpr int in_line = 64 / sizeof(std::complex<float>);
+HWY_INLINE void expect_stores(const PackedBin* bins, int count) {
+  constexpr int in_line = 64 / sizeof(PackedBin);
   for (int x = 0; x < count; x += in_line)
     __builtin_prefetch(bins + x, 1, 2);
 }
 
-void finish_bins(const FusedTables& tables, float* work, std::complex<float>* bins) {
-  expect_stores(bins, tables.samples / 2);
-  const int row_size = tables.last_radix() / 2 * lanes;
-  float* re = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
-  float* im = re + tables.samples / 2;
-  transform(tables, work, Bins{re, im, row_size});
-  for (int row = 0; row < tables.blocks / tables.last_radix(); row += 8)
-    unscramble_bins(re + row * row_size, im + row * row_size, row_size, tables.offsets_db.data(),
-                    bins + row);
-}
-
-// Levels of the rows of bins, as finish() has them of powers.
-void finish_both(const FusedTables& tables, float* work, std::complex<float>* bins,
-                 std::uint8_t* levels) {
-  finish_bins(tables, work, bins);
-  const Floats floats;
+// Levels of the rows of powers, as finish() has them.
+void finish_both(const FusedTables& tables, float* work, const BinsAndLevels& both) {
+  expect_stores(both.bins, tables.samples / 2);
   const int half = tables.samples / 2;
   const int row_size = tables.last_radix() / 2 * lanes;
-  const float* re = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
-  const float* im = re + half;
-  float* power = work; // which is no longer needed
-  for (int x = 0; x < half; x += lanes) {
-    const Real a = hn::Load(floats, re + x);
-    const Real b = hn::Load(floats, im + x);
-    hn::Store(hn::MulAdd(a, a, hn::Mul(b, b)), floats, power + x);
-  }
+  float* power = work + 2 * static_cast<std::ptrdiff_t>(tables.samples);
+  auto* packed = reinterpret_cast<std::uint32_t*>(power + half);
+  transform(tables, work, BinsAndPowers{packed, {power, row_size}});
+  const int rows_end = tables.blocks / tables.last_radix();
+  for (int row = 0; row < rows_end; row += 8)
+    unscramble_bins(packed + row * row_size, row_size, tables.offsets_db.data(), both.bins + row);
   if (ordered_blocks > 0 && tables.blocks == ordered_blocks)
-    return make_ordered_levels(power, row_size, levels);
-  auto* rows = reinterpret_cast<std::uint8_t*>(power + half);
+    return make_ordered_levels(power, row_size, both.levels);
+  auto* rows = reinterpret_cast<std::uint8_t*>(work); // which is no longer needed
   make_levels(power, half, rows);
-  for (int row = 0; row < tables.blocks / tables.last_radix(); row += 8)
+  for (int row = 0; row < rows_end; row += 8)
     unscramble_rows(rows + row * row_size, row_size, row_offsets<std::uint8_t>(tables),
-                    levels + row);
+                    both.levels + row);
 }
 
 template <RawKind Kind, int Pairs> constexpr FusedKernels::FirstPasses first_passes() {
@@ -323,7 +318,6 @@ const FusedKernels* kernels() {
                                    all_first_passes<RawKind::u16_shifted>()},
                                   &finish<std::uint8_t>,
                                   &finish<float>,
-                                  &finish_bins,
                                   &finish_both};
   return &table;
 }

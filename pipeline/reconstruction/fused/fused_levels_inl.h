@@ -7,11 +7,11 @@
 #define OCTASCOPE_FUSED_LEVELS_INL
 #endif
 
-#include <complex>
 #include <cstring>
 
 #include "pipeline/reconstruction/fused/fast_level.h"
 #include "pipeline/reconstruction/fused/fused_butterflies_inl.h"
+#include "pipeline/volume/packed_bin.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace octascope::pipeline::HWY_NAMESPACE {
@@ -216,28 +216,27 @@ HWY_INLINE void unscramble_rows(const std::uint8_t* rows, int size, const std::i
   }
 }
 
-// Likewise of complex bins, eight rows each of real and imaginary parts.
-HWY_INLINE void unscramble_bins(const float* re, const float* im, int size,
-                                const std::int32_t* offsets, std::complex<float>* bins) {
-  const hn::Full128<float> four;
+// Likewise of packed bins.
+HWY_INLINE void unscramble_bins(const std::uint32_t* rows, int size, const std::int32_t* offsets,
+                                PackedBin* bins) {
+  const hn::Full128<std::uint32_t> four;
   const hn::Full128<std::uint64_t> two;
-  auto* out = reinterpret_cast<float*>(bins);
+  auto* out = reinterpret_cast<std::uint32_t*>(bins);
   for (int x = 0; x < size; x += 4)
-    for (int q = 0; q < 8; q += 2) {
-      const auto pairs = [&](int row, bool upper) HWY_ATTR {
-        const auto r = hn::Load(four, re + row * size + x);
-        const auto i = hn::Load(four, im + row * size + x);
-        return hn::BitCast(two,
-                           upper ? hn::InterleaveUpper(four, r, i) : hn::InterleaveLower(r, i));
+    for (int q = 0; q < 8; q += 4) {
+      const auto row = [&](int r) HWY_ATTR { return hn::Load(four, rows + (q + r) * size + x); };
+      const auto pairs = [&](int r, bool upper) HWY_ATTR {
+        return hn::BitCast(two, upper ? hn::InterleaveUpper(four, row(r), row(r + 1))
+                                      : hn::InterleaveLower(four, row(r), row(r + 1)));
       };
       for (int upper = 0; upper < 2; ++upper) {
-        const auto first = pairs(q, upper != 0);
-        const auto second = pairs(q + 1, upper != 0);
+        const auto first = pairs(0, upper != 0);
+        const auto second = pairs(2, upper != 0);
         const std::int32_t* offset = offsets + x + 2 * upper;
-        hn::StoreU(hn::BitCast(four, hn::InterleaveLower(first, second)), four,
-                   out + 2 * (offset[0] + q));
+        hn::StoreU(hn::BitCast(four, hn::InterleaveLower(two, first, second)), four,
+                   out + offset[0] + q);
         hn::StoreU(hn::BitCast(four, hn::InterleaveUpper(two, first, second)), four,
-                   out + 2 * (offset[1] + q));
+                   out + offset[1] + q);
       }
     }
 }

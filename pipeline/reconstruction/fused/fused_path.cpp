@@ -68,11 +68,20 @@ void FusedPath::set_background(const float* background, Buffers& buffers) const 
   tables_.resample_background(background, raw_offset(kind_), buffers.background.data());
 }
 
-// finish(position of the line's first level): of the line whose first pass is in the buffers.
-template <class Finish>
-int FusedPath::each_line(const std::byte* counts, int lines, std::uint32_t full_scale,
-                         Buffers& buffers, std::uint8_t* saturated,
-                         const Finish& finish) const noexcept {
+void FusedPath::finish(float* work, std::uint8_t* levels) const noexcept {
+  kernels_->finish_u8(tables_, work, levels);
+}
+void FusedPath::finish(float* work, float* levels_db) const noexcept {
+  kernels_->finish_db(tables_, work, levels_db);
+}
+void FusedPath::finish(float* work, const BinsAndLevels& both) const noexcept {
+  kernels_->finish_both(tables_, work, both);
+}
+
+template <class Levels>
+int FusedPath::reconstruct(const std::byte* counts, int lines, std::uint32_t full_scale,
+                           Buffers& buffers, Levels levels,
+                           std::uint8_t* saturated) const noexcept {
   const auto samples = static_cast<std::size_t>(tables_.samples);
   const std::size_t line_bytes = samples * (kind_ == RawKind::u8 ? 1 : 2);
   int saturated_lines = 0;
@@ -84,38 +93,17 @@ int FusedPath::each_line(const std::byte* counts, int lines, std::uint32_t full_
                                      buffers.background.data(), buffers.work.data());
     saturated[a] = reached ? 1 : 0;
     saturated_lines += saturated[a];
-    finish(static_cast<std::size_t>(a) * (samples / 2));
+    finish(buffers.work.data(), levels + std::ptrdiff_t{a} * (tables_.samples / 2));
   }
   return saturated_lines;
-}
-
-template <class Level>
-int FusedPath::reconstruct(const std::byte* counts, int lines, std::uint32_t full_scale,
-                           Buffers& buffers, Level* levels,
-                           std::uint8_t* saturated) const noexcept {
-  return each_line(counts, lines, full_scale, buffers, saturated, [&](std::size_t at) {
-    if constexpr (std::is_same_v<Level, std::complex<float>>)
-      kernels_->finish_bins(tables_, buffers.work.data(), levels + at);
-    else if constexpr (std::is_same_v<Level, float>)
-      kernels_->finish_db(tables_, buffers.work.data(), levels + at);
-    else
-      kernels_->finish_u8(tables_, buffers.work.data(), levels + at);
-  });
-}
-
-int FusedPath::reconstruct_both(const std::byte* counts, int lines, std::uint32_t full_scale,
-                                Buffers& buffers, std::complex<float>* bins, std::uint8_t* levels,
-                                std::uint8_t* saturated) const noexcept {
-  return each_line(counts, lines, full_scale, buffers, saturated, [&](std::size_t at) {
-    kernels_->finish_both(tables_, buffers.work.data(), bins + at, levels + at);
-  });
 }
 
 template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&, std::uint8_t*,
                                     std::uint8_t*) const noexcept;
 template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&, float*,
                                     std::uint8_t*) const noexcept;
-template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&,
-                                    std::complex<float>*, std::uint8_t*) const noexcept;
+
+template int FusedPath::reconstruct(const std::byte*, int, std::uint32_t, Buffers&, BinsAndLevels,
+                                    std::uint8_t*) const noexcept;
 
 } // namespace octascope::pipeline

@@ -34,20 +34,16 @@ public:
   void set_background(const float* background, Buffers& buffers) const noexcept;
 
   // Lines without gaps → levels, N/2 each. `saturated`: by line, whether a shifted count is at
-  // least `full_scale`; returns the number of such lines. Level: std::uint8_t, float (dB) or
-  // std::complex<float> (bins).
-  template <class Level>
+  // least `full_scale`; returns the number of such lines. Levels: std::uint8_t*, float* (dB) or
+  // BinsAndLevels, the levels of which are those of the first, to the bit.
+  template <class Levels>
   int reconstruct(const std::byte* counts, int lines, std::uint32_t full_scale, Buffers& buffers,
-                  Level* levels, std::uint8_t* saturated) const noexcept;
-  // Bins, and the levels that the function above gives, to the bit.
-  int reconstruct_both(const std::byte* counts, int lines, std::uint32_t full_scale,
-                       Buffers& buffers, std::complex<float>* bins, std::uint8_t* levels,
-                       std::uint8_t* saturated) const noexcept;
+                  Levels levels, std::uint8_t* saturated) const noexcept;
 
 private:
-  template <class Finish>
-  int each_line(const std::byte* counts, int lines, std::uint32_t full_scale, Buffers& buffers,
-                std::uint8_t* saturated, const Finish& finish) const noexcept;
+  void finish(float* work, std::uint8_t* levels) const noexcept;
+  void finish(float* work, float* levels_db) const noexcept;
+  void finish(float* work, const BinsAndLevels& both) const noexcept;
 
   FusedPath(FusedTables tables, const FusedKernels& kernels, RawKind kind);
 

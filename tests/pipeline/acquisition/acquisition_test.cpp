@@ -167,6 +167,38 @@ TEST_F(AcquisitionTest, stamps_of_no_use_are_told_once_a_second_while_they_are) 
   EXPECT_EQ(count_of(Fault::unusable_stamps), 4U) << "at once";
 }
 
+// A frame every 0.1 ms, for which nobody is woken each time.
+TEST(AcquisitionOfManyFrames, tells_of_several_at_a_time) {
+  tests::FakeCamera camera;
+  hal::linux_backend::MonotonicClock clock;
+  FaultLog faults;
+  Wakeup arrived;
+  hal::LineCameraConfig config;
+  config.format = {.samples_per_line = 16, .lines_per_frame = 20};
+  config.line_rate_hz = 200e3;
+  config.buffers = 128;
+  Acquisition acquisition{camera, config, clock, faults, arrived};
+  ASSERT_TRUE(acquisition.start({}));
+  while (camera.state() != hal::DeviceState::streaming)
+    clock.sleep_for(1ms);
+  const hal::TimePoint begin = clock.now();
+  std::uint64_t delivered = 0;
+  std::uint64_t taken = 0;
+  std::int64_t told = 0;
+  while (taken < 500) {
+    if (delivered < 500)
+      camera.deliver(delivered++, clock.now(), 0);
+    told += arrived.wait_until(clock, clock.now() + 100us) ? 1 : 0;
+    while (const auto frame = acquisition.take()) {
+      EXPECT_EQ(frame->sequence, taken++);
+      acquisition.release(frame->buffer);
+    }
+    ASSERT_LT(clock.now(), begin + 60s);
+  }
+  EXPECT_LE(told, (clock.now() - begin) / 1ms + 2);
+  EXPECT_TRUE(faults.records().empty());
+}
+
 TEST(AcquisitionStart, a_camera_that_is_long_in_starting_is_waited_for_and_not_opened_anew) {
   tests::FakeCamera camera;
   camera.start_late(2);

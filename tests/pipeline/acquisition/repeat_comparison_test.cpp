@@ -19,7 +19,7 @@ namespace {
 
 using testing::Each;
 using testing::HasSubstr;
-using Bins = std::vector<std::complex<float>>;
+using Bins = std::vector<PackedBin>;
 
 constexpr int surface = 40;
 constexpr int first_flowing = 20; // A-scans, in B-scans where some flow
@@ -42,18 +42,17 @@ std::vector<Bins> speckle(const ScanPlan& plan, int from, int to) {
   const auto draw = [&](float power) {
     return std::sqrt(power / 2) * std::complex<float>{normal(random), normal(random)};
   };
-  Bins still(plan.geometry().b_scan_voxels());
+  std::vector<std::complex<float>> still(plan.geometry().b_scan_voxels());
   std::ranges::generate(still, [&] { return draw(1000); });
   std::vector<Bins> repeats;
   for (int m = 0; m < plan.repeats; ++m) {
-    Bins bins = still;
-    for (std::size_t i = 0; i < bins.size(); ++i) {
+    Bins bins;
+    for (std::size_t i = 0; i < still.size(); ++i) {
       const int a = static_cast<int>(i) / plan.geometry().depths;
-      if (a >= from && a <= to)
-        bins[i] = draw(1000);
+      auto bin = a >= from && a <= to ? draw(1000) : still[i];
       if (static_cast<int>(i) % plan.geometry().depths < surface)
-        bins[i] = 0;
-      bins[i] += draw(2);
+        bin = 0;
+      bins.push_back(PackedBin::of(bin + draw(2)));
     }
     repeats.push_back(std::move(bins));
   }
@@ -142,8 +141,8 @@ TEST_F(RepeatComparisonTest, nothing_is_told_around_a_saturated_line_and_it_make
   std::mt19937 random{3};
   std::normal_distribution<float> normal{0, 3000};
   for (Bins& sweep : sweeps)
-    for (std::complex<float>& bin : std::span{sweep}.subspan(40 * 96))
-      bin = {normal(random), normal(random)};
+    for (PackedBin& bin : std::span{sweep}.subspan(40 * 96))
+      bin = PackedBin::of({normal(random), normal(random)});
   BScanBuilder maker = builder();
   EXPECT_EQ(tell(maker), FlowState::told) << "their motion is nobody's";
   EXPECT_EQ(saturated_lines, plan.repeats * (plan.a_scans - 40));

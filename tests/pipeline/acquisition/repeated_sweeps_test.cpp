@@ -102,7 +102,7 @@ int speckle_of(std::size_t, const hal::LineFrame& frame, const SweepBins& out) {
   for (std::size_t i = 0; i < out.bins.size(); ++i) {
     const std::complex speckle{normal(random), normal(random)};
     const std::complex noise{normal(air), normal(air)};
-    out.bins[i] = 0.03F * noise + (i % 64 < 32 ? 0.0F : 1.0F) * speckle;
+    out.bins[i] = PackedBin::of(0.03F * noise + (i % 64 < 32 ? 0.0F : 1.0F) * speckle);
   }
   return 0;
 }

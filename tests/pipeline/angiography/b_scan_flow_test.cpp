@@ -18,7 +18,7 @@
 namespace octascope::pipeline {
 namespace {
 
-using Bins = std::vector<std::complex<float>>;
+using Bins = std::vector<PackedBin>;
 using tests::SpeckleScene;
 using tests::SpeckleSweeps;
 
@@ -46,9 +46,9 @@ FlowSetup setup_of(const SpeckleScene& scene, FlowMethod method = FlowMethod::co
 // By the definition in the header, in double precision, without motion.
 std::vector<double> exact_decorrelation(const FlowSetup& s, const Bins& bins) {
   const auto bin = [&](int m, int a, int z) {
-    return std::complex<double>{
-        bins[(static_cast<std::size_t>(m * s.a_scans + a) * static_cast<std::size_t>(s.depths)) +
-             static_cast<std::size_t>(z)]};
+    const auto at =
+        static_cast<std::size_t>(m * s.a_scans + a) * static_cast<std::size_t>(s.depths);
+    return std::complex<double>{bins[at + static_cast<std::size_t>(z)].value()};
   };
   const auto turn = [&](int m, int a) {
     std::complex<double> sum;
@@ -90,7 +90,8 @@ TEST(BScanFlow, decorrelation_is_that_of_its_definition) {
         Bins bins(voxels * static_cast<std::size_t>(repeats));
         for (std::size_t i = 0; i < bins.size(); ++i) {
           const std::complex<float> change{normal(generator), normal(generator)};
-          bins[i] = i < voxels ? 100.0F * change : bins[i - voxels] + 60.0F * change;
+          bins[i] = PackedBin::of(i < voxels ? 100.0F * change
+                                             : bins[i - voxels].value() + 60.0F * change);
         }
         const auto found = compute(setup, bins).decorrelation;
         const auto expected = exact_decorrelation(setup, bins);
@@ -263,7 +264,7 @@ TEST(BScanFlow, where_there_is_no_power_nothing_is_told) {
   constexpr int empty_from = 200;
   for (std::size_t i = 0; i < scene.voxels(); ++i) {
     if (static_cast<int>(i) % scene.depths >= empty_from)
-      bins[i] = 0;
+      bins[i] = {};
     bins[scene.voxels() + i] = bins[i]; // alike to the last bit: noise is 0
   }
   const auto flow = compute(setup_of(scene), bins).flow;

@@ -46,11 +46,11 @@ TEST_P(Shift, gives_the_bins_between_bins) {
   constexpr int depths = 128;
   constexpr int a_scans = 30;
   const unsigned seed = tests::fresh_seed();
-  std::vector<std::complex<float>> sweep;
+  std::vector<PackedBin> sweep;
   for (unsigned a = 0; a < a_scans; ++a) {
     const TransformedLine line{GetParam(), seed + a};
     for (int z = 0; z < depths; ++z)
-      sweep.emplace_back(line.at(z));
+      sweep.push_back(PackedBin::of(std::complex<float>{line.at(z)}));
   }
   BulkMotionEstimator estimator{a_scans, depths};
   const AxialCoherence coherence = estimator.coherence(sweep.data());
@@ -89,7 +89,7 @@ TEST_P(Shift, gives_the_bins_between_bins) {
 }
 
 TEST(AxialCoherence, of_short_b_scans_is_that_of_a_hann_window) {
-  const std::vector<std::complex<float>> sweep(4 * 40, 1.0F);
+  const std::vector<PackedBin> sweep(4 * 40, PackedBin::of(1.0F));
   BulkMotionEstimator estimator{4, 40};
   EXPECT_NEAR(estimator.coherence(sweep.data()).independent_samples(5), 2.87, 0.01);
 }

@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "pipeline/volume/packed_bin.h"
+
 namespace octascope::tests {
 
 struct SpeckleTube {
@@ -52,8 +54,8 @@ public:
   SpeckleSweeps(const SpeckleScene& scene, unsigned seed) : scene_(scene), generator_(seed) {}
 
   // [repeat][a][z]
-  std::vector<std::complex<float>> bins() {
-    std::vector<std::complex<float>> all;
+  std::vector<pipeline::PackedBin> bins() {
+    std::vector<pipeline::PackedBin> all;
     const auto fixed = scatterers();
     for (int m = 0; m < scene_.repeats; ++m) {
       std::vector<std::complex<double>> sweep(scene_.voxels());
@@ -66,7 +68,7 @@ public:
       turn_phases(sweep);
       add_noise(sweep);
       for (const auto& bin : sweep)
-        all.emplace_back(static_cast<float>(bin.real()), static_cast<float>(bin.imag()));
+        all.push_back(pipeline::PackedBin::of(std::complex<float>{bin}));
     }
     return all;
   }

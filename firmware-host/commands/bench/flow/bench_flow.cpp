@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <complex>
 #include <mutex>
 #include <span>
 #include <thread>
@@ -91,15 +90,16 @@ private:
       flows.push_back(std::move(flow));
     }
     VoxelTruth truth{sweeps_, bench_motion()};
-    std::vector<std::complex<float>> bins(voxels * static_cast<std::size_t>(plan.repeats));
+    std::vector<std::uint8_t> levels(voxels);
+    std::vector<pipeline::PackedBin> bins(voxels * static_cast<std::size_t>(plan.repeats));
     std::vector<float> decorrelation(voxels);
     std::array<FlowTally, methods.size()> tallies;
     std::array<int, methods.size()> left_out{};
     for (int b = next_++; b < plan.b_scans; b = next_++) {
       for (int m = 0; m < plan.repeats; ++m)
-        reconstructor_.reconstruct_b_scan_bins(
+        reconstructor_.reconstruct_b_scan_both(
             workspace, std::as_bytes(sweeps_.sweep(b * plan.repeats + m)),
-            std::span{bins}.subspan(static_cast<std::size_t>(m) * voxels, voxels));
+            std::span{bins}.subspan(static_cast<std::size_t>(m) * voxels, voxels), levels);
       truth.look_at(b, bins);
       for (std::size_t i = 0; i < methods.size(); ++i) {
         const auto flow =

@@ -35,7 +35,7 @@ VoxelTruth::VoxelTruth(const sim::RepeatedSweeps& sweeps, const sim::TissueMotio
       radii_um_(kinds_.size()), surfaces_(a_scans_), power_(kinds_.size()),
       sums_((a_scans_ + 1) * (depths_ + 1)) {}
 
-void VoxelTruth::look_at(int b, std::span<const std::complex<float>> bins) {
+void VoxelTruth::look_at(int b, std::span<const pipeline::PackedBin> bins) {
   for (int a = 0; a < sweeps_.plan().a_scans; ++a)
     place_a_scan(b, a);
   average_power(bins);
@@ -92,11 +92,11 @@ void VoxelTruth::place_a_scan(int b, int a) {
   }
 }
 
-void VoxelTruth::average_power(std::span<const std::complex<float>> bins) {
+void VoxelTruth::average_power(std::span<const pipeline::PackedBin> bins) {
   const auto repeats = static_cast<std::size_t>(sweeps_.plan().repeats);
   std::ranges::fill(power_, 0.0F);
   for (std::size_t i = 0; i < bins.size(); ++i)
-    power_[i % power_.size()] += std::norm(bins[i]) / static_cast<float>(repeats);
+    power_[i % power_.size()] += std::norm(bins[i].value()) / static_cast<float>(repeats);
   const std::size_t row = depths_ + 1;
   for (std::size_t a = 0; a < a_scans_; ++a) {
     double along = 0;

@@ -2,12 +2,12 @@
 // vessel.
 #pragma once
 
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "pipeline/volume/packed_bin.h"
 #include "sim/phantoms/phantom_column.h"
 #include "sim/spectra/repeated_sweeps.h"
 #include "sim/spectra/tissue_motion.h"
@@ -31,7 +31,7 @@ public:
   VoxelTruth(const sim::RepeatedSweeps& sweeps, const sim::TissueMotion& motion);
 
   // `bins` of B-scan b: its repeats, [repeat][a][z].
-  void look_at(int b, std::span<const std::complex<float>> bins);
+  void look_at(int b, std::span<const pipeline::PackedBin> bins);
 
   std::span<const VoxelKind> kinds() const { return kinds_; }
   // In µm, of the vessel that a flowing voxel is in.
@@ -39,7 +39,7 @@ public:
 
 private:
   void place_a_scan(int b, int a);
-  void average_power(std::span<const std::complex<float>> bins);
+  void average_power(std::span<const pipeline::PackedBin> bins);
   double noise_power() const;
 
   const sim::RepeatedSweeps& sweeps_;
