@@ -94,6 +94,7 @@ void VolumeScheduler::open(PendingVolume& volume, hal::TimePoint end) {
   volume.submitted = 0;
   volume.flushed = 0;
   volume.made.store(0, std::memory_order_relaxed);
+  volume.awaits_workers.store(false, std::memory_order_relaxed);
 }
 
 void VolumeScheduler::pulse_failed() {
@@ -234,7 +235,8 @@ VolumeDecision VolumeScheduler::next_of(std::uint32_t buffer, hal::TimePoint now
     flush(buffer, plan_.b_scans);
   if (!to_submit_.empty())
     return {.action = Action::submit, .buffer = buffer, .submit = to_submit_};
-  if (volume.made.load(std::memory_order_acquire) < volume.submitted)
+  volume.awaits_workers.store(true);
+  if (volume.made.load() < volume.submitted)
     return {};
   return finish(buffer);
 }

@@ -120,9 +120,12 @@ public:
   FrameDecision place(hal::TimePoint first_line, hal::TimePoint last_line);
 
   // Any thread: a submitted B-scan of this buffer is built. Whatever the thread wrote before is
-  // visible when the volume is published.
-  void b_scan_made(std::uint32_t buffer) {
-    pending_[buffer].made.fetch_add(1, std::memory_order_release);
+  // visible when the volume is published. True: the thread may have nothing else to wait for in this
+  // volume, and is to be woken.
+  bool b_scan_made(std::uint32_t buffer) {
+    PendingVolume& volume = pending_[buffer];
+    volume.made.fetch_add(1); // in one order with the flag: one of the two sees the other
+    return volume.awaits_workers.load();
   }
 
   // Call repeatedly until it returns `wait`. `looked_until`: Acquisition::looked_until(), read
@@ -158,8 +161,9 @@ private:
     std::vector<BScanSlot> slots;             // by B-scan
     int sweeps_came = 0;
     int submitted = 0;
-    int flushed = 0;          // B-scans before this one no longer wait for sweeps
-    std::atomic<int> made{0}; // B-scans that the workers are done with
+    int flushed = 0;                         // B-scans before this one no longer wait for sweeps
+    std::atomic<int> made{0};                // B-scans that the workers are done with
+    std::atomic<bool> awaits_workers{false}; // and nothing else
   };
   struct Counts {
     std::atomic<std::uint64_t> planned{0}, triggered{0}, acquired{0}, published{0}, skipped{0},

@@ -360,8 +360,8 @@ void VolumeThread::reconstruct(std::size_t worker, std::uint32_t job) {
   work.begin = begin;
   work.end = clock_.now();
   work.worker = static_cast<std::uint32_t>(worker);
-  scheduler_.b_scan_made(buffer);
-  arrived_.post();
+  if (scheduler_.b_scan_made(buffer))
+    arrived_.post();
 }
 
 // Workers that cannot keep up lose lines at last; before that they go without flow.

@@ -96,6 +96,25 @@ TEST_F(VolumeSchedulerTest, a_whole_volume_is_published_as_soon_as_its_b_scans_a
   EXPECT_EQ(pulse(tick(1)), 0U) << "what came back is built in";
 }
 
+TEST_F(VolumeSchedulerTest, who_made_a_b_scan_wakes_the_thread_only_where_nothing_else_is_awaited) {
+  const std::uint32_t buffer = pulse(first_tick).value();
+  for (int sweep = 0; sweep < 8; ++sweep) {
+    EXPECT_EQ(frame(first_tick, sweep).submit.size(), 1U);
+    EXPECT_EQ(next(time_of(first_tick, sweep)).action, Action::wait);
+    if (sweep < 6) {
+      EXPECT_FALSE(scheduler.b_scan_made(buffer)) << "more frames come";
+    }
+  }
+  EXPECT_TRUE(scheduler.b_scan_made(buffer));
+  EXPECT_EQ(next(time_of(first_tick, 8)).action, Action::wait);
+  EXPECT_TRUE(scheduler.b_scan_made(buffer));
+  EXPECT_EQ(next(time_of(first_tick, 8)).action, Action::publish);
+  scheduler.published(0, false);
+  EXPECT_EQ(pulse(tick(1)), 0U);
+  frame(tick(1), 0);
+  EXPECT_FALSE(scheduler.b_scan_made(0)) << "of the next volume in the same buffer";
+}
+
 TEST_F(VolumeSchedulerTest, a_volume_of_which_nothing_came_is_lost) {
   const std::uint32_t buffer = pulse(first_tick).value();
   EXPECT_EQ(next(accepts_until(first_tick) - moment).action, Action::wait);
