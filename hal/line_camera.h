@@ -57,8 +57,8 @@ struct LineFrame {
   TimePoint first_line;       // exposure times of the first and the last line
   TimePoint last_line;
   FrameIntegrity integrity = FrameIntegrity::good;
-  // The camera's own time stamps have not fitted the host's clock for seconds: the exposure times are
-  // told from when the frame came, later by what its transport took.
+  // The camera's own time stamps do not fit the host's clock: the exposure times are told from when the
+  // frame came, later by what its transport took.
   bool timed_by_host = false;
   TimePoint fetched{}; // when the host had it; whoever takes it from the camera notes it
 };

@@ -161,6 +161,7 @@ void Acquisition::receive(const hal::LineFrame& frame) {
   unanswered_.store(false, std::memory_order_relaxed);
   check_sequence(frame.sequence);
   check_times(frame);
+  gathers_ = gathers_ && !frame.timed_by_host; // its time may be that at which it was fetched
   const bool sized = frame.bytes.size() == config_.format.frame_bytes();
   if (frame.integrity != hal::FrameIntegrity::good || !sized) {
     unusable_.fetch_add(1, std::memory_order_relaxed);

@@ -26,6 +26,7 @@ constexpr std::array formats{ChainFormat{1024, 300, 80}, ChainFormat{1024, 512, 
 constexpr std::array given_rates_hz{215e3, 430e3, 860e3};
 constexpr double displayed_runs = 80; // what the time is divided by: each starts a program
 constexpr double undisplayed_runs = 160;
+constexpr double given_runs = 24;
 constexpr double shortest_run_s = 1.5;  // a display needs a part of it to open
 constexpr double fewest_volumes = 6;    // that a run is long enough for
 constexpr double fly_back_share = 0.26; // of the kept lines
@@ -54,12 +55,10 @@ public:
   Chain(BenchFolder folder, const ChainConditions& conditions)
       : folder_{std::move(folder)}, conditions_{conditions} {}
 
-  hal::Result<ChainFigures> measure(const ChainCase& what) {
+  hal::Result<ChainFigures> measure(const ChainCase& what, double shortest_s) {
     const std::filesystem::path file = folder_.file("chain.toml");
     write_configuration(file, what);
-    const double run_s =
-        std::max(what.display ? conditions_.displayed_run_s : conditions_.undisplayed_run_s,
-                 fewest_volumes / planned_per_s(what));
+    const double run_s = std::max(shortest_s, fewest_volumes / planned_per_s(what));
     const ProcessorTime before = ProcessorTime::now();
     HAL_TRY(ChainFigures figures, what.display ? displayed(file, run_s) : undisplayed(file, run_s));
     const ProcessorTime after = ProcessorTime::now();
@@ -69,10 +68,11 @@ public:
 
   // Two of three runs without a loss: the figures of the second. Else empty.
   hal::Result<std::optional<ChainFigures>> hold(const ChainCase& what) {
+    const double run_s = what.display ? conditions_.displayed_run_s : conditions_.undisplayed_run_s;
     int held = 0;
     int lost = 0;
     while (lost < 2) {
-      HAL_TRY(const ChainFigures figures, measure(what));
+      HAL_TRY(const ChainFigures figures, measure(what, run_s));
       // Neither a chain that was not fed nor one that showed nothing has held.
       const bool came = figures.volumes_per_s >= planned_per_s(what) / 2;
       const bool shown = !what.display || figures.quality.frames > 0;
@@ -145,7 +145,9 @@ public:
     for (const ChainFormat& format : formats)
       for (const bool rolling : {false, true})
         for (const double given_hz : given_rates_hz)
-          HAL_CHECK(measure_given({format, true, given_hz, rolling}));
+          HAL_CHECK(measure_given({format, true, given_hz, rolling},
+                                  &format == formats.data() ? report_.conditions.given_run_s
+                                                            : report_.conditions.displayed_run_s));
     int searches_left = searches;
     for (const ChainFormat& format : formats) {
       // A display only takes time from the rest: what does not hold without one holds with none.
@@ -173,10 +175,10 @@ private:
   // 800 kHz; lines of twice the length cost twice as much.
   static int first_rung(const ChainFormat& format) { return format.samples > 1024 ? 8 : 12; }
 
-  hal::Result<> measure_given(const ChainCase& what) {
+  hal::Result<> measure_given(const ChainCase& what, double run_s) {
     if (seconds_since(began_) >= seconds_)
       return {};
-    HAL_TRY(const ChainFigures figures, chain_.measure(what));
+    HAL_TRY(const ChainFigures figures, chain_.measure(what, run_s));
     add({what, figures, RateSign::given});
     return {};
   }
@@ -260,6 +262,7 @@ ChainConditions conditions_of(const ChainOptions& options) {
           .cores = static_cast<int>(std::thread::hardware_concurrency()),
           .size = options.size,
           .displayed_run_s = std::max(options.seconds / displayed_runs, shortest_run_s),
+          .given_run_s = std::max(options.seconds / given_runs, shortest_run_s),
           .undisplayed_run_s = std::max(options.seconds / undisplayed_runs, shortest_run_s)};
 }
 
@@ -276,7 +279,9 @@ std::string to_json(const ChainReport& report) {
       {"cores", conditions.cores},
       {"display", fmt::format("offscreen, {}x{}", conditions.size[0], conditions.size[1])},
       {"run_s",
-       {{"with_display", conditions.displayed_run_s}, {"without", conditions.undisplayed_run_s}}},
+       {{"with_display", conditions.displayed_run_s},
+        {"at_given_rates", conditions.given_run_s},
+        {"without", conditions.undisplayed_run_s}}},
       {"cases", nlohmann::ordered_json::array()},
       {"highest_line_rate_hz",
        {{"reconstruct_only", report.reconstruct_only_hz},

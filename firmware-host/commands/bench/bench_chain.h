@@ -25,6 +25,7 @@ struct ChainConditions {
   int cores = 1;
   std::array<int, 2> size{};  // of the picture, offscreen
   double displayed_run_s = 0; // start included
+  double given_run_s = 0; // of the first format at given rates, so that the start counts for less
   double undisplayed_run_s = 0;
 };
 

@@ -28,12 +28,12 @@ constexpr char columns[] =
 
 void print_head(const ChainConditions& c) {
   say("{}, {} cores; picture {}x{}, offscreen at 60 Hz; the view rests. Runs of {:.1f} s, start\n"
-      "included; without a display of {:.1f} s.\n"
+      "included; of the first scan at given rates of {:.1f} s; without a display of {:.1f} s.\n"
       "*: the highest rate at which two of three runs lost nothing; +: the time was over before a\n"
       "higher one was tried. Volumes acquired and shown, and frames, a second. Latency in ms:\n"
       "whole, from a volume's last line; rolling, from any line. Quality of the volume's picture,\n"
       "median and worst frame: share of full resolution, steps along the longest edge.\n\n",
-      c.cpu, c.cores, c.size[0], c.size[1], c.displayed_run_s, c.undisplayed_run_s);
+      c.cpu, c.cores, c.size[0], c.size[1], c.displayed_run_s, c.given_run_s, c.undisplayed_run_s);
   say(columns, "samples, scan", "display", "kHz", "", "lost", "acq.", "shown", "frames", "p50",
       "p95", "p99", "resolution", "steps", "stolen");
 }

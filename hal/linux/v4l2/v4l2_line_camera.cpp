@@ -189,7 +189,8 @@ LineFrame V4l2LineCamera::handed_out(const FetchedFrame& fetched, TimePoint now)
       .sequence = sequence_.extend(fetched.sequence),
       .first_line = times.first_line,
       .last_line = times.last_line,
-      .integrity = FrameIntegrity::good};
+      .integrity = FrameIntegrity::good,
+      .timed_by_host = times.own_clock};
   if (!whole)
     frame.integrity = FrameIntegrity::wrong_size;
   if (fetched.flagged)

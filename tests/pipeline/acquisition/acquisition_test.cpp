@@ -167,36 +167,67 @@ TEST_F(AcquisitionTest, stamps_of_no_use_are_told_once_a_second_while_they_are) 
   EXPECT_EQ(count_of(Fault::unusable_stamps), 4U) << "at once";
 }
 
-// A frame every 0.1 ms, for which nobody is woken each time.
-TEST(AcquisitionOfManyFrames, tells_of_several_at_a_time) {
-  tests::FakeCamera camera;
-  hal::linux_backend::MonotonicClock clock;
-  FaultLog faults;
-  Wakeup arrived;
-  hal::LineCameraConfig config;
-  config.format = {.samples_per_line = 16, .lines_per_frame = 20};
-  config.line_rate_hz = 200e3;
-  config.buffers = 128;
-  Acquisition acquisition{camera, config, clock, faults, arrived};
-  ASSERT_TRUE(acquisition.start({}));
-  while (camera.state() != hal::DeviceState::streaming)
-    clock.sleep_for(1ms);
-  const hal::TimePoint begin = clock.now();
-  std::uint64_t delivered = 0;
-  std::uint64_t taken = 0;
-  std::int64_t told = 0;
-  while (taken < 500) {
-    if (delivered < 500)
-      camera.deliver(delivered++, clock.now(), 0);
-    told += arrived.wait_until(clock, clock.now() + 100us) ? 1 : 0;
-    while (const auto frame = acquisition.take()) {
-      EXPECT_EQ(frame->sequence, taken++);
-      acquisition.release(frame->buffer);
-    }
-    ASSERT_LT(clock.now(), begin + 60s);
+// A frame every 0.1 ms.
+class AcquisitionOfManyFrames : public testing::Test {
+protected:
+  AcquisitionOfManyFrames() {
+    EXPECT_TRUE(acquisition_.start({}));
+    while (camera_.state() != hal::DeviceState::streaming)
+      clock_.sleep_for(1ms);
   }
-  EXPECT_LE(told, (clock.now() - begin) / 1ms + 2);
-  EXPECT_TRUE(faults.records().empty());
+
+  static hal::LineCameraConfig config() {
+    hal::LineCameraConfig config;
+    config.format = {.samples_per_line = 16, .lines_per_frame = 20};
+    config.line_rate_hz = 200e3;
+    config.buffers = 128;
+    return config;
+  }
+
+  void take_those_there() {
+    while (const auto frame = acquisition_.take()) {
+      EXPECT_EQ(frame->sequence, taken_++);
+      acquisition_.release(frame->buffer);
+    }
+  }
+
+  hal::linux_backend::MonotonicClock clock_;
+  tests::FakeCamera camera_;
+  FaultLog faults_;
+  Wakeup arrived_;
+  Acquisition acquisition_{camera_, config(), clock_, faults_, arrived_};
+  std::uint64_t taken_ = 0;
+};
+
+TEST_F(AcquisitionOfManyFrames, are_told_of_several_at_a_time) {
+  const hal::TimePoint begin = clock_.now();
+  std::uint64_t delivered = 0;
+  std::int64_t told = 0;
+  while (taken_ < 500) {
+    if (delivered < 500)
+      camera_.deliver(delivered++, clock_.now(), 0);
+    told += arrived_.wait_until(clock_, clock_.now() + 100us) ? 1 : 0;
+    take_those_there();
+    ASSERT_LT(clock_.now(), begin + 60s);
+  }
+  EXPECT_LE(told, (clock_.now() - begin) / 1ms + 2);
+  EXPECT_TRUE(faults_.records().empty());
+}
+
+// They would be given the times at which they were fetched, all the same.
+TEST_F(AcquisitionOfManyFrames, are_told_of_one_by_one_where_the_host_times_them) {
+  camera_.time_by_host(true);
+  camera_.deliver(0, clock_.now(), 0);
+  for (; taken_ < 1; take_those_there())
+    arrived_.wait_until(clock_, clock_.now() + 1ms);
+  clock_.sleep_for(20ms); // it was gathered
+  arrived_.wait_until(clock_, clock_.now());
+  for (std::uint64_t sequence = 1; sequence <= 20; ++sequence)
+    camera_.deliver(sequence, clock_.now(), 0);
+  for (; taken_ < 21; take_those_there())
+    clock_.sleep_for(1ms);
+  for (int frame = 1; frame <= 20; ++frame)
+    arrived_.wait(); // for ever, if one is missing
 }
 
 TEST(AcquisitionStart, a_camera_that_is_long_in_starting_is_waited_for_and_not_opened_anew) {

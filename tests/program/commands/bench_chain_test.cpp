@@ -16,6 +16,7 @@ TEST(BenchChain, tells_figures_with_their_conditions_and_quality) {
   EXPECT_GE(told.at("cores"), 1);
   EXPECT_EQ(told.at("display"), "offscreen, 160x90");
   EXPECT_GT(told.at("run_s").at("with_display"), 0);
+  EXPECT_GT(told.at("run_s").at("at_given_rates"), 0);
   EXPECT_GT(told.at("run_s").at("without"), 0);
   for (const char* key : {"reconstruct_only", "with_display"})
     EXPECT_EQ(told.at("highest_line_rate_hz").at(key), 0) << key << ": none was looked for";

@@ -190,6 +190,7 @@ TEST_F(VividFault, a_stamp_that_cannot_be_is_replaced_by_our_clock_and_counted) 
     const std::uint64_t before = camera_.tally().own_stamps;
     const LineFrame frame = next_frame();
     EXPECT_EQ(camera_.tally().own_stamps, before + 1);
+    EXPECT_TRUE(frame.timed_by_host);
     EXPECT_LE(frame.last_line, clock_.now());
     EXPECT_LT(clock_.now() - frame.first_line, 1s);
     camera_.close();
