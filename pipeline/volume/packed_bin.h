@@ -1,7 +1,7 @@
 // A complex bin of an A-scan in 32 bits, as repeats of a B-scan are kept until they are compared.
 //
 // Each part is the upper half of a float, rounded to the nearest: 8 significant bits. That errs by
-// less than a 500th of the part, at random, which is 59 dB below the bin, while a bin's own noise is
+// at most a 256th of the part, at random, which is 55 dB below the bin, while a bin's own noise is
 // rarely 40 dB below it. All repeats of a B-scan do not fit into the second-level cache: of half the size
 // they are stored and read in half the time.
 #pragma once
@@ -14,7 +14,7 @@
 namespace octascope::pipeline {
 
 struct PackedBin {
-  static constexpr double most_error = 1.0 / 512; // of the bin's modulus
+  static constexpr double most_error = 1.0 / 256; // of the bin's modulus
   static constexpr std::uint32_t half_a_step = 0x8000;
   static constexpr std::uint32_t upper_half = 0xFFFF'0000;
 
