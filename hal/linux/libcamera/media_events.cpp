@@ -49,8 +49,10 @@ Result<Filter> filter_for(std::initializer_list<const char*> subsystems) {
   return filter_of(udev_monitor_get_fd(monitor.get()));
 }
 
-bool is_equal(const Filter& a, const Filter& b) {
-  return std::ranges::equal(a, b, [](const sock_filter& x, const sock_filter& y) {
+// libudev keeps the subsystems in a table by their hashes, whose key changes as the process goes on: the
+// instructions for each come in any order.
+bool passes_the_same(const Filter& a, const Filter& b) {
+  return std::ranges::is_permutation(a, b, [](const sock_filter& x, const sock_filter& y) {
     return x.code == y.code && x.jt == y.jt && x.jf == y.jf && x.k == y.k;
   });
 }
@@ -76,7 +78,7 @@ Result<int> keep_video_nodes_from_libcamera() {
   int changed = 0;
   for (const auto& entry : entries("/proc/self/fd")) {
     const int descriptor = std::atoi(entry.filename().c_str());
-    if (hears_of_devices(descriptor) && is_equal(filter_of(descriptor), of_libcamera)) {
+    if (hears_of_devices(descriptor) && passes_the_same(filter_of(descriptor), of_libcamera)) {
       if (::setsockopt(descriptor, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program) != 0)
         return system_failure("udev", "choosing libcamera's events", errno);
       ++changed;
