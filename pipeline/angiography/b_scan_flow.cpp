@@ -102,7 +102,7 @@ void BScanFlow::sum_line(std::span<const PackedBin> bins, int a, LineSums& sums)
       fetch_line(bins.data() + size(m) * voxels_ + size(from + 1) * size(depths), depths);
     if (is_there)
       repeat.shift.apply(bins.data() + size(m) * voxels_ + size(from) * size(depths), begin, end,
-                         repeat.real.data(), repeat.imaginary.data(), scratch_.data());
+                         repeat.real.data(), repeat.imaginary.data());
     if (is_there && before_is_there) {
       const Repeat& other = repeats_[size(m - 1)];
       const int first = std::max(begin, other.shift.first(depths));

@@ -201,9 +201,9 @@ int FractionalShift::last(int depths) const {
 }
 
 void FractionalShift::apply(const PackedBin* line, int begin, int end, float* real,
-                            float* imaginary, float* scratch) const noexcept {
+                            float* imaginary) const noexcept {
   if (interpolates)
-    interpolate(line + whole - 2, taps, begin, end, real, imaginary, scratch);
+    interpolate(line + whole - 2, taps, begin, end, real, imaginary);
   else
     split_parts(line + whole, begin, end, real, imaginary);
 }

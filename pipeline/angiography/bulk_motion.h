@@ -82,9 +82,9 @@ struct FractionalShift {
   static FractionalShift by(float bins, const AxialCoherence& coherence);
 
   // real[z] + i·imaginary[z] = line(z + shift), for z from `begin` to `end`, which must stay within
-  // first(depths) and last(depths). `scratch` has room for two lines.
-  void apply(const PackedBin* line, int begin, int end, float* real, float* imaginary,
-             float* scratch) const noexcept;
+  // first(depths) and last(depths).
+  void apply(const PackedBin* line, int begin, int end, float* real,
+             float* imaginary) const noexcept;
   int first(int depths) const; // the depths that the shifted line has
   int last(int depths) const;
 };

@@ -23,17 +23,19 @@ void split_loop(const PackedBin* __restrict line, int begin, int end, float* __r
   }
 }
 
-// re[z + i] and im[z + i] are the parts of the bins that taps[i] weighs.
+// taps[2 * i] and taps[2 * i + 1] are the parts of what weighs line[z + i].
 OCTASCOPE_CPU_CLONES
-void interpolate_loop(const float* __restrict re, const float* __restrict im,
-                      const float* __restrict taps, int count, float* __restrict real,
-                      float* __restrict imaginary) {
+void interpolate_loop(const PackedBin* __restrict line, const float* __restrict taps, int count,
+                      float* __restrict real, float* __restrict imaginary) {
   for (int z = 0; z < count; ++z) {
     float x = 0;
     float y = 0;
     for (int i = 0; i < 6; ++i) {
-      x += taps[2 * i] * re[z + i] - taps[2 * i + 1] * im[z + i];
-      y += taps[2 * i] * im[z + i] + taps[2 * i + 1] * re[z + i];
+      const PackedBin bin = line[z + i];
+      x += taps[2 * i] * bin.real();
+      x -= taps[2 * i + 1] * bin.imaginary();
+      y += taps[2 * i] * bin.imaginary();
+      y += taps[2 * i + 1] * bin.real();
     }
     real[z] = x;
     imaginary[z] = y;
@@ -184,14 +186,9 @@ void split_parts(const PackedBin* line, int begin, int end, float* real,
 }
 
 void interpolate(const PackedBin* line, const std::array<std::complex<float>, 6>& taps, int begin,
-                 int end, float* real, float* imaginary, float* scratch) noexcept {
-  const int count = end - begin;
-  if (count <= 0)
-    return;
-  const int read = count + 5;
+                 int end, float* real, float* imaginary) noexcept {
   const auto* const weights = reinterpret_cast<const float*>(taps.data()); // as the standard allows
-  split_loop(line + begin, 0, read, scratch, scratch + read);
-  interpolate_loop(scratch, scratch + read, weights, count, real + begin, imaginary + begin);
+  interpolate_loop(line + begin, weights, end - begin, real + begin, imaginary + begin);
 }
 
 void correlate_lags(const float* first, const float* second, int depths,

@@ -18,9 +18,9 @@ inline constexpr int kernel_depths = 5;
 // Bins as real and imaginary parts.
 void split_parts(const PackedBin* line, int begin, int end, float* real, float* imaginary) noexcept;
 
-// The same of Σ_i taps[i]·line[z + i]. `scratch` has room for two lines.
+// The same of Σ_i taps[i]·line[z + i].
 void interpolate(const PackedBin* line, const std::array<std::complex<float>, 6>& taps, int begin,
-                 int end, float* real, float* imaginary, float* scratch) noexcept;
+                 int end, float* real, float* imaginary) noexcept;
 
 // real[s] + i·imaginary[s] += Σ_z first[z]·conj(second[z + s − 16]). Lines are `depths` real parts,
 // then as many imaginary ones; depths > 32.

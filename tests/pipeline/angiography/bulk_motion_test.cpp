@@ -70,8 +70,7 @@ TEST_P(Shift, gives_the_bins_between_bins) {
     EXPECT_GE(end - begin, depths - 9);
     std::vector<float> real(depths);
     std::vector<float> imaginary(depths);
-    std::vector<float> scratch(2 * depths);
-    shift.apply(sweep.data(), begin, end, real.data(), imaginary.data(), scratch.data());
+    shift.apply(sweep.data(), begin, end, real.data(), imaginary.data());
     std::complex<double> like;
     double found = 0;
     double expected = 0;
