@@ -1,4 +1,4 @@
-// What a watch over media devices and video nodes hears once video nodes are kept from it.
+// Which of the process's watches over devices video nodes are kept from.
 #include <memory>
 #include <string>
 #include <vector>
