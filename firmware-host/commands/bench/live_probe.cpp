@@ -32,9 +32,12 @@ void write_turning_knob(const std::filesystem::path& file, double seconds) {
 hal::Result<> check_rotated(const nlohmann::json& report) {
   const double rotations = number_in(report, "/actions/rotate");
   if (rotations < 30)
-    return hal::fail(hal::ErrorCode::invalid_argument,
-                     "the scripted knob rotated the view {} times, expected at least 30",
-                     rotations);
+    return hal::fail(
+        hal::ErrorCode::invalid_argument,
+        "the scripted knob rotated the view {} times, expected at least 30; leave the machine "
+        "alone meanwhile, and see that the three-switch pedal's profile rotates with its centre "
+        "switch held",
+        rotations);
   return {};
 }
 
