@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
@@ -66,6 +67,18 @@ void keep_modules() {
       ::dlclose(handle);
 }
 
+// libcamera's manager handles SIGCHLD while it lives, and reads there a pointer that is null until shortly
+// after it began to and again shortly before it is gone (0.0.3, ProcessManager): a child of this program that
+// ended in such a moment ended the program with it. What it would learn by the signal it never does, as the
+// thread that makes it runs no event loop of libcamera's. So the handler is replaced by the one before it.
+std::unique_ptr<libcamera::CameraManager> make_manager() {
+  struct sigaction before {};
+  ::sigaction(SIGCHLD, nullptr, &before);
+  auto manager = std::make_unique<libcamera::CameraManager>();
+  ::sigaction(SIGCHLD, &before, nullptr);
+  return manager;
+}
+
 std::vector<dev_t> device_numbers(const std::vector<std::string>& nodes) {
   std::vector<dev_t> numbers;
   for (const std::string& node : nodes) {
@@ -96,7 +109,7 @@ struct LibcameraSession::Parts {
   Result<> start() {
     if (manager)
       return {};
-    auto made = std::make_unique<libcamera::CameraManager>();
+    auto made = make_manager();
     devices = media_devices();
     if (const int result = made->start(); result < 0)
       return system_failure("libcamera", "starting", -result);
