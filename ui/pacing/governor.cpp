@@ -58,10 +58,12 @@ std::optional<float> visible_reduction(const DrawQuality& quality) {
 FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how) {
   if (!how.software)
     return {refresh * 8 / 10, refresh * (how.rolling ? 8 : 18) / 10};
-  const hal::Duration moving = refresh * (how.waits_for_refresh ? 18 : 12) / 10;
+  // A frame that takes more than two refreshes of an output that waits for them takes three.
+  const hal::Duration moving_cast = refresh * (how.waits_for_refresh ? 18 : 20) / 10;
+  const hal::Duration moving = how.waits_for_refresh ? moving_cast : refresh * 9 / 10;
   if (how.in_parts)
-    return {moving, refresh * 7 / 10};
-  return {moving, refresh * (how.rolling ? 18 : 15) / 10};
+    return {moving, refresh * 7 / 10, moving_cast};
+  return {moving, refresh * (how.rolling ? 18 : 15) / 10, moving_cast};
 }
 
 double Governor::Recent::median() const {
@@ -125,6 +127,26 @@ void Governor::settle(Place& place, Knowledge& knowledge, double budget_ms,
   knowledge.compared = true;
 }
 
+// What a picture costs beside its samples is taken for their cost while all that was drawn is coarse, so that a
+// finer one seems to take several times what it does: so it is tried, and what it took is remembered. Where it
+// had to be coarser, no finer before there is time to spare, so that it does not change its mind.
+bool Governor::can_move_as_it_rests() const {
+  const Knowledge& knowledge = knowledge_[technique_];
+  const Place& place = places_[technique_][1];
+  if (knowledge.full_ms.empty())
+    return false;
+  const bool was_coarser = place.rung > coarsest_rung_at_rest;
+  const double most_ms = hal::to_ms(budget_.moving_cast) * (was_coarser ? finer_share : 1);
+  if (predict_ms(knowledge, coarsest_rung_at_rest) <= most_ms)
+    return true;
+  return was_coarser && place.frames >= kept && place.frame_ms.median() <= most_ms &&
+         worth_trying(knowledge, coarsest_rung_at_rest);
+}
+
+std::size_t Governor::coarsest_rung(bool cast) const {
+  return cast && (!moving_ || can_move_as_it_rests()) ? coarsest_rung_at_rest : ladder.size() - 1;
+}
+
 DrawQuality Governor::choose(const Situation& situation) {
   technique_ = index_of(situation.technique);
   if (situation.moved)
@@ -134,8 +156,7 @@ DrawQuality Governor::choose(const Situation& situation) {
   if (still_)
     return full_quality;
   Place& place = places_[technique_][moving_ ? 1 : 0];
-  const std::size_t coarsest =
-      situation.cast && !moving_ ? coarsest_rung_at_rest : ladder.size() - 1;
+  const std::size_t coarsest = coarsest_rung(situation.cast);
   if (place.rung > coarsest)
     enter(place, coarsest);
   settle(place, knowledge_[technique_], budget_ms(), coarsest);
@@ -158,11 +179,22 @@ void Governor::learn(Place& place, Knowledge& knowledge, double sampling_ms,
   const double measured = place.sampling_ms.median();
   const bool far_over = place.frames > 1 && measured > 1.3 * budget_ms;
   if (place.frames == kept || far_over) {
-    constexpr double most = 4;
+    constexpr double most = 8;
     correction = std::clamp(measured / (knowledge.full_ms.median() * share), 1 / most, most);
     knowledge.learnt_at_ms[place.rung] = knowledge.full_ms.median();
     place.frames = kept;
   }
+}
+
+// A whole frame that takes clearly less than its fixed part alone is said to: that was measured where something
+// else took the time, as the first frame of all does, whose shaders are made. While the view moves no frame without
+// the volume is drawn that would show it, and all else was learnt beside it.
+void Governor::forget_what_cannot_be(double frame_ms) {
+  constexpr double clearly = 0.8;
+  if (fixed_ms_.empty() || frame_ms > clearly * fixed_ms_.median())
+    return;
+  fixed_ms_.clear();
+  knowledge_ = {};
 }
 
 void Governor::note(hal::Duration cost, bool volume_drawn) {
@@ -173,6 +205,7 @@ void Governor::note(hal::Duration cost, bool volume_drawn) {
   }
   if (still_)
     return;
+  forget_what_cannot_be(ms);
   constexpr double least_ms = 0.01;
   const double fixed = fixed_ms_.empty() ? 0 : fixed_ms_.median();
   Place& place = places_[technique_][moving_ ? 1 : 0];

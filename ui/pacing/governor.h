@@ -32,6 +32,8 @@ std::optional<float> visible_reduction(const DrawQuality& quality);
 struct FrameBudget {
   hal::Duration moving;  // while the view or the window changes: the frame rate matters
   hal::Duration resting; // while only new volumes arrive: their latency matters
+  // Moving rays of the processor may take so long before they are coarser than coarsest_at_rest.
+  hal::Duration moving_cast{};
 };
 
 struct DrawnHow {
@@ -43,10 +45,11 @@ struct DrawnHow {
 
 // With a GPU every refresh of a moving view gets a frame, and a volume that comes while the view rests
 // may take two. Where the processor draws, a frame of a moving view takes two refreshes of an output that
-// waits for them: what takes a little more than one would gain nothing by being coarser. On others it takes
-// 1.2, some 45 frames/s of 60. One with a new volume takes one and a half, since copying the volume takes the
-// rest. Of what rolls, each refresh shows what has come where only that is drawn anew; copying it takes its
-// time, too.
+// waits for them: what takes a little more than one would gain nothing by being coarser. On others it takes 0.9,
+// as they hold the renderer for whole refreshes, too, and bringing a volume takes the rest of some of them; but
+// moving rays are no coarser than those at rest while 30 pictures/s can be drawn so. A picture of a new volume
+// while the view rests takes one and a half. Of what rolls, each refresh shows what has come where only that is
+// drawn anew; copying it takes its time, too.
 FrameBudget frame_budget(hal::Duration refresh, const DrawnHow& how);
 
 // Threads: one at a time. Allocates nothing.
@@ -61,7 +64,8 @@ public:
     Technique technique = Technique::rays;
     bool moved = false; // the request differs from the last frame's
     bool live = true;   // volumes keep coming; else the picture is drawn once and may take longer
-    bool cast = false;  // by the processor's rays: at rest never below coarsest_at_rest
+    bool cast = false;  // by the processor's rays: at rest never below coarsest_at_rest,
+                        // moving only if that takes longer than moving_cast
   };
 
   // Most of what a frame of few rays costs is its fixed part: of a view at rest, which is looked at,
@@ -120,6 +124,9 @@ private:
   static void enter(Place& place, std::size_t rung);
   static bool worth_trying(const Knowledge& knowledge, std::size_t rung);
   void learn(Place& place, Knowledge& knowledge, double sampling_ms, double budget_ms) const;
+  void forget_what_cannot_be(double frame_ms);
+  bool can_move_as_it_rests() const;
+  std::size_t coarsest_rung(bool cast) const;
   double budget_ms() const;
 
   FrameBudget budget_;

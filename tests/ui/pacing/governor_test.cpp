@@ -44,11 +44,11 @@ class GovernorTest : public testing::Test {
 protected:
   // Draws for `seconds`; returns the quality of every frame.
   std::vector<ui::DrawQuality> draw(const Machine& machine, double seconds, bool moving,
-                                    bool live = true) {
+                                    bool live = true, bool cast = false) {
     std::vector<ui::DrawQuality> drawn;
     const hal::TimePoint end = now_ + hal::from_seconds(seconds);
     while (now_ < end) {
-      const auto quality = governor_.choose({now_, Technique::rays, moving, live});
+      const auto quality = governor_.choose({now_, Technique::rays, moving, live, cast});
       const hal::Duration cost = hal::from_seconds(machine.frame_ms(quality, generator_) * 1e-3);
       governor_.note(cost, true);
       governor_.note(hal::from_seconds(machine.fixed_ms * 1e-3), false);
@@ -81,13 +81,15 @@ TEST(QualityLadder, goes_down_in_steps_that_are_neither_steep_nor_useless) {
   }
 }
 
-TEST(FrameBudget, gives_the_processor_more_than_a_refresh_but_for_what_is_drawn_in_parts) {
+TEST(FrameBudget, is_what_the_output_leaves_of_one_refresh_or_of_two) {
   const auto budget_of = [](const ui::DrawnHow& how) { return ui::frame_budget(10ms, how); };
   EXPECT_EQ(budget_of({}).moving, 8ms);
   EXPECT_EQ(budget_of({}).resting, 18ms);
   EXPECT_EQ(budget_of({.rolling = true}).resting, 8ms);
-  EXPECT_EQ(budget_of({.software = true}).moving, 12ms);
+  EXPECT_EQ(budget_of({.software = true}).moving, 9ms);
   EXPECT_EQ(budget_of({.software = true, .waits_for_refresh = true}).moving, 18ms);
+  EXPECT_EQ(budget_of({.software = true}).moving_cast, 20ms);
+  EXPECT_EQ(budget_of({.software = true, .waits_for_refresh = true}).moving_cast, 18ms);
   EXPECT_EQ(budget_of({.software = true}).resting, 15ms);
   EXPECT_EQ(budget_of({.software = true, .rolling = true}).resting, 18ms);
   EXPECT_EQ(budget_of({.software = true, .rolling = true, .in_parts = true}).resting, 7ms);
@@ -142,6 +144,60 @@ TEST_F(GovernorTest, a_view_at_rest_is_not_blurred_for_a_fixed_part_that_nothing
     EXPECT_GE(quality.steps, Governor::coarsest_at_rest.steps);
     governor_.note(hal::from_seconds(machine.true_ms(quality) * 1e-3), true);
     now_ += 16ms;
+  }
+}
+
+TEST_F(GovernorTest, moving_rays_are_not_blurred_for_a_fixed_part_while_frames_come_often_enough) {
+  const Machine machine{.fixed_ms = 28, .full_ms = 80, .noise = 0.05};
+  EXPECT_LT(ui::sample_share(draw(machine, 4, true).back()), 0.05);
+  governor_ = Governor{{30ms, 45ms, 45ms}};
+  draw(machine, 2, true, true, true);
+  const auto drawn = draw(machine, 10, true, true, true);
+  EXPECT_EQ(drawn.back(), Governor::coarsest_at_rest);
+  EXPECT_EQ(changes(drawn), 0);
+
+  const Machine slower{.fixed_ms = 42, .full_ms = 80, .noise = 0.05};
+  draw(slower, 2, true, true, true);
+  EXPECT_LT(ui::sample_share(draw(slower, 1, true, true, true).back()), 0.05);
+  EXPECT_LE(changes(draw(slower, 10, true, true, true)), 3);
+  draw(machine, 2, true, true, true);
+  EXPECT_EQ(draw(machine, 1, true, true, true).back(), Governor::coarsest_at_rest) << "and back";
+}
+
+// As above, but of what is no frame's without the volume, so that it seems to be the samples' cost.
+TEST_F(GovernorTest,
+       moving_rays_become_as_fine_as_at_rest_whatever_a_picture_costs_beside_its_samples) {
+  governor_ = Governor{{30ms, 45ms, 45ms}};
+  Machine machine{.volume_ms = 20, .full_ms = 800, .noise = 0.05};
+  EXPECT_LT(ui::sample_share(draw(machine, 4, true, true, true).back()), 0.05);
+  machine.full_ms = 70;
+  draw(machine, 2, true, true, true);
+  auto drawn = draw(machine, 10, true, true, true);
+  EXPECT_EQ(drawn.back(), Governor::coarsest_at_rest);
+  EXPECT_EQ(changes(drawn), 0);
+
+  machine.full_ms = 200; // 67 ms as at rest, 31 ms as coarse as it gets
+  draw(machine, 2, true, true, true);
+  drawn = draw(machine, 20, true, true, true);
+  EXPECT_LT(ui::sample_share(drawn.back()), 0.05);
+  EXPECT_LE(changes(drawn), 4) << "it is not tried again and again";
+}
+
+// As where shaders are made in the only frame that is drawn before volumes come and the view moves.
+TEST_F(GovernorTest, a_first_frame_that_took_long_does_not_make_all_that_follow_coarse) {
+  const Machine machine{.full_ms = 60, .noise = 0.05};
+  for (const bool cast : {false, true}) {
+    governor_ = Governor{budget};
+    governor_.choose({now_, Technique::rays, true, true, cast});
+    governor_.note(62ms, false);
+    for (int i = 0; i < 100; ++i) {
+      const auto quality = governor_.choose({now_, Technique::rays, true, true, cast});
+      governor_.note(hal::from_seconds(machine.frame_ms(quality, generator_) * 1e-3), true);
+      now_ += 16ms;
+    }
+    const auto quality = governor_.choose({now_, Technique::rays, true, true, cast});
+    EXPECT_GT(machine.true_ms(quality), 30 * 0.45);
+    EXPECT_LT(machine.true_ms(quality), 30 * 1.12);
   }
 }
 
