@@ -5,7 +5,9 @@ The same volume, views, window, opacity and step; one JSON object on stdout. Nee
 packages python3-vtk9 and xvfb; not part of the tests.
 
   octascope bench display --json --dump shots > ours.json
-  xvfb-run tests/figures/vtk_volume.py --volume shots/volume.nrrd --window 8,36 > vtk.json
+  xvfb-run tests/figures/vtk_volume.py --volume shots/volume.nrrd --window=-10,23 > vtk.json
+
+The window is what the former says ("window_db").
 """
 
 import argparse
