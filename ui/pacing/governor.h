@@ -2,9 +2,10 @@
 //
 // A frame's cost has a fixed part (panels, text, compositing) and a part that grows with the number
 // of samples. Both are learnt from ordinary frames, per technique and per step of the quality
-// ladder, as medians of the last few frames, so that one interrupted frame changes nothing. A finer
-// quality is chosen only if it is predicted to stay well below the budget, a coarser one only if
-// the budget is exceeded. Measured costs are remembered, so the choice does not oscillate between
+// ladder, as medians of the last few frames, so that one interrupted frame changes nothing; a whole
+// frame that costs less than the fixed part is thought to refutes what was learnt. A finer quality
+// is chosen only if it is predicted to stay well below the budget, a coarser one only if the budget
+// is exceeded. Measured costs are remembered, so the choice does not oscillate between
 // two neighbours. If a quality takes only half of the budget, the next finer one is tried once,
 // whatever the prediction.
 #pragma once
