@@ -111,9 +111,8 @@ struct LibcameraSession::Parts {
       return {};
     auto made = make_manager();
     devices = media_devices();
-    if (const int result = made->start(); result < 0)
+    if (const int result = start_without_video_nodes(*made); result < 0)
       return system_failure("libcamera", "starting", -result);
-    HAL_CHECK(keep_video_nodes_from_libcamera());
     manager = std::move(made);
     started_at = std::chrono::steady_clock::now();
     return {};

@@ -6,13 +6,15 @@
 // or at start-up, therefore ends the program.
 #pragma once
 
-#include "hal/result.h"
+namespace libcamera {
+class CameraManager;
+} // namespace libcamera
 
 namespace octascope::hal::linux_backend {
 
-// From now on no event of a video node reaches a watch of this process that listens to media devices and
-// video nodes, as libcamera's does. It still hears of media devices that are unplugged; of cameras that are
-// plugged in it does not learn. Returns how many watches there were. Thread-safe.
-Result<int> keep_video_nodes_from_libcamera();
+// Starts it, so that no event of a video node ever reaches it: its wish to hear of them, which it tells libudev
+// while it starts, is dropped. It still hears of media devices that are unplugged; of cameras that are plugged
+// in it does not learn. Returns what libcamera's start does. Thread-safe.
+int start_without_video_nodes(libcamera::CameraManager& manager);
 
 } // namespace octascope::hal::linux_backend
