@@ -110,7 +110,8 @@ std::vector<FaultCase> fault_cases() {
        .kind = "late_frame",
        // Through one whole sweep and a part of the next.
        .script = fault(camera, "late_frames", "at_s = 0.5\ncount = 30\nlate_ms = 150.0"),
-       .lasting = fault(camera, "late_frames", "at_s = 0.0\nduration_s = 100.0\nlate_ms = 150.0"),
+       // Late enough that a machine that halts for 40 ms does not give them the time that they miss.
+       .lasting = fault(camera, "late_frames", "at_s = 0.0\nduration_s = 100.0\nlate_ms = 180.0"),
        .badge = Badge::missing_b_scans,
        .notice = "Line camera is late: B-scans are missing"},
       {.example = "line_camera_stuck_sequence",
