@@ -170,23 +170,24 @@ void draw_badge(Canvas& canvas, const Badge& badge, const Rect& plate, float u) 
 
 } // namespace
 
-// Row by row; of the smaller ones, two in the height of a large one. What finds no room in the row
-// above framed pictures goes into the upper part of the large one.
+// Row by row; of the smaller ones, two in the height of a large one, or one with more room around its word.
+// What finds no room in the row above framed pictures goes into the upper part of the large one.
 BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudText& text) {
   const float u = layout.unit;
   const auto gap = static_cast<int>(4 * u);
   const auto tight = static_cast<int>(2 * u); // between the small ones of a row
-  const auto height_of = [&](TextStyle style) {
-    const float spare = style == TextStyle::label ? -2 : 4; // letters have room in their line
+  const auto height_with = [&](TextStyle style, float spare) {
     return static_cast<int>(canvas.text_height(style) + spare * u);
   };
+  const int stacked = height_with(TextStyle::label, -2); // letters have room in their line
+  const auto height_of = [&](TextStyle style) { return height_with(style, 4); };
   const auto width_of = [&](const Badge& badge) {
     const TextStyle style = style_of(badge.kind);
     const BadgeWords words = words_of(badge);
     return static_cast<int>(canvas.text_width(style, words.word) + width_behind(canvas, words, u) +
                             sign_size(canvas.text_height(style)) + 27 * u);
   };
-  const int row = std::max(height_of(TextStyle::badge), 2 * height_of(TextStyle::label) + tight);
+  const int row = std::max(height_of(TextStyle::badge), 2 * stacked + tight);
   const bool framed = layout.kind != LayoutKind::volume;
   Rect room = layout.marks;
   int x = room.x;
@@ -205,8 +206,7 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
     x = room.x;
   };
   BadgePlaces places{};
-  int stacked_x = 0; // where another small one finds room under the last
-  int stacked_width = 0;
+  Rect* lone = nullptr; // a small one, under which another one finds room
   for (std::size_t i = 0; i < text.badge_count; ++i) {
     const Badge& badge = text.badges[i];
     places[i] = {layout.marks.x, layout.marks.y, 0, 0};
@@ -215,10 +215,12 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
     const int width = width_of(badge);
     const int height = height_of(style_of(badge.kind));
     const bool small = is_small(badge.kind);
-    if (small && stacked_width > 0 && stacked_x + width <= room.right()) {
-      places[i] = {stacked_x, y + height + tight, width, height};
-      x = stacked_x + std::max(stacked_width, width) + 2 * gap;
-      stacked_width = 0;
+    if (small && lone != nullptr && lone->x + width <= room.right()) {
+      lone->y = y;
+      lone->height = stacked;
+      places[i] = {lone->x, y + stacked + tight, width, stacked};
+      x = lone->x + std::max(lone->width, width) + 2 * gap;
+      lone = nullptr;
       continue;
     }
     if (x > room.x && x + width > room.right())
@@ -229,8 +231,10 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
     if (told && (room != layout.marks || y + height > room.bottom()))
       continue; // the status bar says it, too; a cut is seen, and so is a seam
     places[i] = {x, y, width, height};
-    stacked_x = x;
-    stacked_width = small && row_height >= row ? width : 0; // beside a large one
+    // Beside a large one, and in its middle.
+    lone = small && row_height >= row ? &places[i] : nullptr;
+    if (lone != nullptr)
+      lone->y += (row - height) / 2;
     row_height = std::max(row_height, style_of(badge.kind) == TextStyle::badge ? row : height);
     x += width + 2 * gap;
   }
