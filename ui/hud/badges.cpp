@@ -231,10 +231,10 @@ BadgePlaces place_badges(const Canvas& canvas, const Layout& layout, const HudTe
     if (told && (room != layout.marks || y + height > room.bottom()))
       continue; // the status bar says it, too; a cut is seen, and so is a seam
     places[i] = {x, y, width, height};
-    // Beside a large one, and in its middle.
+    // Beside a large one, whose middle is its own.
     lone = small && row_height >= row ? &places[i] : nullptr;
     if (lone != nullptr)
-      lone->y += (row - height) / 2;
+      lone->y += (height_of(TextStyle::badge) - height) / 2;
     row_height = std::max(row_height, style_of(badge.kind) == TextStyle::badge ? row : height);
     x += width + 2 * gap;
   }

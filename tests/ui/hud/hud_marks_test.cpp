@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <imgui.h>
 
@@ -105,6 +106,33 @@ TEST_F(HudInAllSizes, what_is_said_of_a_replay_finds_room) {
     EXPECT_TRUE(!badge.empty() || kind == BadgeKind::incomplete ||
                 kind == BadgeKind::unregistered || kind == BadgeKind::cut);
   });
+}
+
+// Alone beside a large one it has the same middle, and room for the letters that go below their line.
+TEST_F(HudInAllSizes, a_small_badge_alone_has_room_that_two_share) {
+  Status status = live_status();
+  status.rolling.emplace().seam = {std::chrono::seconds{1}, std::chrono::seconds{2}};
+  const HudText one = compose_hud_text({}, status, one_volume());
+  const HudText two = compose_hud_text(cut_open(), status, one_volume());
+  ASSERT_EQ(one.badge_count, 2U);
+  ASSERT_EQ(two.badge_count, 3U);
+  std::vector<int> shared;
+  for_each_badge(two, [&](BadgeKind kind, const Rect& badge, const Layout&) {
+    if (kind == BadgeKind::rolling)
+      shared.push_back(badge.height);
+  });
+  std::size_t next = 0;
+  Rect large;
+  for_each_badge(one, [&](BadgeKind kind, const Rect& badge, const Layout& layout) {
+    if (kind == BadgeKind::simulated)
+      large = badge;
+    if (kind != BadgeKind::rolling)
+      return;
+    EXPECT_GT(static_cast<float>(badge.height),
+              static_cast<float>(shared.at(next++)) + 4 * layout.unit);
+    EXPECT_NEAR(badge.y + badge.bottom(), large.y + large.bottom(), 1) << "not in its middle";
+  });
+  EXPECT_EQ(next, shared.size());
 }
 
 class HudInAllLayouts : public RendererTest {
